@@ -1,7 +1,7 @@
-//! Constants that no theory gives: chosen by trial, with the trial beside them.
+//! Constants without a theoretical value, chosen by trials that are stated beside them.
 //!
-//! `cargo test --release --lib constants -- --ignored --nocapture` analyses saws with each of
-//! them at half and at double its value, and prints what becomes of the answer and of the work.
+//! `cargo test --release --lib constants -- --ignored --nocapture` analyses saws with each constant at half
+//! and at double its value, and prints the changes of the results and of the computing time.
 
 /// A constant that was chosen by trial.
 #[derive(Debug, Clone, Copy)]
@@ -12,18 +12,18 @@ pub(crate) struct Tuned {
 }
 
 impl Tuned {
-    /// With the name that the trial prints.
+    /// A constant with its name in the output of the trial.
     pub(crate) const fn new(name: &'static str, value: f64) -> Self {
         Tuned { name, value }
     }
 
-    /// Its value.
+    /// Value of the constant.
     #[cfg(not(test))]
     pub(crate) const fn get(&self) -> f64 {
         self.value
     }
 
-    /// Its value, scaled while it is on trial.
+    /// Value of the constant, scaled during its trial.
     #[cfg(test)]
     pub(crate) fn get(&self) -> f64 {
         self.value * trial::factor(self.name)

@@ -9,7 +9,7 @@
 >>> saw.check(operating_rpm=1250).passed
 True
 
-Numbers carry their units in their names. Reports are what the program writes, to the last bit.
+The name of a number contains its unit. Reports equal those of the program to the last bit.
 """
 
 from __future__ import annotations

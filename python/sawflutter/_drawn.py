@@ -1,4 +1,4 @@
-"""What can be drawn, with plotly or matplotlib."""
+"""Methods of results that draw with plotly or matplotlib."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ class Look(TypedDict, total=False):
 
 
 class Drawn:
-    """Base of what has a chart."""
+    """Base of objects with a chart."""
 
     __slots__ = ()
 
     def chart(self) -> Chart:
-        """What the figures show: lines, points and bands as numbers.
+        """Contents of the figures: lines, points and bands as numbers.
 
         Returns
         -------
@@ -55,11 +55,12 @@ class Drawn:
         Parameters
         ----------
         fig : plotly.graph_objects.Figure, optional
-            A figure to draw into, whose title and size stay as they are: all panels where
-            ``make_subplots`` has given it as many rows, else the first one. By default a new figure.
+            Figure to draw into, with its title and size unchanged. All panels are drawn if
+            ``make_subplots`` gave it as many rows, otherwise only the first. By default a new
+            figure.
         speed_units, frequency_units : {"rpm", "Hz", "rad/s"}, optional
-            Units of the axes with rotation speeds, by default rpm, and of those with frequencies,
-            by default Hz. Words in the figure keep the units that they name.
+            Units of rotation speed axes, by default rpm, and of frequency axes, by default Hz.
+            Text in the figure keeps its units.
         harmonics : iterable of float, optional
             Multiples of the rotation speed that are drawn as lines over the frequencies, in
             addition to those of the scene's ``excitation``.
@@ -71,10 +72,10 @@ class Drawn:
         Raises
         ------
         ImportError
-            Where plotly is missing: it says how it is installed.
+            If plotly is missing; the message says how to install it.
         ValueError
-            Where units are none of these, or where harmonics are asked for and the figure does not
-            show frequencies over the rotation speed.
+            If a unit is not one of these, or if harmonics are requested for a figure that does not
+            show frequencies over rotation speed.
 
         Examples
         --------
@@ -105,12 +106,12 @@ class Drawn:
         Returns
         -------
         matplotlib.axes.Axes
-            Those of the first panel.
+            Axes of the first panel.
 
         Raises
         ------
         ImportError
-            Where matplotlib is missing: it says how it is installed.
+            If matplotlib is missing; the message says how to install it.
         ValueError
             As in :meth:`plot`.
 

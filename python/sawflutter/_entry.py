@@ -1,4 +1,4 @@
-"""What all classes of a report share: they are made of the JSON that the library writes."""
+"""Base of all classes of a report, which are read from the JSON of the library."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ Reader: TypeAlias = Callable[[Any], Any]
 class Entry:
     """Base of the frozen dataclasses of a report.
 
-    Numbers that the JSON leaves out as null are ``None``, or NaN within an array. Arrays cannot be
-    written to. Two entries are equal where all of their numbers are.
+    Numbers that are null in the JSON are ``None``, or NaN within an array. Arrays are read-only.
+    Two entries are equal if all of their numbers are.
     """
 
     def __init_subclass__(cls) -> None:
@@ -42,7 +42,7 @@ class Entry:
 
     @classmethod
     def from_dict(cls: type[E], data: Mapping[str, Any]) -> E:
-        """Makes an entry of an object of the JSON; keys that it does not know are left out.
+        """Reads an entry from an object of the JSON and ignores unknown keys.
 
         Parameters
         ----------
@@ -52,12 +52,12 @@ class Entry:
         Returns
         -------
         Entry
-            Of the class that is asked.
+            An object of the class of this method.
 
         Raises
         ------
         TypeError
-            Where a key is missing.
+            If a key is missing.
 
         Examples
         --------
@@ -71,7 +71,7 @@ class Entry:
 
     @classmethod
     def required_keys(cls) -> frozenset[str]:
-        """The keys of the JSON that are always there.
+        """Keys that are always present in the JSON.
 
         Returns
         -------

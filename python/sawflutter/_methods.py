@@ -1,4 +1,4 @@
-"""What can be asked of the parts of a report beside their numbers."""
+"""Methods of the parts of a report."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class RestModeMethods(Entry):
         profiles: tuple[Shape, ...]
 
     def shape(self, radius_m: npt.ArrayLike, theta_rad: npt.ArrayLike) -> FloatArray:
-        """Deflection at points of the blade, scaled to a largest value of one.
+        """Deflection at points of the blade, normalized to a maximum of one.
 
         Parameters
         ----------
@@ -63,7 +63,8 @@ class ModeMethods(Entry):
         harmonics: tuple[Wave, ...]
 
     def shape(self, radius_m: npt.ArrayLike, theta_rad: npt.ArrayLike) -> ComplexArray:
-        """Complex deflection in space; its real part times e^(iωt) is what moves.
+        """Complex deflection in the fixed frame; the real part of its product with e^(iωt) is the
+        motion.
 
         Parameters
         ----------
@@ -74,7 +75,7 @@ class ModeMethods(Entry):
         Returns
         -------
         ndarray of complex, of the broadcast shape
-            NaN off the blade. Its size means nothing, only its proportions do.
+            NaN off the blade. The scale is arbitrary.
 
         Examples
         --------
@@ -139,8 +140,9 @@ class BranchMethods(Entry):
     _edges: tuple[tuple[float, int], ...] = ()
 
     def at(self, rpm: npt.ArrayLike) -> tuple[Any, Any]:
-        """Frequency in Hz and growth rate in 1/s at speeds, linear between those of the report; the
-        growth rate is zero at the edges of the bands in which the branch grows.
+        """Frequency in Hz and growth rate in 1/s at given speeds, interpolated linearly between
+        those of the report. The growth rate is zero at the edges of the bands in which the branch
+        grows.
 
         Parameters
         ----------

@@ -22,8 +22,8 @@ class Pictures:
     __slots__ = ()
 
     def plot_saw(self, fig: Figure | None = None) -> Figure:
-        """Draws the saw seen along its axis with plotly: blade, guides, cut, probe, and which way
-        the rotation and angles are positive.
+        """Draws the saw in axial view with plotly: blade, guides, cut, probe, and the positive
+        directions of rotation and angles.
 
         Parameters
         ----------
@@ -64,7 +64,7 @@ class Pictures:
         return self.chart().plot_matplotlib(ax)
 
     def chart(self) -> Chart:
-        """What :meth:`plot_saw` draws, as numbers.
+        """Contents of :meth:`plot_saw` as numbers.
 
         Returns
         -------
@@ -91,7 +91,7 @@ class Pictures:
     def animate(
         self, mode: Mode, *, backend: Literal["plotly", "matplotlib"] = "plotly", frames: int = 48
     ) -> Animation:
-        """Sets a mode in motion on the blade, seen from space.
+        """Animates a mode of the blade in the fixed frame.
 
         Parameters
         ----------
@@ -100,7 +100,7 @@ class Pictures:
         backend : {"plotly", "matplotlib"}
             A plotly Figure with frames and a button, or a matplotlib FuncAnimation.
         frames : int
-            Pictures a period.
+            Number of frames in a period.
 
         Returns
         -------
@@ -109,7 +109,7 @@ class Pictures:
         Raises
         ------
         ValueError
-            Where the backend or the number of frames is none.
+            If the backend is unknown or the number of frames is not positive.
 
         Examples
         --------

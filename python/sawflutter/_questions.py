@@ -1,4 +1,4 @@
-"""What can be asked of a saw."""
+"""Computations for a saw."""
 
 from __future__ import annotations
 
@@ -38,28 +38,32 @@ class Questions(Searches):
         shapes: bool | Iterable[SupportsFloat] = False,
         progress: Progress = None,
     ) -> CampbellResults:
-        """Charts the saw: modes, critical speeds, bands of instability, certificate. Before a search of
-        more than some ten seconds the logger ``sawflutter`` warns with a rough estimate of its time.
+        """Computes modes, critical speeds, bands of instability and certificate. If this takes
+        more than about ten seconds, the logger ``sawflutter`` warns first with a rough estimate of
+        the time.
 
         Parameters
         ----------
         speed_range : (float, float) or array_like, optional
-            First and last speed in rpm, instead of the scene's ``sweep``. Of more speeds the least
-            and the largest count: those in between are chosen by what happens there.
+            First and last speed in rpm, instead of the scene's ``sweep``. If more speeds are
+            given, only the lowest and the highest count, because the program chooses those
+            between.
         accuracy : {"draft", "design", "reference"}, optional
             Instead of the scene's.
         tolerance : float, optional
             Relative error allowed of critical speeds and onsets, instead of a name.
         sensitivity : bool
-            Also how critical speeds and onsets move with the numbers of the scene.
+            Whether to compute the sensitivity of critical speeds and onsets to the numbers of the
+            scene.
         amplitude : bool
-            Also how far the flutter of each band rises: ``saturated_amplitude_m`` of the bands.
+            Whether to compute the amplitude that flutter in each band reaches:
+            ``saturated_amplitude_m`` of the bands.
         shapes : bool or array_like
-            Also the shape of the blade at every critical speed, in every band and at the
-            operating speed, and at the speeds given here in rpm.
+            Whether to compute the shape of the blade at every critical speed, in every band and at
+            the operating speed; speeds in rpm are added to these.
         progress : bool or callable, optional
-            True shows a bar, a callable is called with what is done of a step and of how many, one
-            step of the computation after the other.
+            True shows a bar. A callable is called with the finished and the total number of items
+            in each step of the computation.
 
         Returns
         -------
@@ -68,9 +72,9 @@ class Questions(Searches):
         Raises
         ------
         SceneError
-            Where the range or the accuracy is refused.
+            If the range or the accuracy is invalid.
         AnalysisError
-            Where the saw cannot be analysed so far: the message says what to do.
+            If the program cannot analyse the saw; the message says what to do.
 
         Examples
         --------
@@ -111,19 +115,19 @@ class Questions(Searches):
         Parameters
         ----------
         rpm : float or array_like
-            The speed, or several: these are found in one basis.
+            The speed, or several, which share one basis.
 
         Returns
         -------
         tuple of Mode
             At one speed.
         Modes
-            At several, with frequencies and growth rates as arrays.
+            At several speeds, with frequencies and growth rates as arrays.
 
         Raises
         ------
         ArgumentError
-            Where a speed is outside of the sweep.
+            If a speed is outside of the sweep.
 
         Examples
         --------
@@ -153,35 +157,35 @@ class Questions(Searches):
         accuracy: Accuracy | None = None,
         tolerance: Number = None,
     ) -> CheckResults:
-        """Holds the saw against limits.
+        """Checks the saw against limits.
 
         Parameters
         ----------
         operating_rpm : float, optional
-            Speed at which it is run; the scene's by default.
+            Operating speed; by default that of the scene.
         margin : float
-            Largest share of the lowest critical speed that it may be.
+            Largest allowed ratio of operating speed to lowest critical speed.
         min_flutter_rpm, min_critical_rpm : float, optional
-            Least flutter speed and least first critical speed.
+            Lowest allowed flutter speed and first critical speed.
         max_rim_m_per_s : float
-            Largest speed of the rim.
+            Largest allowed rim speed.
         max_amplitude_mm : float, optional
-            Largest deflection in millimetres that flutter may rise to in any band up to the
-            operating speed, without damping.
+            Largest allowed amplitude of flutter, in millimetres, in any band up to the operating
+            speed, without damping.
         accept_unusual : bool
-            Whether a saw may pass that has numbers no saw has.
+            Whether a saw with implausible numbers may pass.
         accuracy, tolerance
             As in :meth:`run_campbell`.
 
         Returns
         -------
         CheckResults
-            Its truth is whether every limit is kept: ``assert saw.check(...)``.
+            True in a boolean context if every limit is kept: ``assert saw.check(...)``.
 
         Raises
         ------
         ArgumentError
-            Where a limit is none, or the scene has no operating speed and none is given.
+            If a limit is invalid, or if neither the scene nor the call gives an operating speed.
 
         Examples
         --------
@@ -212,12 +216,12 @@ class Questions(Searches):
         tolerance: Number = None,
         progress: Progress = None,
     ) -> CutResults:
-        """Cuts wood: eigenvalues and a time history, with the forces of the scene's ``cut``.
+        """Computes eigenvalues and a time history under the cutting forces of the scene's ``cut``.
 
         Parameters
         ----------
         rpm : float or array_like, optional
-            Speeds to cut at, in place of the scene's.
+            Speeds of the cut, instead of those of the scene.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
@@ -228,7 +232,7 @@ class Questions(Searches):
         Raises
         ------
         ArgumentError
-            Where the scene has no ``cut``.
+            If the scene has no ``cut``.
 
         Examples
         --------
@@ -248,7 +252,7 @@ class Questions(Searches):
         tolerance: Number = None,
         progress: Progress = None,
     ) -> RunUpResults:
-        """Runs the saw up under a lateral force, both the scene's ``runup``.
+        """Computes a run-up under a lateral force, both from the scene's ``runup``.
 
         Parameters
         ----------
@@ -262,7 +266,7 @@ class Questions(Searches):
         Raises
         ------
         ArgumentError
-            Where the scene has no ``runup``.
+            If the scene has no ``runup``.
 
         Examples
         --------
@@ -283,17 +287,17 @@ class Questions(Searches):
         tolerance: Number = None,
         progress: Progress = None,
     ) -> DeflectResults:
-        """Follows where the blade stands while its speed slowly rises and falls.
+        """Computes the equilibrium deflection of the blade while its speed slowly rises and falls.
 
         Parameters
         ----------
         force_n : float, optional
-            Constant force across the blade at its rim, fixed in space; that of the scene's
-            ``runup`` by default, or 1 N.
+            Constant lateral force at the rim, fixed in space; by default that of the scene's
+            ``runup``, or 1 N.
         angle_deg : float, optional
-            Its angle; that of the scene's ``runup`` by default, or 0.
+            Angle of the force; by default that of the scene's ``runup``, or 0.
         to_rpm : float, optional
-            Last speed; the end of the scene's sweep by default.
+            Last speed; by default the end of the scene's sweep.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
@@ -304,9 +308,9 @@ class Questions(Searches):
         Raises
         ------
         ArgumentError
-            Where a number is none.
+            If an argument is out of range.
         AnalysisError
-            Where nothing holds the blade, or no equilibrium was found.
+            If the blade is unsupported, or no equilibrium was found.
 
         Examples
         --------
@@ -374,13 +378,13 @@ class Questions(Searches):
         tolerance: Number = None,
         progress: Progress = None,
     ) -> WashboardResults:
-        """Whether the teeth set the blade swinging, with the force that the scene's
-        ``cut.washboarding`` names.
+        """Determines whether washboarding occurs under the cutting force of the scene's
+        ``cut.washboarding``.
 
         Parameters
         ----------
         rpm : float, optional
-            Speed to cut at; the scene's operating speed by default.
+            Speed of the cut; by default the scene's operating speed.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
@@ -391,9 +395,9 @@ class Questions(Searches):
         Raises
         ------
         ArgumentError
-            Where the scene has no ``cut.washboarding``, or no speed is known.
+            If the scene has no ``cut.washboarding``, or no speed is given.
         SceneError
-            Where the scene has no damping.
+            If the scene has no damping.
 
         Examples
         --------

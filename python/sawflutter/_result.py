@@ -1,4 +1,4 @@
-"""What all results can do."""
+"""Methods of all results."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ def pictures(*names: str) -> tuple[str, ...]:
 
 
 class Report(Drawn):
-    """Base of all that a command reports. It keeps the JSON that the program writes word for word:
-    :meth:`save` writes the same bytes as the program does.
+    """Base of all reports. It keeps the JSON of the program unchanged: :meth:`save` writes the
+    same bytes as the program.
     """
 
     table: ClassVar[str] = ""
@@ -39,7 +39,7 @@ class Report(Drawn):
     _text: str
 
     def to_json(self) -> str:
-        """The report as the program writes it.
+        """The report as JSON, as written by the program.
 
         Returns
         -------
@@ -65,7 +65,7 @@ class Report(Drawn):
         Raises
         ------
         OSError
-            Where it cannot be written.
+            If the file cannot be written.
 
         Examples
         --------
@@ -80,9 +80,9 @@ class Report(Drawn):
         Path(path).write_bytes(self._text.encode())
 
     def to_dataframe(self) -> pd.DataFrame:
-        """A table; needs pandas. It has one row a limit of a check, a number of a fit or a place, a
-        setting of a tradeoff, a speed of a cut without its histories and maps, a mode of a
-        washboard; :attr:`table` names the attribute that has the rows as objects.
+        """The results as a table, which needs pandas. It has one row for each limit of a check,
+        number of a fit or a place, setting of a tradeoff, speed of a cut (without histories and
+        maps), or mode of a washboard. :attr:`table` names the attribute with the rows as objects.
 
         Returns
         -------
@@ -91,7 +91,7 @@ class Report(Drawn):
         Raises
         ------
         ImportError
-            Where pandas is missing: it says how it is installed.
+            If pandas is missing; the message says how to install it.
 
         Examples
         --------
@@ -120,7 +120,7 @@ class Result(Report, Entry):
 
     @classmethod
     def from_json(cls: type[R], text: str) -> R:
-        """The result of a JSON text, as :meth:`to_json` gives it.
+        """Reads a result from JSON, as returned by :meth:`to_json`.
 
         Parameters
         ----------
@@ -130,12 +130,12 @@ class Result(Report, Entry):
         Returns
         -------
         Result
-            Of the class that is asked.
+            An object of the class of this method.
 
         Raises
         ------
         InputError
-            Where the text is the report of something else.
+            If the text is a report of another kind.
 
         Examples
         --------
@@ -170,14 +170,14 @@ class Result(Report, Entry):
         Returns
         -------
         Result
-            Of the class that is asked.
+            An object of the class of this method.
 
         Raises
         ------
         InputError
-            Where the file is the report of something else.
+            If the file is a report of another kind.
         OSError
-            Where it cannot be read.
+            If the file cannot be read.
 
         Examples
         --------
@@ -200,7 +200,7 @@ class Result(Report, Entry):
 
     @property
     def raw(self) -> dict[str, Any]:
-        """The report as a dict, with every key that it has.
+        """The report as a dict with all keys.
 
         Examples
         --------
@@ -214,7 +214,7 @@ class Result(Report, Entry):
 
     @property
     def saw(self) -> Scene:
-        """The scene that was looked at; of a fit or a placement, the one that was found.
+        """The scene of the computation; for a fit or a placement, the resulting scene.
 
         Examples
         --------
@@ -228,7 +228,7 @@ class Result(Report, Entry):
         return Scene.from_json(json.dumps(self.raw["scene"]))
 
     def summary(self) -> str:
-        """The report in words, as the program prints it.
+        """The report as text, as printed by the program.
 
         Returns
         -------
@@ -244,7 +244,8 @@ class Result(Report, Entry):
         return _native.summary(self.command, self._text)
 
     def figure(self, name: str) -> bytes | None:
-        """A figure of the program, the same bytes as it writes; None where the saw has none.
+        """A figure with the same bytes as that of the program; None if this report has no such
+        figure.
 
         Parameters
         ----------
@@ -258,7 +259,7 @@ class Result(Report, Entry):
         Raises
         ------
         InputError
-            Where there is no figure of the name.
+            If no figure has this name.
 
         Examples
         --------
@@ -281,9 +282,9 @@ class Result(Report, Entry):
         Raises
         ------
         TypeError
-            Where results of this kind have no page.
+            If this kind of result has no page.
         OSError
-            Where it cannot be written.
+            If the file cannot be written.
 
         Examples
         --------
@@ -317,12 +318,13 @@ class Result(Report, Entry):
         return f"<{type(self).__name__} {self.raw['scene']['name']!r}: {warned}{self._facts()}>"
 
     def chart(self) -> Chart:
-        """What the figures show, as lines, points and bands. Of a chart of a saw these are frequencies
-        over speed, with growth rates below; of a check the speeds that were asked for and found; of a cut
-        the deflection at the probe over time, one panel a speed; of a run-up and a slow sweep the same
-        over speed; of a washboard the least cutting stiffness at which a motion grows, and its frequency,
-        over speed; of a fit measured and computed frequencies; of a place the goal over one or two
-        numbers; of a study the shares of the saws below a speed, and those that can be run at one.
+        """Contents of the figures as lines, points and bands. A Campbell diagram shows frequencies
+        over speed with growth rates below; a check the required and the computed speeds; a cut the
+        deflection at the probe over time, in one panel for each speed; a run-up and a slow sweep
+        this deflection over speed; a washboard the lowest cutting stiffness at which a motion
+        grows, and its frequency, over speed; a fit measured and computed frequencies; a place the
+        goal over one or two numbers; a study the shares of saws below a speed and of saws that can
+        run at a speed.
 
         Returns
         -------

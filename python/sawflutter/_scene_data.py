@@ -1,4 +1,4 @@
-"""A saw as data: read by paths, changed into another one."""
+"""Data of a saw, with access by paths."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Number: TypeAlias = "SupportsFloat | None"
 
 
 class Block(dict[str, Any]):
-    """A part of a scene: a dict that cannot be written to. ``dict(block)`` is one that can."""
+    """A part of a scene: a read-only dict. ``dict(block)`` is a copy that can be changed."""
 
     def _refuse(self, *_: object, **__: object) -> Any:
         raise TypeError(_UNCHANGED)
@@ -41,7 +41,7 @@ _UNCHANGED = "a scene cannot be changed; replace({path: value}) makes another on
 
 
 class SceneData(Mapping[str, Any]):
-    """What a scene is, without what can be asked of it."""
+    """Data of a scene, without its computations."""
 
     __slots__ = ("_data", "_text")
     _text: str
@@ -81,7 +81,7 @@ class SceneData(Mapping[str, Any]):
 
     @property
     def blade(self) -> BladeDict:
-        """The blade, like ``saw.blade["thickness_m"]``.
+        """The blade, for instance ``saw.blade["thickness_m"]``.
 
         Examples
         --------
@@ -94,7 +94,7 @@ class SceneData(Mapping[str, Any]):
 
     @property
     def mount(self) -> MountDict | None:
-        """How the blade is held at the bore.
+        """The support of the blade at the bore.
 
         Examples
         --------
@@ -107,7 +107,7 @@ class SceneData(Mapping[str, Any]):
 
     @property
     def guides(self) -> tuple[GuideDict, ...]:
-        """The guides, like ``saw.guides[0]["radius_m"]``.
+        """The guides, for instance ``saw.guides[0]["radius_m"]``.
 
         Examples
         --------
@@ -120,7 +120,7 @@ class SceneData(Mapping[str, Any]):
 
     @property
     def cut(self) -> CutDict | None:
-        """The wood and its forces.
+        """The cut: wood and cutting forces.
 
         Examples
         --------
@@ -132,7 +132,7 @@ class SceneData(Mapping[str, Any]):
         return self._data.get("cut")
 
     def __getitem__(self, path: str) -> Any:
-        """The value at a path, like ``saw["guides[0].radius_m"]``."""
+        """The value at a path, for instance ``saw["guides[0].radius_m"]``."""
         return _paths.get(self._data, path)
 
     def __iter__(self) -> Iterator[str]:
@@ -142,14 +142,14 @@ class SceneData(Mapping[str, Any]):
         return len(self._data)
 
     def replace(self, changes: Mapping[str, Any]) -> Self:
-        """The scene with other values, by their paths.
+        """Returns the scene with other values at given paths.
 
         Parameters
         ----------
         changes : dict
-            New values by path, like ``"guides[0].radius_m"``: numbers, those of NumPy, quantities
-            of pint, or texts with a unit, like ``"2.6 mm"``. None takes a key out; a block that is not there, like ``damping`` in
-            ``"damping.air_n_s_per_m3"``, is begun.
+            New values by path, such as ``"guides[0].radius_m"``: numbers, NumPy numbers, pint
+            quantities, or texts with a unit such as ``"2.6 mm"``. None removes a key. A missing
+            block, such as ``damping`` in ``"damping.air_n_s_per_m3"``, is created.
 
         Returns
         -------
@@ -158,9 +158,9 @@ class SceneData(Mapping[str, Any]):
         Raises
         ------
         PathError
-            Where the scene has no such path: it says what there is.
+            If the scene has no such path; the message lists the existing ones.
         SceneError
-            Where a value is refused.
+            If a value is invalid.
 
         Examples
         --------
@@ -193,18 +193,19 @@ class SceneData(Mapping[str, Any]):
         side: GuideSide | None = None,
         film_stiffness_n_per_m: Number = None,
     ) -> Self:
-        """The scene with one more guide, the last of :attr:`guides`.
+        """Returns the scene with one more guide at the end of :attr:`guides`. Arguments that are
+        not given are copied from the last guide.
 
         Parameters
         ----------
         radius_m, angle_deg, radial_length_m, tangential_length_m : float, optional
-            Its place and size, as in a scene file.
+            Position and size, as in a scene file.
         stiffness_n_per_m, damping_n_s_per_m, gap_m, film_stiffness_n_per_m : float, optional
-            Its other numbers.
+            Other numbers, as in a scene file.
         contact : {"linear", "one_sided"}, optional
-            Whether it holds the blade at any deflection, or touches it beyond the gap only.
+            Whether it holds the blade at any deflection or touches it only beyond the gap.
         side : {"both", "left", "right"}, optional
-            Sides of the blade on which a one-sided guide stands. What is left out is as of the last guide.
+            Sides of the blade with a one-sided guide.
 
         Returns
         -------
@@ -213,7 +214,7 @@ class SceneData(Mapping[str, Any]):
         Raises
         ------
         SceneError
-            Where a number is missing or refused.
+            If a number is missing or invalid.
 
         Examples
         --------
@@ -227,7 +228,7 @@ class SceneData(Mapping[str, Any]):
         return self.replace({"guides": [*self.guides, {**last, **guide}]})
 
     def with_accuracy(self, accuracy: Accuracy | None = None, tolerance: Number = None) -> Self:
-        """The scene with another accuracy, by name or as a relative error.
+        """Returns the scene with another accuracy, by name or as a relative error.
 
         Parameters
         ----------
@@ -243,9 +244,9 @@ class SceneData(Mapping[str, Any]):
         Raises
         ------
         TypeError
-            Where both are given.
+            If both are given.
         SceneError
-            Where one is refused.
+            If one is invalid.
 
         Examples
         --------

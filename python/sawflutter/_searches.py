@@ -1,5 +1,4 @@
-"""What can be asked of a saw that takes many of them: fits, places, maps, and matrices for one's
-own searches."""
+"""Searches over many saws: fits, places and maps, and matrices for custom searches."""
 
 from __future__ import annotations
 
@@ -30,7 +29,7 @@ Free: TypeAlias = "Mapping[str, tuple[SupportsFloat, SupportsFloat] | None] | It
 
 
 class Searches(SceneData):
-    """The methods of a scene that compute many saws, or leave the computing to the user."""
+    """Methods of a scene that compute many saws, or that return matrices."""
 
     __slots__ = ()
 
@@ -70,19 +69,21 @@ class Searches(SceneData):
         Parameters
         ----------
         measured : path, DataFrame, array_like or rows, optional
-            A file with a table of speeds in rpm and frequencies in Hz, ascending, blank where a mode
-            was not seen; or the same as rows ``(rpm, hz, hz, ...)`` or ``(rpm, [hz, hz, ...])``, as an
-            array or as a data frame with a column or an index ``rpm``, with NaN for a blank.
-            Frequencies alone are those at rest. The scene's own without it.
+            A file with a table of speeds in rpm and frequencies in Hz, ascending, blank if a mode
+            was not measured; or the same table as rows ``(rpm, hz, hz, ...)`` or ``(rpm, [hz, hz,
+            ...])``, as an array, or as a data frame with a column or an index ``rpm``, with NaN
+            for a blank. A list of frequencies alone is measured at rest. By default the measured
+            frequencies of the scene.
         free : dict or list of str, optional
-            Paths of the numbers to fit, with their bounds ``(from, to)`` or None for the usual
-            ones. By default radius and stiffness of every guide, and angles between several.
+            Paths of the numbers to fit, with their bounds ``(from, to)`` or None for the default
+            bounds. By default radius and stiffness of every guide, and the angles between several
+            guides.
         to_rpm : float, optional
             Leaves out measurements above this speed.
         confidence : float
-            Probability with which the intervals cover the truth.
+            Confidence level of the intervals.
         starts, seed : int
-            Number of starts, and which ones.
+            Number of starting points, and seed of their random choice.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
@@ -93,9 +94,9 @@ class Searches(SceneData):
         Raises
         ------
         ArgumentError
-            Where the table cannot be read, or the scene has none and none is given.
+            If the table cannot be read, or if neither the scene nor the call gives one.
         SceneError
-            Where a number of ``free`` is not in the scene, or its bounds are none.
+            If a number of ``free`` is not in the scene, or its bounds are invalid.
 
         Examples
         --------
@@ -134,25 +135,27 @@ class Searches(SceneData):
         tolerance: Number = None,
         progress: Progress = None,
     ) -> PlaceResults:
-        """Looks for the place of the guides where flutter comes latest. This takes minutes.
+        """Finds the place of the guides with the highest flutter speed. This takes minutes.
 
         Parameters
         ----------
         free : dict or list of str, optional
-            Paths of the numbers that may move, with their bounds ``(from, to)`` or None for the
-            usual ones. By default radius, angle and stiffness of the first guide.
+            Paths of the numbers to vary, with their bounds ``(from, to)`` or None for the default
+            bounds. By default radius, angle and stiffness of the first guide.
         goal : {"flutter", "window"}
-            The flutter speed, or the stable window around the operating speed.
+            Quantity to maximize: the flutter speed, or the stable window around the operating
+            speed.
         min_critical_rpm : float, optional
-            Least lowest critical speed.
+            Lowest allowed first critical speed.
         samples, refine, map : int
-            Saws spread over the bounds at first, saws that each refinement may take, and points of
-            the map along each axis, 0 for none.
+            Number of saws in the first sampling of the bounds, of saws in each refinement, and of
+            points of the map along each axis (0 for no map).
         radius_tolerance_m, angle_tolerance_deg : float
-            How far production may be off a radius and an angle: every saw counts as the worst of
-            those around it.
+            Manufacturing tolerance of radii and angles. A saw is rated by the worst of its
+            neighbours within the tolerances.
         guide_tolerance_share, other_tolerance_share : float
-            The same of a guide's stiffness or damping, and of other numbers, as a share of each.
+            Tolerance of the stiffness or damping of a guide, and of other numbers, as a share of
+            the value.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
@@ -163,9 +166,9 @@ class Searches(SceneData):
         Raises
         ------
         SceneError
-            Where the scene has no guide, or no number of a path.
+            If the scene has no guide, or no number at a path.
         ArgumentError
-            Where another argument is out of range.
+            If another argument is out of range.
 
         Examples
         --------
@@ -206,7 +209,7 @@ class Searches(SceneData):
         Raises
         ------
         AnalysisError
-            Where the saw cannot be analysed so far.
+            If the program cannot analyse the saw.
 
         Examples
         --------
@@ -227,13 +230,13 @@ class Searches(SceneData):
         accuracy: Accuracy | None = None,
         tolerance: Number = None,
     ) -> Matrices:
-        """Matrices of the equation of motion, for eigenvalues and responses of one's own.
+        """Matrices of the equation of motion, for custom eigenvalue and response computations.
 
         Parameters
         ----------
         basis : (int, int), optional
-            Largest number of nodal diameters, and radial functions of each; by default what the
-            accuracy takes.
+            Largest number of nodal diameters, and number of radial functions for each; by default
+            as the accuracy requires.
         accuracy, tolerance
             As in :meth:`run_campbell`.
 
@@ -244,7 +247,7 @@ class Searches(SceneData):
         Raises
         ------
         ArgumentError
-            Where the basis is out of range.
+            If the basis is out of range.
 
         Examples
         --------
@@ -266,14 +269,14 @@ class Searches(SceneData):
         tolerance: Number = None,
         progress: Progress = None,
     ) -> StiffnessMap:
-        """Critical speeds and flutter speed over the stiffness of the guides, all else being equal.
+        """Critical speeds and flutter speed as functions of the stiffness of the guides.
 
         Parameters
         ----------
         stiffness_n_per_m : array_like
-            Stiffness of the guide, or of each of them.
+            Stiffness values of the guide, or of every guide.
         guide : int, optional
-            Which guide, counted from 0; all of them by default.
+            Index of the guide, counted from 0; by default all guides.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
@@ -284,7 +287,7 @@ class Searches(SceneData):
         Raises
         ------
         PathError
-            Where the saw has no such guide.
+            If no guide has this index.
 
         Examples
         --------

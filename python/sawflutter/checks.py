@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 
 
 class CheckResults(Result, CheckReport):
-    """A saw held against limits. Its truth is :attr:`passed`, so that ``assert saw.check(...)`` fails
-    where a limit is not kept, and pytest shows which.
+    """Check of a saw against limits. It is true if :attr:`passed`, so ``assert saw.check(...)``
+    fails if a limit is violated, and pytest shows which.
     """
 
     command, table = "check", "criteria"
@@ -24,8 +24,7 @@ class CheckResults(Result, CheckReport):
 
     @property
     def failures(self) -> tuple[str, ...]:
-        """Numbers that no saw has, unless they were accepted, and names of the limits that are not
-        kept.
+        """Implausible numbers, unless they were accepted, and names of the violated limits.
 
         Examples
         --------

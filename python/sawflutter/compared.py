@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 
 class CompareResults(Result, CompareReport):
-    """Several saws side by side: critical speeds, flutter, bands, stiffness at the rim, and what
-    differs in their scenes. Its chart shows their Campbell diagrams one over the other."""
+    """Comparison of several saws: critical speeds, flutter, bands, stiffness at the rim, and the
+    differences between their scenes. Its chart overlays their Campbell diagrams."""
 
     command, table = "compare", "saws"
     figure_names = pictures("compare")
@@ -48,10 +48,10 @@ def compare(
     Parameters
     ----------
     *saws : Scene or CampbellResults
-        Two or more: scenes, which are charted, those without a sweep over the same speeds; or
-        charts.
+        Two or more scenes or charts. Scenes are charted first, those without a sweep over the same
+        speeds.
     labels : iterable of str, optional
-        What they are called; by default their names, numbered.
+        Labels of the saws; by default their names, numbered.
     progress : bool or callable, optional
         As of :meth:`Scene.run_campbell`.
 
@@ -62,9 +62,9 @@ def compare(
     Raises
     ------
     ValueError
-        Where there are fewer than two saws, or not as many labels.
+        If there are fewer than two saws, or if the number of labels differs.
     AnalysisError
-        Where a saw cannot be analysed.
+        If a saw cannot be analysed.
 
     Examples
     --------

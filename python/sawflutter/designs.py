@@ -1,4 +1,4 @@
-"""What a search over many saws finds: fits, places, and what accuracy takes."""
+"""Results of searches over many saws: fits, places, and computing time against accuracy."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class FitResults(Result, FitReport):
-    """A saw fitted to measured frequencies: :attr:`saw` is the calibrated one."""
+    """A saw fitted to measured frequencies; :attr:`saw` is the calibrated scene."""
 
     command, table = "fit", "parameters"
     figure_names = pictures("fit")
@@ -30,8 +30,8 @@ class FitResults(Result, FitReport):
 
 
 class PlaceResults(Result, PlaceReport):
-    """The best place found for the guides: :attr:`saw` is that saw. Its chart has no panel where no
-    map was asked for."""
+    """The best place found for the guides; :attr:`saw` is the scene with it. Its chart has no
+    panel without a map."""
 
     command, table = "place", "parameters"
     figure_names = pictures("place")
@@ -62,12 +62,12 @@ class TradeoffResults(Report):
 
     @classmethod
     def from_json(cls, text: str, name: str = "") -> TradeoffResults:
-        """The result of a JSON text.
+        """Reads a result from JSON.
 
         Parameters
         ----------
         text : str
-            As :meth:`save` writes it.
+            JSON as written by :meth:`save`.
         name : str
             Title of the scene.
 
@@ -78,7 +78,7 @@ class TradeoffResults(Report):
         Raises
         ------
         json.JSONDecodeError
-            Where the text is no JSON.
+            If the text is not JSON.
 
         Examples
         --------
@@ -99,7 +99,7 @@ class TradeoffResults(Report):
         Returns
         -------
         Setting or None
-            None where no chart is so accurate.
+            None if no chart reaches this accuracy.
 
         Examples
         --------

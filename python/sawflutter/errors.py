@@ -1,4 +1,4 @@
-"""Exceptions, by what went wrong.
+"""Exceptions of the package.
 
 >>> import sawflutter as sf
 >>> try:
@@ -17,13 +17,13 @@ class InputError(ValueError):
     Attributes
     ----------
     key : str or None
-        What was refused: the JSON path of a number, or the name of an argument.
+        JSON path of the invalid number, or name of the invalid argument.
     value : str or None
-        What was given.
+        The given value.
     allowed : str or None
-        What it must be.
+        Allowed values.
     remedy : str or None
-        What to do about it.
+        Advice.
     """
 
     def __init__(
@@ -42,7 +42,7 @@ class InputError(ValueError):
 
 
 class SceneError(InputError):
-    """A scene that is none, or a number of it that no saw has."""
+    """A text that is not a scene, or a scene with a number out of range."""
 
 
 class PathError(SceneError, KeyError):
@@ -53,7 +53,7 @@ class PathError(SceneError, KeyError):
 
 
 class StudyError(InputError):
-    """A study that is none, or a folder that belongs to another one."""
+    """A text that is not a study, or a folder that belongs to another study."""
 
 
 class ArgumentError(InputError):
@@ -61,11 +61,11 @@ class ArgumentError(InputError):
 
 
 class AnalysisError(RuntimeError):
-    """A computation that failed: the message says on what and what to do."""
+    """A computation that failed; the message states the reason and gives advice."""
 
 
 class ModelWarning(UserWarning):
-    """A number of the scene that no saw has, or a result that the model may not hold for: the
-    ``warnings`` of a result. ``warnings.simplefilter("error", sawflutter.ModelWarning)`` makes them
-    exceptions.
+    """An implausible number of the scene, or a result outside the validity of the model; see the
+    ``warnings`` of a result. ``warnings.simplefilter("error", sawflutter.ModelWarning)`` turns
+    them into exceptions.
     """

@@ -17,12 +17,12 @@ from .state_space import StateSpace
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Matrices(Entry):
-    """Matrices of the equation of motion, each of the shape (functions, functions); they cannot be
-    written to. :meth:`sawflutter.Scene.matrices` makes them.
+    """Matrices of the equation of motion, each of the shape (functions, functions) and read-only.
+    :meth:`sawflutter.Scene.matrices` returns them.
 
-    q'' + (2 Ω G + C) q' + (K + Ω² S + Ω N) q = f, Ω in rad/s; the mass matrix is one. Unknowns are,
-    for no nodal diameters, the radial functions times 1; for each further number n of them, first
-    times cos nθ, then times sin nθ.
+    q'' + (2 Ω G + C) q' + (K + Ω² S + Ω N) q = f, Ω in rad/s; the mass matrix is the identity. The
+    basis functions for n = 0 nodal diameters are the radial functions; for each n ≥ 1 they are the
+    radial functions times cos nθ, followed by those times sin nθ.
     """
 
     stiffness: FloatArray
@@ -67,7 +67,7 @@ class Matrices(Entry):
         Raises
         ------
         ArgumentError
-            Where the basis is out of range.
+            If the basis is out of range.
 
         Examples
         --------
@@ -83,7 +83,7 @@ class Matrices(Entry):
 
     @property
     def mass(self) -> FloatArray:
-        """M, one.
+        """The mass matrix M, which is the identity.
 
         Examples
         --------
@@ -96,9 +96,9 @@ class Matrices(Entry):
         return one
 
     def at(self, radius_m: npt.ArrayLike, angle_deg: npt.ArrayLike) -> FloatArray:
-        """The basis functions φ at points of the blade, fixed in space: a deflection there is
-        w = φᵀ q, and a force F there is f = F φ. With them the receptance of two points at Ω and ω
-        is φ₁ᵀ (K + Ω² S + Ω N − ω² + iω (2 Ω G + C))⁻¹ φ₂.
+        """Basis functions φ at points of the blade fixed in space. The deflection there is w = φᵀ
+        q, and a force F there is f = F φ. The receptance between two points at Ω and ω is φ₁ᵀ (K +
+        Ω² S + Ω N − ω² + iω (2 Ω G + C))⁻¹ φ₂.
 
         Parameters
         ----------
@@ -114,7 +114,7 @@ class Matrices(Entry):
         Raises
         ------
         ArgumentError
-            Where a point is off the blade.
+            If a point is off the blade.
 
         Examples
         --------
@@ -135,8 +135,8 @@ class Matrices(Entry):
         return np.frombuffer(found, "<f8").reshape(*radius.shape, len(self.stiffness))
 
     def companion(self, rpm: SupportsFloat) -> FloatArray:
-        """Matrix of x' = A x with x = (q, q') at a speed: its eigenvalues are those of the saw, in
-        1/s.
+        """Matrix A of x' = A x with x = (q, q') at a speed; its eigenvalues are those of the saw,
+        in 1/s.
 
         Parameters
         ----------

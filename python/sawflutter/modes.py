@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Modes(Entry):
-    """Modes at several speeds, from one basis: a row a speed, ascending by frequency. Where a speed
-    has fewer modes than another, the row is filled with NaN, and Krein signs with 0."""
+    """Modes at several speeds, from one basis, with one row for each speed, ascending by
+    frequency. Rows with fewer modes are filled with NaN, and with 0 for Krein signs."""
 
     rpm: FloatArray
     """Speeds."""
@@ -67,8 +67,8 @@ class Modes(Entry):
         return cls(speeds, hz, growth, signs, found)
 
     def to_dataframe(self) -> pd.DataFrame:
-        """One row a speed and mode: speed, frequency, growth rate, Krein sign, direction and the
-        number of nodal diameters that has the largest share; needs pandas.
+        """One row for each speed and mode with speed, frequency, growth rate, Krein sign,
+        direction and the dominant number of nodal diameters; needs pandas.
 
         Returns
         -------
@@ -77,7 +77,7 @@ class Modes(Entry):
         Raises
         ------
         ImportError
-            Where pandas is missing: it says how it is installed.
+            If pandas is missing; the message says how to install it.
 
         Examples
         --------

@@ -1,4 +1,4 @@
-"""What the blade does over time: in the cut, in a run-up, under a force, and between the teeth."""
+"""Motions of the blade: in a cut, in a run-up, under a force, and in washboarding."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class CutResults(Result, CutReport):
-    """A saw in the wood, at one or several speeds."""
+    """A saw in a cut, at one or several speeds."""
 
     command, table = "cut", "runs"
     figure_names = pictures("cut", "cut-map", "spline-orbit")
@@ -26,12 +26,12 @@ class CutResults(Result, CutReport):
         return cut(self, facts)
 
     def map_chart(self, run: int = 0) -> Chart:
-        """Growth over guide angle and load, of one of the runs.
+        """Growth over guide angle and load for one of the runs.
 
         Parameters
         ----------
         run : int
-            Which of :attr:`runs`, counted from 0.
+            Index in :attr:`runs`, counted from 0.
 
         Returns
         -------
@@ -40,7 +40,7 @@ class CutResults(Result, CutReport):
         Raises
         ------
         IndexError
-            Where there is no such run.
+            If no run has this index.
 
         Examples
         --------
@@ -68,7 +68,7 @@ class RunUpResults(Result, RunUpReport):
     figure_names = pictures("runup", "response-map", "runup-map")
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Speed and deflection, one row a sample; needs pandas.
+        """Speed and deflection, one row for each sample; needs pandas.
 
         Returns
         -------
@@ -77,7 +77,7 @@ class RunUpResults(Result, RunUpReport):
         Raises
         ------
         ImportError
-            Where pandas is missing: it says how it is installed.
+            If pandas is missing; the message says how to install it.
 
         Examples
         --------
@@ -127,13 +127,13 @@ class RunUpResults(Result, RunUpReport):
 
 
 class DeflectResults(Result, DeflectReport):
-    """Where the blade stands while its speed slowly rises and falls."""
+    """Equilibrium deflection of the blade while its speed slowly rises and falls."""
 
     command = "deflect"
     figure_names = pictures("deflect")
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Stable equilibria, one row each, without the frequencies; needs pandas.
+        """Stable equilibria without their frequencies, one row for each; needs pandas.
 
         Returns
         -------
@@ -142,7 +142,7 @@ class DeflectResults(Result, DeflectReport):
         Raises
         ------
         ImportError
-            Where pandas is missing: it says how it is installed.
+            If pandas is missing; the message says how to install it.
 
         Examples
         --------
@@ -200,7 +200,8 @@ class GapResults(Result, GapReport):
 
 
 class WashboardResults(Result, WashboardReport):
-    """Whether the teeth set the blade swinging, each on the surface left by the one before."""
+    """Washboarding: whether the cutting force on the surface left by the previous tooth makes a
+    motion grow."""
 
     command, table = "washboard", "modes"
     figure_names = pictures("washboard")

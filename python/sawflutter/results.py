@@ -1,4 +1,4 @@
-"""What the command analyze finds, and reports of every kind: data first, figures on top of it."""
+"""Results of the command analyze, and reading of reports of every kind."""
 
 from __future__ import annotations
 
@@ -45,8 +45,8 @@ class CampbellResults(Result, CampbellReport):
 
     @property
     def flutter_rpm(self) -> float | None:
-        """Onset of the first flutter band whose peak growth reaches the threshold; None where there
-        is none within the sweep.
+        """Onset of the first flutter band whose peak growth reaches the threshold; None if the
+        sweep has none.
 
         Examples
         --------
@@ -99,7 +99,7 @@ class CampbellResults(Result, CampbellReport):
         Raises
         ------
         ArgumentError
-            Where the speed is outside of the sweep.
+            If the speed is outside of the sweep.
 
         Examples
         --------
@@ -111,7 +111,8 @@ class CampbellResults(Result, CampbellReport):
         return self.saw.modes(rpm)
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Writes ``campbell.csv``, the same bytes as the program: one row a branch and speed.
+        """Writes ``campbell.csv`` with the same bytes as the program: one row for each branch and
+        speed.
 
         Parameters
         ----------
@@ -121,7 +122,7 @@ class CampbellResults(Result, CampbellReport):
         Raises
         ------
         OSError
-            Where it cannot be written.
+            If the file cannot be written.
 
         Examples
         --------
@@ -136,8 +137,8 @@ class CampbellResults(Result, CampbellReport):
         Path(path).write_bytes(_native.campbell_csv(self._text).encode())
 
     def save_vtk(self, folder: str | os.PathLike[str]) -> None:
-        """Writes the shapes for ParaView, as the program writes them: ``modes.pvd``, which lists a
-        grid for each phase of a period.
+        """Writes the shapes for ParaView, as the program does: ``modes.pvd``, which lists a grid
+        for each phase of a period.
 
         Parameters
         ----------
@@ -147,9 +148,9 @@ class CampbellResults(Result, CampbellReport):
         Raises
         ------
         ValueError
-            Where the chart was made without shapes.
+            If the chart was computed without shapes.
         OSError
-            Where it cannot be written.
+            If the file cannot be written.
 
         Examples
         --------
@@ -170,14 +171,14 @@ class CampbellResults(Result, CampbellReport):
             (Path(folder) / name).write_text(text, encoding="utf-8")
 
     def to_dataframe(self, of: Table = "branches") -> pd.DataFrame:
-        """A table, a row each; needs pandas.
+        """Part of the results as a table; needs pandas.
 
         Parameters
         ----------
         of : {"branches", "modes_at_rest", "critical_speeds", "bands"}
-            Branches and speeds, with the columns of ``campbell.csv``; or modes at rest, critical
-            speeds, or bands of instability, with the waves that make them, how those run
-            (``directions``), and their nodal diameters.
+            Rows of the table: branches at their speeds, with the columns of ``campbell.csv``;
+            modes at rest; critical speeds; or bands of instability with their waves, the
+            directions of these (``directions``) and their nodal diameters.
 
         Returns
         -------
@@ -186,9 +187,9 @@ class CampbellResults(Result, CampbellReport):
         Raises
         ------
         ValueError
-            Where there is no such table.
+            If no table has this name.
         ImportError
-            Where pandas is missing: it says how it is installed.
+            If pandas is missing; the message says how to install it.
 
         Examples
         --------
@@ -212,12 +213,13 @@ class CampbellResults(Result, CampbellReport):
         return table
 
     def root_loci_chart(self) -> Chart:
-        """The two modes that meet at the flutter speed, in the complex plane and over speed.
+        """Root loci of the two modes that coalesce at the flutter speed, in the complex plane and
+        over speed.
 
         Returns
         -------
         sawflutter.plot.Chart
-            Without a panel where no two modes meet.
+            A chart without panels if no two modes coalesce.
 
         Examples
         --------
@@ -254,14 +256,14 @@ def load(path: str | os.PathLike[str]) -> Result | TradeoffResults:
     Returns
     -------
     Result or TradeoffResults
-        Of the kind that the file has.
+        A result of the kind in the file.
 
     Raises
     ------
     InputError
-        Where the file is no report.
+        If the file is not a report.
     OSError
-        Where it cannot be read.
+        If the file cannot be read.
 
     Examples
     --------

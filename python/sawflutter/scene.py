@@ -1,4 +1,4 @@
-"""A saw and what to find out about it."""
+"""Scene: a saw and its computations."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ if TYPE_CHECKING:
 
 
 class Scene(Pictures, Questions):
-    """A saw: blade, mount, guides and what to find out about it. It is a mapping of the keys of a
-    scene file, and takes paths as well. It cannot be changed; :meth:`replace` makes another one.
+    """A saw (blade, mount, guides) with the conditions to compute. It is a mapping of the keys of
+    a scene file and accepts paths too. It is read-only; :meth:`replace` returns a changed copy.
 
     Parameters
     ----------
     data : dict
-        The scene as in a scene file, see :data:`sawflutter.SceneDict`; numbers may be those of
-        NumPy, or quantities of pint.
+        The scene as in a scene file, see :data:`sawflutter.SceneDict`; NumPy numbers and pint
+        quantities are accepted.
 
     Raises
     ------
     SceneError
-        Where the scene is none; the error names the key, what is allowed, and what to do.
+        If the scene is invalid; the error gives the key, the allowed values and advice.
 
     Examples
     --------
@@ -46,7 +46,7 @@ class Scene(Pictures, Questions):
 
     @classmethod
     def from_json(cls, text: str) -> Self:
-        """The scene of a JSON text.
+        """Reads a scene from JSON.
 
         Parameters
         ----------
@@ -60,7 +60,7 @@ class Scene(Pictures, Questions):
         Raises
         ------
         SceneError
-            Where the scene is refused.
+            If the scene is refused.
 
         Examples
         --------
@@ -87,9 +87,9 @@ class Scene(Pictures, Questions):
         Raises
         ------
         SceneError
-            Where the scene is refused.
+            If the scene is refused.
         OSError
-            Where the file cannot be read.
+            If the file cannot be read.
 
         Examples
         --------
@@ -105,7 +105,7 @@ class Scene(Pictures, Questions):
 
     @classmethod
     def paper(cls) -> Self:
-        """The guided spline saw that comes with the program, with the numbers of a paper.
+        """The built-in guided spline saw, with the numbers of a paper.
 
         Returns
         -------
@@ -131,7 +131,7 @@ class Scene(Pictures, Questions):
         Raises
         ------
         OSError
-            Where it cannot be written.
+            If the file cannot be written.
 
         Examples
         --------
@@ -147,7 +147,7 @@ class Scene(Pictures, Questions):
         Path(path).write_text(text + "\n", encoding="utf-8")
 
     def to_dict(self) -> SceneDict:
-        """The scene as a dict of its own, to be changed and made a scene of again.
+        """A copy of the scene as a dict, which can be changed and converted to a scene again.
 
         Returns
         -------

@@ -14,8 +14,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StiffnessMap(Drawn, Entry):
-    """Critical speeds of a saw whose guides are more or less stiff, as rotor dynamics shows them
-    over the stiffness of bearings. :meth:`sawflutter.Scene.run_stiffness_map` makes it."""
+    """Critical speeds of a saw over the stiffness of its guides, like the critical speed map of
+    rotor dynamics over bearing stiffness. :meth:`sawflutter.Scene.run_stiffness_map` returns
+    it."""
 
     name: str
     """Title of the scene."""

@@ -1,4 +1,4 @@
-"""What a study of many saws finds."""
+"""Results of a study of many saws."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class StudyResults(Result, StudyReport):
-    """Many saws, summed up; :meth:`sawflutter.Study.run` makes it."""
+    """Summary of many saws; :meth:`sawflutter.Study.run` returns it."""
 
     command = "study"
     figure_names = pictures("study")
@@ -30,8 +30,8 @@ class StudyResults(Result, StudyReport):
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> StudyResults:
-        """Reads a report that the program or :meth:`save` has written, with the table of the saws
-        beside it: the file of the same name that ends in .csv.
+        """Reads a report that the program or :meth:`save` wrote, and the table of the saws in the
+        same folder: the file of the same name with the ending .csv.
 
         Parameters
         ----------
@@ -45,9 +45,9 @@ class StudyResults(Result, StudyReport):
         Raises
         ------
         InputError
-            Where the file is the report of something else.
+            If the file is a report of another kind.
         OSError
-            Where it cannot be read.
+            If the file cannot be read.
 
         Examples
         --------
@@ -66,8 +66,9 @@ class StudyResults(Result, StudyReport):
         return result
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the report, the same bytes as the program, and beside it the table of the saws, of
-        the same name that ends in .csv; :func:`sawflutter.load` reads both.
+        """Writes the report with the same bytes as the program, and the table of the saws to the
+        same folder: the file of the same name with the ending .csv. :func:`sawflutter.load` reads
+        both.
 
         Parameters
         ----------
@@ -77,7 +78,7 @@ class StudyResults(Result, StudyReport):
         Raises
         ------
         OSError
-            Where it cannot be written.
+            If the file cannot be written.
 
         Examples
         --------
@@ -98,7 +99,7 @@ class StudyResults(Result, StudyReport):
             _beside(path).write_bytes(table.encode())
 
     def to_dataframe(self) -> pd.DataFrame:
-        """One row a saw, from the table beside the report; needs pandas.
+        """One row for each saw, from the table beside the report; needs pandas.
 
         Returns
         -------
@@ -107,7 +108,7 @@ class StudyResults(Result, StudyReport):
         Raises
         ------
         FileNotFoundError
-            Where the table is not beside the report.
+            If the table is not beside the report.
 
         Examples
         --------
@@ -143,32 +144,32 @@ class StudyResults(Result, StudyReport):
         return StudyResults._with_table, (self._text, self._csv())
 
     def sensitivity(self, *, confidence: float = 0.95, seed: int = 0) -> pd.DataFrame:
-        """Sobol' indices of the first order: the share of the variance of a speed that a number
-        causes by itself, whatever the others are. What is missing to 1 in their sum is due to
-        several together. Needs SALib, which estimates them by RBD-FAST from the saws that there
-        are (Tarantola, Gatelli and Mara, Reliability Engineering and System Safety 91 (2006), 717).
+        """First-order Sobol' indices: the share of the variance of a speed that each number causes
+        by itself. If their sum is below 1, the rest is due to interactions. Needs SALib, which
+        estimates them by RBD-FAST from the saws of the study (Tarantola, Gatelli and Mara,
+        Reliability Engineering and System Safety 91 (2006), 717).
 
         Parameters
         ----------
         confidence : float
-            Of the half-width beside each index, from resampled saws.
+            Confidence level of the half-width of each index, from resampled saws.
         seed : int
-            Of this resampling.
+            Seed of the resampling.
 
         Returns
         -------
         pandas.DataFrame
-            One row a number; columns ``lowest_critical``, ``flutter``, and the half-widths
-            ``lowest_critical_confidence``, ``flutter_confidence``. A column is NaN where the speed
-            is the same in all saws. A saw without a speed counts with the last speed looked at, and
-            one that was not analysed does not count.
+            One row for each number, with the columns ``lowest_critical``, ``flutter``, and the
+            half-widths ``lowest_critical_confidence``, ``flutter_confidence``. A column is NaN if
+            all saws have the same speed. A saw without such a speed counts with the last speed of
+            its sweep; saws without an analysis are left out.
 
         Raises
         ------
         ImportError
-            Where SALib or pandas is missing: it says how it is installed.
+            If SALib or pandas is missing; the message says how to install them.
         FileNotFoundError
-            Where the table is not beside the report.
+            If the table is not beside the report.
 
         Examples
         --------
@@ -211,7 +212,7 @@ class StudyResults(Result, StudyReport):
         Parameters
         ----------
         speed : {"lowest_critical_rpm", "flutter_rpm"}
-            Which; the median where several saws are drawn in a point of the grid.
+            Speed to show; the median if a point of the grid has several random saws.
 
         Returns
         -------
@@ -220,7 +221,7 @@ class StudyResults(Result, StudyReport):
         Raises
         ------
         ValueError
-            Where the study has no grid of two numbers.
+            If the study is not a grid of two numbers.
 
         Examples
         --------

@@ -1,4 +1,4 @@
-"""Many saws: tolerances of making and grids of design."""
+"""Studies of many saws: manufacturing tolerances and design grids."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ if TYPE_CHECKING:
 
 
 class Study:
-    """A scene and what varies in it.
+    """A scene with varied numbers.
 
     Parameters
     ----------
     scene : Scene
-        The saw without deviations.
+        The nominal saw.
     study : dict or path
-        What varies, how, and which limits the saws have to keep, see
+        Varied numbers, their distributions or grids, and limits for the saws, see
         :data:`sawflutter.StudyDict`.
 
     Examples
@@ -75,7 +75,7 @@ class Study:
         return self._native.count
 
     def to_dict(self) -> StudyDict:
-        """The study as a dict of its own.
+        """A copy of the study as a dict.
 
         Returns
         -------
@@ -94,12 +94,12 @@ class Study:
         return cast(StudyDict, json.loads(self._text))
 
     def values(self, saws: Iterable[int] | None = None) -> FloatArray:
-        """Values of the numbers that vary, of the shape (saws, numbers).
+        """Values of the varied numbers, of the shape (saws, numbers).
 
         Parameters
         ----------
         saws : iterable of int, optional
-            Which saws, counted from 0; all of them by default.
+            Indices of saws, counted from 0; by default all.
 
         Returns
         -------
@@ -108,7 +108,7 @@ class Study:
         Raises
         ------
         ArgumentError
-            Where there is no saw of a number.
+            If no saw has one of the indices.
 
         Examples
         --------
@@ -130,21 +130,21 @@ class Study:
         executor: Executor | Client | None = None,
         progress: Progress = None,
     ) -> StudyResults:
-        """Analyses every saw and sums them up.
+        """Analyses every saw and summarizes the results.
 
         Parameters
         ----------
         folder : path
-            For the log, in which every finished saw is written down at once, and for the results,
-            which are the files that the program writes. Run again after a stop, it goes on.
+            Folder for the log, which records every finished saw at once, and for the results,
+            which are the files of the program. A stopped run continues when started again.
         executor : concurrent.futures.Executor or dask.distributed.Client, optional
-            Where the saws are computed, by default on all cores of this machine. A task is a range
-            of saws that takes about half a minute; the log is written here, and nowhere else. A
-            client of Dask goes on when workers are lost; a saw that ends every worker it is given
-            to is a row "failed", and the others are done.
+            Executor for the saws; by default all cores of this machine. A task is a range of saws
+            that takes about half a minute; only this process writes the log. With a client of
+            Dask, the run continues when workers are lost. A saw that ends every worker that
+            computes it becomes a row "failed", and the other saws are still computed.
         progress : bool or callable, optional
-            True shows a bar, a callable is called with what is done and of how many. With a client
-            of Dask the address of its dashboard is printed, too.
+            True shows a bar. A callable is called with the finished and the total number of saws.
+            With a client of Dask the address of its dashboard is printed too.
 
         Returns
         -------
@@ -153,8 +153,8 @@ class Study:
         Raises
         ------
         AnalysisError
-            Where a worker has another version of sawflutter, or the executor has stopped. What is
-            done is in the log: run again with another executor, the study goes on.
+            If a worker has another version of sawflutter, or the executor has stopped. Finished
+            saws are in the log, so the study continues when run again with another executor.
 
         Examples
         --------

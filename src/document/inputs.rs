@@ -1,4 +1,4 @@
-//! The numbers of a scene as rows of a table.
+//! Numbers of a scene as rows of a table.
 
 use serde_json::Value;
 
@@ -6,7 +6,7 @@ use super::Table;
 use crate::scene::{Quantity, SceneFile};
 use crate::text::shown;
 
-/// Keys that stand elsewhere on the page, or are data to compare with.
+/// Keys that another part of the page shows, or that hold data for comparison.
 const ELSEWHERE: [&str; 3] = ["name", "notes", "measured"];
 
 /// Key, meaning, value with its unit.

@@ -52,7 +52,7 @@ fn write_page(text: &mut String, document: &Document, figures: &[String]) -> std
     }
     writeln!(text, "<h2>Figures</h2>")?;
     for figure in figures {
-        // A drawing within a page begins with its own tag.
+        // A drawing inside a page begins with its own tag, without the XML header.
         let drawing = figure.find("<svg").map_or("", |start| &figure[start..]);
         writeln!(text, "<figure>\n{drawing}\n</figure>")?;
     }
@@ -80,7 +80,7 @@ fn warnings(text: &mut String, warnings: &[String]) -> std::fmt::Result {
     writeln!(text, "</div>")
 }
 
-/// The answer; the summary of a report that has it there.
+/// The answer, or the summary of a report whose summary contains it.
 fn verdict(text: &mut String, document: &Document) -> std::fmt::Result {
     writeln!(text, "<h2>Result</h2>")?;
     let Some((first, rest)) = document.answer.split_first() else {
@@ -112,7 +112,7 @@ fn write_table(text: &mut String, table: &Table) -> std::fmt::Result {
     writeln!(text, "</tbody>\n</table>")
 }
 
-/// Notes and numbers of the scene, and the scene itself for programs that read the page.
+/// Notes and numbers of the scene, and the scene as JSON for programs that read the page.
 fn scene(text: &mut String, scene: &SceneFile) -> std::fmt::Result {
     writeln!(text, "<h2>Inputs</h2>")?;
     paragraphs(text, &scene.notes)?;
@@ -126,7 +126,7 @@ fn scene(text: &mut String, scene: &SceneFile) -> std::fmt::Result {
     }
     write_table(text, &inputs(scene))?;
     let json = serde_json::to_string(scene).unwrap_or_default();
-    // A text may contain the tag that ends the element; JSON allows an escape for its first letter.
+    // A text may contain the tag that ends the element; JSON allows an escape for its first character.
     let json = json.replace('<', "\\u003c");
     writeln!(
         text,
@@ -157,7 +157,7 @@ mod tests {
         Analysis::new(&scene.unwrap()).unwrap().report()
     }
 
-    /// The numbers are those of the report; every table, figure and key is there.
+    /// The page contains the numbers of the report and every table, figure and key.
     #[test]
     fn a_page_holds_what_the_report_says_and_needs_nothing_else() {
         let report = report("A saw");

@@ -1,7 +1,7 @@
-//! A report as one page of HTML: verdict, warnings, tables, figures, inputs, certificate, version.
+//! Report as one page of HTML: verdict, warnings, tables, figures, inputs, certificate, version.
 //!
-//! The page needs nothing else: styles and figures are in it, and so is the scene. A browser prints it as PDF. It says what the
-//! summary, the figures and the JSON say.
+//! The page is self-contained: it includes styles, figures and the scene. A browser prints it as PDF. It
+//! repeats the contents of the summary, the figures and the JSON.
 
 mod inputs;
 mod layout;
@@ -16,24 +16,24 @@ use crate::report::{
 };
 use crate::scene::SceneFile;
 
-/// What a page says of a report.
+/// Content of the page of a report.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Document<'a> {
-    /// The command that reports it.
+    /// Command that computes the report.
     pub command: &'static str,
     /// Version of the program that wrote the report.
     pub version: &'a str,
     /// The scene.
     pub scene: &'a SceneFile,
-    /// The answer, line by line; where there is none, the summary has it.
+    /// The answer by lines; empty if the summary contains it.
     pub answer: Vec<String>,
-    /// Numbers that no saw has, and remarks on the validity of the result.
+    /// Implausible numbers of the scene, and remarks on the validity of the result.
     pub warnings: Vec<String>,
     /// Tables.
     pub tables: Vec<Table>,
-    /// How sure the result is.
+    /// Checks of the result.
     pub certificate: Vec<String>,
-    /// The report in words, as the program prints it.
+    /// The report as text, as printed by the program.
     pub summary: String,
 }
 
@@ -50,7 +50,7 @@ pub struct Table {
 
 /// A report that has a page.
 pub trait Documented: Figures {
-    /// What the page says.
+    /// Content of the page.
     fn document(&self) -> Document<'_>;
 }
 

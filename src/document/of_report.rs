@@ -5,7 +5,7 @@ use crate::report::{InstabilityKind, Report};
 use crate::summary::answer;
 use crate::text::shown_to;
 
-/// The answer without the line breaks of a terminal.
+/// The answer without line breaks for a terminal.
 pub fn answer_lines(report: &Report) -> Vec<String> {
     let lines = answer(report).into_iter();
     lines

@@ -1,11 +1,11 @@
-//! The keys of a scene with their values, one by one.
+//! Keys of a scene with their values.
 
 use serde_json::Value;
 
 use super::SceneFile;
 
 impl SceneFile {
-    /// Every key that has a value of its own, by its JSON path, in the order of the file.
+    /// Every key with a value of its own, by its JSON path, in the order of the file.
     pub(crate) fn entries(&self) -> Vec<(String, Value)> {
         let mut found = Vec::new();
         if let Ok(json) = serde_json::to_value(self) {

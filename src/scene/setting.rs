@@ -1,4 +1,4 @@
-//! A number of a scene as it is set on a command line: `blade.thickness_m=2.6mm`.
+//! Number of a scene in the form of a command line: `blade.thickness_m=2.6mm`.
 
 use std::str::FromStr;
 
@@ -8,7 +8,7 @@ use super::quantity::{QUANTITIES, Quantity};
 use super::unit::Unit;
 use super::{RefusedValue, Scene, SceneError, SceneFile};
 
-/// The path of a number of a scene, and a value in the unit of its key.
+/// Path of a number of a scene, with a value in the unit of its key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
     path: String,
@@ -18,7 +18,7 @@ pub struct Setting {
 const LIKENESS: f64 = 0.8;
 
 impl Setting {
-    /// A value in the unit of the key of a path.
+    /// A setting from a value in the unit of the key.
     #[cfg(feature = "cli")]
     pub(crate) fn new(path: String, value: f64) -> Self {
         Setting { path, value }
@@ -28,7 +28,7 @@ impl Setting {
 impl FromStr for Setting {
     type Err = RefusedValue;
 
-    /// The setting of a text like `guides[0].stiffness_n_per_m=20 kN/mm`.
+    /// Parses a text like `guides[0].stiffness_n_per_m=20 kN/mm`.
     fn from_str(text: &str) -> Result<Self, RefusedValue> {
         let Some((path, value)) = text.split_once('=') else {
             let allowed = "a path, =, and a number with or without a unit";
@@ -46,10 +46,10 @@ impl FromStr for Setting {
     }
 }
 
-/// The number of a text in the unit of a key of a scene: `2.6mm` of `blade.thickness_m` is 0.0026.
+/// Parses a number in the unit of a key: `2.6mm` for `blade.thickness_m` is 0.0026.
 ///
 /// # Errors
-/// [`RefusedValue`] where no scene has such a number, or the text is no number of its unit.
+/// [`RefusedValue`] if scenes have no such number, or the text is no number in its unit.
 pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
     let quantity = Quantity::of(path).ok_or_else(|| unknown(path))?;
     let refused = |remedy| {
@@ -75,15 +75,15 @@ pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
     let own = Unit::parse(quantity.unit).filter(|own| own.is_of(&given));
     let own = own.ok_or_else(|| refused("give a unit of this quantity, or leave the unit out"))?;
     let factor = given.factor / own.factor;
-    // A division by a whole number is exact to the last digit, where the product with its reciprocal is not:
-    // 2.6 mm are 0.0026 m.
+    // Division by a whole number is correctly rounded, unlike multiplication by its reciprocal: 2.6 mm are
+    // exactly 0.0026 m.
     Ok(match factor < 1.0 {
         true => value / (own.factor / given.factor),
         false => value * factor,
     })
 }
 
-/// The number that a text begins with, and what follows it.
+/// Splits a text into its leading number and the rest.
 fn split(text: &str) -> (&str, &str) {
     let is_digit = |c: char| c.is_ascii_digit() || c == '.';
     let exponent = |at: usize| {
@@ -132,8 +132,8 @@ fn unknown(path: &str) -> RefusedValue {
 }
 
 impl SceneFile {
-    /// The scene with other numbers, by their paths. A block that the scene does not have, like `cut` of
-    /// `cut.power_w`, is begun; an entry of a list must be there.
+    /// The scene with other numbers, by their paths. Creates a missing block, such as `cut` for
+    /// `cut.power_w`, but no entry of a list.
     ///
     /// ```
     /// use sawflutter::scene::{Scene, Setting};
@@ -145,7 +145,7 @@ impl SceneFile {
     /// ```
     ///
     /// # Errors
-    /// [`SceneError`] where the scene has no place for a number, or a value is refused.
+    /// [`SceneError`] if the scene has no place for a number, or a value is refused.
     pub fn set(&self, settings: &[Setting]) -> Result<Scene, SceneError> {
         let mut json = super::parameter::value(self);
         for setting in settings {
@@ -153,7 +153,7 @@ impl SceneFile {
         }
         let set = Scene::from_json(&json.to_string());
         set.map_err(|error| match error {
-            // The text is one line that nobody has written.
+            // The text is a single generated line, so its line number is meaningless to the user.
             SceneError::Syntax { key, message } => SceneError::Syntax {
                 key,
                 message: message.trim_end_matches(" (line 1)").to_owned(),
@@ -163,12 +163,12 @@ impl SceneFile {
     }
 }
 
-/// Puts a number at its place.
+/// Writes a number at its path.
 fn put(json: &mut Value, setting: &Setting) -> Result<(), RefusedValue> {
     let number = number(setting)?;
     let mut place = json;
     let mut reached = String::new();
-    // `Quantity::of` has seen to it that a path is made of keys and of places in lists.
+    // `Quantity::of` has checked that the path consists of keys and indices.
     for step in setting
         .path
         .split('.')
@@ -199,7 +199,7 @@ fn put(json: &mut Value, setting: &Setting) -> Result<(), RefusedValue> {
     Ok(())
 }
 
-/// A whole number without a point: counts are read so, and other numbers as well.
+/// Writes a whole number without a decimal point, which counts need and other numbers accept.
 fn number(setting: &Setting) -> Result<Number, RefusedValue> {
     const EXACT: f64 = 9e15;
     let value = setting.value;
@@ -239,7 +239,7 @@ mod tests {
         set.map_err(|error| error.to_string())
     }
 
-    /// The same as the scene with these numbers typed in.
+    /// A scene with these numbers in SI units is the same.
     #[test]
     fn numbers_with_units_are_those_typed_in_si() {
         let texts = [

@@ -1,13 +1,12 @@
-//! Units as they are written: `mm`, `kN/mm`, `g/cm³`, `N·s/m`, `1/K`.
+//! Units in text form: `mm`, `kN/mm`, `g/cm³`, `N·s/m`, `1/K`.
 //!
-//! A unit is a factor to SI and the powers of the base units that it is made of. Two units of the same powers
-//! measure the same quantity. An angle counts as a base unit of its own, so that revolutions per minute
-//! are not taken for hertz.
+//! A unit is a factor to SI and powers of base units. Units of the same powers measure the same quantity. The
+//! angle is a base unit of its own, so that revolutions per minute are not mistaken for hertz.
 
 /// Powers of metre, kilogram, second, kelvin and angle.
 type Powers = [f64; 5];
 
-/// A unit, as its factor to SI and its powers.
+/// Factor to SI and powers of a unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Unit {
     pub factor: f64,
@@ -45,7 +44,7 @@ const PREFIXED: [(&str, Unit); 9] = [
     u("rad", 1.0, ANGLE),
 ];
 
-/// Units that take none. They go first: `min` is no milli-inch.
+/// Units without a prefix. They are tried first, so that `min` is not read as milli-inch.
 const PLAIN: [(&str, Unit); 18] = [
     u("1", 1.0, NUMBER),
     u("%", 1e-2, NUMBER),
@@ -82,12 +81,12 @@ const PREFIXES: [(char, f64); 9] = [
 const SIGNS: [char; 7] = ['*', '·', '⋅', '/', '^', '(', ')'];
 
 impl Unit {
-    /// The unit of a text, if it is one; nothing is the unit of a mere number.
+    /// Unit of a text, if it is one; an empty text is the unit of a plain number.
     pub fn parse(text: &str) -> Option<Unit> {
         let words: Vec<&str> = text.split_whitespace().collect();
         let ends = |word: &str| word.ends_with(SIGNS);
         let begins = |word: &str| word.starts_with(SIGNS);
-        // A mere blank is no sign of a product: `m s` would be read as milliseconds.
+        // A blank does not multiply, because `m s` would be read as milliseconds.
         if (words.windows(2)).any(|pair| !ends(pair[0]) && !begins(pair[1])) {
             return None;
         }
@@ -100,7 +99,7 @@ impl Unit {
         rest.is_empty().then_some(unit)
     }
 
-    /// Whether it measures the same quantity.
+    /// Whether both units measure the same quantity.
     pub fn is_of(&self, other: &Unit) -> bool {
         self.powers == other.powers
     }
@@ -169,7 +168,7 @@ fn of_symbol(symbol: &str) -> Option<Unit> {
     })
 }
 
-/// `²`, `³`, `2`, `^2`, `**2`, `^-1`, `^(3/2)`; 1 where there is none.
+/// `²`, `³`, `2`, `^2`, `**2`, `^-1`, `^(3/2)`; 1 if there is none.
 fn exponent(rest: &mut &str) -> Option<f64> {
     for (sign, value) in [('²', 2.0), ('³', 3.0)] {
         if let Some(after) = rest.strip_prefix(sign) {
@@ -180,7 +179,7 @@ fn exponent(rest: &mut &str) -> Option<f64> {
     let marked = rest.strip_prefix('^').or_else(|| rest.strip_prefix("**"));
     *rest = marked.unwrap_or(rest);
     if let Some(inner) = rest.strip_prefix('(') {
-        // Only behind a mark: a bracket alone is a factor without a sign before it.
+        // A bracket is an exponent only after a mark; otherwise it is a factor.
         marked?;
         let (fraction, after) = inner.split_once(')')?;
         *rest = after;
@@ -202,7 +201,7 @@ mod tests {
     use super::super::quantity::QUANTITIES;
     use super::*;
 
-    /// The factors are those of the SI brochure and of NIST's guide SP 811, appendix B.
+    /// Factors of the SI brochure and of NIST's guide SP 811, appendix B.
     #[test]
     fn factors_are_those_of_the_tables_of_units() {
         let cases = [

@@ -14,7 +14,7 @@ pub enum SpectrumError {
     /// The stiffness at rest is not positive definite, so that no speed is critical
     /// in the usual sense.
     #[error(
-        "the blade is not stable at rest: its stiffness of order {order} is not positive definite; hold it by stiffer guides, or, where the forces of a cut bear on the chart (cut.chart_rpm), give smaller forces"
+        "the blade is not stable at rest: its stiffness of order {order} is not positive definite; use stiffer guides, or smaller cutting forces if the chart includes them (cut.chart_rpm)"
     )]
     UnstableAtRest {
         /// Order of the stiffness matrix.
@@ -22,7 +22,7 @@ pub enum SpectrumError {
     },
     /// The blade buckles under heat, roll tension or residual stress.
     #[error(
-        "the blade buckles at rest, in {diameters} nodal diameters: it stays flat up to {share:.3} of the stress of `membrane` and no more; lower the temperature or the residual stress there, roll it otherwise (a hot rim and roll tension work against each other), or hold the blade by stiffer guides"
+        "the blade buckles at rest, in {diameters} nodal diameters: it buckles at {share:.3} of the stress of `membrane`; lower the temperature or the residual stress there, change the roll tension (a hot rim and roll tension counteract each other), or use stiffer guides"
     )]
     Buckled {
         /// Nodal diameters of the buckling shape.
@@ -32,7 +32,7 @@ pub enum SpectrumError {
     },
     /// The numbers differ so much in size that their products overflow.
     #[error(
-        "the matrices of order {order} are not finite at {rpm} rpm; the scene's numbers are too far apart"
+        "the matrices of order {order} are not finite at {rpm} rpm; the numbers of the scene differ by too many orders of magnitude"
     )]
     NotFinite {
         /// Order of the matrix.

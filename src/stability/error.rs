@@ -20,7 +20,7 @@ pub enum AnalysisError {
     Campbell(CampbellError),
     /// The blade would yield long before the end of the sweep.
     #[error(
-        "sweep.to_rpm is {to_rpm}, but must be at most {limit_rpm:.0}: the rim would be stretched by more than a tenth there, which no elastic blade bears; end the sweep earlier, or check diameter, modulus and density"
+        "sweep.to_rpm is {to_rpm}, but must be at most {limit_rpm:.0}: beyond that the rim would be stretched by more than 10 %, which exceeds the elastic limit of any blade; end the sweep earlier, or check diameter, modulus and density"
     )]
     Overstretched {
         /// End of the sweep.
@@ -30,7 +30,7 @@ pub enum AnalysisError {
     },
     /// Waves missing from the basis become critical within the sweep.
     #[error(
-        "sweep.to_rpm is {to_rpm}, but must be below {limit_rpm:.1}: waves of {diameters} diameters, the most that the largest basis holds, are critical there; end the sweep earlier"
+        "sweep.to_rpm is {to_rpm}, but must be below {limit_rpm:.1}: waves of {diameters} nodal diameters, the most in the largest basis, are critical there; end the sweep earlier"
     )]
     Unresolved {
         /// End of the sweep.

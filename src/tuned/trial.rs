@@ -1,4 +1,4 @@
-//! The trial of the tuned constants: what half and double their value does.
+//! Trial of the tuned constants: effects of half and double their values.
 
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard};
 use crate::scene::{Accuracy, Scene, rpm};
 use crate::stability::{Analysis, AnalysisError, Instability};
 
-/// Off in all other tests, which need not lock anything.
+/// Off in all other tests, so that they need no lock.
 static ON: AtomicBool = AtomicBool::new(false);
 static TRIAL: Mutex<Trial> = Mutex::new(Trial {
     seen: BTreeSet::new(),
@@ -15,9 +15,9 @@ static TRIAL: Mutex<Trial> = Mutex::new(Trial {
 });
 
 struct Trial {
-    /// Constants that were asked for.
+    /// Constants that were used.
     seen: BTreeSet<&'static str>,
-    /// The one on trial, and its factor.
+    /// Constant on trial, and its factor.
     scaled: Option<(&'static str, f64)>,
 }
 
@@ -39,14 +39,14 @@ pub(super) fn factor(name: &'static str) -> f64 {
     }
 }
 
-/// What is compared of a saw.
+/// Compared results for a saw.
 struct Answer {
     critical_rpm: Vec<f64>,
     bands: Vec<Instability>,
-    /// Of critical speeds.
+    /// Estimated error of critical speeds.
     estimate: f64,
     mismatches: usize,
-    /// Eigenproblems: whole, projected, of few states, pairs.
+    /// Numbers of eigenproblems: full, projected, of few states, and of pairs.
     work: [usize; 4],
 }
 
@@ -71,8 +71,8 @@ impl Answer {
         })
     }
 
-    /// Largest relative difference of critical speeds, edges and peaks from another answer;
-    /// infinite where their numbers differ.
+    /// Largest relative differences of critical speeds, edges and peaks from another result; infinite if
+    /// their numbers differ.
     fn differences(&self, other: &Answer) -> [f64; 3] {
         let largest = |pairs: Vec<(f64, f64)>| {
             let off = pairs.iter().map(|(x, y)| (x - y).abs() / y.abs());
@@ -100,7 +100,7 @@ impl Answer {
     }
 }
 
-/// Saws with one pad, with two, damped, heated, on a loose collar, and free.
+/// Saws with one pad, with two, damped, heated, with a loose collar, and free.
 fn saws() -> Vec<Scene> {
     let root = env!("CARGO_MANIFEST_DIR");
     [
@@ -121,9 +121,9 @@ fn saws() -> Vec<Scene> {
     .collect()
 }
 
-/// Prints a row for each constant and factor: the largest change over the saws, and the work of
-/// all of them. The answer is right where nothing but the last digits moves; a constant is well
-/// chosen where one of its neighbours costs more or says something else.
+/// Prints a row for each constant and factor: the largest change over the saws, and the total work. A result
+/// is right if only its last digits change; a constant is well chosen if half or double its value costs more
+/// or changes the result.
 #[test]
 #[ignore = "takes minutes: run it when a constant is changed"]
 fn constants() {

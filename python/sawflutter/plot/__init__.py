@@ -1,8 +1,8 @@
 """Figures in matplotlib and plotly.
 
-Each result describes what is drawn as numbers, :meth:`sawflutter.Result.chart`; two small modules
-draw such a description, one with plotly and one with matplotlib. Colours, dashes and signs are
-those of the program's own figures.
+Each result gives its chart as numbers, see :meth:`sawflutter.Result.chart`. Two small modules draw
+a chart, one with plotly and one with matplotlib. Colours, dashes and symbols are those of the
+program's figures.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What a figure shows, as numbers and words."""
+"""Contents of a figure as numbers and text."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ LOW_TO_HIGH = ("#341842", "#3a528b", "#21918c", "#7ad151", "#f0ec78")
 
 @cache
 def colours() -> Mapping[str, str]:
-    """The colours of the program's figures, by what is drawn, as #rrggbb.
+    """Colours of the program's figures by subject, as #rrggbb.
 
     >>> from sawflutter.plot import colours
     >>> colours()["forward"]
@@ -38,7 +38,7 @@ def colours() -> Mapping[str, str]:
 
 @dataclass(frozen=True)
 class Line:
-    """A curve; NaN interrupts it."""
+    """A curve, interrupted by NaN."""
 
     x: FloatArray
     y: FloatArray
@@ -77,7 +77,7 @@ class Bars:
 
 @dataclass(frozen=True)
 class Heat:
-    """Values over two axes: one row of z for each y; NaN is left blank."""
+    """Values over two axes, with one row of z for each y; NaN is blank."""
 
     x: FloatArray
     y: FloatArray
@@ -89,7 +89,7 @@ class Heat:
 
 @dataclass(frozen=True)
 class Shade:
-    """A stretch of the x axis, coloured over the height of the panel."""
+    """An interval of the x axis, coloured over the height of the panel."""
 
     start: float
     end: float
@@ -99,7 +99,7 @@ class Shade:
 
 @dataclass(frozen=True)
 class Upright:
-    """A line across the height of the panel."""
+    """A vertical line over the height of the panel."""
 
     x: float
     colour: str
@@ -112,7 +112,7 @@ Item: TypeAlias = "Line | Points | Bars | Heat | Shade | Upright"
 
 @dataclass(frozen=True)
 class Panel:
-    """Axes and what is drawn into them."""
+    """Axes and their contents."""
 
     x_name: str
     y_name: str
@@ -139,7 +139,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Chart(Drawn):
-    """Panels one above the other, the x axis shared where they name it alike."""
+    """Panels one above the other; those with the same name of the x axis share it."""
 
     title: str
     facts: str
