@@ -63,8 +63,8 @@ impl LargerBasis {
         0.5 * softening / stiffness
     }
 
-    /// Errors of the frequencies of modes at one speed, each relative to its frequency in the body frame, ‖λq
-    /// + ΩGq‖/‖q‖. qᴴL(ω)q has the slope 2 (ω + Ωγ), qᴴGq = iγ. `None` for a mode that grows, or is about to
+    /// Errors of the frequencies of modes at one speed, each relative to its frequency in the body frame,
+    /// ‖λq + ΩGq‖/‖q‖. qᴴL(ω)q has the slope 2 (ω + Ωγ), qᴴGq = iγ. `None` for a mode that grows, or is about to
     /// coalesce with another or to stand still: there the slope vanishes, and not the frequency but the speed
     /// of this event is smooth.
     pub fn frequency_errors(

@@ -17,9 +17,9 @@ pub struct Harmonic {
     pub tension: DMatrix<f64>,
     /// Largest negative eigenvalue of K_σ in magnitude, which is rounding.
     pub shortfall: f64,
-    /// Weights of the waves at rest, in 1/s²: a term that is small compared with them is negligible. T = B(0)
-    /// + σ, which is positive, and more for waves so stiff that a large share of their stiffness has no
-    /// effect.
+    /// Weights of the waves at rest, in 1/s²: a term that is small compared with them is negligible.
+    /// T = B(0) + σ, which is positive, and more for waves so stiff that a large share of their stiffness
+    /// has no effect.
     pub weights: Vec<f64>,
     /// σ.
     pub shift: f64,
