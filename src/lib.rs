@@ -43,8 +43,9 @@ pub mod check;
 pub mod cli;
 pub mod deflect;
 pub mod document;
-#[cfg(feature = "explore")]
-mod explore;
+#[cfg(feature = "page")]
+#[doc(hidden)]
+pub mod explore;
 pub mod figure;
 pub mod fit;
 pub mod gap;

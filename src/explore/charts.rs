@@ -2,10 +2,10 @@
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
+use super::desk::Clock;
 use super::reply::{Refusal, SavedFile};
 use super::told::Told;
 use super::under_way::UnderWay;
@@ -15,14 +15,24 @@ use crate::scene::{Accuracy, Scene};
 use crate::stability::{Analysis, AnalysisOptions, Detail};
 
 /// Accuracy with which a diagram is requested.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fidelity {
     /// [`DRAFT_TOLERANCE`], whatever the scene's tolerance is, and fewer speeds: for a saw that is being
     /// changed.
     Draft,
     /// The tolerance of the scene.
     Scene,
+}
+
+impl Fidelity {
+    /// The accuracy with a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "draft" => Fidelity::Draft,
+            "scene" => Fidelity::Scene,
+            _ => return None,
+        })
+    }
 }
 
 /// Tolerance of critical speeds and frequencies at rest: errors are smaller than the width of the lines, and
@@ -41,8 +51,8 @@ struct Chart<'a> {
 }
 
 /// The latest diagrams of every page, for requests of modes.
-#[derive(Default)]
 pub struct Charts {
+    clock: Clock,
     kept: Mutex<Kept>,
     /// Diagrams that are being computed.
     pub under_way: UnderWay,
@@ -70,12 +80,26 @@ const OF_A_PAGE: usize = 3;
 const OF_ALL: usize = 48;
 
 impl Charts {
+    /// No diagrams yet.
+    pub fn new(clock: Clock) -> Self {
+        Charts {
+            clock,
+            kept: Mutex::default(),
+            under_way: UnderWay::default(),
+        }
+    }
+
+    /// Begins with another identifier than 1.
+    pub fn number_from(&self, number: usize) {
+        self.kept().made = number.saturating_sub(1);
+    }
+
     /// Computes a diagram for a page and keeps it for requests of modes; returns JSON.
     ///
     /// # Errors
     /// [`Refusal`] if the scene is refused or the computation fails or is cancelled.
     pub fn chart(&self, page: &str, scene: &str, fidelity: Fidelity) -> Result<String, Refusal> {
-        let started = Instant::now();
+        let started = (self.clock)();
         let mut scene = Scene::from_json(scene)?;
         let detail = match fidelity {
             Fidelity::Draft => {
@@ -101,7 +125,7 @@ impl Charts {
         let report = Arc::new(report);
         let of_scene = (fidelity == Fidelity::Scene).then(|| report.clone());
         let chart = self.keep(page, analysis, of_scene);
-        let milliseconds = 1e3 * started.elapsed().as_secs_f64();
+        let milliseconds = (self.clock)() - started;
         serde_json::to_string(&Chart {
             chart,
             milliseconds,
@@ -199,7 +223,7 @@ mod tests {
     /// Requests of other pages do not remove the diagram of a page.
     #[test]
     fn charts_are_kept_for_each_page_apart() {
-        let charts = Charts::default();
+        let charts = Charts::new(|| 0.0);
         let scene = serde_json::to_string(Scene::paper().file()).unwrap();
         let ask = |page: &str| charts.chart(page, &scene, Fidelity::Draft).unwrap();
         let first = ask("one");
@@ -222,7 +246,7 @@ mod tests {
     /// The file of a kept diagram equals that of a new computation, and solves nothing.
     #[test]
     fn a_file_is_made_of_the_chart_that_is_kept() {
-        let charts = Charts::default();
+        let charts = Charts::new(|| 0.0);
         let scene = Scene::paper().edited(|file| file.accuracy = Accuracy::Draft);
         let scene = serde_json::to_string(scene.unwrap().file()).unwrap();
         charts.chart("one", &scene, Fidelity::Scene).unwrap();

@@ -5,16 +5,24 @@
 //! functions as on the command line.
 
 mod charts;
+mod desk;
 mod examples;
+#[cfg(feature = "explore")]
 mod guard;
+#[cfg(feature = "explore")]
 mod job;
 mod mode;
+#[cfg(feature = "explore")]
 mod page;
+#[cfg(feature = "explore")]
 mod pages;
 mod reply;
+#[cfg(feature = "explore")]
 mod server;
 mod task;
 mod told;
 mod under_way;
 
+pub use desk::{Answer, Clock, Desk, Question};
+#[cfg(feature = "explore")]
 pub use server::{Options, serve};

@@ -2,26 +2,25 @@
 
 use std::convert::Infallible;
 use std::net::{Ipv4Addr, SocketAddr};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
+use std::time::Instant;
 
 use axum::Router;
 use axum::body::Body;
 use axum::extract::{DefaultBodyLimit, Path, State};
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{HeaderMap, StatusCode, Uri, header};
 use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use futures_util::stream::unfold;
 use tokio::net::TcpListener;
 
-use super::charts::{Charts, Fidelity};
+use super::desk::{Answer, Desk, Question};
 use super::guard::{Door, guard};
 use super::job::Jobs;
+use super::page;
 use super::pages::Pages;
-use super::reply::{Refusal, SavedFile, Start};
-use super::task::{Meter, Task};
-use super::{mode, page};
-use crate::fit::Measurement;
+use super::reply::Refusal;
 use crate::scene::{MAX_SCENE_BYTES, Scene};
 use crate::spectrum::SpectrumError;
 
@@ -48,17 +47,22 @@ pub enum ExploreError {
     Serve(#[from] std::io::Error),
 }
 
+/// Clock of a computer.
+fn milliseconds() -> f64 {
+    static BEGUN: OnceLock<Instant> = OnceLock::new();
+    1e3 * BEGUN.get_or_init(Instant::now).elapsed().as_secs_f64()
+}
+
 /// State common to all routes.
 #[derive(Clone)]
-pub struct Desk {
-    start: Arc<Start>,
+struct ServedDesk {
+    answers: Arc<Desk>,
     jobs: Jobs,
     /// Queue of tasks, which take longer than a diagram; diagrams do not wait for it.
     tasks: Jobs,
     /// Queue of influences, which take about as long as a diagram. They do not wait for tasks, because
     /// waiting requests would occupy connections that diagrams need.
     influences: Jobs,
-    charts: Arc<Charts>,
     pages: Arc<Pages>,
 }
 
@@ -83,12 +87,11 @@ pub fn serve(
         };
         let listener = TcpListener::bind(address).await.map_err(refused)?;
         let port = listener.local_addr()?.port();
-        let desk = Desk {
-            start: Arc::new(Start::new(scene)),
+        let desk = ServedDesk {
+            answers: Arc::new(Desk::new(scene, milliseconds)),
             jobs: Jobs::default(),
             tasks: Jobs::default(),
             influences: Jobs::default(),
-            charts: Arc::default(),
             pages: Arc::default(),
         };
         let pages = desk.pages.clone();
@@ -105,43 +108,45 @@ pub fn serve(
     served
 }
 
-fn router(desk: Desk, door: Door) -> Router {
+fn router(desk: ServedDesk, door: Door) -> Router {
+    let waiting_in = |queue: Queue| {
+        move |State(desk): State<ServedDesk>, uri: Uri, headers: HeaderMap, body: String| {
+            asked(desk, queue, uri, headers, body)
+        }
+    };
+    let at_once = waiting_in(Queue::None);
+    let drawn = waiting_in(Queue::Charts);
+    let weighed = waiting_in(Queue::Influences);
     Router::new()
         .route("/", get(|| async { page::file("index.html") }))
         .route(
             "/page/{name}",
             get(|Path(name): Path<String>| async move { page::file(&name) }),
         )
-        .route("/start", get(start))
+        .route("/start", get(at_once.clone()))
+        .route("/read", post(at_once.clone()))
+        .route("/measured", post(at_once.clone()))
+        .route("/mode", post(at_once))
+        .route("/chart/{fidelity}", post(drawn.clone()))
+        .route("/save/{name}", post(drawn))
+        .route("/influence", post(weighed))
+        .route("/task/{task}", post(task))
         .route("/alive", post(alive))
         .route("/leave", post(leave))
-        .route("/read", post(read))
-        .route("/measured/{name}", post(measured))
         .route("/jobs", get(jobs))
         .route("/progress", get(progress))
-        .route("/chart/{fidelity}", post(chart))
-        .route("/mode", post(mode_shape))
-        .route("/task/{task}", post(task))
-        .route("/influence", post(influence))
-        .route("/save/{name}", post(save))
         .layer(DefaultBodyLimit::max(MAX_SCENE_BYTES as usize))
         .layer(from_fn_with_state(door, guard))
         .with_state(desk)
 }
 
-/// Sends the initial data of the page: scene, schema, colours.
-async fn start(State(desk): State<Desk>) -> Response {
-    json(StatusCode::OK, &*desk.start)
-}
-
 /// Sends the numbers of completed and cancelled computations, with which tests check that nothing outdated is
 /// computed.
-async fn jobs(State(desk): State<Desk>) -> Response {
+async fn jobs(State(desk): State<ServedDesk>) -> Response {
     let [finished, stopped] = desk.jobs.counts();
-    json(
-        StatusCode::OK,
+    sent(Answer::json(
         &serde_json::json!({ "finished": finished, "stopped": stopped }),
-    )
+    ))
 }
 
 /// Header with the name of the page.
@@ -155,44 +160,73 @@ fn text(headers: &HeaderMap, name: &str) -> String {
 }
 
 /// Sends the stage of the page's diagram that is being computed; null if there is none.
-async fn progress(State(desk): State<Desk>, headers: HeaderMap) -> Response {
-    let stage = desk.charts.under_way.stage(&text(&headers, PAGE));
+async fn progress(State(desk): State<ServedDesk>, headers: HeaderMap) -> Response {
+    let stage = desk.answers.charts.under_way.stage(&text(&headers, PAGE));
     let stage = stage
         .map(|stage| serde_json::json!({ "what": stage.what, "done": stage.done, "of": stage.of, "eigenproblems": stage.eigenproblems }));
-    json(StatusCode::OK, &stage)
+    sent(Answer::json(&stage))
 }
 
-/// Sends the diagram of a scene.
-async fn chart(
-    State(desk): State<Desk>,
-    Path(fidelity): Path<Fidelity>,
+/// Which requests wait for which.
+#[derive(Clone, Copy)]
+enum Queue {
+    /// Diagrams and files.
+    Charts,
+    Influences,
+    /// What takes no time.
+    None,
+}
+
+/// Sends the answer to a request.
+async fn asked(
+    desk: ServedDesk,
+    queue: Queue,
+    uri: Uri,
     headers: HeaderMap,
-    scene: String,
+    body: String,
 ) -> Response {
-    let charts = desk.charts.clone();
-    let page = text(&headers, PAGE);
-    let work = move || charts.chart(&page, &scene, fidelity);
-    match desk.jobs.run(work).await {
-        Some(Ok(text)) => json_text(StatusCode::OK, text),
-        Some(Err(refusal)) => refused(&refusal),
-        None => StatusCode::SERVICE_UNAVAILABLE.into_response(),
+    let question = question(&uri, &headers, body);
+    let answers = desk.answers.clone();
+    let work = move || answers.answer(&question, |_| ());
+    let answer = match queue {
+        Queue::Charts => desk.jobs.run(work).await,
+        Queue::Influences => desk.influences.run(work).await,
+        Queue::None => Some(work()),
+    };
+    answer.map_or_else(|| StatusCode::SERVICE_UNAVAILABLE.into_response(), sent)
+}
+
+fn question(uri: &Uri, headers: &HeaderMap, body: String) -> Question {
+    Question {
+        path: uri.path().trim_start_matches('/').to_owned(),
+        page: text(headers, PAGE),
+        chart: text(headers, CHART),
+        body,
     }
 }
 
-/// Sends a mode of an earlier diagram.
-async fn mode_shape(State(desk): State<Desk>, asked: String) -> Response {
-    match mode::answer(&desk.charts, &asked) {
-        Ok(found) => json(StatusCode::OK, &found),
-        Err(refusal) => refused(&refusal),
-    }
+fn sent(answer: Answer) -> Response {
+    let status = StatusCode::from_u16(answer.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
+    let kind = [(header::CONTENT_TYPE, answer.media_type)];
+    (status, kind, answer.content).into_response()
 }
 
 /// Sends progress and then the result, line by line; the task is cancelled when the connection closes.
-async fn task(State(desk): State<Desk>, Path(task): Path<Task>, asked: String) -> Response {
+async fn task(
+    State(desk): State<ServedDesk>,
+    uri: Uri,
+    headers: HeaderMap,
+    body: String,
+) -> Response {
+    let question = question(&uri, &headers, body);
     let (tell, told) = tokio::sync::mpsc::unbounded_channel();
     let job = async move {
-        let work = move || task.run(&asked, &Meter::new(tell));
-        last_line(desk.tasks.run(work).await)
+        let answers = desk.answers.clone();
+        // Errors are ignored, because the receiver may have closed.
+        let work = move || answers.answer(&question, move |line| drop(tell.send(line)));
+        let done = desk.tasks.run(work).await.map(|answer| answer.content);
+        done.and_then(|line| String::from_utf8(line).ok())
+            .unwrap_or_else(cancelled)
     };
     let lines = unfold((Some(Box::pin(job)), told), |(job, mut told)| async move {
         let mut job = job?;
@@ -207,86 +241,19 @@ async fn task(State(desk): State<Desk>, Path(task): Path<Task>, asked: String) -
     (kind, Body::from_stream(lines)).into_response()
 }
 
-fn last_line(done: Option<Result<String, Refusal>>) -> String {
-    let refusal = match done {
-        Some(Ok(answer)) => return answer,
-        Some(Err(refusal)) => refusal,
-        None => Refusal::of(&SpectrumError::Cancelled),
-    };
-    serde_json::json!({ "refusal": refusal }).to_string()
-}
-
-/// Sends the derivatives of an earlier diagram by the numbers of its scene.
-async fn influence(State(desk): State<Desk>, asked: String) -> Response {
-    let charts = desk.charts.clone();
-    let work = move || charts.influence(&asked);
-    match desk.influences.run(work).await {
-        Some(Ok(found)) => json(StatusCode::OK, &found),
-        Some(Err(refusal)) => refused(&refusal),
-        None => StatusCode::SERVICE_UNAVAILABLE.into_response(),
-    }
-}
-
-/// Sends a file as `sawflutter analyze` writes it for the scene.
-async fn save(
-    State(desk): State<Desk>,
-    Path(name): Path<String>,
-    headers: HeaderMap,
-    scene: String,
-) -> Response {
-    let Some(kind) = SavedFile::named(&name) else {
-        return StatusCode::NOT_FOUND.into_response();
-    };
-    let charts = desk.charts.clone();
-    let chart = text(&headers, CHART).parse().unwrap_or_default();
-    let work = move || charts.file(kind, chart, &scene);
-    match desk.jobs.run(work).await {
-        Some(Ok(content)) => ([(header::CONTENT_TYPE, kind.media_type())], content).into_response(),
-        Some(Err(refusal)) => refused(&refusal),
-        None => StatusCode::SERVICE_UNAVAILABLE.into_response(),
-    }
-}
-
-fn refused(refusal: &Refusal) -> Response {
-    json(StatusCode::UNPROCESSABLE_ENTITY, refusal)
-}
-
-fn json(status: StatusCode, value: &impl serde::Serialize) -> Response {
-    match serde_json::to_string(value) {
-        Ok(text) => json_text(status, text),
-        Err(_) => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
-    }
-}
-
-fn json_text(status: StatusCode, text: String) -> Response {
-    (status, [(header::CONTENT_TYPE, "application/json")], text).into_response()
-}
-
-/// Reads a scene as the command line does, with comments, and returns it as plain JSON.
-async fn read(scene: String) -> Response {
-    match Scene::from_json(&scene) {
-        Ok(scene) => json(StatusCode::OK, scene.file()),
-        Err(error) => refused(&error.into()),
-    }
-}
-
-/// Reads a table of measured frequencies as `sawflutter fit` does, and returns it as a block of a scene.
-async fn measured(Path(name): Path<String>, table: String) -> Response {
-    match Measurement::from_csv(&name, &table) {
-        Ok(measurement) => json(StatusCode::OK, &measurement.as_scene_block()),
-        Err(error) => refused(&Refusal::of(&error)),
-    }
+fn cancelled() -> String {
+    serde_json::json!({ "refusal": Refusal::of(&SpectrumError::Cancelled) }).to_string()
 }
 
 /// Registers an open page by its name.
-async fn alive(State(desk): State<Desk>, page: String) -> StatusCode {
+async fn alive(State(desk): State<ServedDesk>, page: String) -> StatusCode {
     desk.pages.seen(page);
     StatusCode::NO_CONTENT
 }
 
 /// Removes a page that is being closed.
-async fn leave(State(desk): State<Desk>, page: String) -> StatusCode {
+async fn leave(State(desk): State<ServedDesk>, page: String) -> StatusCode {
     desk.pages.left(&page);
-    desk.charts.forget(&page);
+    desk.answers.charts.forget(&page);
     StatusCode::NO_CONTENT
 }

@@ -2,10 +2,10 @@
 //! figures.
 
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
+use super::desk::Clock;
 use super::reply::Refusal;
 use crate::figure::{Figure, Figures, growing_map};
 use crate::fit::{self, Fit, FitError, Measurement};
@@ -19,8 +19,7 @@ use crate::transient::{Cutting, RunningUp, TransientError};
 use crate::washboarding::{Washboard, WashboardError};
 
 /// A command of the program.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Task {
     /// `sawflutter cut`.
     Cut,
@@ -53,46 +52,49 @@ pub struct Asked {
 }
 
 /// Interval between progress messages.
-const PAUSE: Duration = Duration::from_millis(100);
+const PAUSE_MS: f64 = 100.0;
 /// Interval between intermediate figures, each of which is drawn anew.
-const FIGURE_PAUSE: Duration = Duration::from_millis(400);
+const FIGURE_PAUSE_MS: f64 = 400.0;
 
 /// Sends the progress of a task.
-pub struct Meter {
-    tell: tokio::sync::mpsc::UnboundedSender<String>,
-    told: Mutex<Option<Instant>>,
-    drawn: Mutex<Option<Instant>>,
+pub struct Meter<'a> {
+    tell: &'a (dyn Fn(String) + Send + Sync),
+    clock: Clock,
+    told: Mutex<Option<f64>>,
+    drawn: Mutex<Option<f64>>,
 }
 
-/// Whether the interval has passed; if so, it starts again.
-fn is_due(last: &Mutex<Option<Instant>>, pause: Duration) -> bool {
-    let mut last = last.lock().unwrap_or_else(|e| e.into_inner());
-    let is_due = last.is_none_or(|last| last.elapsed() >= pause);
-    if is_due {
-        *last = Some(Instant::now());
-    }
-    is_due
-}
-
-impl Meter {
-    /// Sends progress through a channel, line by line.
-    pub fn new(tell: tokio::sync::mpsc::UnboundedSender<String>) -> Self {
+impl<'a> Meter<'a> {
+    /// Sends progress line by line.
+    pub fn new(tell: &'a (dyn Fn(String) + Send + Sync), clock: Clock) -> Self {
         Meter {
             tell,
+            clock,
             told: Mutex::default(),
             drawn: Mutex::default(),
         }
     }
 
+    /// Whether the interval has passed; if so, it starts again.
+    fn is_due(&self, last: &Mutex<Option<f64>>, pause_ms: f64) -> bool {
+        let mut last = last.lock().unwrap_or_else(|e| e.into_inner());
+        let now = (self.clock)();
+        let is_due = last.is_none_or(|last| now - last >= pause_ms);
+        if is_due {
+            *last = Some(now);
+        }
+        is_due
+    }
+
     fn show(&self, what: &str, done: usize, of: usize) {
-        if is_due(&self.told, PAUSE) {
+        if self.is_due(&self.told, PAUSE_MS) {
             self.send(serde_json::json!({ "what": what, "done": done, "of": of }));
         }
     }
 
     /// Sends an intermediate figure, unless it cannot be drawn yet.
     fn draw(&self, figure: impl FnOnce() -> Option<Figure>) {
-        if !is_due(&self.drawn, FIGURE_PAUSE) {
+        if !self.is_due(&self.drawn, FIGURE_PAUSE_MS) {
             return;
         }
         let Some(figure) = figure() else { return };
@@ -103,8 +105,7 @@ impl Meter {
     }
 
     fn send(&self, line: serde_json::Value) {
-        // Errors are ignored, because the receiver may have closed.
-        let _ = self.tell.send(line.to_string());
+        (self.tell)(line.to_string());
     }
 }
 
@@ -120,11 +121,24 @@ struct Answer<'a, R> {
 }
 
 impl Task {
+    /// The task with the name of its command.
+    pub fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "cut" => Task::Cut,
+            "runup" => Task::Runup,
+            "washboard" => Task::Washboard,
+            "fit" => Task::Fit,
+            "place" => Task::Place,
+            "study" => Task::Study,
+            _ => return None,
+        })
+    }
+
     /// Runs a request; returns JSON.
     ///
     /// # Errors
     /// [`Refusal`] if the scene is refused or the computation fails or is cancelled.
-    pub fn run(self, asked: &str, meter: &Meter) -> Result<String, Refusal> {
+    pub fn run(self, asked: &str, meter: &Meter<'_>) -> Result<String, Refusal> {
         let asked: Asked = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
         let scene = Scene::from_json(&asked.scene.to_string())?;
         match self {
@@ -161,7 +175,7 @@ fn refused(error: TransientError) -> Refusal {
     Refusal::of(&error)
 }
 
-fn cut(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
+fn cut(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
     let runs = scene.needed_cut()?.runs_at(&[])?;
     let progress = |done, of| meter.show("points of the map", done, of);
     let cutting = Cutting::new(scene, &runs, &progress).map_err(refused)?;
@@ -169,7 +183,7 @@ fn cut(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
     answer(&report, report.summary(), None)
 }
 
-fn runup(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
+fn runup(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
     scene.needed_runup()?;
     let progress = |done, of| meter.show("steps", done, of);
     let found = RunningUp::new(scene, &progress).map_err(refused)?;
@@ -177,7 +191,7 @@ fn runup(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
     answer(&report, report.summary(), None)
 }
 
-fn washboard(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
+fn washboard(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
     let cut = scene.needed_washboarding()?;
     let run = cut.at_rpm(scene.needed_operating_rpm(None)?)?;
     let progress = |done, of| meter.show("speeds", done, of);
@@ -187,7 +201,7 @@ fn washboard(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
     answer(&report, report.summary(), None)
 }
 
-fn fit(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
+fn fit(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
     let measurement = Measurement::of_scene(scene.needed_measured()?);
     let options = fit::Options::default().checked(&measurement)?;
     let freed = Freed::to_fit(scene, &[])?;
@@ -197,7 +211,7 @@ fn fit(scene: &Scene, meter: &Meter) -> Result<String, Refusal> {
     answer(&report, report.summary(), Some(&report.scene))
 }
 
-fn place(scene: &Scene, asked: &Asked, meter: &Meter) -> Result<String, Refusal> {
+fn place(scene: &Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     let goal = match asked.window {
         false => Goal::FlutterSpeed,
         true => Goal::window_of(scene)?,
@@ -215,7 +229,7 @@ fn place(scene: &Scene, asked: &Asked, meter: &Meter) -> Result<String, Refusal>
     answer(&report, report.summary(), Some(&report.scene))
 }
 
-fn study(scene: Scene, asked: &Asked, meter: &Meter) -> Result<String, Refusal> {
+fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     let file = StudyFile::from_json(&asked.study.to_string());
     let file = file.map_err(|error| Refusal::of(&error))?;
     let study = Study::new(scene, file).map_err(|error| Refusal::of(&error))?;

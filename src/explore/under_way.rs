@@ -11,11 +11,20 @@ use crate::spectrum::{Progress, Stage};
 pub struct UnderWay {
     begun: AtomicUsize,
     stages: Stages,
+    told: Option<Tell>,
 }
+
+/// What is called with every stage.
+type Tell = Arc<dyn Fn(Stage) + Send + Sync>;
 
 type Stages = Arc<Mutex<HashMap<String, (usize, Stage)>>>;
 
 impl UnderWay {
+    /// Calls a function with every stage, too.
+    pub fn on_stage(&mut self, tell: impl Fn(Stage) + Send + Sync + 'static) {
+        self.told = Some(Arc::new(tell));
+    }
+
     /// Stage of the diagram of a page; `None` if none is being computed.
     pub fn stage(&self, page: &str) -> Option<Stage> {
         locked(&self.stages).get(page).map(|(_, stage)| *stage)
@@ -31,7 +40,7 @@ impl UnderWay {
         work: impl FnOnce() -> T + Send,
     ) -> Result<T, rayon::ThreadPoolBuildError> {
         let number = 1 + self.begun.fetch_add(1, Ordering::Relaxed);
-        let (stages, page_of) = (self.stages.clone(), page.to_owned());
+        let (stages, page_of, told) = (self.stages.clone(), page.to_owned(), self.told.clone());
         locked(&stages).insert(page_of.clone(), (number, Stage::default()));
         let progress = Progress::new(move |stage| {
             // A cancelled computation may still be ending.
@@ -39,6 +48,9 @@ impl UnderWay {
                 && latest.0 == number
             {
                 latest.1 = stage;
+            }
+            if let Some(told) = &told {
+                told(stage);
             }
         });
         let done = progress.watched(work);

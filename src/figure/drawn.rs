@@ -118,7 +118,7 @@ impl Report {
     }
 
     /// The Campbell diagram as numbers, without texts for each point.
-    #[cfg(feature = "explore")]
+    #[cfg(feature = "page")]
     pub(crate) fn campbell_chart(&self) -> ChartData {
         campbell::chart(self, false)
     }
@@ -245,7 +245,7 @@ impl Figures for StudyReport {
 }
 
 /// The map of a placement in progress; that of a finished one is a figure of its report with the same name.
-#[cfg(feature = "explore")]
+#[cfg(feature = "page")]
 pub(crate) fn growing_map(growing: &crate::report::GrowingMapEntry) -> Figure {
     Figure {
         names: PlaceReport::NAMES[0],

@@ -29,7 +29,7 @@ mod drawn_tests;
 mod draws;
 mod fit;
 mod gap;
-#[cfg(feature = "explore")]
+#[cfg(feature = "page")]
 mod growing_map;
 mod heading;
 mod heat;
@@ -61,7 +61,7 @@ mod written;
 pub use axis::Spread;
 pub use campbell::CampbellView;
 pub use chart_data::{AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright};
-#[cfg(feature = "explore")]
+#[cfg(feature = "page")]
 pub(crate) use drawn::growing_map;
 pub use drawn::{Figure, Figures, tradeoff};
 pub use palette::Hue;

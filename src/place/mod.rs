@@ -45,7 +45,7 @@ use crate::stability::ChosenBasis;
 
 pub use demands::{Demands, Goal, Options, Tolerances};
 use growing::Grower;
-#[cfg(feature = "explore")]
+#[cfg(feature = "page")]
 pub(crate) use growing::GrowingMap;
 pub(crate) use growing::Watch;
 pub(crate) use map::Map;

@@ -18,7 +18,7 @@ mod event_shape;
 mod excitation;
 mod fit;
 mod gap;
-#[cfg(feature = "explore")]
+#[cfg(feature = "page")]
 mod growing;
 mod in_cut;
 mod membrane;
@@ -52,7 +52,7 @@ pub use self::event_shape::{EventShapeEntry, ShapeOccasion};
 pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
 pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};
 pub use self::gap::{AtAmplitudeEntry, DeviationEntry, GapReport};
-#[cfg(feature = "explore")]
+#[cfg(feature = "page")]
 pub(crate) use self::growing::GrowingMapEntry;
 pub use self::in_cut::{IdlingEntry, InCutEntry};
 pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry};

@@ -55,7 +55,7 @@ pub use membrane::{MembraneFile, RollBandFile, TemperatureFile, TemperatureRow};
 pub(crate) use needed::speed_rad_per_s;
 pub use parameter::Parameter;
 pub(crate) use profile::Profile;
-#[cfg(any(test, feature = "explore"))]
+#[cfg(any(test, feature = "page"))]
 pub(crate) use quantity::QUANTITIES;
 pub use quantity::Quantity;
 #[cfg(feature = "cli")]

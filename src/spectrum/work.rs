@@ -65,8 +65,21 @@ impl Cancellation {
         progress: &Progress,
         work: impl FnOnce() -> T + Send,
     ) -> Result<T, rayon::ThreadPoolBuildError> {
-        let pool = self.pool_with(progress, rayon::current_num_threads())?;
-        Ok(pool.install(work))
+        match self.pool_with(progress, rayon::current_num_threads()) {
+            Ok(pool) => Ok(pool.install(work)),
+            // In a browser there is one thread only.
+            Err(_) if cfg!(target_family = "wasm") => Ok(self.on_this_thread(progress, work)),
+            Err(error) => Err(error),
+        }
+    }
+
+    fn on_this_thread<T>(&self, progress: &Progress, work: impl FnOnce() -> T) -> T {
+        let before = (CURRENT.replace(self.clone()), Progress::current());
+        progress.enter();
+        let done = work();
+        CURRENT.set(before.0);
+        before.1.enter();
+        done
     }
 
     /// Threads of which this is the current flag, with the progress callback of this thread.

@@ -41,16 +41,16 @@ impl Study {
         };
         let threads = threads.unwrap_or_else(rayon::current_num_threads);
         let stop = &Cancellation::current();
+        let alone = || match stop.pool(1) {
+            Ok(alone) => alone.install(work),
+            // If the system refuses another thread, the existing ones compute all saws.
+            Err(_) => work(),
+        };
+        if threads == 1 {
+            return alone();
+        }
         std::thread::scope(|scope| {
-            let workers: Vec<_> = (0..threads)
-                .map(|_| {
-                    scope.spawn(|| match stop.pool(1) {
-                        Ok(alone) => alone.install(work),
-                        // If the system refuses another thread, the existing ones compute all saws.
-                        Err(_) => work(),
-                    })
-                })
-                .collect();
+            let workers: Vec<_> = (0..threads).map(|_| scope.spawn(alone)).collect();
             workers
                 .into_iter()
                 .try_for_each(|worker| match worker.join() {

@@ -9,8 +9,8 @@ use crate::text::shown_to;
 
 /// Whether a saw can run at its operating speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "explore", derive(serde::Serialize))]
-#[cfg_attr(feature = "explore", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "page", derive(serde::Serialize))]
+#[cfg_attr(feature = "page", serde(rename_all = "snake_case"))]
 pub enum Answer {
     /// The saw is stable and keeps the 85 % rule.
     Runs,

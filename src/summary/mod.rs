@@ -23,7 +23,7 @@ mod whirl;
 
 use std::fmt::Write;
 
-#[cfg(feature = "cli")]
+#[cfg(any(feature = "cli", feature = "page"))]
 pub use self::answer::Answer;
 pub use self::answer::answer;
 use crate::report::Report;

@@ -53,7 +53,7 @@ export async function read(text) {
 
 // A table of measured frequencies as the program reads it, as the `measured` block of a scene.
 export async function measured(name, table) {
-  const answer = await post(`measured/${encodeURIComponent(name)}`, table);
+  const answer = await post("measured", JSON.stringify({ name, table }));
   return answer.json();
 }
 

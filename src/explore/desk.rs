@@ -1,0 +1,187 @@
+//! What the page asks for, answered without a server: one request, one answer.
+
+use serde::{Deserialize, Serialize};
+
+use super::charts::{Charts, Fidelity};
+use super::mode;
+use super::reply::{Refusal, SavedFile, Start};
+use super::task::{Meter, Task};
+use crate::fit::Measurement;
+use crate::scene::Scene;
+use crate::spectrum::Stage;
+
+/// Milliseconds since some beginning.
+pub type Clock = fn() -> f64;
+
+/// A request of the page.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Question {
+    /// What is asked for: `start`, `chart/draft`, `chart/scene`, `mode`, `influence`, `save/NAME`, `task/NAME`,
+    /// `read` or `measured`.
+    pub path: String,
+    /// Name of the page.
+    #[serde(default)]
+    pub page: String,
+    /// Identifier of the diagram that the page shows, if any.
+    #[serde(default)]
+    pub chart: String,
+    /// The content of the request.
+    #[serde(default)]
+    pub body: String,
+}
+
+/// An answer, by the status and media type of HTTP.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    /// 200; 422 with a refusal; 400, 404 or 500.
+    pub status: u16,
+    /// Media type of the content.
+    pub media_type: &'static str,
+    /// The content.
+    pub content: Vec<u8>,
+}
+
+const JSON: &str = "application/json";
+const OK: u16 = 200;
+const BAD_REQUEST: u16 = 400;
+const NOT_FOUND: u16 = 404;
+const REFUSED: u16 = 422;
+const FAILED: u16 = 500;
+
+impl Answer {
+    fn empty(status: u16) -> Self {
+        Answer {
+            status,
+            media_type: "text/plain",
+            content: Vec::new(),
+        }
+    }
+
+    pub(super) fn json(value: &impl Serialize) -> Self {
+        Self::with_status(OK, value)
+    }
+
+    fn with_status(status: u16, value: &impl Serialize) -> Self {
+        match serde_json::to_vec(value) {
+            Ok(content) => Answer {
+                status,
+                media_type: JSON,
+                content,
+            },
+            Err(_) => Self::empty(FAILED),
+        }
+    }
+
+    fn of<T>(found: Result<T, Refusal>, answer: impl FnOnce(T) -> Answer) -> Self {
+        match found {
+            Ok(found) => answer(found),
+            Err(refusal) => Self::with_status(REFUSED, &refusal),
+        }
+    }
+}
+
+/// A table of measured frequencies.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Table {
+    name: String,
+    table: String,
+}
+
+/// Answers requests, and keeps the diagrams that later ones are about.
+pub struct Desk {
+    start: Start,
+    clock: Clock,
+    /// The diagrams.
+    pub(super) charts: Charts,
+}
+
+impl Desk {
+    /// A desk that begins with a scene.
+    pub fn new(scene: &Scene, clock: Clock) -> Self {
+        Desk {
+            start: Start::new(scene),
+            clock,
+            charts: Charts::new(clock),
+        }
+    }
+
+    /// Calls a function with every stage of diagrams that are computed.
+    pub fn on_stage(mut self, tell: impl Fn(Stage) + Send + Sync + 'static) -> Self {
+        self.charts.under_way.on_stage(tell);
+        self
+    }
+
+    /// Numbers diagrams from another number than 1 on, if an earlier desk has used the others.
+    pub fn numbered_from(self, number: usize) -> Self {
+        self.charts.number_from(number);
+        self
+    }
+
+    /// The answer to a request; `tell` is called with the progress of a task, line by line.
+    pub fn answer(&self, asked: &Question, tell: impl Fn(String) + Send + Sync) -> Answer {
+        let Question {
+            path,
+            page,
+            chart,
+            body,
+        } = asked;
+        let (what, name) = path.split_once('/').unwrap_or((path, ""));
+        match what {
+            "start" => Answer::json(&self.start),
+            "chart" => match Fidelity::named(name) {
+                Some(fidelity) => {
+                    Answer::of(self.charts.chart(page, body, fidelity), |text| Answer {
+                        status: OK,
+                        media_type: JSON,
+                        content: text.into_bytes(),
+                    })
+                }
+                None => Answer::empty(BAD_REQUEST),
+            },
+            "mode" => Answer::of(mode::answer(&self.charts, body), |mode| Answer::json(&mode)),
+            "influence" => Answer::of(self.charts.influence(body), |found| Answer::json(&found)),
+            "save" => match SavedFile::named(name) {
+                Some(kind) => {
+                    let chart = chart.parse().unwrap_or_default();
+                    Answer::of(self.charts.file(kind, chart, body), |content| Answer {
+                        status: OK,
+                        media_type: kind.media_type(),
+                        content,
+                    })
+                }
+                None => Answer::empty(NOT_FOUND),
+            },
+            "read" => Answer::of(Scene::from_json(body).map_err(Refusal::from), |scene| {
+                Answer::json(scene.file())
+            }),
+            "measured" => Answer::of(measured(body), |block| Answer::json(&block)),
+            "task" => match Task::named(name) {
+                Some(task) => Answer {
+                    status: OK,
+                    media_type: "application/x-ndjson",
+                    content: self.last_line(task, body, tell).into_bytes(),
+                },
+                None => Answer::empty(NOT_FOUND),
+            },
+            _ => Answer::empty(NOT_FOUND),
+        }
+    }
+
+    /// Does a task; its answer or refusal is the last line of what is told.
+    fn last_line(&self, task: Task, body: &str, tell: impl Fn(String) + Send + Sync) -> String {
+        match task.run(body, &Meter::new(&tell, self.clock)) {
+            Ok(answer) => answer,
+            Err(refusal) => serde_json::json!({ "refusal": refusal }).to_string(),
+        }
+    }
+}
+
+/// A table of measured frequencies as a block of a scene, read as `sawflutter fit` does.
+fn measured(body: &str) -> Result<crate::scene::Measured, Refusal> {
+    let Table { name, table } = serde_json::from_str(body).map_err(|error| Refusal::of(&error))?;
+    let measurement = Measurement::from_csv(&name, &table);
+    let measurement = measurement.map_err(|error| Refusal::of(&error))?;
+    Ok(measurement.as_scene_block())
+}
