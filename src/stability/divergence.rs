@@ -18,6 +18,11 @@ pub(super) fn divergence(
     range: (f64, f64),
 ) -> Result<Vec<Found>, SpectrumError> {
     let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
+    let mut signatures = signatures.to_vec();
+    for speed in unseen(&signatures, &critical, coalescences) {
+        signatures.push(evaluator.at(speed)?);
+    }
+    signatures.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     let is_unstable = |index: usize| !signatures[index].real.is_empty();
     let mut bands = Vec::new();
     let mut start = None;
@@ -40,6 +45,29 @@ pub(super) fn divergence(
         }
     }
     Ok(bands)
+}
+
+/// Speeds at which divergence may pause between two signatures: two real λ coalesce, continue as flutter and
+/// split again, or pass zero before others do. The result has the middle between every two neighbouring edges
+/// without a signature between them.
+fn unseen(signatures: &[Signature], critical: &[f64], coalescences: &[f64]) -> Vec<f64> {
+    let mut edges: Vec<(f64, Edge)> = Vec::new();
+    edges.extend(critical.iter().map(|&speed| (speed, Edge::Critical)));
+    edges.extend(coalescences.iter().map(|&speed| (speed, Edge::Coalescence)));
+    edges.sort_by(|x, y| x.0.total_cmp(&y.0));
+    let is_unseen = |pair: &[(f64, Edge)]| {
+        let [(from, first), (to, second)] = [pair[0], pair[1]];
+        let next = signatures.partition_point(|signature| signature.speed_rad_per_s <= from);
+        let before = next.checked_sub(1).map(|last| &signatures[last]);
+        let both = before.zip(signatures.get(next));
+        let passes = both.is_some_and(|(before, after)| {
+            after.speed_rad_per_s >= to && !before.real.is_empty() && !after.real.is_empty()
+        });
+        let is_clear = to - from > 4.0 * CRITICAL_GAP.get() * to;
+        passes && is_clear && [first, second].contains(&Edge::Coalescence)
+    };
+    let unseen = edges.windows(2).filter(|pair| is_unseen(pair));
+    unseen.map(|pair| 0.5 * (pair[0].0 + pair[1].0)).collect()
 }
 
 /// Parts of an interval that are sampled for its largest growth, in addition to the speeds of the search.
@@ -193,7 +221,39 @@ fn edge(critical: &[f64], coalescences: &[f64], stable: Option<f64>, unstable: f
 
 #[cfg(test)]
 mod tests {
+    use faer::c64;
+
     use super::*;
+    use crate::stability::signature::{Sign, SignedMode};
+
+    /// Two real λ coalesce at 3 and split at 4, between the only two signatures: one more speed is examined.
+    #[test]
+    fn where_real_eigenvalues_coalesce_and_part_unseen_one_more_speed_is_looked_at() {
+        let diverging = |speed_rad_per_s: f64| {
+            let real = SignedMode {
+                sign: Sign::Real,
+                lambda: c64::new(1.0, 0.0),
+                slope: c64::new(0.0, 0.0),
+            };
+            Signature {
+                speed_rad_per_s,
+                real: vec![real],
+                ..Signature::new(speed_rad_per_s, [].iter())
+            }
+        };
+        let both = [diverging(2.0), diverging(5.0)];
+        assert_eq!(unseen(&both, &[1.0, 6.0], &[3.0, 4.0]), [3.5]);
+        assert_eq!(unseen(&both, &[3.0], &[4.0]), [3.5]);
+        assert!(unseen(&both, &[3.0, 4.0], &[]).is_empty());
+        assert!(
+            unseen(
+                &[both[0].clone(), diverging(3.5), both[1].clone()],
+                &[],
+                &[3.0, 4.0]
+            )
+            .is_empty()
+        );
+    }
 
     /// Flutter turns into two real λ at 3, one of which passes zero at 4: divergence lasts from 3 on, not
     /// from 4.
