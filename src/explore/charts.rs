@@ -184,6 +184,7 @@ impl Charts {
     }
 
     /// Removes the diagrams of a closed page.
+    #[cfg(feature = "explore")]
     pub fn forget(&self, page: &str) {
         self.kept().latest.retain(|chart| chart.page != page);
     }

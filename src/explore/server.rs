@@ -123,11 +123,11 @@ fn router(desk: ServedDesk, door: Door) -> Router {
             "/page/{name}",
             get(|Path(name): Path<String>| async move { page::file(&name) }),
         )
-        .route("/start", get(at_once.clone()))
-        .route("/read", post(at_once.clone()))
-        .route("/measured", post(at_once.clone()))
+        .route("/start", get(at_once))
+        .route("/read", post(at_once))
+        .route("/measured", post(at_once))
         .route("/mode", post(at_once))
-        .route("/chart/{fidelity}", post(drawn.clone()))
+        .route("/chart/{fidelity}", post(drawn))
         .route("/save/{name}", post(drawn))
         .route("/influence", post(weighed))
         .route("/task/{task}", post(task))

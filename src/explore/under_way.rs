@@ -26,6 +26,7 @@ impl UnderWay {
     }
 
     /// Stage of the diagram of a page; `None` if none is being computed.
+    #[cfg(any(test, feature = "explore"))]
     pub fn stage(&self, page: &str) -> Option<Stage> {
         locked(&self.stages).get(page).map(|(_, stage)| *stage)
     }

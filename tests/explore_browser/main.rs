@@ -13,3 +13,4 @@ mod looks;
 mod pace;
 mod tabs;
 mod tasks;
+mod without_server;

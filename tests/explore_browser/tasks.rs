@@ -6,7 +6,7 @@ use crate::browser::{Page, run, same};
 
 impl Page {
     /// Asks for what a tab can compute and waits for its answer.
-    async fn compute(&self, tab: &str) {
+    pub async fn compute(&self, tab: &str) {
         self.find(&format!("#tab-{tab}"))
             .await
             .click()

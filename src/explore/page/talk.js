@@ -1,4 +1,6 @@
-// Everything that is asked of the server.
+// Everything that is asked of the program.
+
+import { ask, leave } from "./backend.js";
 
 export class Refused extends Error {
   constructor({ key, message, allowed = null }) {
@@ -12,7 +14,7 @@ export class Refused extends Error {
 const page = crypto.randomUUID();
 
 async function post(path, body, signal, shown = "") {
-  const answer = await fetch(path, { method: "POST", body, signal, headers: { "sawflutter-page": page, "sawflutter-chart": shown } });
+  const answer = await ask(path, { method: "POST", body, signal, headers: { "sawflutter-page": page, "sawflutter-chart": shown } });
   if (answer.ok) return answer;
   if (answer.status === 422) throw new Refused(await answer.json());
   const text = await answer.text();
@@ -20,7 +22,7 @@ async function post(path, body, signal, shown = "") {
 }
 
 export async function start() {
-  const answer = await fetch("start");
+  const answer = await ask("start");
   return answer.json();
 }
 
@@ -35,7 +37,7 @@ export const chart = (text, draft, signal) => post(draft ? "chart/draft" : "char
 
 // What the chart is at that is being computed; null where none is.
 export async function progress() {
-  const answer = await fetch("progress", { headers: { "sawflutter-page": page } });
+  const answer = await ask("progress", { headers: { "sawflutter-page": page } });
   return answer.json();
 }
 
@@ -91,9 +93,9 @@ const BEAT_MS = 2000;
 // Tells the server that the page is open, and when it is closed; `onLost(lost)` whether the
 // server answers.
 export function stayConnected(onLost) {
-  const beat = () => fetch("alive", { method: "POST", body: page }).then((answer) => onLost(!answer.ok), () => onLost(true));
+  const beat = () => ask("alive", { method: "POST", body: page }).then((answer) => onLost(!answer.ok), () => onLost(true));
   beat();
   setInterval(beat, BEAT_MS);
-  addEventListener("pagehide", () => navigator.sendBeacon("leave", page));
+  addEventListener("pagehide", () => leave(page));
   addEventListener("pageshow", (event) => event.persisted && beat());
 }

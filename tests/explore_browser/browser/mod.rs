@@ -65,10 +65,34 @@ pub struct Page {
     _chromedriver: Running,
 }
 
+/// Serves a folder as it is, and nothing else.
+fn served(folder: &Path) -> (Running, String) {
+    assert!(
+        folder.join("index.html").exists(),
+        "{} is not there; web/build makes it",
+        folder.display()
+    );
+    let command = &mut Command::new("python3");
+    let server = ["-u", "-m", "http.server", "0", "--bind", "127.0.0.1"];
+    let command = command.args(server).arg("--directory").arg(folder);
+    start(command, |line| {
+        let (_, address) = line.split_once("(http://")?;
+        Some(format!("http://{}", address.split_once(')')?.0))
+    })
+}
+
 impl Page {
     pub async fn open(arguments: &[&str]) -> Self {
+        Self::at(explore(arguments)).await
+    }
+
+    /// The page that a folder holds.
+    pub async fn open_folder(folder: &Path) -> Self {
+        Self::at(served(folder)).await
+    }
+
+    async fn at((program, address): (Running, String)) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        let (program, address) = explore(arguments);
         let (chromedriver, port) = start(Command::new("chromedriver").arg("--port=0"), |line| {
             let (_, port) = line.split_once("started successfully on port ")?;
             Some(port.trim_end_matches('.').to_owned())

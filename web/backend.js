@@ -1,0 +1,105 @@
+// Where a page without a server asks: workers of this browser, in which the program runs as WebAssembly.
+
+// Tasks take minutes, and depend on no chart: charts do not wait for them.
+const CHARTS = "charts";
+const TASKS = "tasks";
+// The charts of a worker that was ended are gone: later ones have other numbers.
+const NUMBERS = 1_000_000;
+
+const compiled = fetch("page/sawflutter.wasm").then((answer) => answer.arrayBuffer()).then((bytes) => WebAssembly.compile(bytes));
+
+class Desk {
+  #worker = null;
+  #begun = 0;
+  #waiting = [];
+  #running = null;
+  // What the request that is answered is at.
+  stage = null;
+
+  // Answers one request after the other. One that is taken back is ended with its worker.
+  ask(question, signal) {
+    return new Promise((resolve, reject) => {
+      const job = { question, resolve, reject, lines: null };
+      if (question.path.startsWith("task/")) this.#stream(job);
+      signal?.addEventListener("abort", () => this.#takeBack(job, signal.reason));
+      if (signal?.aborted) this.#fail(job, signal.reason);
+      else this.#waiting.push(job);
+      this.#next();
+    });
+  }
+
+  // The progress of a task comes before its answer.
+  #stream(job) {
+    const start = (controller) => (job.lines = controller);
+    job.resolve(new Response(new ReadableStream({ start })));
+  }
+
+  #fail(job, reason) {
+    if (job.lines) job.lines.error(reason);
+    else job.reject(reason);
+  }
+
+  #takeBack(job, reason) {
+    const waits = this.#waiting.indexOf(job);
+    if (waits >= 0) this.#waiting.splice(waits, 1);
+    else if (this.#running !== job) return;
+    else this.#end();
+    this.#fail(job, reason);
+    this.#next();
+  }
+
+  #end() {
+    this.#worker?.terminate();
+    [this.#worker, this.#running, this.stage] = [null, null, null];
+  }
+
+  async #next() {
+    if (this.#running || this.#waiting.length === 0) return;
+    const job = (this.#running = this.#waiting.shift());
+    const module = await compiled.catch((error) => this.#fail(job, error));
+    if (this.#running !== job || !module) return;
+    if (!this.#worker) this.#begin(module);
+    this.#worker.postMessage({ question: job.question });
+  }
+
+  #begin(module) {
+    this.#worker = new Worker("page/worker.js");
+    this.#worker.onmessage = ({ data }) => this.#told(data);
+    this.#worker.postMessage({ module, first: 1 + NUMBERS * this.#begun++ });
+  }
+
+  #told({ stage, line, answer, failure }) {
+    const job = this.#running;
+    if (stage) this.stage = JSON.parse(stage);
+    if (!job) return;
+    if (line) job.lines?.enqueue(new TextEncoder().encode(`${line}\n`));
+    if (!answer && failure === undefined) return;
+    [this.#running, this.stage] = [null, null];
+    if (failure !== undefined) {
+      // What has failed once is begun anew.
+      this.#end();
+      this.#fail(job, new Error(failure));
+    } else if (job.lines) {
+      job.lines.enqueue(answer.content);
+      job.lines.enqueue(new TextEncoder().encode("\n"));
+      job.lines.close();
+    } else {
+      job.resolve(new Response(answer.content, { status: answer.status, headers: { "content-type": answer.media } }));
+    }
+    this.#next();
+  }
+}
+
+const desks = { [CHARTS]: new Desk(), [TASKS]: new Desk() };
+
+export async function ask(path, options = undefined) {
+  const { body = "", signal = undefined, headers = {} } = options ?? {};
+  if (path === "alive") return new Response(null, { status: 204 });
+  if (path === "progress") return Response.json(desks[CHARTS].stage);
+  const header = (name) => String(headers[`sawflutter-${name}`] ?? "");
+  const question = { path, page: header("page"), chart: header("chart"), body };
+  return desks[path.startsWith("task/") ? TASKS : CHARTS].ask(question, signal);
+}
+
+// No server is there that would wait for the page.
+export const leave = () => true;

@@ -1,0 +1,92 @@
+//! The live page without a server: its requests are answered by this module, which runs as WebAssembly in a worker of
+//! the browser.
+//!
+//! The worker writes a request as JSON to the buffer of [`reserve`] and calls [`answer`]; the content of the answer
+//! stays at [`content`] until the next request.
+
+use std::cell::RefCell;
+
+use sawflutter::explore::{Answer, Desk, Question};
+use sawflutter::scene::Scene;
+
+#[link(wasm_import_module = "page")]
+unsafe extern "C" {
+    /// The clock of the browser.
+    safe fn milliseconds() -> f64;
+    /// Takes a line of the progress of a task.
+    safe fn line(pointer: *const u8, length: usize);
+    /// Takes the stage of a diagram as JSON.
+    safe fn stage(pointer: *const u8, length: usize);
+}
+
+thread_local! {
+    static DESK: RefCell<Option<Desk>> = const { RefCell::new(None) };
+    static REQUEST: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
+    static ANSWER: RefCell<Option<Answer>> = const { RefCell::new(None) };
+}
+
+fn clock() -> f64 {
+    milliseconds()
+}
+
+/// Begins to answer; diagrams are numbered from `first` on.
+#[unsafe(no_mangle)]
+pub extern "C" fn begin(first: usize) {
+    let desk = Desk::new(&Scene::paper(), clock).on_stage(|at| {
+        let text = serde_json::json!({
+            "what": at.what, "done": at.done, "of": at.of, "eigenproblems": at.eigenproblems,
+        });
+        let text = text.to_string();
+        stage(text.as_ptr(), text.len());
+    });
+    DESK.set(Some(desk.numbered_from(first)));
+}
+
+/// Room for a request.
+#[unsafe(no_mangle)]
+pub extern "C" fn reserve(length: usize) -> *mut u8 {
+    REQUEST.with_borrow_mut(|request| {
+        request.clear();
+        request.resize(length, 0);
+        request.as_mut_ptr()
+    })
+}
+
+/// Answers the request; returns the status. 0 before [`begin`], and for a request that is none.
+#[unsafe(no_mangle)]
+pub extern "C" fn answer() -> u32 {
+    let question = REQUEST.with_borrow(|request| serde_json::from_slice::<Question>(request));
+    let told = |text: String| line(text.as_ptr(), text.len());
+    let answer = DESK.with_borrow(|desk| Some(desk.as_ref()?.answer(&question.ok()?, told)));
+    let status = answer.as_ref().map_or(0, |answer| answer.status.into());
+    ANSWER.set(answer);
+    status
+}
+
+/// Where the content of the answer is.
+#[unsafe(no_mangle)]
+pub extern "C" fn content() -> *const u8 {
+    of_answer(|answer| answer.content.as_ptr()).unwrap_or_default()
+}
+
+/// Its length.
+#[unsafe(no_mangle)]
+pub extern "C" fn content_length() -> usize {
+    of_answer(|answer| answer.content.len()).unwrap_or_default()
+}
+
+/// Where the media type of the answer is.
+#[unsafe(no_mangle)]
+pub extern "C" fn media_type() -> *const u8 {
+    of_answer(|answer| answer.media_type.as_ptr()).unwrap_or_default()
+}
+
+/// Its length.
+#[unsafe(no_mangle)]
+pub extern "C" fn media_type_length() -> usize {
+    of_answer(|answer| answer.media_type.len()).unwrap_or_default()
+}
+
+fn of_answer<T>(get: impl FnOnce(&Answer) -> T) -> Option<T> {
+    ANSWER.with_borrow(|answer| answer.as_ref().map(get))
+}
