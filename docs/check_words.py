@@ -50,9 +50,9 @@ def texts(path: Path) -> Iterator[tuple[int, str]]:
 def files() -> Iterator[Path]:
     yield from (ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md"))
     for path in sorted((ROOT / "docs").rglob("*.md")):
-        if path.name not in ("language.md", "command-line.md"):
+        if path.name != "language.md":
             yield path
-    yield from (path for path in sorted((ROOT / "src").rglob("*.rs")) if path.parent.name != "cli")
+    yield from sorted((ROOT / "src").rglob("*.rs"))
 
 
 def main() -> int:

@@ -37,10 +37,10 @@ pub struct Arguments {
         default_value_t = 0.85,
         allow_negative_numbers = true, value_parser = number)]
     margin: f64,
-    /// Least flutter speed
+    /// Lower limit of the flutter speed
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     min_flutter_rpm: Option<f64>,
-    /// Least first critical speed
+    /// Lower limit of the first critical speed
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     min_critical_rpm: Option<f64>,
     /// Largest speed of the rim

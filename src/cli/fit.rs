@@ -23,7 +23,7 @@ Examples:
     --free blade.material.density_kg_per_m3
 
 measured.csv: a speed in rpm, then frequencies in Hz, ascending; blank where a
-mode was not seen. They are held against the lowest computed ones. A first line
+mode was not seen. They are compared with the lowest computed ones. A first line
 like rpm,f1,f2 names the columns, in any order; semicolons with decimal commas
 and tabs are read too.
 The calibrated scene is fitted-scene.json.";

@@ -55,19 +55,19 @@ enum Command {
     /// Run up under a lateral force: deflection and response; runup.json and figures
     #[command(after_help = runup::EXAMPLES)]
     Runup(runup::Arguments),
-    /// Where does the blade stand when it leans, and when does it jump? deflect.json and a figure
+    /// How far does the blade lean, and at which speeds does it jump? deflect.json and a figure
     #[command(after_help = deflect::EXAMPLES)]
     Deflect(deflect::Arguments),
     /// How tight may the guides be? Chart over the amplitude, deflection over the gap; gap.json, a figure
     #[command(after_help = gap::EXAMPLES)]
     Gap(gap::Arguments),
-    /// Do the teeth set the blade swinging, each on the surface left by the one before?
+    /// Does washboarding grow: teeth that cut the wavy surface of the last passage?
     #[command(after_help = washboard::EXAMPLES)]
     Washboard(washboard::Arguments),
-    /// Hold a saw against limits: exit code 0 if it keeps them, 1 if not
+    /// Compare a saw with limits: exit code 0 if it keeps them, 1 if not
     #[command(after_help = check::EXAMPLES)]
     Check(check::Arguments),
-    /// Change a saw by hand on a page in the browser, and watch its chart move
+    /// Change a saw by hand on a page in the browser, which computes its chart again
     #[cfg(feature = "explore")]
     #[command(after_help = explore::EXAMPLES)]
     Explore(explore::Arguments),
@@ -83,7 +83,7 @@ enum Command {
     /// Compare saws: Campbell diagrams one over the other, a table; compare.json and a figure
     #[command(after_help = compare::EXAMPLES)]
     Compare(compare::Arguments),
-    /// Measure what digits cost: time against true error; tradeoff.json, a figure
+    /// Measure run time against true error; tradeoff.json, a figure
     #[command(after_help = tradeoff::EXAMPLES)]
     Tradeoff(tradeoff::Arguments),
     /// Write the matrices of a saw as NumPy files
@@ -104,7 +104,7 @@ Examples:
   sawflutter cut                        # is it stable in the wood?
   sawflutter check --operating-rpm 1250 # does it keep the 85 % rule?
   sawflutter explore --open             # drag the guides in your browser
-  sawflutter runup                      # what does it do on the way up?
+  sawflutter runup                      # how does it vibrate as it speeds up?
   sawflutter deflect                    # how far does it lean?
   sawflutter schema > scene.schema.json # let your editor complete scene keys
 

@@ -18,14 +18,14 @@ Examples:
     --free \"guides[0].angle_deg=-90..-20\" --min-critical-rpm 1500
   sawflutter place --goal window # widest window around operating_rpm
   sawflutter place --radius-tolerance-m 0.0005 --angle-tolerance-deg 0.2
-The best saw is placed-scene.json; hold it against `check` and `cut`.
+The best saw is placed-scene.json; try it with `check` and `cut`.
 
 Every saw counts as the worst of those whose numbers are off by the tolerances
 of production, by default 2 mm of a radius, 1 degree of an angle, 10 % of a
 stiffness or damping, 1 % of other numbers.
 
-Exit code: 0 done, 1 no saw tried keeps the limit at the worst of its
-tolerances, 2 the input was refused or the run failed.";
+Exit code: 0 done, 1 no tried saw keeps the limit within all its tolerances,
+2 the input was refused or the run failed.";
 
 #[derive(Args)]
 pub struct Arguments {
@@ -38,7 +38,7 @@ pub struct Arguments {
     /// What is to be made large
     #[arg(long, value_name = "NAME", default_value = "flutter")]
     goal: GoalName,
-    /// Least lowest critical speed
+    /// Lower limit of the lowest critical speed
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     min_critical_rpm: Option<f64>,
     /// Saws spread over the bounds at first

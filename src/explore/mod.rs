@@ -25,4 +25,4 @@ mod under_way;
 
 pub use desk::{Answer, Clock, Desk, Question};
 #[cfg(feature = "explore")]
-pub use server::{Options, serve};
+pub use server::{ExploreError, Options, serve};
