@@ -5,6 +5,7 @@ use std::fmt::Write;
 use super::{WIDTH, shortened, unusual_numbers, wrapped};
 use crate::report::{CutCriterion, CutReport, CutRunEntry, CutVerdict, Verdict};
 use crate::stretched::LARGEST_SLOPE;
+use crate::text::fixed;
 use crate::transient::LINEAR_THICKNESSES;
 
 impl CutReport {
@@ -87,9 +88,9 @@ fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
         let hertz = entry.frequency_hz;
         writeln!(
             text,
-            "  {:<25} {:>9.3} {:>10}  {}{}",
+            "  {:<25} {:>9} {:>10}  {}{}",
             entry.criterion.to_string(),
-            entry.growth_per_s,
+            fixed(3, entry.growth_per_s),
             hertz.map_or("-".into(), |hz| format!("{hz:.2}")),
             in_capitals(entry.verdict),
             remark(run, entry.criterion)

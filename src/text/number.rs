@@ -26,9 +26,23 @@ pub fn shown_to(digits: usize, value: f64) -> String {
     }
 }
 
+/// A number with the given number of decimals; a zero has no sign, because that is rounding.
+pub fn fixed(decimals: usize, value: f64) -> String {
+    let text = format!("{value:.decimals$}");
+    let is_zero = text.bytes().all(|byte| b"-0.".contains(&byte));
+    let unsigned = text.strip_prefix('-').filter(|_| is_zero);
+    unsigned.map_or_else(|| text.clone(), str::to_owned)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::shown;
+    use super::{fixed, shown};
+
+    #[test]
+    fn a_zero_has_no_sign() {
+        let found = [-0.0, -4e-4, 4e-4, -5.1e-4, -2.0].map(|value| fixed(3, value));
+        assert_eq!(found, ["0.000", "0.000", "0.000", "-0.001", "-2.000"]);
+    }
 
     #[test]
     fn numbers_are_short_and_nothing_typed_is_lost() {
