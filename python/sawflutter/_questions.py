@@ -364,7 +364,7 @@ class Questions(Searches):
         >>> pad = {"guides[0].contact": "one_sided", "guides[0].gap_m": 4e-5}
         >>> saw = sf.Scene.paper().replace({**pad, "sweep.to_rpm": 1700, "operating_rpm": 1000})
         >>> r = saw.run_gap(force_n=2.0, max_deviation_mm=0.3, accuracy="draft")
-        >>> r.free.critical_rpm[0] < r.linear.critical_rpm[0]
+        >>> bool(r.free.critical_rpm[0] < r.linear.critical_rpm[0])
         True
         """
         ask = partial(_native.gap, force_n=force_n, rpm=rpm, max_deviation_mm=max_deviation_mm)
