@@ -182,6 +182,14 @@ class GapResults(Result, GapReport):
         ------
         ImportError
             Where pandas is missing: it says how it is installed.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> pad = {"guides[0].contact": "one_sided", "guides[0].gap_m": 4e-5}
+        >>> saw = sf.Scene.paper().replace({**pad, "sweep.to_rpm": 1700, "operating_rpm": 1000})
+        >>> list(saw.run_gap(accuracy="draft").to_dataframe())
+        ['gap_factor', 'force_n', 'deflection_m', 'largest_deflection_m']
         """
         found = self.deviation
         rows = [

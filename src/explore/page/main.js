@@ -328,12 +328,15 @@ function wire() {
     if (redo) state.redo();
     if (undo || redo) event.preventDefault();
   });
-  const recolour = (onPaper) => {
+  // The scheme may change while the page is printed.
+  let onPaper = false;
+  const recolour = (printed = onPaper) => {
+    onPaper = printed;
     colours = publish(begun.colours, onPaper);
     charts.setColours(colours);
     pinned.setColours(colours);
   };
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => recolour(false));
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => recolour());
   addEventListener("beforeprint", () => recolour(true));
   addEventListener("afterprint", () => recolour(false));
   by("print").addEventListener("click", () => print());
