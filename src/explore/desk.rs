@@ -163,7 +163,7 @@ impl Desk {
                     media_type: "application/x-ndjson",
                     content: self.last_line(task, body, tell).into_bytes(),
                 },
-                None => Answer::empty(NOT_FOUND),
+                None => Answer::empty(BAD_REQUEST),
             },
             _ => Answer::empty(NOT_FOUND),
         }

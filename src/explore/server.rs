@@ -21,6 +21,7 @@ use super::job::Jobs;
 use super::page;
 use super::pages::Pages;
 use super::reply::Refusal;
+use super::task::Task;
 use crate::scene::{MAX_SCENE_BYTES, Scene};
 use crate::spectrum::SpectrumError;
 
@@ -162,8 +163,6 @@ fn text(headers: &HeaderMap, name: &str) -> String {
 /// Sends the stage of the page's diagram that is being computed; null if there is none.
 async fn progress(State(desk): State<ServedDesk>, headers: HeaderMap) -> Response {
     let stage = desk.answers.charts.under_way.stage(&text(&headers, PAGE));
-    let stage = stage
-        .map(|stage| serde_json::json!({ "what": stage.what, "done": stage.done, "of": stage.of, "eigenproblems": stage.eigenproblems }));
     sent(Answer::json(&stage))
 }
 
@@ -214,10 +213,14 @@ fn sent(answer: Answer) -> Response {
 /// Sends progress and then the result, line by line; the task is cancelled when the connection closes.
 async fn task(
     State(desk): State<ServedDesk>,
+    Path(name): Path<String>,
     uri: Uri,
     headers: HeaderMap,
     body: String,
 ) -> Response {
+    if Task::named(&name).is_none() {
+        return StatusCode::BAD_REQUEST.into_response();
+    }
     let question = question(&uri, &headers, body);
     let (tell, told) = tokio::sync::mpsc::unbounded_channel();
     let job = async move {

@@ -210,6 +210,7 @@ fn bad_and_boundless_requests_are_refused() {
         ("GET /page/../../Cargo.toml", 404),
         ("POST /save/passwd", 404),
         ("POST /chart/exact", 400),
+        ("POST /task/passwd", 400),
         ("GET /chart/draft", 405),
     ] {
         assert_eq!(server.ask(line, &[], &paper()).status, status, "{line}");

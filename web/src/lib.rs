@@ -33,11 +33,9 @@ fn clock() -> f64 {
 #[unsafe(no_mangle)]
 pub extern "C" fn begin(first: usize) {
     let desk = Desk::new(&Scene::paper(), clock).on_stage(|at| {
-        let text = serde_json::json!({
-            "what": at.what, "done": at.done, "of": at.of, "eigenproblems": at.eigenproblems,
-        });
-        let text = text.to_string();
-        stage(text.as_ptr(), text.len());
+        if let Ok(text) = serde_json::to_string(&at) {
+            stage(text.as_ptr(), text.len());
+        }
     });
     DESK.set(Some(desk.numbered_from(first)));
 }

@@ -37,7 +37,7 @@ impl Damping {
         let dampers = plate.contact.damping();
         let retardation = proportion(plate.contact.stiffness(), dampers);
         let dampers = match (retardation, dampers) {
-            (None, Some(dampers)) => Some(Columns::new(dampers, harmonics, Kept::All)?),
+            (None, Some(dampers)) => Some(Columns::new(dampers, harmonics, Kept::Few)?),
             _ => None,
         };
         let unit = |size: usize| DMatrix::identity(size, size);
