@@ -111,6 +111,18 @@ pub fn of_option(refused: RefusedValue) -> anyhow::Error {
     RefusedValue { key, ..refused }.into()
 }
 
+/// The scene with the settings of an option.
+pub fn with_settings<'a>(
+    scene: &Scene,
+    texts: impl Iterator<Item = &'a str>,
+    option: &str,
+) -> anyhow::Result<Scene> {
+    let refused = || format!("{option} was refused");
+    let settings = texts.map(str::parse).collect::<Result<Vec<Setting>, _>>();
+    let settings = settings.with_context(refused)?;
+    scene.file().set(&settings).with_context(refused)
+}
+
 /// The number of an option.
 pub fn number(text: &str) -> Result<f64, String> {
     let point = match text.contains(',') {
@@ -142,10 +154,7 @@ impl Changes {
     /// The scene with what is asked for.
     pub fn applied(&self, mut scene: Scene) -> anyhow::Result<Scene> {
         if !self.set.is_empty() {
-            let settings = self.set.iter().map(|text| text.parse());
-            let settings = settings.collect::<Result<Vec<Setting>, _>>();
-            let settings = settings.context("--set was refused")?;
-            scene = (scene.file().set(&settings)).context("--set was refused")?;
+            scene = with_settings(&scene, self.set.iter().map(String::as_str), "--set")?;
         }
         if let Some(name) = self.accuracy {
             let accuracy = match name {

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use crate::report::{CompareReport, ComparedEntry, Report, over_common_speeds};
-use crate::scene::{Scene, Setting};
+use crate::scene::Scene;
 use crate::stability::Analysis;
 use crate::text::{Kind, OtherEncodings};
 use anyhow::{Context, anyhow};
 use clap::Args;
 
-use super::common::{Changes, Output, is_standard_input, read_text, refused};
+use super::common::{Changes, Output, is_standard_input, read_text, refused, with_settings};
 use super::page::Page;
 use super::pictures::drawn;
 use super::progress::watched;
@@ -99,7 +99,8 @@ fn saws(arguments: &Arguments) -> anyhow::Result<Vec<(String, Saw)>> {
                 "--variant {variant} is given, but the first file is a report; give its scene instead"
             ));
         };
-        let scene = varied(first, variant)?;
+        let option = format!("--variant {variant}");
+        let scene = with_settings(first, variant.split(','), &option)?;
         let label = unused(in_short(variant), &saws);
         saws.push((label, Saw::Scene(Box::new(scene))));
     }
@@ -147,14 +148,6 @@ fn read(path: &Path, changes: &Changes) -> anyhow::Result<Saw> {
     }
     let scene = Scene::from_json(&text).map_err(|error| refused(path, error.into()))?;
     Ok(Saw::Scene(Box::new(changes.applied(scene)?)))
-}
-
-fn varied(scene: &Scene, variant: &str) -> anyhow::Result<Scene> {
-    let refused = || format!("--variant {variant} was refused");
-    let settings = variant.split(',').map(|text| text.parse());
-    let settings = settings.collect::<Result<Vec<Setting>, _>>();
-    let settings = settings.with_context(refused)?;
-    scene.file().set(&settings).with_context(refused)
 }
 
 /// The last keys of the settings of a variant, with their values.

@@ -6,6 +6,7 @@ use super::inputs::inputs;
 use super::{Document, Documented, Table};
 use crate::figure::FigureError;
 use crate::scene::SceneFile;
+use crate::text::escaped;
 
 const STYLE: &str = "\
 body{font:15px/1.45 Inter,Helvetica,Arial,sans-serif;color:#20242a;max-width:1100px;margin:2em auto;padding:0 1.5em}\
@@ -132,12 +133,6 @@ fn scene(text: &mut String, scene: &SceneFile) -> std::fmt::Result {
         text,
         "<script type=\"application/json\" id=\"scene\">{json}</script>"
     )
-}
-
-fn escaped(text: &str) -> String {
-    let text = crate::text::printable(text);
-    let text = text.replace('&', "&amp;").replace('<', "&lt;");
-    text.replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]

@@ -43,7 +43,7 @@ const CERTIFICATE_ABOVE_FOOT: f64 = 32.0;
 const FACTS_ABOVE_FOOT: f64 = 14.0;
 
 /// Smaller growth rates are rounding errors of the eigenvalues.
-const NEGLIGIBLE_PER_S: f64 = 1e-3;
+pub const NEGLIGIBLE_PER_S: f64 = 1e-3;
 
 /// Data that all parts of the figure use.
 struct Chart<'a> {

@@ -1,6 +1,7 @@
 //! Campbell diagrams of several saws, one over the other, and their critical speeds and bands below.
 
 use super::axis::{draw_horizontal, draw_named, draw_vertical, proper_range};
+use super::campbell::NEGLIGIBLE_PER_S;
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::chart_data::{AxisData, ChartData, Item, Line, PanelData, Points, lines_by_look};
 use super::heading;
@@ -37,15 +38,11 @@ const SHOWN: usize = 6;
 const CRITICAL_SIZE: f64 = 7.0;
 /// Width of a band in the lower panel.
 const BAND: f64 = 9.0;
-/// Growth rates that are not rounding.
-const NEGLIGIBLE_PER_S: f64 = 1e-3;
 
 /// The saws that are drawn, with their colours.
 fn drawn(report: &CompareReport) -> impl DoubleEndedIterator<Item = (usize, &ComparedEntry, Hue)> {
     let saws = report.saws.iter().take(HUES.len()).enumerate();
     saws.map(|(place, saw)| (place, saw, HUES[place]))
-        .collect::<Vec<_>>()
-        .into_iter()
 }
 
 pub fn sheet(report: &CompareReport) -> Sheet {
@@ -119,8 +116,10 @@ pub fn chart(report: &CompareReport) -> ChartData {
         ..AxisData::new("", "")
     };
     let count = labels.len() as f64;
-    let mut facts =
-        vec!["critical speeds, bands and frequencies of".to_owned() + " " + &labels.join(", ")];
+    let mut facts = vec![format!(
+        "critical speeds, bands and frequencies of {}",
+        labels.join(", ")
+    )];
     if labels.len() < report.saws.len() {
         facts.push(format!(
             "the first {} of {} saws",

@@ -48,10 +48,9 @@ fn shown(shapes: &[EventShapeEntry]) -> Vec<&EventShapeEntry> {
             ShapeOccasion::OperatingSpeed | ShapeOccasion::AskedSpeed
         )
     };
-    let singles = shapes.iter().filter(|shape| !is_event(shape)).count();
-    let events = shapes.iter().filter(is_event);
-    let events = events.take(MOST.saturating_sub(singles));
-    let singles = shapes.iter().filter(|shape| !is_event(shape));
+    let (events, singles): (Vec<_>, Vec<_>) = shapes.iter().partition(is_event);
+    let room = MOST.saturating_sub(singles.len());
+    let events = events.into_iter().take(room);
     events.chain(singles).take(MOST).collect()
 }
 

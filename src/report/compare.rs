@@ -2,11 +2,10 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 
 use super::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry, OperatingEntry, Report};
 use crate::check::rim_stiffness_at_rest_n_per_m;
-use crate::scene::{Scene, SceneError, SceneFile, SpeedRange};
+use crate::scene::{Scene, SceneError, SceneFile, SpeedRange, in_words};
 use crate::stability::{Analysis, AnalysisError, end_of_sweep};
 
 /// `compare.json`.
@@ -59,9 +58,6 @@ pub struct DifferenceEntry {
     /// Its value in each scene, as in the file; empty where a scene has none.
     pub values: Vec<String>,
 }
-
-/// Keys that do not change what a saw does.
-const NOT_COMPARED: [&str; 3] = ["name", "notes", "measured"];
 
 impl ComparedEntry {
     /// Of a report that was computed before.
@@ -123,17 +119,9 @@ impl CompareReport {
 
 /// The keys of a scene with their values, in its order.
 fn keys(scene: &SceneFile) -> Vec<(String, String)> {
-    let entries = scene.entries().into_iter();
-    let entries = entries.filter(|(path, _)| {
-        let first = path.split(['.', '[']).next().unwrap_or_default();
-        !NOT_COMPARED.contains(&first)
-    });
-    let in_words = |value: Value| match value {
-        Value::String(text) => text,
-        other => other.to_string(),
-    };
-    entries
-        .map(|(path, value)| (path, in_words(value)))
+    let inputs = scene.inputs().into_iter();
+    inputs
+        .map(|(path, value)| (path, in_words(&value)))
         .collect()
 }
 

@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use super::{EventShapeEntry, Report};
+use crate::text::escaped;
 
 /// Names of the list and of the grids.
 pub const VTK_NAMES: [&str; 1 + PHASES] = [
@@ -135,9 +136,7 @@ fn short(value: f64) -> String {
 
 /// The name of an array, which ParaView lists.
 fn title(number: usize, shape: &EventShapeEntry) -> String {
-    let text = format!("{number:02} {:.0} rpm {}", shape.rpm, shape.name);
-    let text = text.replace('&', "&amp;").replace('<', "&lt;");
-    text.replace('"', "&quot;")
+    escaped(&format!("{number:02} {:.0} rpm {}", shape.rpm, shape.name))
 }
 
 fn array(

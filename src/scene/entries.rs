@@ -4,14 +4,27 @@ use serde_json::Value;
 
 use super::SceneFile;
 
+/// Keys that do not change what a saw does.
+const NO_INPUTS: [&str; 3] = ["name", "notes", "measured"];
+
 impl SceneFile {
-    /// Every key with a value of its own, by its JSON path, in the order of the file.
-    pub(crate) fn entries(&self) -> Vec<(String, Value)> {
+    /// Every value that may change what a saw does, by its JSON path, in the order of the file.
+    pub(crate) fn inputs(&self) -> Vec<(String, Value)> {
         let mut found = Vec::new();
-        if let Ok(json) = serde_json::to_value(self) {
-            below(json, "", &mut found);
+        let mut json = super::parameter::value(self);
+        if let Some(keys) = json.as_object_mut() {
+            keys.retain(|key, _| !NO_INPUTS.contains(&key.as_str()));
         }
+        below(json, "", &mut found);
         found
+    }
+}
+
+/// A value as a reader expects it: a text without quotation marks.
+pub(crate) fn in_words(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
     }
 }
 

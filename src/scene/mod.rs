@@ -37,6 +37,7 @@ pub use crate::text::FileError;
 pub(crate) use check::MAX_RPM;
 pub use cut::{Cut, CutRun};
 pub use cut_file::{CutFile, CutSpeedFile};
+pub(crate) use entries::in_words;
 pub use excitation::{ExcitationFile, ExcitationLine};
 pub use file::{
     Accuracy, BladeFile, ContactLaw, DampingFile, GuideFile, GuideSide, InPlane, Material,

@@ -124,15 +124,7 @@ pub const QUANTITIES: [Quantity; 83] = [
 impl Quantity {
     /// The quantity of a path such as `guides[0].radius_m`.
     pub fn of(path: &str) -> Option<&'static Self> {
-        let mut general = String::new();
-        let mut inside = false;
-        for character in path.chars() {
-            inside &= character != ']';
-            if !inside {
-                general.push(character);
-            }
-            inside |= character == '[';
-        }
+        let general = general(path);
         QUANTITIES.iter().find(|quantity| quantity.path == general)
     }
 
@@ -140,6 +132,20 @@ impl Quantity {
     pub fn is_usual(&self, value: f64) -> bool {
         value == 0.0 || (self.usual.0..=self.usual.1).contains(&value)
     }
+}
+
+/// A path with `[]` for the index of a list.
+pub(super) fn general(path: &str) -> String {
+    let mut general = String::new();
+    let mut inside = false;
+    for character in path.chars() {
+        inside &= character != ']';
+        if !inside {
+            general.push(character);
+        }
+        inside |= character == '[';
+    }
+    general
 }
 
 #[cfg(test)]

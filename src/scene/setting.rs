@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use serde_json::{Map, Number, Value};
 
-use super::quantity::{QUANTITIES, Quantity};
+use super::quantity::{QUANTITIES, Quantity, general};
 use super::unit::Unit;
 use super::{RefusedValue, Scene, SceneError, SceneFile};
 
@@ -107,13 +107,7 @@ fn split(text: &str) -> (&str, &str) {
 }
 
 fn unknown(path: &str) -> RefusedValue {
-    let general: String = {
-        let parts = path.split('[').enumerate().map(|(k, part)| match k {
-            0 => part.to_owned(),
-            _ => format!("[]{}", part.split_once(']').map_or("", |(_, rest)| rest)),
-        });
-        parts.collect()
-    };
+    let general = general(path);
     let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
     let likeness = |own: &str| {
         let whole = strsim::jaro_winkler(&general, own);

@@ -26,6 +26,10 @@ const POWER: Powers = [2.0, 1.0, -3.0, 0.0, 0.0];
 const ANGLE: Powers = [0.0, 0.0, 0.0, 0.0, 1.0];
 const TURNING: Powers = [0.0, 0.0, -1.0, 0.0, 1.0];
 const NUMBER: Powers = [0.0; 5];
+const ONE: Unit = Unit {
+    factor: 1.0,
+    powers: NUMBER,
+};
 const TURN: f64 = 2.0 * std::f64::consts::PI;
 const POUND_KG: f64 = 0.453_592_37;
 const POUND_N: f64 = POUND_KG * 9.806_65;
@@ -46,7 +50,7 @@ const PREFIXED: [(&str, Unit); 9] = [
 
 /// Units without a prefix. They are tried first, so that `min` is not read as milli-inch.
 const PLAIN: [(&str, Unit); 18] = [
-    u("1", 1.0, NUMBER),
+    ("1", ONE),
     u("%", 1e-2, NUMBER),
     u("min", 60.0, TIME),
     u("h", 3600.0, TIME),
@@ -92,7 +96,7 @@ impl Unit {
         }
         let text = words.concat();
         if text.is_empty() {
-            return Some(PLAIN[0].1);
+            return Some(ONE);
         }
         let mut rest = text.as_str();
         let unit = product(&mut rest)?;
@@ -144,13 +148,7 @@ fn power(rest: &mut &str) -> Option<Unit> {
             of_symbol(symbol)?
         }
     };
-    Some(
-        Unit {
-            factor: 1.0,
-            powers: NUMBER,
-        }
-        .times(base, exponent(rest)?),
-    )
+    Some(ONE.times(base, exponent(rest)?))
 }
 
 fn of_symbol(symbol: &str) -> Option<Unit> {
