@@ -20,6 +20,16 @@ def same(folder: Path, name: str, content: bytes) -> None:
     assert (folder / name).read_bytes() == content, f"{name} differs"
 
 
+def same_report(program: str, found: sf.Result, folder: Path, *arguments: object) -> None:
+    """The command of a result prints its summary, and writes its report and its figures."""
+    done = ran(program, found.command, *arguments, "--accuracy", "draft", "--out", folder)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.decode().startswith(found.summary())
+    same(folder, f"{found.command}.json", found.to_json().encode())
+    for picture in found.figure_names:
+        assert (folder / picture).read_bytes() == found.figure(picture), picture
+
+
 @pytest.mark.parametrize("scene", ["paper", "collar-400mm-tensioned", "free-blade", "two-pads"])
 def test_the_report_of_a_chart(
     scene: str, programs: list[str], scenes: Path, tmp_path: Path
@@ -62,14 +72,8 @@ def test_the_reports_of_cut_and_run_up(programs: list[str], scenes: Path, tmp_pa
 def test_the_report_of_deflect(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     path = scenes / "paper.json"
     found = sf.Scene.load(path).run_deflect(force_n=2.0, to_rpm=1600, accuracy="draft")
-    options = ["--force-n", 2, "--to-rpm", 1600, "--accuracy", "draft"]
     for program in programs:
-        done = ran(program, "deflect", path, *options, "--out", tmp_path)
-        assert done.returncode == 0, done.stderr
-        assert done.stdout.decode().startswith(found.summary())
-        same(tmp_path, "deflect.json", found.to_json().encode())
-        for picture in found.figure_names:
-            assert (tmp_path / picture).read_bytes() == found.figure(picture), picture
+        same_report(program, found, tmp_path, path, "--force-n", 2, "--to-rpm", 1600)
     assert len(found.to_dataframe()) > 20
 
 
@@ -79,14 +83,9 @@ def test_the_report_of_gap(programs: list[str], scenes: Path, tmp_path: Path) ->
     path = tmp_path / "saw.json"
     saw.save(path)
     found = saw.run_gap(force_n=2.0, rpm=1000, max_deviation_mm=0.3, accuracy="draft")
-    options = ["--force-n", 2, "--rpm", 1000, "--max-deviation-mm", 0.3, "--accuracy", "draft"]
+    options = ["--force-n", 2, "--rpm", 1000, "--max-deviation-mm", 0.3]
     for program in programs:
-        done = ran(program, "gap", path, *options, "--out", tmp_path)
-        assert done.returncode == 0, done.stderr
-        assert done.stdout.decode().startswith(found.summary())
-        same(tmp_path, "gap.json", found.to_json().encode())
-        for picture in found.figure_names:
-            assert (tmp_path / picture).read_bytes() == found.figure(picture), picture
+        same_report(program, found, tmp_path, path, *options)
     assert len(found.to_dataframe()) == 30
 
 
@@ -96,13 +95,7 @@ def test_the_report_of_washboarding(
     found = resaw.run_washboard(2300.0)
     path = scenes / "gallery/washboarding.json"
     for program in programs:
-        done = ran(
-            program, "washboard", path, "--rpm", 2300, "--accuracy", "draft", "--out", tmp_path
-        )
-        assert done.returncode == 0, done.stderr
-        same(tmp_path, "washboard.json", found.to_json().encode())
-        for picture in found.figure_names:
-            assert (tmp_path / picture).read_bytes() == found.figure(picture), picture
+        same_report(program, found, tmp_path, path, "--rpm", 2300)
 
 
 def test_the_report_of_a_check(programs: list[str], scenes: Path, tmp_path: Path) -> None:
@@ -117,21 +110,13 @@ def test_the_report_of_a_check(programs: list[str], scenes: Path, tmp_path: Path
         assert done.stdout.decode().strip() == check.to_json()
 
 
-def test_the_report_of_a_comparison(
-    programs: list[str], scenes: Path, tmp_path: Path
-) -> None:
+def test_the_report_of_a_comparison(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     path = scenes / "paper.json"
     saw = sf.Scene.load(path).with_accuracy("draft")
     thin = saw.replace({"blade.thickness_m": "2.6 mm"})
     found = sf.compare(saw, thin, labels=["paper", "thickness_m=2.6mm"])
-    options = ["--variant", "blade.thickness_m=2.6mm", "--accuracy", "draft"]
     for program in programs:
-        done = ran(program, "compare", path, *options, "--out", tmp_path)
-        assert done.returncode == 0, done.stderr
-        assert done.stdout.decode().startswith(found.summary())
-        same(tmp_path, "compare.json", found.to_json().encode())
-        for picture in found.figure_names:
-            assert (tmp_path / picture).read_bytes() == found.figure(picture), picture
+        same_report(program, found, tmp_path, path, "--variant", "blade.thickness_m=2.6mm")
     assert sf.load(tmp_path / "compare.json") == found
     chart = saw.run_campbell()
     by_charts = sf.compare(chart, thin.run_campbell())
