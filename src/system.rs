@@ -77,6 +77,15 @@ impl GyroscopicSystem {
         system
     }
 
+    /// The system of the whole plate inside the gaps of its pads, in which motions that nothing holds are not taken for free
+    /// ones, because the pads hold them beyond the gaps; `None` if no pad lifts off.
+    pub(crate) fn of_released(plate: &Plate) -> Option<Self> {
+        let mut system = Self::of_plate(&plate.released()?);
+        system.free_rigid.clear();
+        system.drift = None;
+        Some(system)
+    }
+
     /// The block of n nodal diameters, which is decoupled from others if the plate is axisymmetric.
     pub fn of_harmonic(plate: &Plate, n: usize) -> Self {
         let mut system = Self::of_harmonics(plate, n..=n);

@@ -1,9 +1,9 @@
 //! A blade that stretches: its equilibria, small motions about them, and the amplitude of flutter.
 //!
-//! The blade without damping has the potential V(q) = ½ qᵀK(Ω)q + U₄(q) − fᵀq with U₄ of [`Stretching`].
-//! Above the first critical speed K is indefinite: the flat blade is not a minimum of V, but a blade
-//! deflected to one side is. Each edge of a band of divergence is a pitchfork, at which two such equilibria
-//! branch from the flat one; a side force f unfolds it.
+//! The blade without damping has the potential V(q) = ½ qᵀK(Ω)q + U₄(q) − fᵀq with U₄ of
+//! [`Stretching`](crate::plate::Stretching). Above the first critical speed K is indefinite: the flat blade is
+//! not a minimum of V, but a blade deflected to one side is. Each edge of a band of divergence is a pitchfork,
+//! at which two such equilibria branch from the flat one; a side force f unfolds it.
 //!
 //! Input is a [`Plate`], held by its guides or a collar, and a number of shapes, its lowest modes at rest.
 //! Results are equilibria over speed, in metres by [`StretchedBlade::deflection_m`], the number of negative
@@ -19,6 +19,7 @@
 //! Curves of equilibria are followed by pseudo-arclength continuation (H. B. Keller, in *Applications of
 //! Bifurcation Theory*, 1977, 359–384).
 
+mod basis;
 mod branch;
 mod equilibrium;
 mod of_bands;
@@ -36,11 +37,9 @@ pub use sweep::Sweep;
 
 use faer::{Col, Mat, MatRef, Scale, Side};
 
-use crate::plate::{GapPotential, Plate, ReducedStretching, Stretching, StretchingError};
+use crate::plate::{GapPotential, Plate, ReducedStretching, StretchingError};
 use crate::scene::rpm;
-use crate::spectrum::{
-    SpectrumError, critical_speeds, frequency_scale, lowest_eigenpairs, orthonormal, split,
-};
+use crate::spectrum::SpectrumError;
 use crate::system::GyroscopicSystem;
 
 /// Reason for which a computation of a blade that stretches failed.
@@ -120,87 +119,6 @@ pub struct StretchedBlade {
 }
 
 impl StretchedBlade {
-    /// The blade in the basis of the lowest `shapes` modes at rest of the plate without damping; no side
-    /// force.
-    ///
-    /// # Errors
-    /// [`StretchedError::NotHeld`], [`StretchedError::Shapes`], [`StretchedError::Spectrum`] if eigenvectors
-    /// are not found, [`StretchedError::Stretching`].
-    pub fn new(plate: &Plate, shapes: usize) -> Result<Self, StretchedError> {
-        let plate = plate.conservative();
-        let full = held(&plate, shapes)?;
-        let order = full.order();
-        let not_found = || SpectrumError::NoConvergence { order, rpm: 0.0 };
-        let modes = full.stiffness.self_adjoint_eigen(Side::Lower);
-        let modes = modes.map_err(|_| not_found())?;
-        let basis = modes.U().subcols(0, shapes).to_owned();
-        Self::on(plate, &full, basis)
-    }
-
-    /// The blade in the basis of the lowest `modes` modes at a speed, each with both phases. Their
-    /// eigenvalues at this speed are those of the full model, as narrow flutter bands require.
-    ///
-    /// # Errors
-    /// As [`StretchedBlade::new`], and [`StretchedError::Value`].
-    pub fn at_speed(
-        plate: &Plate,
-        speed_rad_per_s: f64,
-        modes: usize,
-    ) -> Result<Self, StretchedError> {
-        finite("the speed in rad/s", speed_rad_per_s)?;
-        let plate = plate.conservative();
-        let full = held(&plate, modes)?;
-        let shift = frequency_scale(&plate);
-        let lowest = lowest_eigenpairs(&full, speed_rad_per_s, modes, shift)?;
-        let phases = lowest.into_iter().flat_map(|(_, q)| {
-            let (re, im) = split(&q);
-            [re, im]
-        });
-        let basis = orthonormal(full.order(), &phases.collect::<Vec<_>>(), INDEPENDENT);
-        Self::on(plate, &full, basis)
-    }
-
-    /// The blade in a basis for equilibria up to a speed under a force at a point: shapes that diverge at
-    /// critical speeds up to there, the static deflection under the force, and the lowest `modes` modes at
-    /// rest.
-    ///
-    /// # Errors
-    /// As [`StretchedBlade::new`], and [`StretchedError::Value`].
-    pub fn up_to(
-        plate: &Plate,
-        to_rad_per_s: f64,
-        (radius_m, angle_rad): (f64, f64),
-        modes: usize,
-    ) -> Result<Self, StretchedError> {
-        finite("the speed in rad/s", to_rad_per_s)?;
-        let plate = plate.conservative();
-        let full = held(&plate, modes)?;
-        let order = full.order();
-        let not_found = || SpectrumError::NoConvergence { order, rpm: 0.0 };
-        let rest = full.stiffness.self_adjoint_eigen(Side::Lower);
-        let rest = rest.map_err(|_| not_found())?;
-        let critical = critical_speeds(&full)?.into_iter();
-        let leaning = critical.take_while(|c| c.speed_rad_per_s <= to_rad_per_s);
-        let mut shapes: Vec<Col<f64>> = leaning.map(|c| c.shape).collect();
-        let values = plate.functions_at(radius_m, angle_rad);
-        let force = rest.U().transpose() * Col::from_fn(order, |i| values[i]);
-        let bent = rest.U() * Col::from_fn(order, |k| force[k] / rest.S()[k]);
-        shapes.push(Scale(1.0 / bent.norm_l2()) * bent);
-        shapes.extend((0..modes).map(|k| rest.U().col(k).to_owned()));
-        let basis = orthonormal(order, &shapes, INDEPENDENT);
-        Self::on(plate, &full, basis)
-    }
-
-    /// The blade in a basis of given shapes, orthonormal columns in the functions of the plate.
-    ///
-    /// # Errors
-    /// As [`StretchedBlade::new`].
-    pub(crate) fn of_shapes(plate: &Plate, shapes: Mat<f64>) -> Result<Self, StretchedError> {
-        let plate = plate.conservative();
-        let full = held(&plate, shapes.ncols())?;
-        Self::on(plate, &full, shapes)
-    }
-
     /// Relative change ‖Δq‖/‖q‖ of an equilibrium in a larger basis that contains this one.
     ///
     /// # Errors
@@ -213,47 +131,6 @@ impl StretchedBlade {
         let guess = finer.shapes.transpose() * (&self.shapes * &equilibrium.coordinates);
         let found = finer.equilibrium(equilibrium.speed_rad_per_s, Some(&guess))?;
         Ok((&found.coordinates - &guess).norm_l2() / found.coordinates.norm_l2())
-    }
-
-    /// The blade in a basis of given orthonormal shapes. If pads lift off, the lowest modes at rest inside their gaps are added.
-    fn on(plate: Plate, full: &GyroscopicSystem, shapes: Mat<f64>) -> Result<Self, StretchedError> {
-        let stretching = Stretching::new(&plate)?;
-        let Some(released) = plate.released() else {
-            return Self::with(plate, &stretching, full, shapes);
-        };
-        let mut released = GyroscopicSystem::of_plate(&released);
-        let order = released.order();
-        let not_found = |_| SpectrumError::NoConvergence { order, rpm: 0.0 };
-        let modes = released.stiffness.self_adjoint_eigen(Side::Lower);
-        let modes = modes.map_err(not_found)?;
-        let count = LEAST_RELEASED.max(shapes.ncols() / 2).min(order);
-        let own = (0..shapes.ncols()).map(|k| shapes.col(k).to_owned());
-        let of_released = (0..count).map(|k| modes.U().col(k).to_owned());
-        let all: Vec<Col<f64>> = own.chain(of_released).collect();
-        let shapes = orthonormal(order, &all, INDEPENDENT);
-        // Motions that are free within the gaps are held by the pads.
-        released.free_rigid.clear();
-        released.drift = None;
-        let gaps = GapPotential::new(&plate, shapes.as_ref());
-        let blade = Self::with(plate, &stretching, &released, shapes)?;
-        Ok(StretchedBlade { gaps, ..blade })
-    }
-
-    /// As [`StretchedBlade::on`], with a known potential.
-    fn with(
-        plate: Plate,
-        stretching: &Stretching,
-        full: &GyroscopicSystem,
-        shapes: Mat<f64>,
-    ) -> Result<Self, StretchedError> {
-        Ok(StretchedBlade {
-            system: full.project(shapes.as_ref()),
-            force: Col::zeros(shapes.ncols()),
-            stretching: ReducedStretching::new(stretching, shapes.as_ref())?,
-            gaps: None,
-            shapes,
-            plate,
-        })
     }
 
     /// Adds a lateral force at a point, fixed in space.
@@ -385,32 +262,11 @@ impl StretchedBlade {
     }
 }
 
-/// Smallest number of modes at rest within the gaps that are added to the shapes: heave, tilts, and the first
-/// of two and three diameters.
-const LEAST_RELEASED: usize = 8;
 /// Eigenvalues of ∂²V/∂p² from below zero to this share of the largest are zero: rounding leaves as much of the motions
 /// that nothing holds.
 const ROUNDING: f64 = 1e-12;
 /// The softest mode at rest of a blade that something holds is stiffer than this share of its stiffest.
 const LOOSE: f64 = 1e-11;
-
-/// Directions closer to the span of the others are omitted.
-const INDEPENDENT: f64 = 1e-7;
-
-/// The matrices of a plate, if it is held and has as many functions as requested.
-fn held(plate: &Plate, shapes: usize) -> Result<GyroscopicSystem, StretchedError> {
-    let full = GyroscopicSystem::of_plate(plate);
-    if !full.free_rigid.is_empty() {
-        return Err(StretchedError::NotHeld);
-    }
-    match (1..=full.order()).contains(&shapes) {
-        true => Ok(full),
-        false => Err(StretchedError::Shapes {
-            given: shapes,
-            most: full.order(),
-        }),
-    }
-}
 
 /// Von Kármán's strains are valid for slopes up to about this value.
 pub const LARGEST_SLOPE: f64 = 0.1;

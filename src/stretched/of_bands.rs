@@ -13,7 +13,8 @@ use crate::scene::rpm;
 use crate::spectrum::{Cancellation, SpectrumError, derivative, orthonormal, split};
 use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
-use super::{INDEPENDENT, Saturation, StretchedBlade, StretchedError, finite};
+use super::basis::INDEPENDENT;
+use super::{Saturation, StretchedBlade, StretchedError, finite};
 
 /// Flutter of a blade without damping.
 #[derive(Debug)]

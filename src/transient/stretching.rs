@@ -19,13 +19,8 @@ pub(super) fn forces(blade: &StretchedBlade) -> Vec<&dyn Force> {
 /// The linear terms of a plate on the shapes of the blade, including damping, without the stiffness of pads
 /// beyond their gaps.
 pub(super) fn system(plate: &Plate, blade: &StretchedBlade) -> GyroscopicSystem {
-    let released = plate.released();
-    let mut system = GyroscopicSystem::of_plate(released.as_ref().unwrap_or(plate));
-    if released.is_some() {
-        // Motions that are free within the gaps are held by the pads.
-        system.free_rigid.clear();
-        system.drift = None;
-    }
+    let released = GyroscopicSystem::of_released(plate);
+    let system = released.unwrap_or_else(|| GyroscopicSystem::of_plate(plate));
     system.project(blade.shapes())
 }
 
@@ -181,10 +176,8 @@ mod tests {
     fn heaving_period_s(plate: &Plate, steps_in_s: f64) -> f64 {
         let order = plate.degrees_of_freedom();
         let heave = Mat::from_fn(order, 1, |i, _| if i == 0 { 1.0 } else { 0.0 });
-        let released = GyroscopicSystem::of_plate(&plate.released().unwrap());
-        let mut system = released.project(heave.as_ref());
-        system.free_rigid.clear();
-        system.drift = None;
+        let released = GyroscopicSystem::of_released(plate).unwrap();
+        let system = released.project(heave.as_ref());
         let gaps = GapPotential::new(plate, heave.as_ref()).unwrap();
         let forces: [&dyn Force; 1] = [&gaps];
         let newmark = Newmark::new(&system, (0.0, 0.0), &[], steps_in_s).with_forces(&forces);

@@ -1,0 +1,157 @@
+//! Bases of a few shapes for a blade that stretches.
+
+use faer::linalg::solvers::SelfAdjointEigen;
+use faer::{Col, Mat, Scale, Side};
+
+use crate::plate::{GapPotential, Plate, ReducedStretching, Stretching};
+use crate::spectrum::{
+    SpectrumError, critical_speeds, frequency_scale, lowest_eigenpairs, orthonormal, split,
+};
+use crate::system::GyroscopicSystem;
+
+use super::{StretchedBlade, StretchedError, finite};
+
+/// Smallest number of modes at rest within the gaps that are added to the shapes: heave, tilts, and the first
+/// of two and three diameters.
+const LEAST_RELEASED: usize = 8;
+/// Directions closer to the span of the others are omitted.
+pub(super) const INDEPENDENT: f64 = 1e-7;
+
+impl StretchedBlade {
+    /// The blade in the basis of the lowest `shapes` modes at rest of the plate without damping; no side
+    /// force.
+    ///
+    /// # Errors
+    /// [`StretchedError::NotHeld`], [`StretchedError::Shapes`], [`StretchedError::Spectrum`] if eigenvectors
+    /// are not found, [`StretchedError::Stretching`].
+    pub fn new(plate: &Plate, shapes: usize) -> Result<Self, StretchedError> {
+        let plate = plate.conservative();
+        let full = held(&plate, shapes)?;
+        let basis = at_rest(&full)?.U().subcols(0, shapes).to_owned();
+        Self::on(plate, &full, basis)
+    }
+
+    /// The blade in the basis of the lowest `modes` modes at a speed, each with both phases. Their
+    /// eigenvalues at this speed are those of the full model, as narrow flutter bands require.
+    ///
+    /// # Errors
+    /// As [`StretchedBlade::new`], and [`StretchedError::Value`].
+    pub fn at_speed(
+        plate: &Plate,
+        speed_rad_per_s: f64,
+        modes: usize,
+    ) -> Result<Self, StretchedError> {
+        finite("the speed in rad/s", speed_rad_per_s)?;
+        let plate = plate.conservative();
+        let full = held(&plate, modes)?;
+        let shift = frequency_scale(&plate);
+        let lowest = lowest_eigenpairs(&full, speed_rad_per_s, modes, shift)?;
+        let phases = lowest.into_iter().flat_map(|(_, q)| {
+            let (re, im) = split(&q);
+            [re, im]
+        });
+        let basis = orthonormal(full.order(), &phases.collect::<Vec<_>>(), INDEPENDENT);
+        Self::on(plate, &full, basis)
+    }
+
+    /// The blade in a basis for equilibria up to a speed under a force at a point: shapes that diverge at
+    /// critical speeds up to there, the static deflection under the force, and the lowest `modes` modes at
+    /// rest.
+    ///
+    /// # Errors
+    /// As [`StretchedBlade::new`], and [`StretchedError::Value`].
+    pub fn up_to(
+        plate: &Plate,
+        to_rad_per_s: f64,
+        (radius_m, angle_rad): (f64, f64),
+        modes: usize,
+    ) -> Result<Self, StretchedError> {
+        finite("the speed in rad/s", to_rad_per_s)?;
+        let plate = plate.conservative();
+        let full = held(&plate, modes)?;
+        let order = full.order();
+        let rest = at_rest(&full)?;
+        let critical = critical_speeds(&full)?.into_iter();
+        let leaning = critical.take_while(|c| c.speed_rad_per_s <= to_rad_per_s);
+        let mut shapes: Vec<Col<f64>> = leaning.map(|c| c.shape).collect();
+        let values = plate.functions_at(radius_m, angle_rad);
+        let force = rest.U().transpose() * Col::from_fn(order, |i| values[i]);
+        let bent = rest.U() * Col::from_fn(order, |k| force[k] / rest.S()[k]);
+        shapes.push(Scale(1.0 / bent.norm_l2()) * bent);
+        shapes.extend((0..modes).map(|k| rest.U().col(k).to_owned()));
+        let basis = orthonormal(order, &shapes, INDEPENDENT);
+        Self::on(plate, &full, basis)
+    }
+
+    /// The blade in a basis of given shapes, orthonormal columns in the functions of the plate.
+    ///
+    /// # Errors
+    /// As [`StretchedBlade::new`].
+    pub(crate) fn of_shapes(plate: &Plate, shapes: Mat<f64>) -> Result<Self, StretchedError> {
+        let plate = plate.conservative();
+        let full = held(&plate, shapes.ncols())?;
+        Self::on(plate, &full, shapes)
+    }
+
+    /// The blade in a basis of given orthonormal shapes. If pads lift off, the lowest modes at rest inside their gaps are added.
+    pub(super) fn on(
+        plate: Plate,
+        full: &GyroscopicSystem,
+        shapes: Mat<f64>,
+    ) -> Result<Self, StretchedError> {
+        let stretching = Stretching::new(&plate)?;
+        let Some(released) = GyroscopicSystem::of_released(&plate) else {
+            return Self::with(plate, &stretching, full, shapes);
+        };
+        let order = released.order();
+        let modes = at_rest(&released)?;
+        let count = LEAST_RELEASED.max(shapes.ncols() / 2).min(order);
+        let own = (0..shapes.ncols()).map(|k| shapes.col(k).to_owned());
+        let of_released = (0..count).map(|k| modes.U().col(k).to_owned());
+        let all: Vec<Col<f64>> = own.chain(of_released).collect();
+        let shapes = orthonormal(order, &all, INDEPENDENT);
+        let gaps = GapPotential::new(&plate, shapes.as_ref());
+        let blade = Self::with(plate, &stretching, &released, shapes)?;
+        Ok(StretchedBlade { gaps, ..blade })
+    }
+
+    /// As [`StretchedBlade::on`], with a known potential.
+    pub(super) fn with(
+        plate: Plate,
+        stretching: &Stretching,
+        full: &GyroscopicSystem,
+        shapes: Mat<f64>,
+    ) -> Result<Self, StretchedError> {
+        Ok(StretchedBlade {
+            system: full.project(shapes.as_ref()),
+            force: Col::zeros(shapes.ncols()),
+            stretching: ReducedStretching::new(stretching, shapes.as_ref())?,
+            gaps: None,
+            shapes,
+            plate,
+        })
+    }
+}
+
+/// The matrices of a plate, if it is held and has as many functions as requested.
+fn held(plate: &Plate, shapes: usize) -> Result<GyroscopicSystem, StretchedError> {
+    let full = GyroscopicSystem::of_plate(plate);
+    if !full.free_rigid.is_empty() {
+        return Err(StretchedError::NotHeld);
+    }
+    match (1..=full.order()).contains(&shapes) {
+        true => Ok(full),
+        false => Err(StretchedError::Shapes {
+            given: shapes,
+            most: full.order(),
+        }),
+    }
+}
+
+/// The modes of a blade at rest, ascending.
+fn at_rest(system: &GyroscopicSystem) -> Result<SelfAdjointEigen<f64>, StretchedError> {
+    let order = system.order();
+    let not_found = |_| SpectrumError::NoConvergence { order, rpm: 0.0 };
+    let modes = system.stiffness.self_adjoint_eigen(Side::Lower);
+    Ok(modes.map_err(not_found)?)
+}
