@@ -181,7 +181,7 @@ class GapResults(Result, GapReport):
         Raises
         ------
         ImportError
-            Where pandas is missing: it says how it is installed.
+            If pandas is missing; the message says how to install it.
 
         Examples
         --------

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::plate::{Plate, Resolution};
+use crate::plate::Plate;
 use crate::scene::{ContactLaw, GuideFile, GuideSide, Scene};
 use crate::spectrum::{Work, critical_speeds};
 use crate::stability::{Analysis, Instability};
@@ -13,6 +13,8 @@ use super::GapError;
 /// Critical speeds, bands and flutter speed over the amplitude at the guides.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AmplitudeChart {
+    /// Smallest gap of a one-sided guide.
+    pub smallest_gap_m: f64,
     /// The blade inside all gaps, where only films act.
     pub free: AtAmplitude,
     /// Amplitudes beyond the smallest gap, ascending.
@@ -118,7 +120,7 @@ impl AmplitudeChart {
         let swept = linear.scene.swept(linear.range_rad_per_s.into())?;
         let guides = swept.file().guides.iter();
         let gaps = guides.filter(|guide| guide.contact == ContactLaw::OneSided);
-        let smallest_m = gaps
+        let smallest_gap_m = gaps
             .filter_map(|guide| guide.gap_m)
             .fold(f64::INFINITY, f64::min);
         let work = Work::of("amplitudes", SHARES.len() + 1);
@@ -131,25 +133,18 @@ impl AmplitudeChart {
         let free = at(None)?;
         let amplitudes = SHARES
             .iter()
-            .map(|share| at(Some(smallest_m * amplitude_over_gap(*share))));
+            .map(|share| at(Some(smallest_gap_m * amplitude_over_gap(*share))));
         let amplitudes = amplitudes.collect::<Result<Vec<_>, _>>()?;
         let count = free.shares.len();
         let linear_row = read(linear, None, vec![1.0; count]);
-        let resolution = linear.model.plate.resolution;
-        let half_way_m = half_way(&swept, resolution, smallest_m)?;
+        let half_way_m = half_way(linear, smallest_gap_m)?;
         Ok(AmplitudeChart {
+            smallest_gap_m,
             free,
             amplitudes,
             linear: linear_row,
             half_way_m,
         })
-    }
-
-    /// The free blade, the amplitudes, and the linear chart.
-    pub fn rows(&self) -> impl Iterator<Item = &AtAmplitude> {
-        let ends = [&self.free, &self.linear];
-        let [free, linear] = ends.map(std::iter::once);
-        free.chain(&self.amplitudes).chain(linear)
     }
 }
 
@@ -168,18 +163,17 @@ fn read(analysis: &Analysis, amplitude_m: Option<f64>, shares: Vec<f64>) -> AtAm
 }
 
 /// The amplitude at which the first critical speed is the mean of that of the free blade and that of the linear chart.
-fn half_way(
-    scene: &Scene,
-    resolution: Resolution,
-    smallest_m: f64,
-) -> Result<Option<f64>, GapError> {
-    let first = |scene: &Scene| -> Result<Option<f64>, GapError> {
-        let system = GyroscopicSystem::of_plate(&Plate::new(scene, resolution));
+fn half_way(analysis: &Analysis, smallest_gap_m: f64) -> Result<Option<f64>, GapError> {
+    // The same functions at all amplitudes, so that only the stiffness makes a difference.
+    let resolution = analysis.model.plate.resolution;
+    let at = |amplitude_m: f64| -> Result<Option<f64>, GapError> {
+        let (scene, _) = at_amplitude(&analysis.scene, amplitude_m)?;
+        let system = GyroscopicSystem::of_plate(&Plate::new(&scene, resolution));
         let critical = critical_speeds(&system)?;
         Ok(critical.first().map(|c| c.speed_rad_per_s))
     };
-    let at = |amplitude_m: f64| first(&at_amplitude(scene, amplitude_m)?.0);
-    let [Some(free), Some(linear)] = [at(0.0)?, first(scene)?] else {
+    let linear = analysis.model.critical.first();
+    let [Some(free), Some(linear)] = [at(0.0)?, linear.map(|c| c.speed_rad_per_s)] else {
         return Ok(None);
     };
     if (free / linear - 1.0).abs() < SAME {
@@ -190,10 +184,10 @@ fn half_way(
     let (mut low, mut high) = (0.0_f64, FARTHEST.ln());
     for _ in 0..HALVINGS {
         let between = 0.5 * (low + high);
-        match at(smallest_m * between.exp())?.is_some_and(is_free) {
+        match at(smallest_gap_m * between.exp())?.is_some_and(is_free) {
             true => low = between,
             false => high = between,
         }
     }
-    Ok(Some(smallest_m * high.exp()))
+    Ok(Some(smallest_gap_m * high.exp()))
 }

@@ -45,7 +45,9 @@ const GAPS: [f64; 6] = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0];
 const FORCES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
 /// Speeds of the series over the speed, from rest to the end of the sweep.
 const SPEEDS: usize = 13;
-/// Modes at rest in the basis. With 36 in the place of 24 the deflection of the built-in saw changes by less than 1 %.
+/// Modes at rest in the basis. With 36 in the place of 24, at draft accuracy, the deflections at the cut of the built-in
+/// saw with a gap of 40 µm change by 0.01 %, and those of a saw with two pads and a gap of 50 µm by less than 0.5 %,
+/// except one of thirty, which changes by 5 %.
 const MODES: usize = 24;
 
 impl DeviationMap {

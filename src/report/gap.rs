@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
 use crate::gap::{AtAmplitude, Deviation, DeviationMap, GuideGaps};
-use crate::scene::{ContactLaw, SceneFile, rpm};
+use crate::scene::{SceneFile, rpm};
 
 /// `gap.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -112,8 +112,6 @@ impl GapReport {
             flutter_speed_rpm: at.flutter_speed_rad_per_s.map(rpm),
         };
         let amplitude = &found.amplitude;
-        let guides = found.scene.file().guides.iter();
-        let gaps = guides.filter(|guide| guide.contact == ContactLaw::OneSided);
         GapReport {
             sawflutter: chart.sawflutter,
             scene: found.scene.file().clone(),
@@ -121,9 +119,7 @@ impl GapReport {
             degrees_of_freedom: chart.accuracy.degrees_of_freedom,
             from_rpm: chart.campbell.from_rpm,
             to_rpm: chart.campbell.to_rpm,
-            smallest_gap_m: gaps
-                .filter_map(|guide| guide.gap_m)
-                .fold(f64::MAX, f64::min),
+            smallest_gap_m: amplitude.smallest_gap_m,
             free: entry(&amplitude.free),
             amplitudes: amplitude.amplitudes.iter().map(entry).collect(),
             linear: entry(&amplitude.linear),
@@ -131,12 +127,6 @@ impl GapReport {
             deviation: DeviationEntry::new(&found.deviation, found.max_deviation_m),
             warnings: chart.warnings,
         }
-    }
-
-    /// The free blade, the amplitudes, and the linear chart.
-    pub fn rows(&self) -> impl Iterator<Item = &AtAmplitudeEntry> {
-        let [free, linear] = [&self.free, &self.linear].map(std::iter::once);
-        free.chain(&self.amplitudes).chain(linear)
     }
 }
 
