@@ -65,7 +65,7 @@ def split_null(schema: Schema) -> tuple[Schema, bool]:
 
 
 def literal(schema: Schema) -> str | None:
-    """The type of one of several words."""
+    """The type of one of several texts."""
     words = schema.get("enum") or [option.get("const") for option in schema.get("oneOf", [])]
     if words and all(isinstance(word, str) for word in words):
         return f"Literal[{', '.join(json.dumps(word) for word in words)}]"
@@ -73,7 +73,8 @@ def literal(schema: Schema) -> str | None:
 
 
 def ordered(schema: Schema) -> list[tuple[str, Schema, bool]]:
-    """Properties in the order of the library, what is always there first; and whether it is."""
+    """Properties in the order of the library, those that are always present first; and whether the
+    order was changed."""
     properties: dict[str, Schema] = schema.get("properties", {})
     required = [name for name in schema.get("required", []) if name in properties]
     optional = [name for name in properties if name not in required]
@@ -81,7 +82,7 @@ def ordered(schema: Schema) -> list[tuple[str, Schema, bool]]:
 
 
 class SceneTypes:
-    """TypedDicts of what a user writes."""
+    """TypedDicts for the input of a user."""
 
     def __init__(self, roots: dict[str, Schema]) -> None:
         self.definitions: dict[str, Schema] = {}
@@ -108,7 +109,7 @@ class SceneTypes:
         return plain[kind] + ending
 
     def named(self, definition: str) -> str:
-        """Writes a definition, unless it is written, and gives its name."""
+        """Writes a definition once and gives its name."""
         schema, name = self.definitions[definition], self.name(definition)
         if name in self.written:
             return name
@@ -152,7 +153,7 @@ class SceneTypes:
         return name
 
     def functional(self, name: str, schema: Schema) -> list[str]:
-        """A class with a key that Python reserves can only be written as a call."""
+        """Writes a class with a key that Python reserves, which needs the form of a call."""
         assert all(there for _, _, there in ordered(schema)), name
         parts = [f'    "{key}": {self.type_of(of)},' for key, of, _ in ordered(schema)]
         heading = f"# {schema.get('description', name)}"
@@ -161,7 +162,7 @@ class SceneTypes:
     def module(self) -> str:
         for root in ("SceneFile", "StudyFile"):
             self.named(root)
-        text = HEADER.format(title="What a scene and a study may contain, for type checkers.")
+        text = HEADER.format(title="Contents of a scene and a study, for type checkers.")
         text += "from __future__ import annotations\n\n"
         text += "from typing import Literal, TypeAlias, TypedDict\n"
         aliases = [name for name, lines in self.written.items() if "TypeAlias" in lines[0]]
@@ -177,7 +178,7 @@ class SceneTypes:
 
 
 class ReportTypes:
-    """Frozen dataclasses of what is reported."""
+    """Frozen dataclasses of a report."""
 
     def __init__(self, roots: dict[str, Schema], scenes: SceneTypes) -> None:
         self.roots = roots
@@ -264,7 +265,7 @@ class ReportTypes:
             else:
                 self.roots[command].setdefault("$defs", {})[schema["title"]] = schema
                 self.named(command, schema["title"])
-        text = HEADER.format(title="What is reported: one class for each object of the JSON.")
+        text = HEADER.format(title="Reports: one class for each object of the JSON.")
         text += "from __future__ import annotations\n\n"
         text += "from dataclasses import dataclass, field\n"
         text += "from typing import Literal, TypeAlias\n\n"

@@ -66,7 +66,7 @@ pub struct Arguments {
     page: Page,
 }
 
-/// Holds a saw against limits; whether it keeps them all.
+/// Checks a saw against limits; gives whether it keeps them all.
 pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     let scene = arguments.input.scene()?;
     let limits = limits(arguments, &scene)?;

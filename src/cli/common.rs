@@ -1,4 +1,4 @@
-//! What every command that looks at a scene has in common.
+//! Options and functions that every command with a scene shares.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ pub struct Input {
     changes: Changes,
 }
 
-/// What the command line changes in a scene.
+/// Changes of a scene by the command line.
 #[derive(Args, Default)]
 pub struct Changes {
     /// Set a number of the scene by its path, in the unit of its key or with a unit, like

@@ -160,7 +160,7 @@ fn in_short(variant: &str) -> String {
     settings.collect::<Vec<_>>().join(", ")
 }
 
-/// What a file is called: of a report the name of its folder.
+/// The name of a file's saw: for a report it is the name of its folder.
 fn label(path: &Path) -> String {
     if is_standard_input(path) {
         return "standard-input".to_owned();

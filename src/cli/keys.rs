@@ -22,7 +22,7 @@ Examples:
 pub struct Arguments {
     /// Keys whose path contains this; all by default
     word: Option<String>,
-    /// Those of a study instead
+    /// Print the keys of a study instead
     #[arg(long)]
     study: bool,
 }

@@ -180,7 +180,7 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
     .map(|()| true)
 }
 
-/// An error and its causes; a cause that is told already is not told again.
+/// An error and its causes, except causes that are already contained in the text.
 fn in_words(error: &anyhow::Error) -> String {
     let mut words = String::new();
     for cause in error.chain().map(ToString::to_string) {
@@ -223,7 +223,7 @@ mod tests {
         ours.map(words).collect()
     }
 
-    /// Whoever copies a line of `--help` gets what it promises, and no error about its words.
+    /// Each line of `--help` can be copied as it is, without an error about its arguments.
     #[test]
     fn every_example_of_help_is_a_command() {
         let program = Arguments::command();

@@ -74,7 +74,7 @@ impl OutputFolder {
         folder.lock().ok().map(|()| folder)
     }
 
-    /// What runs that were killed have left half written.
+    /// Removes the temporary files of runs that were killed.
     fn remove_leftovers(&self) {
         let entries = std::fs::read_dir(&self.path)
             .into_iter()

@@ -2,7 +2,7 @@
 
 use std::io::IsTerminal;
 
-/// What a word says.
+/// The meaning of a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Tone {
     /// All is well.

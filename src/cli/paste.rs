@@ -12,8 +12,7 @@ const RIM_SPEED_M_PER_S: f64 = 60.0;
 /// Power of a cut in each metre of depth, of the order of the paper's saw.
 const POWER_W_PER_M: f64 = 200e3;
 
-/// What a command needs of a scene; where that is missing, with a block to paste on the error
-/// stream.
+/// The input of a command from a scene. If it is missing, a block to paste is printed on the error stream.
 pub fn pasted<T>(scene: &Scene, needed: Result<T, RefusedValue>) -> anyhow::Result<T> {
     needed.map_err(|refused| {
         let (block, place) = match refused.key.as_str() {

@@ -35,7 +35,7 @@ pub struct Arguments {
     /// Without any: radius, angle and stiffness of the first guide
     #[arg(long, value_name = "PATH[=FROM..TO]")]
     free: Vec<String>,
-    /// What is to be made large
+    /// The quantity to make large
     #[arg(long, value_name = "NAME", default_value = "flutter")]
     goal: GoalName,
     /// Lower limit of the lowest critical speed

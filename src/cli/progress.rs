@@ -15,7 +15,7 @@ pub fn watched<T: Send>(work: impl FnOnce(&Progress) -> T + Send) -> anyhow::Res
     watched_with_remarks(|progress, _| work(progress))
 }
 
-/// The same of work that has remarks before its end: lines on the error stream, above the bar.
+/// Runs work with a progress bar, and prints its remarks on the error stream, above the bar.
 pub fn watched_with_remarks<T: Send>(
     work: impl FnOnce(&Progress, &(dyn Fn(&str) + Sync)) -> T + Send,
 ) -> anyhow::Result<T> {
@@ -41,7 +41,7 @@ fn show(bar: &ProgressBar, stage: Stage) {
     bar.set_message(in_words(stage));
 }
 
-/// What is done of a step, where one is known, and how many eigenproblems are solved.
+/// The progress of a step, if it is known, and the number of solved eigenproblems.
 fn in_words(stage: Stage) -> String {
     let Stage {
         what,

@@ -10,7 +10,7 @@ use anyhow::{Context, bail};
 
 /// Which Python has the package; the program that pip installs names its own.
 const PYTHON: &str = "SAWFLUTTER_PYTHON";
-/// What Python is asked before a study is sent there.
+/// A question to Python before a study is sent to it.
 const PROBE: &str = "import sawflutter, distributed; print(sawflutter.__version__)";
 
 /// Fills the log of a folder with the saws that it does not have.

@@ -13,7 +13,7 @@ use super::in_words;
 
 use crate::summary::{Answer, shortened, wrapped};
 
-/// What is written beside the folders of the scenes.
+/// Files beside the folders of the scenes.
 pub const FILES: [&str; 2] = ["scenes.csv", "scenes.json"];
 
 /// A scene in the table. What is missing was not reached within the sweep.

@@ -42,7 +42,7 @@ pub struct Arguments {
     /// Scene of the saw without deviations
     #[arg(required = true)]
     scene: Option<PathBuf>,
-    /// What varies, how, and which limits the saws have to keep
+    /// File of the numbers that vary, their distributions, and the limits of the saws
     #[arg(required = true)]
     study: Option<PathBuf>,
     #[command(flatten)]

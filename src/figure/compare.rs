@@ -24,7 +24,7 @@ const FREQUENCIES: Frame = Frame {
 const BETWEEN: f64 = 46.0;
 const ROW: f64 = 44.0;
 const BELOW: f64 = 96.0;
-/// Colours of the saws. More curves of other colours cannot be told apart.
+/// Colours of the saws. Further colours could not be distinguished.
 const HUES: [Hue; 6] = [
     Hue::Ink,
     Hue::Forward,

@@ -26,7 +26,7 @@ pub struct CompareReport {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ComparedEntry {
-    /// What it is called here: the name of its file, or what was changed in it.
+    /// Label of the saw: the name of its file, or the change of its scene.
     pub label: String,
     /// Its scene.
     pub scene: SceneFile,

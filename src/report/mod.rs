@@ -269,8 +269,8 @@ pub struct AccuracyEntry {
 pub struct WorkEntry {
     /// Eigenproblems of the full model: Krylov iterations with a factorization each, or dense ones.
     pub full_solves: usize,
-    /// Those of `full_solves` that used the block structure of the blade and the few columns of its guides,
-    /// in a time linear in the number of functions; scenes with edge loads or dampers have no such structure.
+    /// Number of `full_solves` that used the block structure of the blade and the few columns of its guides, in a time
+    /// linear in the number of functions; scenes with edge loads or dampers have no such structure.
     pub structured_solves: usize,
     /// Dense eigenproblems of the projected matrices.
     pub reduced_solves: usize,

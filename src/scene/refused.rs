@@ -11,9 +11,9 @@ pub struct RefusedValue {
     pub key: String,
     /// The value that was given.
     pub value: String,
-    /// What is allowed.
+    /// Allowed values.
     pub allowed: String,
-    /// What the user can do.
+    /// Remedy for the user.
     pub remedy: &'static str,
 }
 

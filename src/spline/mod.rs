@@ -116,7 +116,7 @@ pub enum SplineError {
         what: &'static str,
         /// The given value.
         value: f64,
-        /// What is allowed.
+        /// Allowed values.
         allowed: &'static str,
     },
     /// The vibration on the contacts is too fast for the requested duration.

@@ -15,13 +15,13 @@ use crate::plate::{Plate, Resolution};
 use crate::scene::Scene;
 use crate::spectrum::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
 
-/// How critical speeds and bands are computed.
+/// Method for critical speeds and bands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
-    /// The whole chart from a projection: what `analyze` does.
+    /// The whole chart on the reduced model, as in `analyze`.
     Reduced,
-    /// The whole chart from every eigenvalue of the full model at every speed.
+    /// The whole chart by every eigenvalue of the full model at every speed.
     Dense,
     /// Critical speeds alone.
     CriticalSpeeds,
@@ -31,22 +31,22 @@ pub enum Method {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Setting {
-    /// The way.
+    /// Method.
     pub method: Method,
     /// n_max.
     pub max_diameters: usize,
     /// J.
     pub radial_functions: usize,
-    /// Functions in all.
+    /// Number of basis functions.
     pub functions: usize,
-    /// Even speeds of the chart; 0 where none is drawn.
+    /// Number of even speeds of the chart; 0 without a chart.
     pub speeds: usize,
-    /// Least of the times measured.
+    /// Shortest of the measured times.
     pub seconds: f64,
-    /// Largest relative error of critical speeds and, in a chart, of flutter onsets,
-    /// against the largest basis.
+    /// Largest relative error of critical speeds and, in a chart, of flutter onsets, by comparison with the largest
+    /// basis.
     pub error: f64,
-    /// Whether no other chart is faster and as accurate.
+    /// Whether no other chart is faster and at least as accurate.
     pub on_front: bool,
 }
 

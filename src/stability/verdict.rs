@@ -26,13 +26,13 @@ pub const CRITICAL_MARGIN: f64 = 0.05;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum StabilityState {
-    /// Nothing that counts grows.
+    /// No instability that counts.
     Stable,
     /// A deflection grows exponentially without oscillating: λ is real and positive.
     Divergence,
     /// A vibration grows exponentially: Re λ > 0 with a frequency.
     Flutter,
-    /// Nothing was computed there.
+    /// The speed was not analysed.
     OutsideSweep,
 }
 

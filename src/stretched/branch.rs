@@ -20,13 +20,13 @@ pub struct Branch {
 /// A fold or a bifurcation of a curve of equilibria.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Turn {
-    /// What happens.
+    /// Kind of the point.
     pub kind: TurnKind,
     /// The equilibrium there, with the number of negative eigenvalues of the preceding one.
     pub equilibrium: Equilibrium,
 }
 
-/// What happens where ∂²V/∂p² is singular.
+/// Kinds of points at which ∂²V/∂p² is singular.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum TurnKind {

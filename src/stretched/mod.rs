@@ -93,7 +93,7 @@ pub enum StretchedError {
         what: &'static str,
         /// Its value.
         value: f64,
-        /// What is allowed.
+        /// Allowed values.
         allowed: &'static str,
     },
     /// An eigenproblem failed.

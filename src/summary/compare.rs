@@ -66,7 +66,7 @@ fn lowest(saw: &ComparedEntry) -> Option<f64> {
     saw.critical_speeds.first().map(|critical| critical.rpm)
 }
 
-/// What a saw differs by from the first.
+/// Writes the differences of a saw from the first.
 fn changes(text: &mut String, first: &ComparedEntry, saw: &ComparedEntry) -> std::fmt::Result {
     let percent = |value: fn(&ComparedEntry) -> Option<f64>| {
         let change = value(first)
