@@ -1,7 +1,7 @@
 //! Cost of the Krein certificate, beside the sweep that it certifies: `cargo bench`.
 //!
-//! What the certificate adds is the symmetric eigenproblem of the critical speeds on the
-//! full model; comparing two counts at each speed is free.
+//! The certificate adds the symmetric eigenproblem of the critical speeds on the full model; comparing two counts at
+//! each speed costs nothing.
 
 mod timing;
 

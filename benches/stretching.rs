@@ -1,4 +1,4 @@
-//! Cost of the potential of stretching on the basis of `design`, on 30 shapes, and of what is found with it.
+//! Cost of the potential of stretching on the basis of `design`, on 30 shapes, and of the analyses that use it.
 
 mod timing;
 

@@ -1,4 +1,5 @@
-"""Looks for words that `docs/development/language.md` forbids, in texts of the program and on pages."""
+"""Looks for words that `docs/development/language.md` forbids: in texts of the program, on pages, and in comments
+outside `src`."""
 
 from __future__ import annotations
 
@@ -31,9 +32,22 @@ FORBIDDEN = [
     r"\bbends the blade ten times\b",
 ]
 PATTERN = re.compile("|".join(FORBIDDEN), re.IGNORECASE)
+# Beginnings of comments that do not name their object.
+OPENING = re.compile(r"\A(?:What|Those|Whoever|The same (?:of|in|as|for))\b")
 STRING = re.compile(r'"(?:[^"\\]|\\.)*"', re.DOTALL)
-# Lines of Rust that are no text of the program: comments and what tests expect.
+# Lines of Rust that are no text of the program.
 COMMENT = re.compile(r"^\s*//.*$", re.MULTILINE)
+
+
+def comments(content: str, mark: str) -> Iterator[tuple[int, str]]:
+    """Blocks of comments, and the docstrings of Python, each with its line."""
+    block = re.compile(rf"(?:^[ \t]*{mark}[/!]?(?: .*)?\n)+", re.MULTILINE)
+    found = [*block.finditer(content)]
+    if mark == "#":
+        found += re.finditer(r'(?<=""")[^"]+(?=""")', content)
+    for comment in found:
+        text = re.sub(rf"^[ \t]*(?:{mark}[/!]?)?", "", comment[0], flags=re.MULTILINE)
+        yield 1 + content[: comment.start()].count("\n"), text.strip()
 
 
 def texts(path: Path) -> Iterator[tuple[int, str]]:
@@ -41,6 +55,9 @@ def texts(path: Path) -> Iterator[tuple[int, str]]:
     content = path.read_text(encoding="utf-8")
     if path.suffix == ".md":
         yield from ((1 + content[: m.start()].count("\n"), m[0]) for m in re.finditer(r"[^\n]+(?:\n[^\n]+)*", content))
+        return
+    if not path.is_relative_to(ROOT / "src"):
+        yield from comments(content, "//" if path.suffix == ".rs" else "#")
         return
     content = COMMENT.sub("", content).split("#[cfg(test)]\nmod tests")[0]
     for found in STRING.finditer(content):
@@ -52,7 +69,11 @@ def files() -> Iterator[Path]:
     for path in sorted((ROOT / "docs").rglob("*.md")):
         if path.name != "language.md":
             yield path
-    yield from sorted((ROOT / "src").rglob("*.rs"))
+    for tree in ("src", "tests", "benches", "examples", "fuzz", "python"):
+        for path in sorted((ROOT / tree).rglob("*")):
+            if path.suffix in (".rs", ".py") and "target" not in path.parts:
+                yield path
+    yield from (path for path in sorted((ROOT / ".ci").iterdir()) if path.is_file())
 
 
 def main() -> int:
@@ -60,7 +81,8 @@ def main() -> int:
         f"{path.relative_to(ROOT)}:{line}: {match[0]}"
         for path in files()
         for line, text in texts(path)
-        for match in PATTERN.finditer(" ".join(text.split()))
+        for pattern in ((PATTERN,) if path.suffix == ".md" else (PATTERN, OPENING))
+        for match in pattern.finditer(" ".join(text.split()))
     ]
     print(*found, sep="\n")
     return 1 if found else 0

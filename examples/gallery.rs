@@ -33,8 +33,7 @@ fn main() -> anyhow::Result<()> {
         }
         println!("{}", name.display());
     }
-    // A thousand saws take minutes: docs/tutorials/thousand-saws.md says how its report
-    // was made.
+    // A thousand saws take minutes: docs/tutorials/thousand-saws.md describes how the report was made.
     let figures = root.join("figures");
     let report = std::fs::read_to_string(figures.join("paper-study.json"))?;
     let report: StudyReport = serde_json::from_str(&report)?;
@@ -45,13 +44,13 @@ fn main() -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The end of a file's name and what is in it.
+/// The end of a file's name and the file's content.
 type Figure = (&'static str, Vec<u8>);
 
-/// The figures that a scene has something to show in.
+/// The figures that a scene has data for.
 fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
     if scene.file().spline.is_some() {
-        // Another scene's saw on its spline: only that is new.
+        // This scene is another scene's saw on its spline: only the orbit is new.
         let figures = pngs(&cut(scene)?)?.into_iter();
         let orbit = figures.filter(|(name, _)| *name == "spline-orbit.png");
         return Ok(orbit.map(|(_, png)| ("orbit.png", png)).collect());

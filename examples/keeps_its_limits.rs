@@ -1,4 +1,4 @@
-//! Holds a saw against limits, as a test does: `cargo run --release --example keeps_its_limits`.
+//! Checks a saw against limits, as a test does: `cargo run --release --example keeps_its_limits`.
 
 use sawflutter::check::{Check, Limits};
 use sawflutter::scene::{Scene, rad_per_s};

@@ -1,7 +1,7 @@
 //! The Rust side of `benches/peer/run.sh`: times of charts, sketches, sweeps and saws, as JSON.
 //!
-//! Minima over repeats: other work on the machine only ever adds. `PLACE=1` adds a whole placement
-//! of the built-in saw, which takes a minute.
+//! The times are minima over repeats, because other work on the machine can only lengthen them. `PLACE=1` adds a whole
+//! placement of the built-in saw, which takes a minute.
 
 use std::time::Instant;
 
@@ -20,11 +20,11 @@ type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 /// Tolerance of a study of the paper's saw.
 const STUDY_TOLERANCE: f64 = 6e-3;
-/// What the live page promises while a hand moves.
+/// Tolerance that the live page promises during a drag.
 const SKETCH_TOLERANCE: f64 = 2e-2;
 /// Saws of the study that are timed.
 const STUDY_SAWS: usize = 20;
-/// As an analysis has them: speeds that the search for bands begins with, and that a chart has at least.
+/// Numbers of speeds in an analysis: the search for bands begins with the first, and a chart has at least the second.
 const EVEN_SPEEDS: usize = 25;
 const CHART_SPEEDS: usize = 51;
 const SWEEP: usize = 201;
@@ -104,7 +104,7 @@ fn measured(repeats: usize) -> Result<serde_json::Value, Failure> {
     }))
 }
 
-/// An analysis of the built-in saw with something changed.
+/// An analysis of the built-in saw after a change of its scene.
 fn analysed(
     change: impl FnOnce(&mut SceneFile),
     detail: Detail,
@@ -119,7 +119,7 @@ fn analysed(
     })
 }
 
-/// Past 22 critical speeds and 96 bands.
+/// The paper's saw swept to 6000 rpm, past 22 critical speeds and 96 bands.
 fn to_6000_rpm() -> Result<Scene, Failure> {
     Ok(Scene::paper().edited(|saw| {
         saw.sweep = Some(SweepFile {
@@ -129,7 +129,7 @@ fn to_6000_rpm() -> Result<Scene, Failure> {
     })?)
 }
 
-/// The sample study, one saw of which is computed in advance: it chooses the basis of all.
+/// The sample study. One of its saws is computed in advance, because it chooses the basis of all.
 fn study_of_the_paper() -> Result<Study, Failure> {
     let paper = Scene::paper().edited(|saw| saw.tolerance = Some(STUDY_TOLERANCE))?;
     let file = include_str!("../../scenes/studies/paper-tolerances.json");
@@ -138,8 +138,8 @@ fn study_of_the_paper() -> Result<Study, Failure> {
     Ok(study)
 }
 
-/// Where the time of an analysis goes. The chart repeats the search for bands, so that what is left of it is drawing and
-/// the proof between the speeds.
+/// Prints the time of each stage of an analysis. The chart repeats the search for bands, so that the rest of its time
+/// is drawing and the proof between the speeds.
 fn stages(repeats: usize, scene: &Scene) -> Result<serde_json::Value, Failure> {
     let chosen = || ChosenBasis::new(scene, scene.tolerance());
     let choice = fastest(repeats, || Ok(chosen().map(|_| ())?))?;
@@ -168,7 +168,7 @@ fn stages(repeats: usize, scene: &Scene) -> Result<serde_json::Value, Failure> {
     }))
 }
 
-/// What `place` asks of a saw that it tries, on the basis of its first search.
+/// The search for bands that `place` makes for each saw it tries, on the basis of its first search.
 fn bands_of_a_place() -> Result<(), Failure> {
     let resolution = Resolution {
         max_diameters: 8,
@@ -191,7 +191,7 @@ fn placed() -> Result<(), Failure> {
     Ok(())
 }
 
-/// The most memory that this process has held, where the system says so.
+/// The largest memory that this process has used, if the system reports it.
 fn peak_memory_mb() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

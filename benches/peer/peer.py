@@ -22,7 +22,8 @@ REPEATS = 5
 
 
 def companion(folder, speed):
-    """(q, q'/s) of q'' + 2 speed G q' + (K + speed^2 S) q = 0, in units of s."""
+    """Companion matrix of (q, q'/s) for q'' + 2 speed G q' + (K + speed^2 S) q = 0, in units of
+    s."""
     stiffness, spin, gyroscopic = (
         np.load(folder / f"{name}.npy") for name in ("stiffness", "spin", "gyroscopic")
     )
@@ -72,7 +73,7 @@ def whole_process(repeats):
 
 
 def table(rust, eigvals, whole):
-    """What was measured, as ratios to one eigvals of order 528 where no unit is named."""
+    """The measurements, as ratios to one eigvals of order 528 unless a unit is named."""
     chart, sweep = rust["chart_s"], rust["sweep_201_at_264_s"]
     sizes = [(row["functions"], row["seconds"]) for row in rust["chart_by_functions"]]
     (n0, t0), (n1, t1) = sizes[0], sizes[-1]
@@ -101,7 +102,7 @@ def table(rust, eigvals, whole):
 
 
 def profile(stages_s):
-    """Where the time goes, by stage."""
+    """The run time of each stage."""
     names = list(next(iter(stages_s.values())))
     print("\n" + " " * 30 + "".join(f"{what:>20}" for what in stages_s))
     for name in names:

@@ -1,8 +1,8 @@
-//! How long work takes.
+//! Run times.
 
 use std::time::{Duration, Instant};
 
-/// Prints the shortest and the middle one of the times: other work on the machine only ever adds.
+/// Prints the shortest time and the median, because other work on the machine can only lengthen them.
 pub fn time(what: &str, samples: usize, work: impl Fn()) {
     let mut times: Vec<Duration> = (0..samples)
         .map(|_| {

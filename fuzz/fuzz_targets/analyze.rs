@@ -1,4 +1,4 @@
-//! Any valid scene is charted in finite numbers, or refused.
+//! Any valid scene gives a chart of finite numbers or is refused.
 #![no_main]
 
 #[path = "../../tests/common/draw.rs"]

@@ -1,4 +1,4 @@
-//! Any text is a scene or is refused.
+//! Any text is read as a scene or refused.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|text: &str| {

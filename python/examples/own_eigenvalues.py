@@ -1,4 +1,4 @@
-"""Eigenvalues of one's own from the matrices of the saw, beside those of the package."""
+"""Eigenvalues computed from the matrices of the saw, beside those of the package."""
 
 from __future__ import annotations
 

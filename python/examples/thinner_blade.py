@@ -1,4 +1,4 @@
-"""How thin may the blade be, if it is to run at 1250 rpm?"""
+"""How thin may the blade be if it is to run at 1250 rpm?"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How many of the saws that are made within tolerances pass? All cores compute."""
+"""How many of the saws that are made within tolerances pass? The study uses all cores."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The program `sawflutter`, as pip installs it and ``python -m sawflutter`` runs it."""
+"""The program `sawflutter`, as installed by pip and run by ``python -m sawflutter``."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from . import _native
 
 
 def main() -> int:
-    """Runs the program with the arguments of the command line; its exit code."""
-    # As of any other program: Ctrl-C and a closed pipe end it, and Python does not come between.
+    """Runs the program with the arguments of the command line and gives its exit code."""
+    # Ctrl-C and a closed pipe end the program directly, without a traceback of Python.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    # For `study --scheduler`, which starts Python.
+    # `study --scheduler` starts Python again.
     os.environ.setdefault("SAWFLUTTER_PYTHON", sys.executable)
     return _native.program(["sawflutter", *sys.argv[1:]])
 

@@ -16,7 +16,7 @@ Units: TypeAlias = Literal["rpm", "Hz", "rad/s"]
 
 
 class Look(TypedDict, total=False):
-    """The arguments that all figures have, whatever draws them."""
+    """The arguments of all figures, for either library."""
 
     speed_units: Units
     """Units of rotation speeds; rpm by default."""

@@ -32,8 +32,8 @@ class Entry:
     """
 
     def __init_subclass__(cls) -> None:
-        """Adds the descriptions below the fields to the docstring, so that ``help()`` shows them: without
-        this only who reads the source sees them."""
+        """Adds the descriptions below the fields to the docstring, so that ``help()`` shows them;
+        without this only the source has them."""
         bases = [base for base in cls.__mro__ if issubclass(base, Entry)]
         fields = [line for of in bases for line in _described(of.__module__).get(of.__name__, ())]
         if fields and vars(cls).get("__doc__"):
@@ -88,7 +88,7 @@ class Entry:
         return frozenset(field.metadata.get("key", field.name) for field in always)
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        # NumPy forgets in a pickle or a copy that an array cannot be written to.
+        # NumPy drops the read-only flag of an array in a pickle or a copy.
         for value in state.values():
             if isinstance(value, np.ndarray):
                 value.setflags(write=False)
@@ -112,11 +112,11 @@ class Entry:
 
 @cache
 def _described(module: str) -> dict[str, list[str]]:
-    """Of the classes of a module the fields, with name, type and what the words below say."""
+    """The fields of the classes of a module, with name, type and the description below each."""
     try:
         tree = ast.parse(inspect.getsource(sys.modules[module]))
     except (KeyError, OSError, TypeError):
-        # Without the source, as in a frozen program, there is none to be shown.
+        # Without the source, as in a frozen program, there are no descriptions.
         return {}
     return {of.name: list(_below(of)) for of in tree.body if isinstance(of, ast.ClassDef)}
 
@@ -149,7 +149,7 @@ def _short(value: Any) -> str:
 
 @cache
 def _readers(cls: type[Entry]) -> list[tuple[str, str, Reader]]:
-    """Of each attribute its name, its key in the JSON, and how it is read."""
+    """The name of each attribute, its key in the JSON, and its reader."""
     hints = get_type_hints(cls)
     return [
         (field.name, field.metadata.get("key", field.name), _reader(hints[field.name]))
@@ -174,8 +174,8 @@ def _reader(hint: Any) -> Reader:
 
 
 def array(values: Any, dtype: type[Any] = np.float64) -> npt.NDArray[Any]:
-    """Numbers that cannot be written to, in rows of one length: of floats, shorter rows and None are
-    filled with NaN."""
+    """Read-only numbers in rows of one length; shorter rows and None become NaN if the numbers are
+    floats."""
     if len(values) > 0 and isinstance(values[0], Sequence):
         width = max(len(row) for row in values)
         values = [[*row, *[None] * (width - len(row))] for row in values]

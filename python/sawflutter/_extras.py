@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def extra(name: str) -> Iterator[None]:
-    """Imports within it say how a missing package is installed.
+    """Imports in its block say how a missing package is installed.
 
     >>> with extra("plot"):
     ...     import no_such_package

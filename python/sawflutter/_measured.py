@@ -1,4 +1,4 @@
-"""Measured frequencies as the library reads them, whatever a notebook has them in."""
+"""Measured frequencies in the format of the library, from any type that a notebook uses."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def _rows(measured: Any) -> list[list[float]]:
         measured = frame.reset_index().to_numpy(dtype=float)
     rows = list(measured)
     if rows and not any(isinstance(row, Iterable) for row in rows):
-        # Frequencies alone are those at rest.
+        # Frequencies without a speed are those at rest.
         rows = [[0.0, *rows]]
-    # Frequencies come one by one or as a list in themselves.
+    # Frequencies come one by one or as a list of their own.
     return [[float(row[0]), *np.array(row[1:], float).ravel().tolist()] for row in rows]

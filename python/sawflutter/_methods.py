@@ -18,7 +18,7 @@ NEGLIGIBLE_PER_S = 1e-3
 
 
 class RestModeMethods(Entry):
-    """Of a mode at rest."""
+    """Methods of a mode at rest."""
 
     if TYPE_CHECKING:
         profiles: tuple[Shape, ...]
@@ -54,7 +54,7 @@ class RestModeMethods(Entry):
 
 
 class ModeMethods(Entry):
-    """Of a mode at a speed."""
+    """Methods of a mode at a speed."""
 
     if TYPE_CHECKING:
         frequency_hz: float
@@ -129,14 +129,14 @@ class ModeMethods(Entry):
 
 
 class BranchMethods(Entry):
-    """Of a branch of the Campbell diagram."""
+    """Methods of a branch of the Campbell diagram."""
 
     if TYPE_CHECKING:
         rpm: FloatArray
         frequency_hz: FloatArray
         growth_per_s: FloatArray
 
-    # Speeds at which a band of this branch begins or ends, and on which side of them it lies.
+    # Speeds at which a band of this branch begins or ends, and the side of them on which it lies.
     _edges: tuple[tuple[float, int], ...] = ()
 
     def at(self, rpm: npt.ArrayLike) -> tuple[Any, Any]:
@@ -178,7 +178,7 @@ class BranchMethods(Entry):
                 continue
             before, past = self.growth_per_s[right - 1 : right + 1]
             inside, outside = (past, before) if side > 0 else (before, past)
-            # A damped branch that does not grow in the band decays at its edge, too.
+            # A damped branch that does not grow in the band also decays at its edge.
             if inside > 0.0 or abs(outside) < NEGLIGIBLE_PER_S:
                 rows[edge] = 0.0
         speeds = np.array(sorted(rows))
@@ -186,7 +186,7 @@ class BranchMethods(Entry):
 
 
 def know_bands(branches: Sequence[Branch], bands: Iterable[Instability]) -> None:
-    """Tells branches the edges of the bands in which they become unstable."""
+    """Gives branches the edges of the bands in which they become unstable."""
     for band in bands:
         for number in band.branches:
             branch = branches[number - 1]
@@ -201,7 +201,7 @@ def points(radius_m: npt.ArrayLike, angle: npt.ArrayLike) -> tuple[FloatArray, F
 
 
 def _between(at: Any, places: FloatArray, values: FloatArray) -> FloatArray:
-    """Linear interpolation, NaN outside but for what rounding puts there."""
+    """Linear interpolation, with NaN outside the range, apart from rounding at its ends."""
     width = 1e-9 * (abs(places[-1]) + abs(places[0])) if len(places) else 0.0
     inside = (at >= places[0] - width) & (at <= places[-1] + width)
     return np.where(inside, np.interp(at, places, values), np.nan)

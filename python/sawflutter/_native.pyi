@@ -39,9 +39,9 @@ __all__ = [
     "washboard",
 ]
 
-# Called with what is done, of how many, and a word for it.
+# The arguments are the finished steps, their total, and their name.
 _Progress: TypeAlias = Callable[[int, int, str], object] | None
-# A path of the scene, and its bounds if they are not the usual ones.
+# A path of the scene, and its bounds unless they are the default ones.
 _Bounds: TypeAlias = tuple[str, tuple[float, float] | None]
 
 def scene(text: str) -> str: ...

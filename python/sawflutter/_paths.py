@@ -19,7 +19,7 @@ def get(data: Any, path: str) -> Any:
 
 
 def put(data: Any, path: str, value: Any) -> None:
-    """Puts a value at a path, or takes it out where it is None; a block that is not there is begun."""
+    """Sets the value at a path, or removes it if the value is None; a missing block is added."""
     *before, (at, last) = _steps(path)
     for of, step in before:
         if isinstance(data, dict) and isinstance(step, str):
@@ -35,7 +35,7 @@ def put(data: Any, path: str, value: Any) -> None:
 
 
 def _steps(path: str) -> list[tuple[str, str | int]]:
-    """The steps of a path, and what is before each: of ``guides[0]``, guides and 0."""
+    """The steps of a path, and the path before each: of ``guides[0]``, guides and 0."""
     found = list(_STEP.finditer(path)) if isinstance(path, str) else []
     if not found or "".join(match[0] for match in found) != path:
         remedy = "write it like guides[0].radius_m"
@@ -44,7 +44,7 @@ def _steps(path: str) -> list[tuple[str, str | int]]:
 
 
 def _entry(place: Any, step: str | int, at: str, path: str) -> Any:
-    """An entry of a block or a list; where there is none, the error says which there are."""
+    """An entry of a block or a list; if it is missing, the error lists the existing ones."""
     if isinstance(place, (dict, list)):
         with suppress(LookupError, TypeError):
             return place[step]  # type: ignore[index]

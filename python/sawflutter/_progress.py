@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-# True shows a bar, a callable is called with what is done and of how many.
+# True shows a bar; a callable is called with the finished steps and their total.
 Progress: TypeAlias = "bool | Callable[[int, int], object] | None"
 Native: TypeAlias = "Callable[[int, int, str], object] | None"
 
 
 @contextmanager
 def reporting(progress: Progress, what: str) -> Iterator[Native]:
-    """What the compiled part is to call; a bar is closed in the end."""
+    """The function that the compiled part calls; a bar is closed at the end."""
     if callable(progress):
         told = progress
         yield lambda done, of, _: told(done, of)
@@ -34,7 +34,7 @@ def reporting(progress: Progress, what: str) -> Iterator[Native]:
 
 
 class _Line:
-    """A line on the error stream that is written over, where there is no tqdm."""
+    """A line on the error stream that is overwritten, used without tqdm."""
 
     total, n = 0, 0
 
@@ -49,7 +49,7 @@ class _Line:
 
 
 def _bar(what: str) -> Any:
-    """A bar of tqdm, in a notebook too."""
+    """A bar of tqdm, also in a notebook."""
     try:
         from tqdm.auto import tqdm
     except ImportError:

@@ -192,10 +192,10 @@ class Result(Report, Entry):
         return cls.from_json(Path(path).read_text(encoding="utf-8"))
 
     def _read(self) -> None:
-        """What is to be done once all is read."""
+        """Completes a result after all of it was read."""
 
     def _warnings(self) -> tuple[str, ...]:
-        """Numbers that no saw has, and remarks on the validity of the result."""
+        """Warns of numbers that no saw has, and of a result outside the validity of the model."""
         return (*getattr(self, "unusual_numbers", ()), *getattr(self, "warnings", ()))
 
     @property
@@ -302,8 +302,8 @@ class Result(Report, Entry):
         Path(path).write_bytes(page.encode())
 
     def _described(self, name: str, otherwise: str = "") -> Chart:
-        """The chart of a figure of the program; one without panels that says something else where
-        the report has no data for it."""
+        """The chart of a figure of the program; if the report has no data for it, a chart without
+        panels whose facts are ``otherwise``."""
         from .plot.chart import Chart
         from .plot.described import described
 
@@ -343,11 +343,11 @@ class Result(Report, Entry):
         return self._described(self.figure_names[0].partition(".")[0], facts)
 
     def _facts(self) -> str:
-        """The answer in a line."""
+        """The answer in one line."""
         raise NotImplementedError
 
     def _repr_html_(self) -> str:
-        """What a notebook shows: the answer, and the program's figure."""
+        """The answer and the program's figure, for a notebook."""
         name = next((name for name in self.figure_names if name.endswith(".svg")), None)
         picture = self.figure(name) if name is not None else None
         return html(self.summary(), None if picture is None else picture.decode())

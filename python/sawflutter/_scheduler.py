@@ -1,4 +1,5 @@
-"""What ``sawflutter study --scheduler`` starts: the saws of a study on a cluster of Dask.
+"""The process that ``sawflutter study --scheduler`` starts: it computes the saws of a study on a
+cluster of Dask.
 
     python -m sawflutter._scheduler ADDRESS FOLDER
 
@@ -19,15 +20,15 @@ from .errors import AnalysisError, InputError
 from .scene import Scene
 from .study import Study
 
-# Seconds between two lines of progress where nobody watches.
+# Seconds between two lines of progress without a terminal.
 APART = 10.0
 
 
 def main(address: str, folder: str) -> int:
-    """Exit code 0 where the log has all saws."""
+    """Runs the study; the exit code is 0 if the log has all saws."""
     import distributed
 
-    # Some of it has types and some has none.
+    # Some functions of distributed have types and others have none.
     connect: Any = distributed.Client
     inputs = json.load(sys.stdin)
     try:
@@ -45,7 +46,7 @@ def main(address: str, folder: str) -> int:
         print(error)
         return 1
     except KeyboardInterrupt:
-        # Whoever has stopped it knows.
+        # The user who stopped it needs no message.
         return 130
     return 0
 
@@ -58,7 +59,7 @@ def _workers(client: Any) -> str:
 
 
 def _lines() -> Any:
-    """Lines of progress, now and then."""
+    """Prints lines of progress at intervals."""
     last = [time.monotonic() - APART]
 
     def told(done: int, of: int) -> None:

@@ -24,7 +24,7 @@ from .matrices import Matrices
 from .results import CampbellResults
 from .stiffness import StiffnessMap
 
-# Paths of the scene and their bounds, or paths with the usual bounds.
+# Paths of the scene and their bounds, or paths with the default bounds.
 Free: TypeAlias = "Mapping[str, tuple[SupportsFloat, SupportsFloat] | None] | Iterable[str] | None"
 
 
@@ -42,12 +42,12 @@ class Searches(SceneData):
         tolerance: Number,
         progress: Progress,
     ) -> R:
-        """What the library reports of this scene in another accuracy, with its warnings."""
+        """The library's report of this scene at another accuracy, with its warnings."""
         scene = self.with_accuracy(accuracy, tolerance)
         with reporting(progress, what) as told:
             result = kind.from_json(ask(scene._text, progress=told))
         for warning in result._warnings():
-            # At the line that has called the method.
+            # The warning names the line that calls the method.
             warnings.warn(warning, ModelWarning, stacklevel=3)
         return result
 

@@ -23,21 +23,22 @@ def frame(columns: Any) -> pd.DataFrame:
 
 
 def entries(of: Iterable[Any]) -> pd.DataFrame:
-    """The plain numbers and words of entries of a report, one row each."""
+    """The plain numbers and texts of entries of a report, one row each."""
     plain = (str, bool, int, float, type(None))
     return frame([{k: v for k, v in vars(entry).items() if isinstance(v, plain)} for entry in of])
 
 
 def read(text: str) -> pd.DataFrame:
-    """A table that the library has written: every number to the last bit, which the reader of
-    pandas promises in some of its versions with an argument that others refuse."""
+    """A table that the library has written, with every number exact to the last bit: some versions
+    of pandas need an argument for this that others refuse."""
     names, *rows = csv.reader(io.StringIO(text))
     columns = zip(*rows) if rows else ([] for _ in names)
     return frame({name: _column(list(cells)) for name, cells in zip(names, columns)})
 
 
 def _column(cells: list[str]) -> list[Any]:
-    """Cells that all are numbers or truths, written as JSON has them, with None for blanks; or words."""
+    """Cells that are all numbers or booleans, written as in JSON, with None for blanks; otherwise
+    texts."""
     try:
         values: list[Any] = json.loads(f"[{','.join(cell or 'null' for cell in cells)}]")
     except ValueError:

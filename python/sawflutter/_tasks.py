@@ -1,4 +1,4 @@
-"""Saws on an executor: a range of them is a task, its rows are the result.
+"""Saws on an executor: a task computes a range of them, and its result is their rows.
 
 A saw depends on its number alone. Whoever computes it gives the same row, and the log takes the
 first: a task may be done twice or not at all, and each saw is in the log once.
@@ -20,18 +20,18 @@ from typing import Any, NamedTuple, TypeAlias
 from . import _native
 from .errors import AnalysisError
 
-# Tasks under way and waiting for each worker: enough that none is idle while rows are written.
+# Running and waiting tasks for each worker: enough that none is idle while rows are written.
 A_WORKER = 4
-# A task takes about so long at most, in seconds: its way there and back costs milliseconds, and not much
-# is lost with a worker.
+# Longest duration of a task, in seconds: its transfer takes milliseconds, and the loss of a worker
+# costs little.
 LONGEST = 30.0
-# The first tasks find out how long a saw takes.
+# The first tasks measure the time of a saw.
 FIRST = 2
-# Guided self-scheduling (Polychronopoulos and Kuck, 1987): every worker gets several tasks of the saws that
-# are left, so that all end at the same time; but tasks do not get shorter than this, in seconds.
+# Guided self-scheduling (Polychronopoulos and Kuck, 1987): every worker gets several tasks of the
+# remaining saws, so that all end at the same time; but no task is shorter than this, in seconds.
 LAST = 2
 SHORTEST = 0.5
-# How often it is looked for lost schedulers and new workers, in seconds.
+# Interval of the search for lost schedulers and new workers, in seconds.
 LOOK = 1.0
 
 Range: TypeAlias = tuple[int, int]
@@ -39,31 +39,31 @@ Range: TypeAlias = tuple[int, int]
 
 
 class Worker(NamedTuple):
-    """Who computes."""
+    """A process that computes."""
 
     version: str
     processor: str
 
 
 class Rows(NamedTuple):
-    """What a task gives: rows of the log, and what they took."""
+    """The result of a task: rows of the log, and their time."""
 
     rows: bytes
     seconds: float
     worker: Worker
     error: str = ""
-    """What has ended it before its end, in words: not every exception finds its way back."""
+    """Message of the exception that has ended it, because not every exception can be sent back."""
 
 
 class Text(NamedTuple):
-    """A study, as it is sent to workers."""
+    """A study in the form that is sent to workers."""
 
     scene: str
     study: str
 
 
 def who() -> Worker:
-    """Who computes here."""
+    """The process that runs this function."""
     import sawflutter
 
     return Worker(sawflutter.__version__, _native.processor())
@@ -75,9 +75,9 @@ def _study(text: Text) -> _native.Study:
 
 
 def rows(text: Text, saws: Range) -> Rows:
-    """A task."""
+    """Computes the rows of a task."""
     try:
-        # Saws are timed without the study, which a worker reads once.
+        # The time of a saw excludes the study, which a worker reads once.
         study = _study(text)
         begun = time.monotonic()
         found = study.rows([saws])
@@ -87,13 +87,13 @@ def rows(text: Text, saws: Range) -> Rows:
 
 
 def itself(text: Text) -> Text:
-    """On a cluster the study is the result of a task: computed again where a worker that had it is
-    lost, and sent to each worker once."""
+    """Gives the study itself. On a cluster it is the result of a task, so that it is sent to each
+    worker once, and is computed again if its worker is lost."""
     return Text(*text)
 
 
 class Place:
-    """Where tasks are done: any executor, of this machine or others."""
+    """A place for tasks: any executor, on this machine or others."""
 
     def __init__(self, executor: Any, text: Any, **options: Any) -> None:
         # Executors and clients of Dask have no type in common, nor have their futures.
@@ -104,25 +104,25 @@ class Place:
         return self.executor.submit(rows, self.text, saws, **self.options)
 
     def workers(self) -> int:
-        """How many tasks are done at the same time."""
+        """The number of tasks that run at the same time."""
         return int(getattr(self.executor, "_max_workers", None) or os.cpu_count() or 1)
 
     def check(self) -> None:
-        """Refuses workers of another version, as far as one can ask them before a task."""
+        """Refuses workers of another version, if they can be asked before a task."""
         _check(self.executor.submit(who).result())
 
     def lost(self, error: Exception) -> str | None:
-        """What a lone saw is charged with that had this error: that it has ended its workers. None
-        where the saw is not to blame."""
+        """The reason to blame a single saw for this error, that it has ended its workers; None if
+        the error has another cause."""
         return None
 
     def look(self) -> None:
-        """Raises AnalysisError where no more tasks can be done here."""
+        """Raises AnalysisError if no more tasks can run here."""
 
 
 class Cluster(Place):
-    """A cluster of Dask: its client, for the executor that this gives does not pass on which error has
-    ended a task."""
+    """A cluster of Dask: its client, because its executor does not pass on the error that has ended
+    a task."""
 
     def __init__(self, client: Any, text: Text) -> None:
         if client.asynchronous:
@@ -133,17 +133,17 @@ class Cluster(Place):
         return max(1, int(sum(self.executor.nthreads().values())))
 
     def check(self) -> None:
-        # A function of this package cannot be sent to where it cannot be imported, but the name of
-        # the package can.
+        # A function of this package can be sent only to a worker that can import it, but the name
+        # of the package can be sent anywhere.
         self._ask(import_module, __package__)
         for worker in self._ask(who):
             _check(Worker(*worker))
         self.text = self.executor.submit(itself, self.text, pure=False)
 
     def _ask(self, *question: Any) -> list[Any]:
-        """What every worker says to a question."""
+        """The answers of all workers to a question."""
         said: dict[str, Any] = {}
-        # Those that were there a moment ago may be gone.
+        # Workers of a moment ago may be gone.
         while not said:
             self.executor.wait_for_workers(1)
             said = self.executor.run(*question, on_error="return")
@@ -160,7 +160,7 @@ class Cluster(Place):
     def lost(self, error: Exception) -> str | None:
         from distributed import KilledWorker
 
-        # Without the names of workers: a row says the same wherever it was computed.
+        # The names of workers are left out: a row does not depend on its worker.
         ended = "it has ended every worker that it was given to, without a word"
         return ended if isinstance(error, KilledWorker) else None
 
@@ -170,7 +170,7 @@ class Cluster(Place):
 
 
 def place(executor: Any, text: Text) -> Place:
-    """Where an executor, or a client of Dask, computes."""
+    """The place where an executor, or a client of Dask, computes."""
     if (distributed := sys.modules.get("distributed")) is not None:
         # The executor of a client.
         client = getattr(executor, "_client", executor)
@@ -185,12 +185,12 @@ def place(executor: Any, text: Text) -> Place:
 
 
 class Run:
-    """Saws of a study that its log does not have, on an executor."""
+    """The saws of a study that its log lacks, on an executor."""
 
     def __init__(self, study: _native.Study, log: _native.StudyLog, place: Place) -> None:
         self.study, self.log, self.place = study, log, place
         self.next = 0
-        # What is done here.
+        # Results of the tasks.
         self.tasks, self.saws, self.seconds = 0, 0, 0.0
         self.again: deque[Range] = deque()
         self.suspects: deque[Range] = deque()
@@ -198,7 +198,7 @@ class Run:
         self.done: queue.SimpleQueue[Any] = queue.SimpleQueue()
 
     def __call__(self, told: Any = None) -> None:
-        """Computes them; the log has what is done, whatever stops this."""
+        """Computes the saws; if this is stopped, the log has the finished ones."""
         if self.log.done == self.study.count:
             return
         self.place.check()
@@ -229,13 +229,13 @@ class Run:
                 told(self.log.done, self.study.count, "")
 
     def _submit(self, workers: int) -> bool:
-        """Begins tasks as long as workers have room; whether any is under way."""
+        """Begins tasks while workers have room, and gives whether any is running."""
         while len(self.under_way) < A_WORKER * workers:
             saws = self.again.popleft() if self.again else self._next(workers)
             if saws is None:
                 break
             self._begin(saws)
-        # Nobody else is near a saw that may end its worker.
+        # No other task runs beside a saw that may end its worker.
         if not self.under_way and self.suspects:
             self._begin(self.suspects[0])
         return bool(self.under_way)
@@ -246,7 +246,7 @@ class Run:
         future.add_done_callback(self.done.put)
 
     def _next(self, workers: int) -> Range | None:
-        """The next saws that are missing, for a task."""
+        """The next missing saws, for a task."""
         size = FIRST
         if self.seconds > 0.0:
             a_second = self.saws / self.seconds
@@ -281,9 +281,9 @@ class Run:
         self.seconds += found.seconds
 
     def _divide(self, saws: Range, is_alone: bool, reason: str) -> None:
-        """Of saws that were with workers that ended, each half is a task. A single one may have
-        waited behind the culprit: it is tried again when everything else is done, and is to blame
-        where its workers end then, too."""
+        """Divides the saws of workers that have ended: each half becomes a task. A single saw may
+        have waited behind the saw that ended the worker: it is tried again after all others, and is
+        blamed if its workers end then, too."""
         first, last = saws
         if is_alone:
             self.log.append(self.study.failed(self.suspects.popleft()[0], reason))

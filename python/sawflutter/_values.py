@@ -1,4 +1,4 @@
-"""Values of a scene as JSON: plain numbers, those of NumPy, and quantities with a unit."""
+"""Values of a scene as JSON: plain numbers, NumPy numbers, and quantities with a unit."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ import numpy as np
 
 from .errors import ArgumentError
 
-# What the end of a key stands for.
+# Units by the end of a key.
 _NAMES = ("deg", "Hz", "K", "kg", "m", "N", "Pa", "rpm", "s", "W")
 _UNITS = {"tooth": "", **{name.lower(): name for name in _NAMES}}
 _POWERS = {"m2": "m**2", "m3": "m**3", "s2": "s**2"}
 
 
 def whole(name: str, value: SupportsIndex) -> int:
-    """An argument that counts: a whole number, as large as the library takes them."""
+    """A whole number within the range of the library, from an argument."""
     if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
         raise TypeError(f"{name} is {value!r}, but must be a whole number, like 3")
     number = index(value)
@@ -35,7 +35,7 @@ def to_json(data: Any) -> str:
 
 
 def plain(value: Any, key: str) -> Any:
-    """A value as JSON has it; a quantity of pint in the unit that its key names."""
+    """A value as in JSON; a quantity of pint is converted to the unit in the name of its key."""
     if value is None or isinstance(value, (str, bool, int)):
         return value
     if isinstance(value, Mapping):
@@ -53,7 +53,7 @@ def plain(value: Any, key: str) -> Any:
 
 
 def unit(key: str) -> tuple[str, str]:
-    """The name of a number and its unit, which the end of its key says.
+    """The name of a number and its unit, from the end of its key.
 
     >>> unit("stiffness_n_per_m"), unit("poisson_ratio"), unit("air_n_s_per_m3")
     (('stiffness', 'N/m'), ('poisson_ratio', ''), ('air', 'N*s/m**3'))

@@ -1,4 +1,4 @@
-"""What a notebook shows of a result."""
+"""The display of a result in a notebook."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from html import escape
 
 
 def html(text: str, svg: str | None) -> str:
-    """Text, and beside it a figure. The figure is an image of its own, so that nothing in it can
-    meet the styles or scripts of the page."""
+    """HTML of a text and a figure beside it. The figure is an image, so that its styles and scripts
+    and those of the page do not affect each other."""
     parts = [f"<pre style='line-height:1.25;margin:0'>{escape(text)}</pre>"]
     if svg is not None:
         image = base64.b64encode(svg.encode()).decode()

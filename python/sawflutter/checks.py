@@ -1,4 +1,4 @@
-"""A saw held against limits."""
+"""Checks of a saw against limits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Saws side by side."""
+"""Comparison of saws."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ class Modes(Entry):
 
     @classmethod
     def of(cls, rpm: npt.ArrayLike, modes: list[list[dict[str, object]]]) -> Modes:
-        """The table of what the library reports of each speed.
+        """The table of the library's report for each speed.
 
         Parameters
         ----------

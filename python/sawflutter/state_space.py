@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ._entry import ComplexArray, Entry, FloatArray
 
-# Modes that cannot be told apart to half the digits are about to coalesce.
+# Modes whose eigenvectors agree to half the digits are about to coalesce.
 _LARGEST_CONDITION = 1e8
 
 
@@ -36,7 +36,7 @@ class StateSpace(Entry):
     """Outputs by states."""
 
     D: FloatArray
-    """Outputs by inputs, in m/N: what modes that are left out yield at rest; zero of a whole model."""
+    """Outputs by inputs, in m/N: the deflection at rest of modes that are left out; zero for a full model."""
 
     def __iter__(self) -> Iterator[FloatArray]:
         return iter((self.A, self.B, self.C, self.D))
@@ -74,8 +74,8 @@ class StateSpace(Entry):
         return cls(rpm, companion, inputs, outputs, np.zeros((len(probes), len(forces))))
 
     def reduced(self, to_hz: float) -> StateSpace:
-        """The state space of the modes up to a frequency. The others yield at once, as at rest, so
-        that static deflections stay those of the whole model.
+        """The state space of the modes up to a frequency. The others deflect at once, as at
+        rest, so that static deflections remain those of the full model.
 
         Parameters
         ----------

@@ -10,7 +10,7 @@ pub fn scene(text: &str) -> Result<Scene, Failure> {
     Ok(Scene::from_json(text)?)
 }
 
-/// What a place is looked for by.
+/// The target of a search for a place.
 pub fn demands(
     scene: &Scene,
     goal: &str,

@@ -1,5 +1,4 @@
-//! Every command of the program that computes something of one saw: scene in, report out, both
-//! as JSON.
+//! Every command of the program that computes results of one saw: the scene and the report are JSON.
 
 use pyo3::prelude::*;
 use sawflutter::check::{Check, Limits, LimitsFile};
@@ -22,7 +21,7 @@ use crate::arguments;
 use crate::failure::Failure;
 use crate::watch::compute;
 
-/// As the program writes its files.
+/// JSON as the program writes it to its files.
 fn json(report: &impl Serialize) -> Result<String, Failure> {
     Ok(serde_json::to_string_pretty(report)?)
 }
@@ -67,7 +66,7 @@ pub fn analyze(
     })
 }
 
-/// `compare.json` of saws by their labels: the text of a scene, or of a report where it is one.
+/// `compare.json` of saws by their labels. Each is the text of a scene or of a report.
 #[pyfunction]
 #[pyo3(signature = (saws, *, progress=None))]
 pub fn compare(
@@ -160,7 +159,7 @@ pub fn check(
     })
 }
 
-/// `cut.json` of a scene, at speeds in place of the scene's if there are any.
+/// `cut.json` of a scene, at the speeds given or, without any, at those of the scene.
 #[pyfunction]
 #[pyo3(signature = (scene, rpm, *, progress=None))]
 pub fn cut(
@@ -254,8 +253,8 @@ pub fn washboard(
     })
 }
 
-/// `fit.json` of a scene. `measured` is a name and a table as comma-separated values; the scene's
-/// own frequencies without it.
+/// `fit.json` of a scene. `measured` is a name and a table as comma-separated values; without it the fit uses the
+/// scene's own frequencies.
 #[pyfunction]
 #[pyo3(signature = (scene, measured, free, *, to_rpm=None, confidence=0.95, starts=12, seed=0,
                     progress=None))]

@@ -1,4 +1,4 @@
-//! Why a computation failed, and which Python exception says so.
+//! Reasons of a failed computation, and the Python exceptions for them.
 
 use pyo3::exceptions::{PyIsADirectoryError, PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
@@ -18,22 +18,22 @@ use sawflutter::text::FileError;
 use sawflutter::transient::TransientError;
 use sawflutter::washboarding::WashboardError;
 
-/// Why a computation failed.
+/// Reason of a failed computation.
 #[derive(Debug)]
 pub enum Failure {
-    /// Input that is refused.
+    /// The input is refused.
     Refused(Box<Refusal>),
-    /// A file that cannot be read.
+    /// A file cannot be read.
     Unreadable(std::io::Error, String),
-    /// A folder in place of a file.
+    /// A file is a folder.
     Directory(String),
-    /// The computation itself.
+    /// The computation failed.
     Failed(String),
     /// The library has a fault.
     Fault(String),
 }
 
-/// What is wrong with an input, for the attributes of the exception.
+/// The error of an input, for the attributes of the exception.
 #[derive(Debug)]
 pub struct Refusal {
     /// Name of the exception in `sawflutter.errors`.
@@ -46,7 +46,7 @@ pub struct Refusal {
 }
 
 impl Refusal {
-    /// Of which only the message is known.
+    /// An error with a message only.
     fn saying(class: &'static str, message: impl ToString, key: Option<String>) -> Failure {
         Failure::Refused(Box::new(Refusal {
             class,
@@ -84,7 +84,7 @@ impl From<RefusedValue> for Failure {
     }
 }
 
-/// A value that cannot be used, of an exception of this name.
+/// A value that cannot be used, for an exception of this name.
 fn value(class: &'static str, refused: RefusedValue) -> Failure {
     Failure::Refused(Box::new(Refusal {
         class,
@@ -109,7 +109,7 @@ impl From<SceneError> for Failure {
     }
 }
 
-/// A file that gave no text.
+/// A file whose text cannot be read.
 pub fn file(class: &'static str, error: FileError) -> Failure {
     let message = error.to_string();
     match error {
@@ -233,7 +233,7 @@ impl From<LogError> for Failure {
     }
 }
 
-/// Of errors that say all there is to say.
+/// Conversions of errors whose message is complete.
 macro_rules! failed {
     ($($error:ty),*) => {
         $(impl From<$error> for Failure {
@@ -274,7 +274,7 @@ fn exception(py: Python<'_>, failure: Failure) -> PyResult<PyErr> {
                 refusal.remedy,
             ),
         ),
-        // Python makes FileNotFoundError and its like of the number.
+        // Python derives FileNotFoundError and similar exceptions from the number.
         Failure::Unreadable(source, message) => match source.raw_os_error() {
             Some(number) => PyOSError::new_err((number, message)),
             None => PyOSError::new_err(message),

@@ -1,4 +1,4 @@
-//! The program's own figures, summary and colours, made of a report's JSON.
+//! The program's own figures, summary and colours, made from a report's JSON.
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -13,7 +13,7 @@ use serde::de::DeserializeOwned;
 
 use crate::failure::Failure;
 
-/// A figure of a report by the name of its file; `None` where the saw has none of that name.
+/// A figure of a report by the name of its file; `None` if the saw has no data for it.
 #[pyfunction]
 pub fn picture(py: Python<'_>, name: &str, report: &str) -> PyResult<Option<Py<PyBytes>>> {
     let bytes = py.detach(|| drawn(name, report))?;
@@ -47,7 +47,7 @@ fn drawn(name: &str, report: &str) -> Result<Option<Vec<u8>>, Failure> {
 
 type Picture = Result<Option<Vec<u8>>, Failure>;
 
-/// The figure of a report of this kind; `None` where such reports have none of that name.
+/// The figure of a report of this kind; `None` if the report has no figure of that name.
 fn of<R: Figures + DeserializeOwned>(name: &str, report: &str) -> Option<Picture> {
     let known = R::NAMES.iter().flatten().any(|own| *own == name);
     known.then(|| {
@@ -57,7 +57,7 @@ fn of<R: Figures + DeserializeOwned>(name: &str, report: &str) -> Option<Picture
     })
 }
 
-/// Reads a report of the command of this name and answers of it.
+/// Reads a report of the command of this name and applies a function to it.
 macro_rules! read {
     ($command:expr, |$report:ident| $answer:expr) => {{
         macro_rules! of {
@@ -82,13 +82,13 @@ macro_rules! read {
     }};
 }
 
-/// What the program prints of a report of the command of this name.
+/// The summary that the program prints for a report of the command of this name.
 #[pyfunction]
 pub fn summary(command: &str, report: &str) -> PyResult<String> {
     Ok(read!(command, |report| report.summary()))
 }
 
-/// The page of a report of the command of this name; `None` of one that has none.
+/// The page of a report of the command of this name; `None` if reports of this kind have none.
 #[pyfunction]
 pub fn page(command: &str, report: &str) -> PyResult<Option<String>> {
     macro_rules! of {
@@ -112,7 +112,7 @@ pub fn page(command: &str, report: &str) -> PyResult<Option<String>> {
     }))
 }
 
-/// What a figure of this name shows, as JSON; `None` where the report has no data for it.
+/// The description of a figure of this name, as JSON; `None` if the report has no data for it.
 #[pyfunction]
 pub fn chart(command: &str, name: &str, report: &str) -> PyResult<Option<String>> {
     let chart = read!(command, |report| report.chart(name));
@@ -129,7 +129,7 @@ pub fn campbell_csv(report: &str) -> PyResult<String> {
     Ok(String::from_utf8_lossy(&table).into_owned())
 }
 
-/// The files of VTK of a report with shapes: names and texts.
+/// The VTK files of a report with shapes: names and texts.
 #[pyfunction]
 pub fn vtk_files(report: &str) -> PyResult<Vec<(String, String)>> {
     let report: Report = serde_json::from_str(report).map_err(Failure::from)?;
@@ -137,7 +137,7 @@ pub fn vtk_files(report: &str) -> PyResult<Vec<(String, String)>> {
     Ok(files.map(|(name, text)| (name.to_owned(), text)).collect())
 }
 
-/// The colours of the figures, red, green and blue by what is drawn, as JSON.
+/// The colours of the figures, red, green and blue for each subject, as JSON.
 #[pyfunction]
 pub fn palette() -> PyResult<String> {
     Ok(serde_json::to_string(&figure::PALETTE).map_err(Failure::from)?)

@@ -1,5 +1,5 @@
-//! `sawflutter._native`: scenes and options come as JSON and plain numbers, reports go as JSON
-//! and matrices as bytes of doubles. What Python sees is made of them by the package around it.
+//! `sawflutter._native`: arguments are scenes as JSON and plain numbers; results are reports as JSON and matrices as
+//! bytes of doubles. The package around it makes the Python objects.
 
 mod arguments;
 mod commands;
@@ -35,7 +35,7 @@ fn scene(text: &str) -> PyResult<String> {
     Ok(serde_json::to_string(scene.file()).map_err(failure::Failure::from)?)
 }
 
-/// The number of a text like `2.6mm` in the unit that a path of a scene has; none where the path is that of no number.
+/// The number of a text like `2.6mm` in the unit of a path of a scene; none if the path is not that of a number.
 #[pyfunction]
 fn number(path: &str, text: &str) -> PyResult<Option<f64>> {
     if sawflutter::scene::Quantity::of(path).is_none() {
@@ -86,13 +86,13 @@ fn schema() -> String {
     .to_string()
 }
 
-/// Runs the program with arguments, the first being its name; its exit code.
+/// Runs the program with arguments, the first of which is its name, and gives its exit code.
 #[pyfunction]
 fn program(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
     py.detach(|| sawflutter::cli::run(arguments))
 }
 
-/// Panics as a fault of the library would: for the test that this is an exception.
+/// Panics, for the test that a panic becomes an exception.
 #[pyfunction]
 fn panic(py: Python<'_>) -> PyResult<()> {
     watch::compute(py, None, |_| panic!("asked for by a test"))

@@ -11,9 +11,9 @@ use crate::arguments;
 use crate::failure::Failure;
 use crate::watch::compute;
 
-/// The matrices by name, row by row as little-endian doubles, and the size of their basis.
-/// Bytes and no array: NumPy reads them without a copy, and rust-numpy would have the whole library
-/// built a second time, for features of its dependencies that the program does without.
+/// The matrices by name, row by row as little-endian doubles, and the size of their basis. The result is bytes because
+/// NumPy reads them without a copy; rust-numpy would switch on features of dependencies, for which the whole library
+/// would have to be built a second time.
 #[pyfunction]
 #[pyo3(signature = (scene, *, basis=None))]
 pub fn matrices<'py>(
@@ -57,7 +57,7 @@ pub fn functions_at<'py>(
     let scene = arguments::scene(scene)?;
     let blade = scene.blade();
     let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
-    // The edge of a blade is not told from its value in metres.
+    // Values in metres within rounding of an edge are on the blade.
     let within = |r: &f64| inner * (1.0 - 1e-12) <= *r && *r <= outer * (1.0 + 1e-12);
     if let Some(off) = radius_m.iter().find(|radius| !within(radius)) {
         let allowed = format!("from {inner} to {outer}, the radii of the blade");

@@ -1,4 +1,4 @@
-//! Many saws: computed here or on other machines, logged in a folder, summed up.
+//! Many saws: computed here or on other machines, logged in a folder, and summarized.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -26,7 +26,7 @@ impl Study {
     fn new(py: Python<'_>, scene: &str, study: &str) -> PyResult<Self> {
         let scene = arguments::scene(scene)?;
         let file = StudyFile::from_json(study).map_err(Failure::from)?;
-        // Without an end of the sweep, the saw of the scene itself is analysed for one.
+        // Without an end of the sweep, the saw of the scene itself determines it.
         let study = compute(py, None, move |_| Ok(study::Study::new(scene, file)?))?;
         Ok(Study(Arc::new(study)))
     }
@@ -37,7 +37,7 @@ impl Study {
         self.0.count()
     }
 
-    /// Values of the numbers that vary, of one saw.
+    /// Values of the varied numbers of one saw.
     fn values(&self, index: usize) -> PyResult<Vec<f64>> {
         let saws = self.0.count();
         if index < saws {
@@ -47,7 +47,7 @@ impl Study {
         Err(Failure::argument("index", index, allowed, remedy).into())
     }
 
-    /// Analyses the saws of ranges on a thread of its own; their rows, as a log takes them.
+    /// Analyses the saws of ranges on a thread of its own and gives their rows in the format of a log.
     #[pyo3(signature = (ranges, *, progress=None))]
     fn rows<'py>(
         &self,
@@ -71,7 +71,7 @@ impl Study {
                 Mutex::default(),
             );
             study.run(Some(1), indices, &|saw| {
-                // A saw that was stopped half-way is none.
+                // A saw whose computation was stopped has no row.
                 stopped()?;
                 let mut saws: MutexGuard<'_, Vec<Saw>> = lock(&saws);
                 saws.push(saw);
@@ -99,7 +99,7 @@ impl Study {
         Ok(PyBytes::new(py, &study::rows_of(&self.0, &[saw])))
     }
 
-    /// Analyses the saws that a folder does not have, each logged there as soon as it is done.
+    /// Analyses the saws that the folder lacks, and logs each as soon as it is finished.
     #[pyo3(signature = (folder, *, progress=None))]
     fn run(
         &self,
@@ -117,7 +117,7 @@ impl Study {
             let missing = log.finished().clone().into_missing();
             let log = Mutex::new(log);
             study.run(None, missing, &|saw| {
-                // A saw that was stopped half-way is none.
+                // A saw whose computation was stopped has no row.
                 stopped()?;
                 let mut log = lock(&log);
                 log.append(&study, &saw)?;
@@ -127,7 +127,7 @@ impl Study {
         })
     }
 
-    /// The log of a folder, for rows that others have computed.
+    /// The log of a folder, for rows that are computed elsewhere.
     fn log(&self, py: Python<'_>, folder: PathBuf) -> PyResult<StudyLog> {
         let log = py.detach(|| Log::open(&folder, Shard::WHOLE, &self.0));
         Ok(StudyLog {
@@ -136,8 +136,8 @@ impl Study {
         })
     }
 
-    /// Writes the tables of the saws in a folder to files, and gives the other files of the
-    /// program by their names, the report last.
+    /// Writes the tables of the saws in a folder to files, and gives the other files of the program by their names, the
+    /// report last.
     fn sum_up<'py>(
         &self,
         py: Python<'py>,
@@ -190,7 +190,7 @@ impl Study {
     }
 }
 
-/// The kind of processor of this machine.
+/// The type of this machine's processor.
 #[pyfunction]
 pub fn processor() -> String {
     study::processor()
@@ -200,7 +200,7 @@ pub fn processor() -> String {
 #[pyclass(frozen, module = "sawflutter._native")]
 pub struct StudyLog {
     study: Arc<study::Study>,
-    /// None once it is closed.
+    /// The value is none after the log was closed.
     log: Mutex<Option<Log>>,
 }
 
@@ -212,25 +212,24 @@ impl StudyLog {
         Ok(self.with(|log| Ok(log.finished().done()))?)
     }
 
-    /// The first saws from a number on that are missing, at most so many; none after the last.
+    /// The first missing saws from a number on, at most `most`; none after the last saw.
     fn missing(&self, first: usize, most: usize) -> PyResult<Option<(usize, usize)>> {
         let range = self.with(|log| Ok(log.finished().missing(first, most)))?;
         Ok(range.map(|range| (range.start, range.end)))
     }
 
-    /// Adds rows, as `Study.rows` gives them, but for those of saws that are finished; how many
-    /// are new.
+    /// Adds rows of `Study.rows`, except those of finished saws, and gives the number of new rows.
     fn append(&self, py: Python<'_>, rows: &[u8]) -> PyResult<usize> {
         let append = |log: &mut Log| Ok(log.append_rows(&self.study, rows)?);
         Ok(py.detach(|| self.with(append))?)
     }
 
-    /// Notes the kind of processor that rows were computed by.
+    /// Logs the type of processor that computed rows.
     fn append_processor(&self, name: &str) -> PyResult<()> {
         Ok(self.with(|log| Ok(log.append_processor(name)?))?)
     }
 
-    /// Leaves it to other runs.
+    /// Closes the log, so that other runs can open it.
     fn close(&self) {
         lock(&self.log).take();
     }
@@ -245,7 +244,7 @@ impl StudyLog {
     }
 }
 
-/// An error once the computation of this thread was stopped.
+/// Gives an error if the computation of this thread was stopped.
 fn stopped() -> Result<(), Failure> {
     Ok(sawflutter::spectrum::Cancellation::current().check()?)
 }

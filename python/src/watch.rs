@@ -1,4 +1,4 @@
-//! Computations beside the interpreter: without its lock, with progress, and until Ctrl-C.
+//! Computations beside the interpreter: without its lock, with progress, until Ctrl-C.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -10,18 +10,18 @@ use sawflutter::spectrum::{Cancellation, Progress, Stage};
 
 use crate::failure::Failure;
 
-/// How often Ctrl-C is looked for and progress is told.
+/// Interval for Ctrl-C and progress.
 const BEAT: Duration = Duration::from_millis(50);
 
-/// How far a computation has come: the loop that is shown, as the program's bar shows it.
+/// Progress of a computation, of the loop that the program's bar shows.
 pub struct Meter {
     shown: Arc<Mutex<Shown>>,
     progress: Progress,
-    /// What is to be said before the end, once.
+    /// A message before the end, given once.
     remark: Mutex<Option<String>>,
 }
 
-/// How many are done, of how many, and of what.
+/// The number of finished steps, their total, and their name.
 type Shown = (usize, usize, &'static str);
 
 impl Default for Meter {
@@ -29,7 +29,7 @@ impl Default for Meter {
         let shown = Arc::new(Mutex::new((0, 0, "")));
         let seen = shown.clone();
         let see = move |stage: Stage| {
-            // Between two loops the last one stays shown.
+            // Between two loops the last one remains visible.
             if stage.of > 0 {
                 *lock(&seen) = (stage.done, stage.of, stage.what);
             }
@@ -43,17 +43,17 @@ impl Default for Meter {
 }
 
 impl Meter {
-    /// So many of so many are done.
+    /// Reports finished steps and their total.
     pub fn show(&self, done: usize, of: usize) {
         self.show_of("", done, of);
     }
 
-    /// The same, with their name.
+    /// Reports finished steps and their total, with their name.
     pub fn show_of(&self, what: &'static str, done: usize, of: usize) {
         self.progress.show(what, done, of);
     }
 
-    /// Something to say before the end.
+    /// Reports a message before the end.
     pub fn remark(&self, text: String) {
         *lock(&self.remark) = Some(text);
     }
@@ -76,11 +76,11 @@ pub fn compute<T: Send + 'static>(
 ) -> PyResult<T> {
     let (stop, meter) = (Cancellation::default(), Arc::new(Meter::default()));
     let (sender, receiver) = channel();
-    // A receiver is for one thread; the compiler wants to see that only one has it here.
+    // A receiver belongs to one thread; the mutex shows this to the compiler.
     let receiver = Mutex::new(receiver);
     let (flag, gauge) = (stop.clone(), meter.clone());
     std::thread::spawn(move || {
-        // Nobody listens any more where the computation was stopped.
+        // The receiver is gone after a computation was stopped.
         let _ = sender.send(guarded(&flag, &gauge.progress, || work(&gauge)));
     });
     let mut told = (0, 0, "");
@@ -114,7 +114,7 @@ pub fn compute<T: Send + 'static>(
     }
 }
 
-/// A warning of the package's logger, which Python shows on the error stream unless it is told otherwise.
+/// Gives a warning of the package's logger, which Python shows on the error stream by default.
 fn log(py: Python<'_>, text: &str) -> PyResult<()> {
     let logger = py
         .import("logging")?
@@ -122,7 +122,7 @@ fn log(py: Python<'_>, text: &str) -> PyResult<()> {
     logger.call_method1("warning", (text,)).map(|_| ())
 }
 
-/// The work's result, a panic being a fault.
+/// The result of the work, with a panic as an error.
 fn guarded<T: Send>(
     stop: &Cancellation,
     progress: &Progress,
@@ -145,7 +145,7 @@ fn guarded<T: Send>(
     }
 }
 
-/// What a thread that failed has left in a mutex is as good as any.
+/// The value of a mutex is usable also after a panic of its thread.
 pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,4 +1,4 @@
-"""Charts: the numbers that the library's own tests hold, and what Python makes of them."""
+"""Charts: the numbers of the library's own tests, and their conversion by Python."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def test_branches_are_arrays_that_cannot_be_written_to(report: sf.CampbellResult
 
 
 def test_numpy_finds_the_same_eigenvalues(draft: sf.Scene) -> None:
-    """The modes of the package against NumPy's eigenvalues of the exported matrices."""
+    """The modes of the package agree with NumPy's eigenvalues of the exported matrices."""
     matrices = draft.matrices()
     for rpm in (0.0, 1200.0, 1800.0, 2975.0):
         eigenvalues = np.linalg.eigvals(matrices.companion(rpm))
@@ -87,16 +87,16 @@ def test_a_mode_at_rest_of_the_free_blade_has_its_nodal_diameters() -> None:
 def test_a_reflected_wave_turns_with_the_rotation_and_a_backward_one_against(
     draft: sf.Scene,
 ) -> None:
-    """The phase of the dominant harmonic along θ, from the shape alone."""
+    """The direction is that of the phase of the dominant harmonic along θ, from the shape alone."""
     seen = set()
     for mode in draft.modes(rpm=1800.0):
-        # Of a mixture of harmonics no single one says how the whole runs.
+        # A single harmonic of a mixture does not determine the direction of the whole.
         if mode.harmonics[0].share < 0.67 or (mode.krein_sign > 0 and mode.direction != "backward"):
             continue
         n = mode.harmonics[0].nodal_diameters
         around = np.linspace(0.0, 2.0 * np.pi, 256, endpoint=False)
         w = mode.shape(0.35, around)
-        # e^{i(ωt − nθ)} runs forward.
+        # e^{i(ωt − nθ)} moves forward.
         forward = abs(np.mean(w * np.exp(1j * n * around)))
         backward = abs(np.mean(w * np.exp(-1j * n * around)))
         assert (forward > backward) == (mode.krein_sign < 0), mode.name
@@ -167,7 +167,7 @@ def test_sensitivities_are_asked_for(draft: sf.Scene) -> None:
     paths = [s.parameter for s in r.sensitivities]
     assert "blade.thickness_m" in paths
     thickness = r.sensitivities[paths.index("blade.thickness_m")]
-    # Held against the critical speed of a blade that is 1 % thicker.
+    # Compared with the critical speed of a blade that is 1 % thicker.
     thicker = draft.replace({"blade.thickness_m": 1.01 * draft["blade.thickness_m"]})
     moved = 100.0 * (thicker.run_campbell().critical_rpm[0] / r.critical_rpm[0] - 1.0)
     assert thickness.critical_speeds_percent[0] == pytest.approx(moved, rel=0.05)

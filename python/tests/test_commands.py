@@ -23,7 +23,7 @@ def test_check_holds_a_saw_against_limits(draft: sf.Scene) -> None:
     assert asked["min_flutter"] == pytest.approx(2500.0)
     assert asked["margin"] == pytest.approx(1250.0 / 0.85)
     assert list(failed.to_dataframe()["passed"]) == [c.passed for c in failed.criteria]
-    # Without a speed, that of the scene counts: 1800 rpm.
+    # The default speed is that of the scene: 1800 rpm.
     assert draft.check().operating_rpm == pytest.approx(1800.0)
 
 
@@ -31,7 +31,7 @@ def test_the_truth_of_a_check_is_whether_it_passed(draft: sf.Scene) -> None:
     assert draft.check(operating_rpm=1250, min_critical_rpm=1500)
     failed = draft.check(operating_rpm=1250, min_critical_rpm=1600)
     assert not failed
-    # What pytest shows of a failed assertion: which limit, what was found, what was asked.
+    # pytest shows for a failed assertion: the limit, the value found, the value required.
     with pytest.raises(AssertionError) as raised:
         assert draft.check(operating_rpm=1250, min_critical_rpm=1600)
     shown = str(raised.value)

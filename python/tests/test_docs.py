@@ -1,4 +1,4 @@
-"""What help() says of the public interface."""
+"""Texts of help() for the public interface."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import sawflutter as sf
 
 
 def public() -> Iterator[tuple[str, Callable[..., Any], bool]]:
-    """Functions, methods and properties that a user can reach, each once."""
+    """Functions, methods and properties of the public interface, each once."""
     seen = set()
     for name in sf.__all__:
         of: Any = getattr(sf, name)
@@ -46,7 +46,7 @@ def test_docstrings_have_parameters_returns_raises_and_an_example(
     signature = inspect.signature(function)
     names = [key for key in signature.parameters if key not in ("self", "cls")]
     missing = [key for key in names if key not in _section(doc, "Parameters")]
-    # Those of a figure that are told of once.
+    # Parameters of figures, which are described once.
     assert not missing or missing == ["look"], f"{name}: {missing} are not among its parameters"
     gives = signature.return_annotation not in ("None", None)
     assert is_property or not gives or _section(doc, "Returns"), f"{name} does not say what it gives"

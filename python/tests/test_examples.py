@@ -1,4 +1,4 @@
-"""The examples run and say what they should."""
+"""The examples run and print their answers."""
 
 from __future__ import annotations
 

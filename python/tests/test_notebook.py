@@ -1,4 +1,4 @@
-"""What a notebook hands to the package, and what it is told back."""
+"""Input types of a notebook, and the package's answers and errors."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ import pytest
 import sawflutter as sf
 from sawflutter._measured import table
 
-# A table that a person would write, the second frequency at rest not seen.
+# A table as a person would write it, in which the second frequency at rest was not observed.
 CSV = "0.0,10.0,,26.0\n500.0,4.5,15.5,28.0\n"
 ROWS: list[list[float]] = [[0, 10.0, np.nan, 26.0], [500, 4.5, 15.5, 28.0]]
 
@@ -64,17 +64,17 @@ def test_numbers_of_numpy_go_wherever_numbers_go(draft: sf.Scene) -> None:
 
 
 def test_a_number_that_no_saw_has_is_warned_of_before_the_answer(draft: sf.Scene) -> None:
-    """The density in g/cm³, as many tables have it."""
+    """The density is in g/cm³, as in many tables."""
     wrong = draft.replace({"blade.material.density_kg_per_m3": 7.85, "guides": []})
     with pytest.warns(sf.ModelWarning, match="density") as told:
         r = wrong.run_campbell()
-    # At the line of the user, not within the package.
+    # The warning names the user's line, and none within the package.
     assert {warning.filename for warning in told} == {__file__}
     shown = repr(r)
     assert "density" in shown
     assert shown.index("density") < shown.index("critical speed")
     assert "density" in r._repr_html_()
-    # What is read again is not computed: no second warning.
+    # Reading a report computes nothing and gives no second warning.
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert sf.CampbellResults.from_json(r.to_json()) == r
@@ -98,7 +98,7 @@ def test_the_range_of_speeds_is_an_argument(draft: sf.Scene) -> None:
 
 
 def test_modes_at_several_speeds_are_arrays(draft: sf.Scene) -> None:
-    """Held against NumPy's eigenvalues of the exported matrices."""
+    """The reference is NumPy's eigenvalues of the exported matrices."""
     speeds = [0.0, 500.0, 1200.0, 2275.0]
     found = draft.modes(speeds)
     assert found.rpm.tolist() == speeds
@@ -156,7 +156,7 @@ def test_copies_cannot_be_written_to_either(report: sf.CampbellResults) -> None:
 
 
 def test_a_branch_knows_the_edges_of_its_bands(draft: sf.Scene, report: sf.CampbellResults) -> None:
-    """A rpm beside a band the saw is stable, say NumPy's eigenvalues; and so does the branch."""
+    """One rpm beside a band the saw is stable, by NumPy's eigenvalues and for the branch."""
     matrices = draft.matrices()
     looked = 0
     for band in report.bands[:4]:
@@ -197,7 +197,7 @@ def test_a_report_of_another_kind_is_refused(report: sf.CampbellResults, tmp_pat
 
 
 def test_guides_without_stiffness_leave_the_free_blade(draft: sf.Scene) -> None:
-    """Its lowest critical speed is exact: 1476.6 rpm; and the saw of the paper has 1530.7."""
+    """Its lowest critical speed is exact, 1476.6 rpm; that of the paper's saw is 1530.7 rpm."""
     own = draft["guides[0].stiffness_n_per_m"]
     found = draft.run_stiffness_map([1e-3, own])
     assert found.critical_rpm[:, 0] == pytest.approx([1476.6, 1530.7], rel=1e-3)
@@ -222,7 +222,7 @@ def test_a_missing_package_says_how_it_is_installed(
 
 
 class _Missing:
-    """Finds that a package is not there."""
+    """An importer that does not find a package."""
 
     def __init__(self, module: str) -> None:
         self.module = module

@@ -1,4 +1,4 @@
-"""Figures: what they show is what the report says, in the colours of the program."""
+"""Figures: they show the numbers of the report, in the colours of the program."""
 
 from __future__ import annotations
 
@@ -238,7 +238,7 @@ def test_the_saw_is_drawn_with_its_guides_and_signs(draft: sf.Scene) -> None:
     assert {"rim", "bore", "cut", "probe", "guides[0]", "guides[1]", "rotation"} <= set(named)
     rim = named["rim"]
     assert np.hypot(rim.x, rim.y) == pytest.approx(draft["blade.outer_diameter_m"] / 2)
-    # 90° with the rotation from the x axis is up.
+    # 90° in the direction of rotation from the x axis is up.
     pad = named["guides[1]"]
     middle = (np.mean(pad.x[:4]), np.mean(pad.y[:4]))
     assert middle == pytest.approx((0.0, draft["guides[0].radius_m"]), abs=1e-12)
@@ -259,7 +259,7 @@ def test_bands_are_drawn_in_full_and_limits_by_name(
 
 
 def test_units_change_numbers_and_names_together(report: sf.CampbellResults) -> None:
-    """An angular frequency is 2π times a frequency, and a turn a second is 60 rpm."""
+    """An angular frequency is 2π times a frequency, and one rotation per second is 60 rpm."""
     plain = report.plot()
     radians = report.plot(speed_units="Hz", frequency_units="rad/s")
     assert radians.layout.yaxis.title.text == "Im λ [rad/s]"
@@ -269,7 +269,7 @@ def test_units_change_numbers_and_names_together(report: sf.CampbellResults) -> 
     for before, after in upper:
         assert np.allclose(after.x, before.x / 60.0, equal_nan=True)
         assert np.allclose(after.y, 2.0 * np.pi * before.y, equal_nan=True)
-    # Growth rates are no frequencies.
+    # Growth rates are not frequencies.
     for before, after in zip(plain.data, radians.data):
         if before.yaxis == "y2":
             assert np.array_equal(after.y, before.y, equal_nan=True)

@@ -127,7 +127,7 @@ def test_a_scene_is_a_mapping_in_full() -> None:
     assert sf.Scene(saw) == saw
     assert saw.blade["thickness_m"] == saw["blade.thickness_m"] == 0.0028
     assert saw.guides[0]["radius_m"] == 0.2 and saw.mount is not None and saw.cut is not None
-    # What looks like a change of the scene is refused, with the remedy.
+    # An assignment to the scene is refused, with the remedy.
     for change in (
         lambda: saw.__setitem__("name", "other"),
         lambda: saw["blade"].update(thickness_m=0.003),
@@ -177,7 +177,7 @@ def test_a_guide_is_added_with_what_the_last_one_has() -> None:
 
 
 class Quantity:
-    """What is needed of a quantity of pint: its size in a unit."""
+    """A quantity with the methods of pint that the package uses: its size in a unit."""
 
     def __init__(self, **sizes: float) -> None:
         self.sizes = sizes
@@ -225,7 +225,7 @@ def test_pint_understands_every_unit() -> None:
     assert other["blade.material.youngs_modulus_pa"] == pytest.approx(2.05e11)
     assert other["blade.material.density_kg_per_m3"] == pytest.approx(7850.0)
     assert other["guides[0].stiffness_n_per_m"] == pytest.approx(2e7)
-    # A length is no pressure.
+    # A length is not a pressure.
     with pytest.raises(pint.DimensionalityError):
         saw.replace({"blade.material.youngs_modulus_pa": units.Quantity(1.0, "m")})
 

@@ -1,4 +1,4 @@
-"""The schemas of the program accept what comes with it, and refuse what it refuses."""
+"""The schemas of the program accept its published files, and refuse the files that it refuses."""
 
 from __future__ import annotations
 

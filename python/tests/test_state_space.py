@@ -30,12 +30,12 @@ def test_modes_are_those_of_the_library(damped: sf.Scene) -> None:
 
 
 def test_the_static_gain_is_the_stiffness_at_the_rim(damped: sf.Scene) -> None:
-    # `check` takes this basis, for a point load bends waves of all lengths.
+    # `check` uses this basis, because a point load excites waves of all lengths.
     space = damped.matrices(basis=(30, 12)).state_space(1200, inputs=RIM, outputs=RIM)
     gain = space.response(0.0)[0, 0]
     checked = damped.check()
     assert checked.rim_stiffness_n_per_m is not None
-    # The air that the blade turns in pushes at rest in space too, by a little.
+    # Air that rotates with the blade has a small effect also at rest in space.
     assert gain.real == pytest.approx(1.0 / checked.rim_stiffness_n_per_m, rel=1e-2)
 
 

@@ -100,10 +100,11 @@ def test_saws_vary_as_they_are_told(study: sf.Study, tmp_path: Path) -> None:
     assert np.all((2.0e11 <= values[:, 1]) & (values[:, 1] <= 2.1e11))
     frame = study.run(tmp_path).to_dataframe()
     assert np.array_equal(frame["blade.thickness_m"].to_numpy(), values[:, 0])
-    # A free blade's critical speeds go with thickness and the root of the modulus.
+    # A free blade's critical speeds are proportional to thickness and the root of the modulus.
     scale = values[:, 0] * np.sqrt(values[:, 1])
     ratios = frame["lowest_critical_rpm"].to_numpy() / scale
-    # Not every saw gets the same basis; on one basis this is exact, between them to the estimate.
+    # Saws can have different bases; this is exact on one basis, and accurate to the estimate
+    # between two.
     for functions in set(frame["functions"]):
         own = ratios[frame["functions"] == functions]
         assert np.allclose(own, own[0], rtol=1e-9)
@@ -123,7 +124,7 @@ def test_sobol_indices_are_shares_of_the_variance(study: sf.Study, tmp_path: Pat
     # The estimator's own error at 1024 saws, several times less than the half-widths.
     assert np.all(abs(indices - exact) < 0.02), (indices, exact)
     assert np.all(abs(indices - exact) < found["lowest_critical_confidence"])
-    # No saw flutters: nothing varies.
+    # No saw flutters, so that there is no variance.
     assert found["flutter"].isna().all()
 
 
@@ -206,7 +207,7 @@ def test_a_grid_is_a_map_of_its_speeds(draft: sf.Scene, tmp_path: Path) -> None:
     (heat,) = result.map_chart("lowest_critical_rpm").panels[0].items
     assert isinstance(heat, Heat)
     assert (heat.x.tolist(), heat.y.tolist()) == tuple(values.values())
-    # Critical speeds of a free blade go with its thickness.
+    # Critical speeds of a free blade are proportional to its thickness.
     assert heat.z[:, 1] / heat.z[:, 0] == pytest.approx(2.9 / 2.7, rel=1e-3)
     assert result.map_chart("lowest_critical_rpm").plot().data
     with pytest.raises(ValueError, match="two numbers"):

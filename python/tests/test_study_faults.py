@@ -24,7 +24,7 @@ distributed = pytest.importorskip("distributed")
 psutil = pytest.importorskip("psutil")
 
 SAWS = 2400
-# Some milliseconds a saw, so that there is time to kill workers in mid-run.
+# A saw takes some milliseconds, so that there is time to kill workers during a run.
 STUDY: dict[str, Any] = {
     "name": "Thickness",
     "saws": SAWS,
@@ -49,7 +49,7 @@ def study(draft: sf.Scene) -> sf.Study:
 def alone(
     study: sf.Study, programs: list[str], tmp_path_factory: pytest.TempPathFactory
 ) -> dict[str, bytes]:
-    """The files of one run of the program on one thread."""
+    """The files of a run of the program on one thread."""
     folder = tmp_path_factory.mktemp("alone")
     study.scene.save(folder / "scene.json")
     (folder / "tolerances.json").write_text(json.dumps(STUDY))
@@ -75,7 +75,7 @@ def files(folder: Path) -> dict[str, bytes]:
 
 
 def logged(folder: Path) -> list[int]:
-    """Numbers of the saws in the log, without a last line that has no end."""
+    """Numbers of the saws in the log, without an incomplete last line."""
     try:
         text = (folder / "study.log").read_text()
     except FileNotFoundError:
@@ -115,7 +115,7 @@ class Cluster:
                     if "spawn_main" in " ".join(child.cmdline()):
                         found.append(child)
                 except psutil.Error:
-                    # It has just ended.
+                    # The process has just ended.
                     continue
         return found
 
@@ -148,7 +148,7 @@ def cluster(folder: Path, workers: int, *more: str) -> Iterator[tuple[Cluster, A
         one.stop()
 
 
-# Sleeps over its saws, so that there is time to kill it in mid-run.
+# The study sleeps at its saws, so that there is time to kill it during a run.
 SLOW = """
 import time
 from sawflutter import _tasks
@@ -183,7 +183,7 @@ def test_workers_that_are_killed_lose_no_saw(
         killer.start()
         study.run(tmp_path / "out", executor=client)
         killer.join()
-    # Six processes, all in mid-run.
+    # All six processes are computing.
     assert len(dict(killed)) == 6 and all(done < SAWS for _, done in killed), killed
     assert sorted(logged(tmp_path / "out")) == list(range(SAWS))
     assert files(tmp_path / "out") == alone
@@ -213,7 +213,7 @@ def test_a_lost_scheduler_ends_the_run_and_the_next_one_goes_on(
     assert files(tmp_path / "out") == alone
 
 
-# A worker that is given saw 37 ends at once. A preload can be run twice.
+# A worker that gets saw 37 ends at once. A preload can be run twice.
 POISON = """
 import os, signal
 from sawflutter import _tasks
@@ -240,7 +240,7 @@ def test_a_saw_that_ends_its_workers_is_a_row_with_the_reason(
     assert (result.all.saws, result.all.failed, result.all.refused) == (60, 1, 0)
     (failed,) = result.not_analysed
     assert failed.saw == 37 and "ended every worker" in failed.reason
-    # All others are what they are without it: a study's first saws are those of a longer one.
+    # All others are as in a study without it: a study's first saws are those of a longer one.
     ours = (tmp_path / "out" / "study.csv").read_text().splitlines()
     theirs = alone["study.csv"].decode().splitlines()[:61]
     assert [k for k in range(61) if ours[k] != theirs[k]] == [38]
@@ -288,7 +288,7 @@ def test_the_program_computes_on_a_scheduler(
             assert f"{SAWS} of {SAWS} saws" in done.stderr
 
 
-# Two kinds of processors, one on each worker.
+# Two types of processors, one on each worker.
 PROCESSOR = """
 import os
 from sawflutter import _native
@@ -359,7 +359,7 @@ def test_a_client_that_is_killed_loses_no_saw(
         wait_for(lambda share=share: len(logged(tmp_path / "out")) > SAWS // share)  # type: ignore[misc]
         killed.kill()
         killed.communicate()
-    # And in the midst of a line.
+    # The log also ends in the middle of a line.
     log = tmp_path / "out" / "study.log"
     log.write_bytes(log.read_bytes()[:-7])
     before = logged(tmp_path / "out")
@@ -369,7 +369,7 @@ def test_a_client_that_is_killed_loses_no_saw(
     assert files(tmp_path / "out") == alone
 
 
-# In the log, in the tables of the saws, and in the last of the other files.
+# The disk is full in the log, in the tables of the saws, and in the last of the other files.
 @pytest.mark.skipif(sys.platform == "win32", reason="there are no limits of files")
 @pytest.mark.parametrize("room", [40_000, 150_000])
 def test_a_full_disk_ends_the_run_and_the_next_one_goes_on(

@@ -1,4 +1,5 @@
-"""A hundred thousand saws in little memory, a million where SAWFLUTTER_TRIALS is set: made-up rows, summed up by the program."""
+"""A hundred thousand saws in little memory, a million if SAWFLUTTER_TRIALS is set: synthetic rows,
+summarized by the program."""
 
 from __future__ import annotations
 
@@ -15,7 +16,7 @@ import pytest
 import sawflutter as sf
 
 SAWS, MOST_KB = (1_000_000, 500_000) if "SAWFLUTTER_TRIALS" in os.environ else (100_000, 150_000)
-# Rows of a task, and tasks under way at the same time.
+# Rows of a task, and number of simultaneous tasks.
 ROWS, WINDOW = 5000, 64
 MERGE = """
 import resource, subprocess, sys
@@ -64,7 +65,7 @@ def test_many_saws_are_summed_up_in_little_memory(
     assert code == 0 and kilobytes < MOST_KB, kilobytes
     report = json.loads((tmp_path / "sum" / "study.json").read_text())
     speeds = np.array(exact)
-    # Exact counts and exact quantiles, of whatever is not in memory too.
+    # Counts and quantiles are exact, although the rows do not all fit into memory.
     quantiles = report["all"]["lowest_critical"]["quantiles"]
     found = np.array([q["rpm"] for q in quantiles])
     shares = [q["share"] for q in quantiles]
@@ -76,7 +77,7 @@ def test_many_saws_are_summed_up_in_little_memory(
     table = pd.read_parquet(tmp_path / "sum" / "study.parquet")
     assert np.array_equal(table["saw"], np.arange(SAWS))
     assert np.array_equal(np.sort(table["lowest_critical_rpm"]), np.sort(speeds))
-    # The first rows as the two others read them, from both tables.
+    # The first rows, as two other libraries read them from both tables.
     polars, duckdb = pytest.importorskip("polars"), pytest.importorskip("duckdb")
     for name in ("study.parquet", "study.csv"):
         path = tmp_path / "sum" / name

@@ -28,7 +28,7 @@ def test_python_runs_while_a_chart_is_computed(draft: sf.Scene) -> None:
 
     counting = threading.Thread(target=beat)
     counting.start()
-    # One call of the compiled part: with the lock held there would be no beat during it.
+    # One call of the compiled part: if it held the lock, there would be no beat during it.
     before = beats
     _native.analyze(sf.Scene.paper().with_accuracy("reference").to_json())
     after = beats
@@ -88,7 +88,7 @@ def test_a_long_sweep_is_estimated_before_its_search(draft: sf.Scene) -> None:
     handler, logger = Handler(), logging.getLogger("sawflutter")
     logger.addHandler(handler)
     try:
-        # 42 critical speeds, where 22 take some seconds.
+        # The sweep has 42 critical speeds, and 22 already take some seconds.
         with pytest.raises(Enough, match="42 critical speeds.*minutes.*estimate.*sweep.to_rpm"):
             draft.run_campbell(speed_range=(0, 10_000))
         draft.run_campbell()
@@ -99,7 +99,7 @@ def test_a_long_sweep_is_estimated_before_its_search(draft: sf.Scene) -> None:
 def test_a_panic_is_an_exception(capfd: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(RuntimeError, match="a fault of sawflutter.*asked for by a test"):
         _native.panic()
-    # And the next computation is none the worse.
+    # The next computation is unaffected.
     assert sf.Scene.paper().check(operating_rpm=1250, accuracy="draft").passed
 
 

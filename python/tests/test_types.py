@@ -1,4 +1,4 @@
-"""Types that are generated are those of the library."""
+"""Generated types agree with those of the library."""
 
 from __future__ import annotations
 

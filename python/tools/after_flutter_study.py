@@ -26,7 +26,7 @@ Change = Callable[[dict[str, Any]], None]
 
 
 def damping(key: str, value: float) -> Change:
-    """A change of one kind of damping."""
+    """A change of one type of damping."""
     return lambda saw: saw.setdefault("damping", {}).__setitem__(key, value)
 
 
@@ -77,7 +77,8 @@ ROWS: list[tuple[str, Change]] = [
 
 
 def row(change: Change, accuracy: str, seconds: float) -> str:
-    """Mean deflection at the probe over 100 rpm from each speed on and the deviation about it, in mm."""
+    """Mean deflection at the probe over 100 rpm from each speed on and the deviation about it, in
+    mm."""
     saw = copy.deepcopy(json.loads((ROOT / "scenes/paper.json").read_text()))
     saw["runup"].update(from_rpm=1400, to_rpm=2100, duration_s=10.5)
     change(saw)
@@ -106,7 +107,7 @@ def row(change: Change, accuracy: str, seconds: float) -> str:
 
 
 def main() -> None:
-    """Prints one row after the other."""
+    """Prints the rows."""
     accuracy = sys.argv[1] if len(sys.argv) > 1 else "draft"
     seconds = float(sys.argv[2]) if len(sys.argv) > 2 else 3600.0
     speeds = " | ".join(f"{speed} rpm" for speed in SPEEDS)

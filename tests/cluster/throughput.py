@@ -21,7 +21,7 @@ from distributed import Client, LocalCluster
 from sawflutter import _native, _tasks
 
 SAWS = 3000
-# Rows at a time, as many as a task of half a minute has.
+# Rows of one call, as many as in a task of half a minute.
 ROWS, TASKS = 5000, 20
 
 
@@ -33,7 +33,7 @@ def study(saws: int) -> sf.Study:
 
 
 def on_workers(workers: int) -> dict[str, float]:
-    """A study from its first task to its last row."""
+    """Time of a study from its first task to its last row."""
     one = study(SAWS)
     with (
         LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
@@ -56,7 +56,8 @@ def on_workers(workers: int) -> dict[str, float]:
 
 
 def cost_of_a_task() -> float:
-    """Tasks of one saw, one after the other as fast as they come back, less the saw itself."""
+    """Time of tasks of one saw, run one after the other without a pause, less that of the saw
+    itself."""
     one = study(SAWS)
     text = _tasks.Text(one.scene.to_json(), one._text)
     with (
@@ -72,13 +73,13 @@ def cost_of_a_task() -> float:
 
 
 def row(index: int, value: float) -> str:
-    """A made-up saw."""
+    """A synthetic saw."""
     critical = 5.3e5 * value
     return f"{index},{value!r},analysed,{critical!r},,{1.5 * critical!r},,85,0.001,0,\n"
 
 
 def rows_per_second() -> float:
-    """Rows that a client checks and writes."""
+    """The rate at which a client checks and writes rows."""
     one = study(ROWS * TASKS)
     log = one._native.log(tempfile.mkdtemp())
     seconds = 0.0

@@ -1,5 +1,5 @@
-//! Goal: the program keeps its word to the person or script that runs it: whole files or
-//! none, one clear message for a bad scene, exit code 0 or 2, lines that fit a terminal.
+//! Goal: the program's output is reliable for the person or script that runs it: all files or none, one clear message
+//! for a bad scene, exit code 0 or 2, lines that fit a terminal.
 //!
 //! Source: the scene and report keys and exit codes of docs/reference and `--help`.
 
@@ -22,14 +22,14 @@ const FILES: [&str; 6] = [
     "root-loci.png",
     "root-loci.svg",
 ];
-/// Of a saw that nothing makes flutter there are no loci.
+/// A saw that does not flutter has no root loci.
 const FILES_WITHOUT_FLUTTER: [&str; 4] = [FILES[0], FILES[1], FILES[2], FILES[3]];
 
 fn read(path: PathBuf) -> Vec<u8> {
     std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The built-in saw, run once for all tests that look at what it leaves behind.
+/// The built-in saw, computed once for all tests that read its output.
 struct DefaultRun {
     folder: PathBuf,
     output: Output,
@@ -40,7 +40,7 @@ fn default_run() -> &'static DefaultRun {
     static RUN: OnceLock<DefaultRun> = OnceLock::new();
     RUN.get_or_init(|| {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("default-run");
-        // What an earlier run of the tests has left.
+        // Removes the files of an earlier run of the tests.
         let _ = std::fs::remove_dir_all(&folder);
         let output = sawflutter()
             .args(["analyze", "--accuracy", "draft", "--out"])
@@ -86,7 +86,7 @@ fn the_summary_fits_a_terminal_and_says_what_matters() {
     let run = default_run();
     let text = text(&run.output.stdout);
     for line in text.lines() {
-        // The last line names the folder, which may be as long as it likes.
+        // The last line names the folder, whose name may have any length.
         let columns = line.chars().count();
         assert!(columns <= 80 || line.starts_with("Written to"), "{line}");
     }
@@ -112,7 +112,7 @@ fn the_summary_of_a_scene_with_long_words_fits_too() {
     let folder = TempDir::new().unwrap();
     let mut file = quick_scene();
     file.name = "Säge ".repeat(60);
-    // So thick that the report warns.
+    // A blade so thick that the report warns.
     file.blade.thickness_m = 0.03;
     let scene = write_scene(&folder, &file);
     let output = sawflutter()
@@ -164,7 +164,7 @@ fn campbell_csv_holds_every_point_of_every_branch() {
     assert!(rows.next().is_none() && points > 1000, "{points} points");
 }
 
-/// Complete means that nobody needs the program's inside to draw the figure again.
+/// The CSV is complete if the figure can be drawn from it without any other output of the program.
 #[test]
 fn the_figure_can_be_redrawn_from_the_report_alone() {
     let run = default_run();
@@ -186,13 +186,13 @@ fn json_on_standard_output_is_the_report() {
         .output()
         .unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    // `Report` refuses unknown keys: every key written is one that it knows.
+    // `Report` refuses unknown keys, so that this also checks every key that is written.
     let report: Report = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(report.scene, quick_scene());
     let written = read(out.join("report.json"));
     let file: Report = serde_json::from_slice(&written).unwrap();
     assert_eq!(file, report);
-    // What was read is what is written again: no digit is lost on the way.
+    // The values that are read are written again, without the loss of a digit.
     let again = serde_json::to_string_pretty(&file).unwrap();
     assert!(again.as_bytes() == written.trim_ascii_end(), "digits lost");
 }
@@ -214,7 +214,7 @@ fn a_second_run_replaces_the_files_of_the_first() {
         .arg(&out)
         .assert()
         .success();
-    // The old loci are gone too: they were another saw's.
+    // The old loci are removed too, because they belong to another saw.
     let mut expected: Vec<&str> = FILES_WITHOUT_FLUTTER.to_vec();
     expected.insert(3, "notes.txt");
     assert_eq!(names_in(&out), expected);
@@ -225,7 +225,7 @@ fn a_second_run_replaces_the_files_of_the_first() {
     serde_json::from_slice::<Report>(&read(out.join("report.json"))).unwrap();
 }
 
-/// The picture alone changes; a part that is none of the sweep is refused.
+/// Only the picture changes. A range outside the sweep is refused.
 #[test]
 fn a_part_of_the_sweep_can_be_drawn() {
     let folder = TempDir::new().unwrap();
@@ -256,7 +256,8 @@ fn schema_prints_the_schema_of_a_scene() {
     assert_eq!(schema, sawflutter::scene::json_schema());
 }
 
-/// `sawflutter | head -0`: a reader that has seen enough is no failure.
+/// `sawflutter
+/// head -0`: a reader that closes the pipe is no failure.
 #[test]
 fn a_closed_pipe_is_no_failure() {
     let folder = TempDir::new().unwrap();
@@ -284,8 +285,8 @@ fn a_closed_pipe_is_no_failure() {
     assert_eq!(names_in(&out), FILES_WITHOUT_FLUTTER);
 }
 
-/// The built-in saw passes 42 critical speeds up to 10 000 rpm, of which the search takes minutes: the number is said
-/// before, with the key that shortens it. Sweeps of seconds say nothing.
+/// The built-in saw has 42 critical speeds up to 10 000 rpm, and the search takes minutes: the program prints their
+/// number before, with the key that shortens the search. Sweeps of seconds print nothing.
 #[test]
 fn a_long_sweep_is_estimated_before_its_search() {
     let folder = TempDir::new().unwrap();
@@ -315,9 +316,9 @@ fn a_long_sweep_is_estimated_before_its_search() {
     assert_eq!(text(&default_run().output.stderr), "");
 }
 
-/// The forces of the cut on the chart, and the idling saw beside it, in every face of the answer.
+/// The chart under the forces of the cut, beside the idling saw, in text, JSON and figure.
 #[test]
-fn the_chart_in_the_cut_stands_beside_that_of_the_idling_saw() {
+fn the_chart_in_the_cut_is_beside_that_of_the_idling_saw() {
     let folder = TempDir::new().unwrap();
     let run = |arguments: &[&str]| {
         let mut command = sawflutter();
@@ -335,7 +336,7 @@ fn the_chart_in_the_cut_stands_beside_that_of_the_idling_saw() {
     let idling = in_cut.idling.expect("a full chart");
     assert_eq!((in_cut.rpm, in_cut.teeth), (2800.0, 4));
     let own = &default_run().report;
-    // A search for bands alone closes in on the onset from other speeds than that of a chart.
+    // A search for bands alone reaches the onset from other speeds than a chart does.
     let (idle, charted) = (idling.flutter_speed_rpm, own.flutter_speed_rpm);
     let (idle, charted) = (idle.unwrap(), charted.unwrap());
     assert!((idle / charted - 1.0).abs() < 1e-9, "{idle} {charted}");
@@ -351,7 +352,7 @@ fn the_chart_in_the_cut_stands_beside_that_of_the_idling_saw() {
         told.lines()
             .all(|line| { line.chars().count() <= 80 || line.starts_with("Written to") })
     );
-    // Without a number it is the operating speed; a saw of another kind has no cut.
+    // The default speed is the operating speed; a saw of another scene has no cut.
     let output = run(&["--in-cut", "--json"]);
     let report: Report = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(report.in_cut.map(|in_cut| in_cut.rpm), Some(1800.0));

@@ -39,7 +39,7 @@ fn a_number_that_is_set_is_that_of_a_scene_with_it() {
     );
 }
 
-/// What reads a scene has the option, and refuses what no scene has before it computes or writes anything.
+/// Every command that reads a scene has the option, and refuses an unknown path before it computes or writes anything.
 #[test]
 fn every_command_that_reads_a_scene_takes_settings() {
     let folder = TempDir::new().unwrap();
@@ -74,7 +74,7 @@ fn every_command_that_reads_a_scene_takes_settings() {
     assert_eq!(check.output().unwrap().status.code(), Some(0));
 }
 
-/// The scene of a report of a command, without its block.
+/// The scene in the report of a command, without the block of its answer.
 fn scene_of(arguments: &[&str], name: &str, folder: &TempDir) -> (SceneFile, String) {
     let output = run(arguments, folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
@@ -84,7 +84,7 @@ fn scene_of(arguments: &[&str], name: &str, folder: &TempDir) -> (SceneFile, Str
     (scene, text(&output.stderr).to_owned())
 }
 
-/// Shapes are computed and written where they are asked for, and do not stay behind.
+/// Shapes are computed and written only on request, and are removed by a run without them.
 #[test]
 fn shapes_are_written_where_they_are_asked_for() {
     let folder = TempDir::new().unwrap();
@@ -159,7 +159,7 @@ fn a_scene_without_a_cut_takes_one_from_options_and_says_what_is_assumed() {
     );
 }
 
-/// A page is written as a whole, where it is asked for, and refused before anything is computed.
+/// A page is written as a whole, only on request, and a refusal comes before any computation.
 #[test]
 fn a_page_is_written_beside_the_files_or_refused() {
     let folder = TempDir::new().unwrap();
@@ -183,9 +183,9 @@ fn a_page_is_written_beside_the_files_or_refused() {
         check.to_str().unwrap(),
     ];
     let output = command.args(["check", scene]).args(set).output().unwrap();
-    // Nothing holds this blade against rigid motions, which is a limit that it does not keep.
+    // Nothing restrains this blade against rigid motions, so that it fails the check.
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
-    // The words of the terminal are those of the page.
+    // The page has the sentences of the terminal.
     let first = text(&output.stdout).lines().nth(1).unwrap();
     assert!(text_of(&check).contains(first), "{first}");
     for wrong in [

@@ -1,4 +1,4 @@
-//! Goal: saws side by side are the saws that they are by themselves.
+//! Goal: saws that are compared have the results that each has alone.
 //!
 //! Independent values: the report of each saw alone, of the same file with the numbers typed in; the stiffness at the rim that
 //! `check` reports.
@@ -28,7 +28,7 @@ fn write(folder: &TempDir, name: &str, file: &SceneFile) -> String {
 }
 
 #[test]
-fn a_comparison_holds_what_each_saw_is_alone() {
+fn a_comparison_has_the_results_of_each_saw_alone() {
     let folder = TempDir::new().unwrap();
     let mut thin = saw();
     thin.blade.thickness_m = 0.0026;
@@ -84,7 +84,7 @@ fn a_comparison_holds_what_each_saw_is_alone() {
         );
     }
 
-    // Reports that were computed before are compared as well.
+    // Reports of earlier runs are compared as well.
     let report = out(&alone).join("report.json");
     let output = run(
         &["compare", report.to_str().unwrap(), &first, "--json"],
@@ -122,7 +122,7 @@ fn scenes_without_a_sweep_are_charted_over_the_same_speeds() {
         .map(|saw| saw.campbell.to_rpm)
         .collect();
     assert_eq!(ends[0], ends[1]);
-    // Twice the lowest critical speed of the faster saw, which is proportional to the thickness.
+    // The lowest critical speed is proportional to the thickness, and the range ends at twice that of the faster saw.
     let critical: Vec<f64> = compared
         .saws
         .iter()
@@ -137,7 +137,7 @@ fn scenes_without_a_sweep_are_charted_over_the_same_speeds() {
 }
 
 #[test]
-fn what_cannot_be_compared_is_refused() {
+fn invalid_comparisons_are_refused() {
     let folder = TempDir::new().unwrap();
     let path = write(&folder, "a.json", &saw());
     for (arguments, words) in [

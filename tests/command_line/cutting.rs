@@ -1,4 +1,4 @@
-//! Goal: `cut` and `runup` keep their word to the person or script that runs them.
+//! Goal: the output of `cut` and `runup` is reliable for the person or script that runs them.
 //!
 //! Source: `--help`, docs/explanation/paper.md, and the paper's verdicts (section 3.2).
 
@@ -44,7 +44,7 @@ fn the_built_in_cut_is_stable_at_1800_and_unstable_at_2800() {
         (2800.0, CutVerdict::Unstable, Some(true)),
     ];
     assert_eq!(verdicts, expected);
-    // The certificate of each speed, in both faces, with as many growing modes as the verdict says.
+    // The certificate of each speed, in text and JSON, with as many growing modes as the verdict states.
     let in_one_line = summary.split_whitespace().collect::<Vec<_>>().join(" ");
     for (run, growing) in report.runs.iter().zip([0, 1]) {
         let certificate = &run.certificate;
@@ -54,12 +54,12 @@ fn the_built_in_cut_is_stable_at_1800_and_unstable_at_2800() {
         assert!(certificate.full_basis_counts > 2, "{certificate:?}");
         assert!(in_one_line.contains(&certificate.statement), "{summary}");
     }
-    // The JSON is for programs in other languages too: no number in it is not one.
+    // Programs in other languages read the JSON too: it has no NaN.
     assert!(!text(&json).contains("NaN"));
 }
 
 #[test]
-fn a_speed_of_ones_own_replaces_the_scenes() {
+fn a_speed_on_the_command_line_replaces_that_of_the_scene() {
     let folder = TempDir::new().unwrap();
     let arguments = ["cut", "--rpm", "2800", "--accuracy", "draft", "--json"];
     let output = run(&arguments, &folder);
@@ -68,7 +68,7 @@ fn a_speed_of_ones_own_replaces_the_scenes() {
     assert_eq!(report.scene.accuracy, Accuracy::Draft);
 }
 
-/// 1.8 for 1800.
+/// The speed is given as 1.8 instead of 1800.
 #[test]
 fn a_speed_in_another_unit_is_warned_of() {
     let folder = TempDir::new().unwrap();
@@ -80,7 +80,7 @@ fn a_speed_in_another_unit_is_warned_of() {
 }
 
 #[test]
-fn a_run_up_tells_of_every_band_it_passes() {
+fn a_run_up_lists_every_band_it_passes() {
     let folder = TempDir::new().unwrap();
     let mut file = Scene::paper().file().clone();
     file.runup = Some(RunUpFile {
@@ -114,7 +114,7 @@ fn a_run_up_tells_of_every_band_it_passes() {
     assert!(band.growth_exponent > 0.5 * bound && band.growth_exponent < bound);
 }
 
-/// What the scene lacks is named, with exit code 2 and nothing written.
+/// The error names the missing block, with exit code 2 and nothing written.
 #[test]
 fn a_scene_without_the_forces_is_refused() {
     type Case<'a> = (&'a [&'a str], &'a str, fn(&mut SceneFile));
@@ -180,7 +180,7 @@ fn a_check_passes_fails_or_is_refused() {
             1,
             "FAIL flutter speed of at least 2300 rpm: 22",
         ),
-        // Found where `analyze` finds it, however little is asked.
+        // The flutter speed is that of `analyze`, also above a small limit.
         (
             &["--operating-rpm", "1200", "--min-flutter-rpm", "1400"],
             0,

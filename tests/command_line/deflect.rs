@@ -1,4 +1,5 @@
-//! Goal: `deflect` says in every face where the blade stands, and refuses what it cannot answer.
+//! Goal: `deflect` gives the equilibria of the blade equally in text, JSON and figure, and refuses a scene that it
+//! cannot answer.
 //!
 //! Source: `--help`, docs/how-to/deflect.md.
 
@@ -9,7 +10,7 @@ use tempfile::TempDir;
 use super::program::{names_in, out, run, text};
 
 #[test]
-fn the_built_in_saw_leans_past_its_first_critical_speed() {
+fn the_built_in_saw_has_deflected_equilibria_past_its_first_critical_speed() {
     let folder = TempDir::new().unwrap();
     let options = ["--force-n", "2", "--to-rpm", "1700", "--accuracy", "draft"];
     let output = run(&[&["deflect"], &options[..]].concat(), &folder);
@@ -39,7 +40,7 @@ fn the_built_in_saw_leans_past_its_first_critical_speed() {
     let [first, last] = [report.up.arcs.first(), report.up.arcs.last()].map(Option::unwrap);
     assert_eq!(first.rpm[0], 0.0);
     assert!((last.rpm.last().unwrap() - 1700.0).abs() < 1e-6);
-    // At rest the frequencies are those of the linear model, up to what the force stretches.
+    // At rest the frequencies are those of the linear model, apart from the stretching by the force.
     let at_rest = report.campbell.branches[0].frequency_hz[0];
     assert!((first.frequencies_hz[0][0] / at_rest - 1.0).abs() < 1e-2);
 }
@@ -71,10 +72,10 @@ fn a_force_or_a_saw_without_an_answer_is_refused() {
     assert!(!folder.path().join("out").exists());
 }
 
-/// A pad that lifts off: its force balances the side force, text and JSON say what the linear chart takes it for, and without
-/// a side force nothing holds the blade.
+/// A pad that lifts off: its force balances the side force, and text and JSON state how the linear chart treats it.
+/// Without a side force nothing restrains the blade.
 #[test]
-fn a_pad_that_lifts_off_is_followed_and_told() {
+fn a_pad_that_lifts_off_is_reported() {
     let folder = TempDir::new().unwrap();
     let scene = Scene::paper().edited(|file| {
         let pad = &mut file.guides[0];
@@ -103,9 +104,10 @@ fn a_pad_that_lifts_off_is_followed_and_told() {
     assert!(refused.contains("film_stiffness_n_per_m"), "{refused}");
 }
 
-/// How far flutter rises: the same number in JSON of `analyze` and of `check`, and the exit code for a limit above and below.
+/// The amplitude of flutter: the JSON of `analyze` and of `check` has the same number, and the exit code follows a
+/// limit above and below it.
 #[test]
-fn a_limit_of_the_amplitude_of_flutter_is_held_against_every_band() {
+fn a_limit_of_the_amplitude_of_flutter_applies_to_every_band() {
     let folder = TempDir::new().unwrap();
     let speed = ["--accuracy", "draft"];
     let output = run(
@@ -127,7 +129,7 @@ fn a_limit_of_the_amplitude_of_flutter_is_held_against_every_band() {
         .filter(|band| amplitude(band).is_some())
         .count();
     assert!(known >= 6 && known == flutter.count(), "{known}");
-    // Of the first band, at a speed of its own, where the 85 % rule is not kept.
+    // The amplitude of the first band, at a speed within it, where the saw breaks the 85 % rule.
     let operating = format!("{}", 0.5 * (first.from_rpm + first.to_rpm));
     let most_mm = 1e3 * std::f64::consts::SQRT_2 * amplitude(first).unwrap();
     for (share, passed) in [(0.99, false), (1.01, true)] {

@@ -1,4 +1,4 @@
-//! Goal: `fit` and `place` keep their word to the person or script that runs them.
+//! Goal: the output of `fit` and `place` is reliable for the person or script that runs them.
 //!
 //! Source: `--help` and docs/how-to.
 
@@ -69,7 +69,7 @@ fn a_check_draws_its_limits_where_it_is_asked_to() {
     assert!(read(&folder, "check.svg").contains("FAIL flutter speed of at least 2800 rpm"));
 }
 
-/// From the paper's Table 5, one number left out.
+/// Numbers of the paper's Table 5, one of them left out.
 const TABLE: &str = "rpm,f1,f2,f3,f4\n0,9,10.5,26,43\n500,4.5,15.5,28,\n1000,3,13.5,26.5,40.5\n";
 
 #[test]
@@ -118,7 +118,7 @@ fn a_table_is_fitted_and_the_scene_it_gives_can_be_used() {
 }
 
 #[test]
-fn what_cannot_be_fitted_is_refused_and_nothing_is_written() {
+fn a_table_that_cannot_be_fitted_is_refused_and_nothing_is_written() {
     let cases: [(&str, &[&str], &str); 9] = [
         ("rpm,f\n0,x\n", &[], "line 2"),
         ("rpm,f\n", &[], "no frequency in measured.csv"),
@@ -152,7 +152,7 @@ fn what_cannot_be_fitted_is_refused_and_nothing_is_written() {
     }
 }
 
-/// Draft, a narrow range of radii and few saws: what is tested is what is said, not how good it is.
+/// Draft accuracy, a narrow range of radii and few saws: the test checks the texts and not the quality of the optimum.
 const QUICK: [&str; 10] = [
     "--accuracy",
     "draft",
@@ -206,7 +206,7 @@ fn the_exit_code_says_whether_the_limit_is_kept_or_the_input_refused() {
         let folder = TempDir::new().unwrap();
         let scene = scene();
         let mut arguments = vec!["place", &scene];
-        // The last of two wins only where clap lets it: keep them apart.
+        // Removes an option from the defaults if the test gives it, because clap does not accept every option twice.
         let quick = QUICK.chunks(2).filter(|pair| !more.contains(&pair[0]));
         arguments.extend(quick.flatten());
         arguments.extend(more);

@@ -1,5 +1,5 @@
-//! Goal: the server of `sawflutter explore` answers its own page with what the library finds,
-//! refuses everybody else, and cannot be made to do more than it should.
+//! Goal: the server of `sawflutter explore` answers its own page with the results of the library, refuses every other
+//! client, and limits its work.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -37,7 +37,7 @@ impl Answer {
         serde_json::from_slice(&self.body).unwrap()
     }
 
-    /// Of an answer that comes line by line, in chunks.
+    /// The last line of an answer that comes line by line, in chunks.
     fn last_line(&self) -> Value {
         let body = String::from_utf8(self.body.clone()).unwrap();
         let mut lines = body.lines().filter(|line| line.starts_with('{'));
@@ -129,7 +129,7 @@ fn a_draft_is_the_librarys_draft_and_modes_can_be_asked_for() {
     assert_eq!(report.accuracy, whole.accuracy);
     assert_eq!(report.certificate.krein_violations, 0);
 
-    // The page is sent the description of its chart, not the points of its branches.
+    // The page gets the description of its chart, and not the points of its branches.
     let branch = &whole.campbell.branches[2];
     let (rpm, hz) = (branch.rpm[10], branch.frequency_hz[10]);
     let asked = format!(
@@ -156,7 +156,7 @@ fn a_draft_is_the_librarys_draft_and_modes_can_be_asked_for() {
 }
 
 #[test]
-fn strangers_are_turned_away() {
+fn requests_of_other_pages_are_refused() {
     let server = Server::start();
     assert_eq!(server.ask("GET /", &[], "").status, 200);
     let own = format!("http://{}", server.host);
@@ -199,7 +199,7 @@ fn bad_and_boundless_requests_are_refused() {
     assert_eq!(refusal.json()["key"], "blade.thickness_m");
     let words = Scene::from_json(&negative).unwrap_err().to_string();
     assert_eq!(refusal.json()["message"], words);
-    // No blade holds together at 3e6 rpm, and no basis has the waves of such a sweep.
+    // No blade survives 3e6 rpm, and no basis represents the waves of such a sweep.
     let endless = paper().replace("\"to_rpm\":3000.0", "\"to_rpm\":3000000.0");
     assert_ne!(endless, paper());
     let refusal = server.ask("POST /chart/draft", &[], &endless);
@@ -217,10 +217,10 @@ fn bad_and_boundless_requests_are_refused() {
     }
 }
 
-/// A browser that closes its request takes it back: the computation behind it holds up nothing, and
-/// is counted as stopped when it comes to its end.
+/// A browser that closes its request cancels it: the computation delays no other request, and is counted as stopped
+/// when it ends.
 #[test]
-fn a_request_that_is_taken_back_is_stopped() {
+fn a_cancelled_request_is_stopped() {
     let server = Server::start();
     let reference = paper().replacen('{', r#"{"tolerance":1e-5,"#, 1);
     let taken_back = server.send("POST /chart/scene", &[], &reference);
@@ -242,7 +242,7 @@ fn a_request_that_is_taken_back_is_stopped() {
 /// Ctrl-C ends the program at once, whatever it computes.
 #[cfg(unix)]
 #[test]
-fn an_interrupt_ends_everything() {
+fn an_interrupt_ends_the_program() {
     let mut server = Server::start();
     let reference = paper().replacen('{', r#"{"tolerance":1e-5,"#, 1);
     let _waiting = server.send("POST /chart/scene", &[], &reference);
@@ -261,10 +261,10 @@ fn an_interrupt_ends_everything() {
     assert!(status.success(), "{status}");
 }
 
-/// What a scene lacks for a command is said by the library once: the page answers in its words and
-/// names its key, and the program prints them.
+/// The library alone words the error of a missing block: the page answers with this text and names its key, and the
+/// program prints them.
 #[test]
-fn what_a_scene_lacks_is_said_in_the_same_words_by_page_and_program() {
+fn page_and_program_word_a_missing_block_equally() {
     let saw = Scene::paper().edited(|saw| {
         saw.cut = None;
         saw.runup = None;

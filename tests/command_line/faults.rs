@@ -1,6 +1,6 @@
-//! Goal: whatever stops a run, there is no half file, and no wrong file under the right name.
+//! Goal: a run that is stopped leaves no incomplete file, and no file of another saw under the right name.
 //!
-//! `report.json` is written last: while it is there, every other file belongs to it.
+//! `report.json` is written last: while it exists, every other file belongs to it.
 #![cfg(target_os = "linux")]
 
 use std::fs::File;
@@ -18,7 +18,7 @@ use super::program::{self, program, text};
 
 const STAGED: &str = ".sawflutter-";
 
-/// A scene that takes no time, by name.
+/// A scene of this name that is computed in no time.
 fn quick_scene(name: &str) -> SceneFile {
     SceneFile {
         name: name.to_owned(),
@@ -33,7 +33,7 @@ fn write_scene(folder: &Path, file: &SceneFile) -> PathBuf {
 }
 
 fn analyze(scene: &Path, out: &Path) -> Command {
-    // Where the tests run in the background, SIGINT is ignored, and what they start inherits it.
+    // If the tests run in the background, SIGINT is ignored, and their child processes inherit this.
     let mut command = Command::new("env");
     command.arg("--default-signal=INT").arg(program());
     command.arg("analyze").arg(scene).arg("--out").arg(out);
@@ -41,14 +41,14 @@ fn analyze(scene: &Path, out: &Path) -> Command {
     command
 }
 
-/// Names in a folder, without those of files that a killed run was still writing.
+/// Names in a folder, without the temporary files of a run that was killed.
 fn names_in(folder: &Path) -> Vec<String> {
     let mut names = program::names_in(folder);
     names.retain(|name| !name.starts_with(STAGED));
     names
 }
 
-/// Every file there is whole; with a report, all are there and belong to it. Gives the name
+/// Checks that every file is complete and, if there is a report, that all files exist and belong to it. Gives the name
 /// of the report's scene.
 fn assert_sound(out: &Path) -> Option<String> {
     let read = |name: &str| std::fs::read(out.join(name)).ok();
@@ -96,7 +96,7 @@ fn stopped_at_any_time(signal: &str, number: i32) {
         assert_sound(&out);
     }
     assert!(stopped > 3, "{stopped} of 24 were stopped");
-    // The next run tidies up, and is whole.
+    // The next run removes the incomplete files and completes.
     assert!(analyze(&new, &out).status().unwrap().success());
     assert_eq!(assert_sound(&out).as_deref(), Some("new"));
     let all = std::fs::read_dir(&out).unwrap().count();
@@ -121,7 +121,7 @@ fn in_shell(line: &str, scene: &Path, out: &Path) -> Output {
     shell.output().unwrap()
 }
 
-/// Files may not grow beyond 20 kB: what a full disk does to the write, without a disk.
+/// Limits files to 20 kB, so that a write fails as on a full disk.
 #[test]
 fn a_disk_that_fills_up_leaves_the_old_files() {
     let folder = TempDir::new().unwrap();
@@ -139,7 +139,7 @@ fn a_disk_that_fills_up_leaves_the_old_files() {
     assert_eq!(std::fs::read_dir(&out).unwrap().count(), 4);
 }
 
-/// A real full disk, where the system lets a test mount one.
+/// A disk that is really full, if the system lets a test mount one.
 #[test]
 fn a_full_disk_is_an_error_that_names_the_file() {
     let folder = TempDir::new().unwrap();
@@ -162,7 +162,7 @@ fn a_full_disk_is_an_error_that_names_the_file() {
         message.contains("cannot write") && message.contains("No space"),
         "{message}"
     );
-    // Nothing but the message: the listing of the disk is empty.
+    // Only the message is printed, and the disk is empty.
     assert_eq!(message.lines().count(), 1, "{message}");
 }
 
@@ -172,7 +172,7 @@ fn a_full_standard_output_is_an_error() {
         let full = File::options().write(true).open("/dev/full").unwrap();
         let mut command = Command::new(program());
         let output = command.args(arguments).stdout(full).output().unwrap();
-        // clap prints its help itself, and does not mind.
+        // clap prints its help itself and ignores the failure.
         if arguments[0] == "schema" {
             assert_eq!(output.status.code(), Some(2));
             assert!(
@@ -189,7 +189,7 @@ fn a_full_standard_output_is_an_error() {
     }
 }
 
-/// Root writes everywhere, so the program is run as nobody, in a folder of root's.
+/// Root can write anywhere, so the program is run as the user nobody, in a folder of root.
 #[test]
 fn a_read_only_folder_is_refused_before_the_computation() {
     let folder = TempDir::new().unwrap();
@@ -208,7 +208,7 @@ fn a_read_only_folder_is_refused_before_the_computation() {
     let nobody = 65_534;
     let output = match command.uid(nobody).gid(nobody).output() {
         Ok(output) => output,
-        // Whoever is not root cannot become nobody, and need not.
+        // A user other than root cannot become nobody, and has no write access either.
         Err(_) => Command::new(&copy)
             .arg("analyze")
             .args([&scene, Path::new("--out"), &out])
@@ -225,7 +225,7 @@ fn a_read_only_folder_is_refused_before_the_computation() {
     assert_eq!(std::fs::read_dir(&out).unwrap().count(), 0);
 }
 
-/// Two saws charted into one folder at the same time: the files are all of one of them.
+/// Two saws are charted into one folder at the same time: all files belong to one of them.
 #[test]
 fn two_runs_to_one_folder_do_not_mix() {
     let folder = TempDir::new().unwrap();

@@ -1,4 +1,5 @@
-//! Goal: `gap` says over which amplitudes the chart of guides with a gap holds, and how far the blade goes at the cut.
+//! Goal: `gap` gives the amplitudes for which the chart of guides with a gap is valid, and the deflection of the blade
+//! at the cut.
 //!
 //! Source: `--help`, docs/how-to/guide-gaps.md.
 
@@ -72,7 +73,7 @@ fn text_files_and_json_agree() {
 }
 
 #[test]
-fn a_saw_without_a_gap_and_numbers_that_are_none_are_refused() {
+fn a_saw_without_a_gap_and_invalid_numbers_are_refused() {
     let folder = TempDir::new().unwrap();
     let path = saw(&folder);
     for (words, said) in [

@@ -1,4 +1,4 @@
-//! Goal: what `cut` and `runup` say of growing motions is one answer, and within the model.
+//! Goal: `cut` and `runup` give one answer on growing motions, within the range of the model.
 //!
 //! Source: the equations of `cut` and `runup`; the limit of five thicknesses of the blade.
 
@@ -44,7 +44,7 @@ fn item_3_a_cut_is_as_bad_as_the_worst_of_its_rows() {
     }
 }
 
-/// `tests/trials/violent_cuts.rs` goes on to forces that are a hundred thousand times as large.
+/// `tests/trials/violent_cuts.rs` continues to forces that are a hundred thousand times as large.
 #[test]
 fn item_3_a_violent_saw_is_unstable() {
     assert_unstable(1e4);
@@ -62,8 +62,8 @@ fn pushed(rpm: f64, lateral_n: f64) -> SceneFile {
     file
 }
 
-/// The model is linear: what a hundredth of the force deflects the blade by says whether the whole
-/// force leaves the model. A saw of which nothing grows is called stable only where it does not.
+/// The model is linear: the deflection by a hundredth of the force shows whether the whole force leaves the range of
+/// the model. A saw without growth is called stable only if it does not.
 #[test]
 fn a_cut_that_deflects_the_blade_beyond_the_model_is_not_called_stable() {
     for (rpm, leaves) in [(1200.0, true), (1800.0, false)] {
@@ -99,7 +99,7 @@ fn a_cut_that_deflects_the_blade_beyond_the_model_is_not_called_stable() {
     }
 }
 
-/// Numbers of a text.
+/// Numbers in a text.
 fn numbers(text: &str) -> impl Iterator<Item = f64> + '_ {
     let words = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
     words.filter_map(|word| word.trim_matches('.').parse().ok())
@@ -161,7 +161,7 @@ fn item_12_a_run_up_says_where_its_linear_model_ends() {
     }
 }
 
-/// A force that alone bends the blade too far leaves nothing to run up.
+/// A run-up is refused if the force alone deflects the blade beyond the model.
 #[test]
 fn item_12_a_run_up_under_too_large_a_force_is_refused() {
     let folder = TempDir::new().unwrap();

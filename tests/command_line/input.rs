@@ -1,5 +1,5 @@
-//! Goal: input as people have it is read where it is unambiguous; what is not is refused once, in
-//! plain words that name the key and the remedy.
+//! Goal: input in common spellings is read if it is unambiguous; other input is refused once, with the key and the
+//! remedy.
 
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -124,7 +124,7 @@ fn json_that_is_none_is_refused_by_cause_and_remedy() {
     }
 }
 
-/// No cause twice: `cannot read x: No such file: No such file` was said once.
+/// An error names its cause once, and not `cannot read x: No such file: No such file`.
 #[test]
 fn a_cause_is_told_once() {
     let folder = TempDir::new().unwrap();
@@ -138,7 +138,7 @@ fn a_cause_is_told_once() {
 }
 
 #[test]
-fn a_workbook_in_place_of_text_is_to_be_saved_as_csv() {
+fn the_error_for_a_workbook_advises_to_save_it_as_csv() {
     let folder = TempDir::new().unwrap();
     let scene = write_scene(&folder, &quick_scene());
     let workbook = folder.path().join("measured.xlsx");
@@ -149,7 +149,7 @@ fn a_workbook_in_place_of_text_is_to_be_saved_as_csv() {
 }
 
 #[test]
-fn without_a_word_a_file_is_analyzed() {
+fn a_file_without_a_command_is_analyzed() {
     let folder = TempDir::new().unwrap();
     let scene = write_scene(&folder, &quick_scene());
     let output = run(&[scene.to_str().unwrap(), "--accuracy", "draft"], &folder);
@@ -196,7 +196,7 @@ fn a_typing_mistake_is_answered_with_the_name_that_was_meant() {
     }
 }
 
-/// The scene of a folder and a name, in a folder of its own.
+/// Writes a scene into a folder of its own and gives its path.
 fn scene_in(folder: &TempDir, name: &str, file: &SceneFile) -> PathBuf {
     let path = folder.path().join(name);
     std::fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -225,7 +225,7 @@ fn several_scenes_make_a_folder_each_and_a_table() {
     );
     assert_eq!(reported(&out.join("thin")), thin);
     assert_eq!(reported(&out.join("thin-2")), thick);
-    // The table says what the reports say.
+    // The table has the numbers of the reports.
     let rows: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     for (row, name) in rows.as_array().unwrap().iter().zip(["thin", "thin-2"]) {
         let written = std::fs::read(out.join(name).join("report.json")).unwrap();
@@ -251,7 +251,7 @@ fn several_scenes_make_a_folder_each_and_a_table() {
     assert!(text(&table.stdout).contains("thin-2"));
 }
 
-/// Nothing is computed where one of the files is refused.
+/// Nothing is computed if one of the files is refused.
 #[test]
 fn several_scenes_are_read_before_the_first_is_computed() {
     let folder = TempDir::new().unwrap();
@@ -266,7 +266,7 @@ fn several_scenes_are_read_before_the_first_is_computed() {
         "{message}"
     );
     assert!(!out(&folder).exists());
-    // Where the others are wanted all the same, it is an error of the table.
+    // With --keep-going the error is a row of the table.
     let output = run(&[&paths[..], &["--keep-going"]].concat(), &folder);
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains("1 of 2 scenes"));
@@ -323,7 +323,7 @@ fn control_characters_are_not_sent_to_the_terminal() {
     }
 }
 
-/// Item 13: whatever an earlier run of the same command has left belongs to another saw.
+/// Item 13: files of an earlier run of the command belong to another saw and are removed.
 #[test]
 fn item_13_files_of_another_saw_do_not_stay() {
     let folder = TempDir::new().unwrap();
@@ -362,7 +362,7 @@ fn item_13_files_of_another_saw_do_not_stay() {
     }
 }
 
-/// Item 14: the saw of the program itself, typed in other units, does not pass without a word.
+/// Item 14: the program warns of its own saw in other units.
 #[test]
 fn item_14_numbers_in_other_units_are_warned_of() {
     let folder = TempDir::new().unwrap();
@@ -381,7 +381,7 @@ fn item_14_numbers_in_other_units_are_warned_of() {
     let scene = scene.to_str().unwrap();
     let output = run(&["analyze", scene], &folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    // In the summary lines are broken at blanks.
+    // The summary breaks its lines at blanks.
     let words = text(&output.stdout).replace("\n  ", " ");
     let written = std::fs::read(out(&folder).join("report.json")).unwrap();
     let report: Report = serde_json::from_slice(&written).unwrap();
@@ -390,7 +390,7 @@ fn item_14_numbers_in_other_units_are_warned_of() {
         panic!("{:?}", report.unusual_numbers);
     };
     assert!(told.contains(expected), "{told}");
-    // Before the verdict.
+    // The warning comes before the verdict.
     let place = |part: &str| {
         words
             .find(part)
@@ -399,8 +399,7 @@ fn item_14_numbers_in_other_units_are_warned_of() {
     assert!(place(told) < place("No instability from"), "{words}");
 }
 
-/// A check is not passed with a number that no saw has, wherever it comes from, unless it is
-/// accepted.
+/// A check fails for a number that no saw has, in the scene or in the options, unless the number is accepted.
 #[test]
 fn a_check_with_a_number_of_another_unit_fails() {
     let folder = TempDir::new().unwrap();
@@ -441,8 +440,8 @@ fn a_check_with_a_number_of_another_unit_fails() {
     assert_eq!(code, Some(0), "{words}");
 }
 
-/// Item 15: keys stand in the order in which they are declared, as in the program that the tests
-/// are built with. Fails for a program whose dependencies have other features than that one's.
+/// Item 15: keys are in the order of their declaration, as in the program that the tests are built with. The test fails
+/// for a program whose dependencies have other features.
 #[test]
 fn item_15_the_shipped_program_orders_keys_as_the_tested_one() {
     let output = sawflutter().arg("schema").output().unwrap();

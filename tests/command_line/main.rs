@@ -1,4 +1,4 @@
-//! Goal: the program as its users meet it: output, files, exit codes, faults.
+//! Goal: the program as users see it: output, files, exit codes, faults.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,4 +1,4 @@
-//! Goal: who slices the exported matrices by their documented layout gets the blade's own frequencies.
+//! Goal: the exported matrices, sliced by their documented layout, have the frequencies of the blade.
 
 use std::f64::consts::TAU;
 
@@ -21,9 +21,9 @@ fn matrix(bytes: &[u8]) -> DMatrix<f64> {
     DMatrix::from_row_slice(order, order, &numbers)
 }
 
-/// Of a blade whose thickness steps, of one with tips, and of both, which have more functions than even blades: the number
-/// of each n is the same in matrices.json, on the console and in the report, and the block of n = 2 between the places that
-/// it says has the lowest frequency of two diameters.
+/// Blades with a step of the thickness, with tips, and with both have more basis functions than even blades: the number
+/// of each n is equal in matrices.json, on the console and in the report, and the block of n = 2 at the stated place
+/// has the lowest frequency of two diameters.
 #[test]
 fn blocks_of_the_matrices_are_where_their_description_says() {
     let stepped = std::fs::read_to_string(crate::common::path("scenes/gallery/stepped-rim.json"));
@@ -74,7 +74,7 @@ fn blocks_of_the_matrices_are_where_their_description_says() {
             (found_hz / expected_hz - 1.0).abs() < 1e-6,
             "{absent:?}: {found_hz} {expected_hz}"
         );
-        // Nothing couples it to others.
+        // No other block is coupled to it.
         let size = block.norm();
         let rows = stiffness.rows(3 * radial, radial).norm();
         assert!((rows / size - 1.0).abs() < 1e-12);

@@ -1,5 +1,5 @@
-//! Goal: who heats or rolls a saw is told what it bears, in words, numbers and a picture, and a
-//! blade that buckles or a table out of balance is refused with the remedy.
+//! Goal: the user of a heated or rolled saw gets its heat limits in words, numbers and a picture; a blade that buckles
+//! or a table out of balance is refused with the remedy.
 
 use sawflutter::report::{Report, RunUpReport};
 
@@ -48,7 +48,7 @@ fn heat_and_tension_reach_the_report_the_summary_and_a_picture() {
     ] {
         assert!(printed.contains(words), "{words}: {printed}");
     }
-    // The line of files is as long as it is.
+    // The line of the files may have any length.
     let report_lines = printed
         .lines()
         .take_while(|line| !line.starts_with("Written"));
@@ -73,7 +73,7 @@ fn heat_and_tension_reach_the_report_the_summary_and_a_picture() {
     assert!(out.join("membrane.png").exists() && out.join("membrane.svg").exists());
 }
 
-/// As the notes of the scene say.
+/// The notes of the scene state this.
 #[test]
 fn without_its_tension_the_hot_saw_is_past_its_critical_speed() {
     let mut scene = tensioned();
@@ -92,7 +92,7 @@ fn without_its_tension_the_hot_saw_is_past_its_critical_speed() {
 }
 
 #[test]
-fn a_blade_that_buckles_is_refused_with_the_share_that_it_bears() {
+fn a_blade_that_buckles_is_refused_with_the_share_it_tolerates() {
     let mut scene = tensioned();
     scene["membrane"]["temperature"]["rim_rise_k"] = 400.into();
     let (folder, assert) = analyze(&scene, &[]);
@@ -151,7 +151,7 @@ fn refusals_name_key_value_and_remedy() {
     }
 }
 
-/// On a blade with free edges the hoop stress balances itself, or has been measured badly.
+/// On a blade with free edges the hoop stress is in balance; otherwise the measurement is wrong.
 #[test]
 fn a_table_out_of_balance_is_refused_with_the_number() {
     let text_of = std::fs::read_to_string(crate::common::path("scenes/free-blade.json")).unwrap();
@@ -160,7 +160,7 @@ fn a_table_out_of_balance_is_refused_with_the_number() {
         { "radius_m": 0.1, "hoop_pa": -10e6 }, { "radius_m": 0.355, "hoop_pa": 20e6 }] });
     let (_folder, assert) = analyze(&scene, &[]);
     let message = text(&assert.code(2).get_output().stderr).to_owned();
-    // (20 − 10)/2 over (10²/30 + 20²/30)/2: 5 of 8.33.
+    // Imbalance (20 − 10)/2 over (10²/30 + 20²/30)/2: 5 of 8.33.
     assert!(message.contains("60.0 % of ∫|hoop_pa| dr"), "{message}");
     scene["membrane"]["residual_stress"][1]["hoop_pa"] = 10.2e6.into();
     let (_folder, assert) = analyze(&scene, &[]);
@@ -168,8 +168,8 @@ fn a_table_out_of_balance_is_refused_with_the_number() {
     assert!(printed.contains("out of balance by"), "{printed}");
 }
 
-/// What else looks at a saw looks at it with its heat and tension: a run-up meets the same critical
-/// speeds, which the hot rim and the rolled band have moved.
+/// Other commands include heat and tension too: a run-up passes the critical speeds that the hot rim and the rolled
+/// band have moved.
 #[test]
 fn cut_run_up_and_matrices_have_heat_and_tension() {
     let mut scene = tensioned();

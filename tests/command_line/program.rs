@@ -1,4 +1,4 @@
-//! The program as these tests run it, and what it leaves behind.
+//! Runs of the program under test, and the files it writes.
 
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -13,7 +13,7 @@ mod tested;
 
 pub use tested::program;
 
-/// Longer than any run takes, also where others use the machine: what hangs is ended.
+/// A limit longer than any run takes, also on a busy machine: a run that hangs is ended.
 pub const PATIENCE: Duration = Duration::from_secs(300);
 
 pub fn sawflutter() -> Command {
@@ -22,7 +22,7 @@ pub fn sawflutter() -> Command {
     command
 }
 
-/// Runs it with the folder's `out` to write into.
+/// Runs the program with the folder's `out` as its output folder.
 pub fn run(arguments: &[&str], folder: &TempDir) -> Output {
     let mut command = sawflutter();
     let command = command.args(arguments);
@@ -33,7 +33,7 @@ pub fn out(folder: &TempDir) -> PathBuf {
     folder.path().join("out")
 }
 
-/// Names in a folder, ascending; none where there is no folder.
+/// Names in a folder, ascending; empty if the folder does not exist.
 pub fn names_in(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten();
     let name = |entry: std::io::Result<std::fs::DirEntry>| entry.unwrap().file_name();
@@ -47,7 +47,7 @@ pub fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).unwrap()
 }
 
-/// A scene that takes no time: the blade without guides, at draft accuracy.
+/// A scene that is computed in no time: the blade without guides, at draft accuracy.
 pub fn quick_scene() -> SceneFile {
     let mut file = crate::common::scene("free-blade").file().clone();
     file.accuracy = Accuracy::Draft;

@@ -1,5 +1,5 @@
-//! Goal: what cannot be analysed is refused with one clear message that names the key and the
-//! remedy, exit code 2, and nothing written.
+//! Goal: a scene that cannot be analysed is refused with one clear message that names the key and the remedy, exit code
+//! 2, and nothing written.
 //!
 //! Source: the scene keys and exit codes of docs/reference and `--help`.
 
@@ -34,7 +34,7 @@ fn refused(scene: &Path) -> String {
     message.to_owned()
 }
 
-/// The same for the text of a scene.
+/// Runs the text of a scene that must be refused.
 fn refused_text(text: &[u8]) -> String {
     let folder = TempDir::new().unwrap();
     let scene = folder.path().join("scene.json");
@@ -114,7 +114,7 @@ fn bad_values_are_refused_by_the_path_of_their_key() {
         ),
     ];
     for (key, line, instead) in cases {
-        // A key that is also unknown is named instead of the one that would follow.
+        // An unknown key is named, and not the error that its absence would cause.
         let key = if instead.contains("unused") {
             "guides[0].unused"
         } else {
@@ -128,9 +128,9 @@ fn bad_values_are_refused_by_the_path_of_their_key() {
     }
 }
 
-/// A pad beside the blade, not touching it: inside the bore.
+/// A pad inside the bore, which does not touch the blade.
 #[test]
-fn a_pad_off_the_blade_is_refused_and_told_where_the_blade_is() {
+fn a_pad_off_the_blade_is_refused_with_the_radii_of_the_blade() {
     let mut file = Scene::paper().file().clone();
     file.guides[0].radius_m = 0.01;
     file.guides[0].radial_length_m = 0.02;
@@ -147,7 +147,7 @@ fn a_pad_off_the_blade_is_refused_and_told_where_the_blade_is() {
 }
 
 #[test]
-fn what_is_no_scene_at_all_is_refused() {
+fn files_other_than_scenes_are_refused() {
     for (text, expected) in [
         ("", "empty"),
         ("  \n\t ", "empty"),
@@ -176,14 +176,14 @@ fn a_directory_and_a_missing_file_are_refused_by_name() {
     assert!(message.contains("no-such-scene.json"), "{message}");
 }
 
-/// A sparse file of 1 TB of zeros, which nobody reads to its end, in a process that may not hold
-/// half a gigabyte.
+/// A sparse file of 1 TB of zeros, which must not be read to its end, in a process limited to half a gigabyte of
+/// memory.
 #[test]
 fn a_huge_file_is_refused_unread_and_in_little_memory() {
     let folder = TempDir::new().unwrap();
     let huge = folder.path().join("huge.json");
     let file = File::create(&huge).unwrap();
-    // A file system that has no files so large gets one that still does not fit.
+    // If the file system does not allow a file of this size, a smaller one is used that is still too large.
     file.set_len(1 << 40)
         .or_else(|_| file.set_len(1_000_000_000))
         .unwrap();
@@ -204,8 +204,8 @@ fn a_huge_file_is_refused_unread_and_in_little_memory() {
     }
 }
 
-/// Refused before the computation, not after it: the analysis of this saw, whose rim is so hot that
-/// the blade buckles, would end with another message.
+/// The output folder is refused before the computation: the analysis of this saw, whose rim is so hot that the blade
+/// buckles, would end with another message.
 #[test]
 fn an_output_folder_that_cannot_be_written_is_refused_before_the_computation() {
     let folder = TempDir::new().unwrap();
@@ -213,7 +213,7 @@ fn an_output_folder_that_cannot_be_written_is_refused_before_the_computation() {
     std::fs::write(&file, "mine").unwrap();
     let mut places = vec![file.clone(), file.join("below")];
     if cfg!(target_os = "linux") {
-        // Not even root can make a folder there.
+        // Even root cannot make a folder there.
         places.push("/proc/sawflutter-out".into());
     }
     let locked = folder.path().join("locked");
@@ -221,7 +221,7 @@ fn an_output_folder_that_cannot_be_written_is_refused_before_the_computation() {
     let mut permissions = std::fs::metadata(&locked).unwrap().permissions();
     permissions.set_readonly(true);
     std::fs::set_permissions(&locked, permissions).unwrap();
-    // Root writes where it likes.
+    // Root can write here, so the case applies to other users only.
     if File::create(locked.join("probe")).is_err() {
         places.push(locked.clone());
         places.push(locked.join("below"));

@@ -1,6 +1,6 @@
-//! Goal: every scene that comes with the program is one that the program accepts,
-//! says where its numbers come from, and reads back as it was written. That all of them satisfy the
-//! schemas is tested by `python/tests/test_schema.py`, with another project's validator.
+//! Goal: the program accepts every scene that it is published with; each states the source of its numbers and can be
+//! written and read again. `python/tests/test_schema.py` tests that all of them satisfy the schemas, with another
+//! project's validator.
 
 use std::path::{Path, PathBuf};
 
@@ -35,7 +35,7 @@ fn every_scene_loads_says_where_it_comes_from_and_round_trips() {
     }
 }
 
-/// The embedded default is the file that users can read.
+/// The embedded default is the published file.
 #[test]
 fn the_built_in_saw_is_the_papers() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/paper.json");
@@ -45,7 +45,7 @@ fn the_built_in_saw_is_the_papers() {
     );
 }
 
-/// Every study that comes with the program suits the scene that its name begins with.
+/// Every published study fits the scene that its name begins with.
 #[test]
 fn every_study_suits_its_scene() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
@@ -69,7 +69,7 @@ fn every_study_suits_its_scene() {
     }
 }
 
-/// The gallery draws it, for it takes minutes to make.
+/// The gallery draws this stored report, because it takes minutes to compute.
 #[test]
 fn the_stored_report_is_of_the_sample_study_and_the_papers_saw() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -77,7 +77,7 @@ fn the_stored_report_is_of_the_sample_study_and_the_papers_saw() {
     let report: StudyReport = serde_json::from_str(&read("figures/paper-study.json")).unwrap();
     let study = StudyFile::from_json(&read("scenes/studies/paper-tolerances.json")).unwrap();
     assert_eq!(report.study, study);
-    // By --tolerance, as docs/tutorials/thousand-saws.md says.
+    // The study was run with --tolerance, as docs/tutorials/thousand-saws.md describes.
     let mut paper = Scene::paper().file().clone();
     paper.tolerance = Some(6e-3);
     assert_eq!(report.scene, paper);

@@ -1,5 +1,5 @@
-//! Goal: however a study was computed (at once, in parts, stopped and gone on with, on one
-//! thread or two), it leaves the same bytes, and no saw is computed twice or lost.
+//! Goal: a study gives the same bytes whether it is computed at once, in parts, stopped and continued, on one thread or
+//! two, and no saw is computed twice or lost.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ use tempfile::TempDir;
 use super::program::{PATIENCE, program, text};
 use crate::common::limit::Limit;
 
-/// Every file of a result; the log is not one of them.
+/// Every file of a result, without the log.
 const RESULT: [&str; 5] = [
     "study.csv",
     "study.json",
@@ -22,7 +22,7 @@ const RESULT: [&str; 5] = [
     "study.svg",
 ];
 const SAWS: usize = 90;
-/// Long enough to be killed in the middle.
+/// Enough saws to kill the run in the middle.
 const LONG: usize = 1500;
 
 struct Bench {
@@ -33,7 +33,7 @@ struct Bench {
 }
 
 impl Bench {
-    /// Free blades of random thickness and material, some of which none can be of.
+    /// Free blades of random thickness and material, some of which are impossible.
     fn new() -> Self {
         let folder = TempDir::new().unwrap();
         let mut file = crate::common::scene("free-blade").file().clone();
@@ -109,7 +109,7 @@ fn assert_done(output: &Output) {
     assert!(output.status.success(), "{}", text(&output.stderr));
 }
 
-/// The saws of rows, each once.
+/// The numbers of the saws in the rows, each once.
 #[track_caller]
 fn indices(rows: &[String]) -> BTreeSet<usize> {
     let number = |row: &String| row.split(',').next().unwrap().parse().unwrap();
@@ -144,7 +144,7 @@ fn parts_merge_to_the_bytes_of_one_run_on_any_number_of_threads() {
     };
     assert_eq!(words(&whole), words(&merged));
     assert!(words(&whole).lines().all(|line| line.chars().count() <= 80));
-    // What is written of the worst saw and of reliability is what the report says.
+    // The texts on the worst saw and on reliability agree with the report.
     let report = std::fs::read_to_string(bench.path("whole/study.json")).unwrap();
     let report: StudyReport = serde_json::from_str(&report).unwrap();
     let worst = &report.worst_lowest_critical[0];
@@ -155,14 +155,14 @@ fn parts_merge_to_the_bytes_of_one_run_on_any_number_of_threads() {
     assert!(words(&whole).contains(&line), "{}", words(&whole));
     let half = report.reliability.unwrap().fastest[4].rpm.unwrap();
     assert!(words(&whole).contains(&format!("{half:.1}")));
-    // A run of everything takes what the parts have computed, and computes the rest.
+    // A run of the whole study uses the rows of the parts and computes the rest.
     assert_done(&bench.run("parts", &[]));
     assert_eq!(bench.rows("parts/study.log").len(), SAWS / 3);
     bench.assert_same_result("whole", "parts");
 }
 
 #[test]
-fn a_killed_run_goes_on_and_computes_nothing_twice() {
+fn a_killed_run_is_continued_and_computes_nothing_twice() {
     let bench = Bench::new();
     bench.write_study(LONG);
     let mut child = bench
@@ -179,7 +179,7 @@ fn a_killed_run_goes_on_and_computes_nothing_twice() {
         );
         std::thread::sleep(Duration::from_millis(2));
     }
-    // SIGKILL: the program cannot tidy up.
+    // After SIGKILL the program cannot remove its temporary files.
     child.kill().unwrap();
     child.wait().unwrap();
     let text = std::fs::read_to_string(bench.path("killed/study.log")).unwrap();
@@ -195,10 +195,10 @@ fn a_killed_run_goes_on_and_computes_nothing_twice() {
     bench.assert_same_result("whole", "killed");
 }
 
-/// Ctrl-C: a closing line says what is there, and the exit code that it was stopped.
+/// After Ctrl-C a closing line gives the number of finished saws, and the exit code shows the stop.
 #[cfg(unix)]
 #[test]
-fn an_interrupted_run_says_how_it_goes_on() {
+fn an_interrupted_run_says_how_to_continue() {
     let bench = Bench::new();
     bench.write_study(LONG);
     let child = bench
@@ -231,7 +231,7 @@ fn an_interrupted_run_says_how_it_goes_on() {
 }
 
 #[test]
-fn a_torn_last_line_costs_one_saw_and_a_finished_study_none() {
+fn a_torn_last_line_loses_one_saw_and_a_finished_study_none() {
     let bench = Bench::new();
     assert_done(&bench.run("whole", &[]));
     assert_done(&bench.run("torn", &[]));
@@ -243,7 +243,7 @@ fn a_torn_last_line_costs_one_saw_and_a_finished_study_none() {
         assert_eq!(std::fs::read(&log).unwrap(), complete);
         bench.assert_same_result("whole", "torn");
     }
-    // A torn first line, a line that a disk has spoilt, and nothing to do at all.
+    // Three cases: an incomplete first line, a line that a disk has damaged, and a complete log.
     let header = complete.iter().position(|byte| *byte == b'\n').unwrap();
     std::fs::write(&log, &complete[..header / 2]).unwrap();
     assert_done(&bench.run("torn", &[]));
@@ -319,7 +319,7 @@ fn the_report_reads_back_and_bad_arguments_are_refused() {
     assert!(!bench.path("other").exists());
 }
 
-/// Without Python, with one that does not have the package, and with one that fails.
+/// Three cases: no Python, a Python without the package, and a Python that fails.
 #[cfg(unix)]
 #[test]
 fn a_scheduler_needs_the_python_package() {
@@ -359,7 +359,7 @@ fn a_scheduler_needs_the_python_package() {
     assert!(text(&both.stderr).contains("cannot be used with"));
 }
 
-/// The table as another program would read it, against the rows of the CSV.
+/// The table is read by another library and compared with the rows of the CSV.
 #[cfg(feature = "parquet")]
 #[test]
 fn the_parquet_table_holds_what_the_csv_does() {

@@ -1,4 +1,4 @@
-//! Goal: the answer first, in lines that fit a terminal; one answer in text and JSON.
+//! Goal: the answer comes first, in lines that fit a terminal, and text and JSON agree.
 
 use std::sync::LazyLock;
 
@@ -32,8 +32,8 @@ fn fits(text: &str) {
     }
 }
 
-/// A damped pad feeds a wave by 1.5e-5 1/s at 1800 rpm: stable, in the text, in the JSON, and
-/// for `check`; flutter counts from where its growth reaches the threshold.
+/// A damped pad feeds a wave by 1.5e-5 1/s at 1800 rpm: text, JSON and `check` call the saw stable, because flutter
+/// begins where its growth reaches the threshold.
 #[test]
 fn a_damped_pad_is_stable_where_its_growth_is_below_the_threshold() {
     let (text, report) = &*DAMPED_PAD;
@@ -104,8 +104,8 @@ fn text_of(bytes: &[u8]) -> String {
     text(bytes).to_owned()
 }
 
-/// Past the first critical speed a force that stands still meets no stiffness: 22.8 N/mm at
-/// 1800 rpm, −37.8 and 189 N/mm elsewhere, were printed as if they were one.
+/// Above the first critical speed the stiffness against a stationary force has no meaning: 22.8 N/mm at 1800 rpm, −37.8
+/// and 189 N/mm at other speeds are not printed.
 #[test]
 fn rim_stiffness_past_the_first_critical_speed_is_left_out() {
     let check = |rpm: &str, json: bool| {
@@ -129,7 +129,7 @@ fn rim_stiffness_past_the_first_critical_speed_is_left_out() {
     assert!(check("1250", false).contains("N/mm at the operating speed"));
 }
 
-/// Whatever wraps longer lines breaks the columns of the examples.
+/// A terminal or pager that wraps longer lines would break the columns of the examples.
 #[test]
 fn examples_of_every_help_fit_80_columns() {
     let commands = [
@@ -181,10 +181,10 @@ fn the_flutter_speed_has_the_error_of_its_band() {
     assert!(said.contains(&line), "{line} in {said}");
 }
 
-/// No band opens at the critical speed of a blade without guides: nothing grows there, and yet a constant side
-/// force bends it without bound.
+/// No band begins at the critical speed of a blade without guides: nothing grows there, although the deflection by a
+/// constant side force is unbounded.
 #[test]
-fn a_saw_at_a_critical_speed_is_told_so() {
+fn a_saw_at_a_critical_speed_is_reported() {
     let at = |operating_rpm: f64| {
         let saw = Scene::paper().edited(|saw| {
             saw.guides.clear();
@@ -214,9 +214,9 @@ fn a_saw_at_a_critical_speed_is_told_so() {
     }
 }
 
-/// Nothing holds a blade on a spline without guides: it keeps no limit, whatever its speeds are.
+/// Nothing restrains a blade on a spline without guides: it fails every limit.
 #[test]
-fn a_blade_that_nothing_holds_does_not_pass() {
+fn an_unrestrained_blade_does_not_pass() {
     let folder = TempDir::new().unwrap();
     let mut file = Scene::paper().file().clone();
     file.guides.clear();

@@ -1,4 +1,4 @@
-//! Goal: `washboard` keeps its word to the person or script that runs it.
+//! Goal: the output of `washboard` is reliable for the person or script that runs it.
 //!
 //! Source: `--help` and docs/how-to/washboarding.md.
 
@@ -21,7 +21,7 @@ fn delayed(saw: &mut SceneFile) -> &mut WashboardingFile {
     cut.washboarding.as_mut().unwrap()
 }
 
-/// Verdict first, files, and JSON that says the same.
+/// The verdict comes first, the files are written, and the JSON agrees with the text.
 #[test]
 fn the_verdict_comes_first_and_is_that_of_the_report() {
     let folder = TempDir::new().unwrap();
@@ -68,9 +68,9 @@ fn the_verdict_comes_first_and_is_that_of_the_report() {
     assert!(small.critical_stiffness_n_per_m.unwrap() > 15e3);
 }
 
-/// Without a feed, and with teeth that are not evenly spaced, no pitch is made up.
+/// Without a feed, or with unevenly spaced teeth, no pitch of washboarding is stated.
 #[test]
-fn a_pitch_that_is_not_known_is_not_told() {
+fn an_unknown_pitch_is_left_out() {
     type Change = fn(&mut SceneFile);
     let cases: [(Change, &str); 2] = [
         (
@@ -101,9 +101,9 @@ fn a_pitch_that_is_not_known_is_not_told() {
     }
 }
 
-/// What is missing is named, with exit code 2 and nothing written.
+/// The error names the missing key, with exit code 2 and nothing written.
 #[test]
-fn what_washboarding_lacks_is_refused_by_name() {
+fn a_missing_key_of_washboarding_is_named() {
     type Change = fn(&mut SceneFile);
     let cases: [(Change, &str); 8] = [
         (
@@ -146,7 +146,7 @@ fn what_washboarding_lacks_is_refused_by_name() {
     }
 }
 
-/// 2.4 for 2400.
+/// The speed is given as 2.4 instead of 2400.
 #[test]
 fn a_speed_in_another_unit_is_warned_of() {
     let folder = TempDir::new().unwrap();

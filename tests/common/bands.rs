@@ -1,10 +1,9 @@
-//! A list of bands held against every eigenvalue of the full model.
+//! A list of bands, compared with every eigenvalue of the full model.
 //!
-//! Saws of 250 to 1200 mm on one to four pads or points of 3e4 to 3e8 N/m, spline or collar, over
-//! the default sweep. At even speeds and in the middle between neighbouring edges and critical
-//! speeds the eigenvalues of the companion matrix, which the search for bands never computes,
-//! say which modes grow: as many as bands cover the speed, of the same kind, none faster than
-//! the peak of its band.
+//! Saws of 250 to 1200 mm on one to four pads or points of 3e4 to 3e8 N/m, spline or collar, over the default sweep. At
+//! even speeds and in the middle between neighbouring edges and critical speeds the eigenvalues of the companion
+//! matrix, which the search for bands never computes, give the growing modes: their number is that of the bands that
+//! cover the speed, they are of the same kind, and none grows faster than the peak of its band.
 #![allow(dead_code)]
 
 use faer::{Mat, Scale, c64};
@@ -13,13 +12,13 @@ use sawflutter::scene::{Accuracy, GuideFile, InPlane, Mount, Scene, SceneFile, r
 use sawflutter::stability::{Analysis, Instability, InstabilityKind};
 use sawflutter::system::GyroscopicSystem;
 
-/// Growth that a list of bands has to account for, in 1/s: eigenvalues next to a coalescence are
-/// known to √ε of the largest frequency of the model, a few hundredths of 1/s, only.
+/// Growth that a list of bands has to account for, in 1/s: eigenvalues next to a coalescence are accurate to √ε of the
+/// largest frequency of the model only, a few hundredths of 1/s.
 const CERTAIN_PER_S: f64 = 0.05;
 /// Growth below this may be rounding, in 1/s.
 const POSSIBLE_PER_S: f64 = 2e-3;
-/// Relative tolerance of a peak: the reduced model is right to 1e-6 of a frequency, and growth
-/// is a difference of frequencies.
+/// Relative tolerance of a peak: the reduced model is accurate to 1e-6 of a frequency, and growth is a difference of
+/// frequencies.
 const PEAK_TOLERANCE: f64 = 2e-3;
 
 /// Numbers of a saw, spread by a generator with a period of 2⁶⁴ (Steele, Lea and Flood,
@@ -90,8 +89,8 @@ pub fn drawn_saw(index: u64) -> SceneFile {
     file
 }
 
-/// The same saw in a cut of which the forces bear on the chart, as large as one that the paper's saw stands or less;
-/// halved until the blade is stable at rest. `None` of a saw that is never, for its guides leave a rigid motion free.
+/// The same saw with the forces of a cut on its chart, no larger than the paper's saw tolerates, and halved until the
+/// blade is stable at rest. `None` if the saw is never stable, because its guides leave a rigid motion free.
 pub fn drawn_saw_in_cut(index: u64) -> Option<SceneFile> {
     let mut file = drawn_saw(index);
     let mut draw = Draw(index.wrapping_mul(0x9e6c_63d0_876a_68de) ^ 1);
@@ -135,7 +134,7 @@ fn all_eigenvalues(system: &GyroscopicSystem, speed_rad_per_s: f64) -> Vec<c64> 
     values.filter(|value| value.im >= 0.0).collect()
 }
 
-/// Speeds at which a list is held against the spectrum.
+/// Speeds at which a list is compared with the spectrum.
 fn speeds(bands: &[Instability], critical: &[f64], (from, to): (f64, f64)) -> Vec<f64> {
     let mut marks: Vec<f64> = bands
         .iter()
@@ -156,7 +155,7 @@ fn speeds(bands: &[Instability], critical: &[f64], (from, to): (f64, f64)) -> Ve
     speeds
 }
 
-/// What is wrong with a list of bands at a speed.
+/// The errors of a list of bands at a speed.
 fn contradictions(bands: &[Instability], speed: f64, spectrum: &[c64]) -> Vec<String> {
     let mut wrong = Vec::new();
     for kind in [InstabilityKind::Flutter, InstabilityKind::Divergence] {
@@ -173,7 +172,7 @@ fn contradictions(bands: &[Instability], speed: f64, spectrum: &[c64]) -> Vec<St
             .map(|b| b.peak_growth_per_s)
             .collect();
         peaks.sort_by(|x, y| y.total_cmp(x));
-        // A stretch of divergence is one band however many real λ there are in it.
+        // A range of divergence is one band for any number of real λ in it.
         if kind == InstabilityKind::Divergence {
             growth.truncate(1);
         }
@@ -197,7 +196,7 @@ fn contradictions(bands: &[Instability], speed: f64, spectrum: &[c64]) -> Vec<St
     wrong
 }
 
-/// All that is wrong with the bands of a saw.
+/// All errors of the bands of a saw.
 pub fn wrong_bands(file: &SceneFile) -> Vec<String> {
     let scene = Scene::try_from(file.clone()).unwrap();
     let analysis = match Analysis::new(&scene) {

@@ -1,7 +1,7 @@
-//! A list of bands held against one from four times as many speeds.
+//! A list of bands, compared with one from four times as many speeds.
 //!
-//! Detection goes by the order of Krein signs, so it must find the same bands from a
-//! handful of speeds as from hundreds, and the Krein index must match everywhere.
+//! Detection uses the order of Krein signs, so that it must find the same bands from a few speeds as from hundreds, and
+//! the Krein index must agree everywhere.
 #![allow(dead_code)]
 
 use proptest::strategy::{Strategy as _, ValueTree};
@@ -26,7 +26,7 @@ pub fn bands_of(model: &SpectralModel, range: (f64, f64), count: usize) -> Vec<I
     bands
 }
 
-/// Same number and kind, and edges to 1e-9 of the speed.
+/// Compares number, kind, and edges to 1e-9 of the speed.
 pub fn assert_same(left: &[Instability], right: &[Instability], what: &str) {
     let list = |bands: &[Instability]| -> Vec<String> {
         let line = |b: &Instability| {
@@ -79,7 +79,7 @@ fn drawn_saw(draw: [f64; 9]) -> SceneFile {
     file
 }
 
-/// The first saws of a draw that is the same in every run.
+/// The first saws of a sequence that is the same in every run.
 pub fn drawn_saws(count: usize) -> Vec<SceneFile> {
     let mut runner = TestRunner::deterministic();
     let numbers = proptest::array::uniform9(0.0..1.0_f64);
@@ -87,7 +87,7 @@ pub fn drawn_saws(count: usize) -> Vec<SceneFile> {
     (0..count).map(|_| drawn_saw(draw())).collect()
 }
 
-/// A saw, on a basis small enough to draw hundreds; gives the bands of flutter and of divergence.
+/// Checks a saw on a basis small enough for hundreds of saws; gives the numbers of bands of flutter and of divergence.
 pub fn assert_same_from_few_speeds(file: &SceneFile) -> [usize; 2] {
     let scene = Scene::try_from(file.clone()).unwrap();
     let resolution = Resolution {

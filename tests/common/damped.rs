@@ -42,8 +42,8 @@ prop_compose! {
     }
 }
 
-/// The bands at a speed against the growing eigenvalues: as many, of the same kind, none with
-/// more growth than the peak of its band, each with the growth of a band's curve.
+/// Compares the bands at a speed with the growing eigenvalues: their number and kind agree, no growth exceeds the peak
+/// of its band, and each growth is that of a band's curve.
 pub fn holds(bands: &[Instability], all: &[c64], speed: f64) -> Result<(), String> {
     let covering: Vec<&Instability> = bands
         .iter()
@@ -98,7 +98,7 @@ pub fn holds(bands: &[Instability], all: &[c64], speed: f64) -> Result<(), Strin
     Ok(())
 }
 
-/// What the bands of a saw have of growth, or what is wrong with them.
+/// The peak growth of the bands of a saw, or the first error of its list.
 pub fn peak_growth_of_bands(file: &SceneFile) -> Result<f64, String> {
     let range = (0.0, 1.9 * lowest_critical(file));
     let model = SpectralModel::new(Plate::new(&scene(file), SMALL), range, Solver::Reduced);
@@ -139,7 +139,7 @@ fn speeds(bands: &[Instability], range: (f64, f64)) -> Vec<f64> {
     speeds
 }
 
-/// The first saws of a draw that is the same in every run.
+/// The first saws of a sequence that is the same in every run.
 pub fn drawn_saws(count: usize) -> Vec<SceneFile> {
     let mut runner = TestRunner::deterministic();
     let mut draw = || any_damped_saw().new_tree(&mut runner).unwrap().current();

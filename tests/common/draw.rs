@@ -1,5 +1,4 @@
-//! Scenes from bytes, sound and absurd ones, for the fuzzers: the tests feed it drawn
-//! bytes, `fuzz/` those that libFuzzer thinks up.
+//! Valid and absurd scenes from bytes, for the fuzzers: the tests pass random bytes, and `fuzz/` those of libFuzzer.
 
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::report::{Report, WashboardReport};
@@ -11,7 +10,7 @@ use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, chart};
 use sawflutter::washboarding::Washboard;
 
-/// Reads numbers off bytes; behind the last byte come zeros.
+/// Reads numbers from bytes, and zeros after the last byte.
 pub struct Bytes<'a>(pub &'a [u8]);
 
 impl Bytes<'_> {
@@ -21,7 +20,7 @@ impl Bytes<'_> {
         *first
     }
 
-    /// Between 0 and 1.
+    /// A number between 0 and 1.
     fn unit(&mut self) -> f64 {
         f64::from(u16::from_le_bytes([self.next(), self.next()])) / 65535.0
     }
@@ -34,7 +33,7 @@ impl Bytes<'_> {
         low + self.unit() * (high - low)
     }
 
-    /// Around a sound value, now and then many orders away from it or no number at all.
+    /// A number around a usual value, sometimes many orders of magnitude away from it or not a number.
     fn near(&mut self, value: f64) -> f64 {
         if self.one_in(40) {
             let absurd = [
@@ -78,11 +77,11 @@ fn guide(bytes: &mut Bytes<'_>, outer_m: f64) -> GuideFile {
     }
 }
 
-/// A scene; most are valid, some only nearly.
+/// A scene. Most are valid, some almost.
 pub fn scene_file(bytes: &mut Bytes<'_>) -> SceneFile {
     let mut file = Scene::paper().file().clone();
     file.measured = None;
-    // What belongs to the paper's own blade.
+    // Removes the blocks of the paper's own blade.
     (file.spline, file.cut, file.runup, file.probe) = (None, None, None, None);
     file.guides.clear();
     file.accuracy = Accuracy::Draft;
@@ -129,7 +128,7 @@ pub fn scene_file(bytes: &mut Bytes<'_>) -> SceneFile {
     file
 }
 
-/// The same scene with steps, teeth, gaps, turning air, a cut and lines of excitation.
+/// Adds steps, teeth, gaps, rotating air, a cut and lines of excitation to a scene.
 pub fn with_details(bytes: &mut Bytes<'_>, mut file: SceneFile) -> SceneFile {
     blade_details(bytes, &mut file);
     if bytes.one_in(2) {
@@ -145,7 +144,7 @@ pub fn with_details(bytes: &mut Bytes<'_>, mut file: SceneFile) -> SceneFile {
     file
 }
 
-/// Steps, tapers, heavy teeth, gaps, and air that turns.
+/// Adds steps, tapers, heavy teeth, gaps and rotating air.
 fn blade_details(bytes: &mut Bytes<'_>, file: &mut SceneFile) {
     let blade = &mut file.blade;
     let (inner, outer) = (0.5 * blade.inner_diameter_m, 0.5 * blade.outer_diameter_m);
@@ -176,7 +175,7 @@ fn blade_details(bytes: &mut Bytes<'_>, file: &mut SceneFile) {
     }
 }
 
-/// Forces, wood and washboarding, on the chart or not.
+/// Forces, wood and washboarding, included in the chart or not.
 fn cut(bytes: &mut Bytes<'_>, outer_m: f64) -> CutFile {
     CutFile {
         angle_deg: bytes.between(-400.0, 400.0),
@@ -200,7 +199,7 @@ fn cut(bytes: &mut Bytes<'_>, outer_m: f64) -> CutFile {
     }
 }
 
-/// Of even teeth, or of pitches that are mostly not those of the teeth.
+/// Washboarding of even teeth, or of pitches that usually do not fit the teeth.
 pub fn washboarding(bytes: &mut Bytes<'_>) -> WashboardingFile {
     WashboardingFile {
         stiffness_n_per_m: bytes.near(1e4),
@@ -214,14 +213,13 @@ pub fn washboarding(bytes: &mut Bytes<'_>) -> WashboardingFile {
     }
 }
 
-/// A basis so small that thousands of scenes can be drawn.
+/// A basis so small that thousands of scenes can be computed.
 const SMALL: Resolution = Resolution {
     max_diameters: 3,
     radial_functions: 3,
 };
 
-/// Critical speeds, and all modes below and above the lowest. Whatever comes out is finite
-/// or an error.
+/// Critical speeds, and all modes below and above the lowest. The result is finite or an error.
 pub fn survives_two_speeds(scene: &Scene) {
     let plate = Plate::new(scene, SMALL);
     let Ok(critical) = SpectralModel::critical_speeds(&plate) else {
@@ -273,8 +271,8 @@ pub fn survives_chart(scene: &Scene) {
     }
 }
 
-/// Everything that `sawflutter analyze` computes. JSON has no NaN: it would be written as
-/// null, which no number of a report may be.
+/// Computes everything that `sawflutter analyze` does. JSON has no NaN: it would be written as null, which no number of
+/// a report may be.
 pub fn survives_analysis(scene: &Scene) -> bool {
     let Ok(analysis) = Analysis::new(scene) else {
         return false;
@@ -289,7 +287,7 @@ pub fn survives_analysis(scene: &Scene) -> bool {
     true
 }
 
-/// Everything that `sawflutter washboard` computes; whether it is not refused.
+/// Computes everything that `sawflutter washboard` does. The result is false if the scene is refused.
 pub fn survives_washboard(scene: &Scene) -> bool {
     let rpm = scene.file().operating_rpm;
     let run = scene.cut().zip(rpm).map(|(cut, rpm)| cut.at_rpm(rpm));

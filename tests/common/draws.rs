@@ -1,4 +1,4 @@
-//! Saws drawn at random, the same ones in every run, and what the properties ask of them.
+//! Random saws, the same in every run, and properties that hold for all of them.
 
 use faer::c64;
 use proptest::prelude::*;
@@ -8,7 +8,7 @@ use sawflutter::scene::{GuideFile, InPlane, Mount, Scene, SceneFile};
 use sawflutter::spectrum::{SpectralModel, Strategy as Solver, companion_eigenpairs};
 use sawflutter::system::GyroscopicSystem;
 
-/// Small enough that every eigenvalue can be computed: 65 unknowns.
+/// A basis so small that every eigenvalue can be computed: 65 unknowns.
 pub const SMALL: Resolution = Resolution {
     max_diameters: 6,
     radial_functions: 5,
@@ -17,7 +17,7 @@ pub const SMALL: Resolution = Resolution {
 /// Seeds of failures, kept in the repository.
 const REGRESSIONS: &str = "tests/common/draws.proptest-regressions";
 
-/// Checks a property of `cases` random values, the same ones in every run.
+/// Checks a property of `cases` random values, which are the same in every run.
 pub fn check<S: Strategy>(
     cases: u32,
     strategy: S,
@@ -25,7 +25,7 @@ pub fn check<S: Strategy>(
 ) {
     let config = Config {
         cases,
-        // A failure found once is tried first in every later run.
+        // A failure that was found once is tried first in every later run.
         failure_persistence: Some(Box::new(FileFailurePersistence::Direct(REGRESSIONS))),
         ..Config::default()
     };
@@ -70,7 +70,7 @@ prop_compose! {
         let mut file = Scene::paper().file().clone();
         file.sweep = None;
         file.measured = None;
-        // What belongs to the paper's own blade.
+        // Removes the blocks of the paper's own blade.
         (file.spline, file.cut, file.runup, file.probe) = (None, None, None, None);
         file.blade.outer_diameter_m = 2.0 * outer_radius_m;
         file.blade.inner_diameter_m = 2.0 * bore * outer_radius_m;
@@ -110,9 +110,12 @@ pub fn eigenvalues(file: &SceneFile, speed_rad_per_s: f64) -> Vec<c64> {
     pairs.into_iter().map(|(lambda, _)| lambda).collect()
 }
 
-/// Largest distance between two sets of eigenvalues, each matched with the nearest that
-/// is left, in units of the geometric mean of |λ| and the largest |λ|: rounding errs by
-/// ε times the largest.
+/// Largest distance between two sets of eigenvalues, each paired with the nearest one that is not yet paired, in units
+/// of the geometric mean of
+/// λ
+/// and the largest
+/// λ
+/// : the rounding error is ε times the largest.
 pub fn distance(left: &[c64], right: &[c64]) -> f64 {
     assert!(!left.is_empty());
     if left.len() != right.len() {

@@ -1,11 +1,11 @@
-//! A limit to what may hang.
+//! A time limit for tests that may hang.
 
 use std::io::Write;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
-/// While it lives, a clock runs. What is not over in time ends the test program, for nothing else stops a thread that
-/// computes, and says what it was doing.
+/// A limit that is in force until it is dropped. After its time it prints the running test and ends the test program,
+/// because nothing else stops a thread that computes.
 pub struct Limit {
     _over: Sender<()>,
 }

@@ -1,4 +1,4 @@
-//! Measurements of saws that are known.
+//! Measurements of known saws.
 
 use std::f64::consts::TAU;
 
@@ -7,13 +7,13 @@ use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Scene, rad_per_s};
 use sawflutter::spectrum::LowestModes;
 
-/// A basis on which a measurement is computed and fitted alike.
+/// The basis of both the measurement and the fit.
 pub const SMALL: Resolution = Resolution {
     max_diameters: 4,
     radial_functions: 3,
 };
 
-/// Frequencies of the lowest modes, one row a speed.
+/// Frequencies of the lowest modes, one row for each speed.
 pub fn exact(scene: &Scene, rpm: &[f64], count: usize) -> Vec<Vec<f64>> {
     let lowest = LowestModes::new(&Plate::new(scene, SMALL));
     let row = |rpm: &f64| -> Vec<f64> {
@@ -26,7 +26,7 @@ pub fn exact(scene: &Scene, rpm: &[f64], count: usize) -> Vec<Vec<f64>> {
 /// Speeds of a measurement, in rpm.
 pub const SPEEDS: [f64; 4] = [0.0, 400.0, 800.0, 1200.0];
 
-/// The frequencies as a measurement, each off by what the noise gives.
+/// The frequencies as a measurement, with the noise added to each.
 pub fn measured(exact: &[Vec<f64>], mut noise: impl FnMut() -> f64) -> Measurement {
     let rows = SPEEDS.iter().zip(exact).map(|(rpm, exact)| {
         let columns: Vec<_> = exact.iter().map(|hz| Some((hz + noise()).abs())).collect();

@@ -10,8 +10,8 @@ use crate::program::{out, program, write_scene};
 
 const LOOK_EVERY: Duration = Duration::from_millis(5);
 
-/// The number of functions that a tolerance takes for the paper's saw, and the largest memory of its chart in megabytes,
-/// which Linux tells while the program runs.
+/// The number of functions that a tolerance needs for the paper's saw, and the largest memory of its chart in
+/// megabytes, which Linux reports while the program runs.
 pub fn functions_and_megabytes(tolerance: f64, seconds: u64) -> (u64, f64) {
     let _limit = Limit::of(seconds, &format!("the memory of a chart to {tolerance:e}"));
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! What several test files share. Each uses its own part of it.
+//! Functions of several test programs. Each program uses some of them.
 #![allow(dead_code)]
 
 pub mod limit;
@@ -51,14 +51,14 @@ pub struct Worst {
 impl Worst {
     pub fn add(&mut self, error: f64, place: impl FnOnce() -> String) {
         self.count += 1;
-        // A NaN, once there, stays.
+        // A NaN remains the largest error.
         if error > self.error || error.is_nan() {
             self.error = error;
             self.place = place();
         }
     }
 
-    /// Prints (`cargo test -- --nocapture`) and judges what was collected.
+    /// Prints the largest error (`cargo test -- --nocapture`) and compares it with the tolerance.
     #[track_caller]
     pub fn assert_at_most(&self, what: &str, tolerance: f64) {
         println!(
@@ -74,7 +74,7 @@ impl Worst {
     }
 }
 
-/// Modes of one harmonic of an unguided blade, by frequency: there every n is a part.
+/// Modes of one harmonic of an unguided blade, by frequency. Every n is a component of such a blade.
 pub fn of_diameters(modes: &[Mode], n: usize) -> impl Iterator<Item = &Mode> {
     modes.iter().filter(move |mode| mode.component == n)
 }

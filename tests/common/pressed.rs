@@ -1,4 +1,4 @@
-//! Cuts under forces that no saw bears.
+//! Cuts under forces that no saw tolerates.
 #![allow(dead_code)]
 
 use sawflutter::report::{CutCriterion, CutReport, CutVerdict};
@@ -7,10 +7,10 @@ use tempfile::TempDir;
 
 use crate::program::{run, text, write_scene};
 
-/// What a run printed and what it wrote.
+/// The printed text and the written file of a run.
 pub fn done(command: &str, file: &SceneFile) -> (String, Vec<u8>) {
     let folder = TempDir::new().unwrap();
-    // What is said of an answer does not depend on how well it is computed.
+    // The texts do not depend on the accuracy of the result.
     let file = SceneFile {
         tolerance: Some(0.05),
         ..file.clone()
@@ -41,7 +41,8 @@ pub fn pressed(tangential_n: f64) -> SceneFile {
     file
 }
 
-/// The eigenvalues, the fitted history and the Floquet multipliers of the loads, three computations, tell one growth.
+/// Three computations give the same growth: the eigenvalues, the fitted history, and the Floquet multipliers of the
+/// loads.
 pub fn assert_unstable(tangential_n: f64) {
     let (summary, json) = done("cut", &pressed(tangential_n));
     assert_in_80_columns(&summary);

@@ -1,4 +1,4 @@
-//! Saws whose chosen basis is held against a larger one.
+//! Saws whose chosen basis is compared with a larger one.
 //!
 //! Pads of 1e4 to 1e9 N/m on blades with bores of 0.1 to 0.8, one to three of them, of many
 //! sizes and places.
@@ -22,7 +22,7 @@ pub fn saws() -> Vec<Saw> {
             let mut file = Scene::paper().file().clone();
             let rim_m = 0.5 * file.blade.outer_diameter_m;
             let width_m = rim_m * (1.0 - bore);
-            // Irrational multiples spread places and sizes.
+            // Multiples of irrational numbers spread places and sizes.
             let spread = |step: f64| (step * (5 * i + k) as f64).fract();
             let pad = |angle_deg: f64, place: f64| GuideFile {
                 radius_m: rim_m - width_m * place,
@@ -49,9 +49,8 @@ pub fn saws() -> Vec<Saw> {
     saws
 }
 
-/// Saws with every quantity spread evenly over its range, by the fractions of multiples of
-/// irrational numbers. The first ninety had a part in choosing the margin of the estimate, the
-/// others have none.
+/// Saws with every quantity spread evenly over its range, by the fractions of multiples of irrational numbers. The
+/// margin of the estimate was chosen with the first ninety of them; the others are independent of it.
 pub fn drawn_saws(numbers: std::ops::Range<usize>) -> Vec<Saw> {
     let saw = |k: usize| {
         let spread = |prime: f64, low: f64, high: f64| {
@@ -86,7 +85,7 @@ pub fn drawn_saws(numbers: std::ops::Range<usize>) -> Vec<Saw> {
     numbers.map(saw).collect()
 }
 
-/// What a basis chosen for a tolerance is off by in its critical speeds, and what it says of that.
+/// True and estimated errors of the critical speeds on a basis that is chosen for a tolerance.
 pub struct Promise {
     pub tolerance: f64,
     pub true_error: f64,
@@ -99,7 +98,7 @@ impl Promise {
     }
 }
 
-/// The promises of a saw, held against its critical speeds on the basis of the truth.
+/// The errors of a saw for several tolerances, by comparison with its critical speeds on the reference basis.
 pub fn promises(saw: &Saw, tolerances: &[f64], truth: Resolution) -> Vec<Promise> {
     let chosen = |tolerance: &f64| ChosenBasis::new(&saw.scene, *tolerance).unwrap();
     let all: Vec<ChosenBasis> = tolerances.iter().map(chosen).collect();
@@ -122,7 +121,7 @@ pub fn promises(saw: &Saw, tolerances: &[f64], truth: Resolution) -> Vec<Promise
     all.iter().zip(tolerances).map(promise).collect()
 }
 
-/// The promises of many saws: true errors over their estimates, and over the tolerances in reach.
+/// The errors of many saws: true errors over their estimates, and over the tolerances that the basis can reach.
 #[derive(Default)]
 pub struct Kept {
     ratios: Worst,
@@ -140,7 +139,7 @@ impl Kept {
         }
     }
 
-    /// Of which at least so many must be within reach.
+    /// Checks the errors, of which at least `reached` must be within the tolerances that a basis can reach.
     pub fn assert(&self, reached: usize) {
         let found = self.promises.count;
         println!("{found} of {} tolerances are in reach", self.ratios.count);

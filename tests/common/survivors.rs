@@ -1,4 +1,4 @@
-//! Scenes from drawn bytes, the same in every run, and that each of them is survived.
+//! Scenes from random bytes, the same in every run, and a check that the program computes or refuses each of them.
 #![allow(dead_code)]
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,7 +13,7 @@ use crate::draw::{self, Bytes};
 /// Enough bytes for every number of a scene with three pads, steps, teeth, gaps, a cut and lines.
 const SCENE_BYTES: usize = 260;
 
-/// A hundred times longer than a saw takes.
+/// A limit a hundred times longer than a saw takes.
 const SECONDS_A_SCENE: u64 = 600;
 
 fn drawn(rng: &mut TestRng) -> Vec<u8> {
@@ -26,17 +26,17 @@ pub fn rng() -> TestRng {
     TestRng::deterministic_rng(RngAlgorithm::ChaCha)
 }
 
-/// How much of a scene is drawn.
+/// The extent to which a scene is random.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Keys {
     /// Blade, guides, damping and speeds.
     Plain,
-    /// Steps, teeth, gaps, turning air, cuts with wood and lines of excitation besides. Steps take so many functions
-    /// that a chart of each is beyond a test's time.
+    /// Also steps, teeth, gaps, rotating air, cuts with wood and lines of excitation. Steps need so many basis
+    /// functions that a chart of each scene would take too long for a test.
     All,
 }
 
-/// Valid scenes among the first `count` drawn ones.
+/// Valid scenes among the first `count` random ones.
 pub fn scenes(count: usize, keys: Keys) -> Vec<Scene> {
     let mut rng = rng();
     let files = (0..count).map(|_| {
@@ -53,7 +53,7 @@ pub fn scenes(count: usize, keys: Keys) -> Vec<Scene> {
         .collect()
 }
 
-/// A look at washboarding is as long as a chart: saws that are damped and held, and are cut with.
+/// Valid scenes with a cut, damping and guides. An analysis of washboarding takes as long as a chart.
 pub fn sawing_scenes(count: usize) -> Vec<Scene> {
     let mut rng = rng();
     let files = (0..count).map(|_| {
@@ -63,7 +63,7 @@ pub fn sawing_scenes(count: usize) -> Vec<Scene> {
         let mut file = draw::with_details(&mut bytes, file);
         file.blade.teeth = Some(24);
         file.operating_rpm = Some(1200.0);
-        // Thinner ones have thousands of modes below tooth passing.
+        // Thinner blades have thousands of modes below the tooth passing frequency.
         let width = file.blade.outer_diameter_m - file.blade.inner_diameter_m;
         file.blade.thickness_m = file.blade.thickness_m.max(5e-3 * width);
         file.sweep = None;
@@ -83,7 +83,7 @@ pub fn sawing_scenes(count: usize) -> Vec<Scene> {
         .collect()
 }
 
-/// Fails with the scene that brought it down, or held it up.
+/// Fails with the scene that caused a panic or exceeded the time limit.
 pub fn assert_survives<T>(scene: &Scene, survives: impl Fn(&Scene) -> T) -> T {
     let text = serde_json::to_string(scene.file()).unwrap();
     let _limit = Limit::of(SECONDS_A_SCENE, &text);

@@ -1,6 +1,6 @@
-//! Estimated errors of everything that is listed or drawn, held against true ones.
+//! Estimated errors of all numbers that are listed or drawn, compared with true ones.
 //!
-//! The truth is Bessel roots for blades that nothing touches, else a larger basis.
+//! The reference values are Bessel roots for blades without contact, otherwise those of a larger basis.
 #![allow(dead_code)]
 
 use crate::common::{AnnulusRoot, Worst, relative_error};
@@ -10,7 +10,7 @@ use sawflutter::scene::{Accuracy, DampingFile, InPlane, Mount, Scene, SweepFile}
 use sawflutter::spectrum::{Assembled, LowestModes, Mode};
 use sawflutter::stability::{Analysis, ChosenBasis, Instability, InstabilityKind, search_bands};
 
-/// A blade that no guide touches, at an accuracy.
+/// A blade without contact, at an accuracy.
 fn annulus(bc: &str, nu: f64, ratio: f64, accuracy: Accuracy) -> Scene {
     let mut file = Scene::paper().file().clone();
     file.guides.clear();
@@ -33,8 +33,8 @@ fn annulus(bc: &str, nu: f64, ratio: f64, accuracy: Accuracy) -> Scene {
     Scene::try_from(file).unwrap()
 }
 
-/// The modes at rest that the report of a blade lists, against the roots of ν = 0.3: true errors over their
-/// estimates, and true errors.
+/// The modes at rest in the report of a blade, compared with the roots of ν = 0.3: true errors over their estimates,
+/// and true errors.
 pub fn compare_at_rest(
     roots: &[AnnulusRoot],
     (bc, ratio): (&str, f64),
@@ -51,7 +51,7 @@ pub fn compare_at_rest(
         / blade.outer_radius_m.powi(2);
     for mode in &report.modes_at_rest {
         let (n, s) = (mode.nodal_diameters, mode.nodal_circles);
-        // Rigid heave and tilt have no frequency: the first of n = 0 and 1 has a circle.
+        // Rigid heave and tilt have no frequency: the first listed mode of n = 0 and 1 has a circle.
         let s = s - usize::from(bc == "FF" && n <= 1);
         let same = |r: &&AnnulusRoot| (r.bc.as_str(), r.ratio, r.n, r.s) == (bc, ratio, n, s);
         let Some(root) = roots.iter().find(same) else {
@@ -66,7 +66,7 @@ pub fn compare_at_rest(
     }
 }
 
-/// What a saw's numbers are off by, over what is estimated.
+/// True errors of the numbers of a saw, over their estimates.
 #[derive(Default)]
 pub struct Ratios {
     at_rest: Worst,
@@ -78,7 +78,7 @@ pub struct Ratios {
 }
 
 impl Ratios {
-    /// Each of at least so many numbers.
+    /// Checks the errors, each of at least `count` numbers.
     pub fn assert(&self, count: usize) {
         for (what, worst) in [
             ("at rest", &self.at_rest),
@@ -95,7 +95,7 @@ impl Ratios {
     }
 }
 
-/// The same saw on the basis of the truth.
+/// The saw on the reference basis.
 pub struct Truth {
     lowest: LowestModes,
     at_rest: Vec<Mode>,
@@ -118,8 +118,8 @@ impl Truth {
         }
     }
 
-    /// Bands that were found, each with the same one of the truth: of one kind they follow each
-    /// other in the same order, where neither list has one that the other lacks.
+    /// Pairs each band with its counterpart on the reference basis: bands of one kind are in the same order, if neither
+    /// list has one that the other lacks.
     fn pairs<'a>(&'a self, found: &'a [Instability]) -> Vec<(usize, &'a Instability)> {
         let mut pairs = Vec::new();
         for kind in [InstabilityKind::Divergence, InstabilityKind::Flutter] {
@@ -173,7 +173,7 @@ pub fn compare(saw: &Saw, truth: &Truth, tolerance: f64, ratios: &mut Ratios) {
             ))
         };
         println!("{}", place());
-        // What the search for the peak misses no larger basis tells: other tests hold it.
+        // A larger basis does not show an error of the search for the peak; other tests check it.
         let share = |b: &Instability| {
             (b.peak_rad_per_s - b.from_rad_per_s) / (b.to_rad_per_s - b.from_rad_per_s)
         };
@@ -187,7 +187,7 @@ pub fn compare(saw: &Saw, truth: &Truth, tolerance: f64, ratios: &mut Ratios) {
     }
 }
 
-/// Solvers, of the truth too, are good to this.
+/// Accuracy of the solvers, also of those of the reference values.
 const ROUNDING: f64 = 1e-7;
 
 /// The frequencies at the end of the sweep, where most waves are reflected.
@@ -216,10 +216,10 @@ fn drawn_at_the_top(
     }
 }
 
-/// Blades with a lossy material, air and pads that damp or do not, of soft and of stiff pads.
+/// Blades with a lossy material, air, and soft and stiff pads with and without damping.
 pub fn damped_saws() -> Vec<Scene> {
     let damped = |k: usize| {
-        // Irrational multiples spread the numbers over their ranges.
+        // Multiples of irrational numbers spread the numbers over their ranges.
         let spread = |step: f64| (step * (k + 1) as f64).fract();
         let scene = Scene::paper().edited(|saw| {
             (saw.cut, saw.runup, saw.probe, saw.measured) = (None, None, None, None);
@@ -242,9 +242,9 @@ pub fn damped_saws() -> Vec<Scene> {
     (0..6).map(damped).collect()
 }
 
-/// Growth and onsets of a damped saw: true errors over their estimates. The truth is 732 functions, the largest basis
-/// of a damped blade, for what 1e-4 leaves of a growth rate is far below what drafts leave: net growth is the small
-/// difference of what the guides feed and what damping takes.
+/// Growth and onsets of a damped saw: true errors over their estimates. The reference is 732 functions, the largest
+/// basis of a damped blade: its error of 1e-4 in a growth rate is far below that of drafts, although net growth is the
+/// small difference between the power from the guides and the loss by damping.
 pub fn compare_damped(
     what: &str,
     scene: &Scene,
@@ -263,7 +263,7 @@ pub fn compare_damped(
             let away = |b: &Instability| (b.peak_rad_per_s / found.peak_rad_per_s - 1.0).abs();
             let same = truth.bands().iter().filter(|b| b.kind == found.kind);
             let same = same.min_by(|x, y| away(x).total_cmp(&away(y)));
-            // A band that the largest basis does not have, or ends otherwise at the end of the range.
+            // The largest basis does not have this band, or the band ends otherwise at the end of the range.
             let Some(truth) = same.filter(|b| away(b) < 1e-2 && b.closed == found.closed) else {
                 continue;
             };

@@ -1,4 +1,4 @@
-//! Goal: the answers converge, the promised accuracy is kept, and at the promised cost.
+//! Goal: the results converge, and accuracy and cost are as promised.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,4 +1,4 @@
-//! Goal: a larger basis changes less and less, and the accuracy that is named is met.
+//! Goal: the changes from one basis to a larger one decrease, and the named accuracies are reached.
 //!
 //! A stiff pad bends the blade at its edges, which a series in nodal diameters follows
 //! slowly. Quoted from an independent implementation, for pads of 1e7 to 1e8 N/m on the
@@ -43,8 +43,7 @@ fn distance(left: &[f64], right: &[f64]) -> f64 {
     largest
 }
 
-/// A Ritz basis is too stiff, and a larger one that contains it is never stiffer: every
-/// critical speed falls.
+/// A Ritz basis is too stiff, and a larger one that contains it is never stiffer: every critical speed falls.
 #[test]
 fn critical_speeds_fall_towards_their_limit() {
     let scene = Scene::paper();
@@ -58,7 +57,7 @@ fn critical_speeds_fall_towards_their_limit() {
         assert!(error < previous, "{basis:?}: {error} after {previous}");
         previous = error;
         if let Some(above) = above {
-            // Rounding of the symmetric eigenproblem aside.
+            // The tolerance allows for rounding of the symmetric eigenproblem.
             let falls = above
                 .iter()
                 .zip(&speeds)
@@ -69,8 +68,8 @@ fn critical_speeds_fall_towards_their_limit() {
     }
 }
 
-/// The quoted movements hold for the softest of the quoted pads. They grow with the pad's
-/// stiffness; for the stiffer two the bounds are what this basis was found to do.
+/// The quoted changes apply to the softest of the quoted pads. They grow with the pad's stiffness; for the two stiffer
+/// pads the limits are the changes measured on this basis.
 #[test]
 fn movements_between_bases() {
     for (stiffness, bounds) in [
@@ -89,7 +88,7 @@ fn movements_between_bases() {
     }
 }
 
-/// The named accuracies, finer and finer, and the finest against a finer one still.
+/// The named accuracies from coarse to fine; the finest is compared with a finer one.
 #[test]
 fn named_accuracies_are_in_order() {
     let scene = Scene::paper();
@@ -105,7 +104,6 @@ fn named_accuracies_are_in_order() {
     let design = distance(&of(Accuracy::Design), &reference);
     println!("draft {draft:.2e}, design {design:.2e} from reference");
     assert!(design < 0.1 * draft, "draft {draft}, design {design}");
-    // What is promised of the critical speeds at reference accuracy, 0.1 %, leaves
-    // room for design accuracy too.
+    // The promise for critical speeds at reference accuracy, 0.1 %, also leaves a margin for design accuracy.
     assert!(design < 1e-3, "{design}");
 }

@@ -1,6 +1,6 @@
-//! Goal: a tolerance is a promise, and the estimate that it is checked by is one too.
+//! Goal: a tolerance is a promise, and so is the estimate that it is checked with.
 //!
-//! `tests/trials/accuracy.rs` takes ninety saws and a basis of 4030 functions as the truth.
+//! `tests/trials/accuracy.rs` takes ninety saws and a reference basis of 4030 functions.
 
 use crate::common::Worst;
 use crate::promises::{Kept, drawn_saws, promises, saws};
@@ -8,13 +8,13 @@ use sawflutter::plate::Resolution;
 use sawflutter::scene::{Scene, SweepFile};
 use sawflutter::stability::{Analysis, InstabilityKind};
 
-/// A basis that is large beside what 1e-2 takes of saws with soft pads.
+/// A basis that is large in comparison with that of 1e-2 for saws with soft pads.
 const TRUTH: Resolution = Resolution {
     max_diameters: 30,
     radial_functions: 15,
 };
 
-/// Of thirty saws, thirty others and thirty of which none had a part in any constant, one each.
+/// One saw of each group of thirty; no constant was chosen with the third group.
 #[test]
 fn estimates_and_promises_hold() {
     let mut kept = Kept::default();
@@ -49,10 +49,11 @@ fn onsets_keep_the_tolerance() {
     }
 }
 
-/// A saw with damping has no more than 732 functions. Of its two pads the small stiff one bends the blade more sharply than these
-/// follow, and without damping the same saw takes as many functions as the fall of the error promised, to a factor of two.
+/// A saw with damping has at most 732 functions. The small stiff pad of the two bends the blade more sharply than these
+/// can represent, and without damping the number of functions agrees with the predicted decrease of the error, to a
+/// factor of two.
 #[test]
-fn what_is_out_of_reach_names_the_pad_and_the_functions_that_would_do() {
+fn the_warning_of_an_accuracy_out_of_reach_names_the_pad_and_the_functions_needed() {
     let saw = |damping_n_s_per_m: f64| {
         let scene = Scene::paper().edited(|saw| {
             let mut small = saw.guides[0];
@@ -63,7 +64,7 @@ fn what_is_out_of_reach_names_the_pad_and_the_functions_that_would_do() {
             saw.guides[0].damping_n_s_per_m = damping_n_s_per_m;
             saw.tolerance = Some(1e-3);
             (saw.cut, saw.measured) = (None, None);
-            // The basis is chosen from critical speeds, below which there is nothing to search.
+            // The basis is chosen from critical speeds, below which there is no search for bands.
             saw.sweep = Some(SweepFile {
                 from_rpm: 0.0,
                 to_rpm: 1600.0,
@@ -81,6 +82,6 @@ fn what_is_out_of_reach_names_the_pad_and_the_functions_that_would_do() {
     let needed = undamped.model.plate.degrees_of_freedom() as f64;
     let told = found.functions.expect("a number of functions");
     println!("{told} told, {needed} needed");
-    // Sizes are steps of 1.5, and the power by which the error falls is that of the sizes before.
+    // Sizes grow in steps of 1.5, and the prediction uses the rate of decrease of the error at smaller sizes.
     assert!((0.6..2.0).contains(&(told / needed)), "{told} {needed}");
 }

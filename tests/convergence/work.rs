@@ -1,7 +1,7 @@
-//! Goal: a silent slow-down fails. Times depend on the machine; how many eigenproblems of
-//! which size a chart takes does not.
+//! Goal: a loss of speed makes a test fail. Times depend on the machine; the number and size of the eigenproblems of a
+//! chart do not.
 //!
-//! The bounds are what the chart of the paper's saw took when they were written, and a fifth.
+//! The limits are 20 % above the counts of the chart of the paper's saw when they were written.
 
 use std::sync::LazyLock;
 
@@ -25,7 +25,7 @@ fn report(accuracy: Accuracy) -> Report {
     analysis.report()
 }
 
-/// Of the chart of the paper's saw at `design`.
+/// Work of the chart of the paper's saw at `design`.
 static DESIGN: LazyLock<WorkEntry> = LazyLock::new(|| report(Accuracy::Design).work);
 
 #[test]
@@ -39,8 +39,8 @@ fn a_chart_takes_no_more_work_than_it_took() {
     assert!(work.full_solves > 0 && work.local_solves > 0, "{work:?}");
 }
 
-/// Guides leave blocks and few columns, edge loads couple every wave with every other, and dampers leave
-/// eigenvalues without mirror images: the report says which way was taken.
+/// Guides lead to blocks and few columns, edge loads couple every wave with every other, and dampers lead to
+/// eigenvalues without mirror images: the report names the method.
 #[test]
 fn the_report_says_how_many_solves_went_by_the_structure_of_the_matrices() {
     let guided = &*DESIGN;
@@ -62,7 +62,7 @@ fn the_report_says_how_many_solves_went_by_the_structure_of_the_matrices() {
     assert!(damped.structured_solves < damped.full_solves, "{damped:?}");
 }
 
-/// More functions, the same eigenproblems: only the few of the full model grow.
+/// More functions need the same number of eigenproblems; only the few of the full model are larger.
 #[test]
 fn work_hardly_depends_on_the_accuracy() {
     let [draft, reference] = [Accuracy::Draft, Accuracy::Reference].map(|a| report(a).work);
@@ -87,7 +87,7 @@ fn a_slow_saw_takes_less_work() {
     );
 }
 
-/// Counts, like results, are those of the work and not of the threads that do it.
+/// Counts depend on the work and not on the threads that do it.
 #[test]
 fn the_report_does_not_depend_on_the_threads() {
     let on = |threads: usize| {

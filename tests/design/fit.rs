@@ -1,5 +1,4 @@
-//! Goal: `fit` finds the numbers that measured frequencies come from, and is honest about how
-//! well it knows them.
+//! Goal: `fit` finds the numbers behind measured frequencies and states their uncertainty correctly.
 //!
 //! Sources: the paper's Table 5 and the calibration of `scenes/paper.json` on it; synthetic
 //! measurements of known saws with drawn noise.
@@ -23,15 +22,14 @@ fn table_5(scene: &Scene) -> Measurement {
     Measurement::of_scene(scene.file().measured.as_ref().unwrap()).up_to(1250.0)
 }
 
-/// The pad of `scenes/paper.json`, 0.2 m and 2.0e7 N/m, is a rounded calibration on these 24
-/// numbers, 0.987 Hz rms. The free optimum is 0.195 m and 1.8e7 N/m, 0.984 Hz: the minimum is
-/// so flat that the rounding costs 0.003 Hz, and the 95 % interval of the radius is 30 mm to
-/// either side. It is found from a pad at the rim that is a hundred times softer. The angle of a
-/// single pad turns the saw as a whole: the data say nothing about it, and it stays at the paper's
+/// The pad of `scenes/paper.json`, 0.2 m and 2.0e7 N/m, is a rounded calibration on these 24 numbers, 0.987 Hz rms. The
+/// free optimum is 0.195 m and 1.8e7 N/m, 0.984 Hz: the minimum is so flat that rounding adds only 0.003 Hz, and the 95
+/// % interval of the radius is ±30 mm. The search starts from a pad at the rim that is a hundred times softer. The
+/// angle of a single pad turns the saw as a whole: the data contain no information about it, and it remains the paper's
 /// −55°.
 #[test]
-fn the_calibration_of_the_papers_saw_is_found_again_from_far_off() {
-    // On the basis that `design` asks for, which takes a minute: 0.1940 m, 2.08e7 N/m, 0.983 Hz.
+fn the_calibration_of_the_papers_saw_is_found_from_a_distant_start() {
+    // On the basis of `design`, which takes a minute, the result is 0.1940 m, 2.08e7 N/m, 0.983 Hz.
     let calibrated = scene("paper").edited(|saw| saw.accuracy = Accuracy::Draft);
     let calibrated = calibrated.unwrap();
     let far = with(&calibrated, &[(RADIUS, 0.33), (STIFFNESS, 2e5)]);
@@ -67,11 +65,11 @@ fn the_calibration_of_the_papers_saw_is_found_again_from_far_off() {
         let (low, high) = p.interval.unwrap();
         assert!(low < expected && expected < high, "{p:?}");
     }
-    // 5 mm and 10 % off the rounded one.
+    // The start is 5 mm and 10 % away from the rounded calibration.
     assert_close("radius", fit.parameters[0].value, 0.2, 0.04);
     assert_close("stiffness", fit.parameters[1].value, 2.0e7, 0.15);
-    // Every start, the farthest included, leads there; on the coarser basis of the starts the minimum is higher by as much as
-    // its rounding above costs.
+    // Every start leads to the optimum, also the farthest; the coarser basis of the starts gives a minimum that is
+    // higher by about the effect of rounding above.
     for start in FitReport::new(&fit).starts {
         let rms_hz = start.rms_hz.expect("an end");
         assert!((rms_hz - fit.rms_hz).abs() < 0.003, "{rms_hz}");
@@ -81,9 +79,9 @@ fn the_calibration_of_the_papers_saw_is_found_again_from_far_off() {
 /// Path, true value, lowest and highest allowed.
 type Number = (&'static str, f64, f64, f64);
 
-/// Without noise the truth itself comes back: pad and density, and of two pads the angle too.
+/// Without noise the fit recovers the true numbers: pad and density, and the angle if there are two pads.
 #[test]
-fn exact_frequencies_give_the_saw_back() {
+fn exact_frequencies_recover_the_saw() {
     let options = Options {
         resolution: Some(SMALL),
         starts: 2,
@@ -124,10 +122,10 @@ fn exact_frequencies_give_the_saw_back() {
     }
 }
 
-/// E and ρ of a free blade scale every frequency alike at rest: only their ratio is measured,
-/// so neither has an interval.
+/// E and ρ of a free blade scale every frequency alike at rest: only their ratio is measured, so that neither has an
+/// interval.
 #[test]
-fn numbers_that_the_data_do_not_tell_apart_have_no_interval() {
+fn numbers_that_the_data_do_not_determine_have_no_interval() {
     let saw = scene("free-blade");
     let modulus = "blade.material.youngs_modulus_pa";
     let density = "blade.material.density_kg_per_m3";
@@ -164,7 +162,7 @@ fn numbers_that_the_data_do_not_tell_apart_have_no_interval() {
 }
 
 #[test]
-fn what_cannot_be_fitted_is_refused() {
+fn measurements_that_cannot_be_fitted_are_refused() {
     let saw = scene("paper");
     let options = Options {
         resolution: Some(SMALL),
@@ -198,7 +196,7 @@ fn what_cannot_be_fitted_is_refused() {
     );
 }
 
-/// The starts run in parallel, and the result is the same to the last bit on one thread.
+/// The starts run in parallel, and the result on one thread is equal to the last bit.
 #[test]
 fn the_result_does_not_depend_on_the_number_of_threads() {
     let saw = scene("paper");
@@ -219,7 +217,7 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
     assert_eq!(FitReport::new(&one), FitReport::new(&three));
 }
 
-/// Root mean square of what is left of a measurement.
+/// Root mean square of the residuals of a measurement.
 fn rms_hz(scene: &Scene, measurement: &Measurement) -> f64 {
     let speeds: Vec<f64> = measurement.rows.iter().map(|row| row.rpm).collect();
     let computed = exact(scene, &speeds, 4);
@@ -231,8 +229,8 @@ fn rms_hz(scene: &Scene, measurement: &Measurement) -> f64 {
     (squares.sum::<f64>() / measurement.count() as f64).sqrt()
 }
 
-/// The best radius and the best density lie outside the bounds: the answer is the bound, which
-/// nothing between the bounds beats, without an interval.
+/// The best radius and the best density lie outside the bounds: the result is at the bound, is not worse than any value
+/// between the bounds, and has no interval.
 #[test]
 fn numbers_that_all_end_at_bounds_are_answered_without_intervals() {
     let density = "blade.material.density_kg_per_m3";
@@ -263,9 +261,9 @@ fn numbers_that_all_end_at_bounds_are_answered_without_intervals() {
     }
 }
 
-/// Where the scene's own number is not within the bounds, "before" is still the scene.
+/// "Before" refers to the scene also if its number is outside the bounds.
 #[test]
-fn a_start_outside_the_bounds_is_reported_as_it_is() {
+fn a_start_outside_the_bounds_is_reported_unchanged() {
     let saw = scene("paper");
     let options = Options {
         resolution: Some(SMALL),
@@ -283,9 +281,9 @@ fn a_start_outside_the_bounds_is_reported_as_it_is() {
     );
 }
 
-/// A tap test has no speed but zero: the pad comes back from frequencies at rest of a finer basis.
+/// A tap test has zero speed only: the pad is recovered from frequencies at rest of a finer basis.
 #[test]
-fn a_tap_test_at_rest_gives_the_pad_back() {
+fn a_tap_test_at_rest_recovers_the_pad() {
     let saw = scene("paper").edited(|saw| saw.accuracy = Accuracy::Draft);
     let saw = saw.unwrap();
     let numbers = [(RADIUS, 0.24), (STIFFNESS, 9e6)];
@@ -311,10 +309,10 @@ fn a_tap_test_at_rest_gives_the_pad_back() {
     }
 }
 
-/// Frequencies that no such saw has, far above its own: what is left over is of their size, and Student's interval is
-/// wider than the bounds are apart.
+/// No such saw has these frequencies, far above its own: the residuals are of their size, and Student's interval is
+/// wider than the bounds.
 #[test]
-fn a_saw_that_does_not_have_the_frequencies_is_told_so() {
+fn frequencies_that_the_saw_cannot_have_are_reported() {
     let saw = scene("paper");
     let row = |rpm: f64, hz: [f64; 4]| Row::new(rpm, &hz.map(Some));
     let measurement = Measurement {

@@ -1,4 +1,4 @@
-//! Goal: the designer's tools find what is known beforehand.
+//! Goal: `fit`, `place` and studies find results that are known in advance.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,4 +1,4 @@
-//! Numbers of a scene, set and freed by their paths.
+//! Sets and frees numbers of a scene by their paths.
 
 use sawflutter::scene::{Freed, Parameter, Scene};
 

@@ -1,6 +1,6 @@
-//! Goal: `place` finds the best place of a guide, and says what it is worth.
+//! Goal: `place` finds the best place of a guide and gives its benefit.
 //!
-//! Sources: symmetry (guides turned together are the same saw), and brute force.
+//! Sources: symmetry (guides that turn together give the same saw), and brute force.
 
 use crate::common::{assert_close, scene};
 use rayon::prelude::*;
@@ -32,7 +32,7 @@ fn quick() -> Options {
     }
 }
 
-/// A saw of `scenes/`, swept as far as the small basis holds its waves.
+/// A scene of `scenes/`, with a sweep over which the small basis represents its waves.
 fn swept(name: &str) -> Scene {
     with(&scene(name), &[("sweep.to_rpm", TOP_RPM)])
 }
@@ -41,7 +41,7 @@ fn place(scene: &Scene, freed: &[Freed], demands: &Demands, options: &Options) -
     Placement::new(scene, freed, demands, options, &|_, _, _| ()).unwrap()
 }
 
-/// Bands of a saw by the library's own parts, not by `place`.
+/// Bands of a saw by other functions of the library than those of `place`.
 fn bands(scene: &Scene) -> Vec<Instability> {
     let SpeedRange {
         from_rad_per_s: from,
@@ -62,7 +62,8 @@ fn flutter_rpm(scene: &Scene) -> f64 {
         .map_or(TOP_RPM, |b| rpm(b.from_rad_per_s))
 }
 
-/// The saw and those with a radius 2 mm and an angle 1° off, each alone and all together: the tolerances that `place` states.
+/// The saw and its neighbours with a radius changed by 2 mm and an angle by 1°, each alone and all together: the
+/// tolerances that `place` states.
 fn within_tolerances(scene: &Scene, paths: &[&str]) -> Vec<Scene> {
     let step = |path: &str| if path == ANGLE { 1.0 } else { 0.002 };
     let own = |path: &str| Parameter::new(path).get(scene.file()).unwrap();
@@ -82,14 +83,14 @@ fn within_tolerances(scene: &Scene, paths: &[&str]) -> Vec<Scene> {
     offs.into_iter().map(at).collect()
 }
 
-/// The least flutter speed of these.
+/// The smallest flutter speed of the saws within the tolerances.
 fn worst_flutter_rpm(scene: &Scene, paths: &[&str]) -> f64 {
     let saws = within_tolerances(scene, paths);
     let speeds = saws.par_iter().map(flutter_rpm);
     speeds.reduce(|| f64::INFINITY, f64::min)
 }
 
-/// What `place` relies on where it holds an angle: nothing but the guides stands in space.
+/// `place` may keep one angle fixed only because nothing except the guides is fixed in space.
 #[test]
 fn guides_that_turn_together_are_the_same_saw() {
     for (name, turned) in [
@@ -122,7 +123,7 @@ fn held(found: &Placement) -> Vec<&str> {
 }
 
 #[test]
-fn an_angle_that_means_nothing_is_held_and_named() {
+fn an_angle_without_effect_is_fixed_and_named() {
     let one = swept("paper");
     let free = freed(&one, &[(RADIUS, 0.19, 0.21), (ANGLE, -90.0, 0.0)]);
     let found = place(&one, &free, &Demands::default(), &quick());
@@ -137,7 +138,7 @@ fn an_angle_that_means_nothing_is_held_and_named() {
     assert_eq!(held(&found), [ANGLE]);
 }
 
-/// Turned by 40°, saw and bounds together, the best saw is the same one, turned by 40°.
+/// If saw and bounds are turned by 40°, the best saw is turned by 40°.
 #[test]
 fn the_best_place_turns_with_the_saw() {
     let here = swept("two-pads");
@@ -157,9 +158,10 @@ fn the_best_place_turns_with_the_saw() {
     assert!((turn - 40.0).abs() < 1e-6, "{turn}");
 }
 
-/// A grid of 7 × 7 saws, each with those off it by the tolerances, finds nothing whose worst is better by more than half a per cent.
+/// In a grid of 7 × 7 saws, each with its neighbours within the tolerances, no worst case is better by more than half a
+/// per cent.
 #[test]
-fn brute_force_finds_nothing_better_at_the_worst_of_its_tolerances() {
+fn brute_force_finds_no_better_worst_case_of_the_tolerances() {
     let saw = swept("two-pads");
     let (radii, angles) = ((0.22, 0.28), (-100.0, -20.0));
     let free = freed(
@@ -199,7 +201,8 @@ fn brute_force_finds_nothing_better_at_the_worst_of_its_tolerances() {
     assert_eq!((map.x.len(), map.y.len(), map.goal_rpm.len()), (7, 7, 7));
 }
 
-/// No saw keeps the limit: the answer misses it by less than any of a grid of saws, all at the worst of their tolerances.
+/// No saw keeps the limit: the result misses it by less than any saw of a grid, all in the worst case of their
+/// tolerances.
 #[test]
 fn where_no_saw_keeps_the_limit_the_nearest_is_answered() {
     let saw = swept("two-pads");
@@ -231,7 +234,7 @@ fn where_no_saw_keeps_the_limit_the_nearest_is_answered() {
     );
 }
 
-/// A rim that is hotter than the blade bears buckles it: such saws are tried here, and counted.
+/// A rim that is hotter than the blade tolerates buckles it: the search tries such saws and counts them.
 #[test]
 fn saws_that_cannot_be_computed_are_counted() {
     let saw = scene("gallery/heated-rim").swept(SpeedRange {
@@ -251,9 +254,8 @@ fn saws_that_cannot_be_computed_are_counted() {
     );
 }
 
-/// The farther the two pads stand apart, the higher is the lowest critical speed; flutter comes
-/// latest in between. A limit above the critical speed of the best saw makes it give way and is
-/// kept.
+/// The lowest critical speed increases with the distance between the two pads; the flutter speed is highest at a medium
+/// distance. A limit above the critical speed of the best saw changes the result, which then keeps the limit.
 #[test]
 fn a_limit_on_the_critical_speed_is_active_and_kept() {
     let saw = swept("two-pads");
@@ -283,7 +285,7 @@ fn a_limit_on_the_critical_speed_is_active_and_kept() {
 #[test]
 fn the_window_is_free_of_bands_and_wider_than_before() {
     let saw = swept("two-pads");
-    // Past the divergence of the first pair, which this basis puts next to 1800 rpm.
+    // The limit is above the divergence of the first pair, which this basis places near 1800 rpm.
     let around_rad_per_s = rad_per_s(1900.0);
     let demands = Demands {
         goal: Goal::StableWindow { around_rad_per_s },
@@ -334,7 +336,7 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
     assert_eq!(report(&one), report(&three));
 }
 
-/// Where nothing is ever off, a saw is worth what it is by itself; and what is off is off by what was said.
+/// With zero tolerances the value of a saw is its own; otherwise its neighbours are those of the stated tolerances.
 #[test]
 fn the_tolerances_are_those_that_are_stated() {
     let saw = swept("paper");
@@ -366,7 +368,7 @@ fn the_tolerances_are_those_that_are_stated() {
     assert_eq!((radius.path.as_str(), radius.offset), (RADIUS, 0.005));
 }
 
-/// A saw of draft accuracy, with the choice of the basis left to the program.
+/// A saw of draft accuracy whose basis the program chooses.
 fn draft(name: &str) -> Scene {
     let saw = scene(name).edited(|saw| saw.accuracy = Accuracy::Draft);
     saw.unwrap()
@@ -382,8 +384,8 @@ fn one_radius(saw: &Scene, demands: &Demands) -> Placement {
     place(saw, &freed(saw, &[(RADIUS, 0.15, 0.3)]), demands, &options)
 }
 
-/// On the coarse basis the best radius lies past a jump of the finer one, on which that saw
-/// flutters from 1907 rpm on and the start from 2256. Both are analysed as `analyze` does, and so are the saws 2 mm off them.
+/// On the coarse basis the best radius lies past a jump of the finer one, on which that saw flutters from 1907 rpm on
+/// and the start from 2256. Both are analysed as `analyze` does, and so are their neighbours 2 mm away.
 #[test]
 fn the_answer_is_never_below_the_start() {
     let saw = draft("paper");
@@ -408,7 +410,7 @@ fn the_answer_is_never_below_the_start() {
     assert_eq!(found.improved, after > before);
 }
 
-/// The same of the window between the bands next to 1800 rpm.
+/// The window between the bands next to 1800 rpm has this property too.
 #[test]
 fn the_window_is_never_narrower_than_before() {
     let saw = draft("paper");
@@ -443,8 +445,8 @@ fn the_window_is_never_narrower_than_before() {
     assert_close("window", found.best.value_rad_per_s, own, 1e-2);
 }
 
-/// Below 1600 rpm no saw flutters, so that none is better than another: the start stays, to the
-/// last digit and without a note in its scene.
+/// Below 1600 rpm no saw flutters, so that none is better than another: the result is the start, to the last digit and
+/// without a note in its scene.
 #[test]
 fn a_start_that_nothing_beats_is_the_answer() {
     let saw = with(&scene("paper"), &[("sweep.to_rpm", 1600.0)]);
@@ -456,9 +458,9 @@ fn a_start_that_nothing_beats_is_the_answer() {
     assert_eq!(found.best, found.before);
 }
 
-/// What the scene has need not lie between the bounds; it is still what "before" speaks of.
+/// The number of the scene may be outside the bounds; "before" still refers to it.
 #[test]
-fn a_start_outside_the_bounds_is_reported_as_it_is() {
+fn a_start_outside_the_bounds_is_reported_unchanged() {
     let saw = swept("two-pads");
     let own = Parameter::new(RADIUS).get(saw.file()).unwrap();
     let free = freed(&saw, &[(RADIUS, own + 0.02, own + 0.04)]);

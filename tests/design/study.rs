@@ -1,8 +1,8 @@
-//! Goal: a study says what its saws are: quantiles and probabilities with answers known
-//! exactly, the numbers of `analyze` and `check`, and the same bytes however it was computed.
+//! Goal: a study describes its saws correctly: quantiles and probabilities that are known exactly, the numbers of
+//! `analyze` and `check`, and the same bytes for every way of computation.
 //!
-//! Source: the waves of a free blade feel nothing but bending and rotation, K_b ~ h³ and
-//! M ~ h, so every critical speed is proportional to the thickness h.
+//! Source: the waves of a free blade depend on bending and rotation only, K_b ~ h³ and M ~ h, so that every critical
+//! speed is proportional to the thickness h.
 
 use crate::common::{assert_close, scene};
 use sawflutter::check::{Check, Limits};
@@ -46,8 +46,7 @@ fn quantiles_of_critical_speed_are_those_of_thickness() {
     let per_metre = nominal_critical_rpm() / THICKNESS;
     for quantile in &report.all.lowest_critical.quantiles {
         let exact = THICKNESS + 1e-4 * (2.0 * quantile.share - 1.0);
-        // One of 512 points lies in every 512th of the range, and each quantile between two
-        // neighbours.
+        // Each 512th of the range contains one of the 512 points, and each quantile lies between two neighbours.
         let allowed = 2.0 * 2e-4 / 512.0 / THICKNESS;
         let found = quantile.rpm.unwrap();
         assert_close(
@@ -66,10 +65,10 @@ fn quantiles_of_critical_speed_are_those_of_thickness() {
     assert_eq!(histogram.counts.iter().sum::<usize>(), 512);
 }
 
-/// The basis of the saw without deviations is where that of every saw is looked for: each is as right as promised
-/// against an analysis of its own, and the same whichever was computed before it.
+/// The search for the basis of each saw begins with that of the saw without deviations: each result is as accurate as
+/// promised, by comparison with an analysis of its own, and does not depend on the saws computed before.
 #[test]
-fn a_saw_of_a_study_is_as_right_as_one_of_its_own() {
+fn a_saw_of_a_study_is_as_accurate_as_an_analysis_of_its_own() {
     let tolerance = 6e-3;
     let paper = Scene::paper()
         .edited(|saw| saw.tolerance = Some(tolerance))
@@ -106,12 +105,12 @@ fn a_saw_of_a_study_is_as_right_as_one_of_its_own() {
     }
 }
 
-/// Critical speed is proportional to the root of the modulus: a normal one makes a probability
-/// that a table of the normal distribution gives.
+/// Critical speed is proportional to the root of the modulus: for a normal modulus a table of the normal distribution
+/// gives the probability.
 #[test]
 fn the_probability_of_passing_is_that_of_the_distribution() {
     let critical = nominal_critical_rpm();
-    // One standard deviation below the mean: passed by Φ(1) of all, Φ(3) − Φ(−1) of those
+    // The limit is one standard deviation below the mean: the share Φ(1) of all saws passes, and Φ(3) − Φ(−1) of those
     // within three deviations.
     let asked = critical * (1.0_f64 - 0.02).sqrt();
     let text = format!(
@@ -139,7 +138,7 @@ fn the_probability_of_passing_is_that_of_the_distribution() {
     assert_eq!(kept, [1024, 1024, passing.passed]);
 }
 
-/// Of the paper's saw, at the value of its scene and at another.
+/// Studies of the paper's saw, at the value of its scene and at another one.
 #[test]
 fn a_saw_of_a_study_is_the_one_that_analyze_and_check_see() {
     let paper = Scene::paper();
@@ -163,7 +162,7 @@ fn a_saw_of_a_study_is_the_one_that_analyze_and_check_see() {
         let own = own.edited(|own| own.sweep.as_mut().unwrap().to_rpm = 2400.0);
         let analysis = Analysis::new(&own.unwrap()).unwrap();
         assert!(analysis.flutter_speed_rad_per_s.is_some());
-        // Bands are searched on fewer modes than are charted, each right to 1e-8.
+        // The search for bands uses fewer modes than the chart, each accurate to 1e-8.
         for (one, other) in [
             (found.flutter_rpm, analysis.flutter_speed_rad_per_s),
             (found.first_merge_rpm, analysis.first_merge_rad_per_s),
@@ -210,7 +209,7 @@ fn a_grid_has_every_combination_and_shares_its_deviations() {
 }
 
 #[test]
-fn saws_that_no_saw_can_be_are_rows_with_a_reason() {
+fn impossible_saws_are_rows_with_a_reason() {
     let study = study(
         free_blade(),
         r#"{ "name": "refused", "limits": { "operating_rpm": 100 }, "parameters": [
@@ -240,7 +239,7 @@ fn saws_that_no_saw_can_be_are_rows_with_a_reason() {
 }
 
 #[test]
-fn what_is_no_study_is_refused_by_key() {
+fn an_invalid_study_is_refused_by_key() {
     let thickness = r#""path": "blade.thickness_m""#;
     let even = r#""distribution": { "kind": "tolerance", "plus_minus": 1e-5 }"#;
     let grid = r#""distribution": { "kind": "grid", "values": [1, 2] }"#;

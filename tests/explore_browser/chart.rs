@@ -1,4 +1,4 @@
-//! What is seen is what the command line finds, and it follows the hand.
+//! The chart of the page has the results of the command line, and it follows the input.
 
 use serde_json::{Value, json};
 
@@ -15,7 +15,7 @@ fn a_dragged_pad_moves_the_chart_to_what_the_command_line_finds() {
         page.screenshot("1280-light.png").await;
 
         drag(&page, PAD, 40, (2, -1)).await;
-        // Of where the pad is now: moves come faster than charts.
+        // The chart is that of the present position of the pad, because moves come faster than charts.
         page.wait("sawflutter.latencies.draft.length > 0 && sawflutter.follows()")
             .await;
         let dragging = page.text("#facts").await;
@@ -55,8 +55,7 @@ fn a_dragged_pad_moves_the_chart_to_what_the_command_line_finds() {
     });
 }
 
-/// A saw that runs, one that is past the rule, and one that flutters: each with the program's words and a mark of
-/// its own.
+/// A stable saw, one that breaks the rule, and one that flutters: each with the program's text and a symbol of its own.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn the_answer_is_the_one_that_the_program_prints() {
@@ -100,7 +99,7 @@ fn a_branch_that_is_pointed_at_moves_on_the_blade() {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
         let chart = page.find("#campbell").await;
-        // By pointer, downwards from the middle until it comes by a branch.
+        // With the pointer: it moves downwards from the middle until it reaches a branch.
         let plot = page.find("#campbell .u-over").await;
         let middle = hand(&page).move_to_element_center(&plot);
         middle.perform().await.unwrap();
@@ -117,7 +116,7 @@ fn a_branch_that_is_pointed_at_moves_on_the_blade() {
         page.wait("!document.querySelector('#mode').textContent.includes('Krein')")
             .await;
         chart.focus().await.unwrap();
-        // By keyboard alone: along a branch, and to the next ones.
+        // With the keyboard alone: along a branch, and to the next ones.
         let mut told = Vec::new();
         for key in [Key::Right, Key::Up, Key::Up, Key::Up] {
             chart.send_keys(key + "").await.unwrap();
@@ -132,7 +131,7 @@ fn a_branch_that_is_pointed_at_moves_on_the_blade() {
         }
         for told in &told {
             assert!(told.contains("Hz in space") && told.contains("Hz on the blade"));
-            // A reflected wave is what has a negative Krein sign.
+            // A reflected wave has a negative Krein sign.
             assert_eq!(
                 told.contains("falls behind the dot"),
                 told.contains("Krein sign −1"),
@@ -147,7 +146,7 @@ fn a_branch_that_is_pointed_at_moves_on_the_blade() {
         let before = page.value(pixels).await;
         page.wait(&format!("{pixels} !== {before}")).await;
         page.screenshot("1280-mode.png").await;
-        // What was pointed at last can be kept as a video.
+        // The mode that was selected last can be saved as a video.
         page.script("document.querySelector('#film').click()").await;
         page.wait_for_file("mode.webm").await;
         page.close().await;
@@ -156,7 +155,7 @@ fn a_branch_that_is_pointed_at_moves_on_the_blade() {
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn a_stretch_of_speeds_is_magnified_and_let_go_again() {
+fn a_range_of_speeds_is_magnified_and_reset() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
@@ -170,7 +169,7 @@ fn a_stretch_of_speeds_is_magnified_and_let_go_again() {
         page.screenshot("1280-magnified.png").await;
         let told = page.text("#zoomed").await;
         assert!(told.contains("rpm of the sweep"), "{told}");
-        // By keyboard: closer, and all again.
+        // With the keyboard: the chart is magnified, and then shown as a whole.
         let chart = page.find("#campbell").await;
         chart.focus().await.unwrap();
         chart.send_keys("+").await.unwrap();
@@ -209,7 +208,7 @@ fn a_chart_of_an_earlier_scene_is_not_shown_as_the_present_one() {
     });
 }
 
-/// The numbers that the figure of the program has: of critical speeds, of bands and of operation.
+/// The page has the numbers of the program's figure: of critical speeds, of bands and of operation.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn critical_speeds_bands_and_operation_have_their_numbers() {
@@ -241,10 +240,10 @@ fn critical_speeds_bands_and_operation_have_their_numbers() {
     });
 }
 
-/// A chart that takes longer than a moment says how far it is, can be stopped, and can be asked for again.
+/// A chart that takes longer than a moment shows its progress, can be stopped, and can be requested again.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn a_long_chart_says_how_far_it_is_and_can_be_stopped() {
+fn a_long_chart_reports_its_progress_and_can_be_stopped() {
     run(async {
         let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/gallery/six-pads.json");
         let page = Page::open(&[scene, "--accuracy", "draft"]).await;
@@ -256,7 +255,7 @@ fn a_long_chart_says_how_far_it_is_and_can_be_stopped() {
         page.wait("document.querySelector('#busy').textContent.includes(' of ')")
             .await;
         page.screenshot("1280-computing.png").await;
-        // By keyboard: the focus goes to what begins it again.
+        // With the keyboard: the focus moves to the button that starts it again.
         page.find("#stop")
             .await
             .send_keys(Key::Enter + "")

@@ -1,4 +1,4 @@
-//! Every quantity can be set, by hand, by keyboard and by its field.
+//! Every quantity can be set with the pointer, with the keyboard and in its field.
 
 use std::time::{Duration, Instant};
 
@@ -16,7 +16,7 @@ fn a_bad_value_is_refused_at_its_field_and_the_chart_stays() {
         page.enter("blade.thickness_m", "-2.8").await;
         page.wait("document.body.classList.contains('stale')").await;
 
-        // In the unit of the field, at the field and nowhere else.
+        // The message has the unit of the field, and is at the field only.
         let told = page.text("[id='blade.thickness_m:fault']").await;
         assert_eq!(told, "Thickness must be above 0 mm; usual: 0.1 to 40 mm");
         assert_eq!(page.text("#fault").await, "");
@@ -79,7 +79,7 @@ fn a_pad_is_moved_and_put_back_by_keyboard_alone() {
         assert!(page.text("#facts").await.contains(" → "));
         let moved = page.text("[data-path='guides[0]'] title").await;
         assert!(moved.contains("radius 203 mm"), "{moved}");
-        // Presses that follow each other are one step.
+        // Key presses in a row are one step of undo.
         hand(&page)
             .key_down(Key::Control)
             .send_keys("z")
@@ -125,7 +125,7 @@ fn heat_is_set_by_its_field() {
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn parts_that_are_put_in_begin_with_values_that_compute() {
+fn parts_are_added_with_values_that_can_be_computed() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
@@ -160,7 +160,7 @@ fn parts_that_are_put_in_begin_with_values_that_compute() {
         press("Put cut in").await;
         press("Put damping in").await;
         page.screenshot("1280-parts.png").await;
-        // What a reader of the screen hears is never the same twice.
+        // A screen reader never gets the same text twice in a row.
         let names = "[...document.querySelectorAll('#fields input, #fields select, #fields textarea')].map((field) => field.getAttribute('aria-label') ?? field.id)";
         let twice = page
             .value(&format!(
@@ -251,8 +251,8 @@ fn refusals_are_in_the_unit_of_the_field_and_name_what_a_designer_can_use() {
     });
 }
 
-/// A mark before three digits separates thousands or is decimal: the page asks, unless only one of the two numbers
-/// is that of a saw.
+/// A mark before three digits separates thousands or is decimal: the page asks, unless only one of the two numbers is
+/// usual for a saw.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn a_number_that_may_be_one_of_two_is_asked_about() {
@@ -283,7 +283,7 @@ fn a_number_that_may_be_one_of_two_is_asked_about() {
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn taking_back_in_a_field_takes_the_scene_back() {
+fn undo_in_a_field_undoes_the_scene() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
@@ -291,7 +291,7 @@ fn taking_back_in_a_field_takes_the_scene_back() {
         page.enter("blade.thickness_m", "3").await;
         page.settle().await;
         let field = page.find("[id='blade.thickness_m']").await;
-        // What is only typed is taken back as in every field; then the scene is.
+        // The first undo restores the text of the field, as in every field; the next one restores the scene.
         field.send_keys("9").await.unwrap();
         field.send_keys(Key::Control + "z").await.unwrap();
         assert_eq!(page.value(thickness).await, json!([0.003, "3"]));
@@ -319,7 +319,7 @@ fn a_pad_that_is_dragged_off_the_blade_stays_on_it() {
         let_go(&page).await;
         page.settle().await;
         assert_eq!(page.value(&edge("outer_diameter_m")).await, json!(true));
-        // Into the middle of the bore.
+        // The pad is dragged into the middle of the bore.
         let way = page
             .value(&format!(
                 "['#drawing', {PAD:?}].map((part) => document.querySelector(part).getBoundingClientRect())\
@@ -337,7 +337,8 @@ fn a_pad_that_is_dragged_off_the_blade_stays_on_it() {
     });
 }
 
-/// What the form and the tabs put into the saws of the gallery: "name: words of the button: why it is refused".
+/// The refused changes among all that the form and the tabs make to the saws of the gallery: "name: text of the button:
+/// reason".
 const REFUSED: &str = "
     const [{ Form }, { lacks, putIn }, begun] = await Promise.all([
         import('/page/form.js'), import('/page/beginnings.js'), fetch('start').then((answer) => answer.json()),
@@ -351,7 +352,7 @@ const REFUSED: &str = "
         asked.add(key);
         const abort = new AbortController();
         const answer = await fetch(path, { method: 'POST', body, signal: abort.signal });
-        // A task that begins to tell how far it is was not refused.
+        // A task that reports its progress was not refused.
         const [line] = new TextDecoder().decode((await answer.body.getReader().read()).value).split('\\n');
         if (answer.status !== 200 || line.startsWith('{\"refusal')) refused.push(`${words}: ${line}`);
         abort.abort();
@@ -371,10 +372,10 @@ const REFUSED: &str = "
             return { words: `${part}: ${button.textContent}`, made };
         });
     };
-    // Of so many saws and parts each saw is asked with every third part, and each part with every third saw.
+    // Each saw is tried with every third part, and each part with every third saw.
     const isAsked = (saw, part) => (saw + part) % 3 === 0;
     for (const [saw, example] of begun.examples.entries()) {
-        // Whether a saw is refused does not depend on how far or how closely it is charted.
+        // A refusal does not depend on the range or the accuracy of the chart.
         const scene = { ...example, tolerance: 0.1, sweep: { from_rpm: 0, to_rpm: 300 } };
         delete scene.accuracy;
         const first = buttons(scene);
@@ -398,7 +399,7 @@ const REFUSED: &str = "
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn parts_that_are_put_into_saws_of_the_gallery_compute() {
+fn parts_added_to_saws_of_the_gallery_can_be_computed() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
@@ -414,7 +415,7 @@ fn parts_that_are_put_into_saws_of_the_gallery_compute() {
         let found = page.value("window.found").await;
         println!("{} scenes computed", found["asked"]);
         let refused: Vec<String> = serde_json::from_value(found["refused"].clone()).unwrap();
-        // So many modes of so large a blade cannot be looked at, whatever it begins with.
+        // The number of modes of so large a blade is always too large.
         let is_out_of_reach = |told: &String| told.starts_with("Stone saw of 3.5 m: washboard:");
         let refused: Vec<&String> = refused
             .iter()

@@ -1,4 +1,4 @@
-//! No work is lost, and the program ends with its page.
+//! Reloading the page loses no edit, and the program ends with its page.
 
 use std::time::{Duration, Instant};
 
@@ -42,13 +42,13 @@ fn edits_survive_a_reload_and_travel_in_the_address() {
         let address = page.driver.current_url().await.unwrap();
         page.reload().await;
         assert_eq!(page.value(THICKNESS).await, json!(0.003));
-        // Edits that come after the link are not lost to it.
+        // Edits after the link was opened remain.
         page.enter("blade.thickness_m", "3.2").await;
         page.settle().await;
         assert_eq!(page.value("location.hash").await, json!(""));
         page.reload().await;
         assert_eq!(page.value(THICKNESS).await, json!(0.0032));
-        // Pasted over the address of the page, which asks first, for it was edited.
+        // The link is pasted into the address of the page, which asks first, because the scene was edited.
         let (_, hash) = address.split_once('#').unwrap();
         page.script("window.confirm = (asked) => { window.asked = asked; return true; }")
             .await;
@@ -71,7 +71,7 @@ fn edits_survive_a_reload_and_travel_in_the_address() {
     });
 }
 
-/// Each tab has edits of its own; a new one goes on with those that no open tab has.
+/// Each tab has edits of its own; a new tab starts with edits that no open tab has.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn two_tabs_keep_their_edits_apart() {
@@ -114,12 +114,12 @@ fn another_saw_takes_the_place_of_an_edited_one_only_when_asked() {
         let name = "sawflutter.state.scene.name";
         page.script("window.asked = 0; window.answer = false; window.confirm = () => { window.asked += 1; return window.answer; }")
             .await;
-        // A saw as it was opened is replaced without a question.
+        // A saw without edits is replaced without a question.
         page.script(&choose(2)).await;
         page.settle().await;
         let opened = page.value(name).await;
         assert_eq!(page.value("window.asked").await, json!(0));
-        // Numbers are not held against those of another saw.
+        // Numbers are not compared with those of another saw.
         assert!(!page.text("#facts").await.contains(" → "));
         page.enter("blade.thickness_m", "3.1").await;
         page.settle().await;
@@ -131,7 +131,7 @@ fn another_saw_takes_the_place_of_an_edited_one_only_when_asked() {
         page.settle().await;
         assert_ne!(page.value(name).await, opened);
         assert_eq!(page.value("window.asked").await, json!(2));
-        // Nothing is lost where the browser keeps the edits: it does not ask whether to leave.
+        // The page does not ask before it is left, because the browser keeps the edits.
         page.enter("blade.thickness_m", "3.1").await;
         page.settle().await;
         let leaves = "dispatchEvent(new Event('beforeunload', { cancelable: true }))";
@@ -181,8 +181,8 @@ fn a_file_that_is_no_scene_leaves_the_scene_and_a_table_becomes_points() {
         page.settle().await;
         let rows = page.value("sawflutter.state.scene.measured.rows").await;
         assert_eq!(rows[0], json!({ "rpm": 0, "frequencies_hz": [9.5, 11] }));
-        // The speed in the last column, a wave that was not seen, and a column order of its own: as `sawflutter fit`
-        // reads the table.
+        // The table has the speed in its last column, a missing wave, and another order of columns: the page reads it
+        // as `sawflutter fit` does.
         let table = "f2,f1,f3,rpm\n27.5,9.5,43,0\n,4.5,40,500\n";
         page.script(&format!(
             "sawflutter.open(new File([{table:?}], 'shop.csv'))"
@@ -198,7 +198,7 @@ fn a_file_that_is_no_scene_leaves_the_scene_and_a_table_becomes_points() {
                 { "rpm": 500, "frequencies_hz": [4.5, null, 40] },
             ])
         );
-        // The tick shows or hides the points; the scene stays.
+        // The checkbox shows or hides the points; the scene does not change.
         let scene = page.value("sawflutter.state.scene").await;
         page.script("document.querySelector('#measured').click()")
             .await;
@@ -219,7 +219,7 @@ fn a_program_that_is_started_again_takes_the_page_over() {
         page.wait("document.body.classList.contains('stale')").await;
         page.start_again(&["--accuracy", "draft"]).await;
         page.wait("document.querySelector('#lost').hidden").await;
-        // The change that was made meanwhile is computed, and the chart has its modes.
+        // The change made in the meantime is computed, and the chart has its modes.
         page.settle().await;
         assert!(page.text("#facts").await.contains(" → "));
         assert_eq!(page.text("#fault").await, "");

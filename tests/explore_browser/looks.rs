@@ -1,4 +1,4 @@
-//! The page can be read on any screen, and by those who do not see it.
+//! The page is readable on any screen and with a screen reader.
 
 use std::time::Duration;
 
@@ -66,7 +66,7 @@ impl Page {
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn an_audit_finds_no_barrier() {
+fn an_audit_finds_no_accessibility_fault() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
@@ -119,7 +119,7 @@ impl Page {
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn two_saws_stand_side_by_side_on_the_same_axes_where_the_page_is_wide_enough() {
+fn two_saws_are_side_by_side_on_the_same_axes_on_a_wide_page() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
@@ -139,8 +139,7 @@ fn two_saws_stand_side_by_side_on_the_same_axes_where_the_page_is_wide_enough() 
         page.resize(390, 844).await;
         let diagrams = page.diagrams().await;
         assert!(diagrams[0][0] == diagrams[1][0] && diagrams[0][1] + 200.0 < diagrams[1][1]);
-        // The thicker blade's modes are higher: both diagrams have room for them, and for the same
-        // stretch of speeds.
+        // The modes of the thicker blade are higher: both diagrams show them all, over the same range of speeds.
         page.resize(1280, 900).await;
         let ends = "[...document.querySelectorAll('.campbell')].map((place) => place.chart.scales)\
             .map(({ x, y }) => [x.min, x.max, y.min, y.max])";
@@ -166,7 +165,7 @@ fn nothing_jumps_while_a_saw_is_changed_and_looked_at() {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
         let before = page.value(PLACES).await;
-        // How the speeds move with the numbers is known a moment after the chart.
+        // The influence of the numbers on the speeds is computed a moment after the chart.
         page.wait("[...document.querySelectorAll('.influence .words')].some((words) => words.textContent !== '')")
             .await;
         assert_eq!(page.value(PLACES).await, before, "influence");
@@ -180,7 +179,7 @@ fn nothing_jumps_while_a_saw_is_changed_and_looked_at() {
         let_go(&page).await;
         page.wait("!document.querySelector('#zoomed').hidden").await;
         assert_eq!(page.value(PLACES).await, before, "magnified");
-        // A verdict of two lines has the room of one.
+        // A verdict of two lines takes the space of one.
         let inside = "sawflutter.report().instabilities.find((band) => band.kind === 'divergence')";
         let rpm = page
             .value(&format!(
@@ -196,7 +195,7 @@ fn nothing_jumps_while_a_saw_is_changed_and_looked_at() {
     });
 }
 
-/// The page is laid out once: what comes later finds its room.
+/// The layout of the page does not change while it is loaded.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn the_page_hardly_moves_while_it_is_loaded() {
@@ -226,7 +225,7 @@ fn the_page_hardly_moves_while_it_is_loaded() {
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn the_focus_stays_where_the_hand_was() {
+fn the_focus_stays_at_the_field_in_use() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
@@ -253,7 +252,7 @@ fn the_focus_stays_where_the_hand_was() {
                 .await
                 .unwrap();
         }
-        // Nothing is left to take back.
+        // Nothing is left to undo.
         assert_eq!(page.value(focused).await, json!("redo"));
         page.settle().await;
         page.find("#tab-study").await.click().await.unwrap();
@@ -329,10 +328,10 @@ fn a_slider_and_the_chart_are_seen_together_on_a_small_screen() {
     });
 }
 
-/// On paper: the saw's name, its answer and its chart in the colours of paper, without buttons and fields.
+/// The printed page has the saw's name, its answer and its chart in the colours of paper, without buttons and fields.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn what_is_printed_is_the_answer_and_the_chart_of_a_named_saw() {
+fn the_printed_page_has_the_answer_and_the_chart_of_a_named_saw() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;

@@ -1,5 +1,5 @@
-//! Goal: what `sawflutter explore` shows and saves in a real browser is what the command line
-//! finds for the same scene, and it answers while a hand moves.
+//! Goal: `sawflutter explore` shows and saves the results of the command line for the same scene in a real browser, and
+//! it answers during a drag.
 //!
 //! Needs Debian's `chromium` and `chromium-driver`; `.ci/run` installs them and runs these tests
 //! with `--ignored`. Screenshots go to `target/explore-screenshots/`;

@@ -1,4 +1,4 @@
-//! The page keeps up with the hand, and nothing is computed or drawn in vain.
+//! The page follows a drag without delay, and computes and draws nothing in vain.
 
 use std::path::Path;
 use std::time::Instant;
@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::browser::{PAD, PATIENCE, Page, drag, hand, let_go, percentile, run, same};
 
 impl Page {
-    /// Milliseconds that a part of the way from a move to its painted draft has taken, each time.
+    /// Milliseconds of one stage between each move and its drawn draft.
     async fn parts(&self, name: &str) -> Value {
         let all = format!("sawflutter.parts.flatMap((parts) => parts.{name})");
         self.value(&all).await
@@ -32,14 +32,14 @@ impl Page {
     }
 }
 
-/// Counts what is drawn on canvases from then on.
+/// Counts the drawing calls of canvases from now on.
 const COUNT: &str = "window.drawn = { clearRect: 0, stroke: 0, lineTo: 0 }; \
     for (const name of Object.keys(drawn)) { \
         const own = CanvasRenderingContext2D.prototype[name]; \
         CanvasRenderingContext2D.prototype[name] = function (...given) { \
             drawn[name] += 1; return own.apply(this, given); }; }";
 
-/// A damped saw has growth rates everywhere, thousands of stretches of them.
+/// A damped saw has thousands of ranges with a growth rate.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn a_chart_is_drawn_once_and_in_few_strokes() {
@@ -57,7 +57,7 @@ fn a_chart_is_drawn_once_and_in_few_strokes() {
             let charts = page.value(charts).await.as_u64().unwrap() - before;
             let drawn = page.value("drawn").await;
             let count = |what: &str| drawn[what].as_u64().unwrap();
-            // Diagram and growth rates.
+            // Two canvases, the diagram and the growth rates.
             assert_eq!(count("clearRect"), 2 * charts, "{scene}: {drawn}");
             assert!(count("stroke") < 400 * charts, "{scene}: {drawn}");
             assert!(count("lineTo") < 4000 * charts, "{scene}: {drawn}");
@@ -69,11 +69,11 @@ fn a_chart_is_drawn_once_and_in_few_strokes() {
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn answers_come_while_the_hand_moves_and_none_is_computed_in_vain() {
+fn answers_come_during_a_drag_and_none_is_computed_in_vain() {
     run(async {
         let page = Page::open(&[]).await;
         page.settle().await;
-        // To and fro until enough charts have come, however busy the machine is.
+        // Moves to and fro until enough charts have come, also on a busy machine.
         for (charts, step) in [(5, 1), (10, -1), (15, 1)] {
             drag(&page, PAD, 1, (step, 0)).await;
             let begun = Instant::now();
@@ -114,7 +114,7 @@ fn answers_come_while_the_hand_moves_and_none_is_computed_in_vain() {
         );
         assert_eq!(released.as_array().unwrap().len(), 3);
 
-        // A design chart that a further change has made stale is stopped, not computed.
+        // A chart of `design` accuracy that a further change has made stale is stopped.
         let jobs = "fetch('jobs').then((answer) => answer.json())";
         let before = page.value(jobs).await;
         for _ in 0..4 {
@@ -130,12 +130,12 @@ fn answers_come_while_the_hand_moves_and_none_is_computed_in_vain() {
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn a_hand_that_rests_is_shown_the_chart_at_its_own_accuracy_before_it_lets_go() {
+fn a_drag_that_pauses_shows_the_chart_at_full_accuracy() {
     run(async {
         let page = Page::open(&[]).await;
         page.settle().await;
         drag(&page, PAD, 10, (2, -1)).await;
-        // The button is still held.
+        // The mouse button is still pressed.
         page.settle().await;
         let told = page.text("#computed").await;
         assert!(told.starts_with("design accuracy"), "{told}");
@@ -150,7 +150,7 @@ fn a_hand_that_rests_is_shown_the_chart_at_its_own_accuracy_before_it_lets_go() 
             "the chart was computed twice"
         );
         assert!(same(&page.value("sawflutter.report()").await, &shown));
-        // Moved on, it follows again.
+        // The chart follows further moves.
         drag(&page, PAD, 10, (2, -1)).await;
         page.wait("document.querySelector('#computed').textContent.startsWith('draft')")
             .await;
@@ -160,8 +160,8 @@ fn a_hand_that_rests_is_shown_the_chart_at_its_own_accuracy_before_it_lets_go() 
     });
 }
 
-/// How long the next turn waits after a computation was given up, and how long that goes on, in milliseconds; null where
-/// it was done before. A scene that is refused needs no time of its own.
+/// The time from a cancelled computation to the start of the next one, and the time until it has ended, in
+/// milliseconds; null if it was finished before. The next scene is one that is refused, which takes no time itself.
 const GIVE_UP: &str = "
     const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
     const jobs = async () => (await fetch('jobs')).json();
@@ -185,10 +185,10 @@ const GIVE_UP: &str = "
         }
     };";
 
-/// Wherever the computation is, and however large its matrices are.
+/// This holds at any stage of the computation, and for matrices of any size.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn the_next_turn_comes_within_a_fifth_of_a_second_after_a_computation_was_given_up() {
+fn a_computation_starts_within_a_fifth_of_a_second_after_a_cancelled_one() {
     run(async {
         let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
         for (scene, change) in [

@@ -4,8 +4,7 @@ use serde_json::json;
 
 use crate::browser::{PAD, Page, drag, let_go, run};
 
-/// A browser opens six connections to one server: a page that held one for good would leave none
-/// for the seventh tab.
+/// A browser opens six connections to one server: a page that kept one open would leave none for the seventh tab.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn eight_tabs_each_have_their_chart_and_answer_a_move() {
@@ -15,7 +14,7 @@ fn eight_tabs_each_have_their_chart_and_answer_a_move() {
         while tabs.len() < 8 {
             tabs.push(page.another_tab().await);
         }
-        // Each but the last has been in the background meanwhile.
+        // Each tab except the last has been in the background in the meantime.
         let mut shown = Vec::new();
         for tab in &tabs {
             page.driver.switch_to_window(tab.clone()).await.unwrap();
@@ -37,15 +36,14 @@ fn eight_tabs_each_have_their_chart_and_answer_a_move() {
             shown.push(after);
         }
         assert_eq!(shown.len(), 8);
-        // The first one's chart is still kept for its modes, whatever the others have asked since.
+        // The program still has the chart of the first tab, whatever the others have requested since.
         page.driver.switch_to_window(tabs[0].clone()).await.unwrap();
         page.step_to_a_mode().await;
         page.close().await;
     });
 }
 
-/// What waits for a long computation must not hold a connection each: with the eighth tab there
-/// would be none left.
+/// A page that waits for a long computation must not keep a connection open: the eighth tab would have none.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn a_long_computation_leaves_all_other_tabs_their_charts_and_influences() {

@@ -1,11 +1,11 @@
-//! What the tabs beside the chart show is what the commands of the same names print.
+//! The tabs beside the chart show the output of the commands of the same names.
 
 use serde_json::{Value, json};
 
 use crate::browser::{Page, run, same};
 
 impl Page {
-    /// Asks for what a tab can compute and waits for its answer.
+    /// Starts the computation of a tab and waits for its answer.
     pub async fn compute(&self, tab: &str) {
         self.find(&format!("#tab-{tab}"))
             .await
@@ -37,7 +37,7 @@ fn a_cut_is_the_one_that_the_command_line_finds() {
             .await;
         assert!(pictures.as_u64().unwrap() >= 2, "{pictures}");
 
-        // Of an earlier scene as soon as the scene is another one.
+        // An answer is marked as one of an earlier scene as soon as the scene changes.
         let old = "document.querySelector('#panel-cut .answer').classList.contains('earlier')";
         assert_eq!(page.value(old).await, json!(false));
         page.enter("blade.thickness_m", "3").await;
@@ -49,7 +49,7 @@ fn a_cut_is_the_one_that_the_command_line_finds() {
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn a_fit_is_taken_over_and_a_part_that_lacks_is_put_in() {
+fn a_fit_is_taken_over_and_a_missing_part_is_added() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
@@ -81,7 +81,7 @@ fn a_fit_is_taken_over_and_a_part_that_lacks_is_put_in() {
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn a_task_tells_how_far_it_is_and_can_be_stopped() {
+fn a_task_reports_its_progress_and_can_be_stopped() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
@@ -93,7 +93,7 @@ fn a_task_tells_how_far_it_is_and_can_be_stopped() {
             .unwrap();
         page.wait("document.querySelector('#panel-study progress').value > 0")
             .await;
-        // The saws that are known so far are drawn.
+        // The saws that are finished so far are drawn.
         page.wait("document.querySelector('#panel-study .so-far img')?.naturalWidth > 0")
             .await;
         // A chart does not wait for a task.
@@ -116,7 +116,7 @@ fn a_task_tells_how_far_it_is_and_can_be_stopped() {
 /// A saw whose sweep ends soon after its first flutter is placed within seconds.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn a_map_grows_cell_by_cell_and_ends_as_the_figure_that_the_command_line_draws() {
+fn a_map_is_drawn_cell_by_cell_and_ends_as_the_figure_of_the_command_line() {
     run(async {
         let folder = tempfile::tempdir().unwrap();
         let mut scene: Value =
@@ -135,7 +135,7 @@ fn a_map_grows_cell_by_cell_and_ends_as_the_figure_that_the_command_line_draws()
         page.wait(&format!("{told}.startsWith('samples')")).await;
         page.wait(&format!("({picture}?.naturalWidth ?? 0) > 0"))
             .await;
-        // White is what is not known yet: less and less of the figure.
+        // Cells that are not computed yet are white: their share of the figure decreases.
         let white = format!(
             "(() => {{ const picture = {picture}; if (!picture?.naturalWidth || !{told}.startsWith('map')) return null; \
              const context = new OffscreenCanvas(220, 152).getContext('2d'); context.drawImage(picture, 0, 0, 220, 152); \
@@ -169,7 +169,7 @@ fn a_map_grows_cell_by_cell_and_ends_as_the_figure_that_the_command_line_draws()
     });
 }
 
-/// The bar beside a field against two charts, of the number as it is and 1 % larger.
+/// The bar beside a field is compared with two charts, of the number itself and of one 1 % larger.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn the_influence_of_a_number_is_what_changing_it_does() {
@@ -204,7 +204,7 @@ fn inches_and_examples_show_the_same_saws() {
         page.wait(&format!("{words} !== ''")).await;
         page.script("document.querySelector('#inches').click()")
             .await;
-        // What is known of the saw does not depend on the unit.
+        // The results do not depend on the unit.
         let known = page.value(words).await;
         assert!(known.as_str().unwrap().contains("critical"), "{known}");
         let field = "document.getElementById('blade.thickness_m').value";
@@ -217,7 +217,7 @@ fn inches_and_examples_show_the_same_saws() {
         page.script("document.querySelector('#inches').click()")
             .await;
 
-        // What was typed as a tolerance is the same length after the unit has changed.
+        // A tolerance in a field keeps its length when the unit changes.
         page.find("#tab-study").await.click().await.unwrap();
         page.enter("study:blade.thickness_m", "0.254").await;
         page.script("document.querySelector('#inches').click()")
@@ -233,7 +233,7 @@ fn inches_and_examples_show_the_same_saws() {
             .await;
         page.find("#tab-chart").await.click().await.unwrap();
 
-        // A task knows units too, and an example is a saw that computes.
+        // A task accepts units too, and an example is a saw that can be computed.
         let count = page
             .value("document.querySelectorAll('#examples option').length - 1")
             .await;

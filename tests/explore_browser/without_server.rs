@@ -1,4 +1,4 @@
-//! The page without a server shows, saves and computes what the program does.
+//! The page without a server shows, saves and computes the same as the program.
 //!
 //! Needs the folder of `web/build`; `.ci/web` builds it and runs these tests.
 
@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::browser::{Page, run};
 
-/// What `web/build` has made.
+/// The folder that `web/build` has made.
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("../web-page")
 }
@@ -31,7 +31,7 @@ fn difference(left: &Value, right: &Value) -> f64 {
     }
 }
 
-/// Of one key of all entries of a list of a report.
+/// The values of one key in all entries of a list of a report.
 fn column(report: &Value, list: &str, key: &str) -> Value {
     let entries = report[list].as_array().unwrap();
     entries.iter().map(|entry| entry[key].clone()).collect()
@@ -87,7 +87,7 @@ fn charts_files_and_tasks_are_those_of_the_program() {
     });
 }
 
-/// A computation that nobody waits for is ended with its worker, and the next one is answered.
+/// A computation without a waiting page is ended with its worker, and the next one is answered.
 #[test]
 #[ignore = "needs chromium, chromium-driver and the folder of web/build; run by .ci/web"]
 fn a_computation_is_stopped_and_the_page_goes_on() {

@@ -13,7 +13,7 @@ fn annulus(root: &AnnulusRoot) -> Scene {
     let blade = &mut file.blade;
     blade.outer_diameter_m = 0.8;
     blade.inner_diameter_m = 0.8 * root.ratio;
-    // Thinner than the narrowest ring is wide.
+    // The blade is thinner than the narrowest ring is wide.
     blade.thickness_m = 0.001;
     blade.material = Material {
         poisson_ratio: root.nu,
@@ -68,8 +68,8 @@ pub fn needle_bore() -> Row {
 }
 
 pub fn narrow_ring() -> Row {
-    // The fourth radial mode of such a ring is a million times faster than the first. What is
-    // left is the slow rotation that tells forward and backward waves apart at rest.
+    // The fourth radial mode of such a ring is a million times faster than the first. The remaining error comes from
+    // the slow rotation that separates forward and backward waves at rest.
     let row = Row::new("bore ratio, free", "0.995, n = 0 to 4", BESSEL, 1e-8);
     bessel(row, 12, |r| r.ratio == 0.995 && r.bc == "FF")
 }

@@ -1,4 +1,4 @@
-//! Guides: soft, rigid, tiny, larger than the blade, on the same spot, evenly spaced.
+//! Guides: soft, rigid, tiny, larger than the blade, at one place, evenly spaced.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use sawflutter::analytical::free_wave::{on_a_bed_rad_per_s, space_frequencies_rad_per_s};
@@ -31,9 +31,9 @@ fn collared() -> SceneFile {
     file
 }
 
-/// Critical speeds of a clamped blade on one point spring at θ = 0, without its matrices: the
-/// sine waves do not feel the spring, and the standing cosine waves of the free blade are what
-/// the secular equation is made of. With k → ∞ that is the pinned blade.
+/// Critical speeds of a clamped blade on one point spring at θ = 0, without its matrices: the sine waves have a node at
+/// the spring, and the stationary cosine waves of the free blade form the secular equation. For k → ∞ the blade is
+/// pinned.
 fn secular(file: &SceneFile, resolution: Resolution, stiffness: f64) -> Vec<f64> {
     let plate = Plate::new(&scene(file), resolution);
     let at_spring = plate.functions_at(0.3, 0.0);
@@ -87,7 +87,7 @@ pub fn rigid_spring() -> Row {
     springs("1e12 to 1e15 N/m (pinned)", &[1e12, 1e15], 1e-5)
 }
 
-/// A pad under the whole blade, N/m in all.
+/// A pad under the whole blade, with its total stiffness in N/m.
 pub fn bed(stiffness_n_per_m: f64) -> GuideFile {
     GuideFile {
         radius_m: 0.0,
@@ -121,7 +121,7 @@ pub fn pad_under_the_whole_blade() -> Row {
             let inertia = DMatrix::identity(count, count) * (n * n) as f64;
             let stiffness = &block.bending + (&block.spin + inertia) * (speed * speed);
             for square in &SymmetricEigen::new(stiffness).eigenvalues {
-                // Heave and tilt: zero to rounding, of either sign.
+                // Heave and tilt are zero to rounding, with either sign.
                 let free = square.max(0.0).sqrt();
                 let omega = on_a_bed_rad_per_s(free, stiffness_per_area, mass_per_area);
                 let [forward, backward] = space_frequencies_rad_per_s(n, omega, speed);
@@ -138,7 +138,7 @@ pub fn pad_under_the_whole_blade() -> Row {
         let plate = Plate::new(&scene(&file), SMALL);
         let model = SpectralModel::new(plate, (0.0, speed), Strategy::Dense).unwrap();
         let modes = model.all_modes(speed).unwrap();
-        // Motions slower than 1e-6 of an elastic one are all but rigid: √ε of it is rounding.
+        // Motions slower than 1e-6 of an elastic one are almost rigid: a part √ε of them is rounding.
         let rigid = |omega: f64| omega < 1e-6 * unit;
         let off = |x: f64, y: f64| (x - y).abs() / unit;
         let found: Vec<f64> = modes.iter().map(|m| m.frequency_rad_per_s()).collect();
@@ -202,7 +202,7 @@ pub fn evenly_spaced_pads() -> Row {
         let plate = Plate::new(&scene(&file), Resolution::of(Accuracy::Design));
         let coupling = plate.contact.stiffness().unwrap();
         let radial = plate.radial_functions();
-        // Blocks of cos and sin: 0, 1, 1, 2, 2, …
+        // Blocks of cosines and sines: 0, 1, 1, 2, 2, …
         let diameters = |i: usize| (i / radial).div_ceil(2);
         let largest = coupling.norm_max();
         for i in 0..coupling.nrows() {

@@ -1,4 +1,4 @@
-//! Where the numbers end: what cannot be trusted is said, what would not fit is refused.
+//! Limits of the method: the program warns of unreliable numbers, and refuses problems that would not fit into memory.
 
 use sawflutter::campbell::{CampbellError, even_speeds, sample};
 use sawflutter::plate::{Plate, Resolution};
@@ -10,12 +10,12 @@ use crate::common::relative_error;
 use crate::guides::bed;
 use crate::saws::{SMALL, critical, paper, scene, unguided};
 
-/// A stiff pad bends the blade at its edges, which no basis follows for ever: the error that
-/// a report estimates must not be smaller than the distance to a finer basis.
+/// A stiff pad bends the blade at its edges, which any basis represents slowly: the error that a report estimates must
+/// not be smaller than the distance to a finer basis.
 #[test]
 fn where_the_basis_is_too_coarse_the_estimate_says_so() {
-    // From 1e12 N/m on, a rigid pad to any blade, the extrapolation was found a quarter too
-    // small: it was calibrated up to 1e9.
+    // From 1e12 N/m on, which is rigid for any blade, the extrapolation is a quarter too small: it was calibrated up to
+    // 1e9.
     for stiffness in [1e3, 1e6, 1e9] {
         let mut file = paper();
         file.guides[0].stiffness_n_per_m = stiffness;
@@ -30,7 +30,7 @@ fn where_the_basis_is_too_coarse_the_estimate_says_so() {
                 radial_functions: 13,
             },
         );
-        // It speaks of the critical speeds within the sweep.
+        // The estimate is that of the critical speeds within the sweep.
         let errors = chosen.zip(&finer);
         let within = errors.take_while(|(speed, _)| *speed <= analysis.range_rad_per_s.1);
         let error = within.fold(0.0_f64, |top, (x, y)| top.max(relative_error(x, *y)));
@@ -40,9 +40,9 @@ fn where_the_basis_is_too_coarse_the_estimate_says_so() {
     }
 }
 
-/// What cannot be trusted is said, not printed to many digits.
+/// The report warns of unreliable numbers instead of printing many digits.
 #[test]
-fn rounding_that_eats_digits_is_warned_about() {
+fn loss_of_digits_by_rounding_is_warned_of() {
     let warned = |change: &dyn Fn(&mut SceneFile)| {
         let mut file = unguided();
         file.accuracy = Accuracy::Draft;
@@ -59,16 +59,16 @@ fn rounding_that_eats_digits_is_warned_about() {
         file.blade.inner_diameter_m = 0.995 * file.blade.outer_diameter_m;
         file.blade.thickness_m = 1e-4;
     });
-    // Nor does a narrow ring that nothing touches: its waves are a symmetric problem.
+    // A narrow ring without contact needs no warning: its waves are a symmetric problem.
     assert_eq!(ring, None);
-    // Heave at 0.0005 Hz beside bending at a thousand.
+    // The frequency of heave is 0.0005 Hz, and that of bending 1000 Hz.
     let softly_held = warned(&|file| file.guides = vec![bed(1e-3)]);
     assert!(softly_held.is_some());
 }
 
-/// Scenes and charts that would take too much are refused with the number.
+/// Scenes and charts that would need too much memory are refused with the number.
 #[test]
-fn what_would_not_fit_is_refused_with_the_number() {
+fn problems_too_large_for_memory_are_refused_with_the_number() {
     let mut file = paper();
     file.guides = vec![file.guides[0]; 257];
     let message = Scene::try_from(file).unwrap_err().to_string();
@@ -86,10 +86,10 @@ fn what_would_not_fit_is_refused_with_the_number() {
     assert!(message.contains("more than 1024 MB"), "{message}");
 }
 
-/// A sweep whose chart would not fit is told where it may end: at a critical speed, for beside each there are speeds of the
-/// chart, here sixty.
+/// The error for a sweep whose chart would not fit states where the sweep may end: at a critical speed, because each
+/// has speeds of the chart next to it, here sixty.
 #[test]
-fn a_chart_that_would_not_fit_is_told_where_its_sweep_may_end() {
+fn the_error_for_too_large_a_chart_states_where_its_sweep_may_end() {
     let plate = Plate::new(&scene(&paper()), SMALL);
     let range = (0.0, rad_per_s(3000.0));
     let model = SpectralModel::new(plate.clone(), range, Strategy::Reduced).unwrap();
@@ -115,7 +115,7 @@ fn a_chart_that_would_not_fit_is_told_where_its_sweep_may_end() {
     let beside = within
         .iter()
         .flat_map(|c| sides.clone().map(move |side| c * side));
-    // All but a hundred of those that fit are even.
+    // All speeds that fit are even, except a hundred.
     let even = even_speeds(range, most as usize - 100);
     let mut speeds: Vec<f64> = even.into_iter().chain(beside).collect();
     speeds.sort_by(f64::total_cmp);

@@ -1,9 +1,8 @@
-//! Goal: the numbers hold where users will push them.
+//! Goal: the results are accurate at the limits of the input.
 //!
-//! Every extreme is held against an independent answer: a closed form, a scaling law, an
-//! exact limit, or Bessel roots of fifty digits. The table with the errors reached is
-//! `docs/extremes.md`; the test fails where it is not current. Remake it with
-//! `WRITE_EXTREMES=1 cargo test --release --test extremes`.
+//! Every extreme is compared with an independent answer: a closed form, a scaling law, an exact limit, or Bessel roots
+//! of fifty digits. The table of the errors reached is `docs/extremes.md`; the test fails if it is out of date. It is
+//! written again by `WRITE_EXTREMES=1 cargo test --release --test extremes`.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -53,7 +52,7 @@ fn every_extreme_keeps_its_promise() {
     for row in &rows {
         let line = format!("{}{:.1e} at {}", line_start(row), row.reached, row.place);
         println!("{line}");
-        // A NaN misses.
+        // A NaN is an error.
         let kept = row.reached <= row.asked;
         if !kept {
             missed.push(line);

@@ -1,4 +1,4 @@
-//! One line of the table of extremes, and whether the page tells it.
+//! One line of the table of extremes, and its comparison with the page.
 
 use crate::common::{self, relative_error};
 
@@ -31,7 +31,7 @@ impl Row {
         }
     }
 
-    /// Pairs of numbers, by their relative difference.
+    /// Compares pairs of numbers by their relative difference.
     pub fn compare(&mut self, actual: &[f64], expected: &[f64], place: &str) {
         assert!(
             !expected.is_empty() && actual.len() >= expected.len(),
@@ -59,7 +59,7 @@ tell what was found.
 |---|---|---|---|---|
 ";
 
-/// The line of the table without the error reached.
+/// The line of the table without its last column, the error reached.
 pub fn line_start(row: &Row) -> String {
     let Row {
         what,
@@ -71,8 +71,8 @@ pub fn line_start(row: &Row) -> String {
     format!("| {what} | {range} | {answer} | {asked:.0e} | ")
 }
 
-/// What the page says was reached, by the start of each line. Rounding differs from one
-/// processor to the next, so a page is current while no error is three times what it says.
+/// Compares the errors with those of the page, by the start of each line. Rounding differs between processors, so that
+/// a page is current while no error is three times its value there.
 pub fn assert_current(rows: &[Row]) {
     let page = std::fs::read_to_string(common::path(FILE)).unwrap();
     let lines = page.lines().filter(|line| line.starts_with("| ")).count();

@@ -1,4 +1,4 @@
-//! The saws that are pushed to extremes, and what is looked at.
+//! The saws with extreme numbers, and the numbers that are compared.
 
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Scene, SceneFile};
@@ -19,7 +19,7 @@ pub fn paper() -> SceneFile {
     file.sweep = None;
     file.measured = None;
     file.operating_rpm = None;
-    // What belongs to the paper's own blade.
+    // Removes the blocks of the paper's own blade.
     (file.spline, file.cut, file.runup, file.probe) = (None, None, None, None);
     file
 }
@@ -38,8 +38,8 @@ pub fn critical(file: &SceneFile, resolution: Resolution) -> Vec<f64> {
         .collect()
 }
 
-/// Edges and growth of every band up to 1.6 times the lowest critical speed, then the
-/// critical speeds: everything about a saw that has the unit of a frequency.
+/// Edges and growth of every band up to 1.6 times the lowest critical speed, then the critical speeds: all results that
+/// have the unit of a frequency.
 pub fn signature(file: &SceneFile) -> Vec<f64> {
     let plate = Plate::new(&scene(file), SMALL);
     let first = SpectralModel::critical_speeds(&plate).unwrap()[0].speed_rad_per_s;

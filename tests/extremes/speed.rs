@@ -1,4 +1,4 @@
-//! Rotation speed: hardly turning, and so fast that the plate is a membrane.
+//! Rotation speed: very slow, and so fast that the plate is a membrane.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 use sawflutter::analytical::free_wave::space_frequencies_rad_per_s;
@@ -23,7 +23,7 @@ fn body_frequencies(file: &SceneFile, n: usize, speed: f64) -> Vec<f64> {
             && m.kind != ModeKind::Rigid
             && (n == 0 || m.frequency_rad_per_s() > carried)
     });
-    // A forward wave is seen nΩ faster from space.
+    // In the fixed frame the frequency of a forward wave is nΩ higher.
     let mut found: Vec<f64> = forward
         .map(|m| m.frequency_rad_per_s() - carried)
         .filter(|f| *f > 0.0)
@@ -32,7 +32,7 @@ fn body_frequencies(file: &SceneFile, n: usize, speed: f64) -> Vec<f64> {
     found
 }
 
-/// A blade without bending stiffness to speak of.
+/// A blade with very small bending stiffness.
 fn membrane(ratio: f64) -> SceneFile {
     let mut file = unguided();
     file.blade.inner_diameter_m = ratio * file.blade.outer_diameter_m;
@@ -70,7 +70,7 @@ pub fn membrane_disk() -> Row {
     for n in 2..=4 {
         let m = n as f64;
         let square = disk_frequency_ratio_squared(0.29, n, 0);
-        // The wave found both ways; below nΩ it is the reflected one.
+        // The wave is found in both directions; below nΩ it is the reflected one.
         let plate = Plate::new(
             &scene(&membrane(0.001)),
             Resolution::of(Accuracy::Reference),

@@ -30,7 +30,7 @@ pub fn units() -> Row {
         1e-8,
     );
     let reference = signature(&paper());
-    // The unit of mass goes along, to stay within what a scene may contain.
+    // The unit of mass changes too, so that the numbers remain within the limits of a scene.
     for (length, mass, time) in [
         (1e6, 1e6, 1.0),
         (1e-6, 1e-9, 1.0),

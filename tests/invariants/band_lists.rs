@@ -1,12 +1,12 @@
-//! The list of bands against every eigenvalue of the full model: saws of which each was once wrong, and
-//! drawn ones of which each is cheap. `tests/trials/drawn_bands.rs` draws 300.
+//! The list of bands, compared with every eigenvalue of the full model: saws that an earlier search got wrong, and
+//! random saws that are computed quickly. `tests/trials/drawn_bands.rs` takes 300.
 
 use sawflutter::scene::{Accuracy, GuideFile, Scene, SceneFile, SweepFile};
 use sawflutter::stability::Analysis;
 
 use crate::bands;
 
-/// Saws of `bands::drawn_saw`.
+/// Numbers of saws of `bands::drawn_saw`.
 const CHEAP: [u64; 3] = [0, 1, 2];
 
 fn pad(radius_m: f64, angle_deg: f64, side_m: f64, stiffness_n_per_m: f64) -> GuideFile {
@@ -42,13 +42,13 @@ fn assert_right(file: &SceneFile) {
     assert!(wrong.is_empty(), "{wrong:#?}\n{}", bands::list(file));
 }
 
-/// Its quadruples change their order in frequency while they last.
+/// Its quadruples of eigenvalues change their order in frequency within a band.
 #[test]
 fn bands_of_a_collar_blade_on_a_small_pad_end_where_its_eigenvalues_do() {
     assert_right(&read("band_trial_1"));
 }
 
-/// A quadruple of it ends on the real axis, at 3100.3 rpm, and goes on as two real λ.
+/// A quadruple of its eigenvalues ends on the real axis, at 3100.3 rpm, and continues as two real λ.
 #[test]
 fn flutter_that_ends_as_two_real_eigenvalues_ends_there() {
     assert_right(&read("band_trial_2"));
@@ -70,12 +70,12 @@ fn slow_flutter_is_not_called_divergence() {
 }
 
 #[test]
-fn weak_pads_on_a_loose_blade_leave_no_contradiction() {
+fn bands_of_weak_pads_on_a_loose_blade_do_not_contradict_the_krein_index() {
     let mut file = Scene::paper().file().clone();
     (file.sweep, file.accuracy) = (None, Accuracy::Draft);
     file.guides[0].stiffness_n_per_m = 100.0;
     assert_right(&file);
-    // Wherever a speed of the search comes to lie beside an edge: these ends place one within 1e-9 of one.
+    // A speed of the search may be next to an edge: these ends place one within 1e-9 of an edge.
     for to_rpm in [2950.0, 2999.4, 3006.0, 3009.0] {
         file.sweep = Some(SweepFile {
             from_rpm: 0.0,
@@ -87,7 +87,7 @@ fn weak_pads_on_a_loose_blade_leave_no_contradiction() {
     }
 }
 
-/// Of the first thirty, those whose spectra are computed in a second.
+/// The saws among the first thirty whose spectra are computed in a second.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
 fn lists_of_bands_of_drawn_saws_are_those_of_all_eigenvalues() {

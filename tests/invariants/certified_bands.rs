@@ -20,7 +20,7 @@ fn the_paper_saw_has_the_same_bands_from_25_to_400_speeds() {
             &format!("{count} speeds"),
         );
     }
-    // Widths in rpm of the narrow bands that a 50 rpm sweep misses.
+    // Widths in rpm of the narrow bands that a sweep in steps of 50 rpm misses.
     for (near, narrowest, widest) in [
         (1905.0, 1.0, 3.0),
         (2261.0, 8.0, 14.0),
@@ -40,7 +40,7 @@ fn the_paper_saw_has_the_same_bands_from_25_to_400_speeds() {
     }
 }
 
-/// Of 200 in `tests/trials/drawn_bands.rs`.
+/// One of the 200 saws in `tests/trials/drawn_bands.rs`.
 #[test]
 fn drawn_saws_have_the_same_bands_from_25_and_from_100_speeds() {
     let mut bands = [0, 0];
@@ -54,8 +54,8 @@ fn drawn_saws_have_the_same_bands_from_25_and_from_100_speeds() {
     );
 }
 
-/// The projected and the whole system have the same onsets: 1e-6 is asked, and what the
-/// projection promises (1e-8 of the chart's height in frequency) is well below.
+/// The reduced and the full model have the same onsets to 1e-6; the reduced model is accurate to 1e-8 of the chart's
+/// height in frequency.
 #[test]
 fn onsets_of_the_projection_are_those_of_the_full_model() {
     let range = (0.0, rad_per_s(2300.0));

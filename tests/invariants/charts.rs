@@ -1,5 +1,5 @@
-//! Goal: what is known beforehand of the chart of a saw drawn at random: no band is missing, no
-//! branch is lost, and neither threads nor projection change it.
+//! Goal: the chart of a random saw has known properties: no band is missing, no branch is lost, and neither threads nor
+//! the reduced model change it.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ use sawflutter::stability::{Analysis, InstabilityKind, chart, undamped_bands};
 
 use crate::draws::*;
 
-/// The chart finds every band: its own certificate, the same identity, never fails.
+/// The chart finds every band: its certificate, the Krein index, never fails.
 #[test]
 fn charts_of_random_saws_miss_nothing() {
     let bands = std::cell::Cell::new(0);
@@ -22,7 +22,7 @@ fn charts_of_random_saws_miss_nothing() {
         let plate = Plate::new(&scene(&file), SMALL);
         let model = SpectralModel::new(plate, range, Solver::Reduced).unwrap();
         let chart = chart(&model, range, 21, &|_, _| ()).unwrap();
-        // Those of the even speeds that are above the lowest critical one.
+        // The certificate checks the even speeds above the lowest critical speed.
         prop_assert!(chart.certificate.speeds_checked >= 7);
         prop_assert_eq!(chart.certificate.violations_rad_per_s, Vec::<f64>::new());
         let first = model.critical[0].speed_rad_per_s;
@@ -42,7 +42,7 @@ fn charts_of_random_saws_miss_nothing() {
     assert!(bands.get() > 0);
 }
 
-/// The modes of the projection are those of the full model, where it says they are.
+/// The modes of the reduced model are those of the full model, within its range of validity.
 #[test]
 fn projected_modes_are_those_of_the_full_model() {
     check(8, (any_saw(), 0.0..1.6_f64), |(file, share)| {
@@ -57,7 +57,7 @@ fn projected_modes_are_those_of_the_full_model() {
         let mut whole = lambdas(dense_model(&file, top).all_modes(speed).unwrap());
         prop_assert!(reduced.len() >= 6 && reduced.len() <= whole.len());
         whole.truncate(reduced.len());
-        // Modes are found to 1e-6, the stated accuracy of the projection.
+        // The stated accuracy of the reduced model is 1e-6.
         let off = distance(&whole, &reduced);
         prop_assert!(off <= 1e-6, "{} of {} Hz", off, speed / TAU);
         Ok(())
@@ -77,8 +77,8 @@ fn evenly_guided(count: usize, pad: GuideFile) -> SceneFile {
     file
 }
 
-/// The class of waves that S even pads couple, to which all harmonics of a mode belong: the
-/// distance of n from the nearest multiple of S. `None` of a mode of several classes.
+/// The class of waves that S even pads couple, which contains all harmonics of a mode: the distance of n from the
+/// nearest multiple of S. `None` if a mode has several classes.
 fn class_of(name: &ModeName, pads: usize) -> Option<usize> {
     let present = name.harmonics.iter().filter(|h| h.share > 1e-9);
     let mut classes = present.map(|h| (h.diameters % pads).min(pads - h.diameters % pads));
@@ -110,9 +110,8 @@ fn classes(model: &SpectralModel, speed: f64, pads: usize) -> Vec<Class> {
     classes
 }
 
-/// Crossings of a reflected wave with a wave of positive energy of another class between two
-/// speeds: by how many of them that are slower than it have become more or fewer, while no wave of
-/// either class becomes unstable or is reflected.
+/// Crossings of a reflected wave with a wave of positive energy of another class between two speeds: the change of the
+/// number of these waves that are slower than it, if no wave of either class becomes unstable or is reflected.
 fn crossings(before: &[Class], after: &[Class]) -> usize {
     let steady = |k: usize| {
         let same = before[k].reflected.len() == after[k].reflected.len();
@@ -131,9 +130,8 @@ fn crossings(before: &[Class], after: &[Class]) -> usize {
     count
 }
 
-/// With S equal, evenly spaced pads only waves whose nodal diameters differ by, or add up to,
-/// a multiple of S are coupled: others cross exactly, and each wave that flutters is made of
-/// one class.
+/// With S equal, evenly spaced pads only waves whose nodal diameters differ by, or add up to, a multiple of S are
+/// coupled: other waves cross exactly, and each wave that flutters belongs to one class.
 #[test]
 fn evenly_spaced_pads_merge_only_waves_of_one_class() {
     let seen = std::cell::Cell::new([0_usize; 2]);
@@ -154,8 +152,8 @@ fn evenly_spaced_pads_merge_only_waves_of_one_class() {
                 seen.set([crossings, merged + 1]);
             }
         }
-        // There was something not to merge: waves of different classes and signs that have
-        // crossed. Above the lowest critical speed, at which the first is reflected.
+        // The test is meaningful only if waves of different classes and signs have crossed. This occurs above the
+        // lowest critical speed, at which the first wave is reflected.
         let first = model.critical[0].speed_rad_per_s;
         let spectra: Vec<Vec<Class>> = even_speeds((first, range.1), 101)
             .into_iter()
@@ -174,8 +172,8 @@ fn evenly_spaced_pads_merge_only_waves_of_one_class() {
     );
 }
 
-/// Following permutes the modes of a speed among the branches: each is in one branch, none in
-/// two, a branch has no gap, and the order in which the speeds come does not matter.
+/// Continuation permutes the modes of a speed among the branches: each mode is in exactly one branch, a branch has no
+/// gap, and the order of the speeds does not matter.
 #[test]
 fn branches_are_permuted_and_never_lost() {
     check(6, (any_saw(), 8_usize..40), |(file, count)| {
@@ -207,13 +205,12 @@ fn branches_are_permuted_and_never_lost() {
     });
 }
 
-/// The number of threads decides when, not what: reports agree to the last byte, and so do
-/// two runs after each other.
+/// The number of threads does not change a result: reports agree to the last byte, and so do two runs.
 #[test]
 fn any_number_of_threads_writes_the_same_report() {
     let scene = Scene::paper().edited(|saw| {
         saw.accuracy = Accuracy::Draft;
-        // A critical pair, two narrow bands and what lies between them.
+        // The range contains a critical pair, two narrow bands and the interval between them.
         saw.sweep = Some(SweepFile {
             from_rpm: 1500.0,
             to_rpm: 2300.0,

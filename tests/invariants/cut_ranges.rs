@@ -1,4 +1,4 @@
-//! The bands of a range are those of a longer one, cut: also where it begins or ends at an event, or next to one.
+//! The bands of a range are those of a longer range, cut at its ends, also if an end is at an event or next to it.
 
 use faer::c64;
 use sawflutter::campbell::even_speeds;
@@ -17,16 +17,16 @@ use crate::draws::*;
 const OFFSETS: [f64; 11] = [
     0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4, -1e-4, 2e-4, -2e-4,
 ];
-/// Bands and parts of bands narrower than this share of the speed may be told or not: edges move by as much from one
-/// projection to another, whose frequencies are right to 1e-8.
+/// A list may omit bands and parts of bands narrower than this share of the speed: their edges differ as much between
+/// two reduced models, whose frequencies are accurate to 1e-8.
 const NARROWEST: f64 = 5e-8;
 
-/// How a range is searched.
+/// The method of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Way {
-    /// As a chart is.
+    /// The search of a chart.
     Chart,
-    /// As a study and a search for the best guide do.
+    /// The search of a study and of `place`.
     Bands,
 }
 
@@ -35,7 +35,7 @@ struct Saw {
     system: GyroscopicSystem,
     critical: Vec<NamedCriticalSpeed>,
     top: f64,
-    /// Of the range from rest to the top.
+    /// The bands of the range from rest to the top.
     bands: Vec<Instability>,
 }
 
@@ -57,7 +57,7 @@ impl Saw {
         saw
     }
 
-    /// Bands of a range, which nothing contradicts.
+    /// Bands of a range, whose certificate must not fail.
     fn bands_of(&self, range: (f64, f64), way: Way) -> Vec<Instability> {
         let (plate, critical) = (self.plate.clone(), self.critical.clone());
         let model = |strategy| {
@@ -78,7 +78,7 @@ impl Saw {
         bands
     }
 
-    /// Speeds at which something begins or ends.
+    /// Speeds at which a band begins or ends.
     fn events(&self) -> Vec<f64> {
         let edges = |b: &Instability| [b.from_rad_per_s, b.to_rad_per_s];
         let mut events: Vec<f64> = self.bands.iter().flat_map(edges).collect();
@@ -93,7 +93,7 @@ impl Saw {
     fn growing(&self, speed: f64) -> Vec<c64> {
         let all = companion_eigenpairs(&self.system, speed).unwrap();
         let all = all.into_iter().map(|(lambda, _)| lambda);
-        // What is less may be rounding of zero divided by damping, or its root.
+        // Smaller growth may be rounding of zero divided by damping, or its root.
         all.filter(|lambda| lambda.re > 1e-3).collect()
     }
 }
@@ -102,7 +102,7 @@ fn told((from, to): (f64, f64)) -> String {
     format!("{} to {} rpm", rpm(from), rpm(to))
 }
 
-/// The bands of a longer range within a shorter one: kind, edges, whether whole.
+/// The bands of a longer range within a shorter one: kind, edges, and whether the band is complete.
 fn cut(bands: &[Instability], (from, to): (f64, f64)) -> Vec<(InstabilityKind, f64, f64, bool)> {
     let part = |b: &Instability| {
         let (begin, end) = (b.from_rad_per_s.max(from), b.to_rad_per_s.min(to));
@@ -132,8 +132,8 @@ fn assert_cut(saw: &Saw, range: (f64, f64), way: Way) {
     }
 }
 
-/// The largest growth within a band is that of an eigenvalue of the full model, and nothing of its kind that grows
-/// faster is covered by it alone.
+/// The largest growth within a band is that of an eigenvalue of the full model, and no eigenvalue of its kind that is
+/// covered by this band alone grows faster.
 fn assert_peak(saw: &Saw, band: &Instability, range: (f64, f64)) {
     let (from, to, peak) = (
         band.from_rad_per_s,
@@ -228,8 +228,8 @@ fn bands_of_every_range_that_ends_at_an_event_are_those_of_a_longer_one() {
     });
 }
 
-/// The bands of a range against every eigenvalue, up to both ends: where two humps of one stretch of growth are parted
-/// depends on both, so that lists may differ.
+/// The bands of a range, compared with every eigenvalue, up to both ends: the speed that separates two maxima of one
+/// range of growth depends on both ends, so that lists may differ.
 fn assert_grows(saw: &Saw, range: (f64, f64)) {
     let bands = saw.bands_of(range, Way::Chart);
     for band in &bands {

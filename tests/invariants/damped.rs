@@ -1,4 +1,4 @@
-//! Bands of damped saws against every eigenvalue of the full model; `tests/trials/drawn_bands.rs` draws forty.
+//! Bands of damped saws, compared with every eigenvalue of the full model; `tests/trials/drawn_bands.rs` takes forty.
 
 use proptest::prelude::*;
 

@@ -1,7 +1,7 @@
-//! Goal: no scene makes the program panic, hang, or report what is no number.
+//! Goal: no scene makes the program panic, hang, or report a NaN.
 //!
-//! The stable-toolchain version of `fuzz/`: the same scenes from drawn bytes, the same in
-//! every run; `tests/trials/fuzz.rs` goes on where these end.
+//! The version of `fuzz/` for the stable toolchain: scenes from random bytes, the same in every run;
+//! `tests/trials/fuzz.rs` continues the sequence.
 
 use proptest::prelude::Rng;
 use rayon::prelude::*;
@@ -33,7 +33,7 @@ fn drawn_scenes_analyzed_in_full() {
 }
 
 #[test]
-fn drawn_saws_that_washboard_or_not() {
+fn washboarding_of_drawn_saws() {
     let scenes = sawing_scenes(60);
     let looked_at = |scene| assert_survives(scene, draw::survives_washboard);
     let looked_at = scenes.par_iter().take(4).filter(|s| looked_at(s)).count();
@@ -41,8 +41,8 @@ fn drawn_saws_that_washboard_or_not() {
     assert!(looked_at > 0);
 }
 
-/// The text of a scene, damaged: bytes exchanged, cut out, doubled; numbers exchanged for
-/// others. The reader refuses it or makes a scene of it.
+/// The text of a scene, damaged: bytes exchanged, removed, doubled; numbers replaced by others. The reader refuses it
+/// or reads a scene.
 #[test]
 fn damaged_scene_files_are_read_or_refused() {
     let texts: Vec<String> = ["paper", "free-blade", "collar-400mm", "two-pads"]
@@ -81,7 +81,7 @@ fn damaged_scene_files_are_read_or_refused() {
         let text = String::from_utf8_lossy(&text);
         if let Ok(scene) = Scene::from_json(&text) {
             read += 1;
-            // What was read can be written and read again.
+            // A scene that was read can be written and read again.
             let again: SceneFile =
                 serde_json::from_str(&serde_json::to_string(scene.file()).unwrap()).unwrap();
             assert_eq!(again, *scene.file());
@@ -91,7 +91,7 @@ fn damaged_scene_files_are_read_or_refused() {
     assert!((100..29_000).contains(&read), "{read}");
 }
 
-/// Deeply nested or endless text is refused before it takes the stack or the memory.
+/// Deeply nested or endless text is refused before it exhausts the stack or the memory.
 #[test]
 fn hostile_texts_are_refused() {
     for text in [

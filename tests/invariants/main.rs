@@ -1,4 +1,4 @@
-//! Goal: what holds for every saw holds for drawn ones, and no input breaks the program.
+//! Goal: laws that hold for every saw hold for random ones, and no input breaks the program.
 
 #[path = "../common/bands.rs"]
 mod bands;

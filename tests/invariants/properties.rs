@@ -1,7 +1,7 @@
-//! Goal: what physics says of every guided saw holds for saws drawn at random.
+//! Goal: random saws obey the physical laws of every guided saw.
 //!
-//! Source: symmetry, similarity and energy arguments, each stated at its test; nothing
-//! here is compared with numbers from elsewhere. The draws are the same in every run.
+//! Source: symmetry, similarity and energy arguments, each stated at its test; there is no comparison with other
+//! computations. The random saws are the same in every run.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ use sawflutter::spectrum::ModeKind;
 
 use crate::draws::*;
 
-/// Random places and stiffnesses of pads are none that seem to be in another unit.
+/// Random places and stiffnesses of pads that do not seem to be in another unit.
 #[test]
 fn no_number_of_a_drawn_saw_is_unusual() {
     check(2000, any_saw(), |file| {
@@ -41,13 +41,13 @@ fn gyroscopic_forces_are_skew_and_stiffness_is_symmetric() {
     });
 }
 
-/// Time runs back as well as forth: with λ also −λ̄ is an eigenvalue. At a merging of
-/// two modes eigenvalues are known to √ε only; the draws keep clear of that.
+/// Time can be reversed: with λ also −λ̄ is an eigenvalue. Where two modes coalesce, eigenvalues are accurate to √ε
+/// only; the random saws avoid this.
 #[test]
 fn eigenvalues_come_in_pairs_about_the_imaginary_axis() {
     check(24, (any_saw(), 0.0..2.0_f64), |(file, share)| {
         let lambdas = eigenvalues(&file, share * lowest_critical(&file));
-        // Real eigenvalues stand in the list with both signs, and mirror each other.
+        // The list has real eigenvalues of both signs, which mirror each other.
         let mirrored: Vec<c64> = lambdas.iter().map(|l| c64::new(-l.re, l.im)).collect();
         let off = distance(&lambdas, &mirrored);
         prop_assert!(off <= 1e-9, "{}", off);
@@ -55,8 +55,8 @@ fn eigenvalues_come_in_pairs_about_the_imaginary_axis() {
     });
 }
 
-/// Seen in a mirror, pads stand at −θ and the blade turns the other way; run backwards,
-/// it turns as before. Without damping both films show the same frequencies.
+/// A mirrored saw has its pads at −θ and rotates in the opposite direction; if time is reversed too, it rotates as
+/// before. Without damping the mirrored and the reversed saw have the frequencies of the original.
 #[test]
 fn mirrored_pads_give_the_same_spectrum() {
     check(24, (any_saw(), 0.0..2.0_f64), |(file, share)| {
@@ -68,7 +68,7 @@ fn mirrored_pads_give_the_same_spectrum() {
         let original = eigenvalues(&file, speed);
         let off = distance(&original, &eigenvalues(&mirrored, speed));
         prop_assert!(off <= 1e-9, "mirrored: {}", off);
-        // Each film by itself: the same saw turning the other way.
+        // The mirrored saw alone: the saw rotates in the opposite direction.
         let off = distance(&original, &eigenvalues(&file, -speed));
         prop_assert!(off <= 1e-9, "other way: {}", off);
         Ok(())
@@ -95,8 +95,8 @@ fn turning_all_pads_together_changes_nothing() {
     });
 }
 
-/// Three units are a matter of choice: with lengths × L, masses × M and times × T, pressure
-/// is × M/LT², density × M/L³, stiffness × M/T², and every λ × 1/T.
+/// Three units are arbitrary: with lengths × L, masses × M and times × T, pressure is × M/LT², density × M/L³,
+/// stiffness × M/T², and every λ × 1/T.
 #[test]
 fn units_do_not_matter() {
     let factor = || (-1.0..1.0_f64).prop_map(|x| 10_f64.powf(x));
@@ -126,16 +126,15 @@ fn nothing_grows_below_the_first_critical_speed() {
         let critical = lowest_critical(&file);
         let model = dense_model(&file, critical);
         for mode in model.all_modes(share * critical).unwrap() {
-            // One pad can leave a rigid motion all but free: it is slow, not growing.
+            // One pad can leave a rigid motion almost free: it is slow, but does not grow.
             prop_assert_eq!(mode.kind, ModeKind::Positive, "λ = {}", mode.lambda);
         }
         Ok(())
     });
 }
 
-/// Krein index: K(Ω) has as many negative eigenvalues as there are real λ > 0, and twice
-/// as many as there are flutter pairs and reflected waves together. The left side comes
-/// from the stiffness matrix alone, the right side from the spectrum.
+/// Krein index: K(Ω) has as many negative eigenvalues as there are real λ > 0, plus twice the number of flutter pairs
+/// and reflected waves. The left side comes from the stiffness matrix alone, the right side from the spectrum.
 #[test]
 fn the_krein_index_counts_every_unstable_and_reflected_mode() {
     let counted = std::cell::Cell::new([0_usize; 3]);
@@ -161,14 +160,14 @@ fn the_krein_index_counts_every_unstable_and_reflected_mode() {
         counted.set([r + real, f + flutter, n + reflected]);
         Ok(())
     });
-    // The draws must have met all three kinds.
+    // The random saws must include all three kinds.
     let met = counted.get();
     println!("divergent, flutter, reflected: {met:?}");
     assert!(met.iter().all(|count| *count > 0), "{met:?}");
 }
 
-/// The functions are orthonormal in mass: ρh ∫ φᵢφⱼ dA = 1, so M is positive definite and
-/// stands nowhere else. By Simpson's rule in θ and in r, which knows nothing of the basis.
+/// The functions are orthonormal in mass, ρh ∫ φᵢφⱼ dA = 1, so that M is the identity and is not stored. The integral
+/// uses Simpson's rule in θ and in r, which is independent of the basis.
 #[test]
 fn the_mass_matrix_is_one() {
     check(6, any_saw(), |file| {
@@ -193,7 +192,7 @@ fn the_mass_matrix_is_one() {
             }
         }
         let off = (mass - Mat::<f64>::identity(size, size)).norm_max();
-        // Simpson's rule on polynomials of degree 9, with a collar 13, on 500 panels.
+        // Simpson's rule integrates polynomials of degree 9, or 13 with a collar, on 500 panels.
         prop_assert!(off <= 1e-5, "{}", off);
         Ok(())
     });

@@ -57,7 +57,7 @@ def determinant(bc, nu, ratio, n, kb):
 
 
 def lowest_root(bc, nu, ratio, n, near, step):
-    """First sign change of the determinant from `near` upwards, then polished."""
+    """First sign change of the determinant from `near` upwards, then refined."""
     f = lambda kb: determinant(bc, nu, ratio, n, kb)
     low, value = mpf(near), f(mpf(near))
     while True:
@@ -68,8 +68,8 @@ def lowest_root(bc, nu, ratio, n, near, step):
         low, value = high, after
 
 
-# bc, nu, a/b, n, where to begin in k b, step: well below the lowest elastic root, and small
-# against the distance of roots.
+# bc, nu, a/b, n, start of the search in k b, step: well below the lowest elastic root, and small in
+# comparison with the distance of roots.
 CASES = []
 # A ring of width 0.005 turns over (n = 0) or bends like a wire: kb = 25.7, 1.63, 2.71, 3.75.
 for n, near in ((0, "24"), (2, "1.4"), (3, "2.4"), (4, "3.4")):

@@ -1,18 +1,18 @@
-//! Promised and estimated errors of many saws, held against bases of thousands of functions and Bessel roots.
+//! Promised and estimated errors of many saws, compared with bases of thousands of functions and Bessel roots.
 
 use crate::common::{AnnulusRoot, Worst, table};
 use crate::promises::{Kept, Saw, drawn_saws, promises, saws};
-use crate::told::{Trial, is_whole, mine};
+use crate::trial::{Trial, is_whole, mine};
 use crate::true_errors::{Ratios, Truth, compare, compare_at_rest, compare_damped, damped_saws};
 use sawflutter::plate::Resolution;
 use sawflutter::scene::Accuracy;
 
-/// The numbers that a test is to have met: all of them, or none in particular where it is divided.
+/// The number of comparisons that a test requires: none if the work is divided between machines.
 fn at_least(count: usize) -> usize {
     if is_whole() { count } else { 0 }
 }
 
-/// Mostly more than twice as large as what the program takes for 1e-4: 4030 functions.
+/// The reference basis of 4030 functions, usually more than twice as many as the program takes for 1e-4.
 const TRUTH_OF_CRITICAL_SPEEDS: Resolution = Resolution {
     max_diameters: 64,
     radial_functions: 31,
@@ -47,7 +47,7 @@ fn estimates_and_promises_hold_on_thirty_others() {
 
 #[test]
 #[ignore = "a trial"]
-fn estimates_and_promises_hold_on_thirty_that_no_constant_knows() {
+fn estimates_and_promises_hold_on_thirty_saws_without_tuning() {
     promises_hold("promises of thirty unknown saws", &drawn_saws(90..120));
 }
 
@@ -56,8 +56,7 @@ const TRUTH_OF_BANDS: Resolution = Resolution {
     radial_functions: 24,
 };
 
-/// Draft and design, where the error is largest, on saws of which four had no part in choosing
-/// any margin.
+/// Draft and design, whose errors are the largest. No margin was chosen with four of the saws.
 #[test]
 #[ignore = "a trial"]
 fn true_errors_of_six_saws_are_below_their_estimates() {

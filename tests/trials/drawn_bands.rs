@@ -1,6 +1,6 @@
-//! Lists of bands of drawn saws: against every eigenvalue, and however many speeds they are found from.
+//! Lists of bands of random saws, compared with every eigenvalue and with lists from other numbers of speeds.
 
-use crate::told::{Trial, mine};
+use crate::trial::{Trial, mine};
 use crate::{bands, certified, damped};
 
 #[test]

@@ -1,9 +1,9 @@
 //! A fine chart fits into the memory of a small machine.
 
 use crate::memory::functions_and_megabytes;
-use crate::told::{Trial, mine};
+use crate::trial::{Trial, mine};
 
-/// Three dense matrices of 4230 functions take 430 MB; the basis that the error is measured by has 6930.
+/// Three dense matrices of 4230 functions take 430 MB; the basis for the estimate of the error has 6930.
 #[test]
 #[ignore = "a trial"]
 fn a_chart_of_four_thousand_functions_takes_less_than_two_gigabytes() {

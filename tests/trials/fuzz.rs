@@ -1,11 +1,11 @@
-//! Scenes of drawn bytes that are far more than a daily test can take.
+//! Scenes of random bytes, many more than a daily test can take.
 
 use crate::draw;
 use crate::survivors::{Keys, assert_survives, sawing_scenes, scenes};
-use crate::told::{Trial, mine};
+use crate::trial::{Trial, mine};
 use sawflutter::scene::Scene;
 
-/// Of drawn scenes, those to be tried; a scene that none of them is refused for is counted.
+/// Tries the scenes, and counts those that are not refused.
 fn survive(name: &'static str, scenes: Vec<Scene>, survives: impl Fn(&Scene) -> bool) {
     let mut trial = Trial::new(name);
     let mut done = 0;
@@ -55,7 +55,7 @@ fn twenty_four_analyses() {
 
 #[test]
 #[ignore = "a trial"]
-fn sixty_four_looks_at_washboarding() {
+fn sixty_four_analyses_of_washboarding() {
     let scenes = sawing_scenes(600);
     let scenes = scenes.into_iter().take(64).collect();
     survive(

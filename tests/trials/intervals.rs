@@ -1,4 +1,4 @@
-//! Goal: the intervals of `fit` cover the truth as often as they say.
+//! Goal: the intervals of `fit` contain the truth as often as they state.
 
 use std::f64::consts::TAU;
 
@@ -8,12 +8,12 @@ use sawflutter::fit::{Fit, Measurement, Options};
 use crate::common::scene;
 use crate::measurements::{SMALL, SPEEDS, exact, measured};
 use crate::numbers::{freed, with};
-use crate::told::{Trial, mine};
+use crate::trial::{Trial, mine};
 
 const RADIUS: &str = "guides[0].radius_m";
 const STIFFNESS: &str = "guides[0].stiffness_n_per_m";
 
-/// Normal deviates from a linear congruence and Box and Muller's formula.
+/// Normal deviates from a linear congruential generator and the formula of Box and Muller.
 struct Noise(u64);
 
 impl Noise {
@@ -38,7 +38,7 @@ fn intervals_cover_the_truth_as_often_as_they_say() {
     let mut trial = Trial::new("intervals of fit");
     for what in mine(["the paper's saw"]) {
         trial.saw(what, || {
-            // Three standard deviations of such a count.
+            // The tolerance is three standard deviations of such a count.
             let allowed = 3.0 * (DRAWS as f64 * 0.9 * 0.1).sqrt();
             let is_off = |count: usize| (count as f64 - 0.9 * DRAWS as f64).abs() > allowed;
             let covered = covered();
@@ -53,7 +53,8 @@ fn intervals_cover_the_truth_as_often_as_they_say() {
     trial.end();
 }
 
-/// Of 100 measurements with noise of 0.1 Hz, how often the 90 % interval covers the true radius and the true stiffness.
+/// The number of measurements among 100 with noise of 0.1 Hz whose 90 % interval contains the true radius and the true
+/// stiffness.
 fn covered() -> [usize; 2] {
     let saw = scene("paper");
     let truth = with(&saw, &[(RADIUS, 0.21), (STIFFNESS, 8e6)]);

@@ -1,7 +1,8 @@
-//! Goal: what nobody knows of yet is found: saws drawn by the hundred, truths of thousands of functions.
+//! Goal: unknown errors are found: hundreds of random saws, reference solutions of thousands of functions.
 //!
-//! `cargo test --release --test trials -- --ignored --test-threads 1` takes hours on two cores, and says a line for each saw;
-//! SAWFLUTTER_SHARD=k/n takes every n-th saw of each trial. The daily tests hold each claim on its cheapest saw.
+//! `cargo test --release --test trials -- --ignored --test-threads 1` takes hours on two cores, and prints a line for
+//! each saw; SAWFLUTTER_SHARD=k/n takes every n-th saw of each trial. The daily tests check each claim on the saw that
+//! is computed fastest.
 
 #[path = "../common/bands.rs"]
 mod bands;
@@ -41,5 +42,5 @@ mod drawn_bands;
 mod fine_chart;
 mod fuzz;
 mod intervals;
-mod told;
+mod trial;
 mod violent_cuts;

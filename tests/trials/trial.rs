@@ -1,11 +1,11 @@
-//! What a trial says while it runs: a line for each saw with its seconds, and the time of the whole; and which saws are
-//! those of this part of the machines that share the work.
+//! The output of a trial while it runs: a line for each saw with its seconds, and the time of the whole; and the
+//! division of the saws between machines.
 
 use std::io::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-/// Part k of n by the variable SAWFLUTTER_SHARD, "k/n"; everything without it.
+/// Part k of n by the variable SAWFLUTTER_SHARD, "k/n"; part 1 of 1 by default.
 fn shard() -> (usize, usize) {
     let Ok(text) = std::env::var("SAWFLUTTER_SHARD") else {
         return (1, 1);
@@ -19,7 +19,7 @@ fn shard() -> (usize, usize) {
         })
 }
 
-/// Every n-th of what there is to do, from the k-th on.
+/// Every n-th item, from the k-th on.
 pub fn mine<T>(all: impl IntoIterator<Item = T>) -> impl Iterator<Item = T> {
     let (part, of) = shard();
     all.into_iter().skip(part - 1).step_by(of)
@@ -30,7 +30,7 @@ pub fn is_whole() -> bool {
     shard() == (1, 1)
 }
 
-/// Standard error as it is: the test runner keeps back what the macros print.
+/// Prints to standard error directly, because the test runner withholds the output of macros.
 fn tell(line: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{line}");
 }
@@ -52,10 +52,10 @@ impl Trial {
         }
     }
 
-    /// Tries a saw, and goes on with the next one whatever comes out.
+    /// Tries a saw, and continues with the next one after any result.
     pub fn saw(&mut self, what: &str, wrong: impl FnOnce() -> Vec<String>) {
         let begun = Instant::now();
-        // Begun before it is done: who waits, or stops it, sees at which saw.
+        // The line is begun before the computation, so that a stopped trial shows its last saw.
         tell(&format!("{}: {what} …", self.name));
         let found = catch_unwind(AssertUnwindSafe(wrong));
         let wrong = found.unwrap_or_else(|_| vec!["it panicked".to_owned()]);

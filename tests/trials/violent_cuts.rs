@@ -1,7 +1,7 @@
-//! Cuts under forces a hundred thousand times those that a saw bears.
+//! Cuts under forces a hundred thousand times those that a saw tolerates.
 
 use crate::pressed::assert_unstable;
-use crate::told::{Trial, mine};
+use crate::trial::{Trial, mine};
 
 #[test]
 #[ignore = "a trial"]

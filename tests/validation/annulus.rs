@@ -1,4 +1,4 @@
-//! Goal: the resting blade has the natural frequencies of the exact annular plate.
+//! Goal: the blade at rest has the natural frequencies of the exact annular plate.
 //!
 //! Source: tests/reference/annulus_exact.csv, roots of the Bessel determinant of the
 //! Kirchhoff annulus to 16 digits, λ² = ωb²√(ρh/D), ν = 0.3; FF: both edges free (a
@@ -26,7 +26,7 @@ fn annulus(bc: &str, nu: f64, ratio: f64) -> Scene {
     };
     file.mount = match bc {
         "FF" => Mount::Spline {},
-        // At rest there is no stress in plane, and either condition will do.
+        // At rest there is no stress in the plane, and either condition gives the same result.
         "CF" => Mount::Collar {
             diameter_m: blade.inner_diameter_m,
             in_plane: InPlane::Free,
@@ -36,7 +36,7 @@ fn annulus(bc: &str, nu: f64, ratio: f64) -> Scene {
     Scene::try_from(file).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Largest relative error over all roots with one s. Every n ≥ 1 must come twice.
+/// Largest relative error over all roots with one s. Every n ≥ 1 must occur twice.
 fn worst_of(bc: &str, s: usize) -> Worst {
     let roots: Vec<AnnulusRoot> = crate::common::table("annulus_exact.csv");
     let mut ratios: Vec<f64> = roots.iter().map(|root| root.ratio).collect();
@@ -87,7 +87,7 @@ fn clamped_annulus_without_and_with_one_nodal_circle() {
     }
 }
 
-/// Beyond the promise: s = 2 lies above the range of any chart.
+/// s = 2 lies above the range of any chart, so that the promise does not include it.
 #[test]
 fn third_root_of_either_annulus() {
     for bc in ["FF", "CF"] {
@@ -108,8 +108,8 @@ fn plate(bc: &str, radius_ratio: f64, poisson_ratio: f64) -> AnnularPlate {
     }
 }
 
-/// The determinant in double precision against both tables: 16 digits, and fifty for rings so
-/// narrow, bores so small and n so large that its terms cancel.
+/// The determinant in double precision, compared with both tables: 16 digits, and fifty digits for narrow rings, small
+/// bores and large n, whose terms cancel.
 #[test]
 fn the_determinant_in_double_precision_has_the_roots_of_the_tables() {
     for (name, count, tolerance) in [
@@ -130,7 +130,7 @@ fn the_determinant_in_double_precision_has_the_roots_of_the_tables() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
-    /// Bores, Poisson's ratios and nodal diameters that no table has. The lowest two roots.
+    /// The lowest two roots for bores, Poisson's ratios and nodal diameters that no table has.
     #[test]
     fn a_drawn_annulus_has_the_roots_of_its_determinant(
         bc in prop_oneof![Just("FF"), Just("CF")],

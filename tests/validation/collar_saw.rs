@@ -1,5 +1,5 @@
-//! Goal: a spinning blade between collars has the frequencies and critical speeds of
-//! an independent computation, with either condition in its plane.
+//! Goal: a rotating blade between collars has the frequencies and critical speeds of an independent computation, for
+//! either condition in its plane.
 //!
 //! Source: tests/reference/collar_saw.json, computed by another Kirchhoff–Ritz code,
 //! which 3-D solids confirm to 0.02 to 0.75 %. Its frequencies are those on the blade;
@@ -48,7 +48,7 @@ fn reference() -> Reference {
     serde_json::from_str(&text).unwrap()
 }
 
-/// The saw of `scenes/`, which is the reference's.
+/// The saw of `scenes/`, which is also that of the reference.
 fn saw(in_plane: InPlane) -> Scene {
     let mount = Mount::Collar {
         diameter_m: 0.120,
@@ -75,8 +75,8 @@ fn the_scene_is_the_reference_blade() {
     }
 }
 
-/// Both waves of n = 0 … 6 at 0 to 4000 rpm. A wave that the rotation outruns would
-/// count as reflected, with Krein sign −1; below the first critical speed none does.
+/// Both waves of n = 0 … 6 at 0 to 4000 rpm. A backward wave above its critical speed would count as reflected, with
+/// Krein sign −1; these speeds are below the first critical speed.
 #[test]
 fn frequencies_in_space_at_every_speed() {
     let model = reference_model(&saw(InPlane::Fixed), rad_per_s(4000.0));
@@ -102,11 +102,11 @@ fn frequencies_in_space_at_every_speed() {
         }
     }
     assert_eq!(worst.count, 5 * 13);
-    // The table has three decimals: half a unit of the last is 6e-6 of 90 Hz.
+    // The table has three decimals: half a unit of the last one is 6e-6 of 90 Hz.
     worst.assert_at_most("collar saw, frequencies", 1e-4);
 }
 
-/// The same on the blade, where the naming of modes puts them.
+/// Frequencies on the blade, where modes are named.
 #[test]
 fn frequencies_on_the_blade_at_every_speed() {
     let model = reference_model(&saw(InPlane::Fixed), rad_per_s(4000.0));
@@ -142,7 +142,7 @@ fn critical_rpm(model: &SpectralModel, diameters: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Both waves of n stand still at one speed: every value comes twice.
+/// Both waves of n are stationary at one speed: every value occurs twice.
 fn compare_critical(in_plane: InPlane, expected: &BTreeMap<String, f64>) -> Worst {
     let model = reference_model(&saw(in_plane), rad_per_s(4000.0));
     let mut worst = Worst::default();
@@ -175,7 +175,7 @@ fn critical_speeds_of_the_blade_held_in_its_plane() {
     assert!(model.critical.iter().all(|c| c.name.diameters() >= 2));
 }
 
-/// Free in its plane the same blade is critical 15 % higher.
+/// If it is free in its plane, the critical speeds of the blade are 15 % higher.
 #[test]
 fn critical_speeds_of_the_blade_free_in_its_plane() {
     let expected = reference().in_plane_free.critical_rpm_by_n;
@@ -183,7 +183,7 @@ fn critical_speeds_of_the_blade_free_in_its_plane() {
     compare_critical(InPlane::Free, &expected).assert_at_most("collar saw, free", 1e-5);
 }
 
-/// A newton on the rim of the blade at rest, by the same independent code.
+/// The reference is the deflection by one newton at the rim of the blade at rest, from the same independent code.
 #[test]
 fn the_rim_is_as_stiff_as_the_reference_says() {
     let text =
@@ -195,8 +195,8 @@ fn the_rim_is_as_stiff_as_the_reference_says() {
     let check = Check::new(&saw(InPlane::Fixed), &Limits::at(rad_per_s(3000.0))).unwrap();
     let error = check.rim_stiffness_at_rest_n_per_m / expected - 1.0;
     assert!(error.abs() < 0.01, "{error}");
-    // Centrifugal tension stiffens the rim of a blade far below its critical speed less than
-    // the gyration of the standing deflection softens it.
+    // Far below the critical speed of a blade, centrifugal tension stiffens the rim less than the gyroscopic effect of
+    // the stationary deflection softens it.
     assert!(check.rim_stiffness_n_per_m.unwrap() < check.rim_stiffness_at_rest_n_per_m);
     assert!(check.passed(), "{:?}", check.failures());
 }

@@ -1,9 +1,8 @@
-//! What damping does depends on the frame it lives in.
+//! The effect of damping depends on the frame of its source.
 //!
-//! Air resists motion in space, and feeds reflected waves, whose energy in space is
-//! negative. Material damping resists straining on the blade, and never feeds a free
-//! blade. With both, their ratio decides. (Huang and Crandall, J. Appl. Mech. 41, 1974,
-//! for rotating shafts and disks.)
+//! Air resists motion in space, and feeds reflected waves, whose energy in space is negative. Material damping resists
+//! strain of the blade, and never feeds a wave of a free blade. With both, their ratio decides. (Huang and Crandall, J.
+//! Appl. Mech. 41, 1974, for rotating shafts and disks.)
 
 use std::sync::LazyLock;
 
@@ -56,8 +55,7 @@ fn material_damping_alone_leaves_the_free_blade_stable_at_every_speed() {
     assert!(damped > 500, "damping acts on the modes: {damped}");
 }
 
-/// A wave of the free blade is critical at nΩ = ω_b; from there on, and not before, it
-/// is reflected and air feeds it.
+/// A wave of the free blade is critical at nΩ = ω_b; from this speed on it is reflected, and air feeds it.
 #[test]
 fn air_destabilises_exactly_the_reflected_waves() {
     let analysis = analysis_of(AIR, 0.0);
@@ -82,8 +80,7 @@ fn air_destabilises_exactly_the_reflected_waves() {
     }
 }
 
-/// Onset of a wave whose shape x changes with the speed: the closed form of the shape at the
-/// speed itself.
+/// Onset of a wave whose shape x changes with the speed: the closed form for the shape at the speed itself.
 fn onset_in_closed_form(block: &HarmonicBlock, eta: f64, air_per_mass: f64, share: f64) -> f64 {
     let size = block.spin.nrows();
     let tension = &block.spin + DMatrix::identity(size, size) * block.diameters.pow(2) as f64;
@@ -132,8 +129,8 @@ fn with_both_the_onset_agrees_with_its_closed_form() {
     );
 }
 
-/// Air that turns with a share of the speed feeds a wave later, with and without damping of the
-/// material. The wave of two diameters is the first to grow.
+/// Air that rotates with a share of the speed feeds a wave from a higher speed on, with and without damping of the
+/// material. The wave of two diameters grows first.
 #[test]
 fn turning_air_delays_the_onset_as_its_closed_form_says() {
     for (material, share) in [(0.0, 0.05), (0.0, 0.1), (MATERIAL, 0.02)] {
@@ -200,9 +197,9 @@ static DAMPED_PAD: LazyLock<Analysis> = LazyLock::new(|| {
     Analysis::new(&scene.unwrap()).unwrap()
 });
 
-/// A damped pad feeds reflected waves from their critical speeds on, with 1e-5 1/s over hundreds
-/// of rpm, and hardly changes the flutter of modes that meet. Growth is held against every
-/// eigenvalue of the full model, the flutter speed against the saw without damping.
+/// A damped pad feeds reflected waves from their critical speeds on, with 1e-5 1/s over hundreds of rpm, and hardly
+/// changes the flutter of coalescing modes. Growth is compared with every eigenvalue of the full model, and the flutter
+/// speed with the saw without damping.
 #[test]
 fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
     let analysis = &*DAMPED_PAD;
@@ -214,7 +211,7 @@ fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
         analysis.flutter_speed_rad_per_s.unwrap(),
         undamped.flutter_speed_rad_per_s.unwrap(),
     );
-    // Growth reaches 0.25 1/s within the band that the two modes merge in without damping.
+    // Growth reaches 0.25 1/s within the band in which the two modes coalesce without damping.
     let band = undamped
         .chart
         .instabilities
@@ -240,7 +237,7 @@ fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
         "{covering:?}"
     );
 
-    // The same check, and the same answer.
+    // `check` gives the same answer.
     let limits = sawflutter::check::Limits {
         margin: 1.0,
         ..sawflutter::check::Limits::at(speed)
@@ -301,9 +298,8 @@ fn growth_of_a_damped_band_is_drawn_as_it_is() {
     }
 }
 
-/// Within the stretch in which a band counts one branch of the chart has its growth at every
-/// speed: the growing and the decaying one of two modes that have met are not taken for each
-/// other.
+/// In the range of a band one branch of the chart has its growth at every speed: continuation does not confuse the
+/// growing mode of a coalesced pair with the decaying one.
 #[test]
 fn one_branch_of_a_chart_has_the_growth_of_a_damped_band() {
     let analysis = &*DAMPED_PAD;
@@ -332,10 +328,10 @@ fn one_branch_of_a_chart_has_the_growth_of_a_damped_band() {
     assert!(followed >= 6, "{followed}");
 }
 
-/// A wave that stops turns into two real λ. Light damping changes no branch of the chart: the one that grows is on the branch
-/// that diverges without damping, not on one of its own.
+/// A wave that becomes stationary turns into two real λ. Light damping changes no branch of the chart: the branch that
+/// grows is the one that diverges without damping, and not another.
 #[test]
-fn a_divergence_has_the_branch_that_it_has_without_damping() {
+fn damping_does_not_change_the_branch_of_a_divergence() {
     let branches = |damping: Option<DampingFile>| -> Vec<Vec<usize>> {
         let scene = Scene::paper().edited(|saw| {
             saw.damping = damping;
@@ -360,8 +356,8 @@ fn a_divergence_has_the_branch_that_it_has_without_damping() {
     assert_eq!(branches(Some(damping)), undamped);
 }
 
-/// λ² + τω²λ + ω² = 0 of a wave of the free blade at rest, ω being its frequency without damping: above 2/τ, 1592 Hz here,
-/// nothing oscillates, and below that the modes are listed as the formula says, slowest first.
+/// λ² + τω²λ + ω² = 0 for a wave of the free blade at rest, where ω is its frequency without damping: above 2/τ, 1592
+/// Hz here, no wave oscillates, and below it the modes are listed in the order of the formula, slowest first.
 #[test]
 fn a_heavily_damped_blade_lists_the_modes_that_oscillate() {
     const RETARDATION_S: f64 = 2e-4;
@@ -378,7 +374,7 @@ fn a_heavily_damped_blade_lists_the_modes_that_oscillate() {
         let off = (found.mode.lambda - expected).norm() / omega;
         assert!(off < 1e-6, "{} {expected}", found.mode.lambda);
     }
-    // A thin free blade wobbles at twice its speed without bending: its material does not resist.
+    // A thin free blade wobbles at twice its speed without bending: its material does not resist this motion.
     let speed = rad_per_s(1200.0);
     let modes = damped.model.modes(speed).unwrap();
     let wobbles = |m: &&sawflutter::spectrum::Mode| (m.lambda.im / speed - 2.0).abs() < 1e-6;
@@ -395,8 +391,9 @@ fn a_heavily_damped_blade_lists_the_modes_that_oscillate() {
     );
 }
 
-/// Heave and tilt of a free blade in still air: λ = −c/(ρh), 0.29 1/s, without a frequency. They are counted, the tilts about
-/// two diameters as the one pair that any rotation makes of them; the decrement of what is listed is that of a wave that swings.
+/// Heave and tilt of a free blade in stationary air: λ = −c/(ρh), 0.29 1/s, without a frequency. They are counted, the
+/// tilts about two diameters as the single pair that any rotation makes of them; the listed decrement is that of a wave
+/// that oscillates.
 #[test]
 fn rigid_motions_in_air_are_counted_and_not_listed() {
     let report = analysis_of(AIR, 0.0).report();
@@ -405,6 +402,6 @@ fn rigid_motions_in_air_are_counted_and_not_listed() {
         assert!(mode.frequency_hz > 20.0, "{}", mode.frequency_hz);
         assert!(mode.logarithmic_decrement.unwrap() < 0.1);
     }
-    // Air that stands in space does not resist a wave that stands there.
+    // Stationary air does not resist a stationary wave.
     assert!(!report.critical_speeds_without_damping);
 }

@@ -1,4 +1,4 @@
-//! K_e of forces at the rim against identities, brute force and the paper's cut.
+//! K_e of forces at the rim, compared with identities, brute force and the paper's cut.
 
 use std::f64::consts::TAU;
 
@@ -47,8 +47,8 @@ const UNEVEN: [RimForce; 3] = [
     },
 ];
 
-/// Σ sym(x ⊗ F) of forces at the rim. The reaction of the net force, a traction that is the same
-/// all around the bore, has no first moment; that of the torque, a pure shear, only a skew one.
+/// Σ sym(x ⊗ F) of forces at the rim. The reaction to the net force, a uniform traction around the bore, has no first
+/// moment; that to the torque, a pure shear, only an antisymmetric one.
 fn virial(blade: &Blade, loads: &[RimForce]) -> [f64; 3] {
     let forces = loads.iter().map(|load| tilt::PlaneForce {
         radius_m: blade.outer_radius_m,
@@ -59,7 +59,7 @@ fn virial(blade: &Blade, loads: &[RimForce]) -> [f64; 3] {
     tilt::stiffness_of_forces_n_m(&forces.collect::<Vec<_>>())
 }
 
-/// The tilts w = x and y feel the virial of the tractions, whatever the stress inside.
+/// The tilts w = x and y depend on the virial of the tractions only, whatever the stress inside.
 fn assert_virial(plate: &Plate, stiffness: &Mat<f64>, virial: [f64; 3], tolerance: f64) {
     let [x, y] = [plate.offset(1), plate.offset(1) + plate.radial_functions()];
     let blade = &plate.blade;
@@ -90,8 +90,8 @@ fn tilts_feel_the_virial_of_the_forces_and_heave_nothing() {
     }
 }
 
-/// Forces at the bore add their own virial; what they leave of the reaction is a
-/// constant traction and a pure shear, which have none.
+/// Forces at the bore add their own virial; the rest of the reaction is a constant traction and a pure shear, which
+/// have none.
 #[test]
 fn tilts_feel_the_virial_of_forces_at_the_bore_too() {
     let reaction = UNEVEN.map(|load| BoreForce {
@@ -133,8 +133,8 @@ fn gradient(plate: &Plate, q: &Col<f64>, r: f64, angle: f64) -> [f64; 2] {
     ]
 }
 
-/// The surface integral in polar cells, blind to harmonics, turns and panels. The
-/// midpoint rule is exact around the circle; radially 60 Gauss points are.
+/// The surface integral in polar cells, independent of harmonics, rotations and panels. The midpoint rule is exact
+/// around the circle, and 60 Gauss points are exact over the radius.
 #[test]
 fn a_quadratic_form_agrees_with_the_surface_integral() {
     let plate = with_bore(0.3, 5, 5);
@@ -161,7 +161,7 @@ fn a_quadratic_form_agrees_with_the_surface_integral() {
     assert!((form / sum - 1.0).abs() < 1e-7, "{form} {sum}");
 }
 
-/// Turning all forces turns the field and leaves the eigenvalues of K_e.
+/// A rotation of all forces rotates the field and does not change the eigenvalues of K_e.
 #[test]
 fn turning_the_forces_turns_the_blade() {
     let plate = with_bore(0.3, 6, 5);
@@ -194,8 +194,8 @@ fn paper_plate(max_diameters: usize, radial_functions: usize) -> Plate {
     Plate::new(&Scene::paper(), resolution)
 }
 
-/// Table 3's forces of 2800 rpm, 1240 N against rotation and 88 N inwards a tooth:
-/// an independent implementation has 6.0 1/s at 4.53 Hz at 2800 rpm, and 1800 stable.
+/// Table 3's forces at 2800 rpm, 1240 N against rotation and 88 N inwards on each tooth: an independent implementation
+/// finds 6.0 1/s at 4.53 Hz at 2800 rpm, and a stable saw at 1800 rpm.
 #[test]
 #[cfg_attr(
     debug_assertions,
@@ -210,8 +210,8 @@ fn the_papers_cut_flutters_at_2800_and_not_at_1800() {
     assert!((hertz - 4.53).abs() < 0.01, "{hertz}");
 }
 
-/// The growth in the paper's cut converges slowly, for the loads are points: what the documentation
-/// says of it, for both rows of Table 3 at 2800 rpm. At 1800 rpm the saw is stable on every basis.
+/// The growth in the paper's cut converges slowly, because the loads are points: the numbers of the documentation for
+/// both rows of Table 3 at 2800 rpm. At 1800 rpm the saw is stable on every basis.
 #[test]
 #[cfg_attr(
     debug_assertions,

@@ -1,10 +1,10 @@
 //! Goal: the verdict on a blade between equal, evenly spaced springs follows Chen's rules, band by
 //! band, with the growth of first-order theory and the eigenvalues of the exact equation.
 //!
-//! Source: `sawflutter::analytical::wave_coupling` and `point_springs`. The 400 mm blade between
-//! collars is swept past several critical speeds, with springs so weak that its bands lie apart
-//! and first order holds. From the program come the unguided waves, one radial eigenproblem for
-//! each n; which of them meet, and what they then do, is computed here.
+//! Source: `sawflutter::analytical::wave_coupling` and `point_springs`. The 400 mm blade between collars is swept past
+//! several critical speeds, with springs so weak that its bands lie apart and first order is valid. The program
+//! computes the unguided waves, one radial eigenproblem for each n; the test computes where they cross and what the
+//! springs do there.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use sawflutter::analytical::point_springs::{BodyWave, EvenSprings};
@@ -65,7 +65,7 @@ fn all_waves(plate: &Plate, speed: f64) -> Vec<BodyWave> {
     waves.collect()
 }
 
-/// One of the two waves of a mode as seen from space; `circle` counts the modes of one n.
+/// One of the two waves of a mode in the fixed frame; `circle` counts the modes of one n.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
     circle: usize,
@@ -78,7 +78,7 @@ impl Seen {
         waves_of(plate, self.diameters, speed)[self.circle]
     }
 
-    /// ω = pΩ + ω_b, or nΩ − ω_b of a reflected wave.
+    /// ω = pΩ + ω_b, or nΩ − ω_b for a reflected wave.
     fn frequency(&self, plate: &Plate, speed: f64) -> f64 {
         let on_blade = self.body(plate, speed).frequency_rad_per_s;
         let carried = self.wave.wave_number as f64 * speed;
@@ -94,7 +94,7 @@ struct Met {
     speed: f64,
 }
 
-/// Every meeting of two waves below a speed, of the lowest two modes of each n.
+/// Every crossing of two waves below a speed, for the lowest two modes of each n.
 fn meetings(plate: &Plate, top: f64) -> Vec<Met> {
     let mut seen = Vec::new();
     for diameters in 0..=plate.max_diameters() {
@@ -138,7 +138,7 @@ fn meetings_of(pair: [Seen; 2], plate: &Plate, top: f64) -> Vec<Met> {
         }
         low
     });
-    // Both waves are there: a backward one below its critical speed, a reflected one beyond.
+    // Both waves exist: a backward one below its critical speed, a reflected one above it.
     let there = |speed: &f64| pair.iter().all(|s| s.frequency(plate, *speed) > 1.0);
     speeds
         .filter(there)
@@ -151,7 +151,7 @@ impl Met {
         springs.meeting(self.pair[0].wave, self.pair[1].wave)
     }
 
-    /// Speed of the meeting on springs, to first order.
+    /// Speed of the crossing on springs, to first order.
     fn shifted(&self, plate: &Plate, springs: EvenSprings) -> f64 {
         let shift = |s: &Seen| {
             springs.frequency_shift_rad_per_s(s.body(plate, self.speed), s.wave.reflected)
@@ -199,7 +199,7 @@ fn bands_of(springs: EvenSprings, top: f64, strategy: Strategy) -> [Vec<Instabil
     [flutter, divergence]
 }
 
-/// The unguided blade, the speed up to which it is looked at, and S springs of 300 N/m in all.
+/// The unguided blade, the highest speed, and S springs with 300 N/m in total.
 fn cases() -> (Plate, f64, [EvenSprings; 5]) {
     let unguided = collar().edited(|file| file.guides.clear()).unwrap();
     let free = Plate::new(&unguided, RESOLUTION);
@@ -211,16 +211,16 @@ fn cases() -> (Plate, f64, [EvenSprings; 5]) {
     (free, 1.5 * critical[0].speed_rad_per_s, springs)
 }
 
-/// What was compared of the bands that were found.
+/// The comparison of the bands.
 #[derive(Default)]
 struct Compared {
-    /// Growth, relative to that of first order.
+    /// Growth, relative to the first-order value.
     first_order: Worst,
-    /// Growth, relative to that of the exact equation.
+    /// Growth, relative to the value of the exact equation.
     exact: Worst,
-    /// The same distance relative to the first frequency of the blade.
+    /// Difference from the exact equation, relative to the first frequency of the blade.
     of_frequency: Worst,
-    /// Meetings of a reflected wave with one that it does not feel.
+    /// Crossings of a reflected wave with one that is not coupled to it.
     crossed: usize,
 }
 
@@ -245,7 +245,7 @@ impl Compared {
         self.of_frequency.add(of_frequency, place);
     }
 
-    /// As many bands as there are coalescing waves, each around their meeting.
+    /// There are as many bands as pairs of coalescing waves, each around their crossing.
     fn add_flutter(
         &mut self,
         free: &Plate,
@@ -273,7 +273,7 @@ impl Compared {
         }
     }
 
-    /// As many bands as there are critical speeds that the springs split.
+    /// There are as many bands as critical speeds that the springs split.
     fn add_divergence(
         &mut self,
         free: &Plate,
@@ -285,7 +285,7 @@ impl Compared {
         let split: Vec<_> = split.collect();
         assert_eq!(bands.len(), split.len(), "{} springs", springs.count);
         for (band, &&(n, speed)) in bands.iter().zip(&split) {
-            // The wave with its nodes at the springs does not feel them.
+            // The wave with its nodes at the springs does not move them.
             let edge = relative_error(band.from_rad_per_s, speed);
             assert!(edge < 1e-9, "{springs:?}, {n} diameters: {edge:e}");
             let wave = waves_of(free, n, speed)[0];
@@ -295,7 +295,7 @@ impl Compared {
     }
 }
 
-/// Bands of the blade on springs against those that Chen's rules make of its unguided waves.
+/// Bands of the blade on springs, compared with those that Chen's rules predict from its unguided waves.
 fn compared(strategy: Strategy) -> Compared {
     let (free, top, cases) = cases();
     let critical = SpectralModel::critical_speeds(&free).unwrap();
@@ -304,7 +304,7 @@ fn compared(strategy: Strategy) -> Compared {
         .map(|c| (c.name.diameters(), c.speed_rad_per_s))
         .filter(|(_, speed)| *speed < top)
         .collect();
-    // Each stands there for both waves.
+    // The list has each speed for both waves.
     critical.dedup_by_key(|(n, _)| *n);
     let met = meetings(&free, top);
     let mut compared = Compared::default();
@@ -317,7 +317,7 @@ fn compared(strategy: Strategy) -> Compared {
     compared
 }
 
-/// Few modes, as in a chart. Growth is a small difference of large numbers: it is as good as the
+/// The model has few modes, as in a chart. Growth is a small difference of large numbers: it is as accurate as the
 /// frequencies of the reduced model, 1e-6.
 #[test]
 fn verdicts_between_evenly_spaced_springs_follow_chens_rules() {
@@ -332,14 +332,13 @@ fn verdicts_between_evenly_spaced_springs_follow_chens_rules() {
 }
 
 #[test]
-fn on_the_whole_basis_growth_is_that_of_the_exact_equation() {
+fn on_the_full_model_growth_is_that_of_the_exact_equation() {
     let compared = compared(Strategy::Dense);
     let exact = &compared.exact;
     exact.assert_at_most("growth, against the exact equation", 1e-7);
 }
 
-/// Coupled waves of one sign keep apart by twice their coupling; bands they have none, as the test
-/// above counts.
+/// Coupled waves of one sign stay apart by twice their coupling and have no band; the test above counts the bands.
 #[test]
 fn coupled_waves_of_one_sign_veer_as_far_as_first_order_says() {
     let (free, top, cases) = cases();
@@ -355,8 +354,8 @@ fn coupled_waves_of_one_sign_veer_as_far_as_first_order_says() {
             let pairs = companion_eigenpairs(&system, speed).unwrap();
             let mut near: Vec<f64> = pairs.iter().map(|(l, _)| l.im - middle).collect();
             near.sort_by(|x, y| x.abs().total_cmp(&y.abs()));
-            // Where a third wave is near, or two circles weaken the coupling to the second order
-            // of others, first order does not say enough.
+            // First order is not accurate near a third wave, or where two circles weaken the coupling to the second
+            // order of other waves.
             if near[2].abs() < 20.0 * expected || expected < 0.1 {
                 continue;
             }

@@ -1,5 +1,5 @@
-//! Goal: critical speeds and bands are named by the waves that make them. A guide that is next to nothing makes
-//! bands where the waves of the blade without guides cross: the names are theirs.
+//! Goal: critical speeds and bands are named by the waves that make them. A very soft guide makes bands where the waves
+//! of the blade without guides cross, and they have the names of these waves.
 
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::report::{BranchEntry, InstabilityKind, Report};
@@ -75,7 +75,7 @@ fn events_of_a_weak_pad_have_the_names_of_free_waves() {
                     .to_vec()
             }
         };
-        // A motion of the rigid blade on the pad is no wave of the blade without it.
+        // A motion of the rigid blade on the pad is not a wave of the blade without it.
         if crossing.iter().any(|(off, _)| *off > 0.1) {
             continue;
         }
@@ -100,7 +100,7 @@ fn events_of_a_weak_pad_have_the_names_of_free_waves() {
     }
 }
 
-/// Rotation softens no wave of none or one nodal diameter more than it stiffens it.
+/// Rotation stiffens waves of zero or one nodal diameter more than it softens them.
 #[test]
 fn no_critical_speed_is_named_by_none_or_one_diameter() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/gallery");

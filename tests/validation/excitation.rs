@@ -1,4 +1,4 @@
-//! Crossings of the lines kΩ with the branches, against a dense eigenproblem in Ω² and a closed form.
+//! Crossings of the lines kΩ with the branches, compared with a dense eigenproblem in Ω² and a closed form.
 
 use std::f64::consts::TAU;
 
@@ -86,8 +86,9 @@ fn crossings_are_the_eigenvalues_of_the_problem_in_the_square_of_the_speed() {
     assert!(count >= 12, "{count}");
 }
 
-/// The wave of n diameters has ω_b ± nΩ seen from space: the line k meets it where a wave of
-/// |k ∓ n| diameters with the same frequency and tension would stand still.
+/// In the fixed frame the wave of n diameters has ω_b ± nΩ: the line k crosses it where a wave of
+/// k ∓ n
+/// diameters with the same frequency and tension would be stationary.
 #[test]
 fn lines_of_a_free_blade_cross_at_the_closed_form() {
     let free = Scene::paper().edited(|saw| {
@@ -107,7 +108,7 @@ fn lines_of_a_free_blade_cross_at_the_closed_form() {
         (x.transpose() * matrix * &x)[(0, 0)]
     };
     let tension = &block.spin + DMatrix::identity(block.spin.nrows(), block.spin.nrows()) * 4.0;
-    // The backward wave of two diameters, as one of three that would stand still.
+    // The backward wave of two diameters is treated as a stationary one of three.
     let mut speed = rad_per_s(900.0);
     for _ in 0..30 {
         let wave = FreeWave {

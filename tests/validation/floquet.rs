@@ -1,8 +1,8 @@
-//! The two formulations of one saw.
+//! Two formulations of one saw.
 //!
-//! In space the guides stand still and the system is constant: eigenvalues λ. On the
-//! blade there is no gyroscopic term, but the guides run round: a system periodic in
-//! T = 2π/Ω. After a turn both frames agree, so the Floquet multipliers are exp(λT).
+//! In space the guides are stationary and the system is constant: eigenvalues λ. On the blade there is no gyroscopic
+//! term, but the guides move around: a system periodic in T = 2π/Ω. After a rotation both frames agree, so that the
+//! Floquet multipliers are exp(λT).
 
 use nalgebra::{Complex, DMatrix};
 use sawflutter::plate::{Plate, Resolution};
@@ -21,12 +21,12 @@ fn monodromy(plate: &Plate, system: &GyroscopicSystem, speed: f64, steps: usize)
     let guides = dense(plate.contact.stiffness().unwrap());
     let turn = dense(&system.gyroscopic);
     let axisymmetric = dense(&system.stiffness) - &guides;
-    // N = GᵀG turns K_σ − N back into K_σ.
+    // N = GᵀG restores K_σ from K_σ − N.
     let centrifugal = dense(&system.spin) + turn.transpose() * &turn;
     let constant = axisymmetric + centrifugal * speed.powi(2);
     let unit = 500.0;
     let state = |time: f64| {
-        // The guides run backwards on the blade: R = exp(−ΩtG) acts on each n as a turn.
+        // The guides move backwards on the blade: R = exp(−ΩtG) rotates each n.
         let rotation = (&turn * (-speed * time)).exp();
         let stiffness = &constant + rotation.transpose() * &guides * &rotation;
         let mut a = DMatrix::zeros(2 * order, 2 * order);
@@ -51,7 +51,7 @@ fn monodromy(plate: &Plate, system: &GyroscopicSystem, speed: f64, steps: usize)
 }
 
 fn small_plate() -> Plate {
-    // Softer than the paper's pad: stiff guides on a coarse basis need too many steps.
+    // The pad is softer than the paper's: stiff guides on a coarse basis need too many steps.
     let scene = Scene::paper().edited(|saw| saw.guides[0].stiffness_n_per_m = 2.0e6);
     let resolution = Resolution {
         max_diameters: 3,
@@ -96,7 +96,7 @@ fn floquet_multipliers_at_an_unstable_speed() {
     assert_same_multipliers(speed, true);
 }
 
-/// The first divergence or flutter of the small saw, by looking every 2 rpm.
+/// The first divergence or flutter of the small saw, by a search in steps of 2 rpm.
 fn unstable_speed() -> f64 {
     let plate = small_plate();
     let system = GyroscopicSystem::of_plate(&plate);

@@ -1,5 +1,5 @@
-//! A contact that the library does not have: a follower load, put into a scene by the one trait
-//! that every contact implements.
+//! A contact that the library does not have: a follower load, added to a scene by the trait that every contact
+//! implements.
 
 use std::f64::consts::PI;
 
@@ -37,7 +37,7 @@ impl Contact for FollowerForce {
 }
 
 const RADIUS_M: f64 = 0.16;
-/// Where two nodal diameters are excited most: sin 4β = 1.
+/// The angle at which two nodal diameters are excited most: sin 4β = 1.
 const ANGLE_RAD: f64 = PI / 8.0;
 
 /// The blade between collars, on a point spring at the angle 0, with waves of at most two
@@ -69,9 +69,9 @@ fn loaded(plate: &Plate, force_n: f64) -> Plate {
     })
 }
 
-/// The least force against the rotation that makes the resting blade flutter. The square of the
-/// growth is that of the discriminant, linear in the force: two forces tell where it vanishes,
-/// where eigenvalues themselves are known to half their digits.
+/// The smallest force against the rotation that makes the blade at rest flutter. The square of the growth is that of
+/// the discriminant, linear in the force: two forces give its zero, where eigenvalues themselves are accurate to half
+/// their digits.
 fn onset_n(plate: &Plate, about_n: f64) -> f64 {
     let squared_growth = |force_n: f64| {
         let system = GyroscopicSystem::of_plate(&loaded(plate, -force_n));
@@ -88,10 +88,9 @@ fn onset_n(plate: &Plate, about_n: f64) -> f64 {
     forces_n[0] - near * (forces_n[1] - forces_n[0]) / (far - near)
 }
 
-/// A spring k at the angle 0 splits the two waves of n diameters by κ; a follower P at β, at the
-/// same radius r, couples them by a matrix of rank one. The discriminant of the two vanishes at
-/// P = −k r / (2n sin 2nβ), whatever the mode. Other modes change this by a share proportional to
-/// k: a tenth of it, a tenth of the difference.
+/// A spring k at the angle 0 splits the two waves of n diameters by κ; a follower force P at β, at the same radius r,
+/// couples them by a matrix of rank one. The discriminant of the two is zero at P = −k r / (2n sin 2nβ), for any mode.
+/// Other modes change this by a share proportional to k: with a tenth of k, the difference is a tenth.
 #[test]
 fn a_follower_load_flutters_where_two_waves_of_equal_diameters_coalesce() {
     let differences = [3000.0, 300.0].map(|stiffness_n_per_m| {
@@ -115,7 +114,7 @@ fn a_follower_load_is_neither_symmetrised_nor_called_conservative() {
     let term = system.nonconservative.as_ref().unwrap();
     let asymmetry = |m: &Mat<f64>| (m - m.transpose()).norm_l2() / m.norm_l2();
     assert!(asymmetry(term) > 0.5);
-    // Nor on fewer vectors, nor in K(Ω).
+    // The term is absent on fewer vectors and in K(Ω) too.
     let order = system.order();
     let basis = Mat::from_fn(order, order, |i, k| if i == k { 1.0 } else { 0.0 });
     let projected = system.project(basis.as_ref());
@@ -128,7 +127,7 @@ fn a_follower_load_is_neither_symmetrised_nor_called_conservative() {
     assert!(modes.iter().all(|mode| mode.krein_sign() == 0));
 }
 
-/// A matrix without symmetry that is added as a stiffness keeps what has no potential.
+/// A matrix without symmetry that is added as a stiffness keeps its nonconservative part.
 #[test]
 fn a_stiffness_without_symmetry_is_not_symmetrised_by_accident() {
     struct Coupled;

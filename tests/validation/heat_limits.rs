@@ -1,5 +1,4 @@
-//! Goal: the temperatures that a blade bears are those that a search over whole computations
-//! finds.
+//! Goal: the temperatures that a blade tolerates agree with a search over whole computations.
 
 use crate::common::assert_close;
 use sawflutter::plate::{Plate, Resolution};
@@ -32,7 +31,7 @@ fn limits(scene: &Scene) -> HeatLimits {
     HeatLimits::new(scene, &model).unwrap().unwrap()
 }
 
-/// Where `holds` ceases to, between two rises.
+/// The rise at which `holds` becomes false, between two rises.
 fn bisected(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     assert!(holds(low) && !holds(high));
     for _ in 0..45 {
@@ -46,10 +45,10 @@ fn bisected(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     0.5 * (low + high)
 }
 
-/// Whole scenes at other temperatures, until their lowest critical speed is the operating
-/// speed; and the limit does not depend on the temperature that the scene happens to have.
+/// The reference is a search over the temperatures of whole scenes, until their lowest critical speed is the operating
+/// speed. The limit does not depend on the temperature of the scene itself.
 #[test]
-fn the_operating_limit_is_where_the_critical_speed_has_fallen_to() {
+fn the_operating_limit_is_the_rise_at_which_the_critical_speed_is_the_operating_speed() {
     for (base, operating) in saws() {
         let lowest = |rise_k: f64| {
             let plate = Plate::new(&heated(&base, rise_k), SMALL);
@@ -62,7 +61,7 @@ fn the_operating_limit_is_where_the_critical_speed_has_fallen_to() {
             let limit = found.operating.unwrap();
             assert_close("operating limit", limit.rise_k, expected, 1e-9);
             assert!(limit.name.diameters() >= 2 && !found.buckles_first && !found.past_critical);
-            // The curves pass through it.
+            // The curves pass through this limit.
             let curve = &found.curves[0];
             let below = curve.rise_k.partition_point(|rise| *rise < expected);
             assert!(curve.speed_rad_per_s[below - 1] > operating);
@@ -86,7 +85,7 @@ fn the_blade_buckles_where_no_critical_speed_can_be_computed_any_more() {
         let expected = bisected(0.0, 500.0, |rise_k| flat(rise_k).is_ok());
         let found = limits(&heated(&base, 5.0)).buckling.unwrap();
         assert_close("buckling", found.rise_k, expected, 1e-8);
-        // The error names it too, as a share of what the scene asks for.
+        // The error names it too, as a share of the temperature of the scene.
         match flat(2.0 * expected) {
             Err(SpectrumError::Buckled { share, diameters }) => {
                 assert_close("share", share, 0.5, 1e-8);
@@ -97,7 +96,7 @@ fn the_blade_buckles_where_no_critical_speed_can_be_computed_any_more() {
     }
 }
 
-/// Cold at the rim, the blade buckles into a dish or tilts: another limit on the other side.
+/// If the rim is cold, the blade buckles into a dish or tilts: this is the limit in the other direction.
 #[test]
 fn a_cold_rim_has_a_limit_of_its_own() {
     let found = limits(&heated(&collar(), -1.0));
@@ -111,7 +110,7 @@ fn a_cold_rim_has_a_limit_of_its_own() {
     assert_close("dish", dish.rise_k, expected, 1e-8);
 }
 
-/// Rolled so much that it is a dish when cold, and flat when the rim is warm.
+/// A blade that is rolled so much that it is a dish when cold, and flat when the rim is warm.
 #[test]
 fn an_overtensioned_blade_becomes_flat_when_it_is_warm() {
     let both = |rise_k: f64| {
@@ -129,9 +128,9 @@ fn an_overtensioned_blade_becomes_flat_when_it_is_warm() {
     assert!(limits(&heated(&collar(), 5.0)).flat_from.is_none());
 }
 
-/// Past its critical speed no heat has to bring the saw there.
+/// Above its critical speed the saw needs no heat to reach it.
 #[test]
-fn a_saw_past_its_critical_speed_is_said_to_be() {
+fn a_saw_past_its_critical_speed_is_reported() {
     let fast = heated(&collar(), 3.0).edited(|saw| saw.operating_rpm = Some(6000.0));
     let found = limits(&fast.unwrap());
     assert!(found.past_critical && found.operating.is_none());

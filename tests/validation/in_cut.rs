@@ -1,4 +1,4 @@
-//! A chart under the forces of a cut, and the wood in the kerf.
+//! A chart under the forces of a cut, and with the wood in the kerf.
 
 use std::f64::consts::{PI, TAU};
 
@@ -18,8 +18,8 @@ fn in_cut(change: impl FnOnce(&mut SceneFile)) -> Scene {
     saw.unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Table 3's second row on four teeth: an independent code finds 6.0 1/s at 4.53 Hz at 2800 rpm, and
-/// nothing that grows at 1800 rpm.
+/// Table 3's second row on four teeth: an independent code finds 6.0 1/s at 4.53 Hz at 2800 rpm, and no growth at 1800
+/// rpm.
 #[test]
 fn the_chart_in_the_cut_has_the_growth_of_an_independent_code() {
     let analysis = Analysis::new(&in_cut(|_| ())).unwrap();
@@ -53,9 +53,9 @@ fn the_chart_in_the_cut_has_the_growth_of_an_independent_code() {
     assert!(band.is_some_and(|band| band.peak_growth_per_s >= found.re));
 }
 
-/// What stands beside the loaded saw is the idling one.
+/// The report of the loaded saw has the results of the idling one beside its own.
 #[test]
-fn the_idling_saw_stands_beside_the_loaded_one() {
+fn the_report_of_a_loaded_saw_includes_the_idling_one() {
     let scene = in_cut(|saw| saw.accuracy = Accuracy::Draft);
     let report = Analysis::new(&scene).unwrap().report();
     let told = report.in_cut.expect("a cut").idling.expect("a full chart");
@@ -74,10 +74,9 @@ const SMALL: Resolution = Resolution {
     radial_functions: 6,
 };
 
-/// Wood over the whole ring is an even bed of springs: every shape has ω_b² + k″/ρh, and loses
-/// c″/2ρh.
+/// Wood over the whole ring is a uniform elastic foundation: every shape has ω_b² + k″/ρh, and the decay rate c″/2ρh.
 #[test]
-fn wood_over_the_whole_blade_is_an_even_bed() {
+fn wood_over_the_whole_blade_is_an_elastic_foundation() {
     let (stiffness, damping) = (3e5, 40.0);
     let scene = in_cut(|saw| {
         saw.guides.clear();
@@ -120,7 +119,7 @@ fn wood_over_the_whole_blade_is_an_even_bed() {
             }
         }
     }
-    // The same in words of the closed form, for the wave of two diameters.
+    // The frequency in closed form, for the wave of two diameters.
     let own = |stiffness: &faer::Mat<f64>| {
         let (first, size) = (plate.offset(2), plate.radial_functions());
         let own = nalgebra::DMatrix::from_fn(size, size, |j, k| stiffness[(first + j, first + k)]);
@@ -132,8 +131,7 @@ fn wood_over_the_whole_blade_is_an_even_bed() {
     assert!(relative_error(own(&system.stiffness), expected) < 1e-9);
 }
 
-/// A small patch is a point spring where its centre is; an arc of the rim the mean of point springs
-/// along it.
+/// A small patch is a point spring at its centre; an arc of the rim is the mean of point springs along it.
 #[test]
 fn a_small_patch_is_a_point_spring_and_an_arc_many_of_them() {
     let with = |wood: WoodFile| {
@@ -177,7 +175,7 @@ fn a_small_patch_is_a_point_spring_and_an_arc_many_of_them() {
     assert!(error < 1e-5, "a small patch: {error:e}");
 }
 
-/// Damping ends the certificate of Krein signs, and the chart says what was compared in its place.
+/// Damping makes the certificate of Krein signs impossible, and the chart names the comparison used instead.
 #[test]
 fn wood_that_damps_changes_what_the_chart_states() {
     let statement = |damping_n_s_per_m: f64| {

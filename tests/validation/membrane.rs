@@ -1,5 +1,5 @@
-//! Goal: heat and roll tension move the frequencies as an independent computation says, and in
-//! the directions that saw makers know.
+//! Goal: heat and roll tension change the frequencies as an independent computation predicts, and in the directions
+//! that saw makers know.
 //!
 //! Sources: tests/reference/collar_saw.json and collar_saw_membrane.json, both by other
 //! Kirchhoff codes.
@@ -48,15 +48,15 @@ fn compare(name: &str, key: &str, scene: &Scene, tolerance: f64) {
     worst.assert_at_most(key, tolerance);
 }
 
-/// Three decimals of about 100 Hz.
+/// The reference has three decimals of about 100 Hz.
 #[test]
 fn the_rim_ten_kelvin_hotter() {
     let key = "rim_heated_10_k_linear_from_collar_alpha_1.2e-5_fixed_0_rpm_hz";
     compare("collar_saw.json", key, &heated(&collar(), 10.0), 1e-5);
 }
 
-/// The same blade with a rolled band, and with a temperature that has a kink on the blade: finite
-/// differences for the stress, Hermite elements for the plate.
+/// The same blade with a rolled band, and with a temperature that has a kink on the blade. The reference uses finite
+/// differences for the stress and Hermite elements for the plate.
 #[test]
 fn a_rolled_band_and_a_kinked_temperature() {
     let name = "collar_saw_membrane.json";
@@ -101,9 +101,9 @@ fn a_hot_rim_and_roll_tension_work_against_each_other() {
     }
 }
 
-/// To the last bit: what is zero is not there.
+/// The matrices agree to the last bit, because terms that are zero are not assembled.
 #[test]
-fn without_heat_everything_stays_as_it_was() {
+fn without_heat_the_matrices_are_unchanged() {
     for base in [collar(), Scene::paper()] {
         let [plain, zero] = [base.clone(), heated(&base, 0.0)].map(|scene| {
             let range = (0.0, rad_per_s(2000.0));
@@ -134,7 +134,7 @@ fn a_buckled_blade_is_an_error_with_the_remedy() {
     }
 }
 
-/// Guides, heat and tension together: every band certified.
+/// Every band is certified under guides, heat and tension together.
 #[test]
 fn the_krein_index_holds_under_membrane_stress() {
     let membrane = serde_json::json!({
@@ -151,8 +151,8 @@ fn the_krein_index_holds_under_membrane_stress() {
     assert!((lowest(&analysis) - lowest(&plain)).abs() > 5.0);
 }
 
-/// The numbers of the block appear among the with the derivative of the lowest
-/// critical speed that central differences of whole scenes give.
+/// The sensitivities contain the numbers of the block, with the derivative of the lowest critical speed that central
+/// differences of whole scenes give.
 #[test]
 fn sensitivities_to_heat_and_tension() {
     let membrane = serde_json::json!({
@@ -183,7 +183,7 @@ fn sensitivities_to_heat_and_tension() {
         let share = 0.02;
         let difference = (lowest(share) - lowest(-share)) / (2.0 * share * lowest(0.0));
         let error = (sensitivity.critical_speeds[0] - difference).abs();
-        // A central difference of a change of 1 % or so, cut off at its square.
+        // The error of a central difference over a change of 1 % is of the order of its square.
         assert!(
             error < 1e-4 * difference.abs() && difference != 0.0,
             "{}: {} {difference}",
@@ -211,7 +211,7 @@ fn spline_blade(bore: f64, rises: &[f64], shift: f64) -> Scene {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// On free edges an even rise adds no stress to any profile, and heave and tilt stay free.
+    /// On free edges a uniform rise adds no stress to any profile, and heave and tilt remain free.
     #[test]
     fn an_even_rise_changes_nothing_on_a_spline(
         bore in 0.05..0.8f64,
@@ -238,7 +238,7 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(8))]
 
-    /// Whatever is heated, rolled and guided: a certified chart, or a plain word of buckling.
+    /// Heat, rolling and guides in any combination give a certified chart or a clear message about buckling.
     #[test]
     fn a_drawn_saw_is_charted_or_said_to_buckle(
         rise_k in -40.0..40.0f64,
@@ -262,7 +262,7 @@ proptest! {
             file.guides[0].tangential_length_m = 0.05;
         }
         let mut scene = Scene::try_from(file).unwrap();
-        // A sweep past many critical speeds has many bands, and takes as long.
+        // A sweep past many critical speeds has many bands and would take long.
         if let Ok(critical) = SpectralModel::critical_speeds(&Plate::new(&scene, SMALL)) {
             let swept = scene.swept(SpeedRange {
                 from_rad_per_s: 0.0,

@@ -1,4 +1,4 @@
-//! Goal: the paper's saw with its guide pad is what it was found to be.
+//! Goal: the paper's saw with its guide pad has its known frequencies, critical speeds and bands.
 //!
 //! Sources: *Theoretical and Experimental Verification of Dynamic Behaviour of a Guided
 //! Spline Arbor Circular Saw*, Table 5 (tests/reference/table5.csv), and an independent
@@ -32,8 +32,7 @@ fn frequencies_hz(speed_rpm: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Compared at 0.1 %. The quoted values have two decimals: half a unit of the last is
-/// 0.07 % of the first.
+/// The tolerance is 0.1 %. The quoted values have two decimals: half a unit of the last is 0.07 % of the first.
 #[test]
 fn guided_modes_at_rest() {
     let actual = frequencies_hz(0.0);
@@ -46,7 +45,7 @@ fn guided_modes_at_rest() {
     worst.assert_at_most("paper's saw, modes at rest", 1e-3);
 }
 
-/// At reference accuracy what the report lists is right to rounding on the full model.
+/// At reference accuracy the listed values agree with the full model to rounding.
 #[test]
 fn listed_eigenvalues_have_a_backward_error_of_rounding() {
     let certificate = guided().report().certificate;
@@ -108,11 +107,11 @@ fn table_5_from_rest_to_1250_rpm() {
     let rms = (squares.iter().sum::<f64>() / 24.0).sqrt();
     println!("Table 5: {rms:.4} Hz rms");
     assert!(rms <= 1.0, "{rms} Hz rms");
-    // The calibration itself: what the pad's place and stiffness were chosen by.
+    // The pad's place and stiffness were calibrated to this value.
     assert!((rms - 0.99).abs() <= 0.01, "{rms} Hz rms");
 }
 
-/// What the figure shows as the paper's points is the paper's table.
+/// The points of the paper in the figure are those of its table.
 #[test]
 fn the_scene_carries_table_5() {
     let paper = Scene::paper();
@@ -145,8 +144,8 @@ fn divergence_bands() {
     }
 }
 
-/// Every merging that the independent computation found, each in a band of its own;
-/// growth and frequency where it gave them, to the digits it gave.
+/// Every coalescence that the independent computation found is in a band of its own, with growth and frequency where
+/// that computation gives them, to its digits.
 #[test]
 fn flutter_bands() {
     let analysis = guided();
@@ -192,7 +191,7 @@ fn flutter_bands() {
     }
     places.dedup();
     assert_eq!(places.len(), expected.len(), "bands of their own");
-    // The first band of all is narrow: a grid of 50 rpm steps over it.
+    // The first band is so narrow that a grid of 50 rpm misses it.
     let first = bands[0];
     assert_eq!(analysis.first_merge_rad_per_s, Some(first.from_rad_per_s));
     assert!(
@@ -201,7 +200,7 @@ fn flutter_bands() {
     );
     let width = rpm(first.to_rad_per_s - first.from_rad_per_s);
     assert!(0.0 < width && width < 4.0, "{width} rpm wide");
-    // The first that grows by the default threshold, 0.25 1/s, is the second.
+    // The second band is the first whose growth reaches the default threshold, 0.25 1/s.
     assert_eq!(
         analysis.flutter_speed_rad_per_s,
         Some(bands[1].from_rad_per_s)
@@ -228,8 +227,7 @@ fn nothing_grows_below_the_first_critical_speed() {
     }
 }
 
-/// A reflected wave is the one whose energy in space is negative: its name and its Krein sign say
-/// the same at every speed.
+/// A reflected wave has negative energy in space: its name and its Krein sign agree at every speed.
 #[test]
 fn a_mode_is_called_reflected_where_its_krein_sign_is_negative() {
     let samples = &guided().chart.campbell.samples;

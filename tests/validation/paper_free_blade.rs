@@ -1,4 +1,4 @@
-//! Goal: the paper's blade without guides is what it was found to be.
+//! Goal: the paper's blade without guides has its known frequencies and critical speeds.
 //!
 //! Sources: CalculiX 2.20 with 3-D solids (tests/reference/free_disk_calculix.csv), and an
 //! independent implementation of this plate model.
@@ -28,7 +28,8 @@ fn free_critical_rpm(model: &SpectralModel, diameters: usize) -> f64 {
     speeds[0]
 }
 
-/// No pad, hence nothing calibrated. The paper gives none of these: its 1475 rpm is of the guided saw.
+/// This saw has no pad, so that no number is calibrated. The paper gives none of these speeds: its 1475 rpm is that of
+/// the guided saw.
 #[test]
 fn free_critical_speeds() {
     let model = free_model();
@@ -51,7 +52,7 @@ struct Solid {
     value: f64,
 }
 
-/// What the model says of a quantity that the solids give.
+/// The model's value of a quantity of the solids.
 fn thin_plate(model: &SpectralModel, solid: &Solid) -> f64 {
     match solid.quantity.as_str() {
         "critical_rpm" => {
@@ -71,7 +72,7 @@ fn thin_plate(model: &SpectralModel, solid: &Solid) -> f64 {
     }
 }
 
-/// Errors of the rows that a test is about.
+/// The largest error over the rows of a test.
 fn against_solids(of_interest: impl Fn(&Solid) -> bool) -> Worst {
     let model = free_model();
     let mut worst = Worst::default();
@@ -96,7 +97,7 @@ fn has_one_diameter(solid: &Solid) -> bool {
     solid.n == 1
 }
 
-/// Solids lie below a thin plate, by edge layers as wide as the blade is thick.
+/// Frequencies of solids are below those of a thin plate, because of edge layers as wide as the blade is thick.
 #[test]
 fn free_blade_against_solid_elements() {
     let worst = against_solids(|solid| !has_one_diameter(solid));
@@ -104,9 +105,9 @@ fn free_blade_against_solid_elements() {
     worst.assert_at_most("free blade, solid elements", 3e-3);
 }
 
-/// The mode of one diameter and one circle, of which edge layers take most: the plate
-/// stands 0.317 % above the solid. It is converged to 1e-6, so this is the distance
-/// between the two theories, and a change of it would be an error of ours.
+/// The mode of one diameter and one circle, in which edge layers have the largest effect: the plate is 0.317 % above
+/// the solid. It is converged to 1e-6, so that this is the difference between the two theories, and a change of it
+/// would be an error of the program.
 #[test]
 fn free_blade_against_solid_elements_with_one_diameter() {
     let worst = against_solids(has_one_diameter);
@@ -114,9 +115,9 @@ fn free_blade_against_solid_elements_with_one_diameter() {
     assert!((0.0031..0.0033).contains(&worst.error), "{}", worst.error);
 }
 
-/// Nothing holds the free blade against heave and tilt. On the blade the tilt is a
-/// wave of frequency Ω exactly; in space its two waves are seen at 0 and 2Ω. Double
-/// zeros are defective and known to √ε only: none of that may look like growth.
+/// Nothing restrains heave and tilt of the free blade. On the blade the tilt is a wave of frequency Ω exactly; in space
+/// its two waves have 0 and 2Ω. Double zeros are defective and accurate to √ε only: this must not be reported as
+/// growth.
 #[test]
 fn rigid_motions_of_the_free_spinning_blade() {
     let model = free_model();
@@ -146,8 +147,7 @@ fn rigid_motions_of_the_free_spinning_blade() {
     worst.assert_at_most("free blade, tilt at twice the speed", 1e-9);
 }
 
-/// An undamped free blade has reflected waves past its critical speeds, and nothing
-/// that they could merge with.
+/// An undamped free blade has reflected waves above its critical speeds, and no wave that they could coalesce with.
 #[test]
 fn the_free_blade_is_never_unstable() {
     let analysis = Analysis::new(&scene("free-blade")).unwrap();
@@ -161,7 +161,7 @@ fn the_free_blade_is_never_unstable() {
     assert!(chart.instabilities.is_empty(), "{:?}", chart.instabilities);
     assert_eq!(analysis.first_merge_rad_per_s, None);
     assert_eq!(analysis.flutter_speed_rad_per_s, None);
-    // Both sides of every critical speed, each of which is a pair, and speeds between.
+    // Speeds on both sides of every critical speed, each of which is a pair, and between them.
     let end = analysis.range_rad_per_s.1;
     let critical = &analysis.model.critical;
     let within = critical.iter().filter(|c| c.speed_rad_per_s < end).count();
@@ -176,7 +176,7 @@ fn the_free_blade_is_never_unstable() {
     assert!(reflected > 0);
 }
 
-/// The frequency of the branch that a critical speed is said to belong to vanishes there.
+/// The frequency of the branch of a critical speed is zero at that speed.
 #[test]
 fn critical_speeds_of_the_free_blade_belong_to_backward_waves() {
     let report = Analysis::new(&scene("free-blade")).unwrap();

@@ -1,9 +1,9 @@
-//! Goal: rigid motions that nothing holds have λ = 0 exactly, and leave no trace elsewhere.
+//! Goal: unrestrained rigid motions have λ = 0 exactly, and do not affect other results.
 //!
-//! One point spring leaves two of them, two leave one: the tilt about the line through both.
-//! Rounding turns their double zeros into slow waves or slow divergence; and since the
-//! momentum of a free motion is constant, waves stand still at other speeds than if it were
-//! held. Both are tested by the Krein index and by a solver that knows nothing of either.
+//! One point spring leaves two of them, two springs leave one: the tilt about the line through both. Rounding turns
+//! their double zeros into slow waves or slow divergence; and because the momentum of a free motion is constant, waves
+//! become stationary at other speeds than if it were restrained. The tests use the Krein index and a solver that does
+//! not treat rigid motions separately.
 
 use faer::c64;
 use nalgebra::{DMatrix, linalg::Schur};
@@ -54,7 +54,7 @@ fn the_krein_index_matches_at_every_speed() {
         println!("{free} free: {bands:#?}");
         assert_eq!(certificate.violations_rad_per_s, Vec::<f64>::new());
         assert!(!certificate.gave_up && !bands.is_empty());
-        // From half as many speeds the same bands.
+        // Half as many speeds give the same bands.
         let (again, _) = undamped_bands(&model, range, 51).unwrap();
         assert_eq!(bands.len(), again.len());
         for (x, y) in bands.iter().zip(&again) {
@@ -67,7 +67,7 @@ fn the_krein_index_matches_at_every_speed() {
     }
 }
 
-/// All eigenvalues of the companion matrix of the whole saw, zeros and all.
+/// All eigenvalues of the companion matrix of the whole saw, including zeros.
 fn undeflated(system: &GyroscopicSystem, speed: f64) -> Vec<c64> {
     let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
     let unit = (stiffness.norm_l2() / (stiffness.nrows() as f64).sqrt()).sqrt();
@@ -83,7 +83,7 @@ fn undeflated(system: &GyroscopicSystem, speed: f64) -> Vec<c64> {
 }
 
 #[test]
-fn every_other_eigenvalue_is_that_of_the_whole_matrix() {
+fn every_other_eigenvalue_is_that_of_the_full_matrix() {
     for (scene, free) in scenes() {
         let system = GyroscopicSystem::of_plate(&Plate::new(&scene, RESOLUTION));
         for rpm in [300.0, 1700.0, 2300.0] {
@@ -103,7 +103,7 @@ fn every_other_eigenvalue_is_that_of_the_whole_matrix() {
                 let residual = (stiffness_residual(&system, speed, *lambda, q)) / largest.powi(2);
                 assert!(residual < 1e-12, "{rpm} rpm, {lambda}: {residual:e}");
             }
-            // And none is missing: what is left over are the zeros, ±√ε of the largest.
+            // The list is complete: the rest are the zeros, ±√ε of the largest.
             let slow = whole.iter().filter(|l| l.norm() < 1e-5 * largest).count();
             let listed = pairs.iter().filter(|(l, _)| l.im >= 0.0 && l.norm() > 0.0);
             let both_signs: usize = listed.map(|(l, _)| if l.im > 0.0 { 2 } else { 1 }).sum();
@@ -143,14 +143,16 @@ fn an_eigenvalue_vanishes_at_every_critical_speed() {
         for c in critical.iter().take(6) {
             let [near, far] = [1e-5, 4e-5].map(|d| slowest(c.speed_rad_per_s * (1.0 + d)));
             let ratio = far / near;
-            // Waves of the point spring's double speeds pass as |λ| ∝ distance, others as its root.
+            // For waves at the double speeds of the point spring
+            // λ
+            // is proportional to the distance, for others to its root.
             assert!((1.9..4.2).contains(&ratio), "{ratio}: {near:e} {far:e}");
             assert!(far < 1.0, "{far}");
         }
     }
 }
 
-/// A blade that nothing holds: heave, and two tilts that space sees at 0 and 2Ω.
+/// A blade without restraint: heave, and two tilts with 0 and 2Ω in space.
 #[test]
 fn the_tilts_of_a_free_blade_turn_at_twice_its_speed() {
     let plate = Plate::new(&scene(&[]), RESOLUTION);

@@ -1,4 +1,4 @@
-//! What bands do to a run-up: each integrates its own eigenvalue.
+//! The effect of bands on a run-up: each integrates its own eigenvalue.
 
 use rayon::prelude::*;
 use sawflutter::plate::Plate;
@@ -24,10 +24,10 @@ fn growth_of_all_modes(plate: &Plate) -> f64 {
     sum * DURATION_S / SAMPLES as f64
 }
 
-/// Of a divergence and of the flutter within its speeds the exponents add up to the integral over all growing modes: neither
-/// counts the growth of the other.
+/// The exponents of a divergence and of the flutter within its speeds add up to the integral over all growing modes:
+/// neither includes the growth of the other.
 #[test]
-fn overlapping_bands_share_the_growth_of_all_modes() {
+fn overlapping_bands_divide_the_growth_of_all_modes() {
     for damping_n_s_per_m in [0.0, 0.5] {
         let scene = Scene::paper().edited(|saw| {
             saw.accuracy = Accuracy::Draft;

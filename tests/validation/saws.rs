@@ -1,4 +1,4 @@
-//! Saws of these tests, and what is computed of them in one way for all.
+//! Saws of these tests, and analyses of them that all tests share.
 
 use std::f64::consts::TAU;
 
@@ -29,8 +29,8 @@ pub fn rolled(base: &Scene, eigenstrain: f64) -> Scene {
     scene_with(base, serde_json::json!({ "roll_tension": [band] }))
 }
 
-/// Four equal loads, one pitch of 42 teeth apart, around θ = 0: [tangential, radial] newtons a
-/// tooth, against the rotation and inwards.
+/// Four equal loads, one pitch of 42 teeth apart, around θ = 0: [tangential, radial] newtons on each tooth, against the
+/// rotation and inwards.
 pub fn paper_cut([tangential_n, radial_n]: [f64; 2]) -> [RimForce; 4] {
     [-1.5, -0.5, 0.5, 1.5].map(|pitches| RimForce {
         angle_rad: pitches * TAU / 42.0,
@@ -52,7 +52,7 @@ pub fn fastest(plate: &Plate, edge: &Mat<f64>, rpm: f64) -> (f64, f64) {
     (lambda.re, lambda.im.abs() / TAU)
 }
 
-/// On the full model, so that no projection differs between two scenes.
+/// An analysis on the full model, so that reduced models of two scenes do not differ.
 pub fn dense_analysis(
     scene: &Scene,
     resolution: Resolution,

@@ -1,5 +1,5 @@
-//! Derivatives of eigenvalues, critical speeds and onsets against central differences
-//! of whole analyses, with the numbers of the scene really moved.
+//! Derivatives of eigenvalues, critical speeds and onsets, compared with central differences of whole analyses of
+//! changed scenes.
 
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{
@@ -19,7 +19,7 @@ fn analysis_of(scene: &Scene) -> Analysis {
     dense_analysis(scene, RESOLUTION, [300.0, 2350.0], 20)
 }
 
-/// The scene with one number moved by a share of the change that a sensitivity speaks of.
+/// The scene with one number changed by a share of the change of a sensitivity.
 fn moved(scene: &Scene, path: &str, share: f64) -> Scene {
     let parameter = Parameter::new(path);
     let value = parameter.get(scene.file()).unwrap();
@@ -36,10 +36,10 @@ fn sensitivities_agree_with_central_differences() {
     assert!(bands >= 4, "both kinds of onset are there: {bands}");
 }
 
-/// Two point springs leave a tilt free, whose momentum is constant: critical speeds then
-/// depend on how that motion drifts, and so do their derivatives.
+/// Two point springs leave a tilt free, whose momentum is constant: critical speeds then depend on the drift of that
+/// motion, and so do their derivatives.
 #[test]
-fn they_agree_where_a_rigid_motion_is_free() {
+fn sensitivities_agree_where_a_rigid_motion_is_free() {
     let paper = Scene::paper();
     let spring = |radius_m, angle_deg| GuideFile {
         radius_m,
@@ -52,10 +52,10 @@ fn they_agree_where_a_rigid_motion_is_free() {
     assert_central_differences(&paper.edited(|saw| saw.guides = springs).unwrap());
 }
 
-/// A step of the thickness and the mass of teeth change the functions of the basis with the
-/// matrices. Bands of this saw are too narrow for differences of their onsets.
+/// A step of the thickness and the mass of teeth change the basis functions together with the matrices. Bands of this
+/// saw are too narrow for differences of their onsets.
 #[test]
-fn critical_speeds_of_a_stepped_blade_with_heavy_teeth_move_as_told() {
+fn critical_speeds_of_a_stepped_blade_with_heavy_teeth_move_as_reported() {
     let stepped = Scene::paper().edited(|saw| {
         saw.blade.profile = vec![ThicknessRow {
             radius_m: 0.26,
@@ -89,10 +89,10 @@ fn critical_speeds_of_a_stepped_blade_with_heavy_teeth_move_as_told() {
     }
 }
 
-/// Divergence that begins where a flutter mode becomes two real eigenvalues, 43 rpm above the nearest critical speed:
-/// its onset moves as differences of the onset say, and not as that critical speed does.
+/// A divergence that begins where a flutter mode becomes two real eigenvalues, 43 rpm above the nearest critical speed:
+/// its onset changes as differences of the onset predict, and not as that critical speed does.
 #[test]
-fn the_onset_of_divergence_moves_with_the_coalescence_that_it_is() {
+fn the_onset_of_divergence_moves_with_its_coalescence() {
     let scene = Scene::paper().edited(|saw| {
         (saw.spline, saw.cut, saw.runup, saw.probe, saw.measured) = (None, None, None, None, None);
         saw.blade.outer_diameter_m = 0.6687;
@@ -145,7 +145,7 @@ fn the_onset_of_divergence_moves_with_the_coalescence_that_it_is() {
     }
 }
 
-/// Every sensitivity against the difference of two analyses; returns the number of bands.
+/// Compares every sensitivity with the difference of two analyses; returns the number of bands.
 fn assert_central_differences(scene: &Scene) -> usize {
     let at = rad_per_s(1800.0);
     let middle = analysis_of(scene);
@@ -162,7 +162,7 @@ fn assert_central_differences(scene: &Scene) -> usize {
         );
         let difference =
             |of: &dyn Fn(&Analysis) -> f64| (of(&high) - of(&low)) / (2.0 * share * of(&middle));
-        // Of a change of 1 %, so numbers of size 0.01.
+        // The differences are for a change of 1 %, so that the numbers are of size 0.01.
         let close = |x: f64, y: f64, what: &str| {
             assert!(
                 (x - y).abs() < tolerance * 0.01_f64.max(y.abs()),
@@ -180,7 +180,7 @@ fn assert_central_differences(scene: &Scene) -> usize {
         for (k, value) in sensitivity.eigenvalues.iter().enumerate() {
             let of = |a: &Analysis| a.model.modes(at).unwrap()[k].lambda.im;
             if of(&middle) == 0.0 {
-                // It diverges, and has no frequency to be relative to.
+                // A diverging mode has no frequency as a reference.
                 continue;
             }
             close(value.im / of(&middle), difference(&of), "frequency");

@@ -1,7 +1,7 @@
-//! Goal: the shapes that are shown are those of the events.
+//! Goal: the shapes shown are those of the events.
 //!
-//! Independent values: a free blade stands in cos nθ, with n nodal diameters; the basis functions at points, which
-//! the profiles of a report do not go through; K(Ω)x = 0 at a critical speed, from the assembled matrices.
+//! Independent values: a free blade has the shape cos nθ, with n nodal diameters; the basis functions at points, which
+//! the profiles of a report do not use; K(Ω)x = 0 at a critical speed, from the assembled matrices.
 
 use std::f64::consts::TAU;
 
@@ -30,7 +30,7 @@ fn at(shape: &EventShapeEntry, k: usize, angle_rad: f64) -> [f64; 2] {
 }
 
 #[test]
-fn a_free_blade_stands_in_a_cosine_of_its_nodal_diameters() {
+fn shapes_of_a_free_blade_are_cosines_of_its_nodal_diameters() {
     let scene = Scene::from_path(crate::common::path("scenes/free-blade.json")).unwrap();
     let (_, report) = charted(&scene, &[]);
     let standing = report.shapes.iter();
@@ -46,7 +46,7 @@ fn a_free_blade_stands_in_a_cosine_of_its_nodal_diameters() {
         let count = 720;
         let angle = |k: usize| TAU * k as f64 / count as f64;
         let values: Vec<f64> = (0..count).map(|k| at(shape, rim, angle(k))[0]).collect();
-        // Least squares of a cosine and a sine at even angles are sums.
+        // Least squares of a cosine and a sine at evenly spaced angles are sums.
         let sum = |of: fn(f64) -> f64| -> f64 {
             let terms = values.iter().enumerate();
             2.0 / count as f64 * terms.map(|(k, w)| w * of(n * angle(k))).sum::<f64>()
@@ -62,7 +62,7 @@ fn a_free_blade_stands_in_a_cosine_of_its_nodal_diameters() {
 }
 
 #[test]
-fn the_wave_that_stands_on_a_guided_blade_is_not_stiff_at_its_speed() {
+fn the_wave_of_a_critical_speed_has_no_stiffness_on_a_guided_blade() {
     let (analysis, report) = charted(&Scene::paper(), &[]);
     let model = &analysis.model;
     let critical = &model.critical[0];
@@ -78,7 +78,7 @@ fn the_wave_that_stands_on_a_guided_blade_is_not_stiff_at_its_speed() {
         residual < 1e-9 * stiffness.norm_l2() * x.norm_l2(),
         "{residual}"
     );
-    // The same shape at points, by the basis functions there; up to the factor that makes its largest value 1.
+    // The shape at points, by the basis functions there, up to the factor that normalizes it.
     let deflection = |radius_m: f64, angle_rad: f64| -> f64 {
         let functions = model.plate.functions_at(radius_m, angle_rad);
         let own = functions.iter().skip(component.first);
@@ -97,7 +97,7 @@ fn the_wave_that_stands_on_a_guided_blade_is_not_stiff_at_its_speed() {
     }
 }
 
-/// A shape is shown for each event once; its largest deflection is 1 at the beginning.
+/// Each event has one shape; its largest deflection is 1 at the beginning.
 #[test]
 fn every_event_is_shown_and_scaled() {
     let (_, report) = charted(&Scene::paper(), &[1000.0]);

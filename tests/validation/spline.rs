@@ -1,8 +1,8 @@
-//! The reaction assumed at the bore against that of simulated spline teeth.
+//! The reaction assumed at the bore, compared with that of simulated spline teeth.
 //!
-//! The paper's blade in the paper's cut (Table 3, four teeth of 42, 2800 rpm). The paper
-//! gives neither number nor shape of the spline teeth: 20 teeth, with flanks along the
-//! radius and at 30° to it, bracket what splines are like.
+//! The paper's blade in the paper's cut (Table 3, four teeth of 42, 2800 rpm). The paper gives neither the number nor
+//! the shape of the spline teeth: the tests take 20 teeth, with flanks along the radius and at 30° to it, which include
+//! the usual shapes.
 
 use faer::{Mat, Side};
 use sawflutter::plate::{Plate, Resolution};
@@ -38,7 +38,7 @@ fn plate() -> Plate {
     Plate::new(&Scene::paper(), resolution)
 }
 
-/// The modes of the guided blade at rest that a verdict is about.
+/// The modes of the guided blade at rest that determine a verdict.
 fn low_modes(plate: &Plate) -> Mat<f64> {
     let stiffness = GyroscopicSystem::of_plate(plate).stiffness;
     let modes = stiffness.self_adjoint_eigen(Side::Lower).unwrap();
@@ -57,8 +57,8 @@ fn in_the_cut(
     (run, effect)
 }
 
-/// Straight flanks take the torque as a shear and the force as more of it on one side:
-/// little else than what is assumed. The flutter stays.
+/// Radial flanks transmit the torque as a shear and the force as more shear on one side, which is close to the
+/// assumption. The flutter remains.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
 fn straight_flanks_react_nearly_as_assumed() {
@@ -76,8 +76,8 @@ fn straight_flanks_react_nearly_as_assumed() {
     assert!(hertz < 5.0, "{hertz}");
 }
 
-/// Flanks at 30° turn the drive into a pressure on the bore, tan 30° of it, which the
-/// assumed reaction knows nothing of. It decides the verdict.
+/// Flanks at 30° turn the drive into a pressure on the bore, tan 30° of it, which the assumed reaction does not
+/// contain. It changes the verdict.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
 fn slanted_flanks_press_the_bore_and_change_the_verdict() {
@@ -86,7 +86,7 @@ fn slanted_flanks_press_the_bore_and_change_the_verdict() {
     let (run, effect) = in_the_cut(&scene, &plate, [1240.0, 88.0], 2800.0);
     let pressure: f64 = run.reaction.stations.iter().map(|f| f.radial_n).sum();
     let drive: f64 = run.reaction.stations.iter().map(|f| f.tangential_n).sum();
-    // Only the driving flanks touch, so that every force has this slope.
+    // Only the driving flanks are in contact, so that every force has this slope.
     let slope = pressure / drive;
     assert!((slope - 30_f64.to_radians().tan()).abs() < 1e-12, "{slope}");
     assert!(effect.relative_change_on(low_modes(&plate).as_ref()) > 0.3);
@@ -95,9 +95,9 @@ fn slanted_flanks_press_the_bore_and_change_the_verdict() {
     assert!(assumed > 1.0 && simulated < 1e-6, "{assumed} {simulated}");
 }
 
-/// Read in metres, the paper's K lets the cut press a tooth in by more than a centimetre,
-/// a hundred gaps; read in millimetres by some hundredths of a millimetre. As long as the
-/// drive keeps one flank of every tooth loaded, the mean reaction hardly cares.
+/// With K read in metres, the cut presses a tooth in by more than a centimetre, a hundred gaps; with K in millimetres
+/// by some hundredths of a millimetre. As long as the drive keeps one flank of every tooth loaded, the mean reaction
+/// hardly changes.
 #[test]
 fn the_papers_stiffness_in_metres_is_too_soft_to_be_a_contact() {
     let plate = plate();
@@ -124,7 +124,7 @@ const TABLE: [(f64, f64, [f64; 2], f64); 4] = [
 
 #[test]
 #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
-fn what_the_shape_of_the_flanks_changes() {
+fn the_effect_of_the_shape_of_the_flanks() {
     let plate = plate();
     let modes = low_modes(&plate);
     let near = |found: f64, expected: f64| (found - expected).abs() < 2e-3;

@@ -1,4 +1,4 @@
-//! Deflection under forces that stand in space, and the limits that `check` draws from it.
+//! Deflection under forces fixed in space, and the limits that `check` derives from it.
 
 use nalgebra::{DMatrix, DVector};
 use sawflutter::check::{Check, Limits};
@@ -9,7 +9,7 @@ use sawflutter::system::GyroscopicSystem;
 
 use crate::common::assert_close;
 
-/// The basis that a check solves point loads in.
+/// The basis on which a check solves point loads.
 const POINT_LOADS: Resolution = Resolution {
     max_diameters: 30,
     radial_functions: 12,
@@ -24,7 +24,7 @@ fn saw(gap_m: Option<f64>) -> Scene {
     saw.unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// K(Ω)⁻¹ of a load, by another library, on all functions.
+/// K(Ω)⁻¹ applied to a load, by another library, on all functions.
 fn answer(system: &GyroscopicSystem, speed: f64, load: &DVector<f64>) -> DVector<f64> {
     let k = system.stiffness_at(speed);
     let k = DMatrix::from_fn(k.nrows(), k.ncols(), |i, j| k[(i, j)]);
@@ -64,7 +64,7 @@ fn stiffness_over_speed_and_the_speed_that_fills_a_gap_are_those_of_the_full_mod
         report.rim_stiffness_at_rest_n_per_m,
         1e-9,
     );
-    // Near the critical speed one wave gives way, with 1 − Ω²/Ω_c².
+    // Near the critical speed the stiffness of one wave decreases as 1 − Ω²/Ω_c².
     let critical = check.analysis.model.critical[0].speed_rad_per_s;
     assert!(rad_per_s(curve.rpm[40]) < critical && curve.n_per_m[40] < 0.15 * curve.n_per_m[0]);
 

@@ -1,11 +1,10 @@
-//! Washboarding against another discretisation of the delay.
+//! Washboarding, compared with another discretisation of the delay.
 //!
-//! The delayed state is collocated at Chebyshev points of [−τ, 0]: with y(θ) = Bᵀx(t + θ) there, dy/dt =
-//! dy/dθ but at θ = 0, where y = Bᵀx. Its eigenvalues, those of one matrix, tend to those of the delayed
-//! system faster than any power of the number of points. Source: D. Breda, S. Maset & R. Vermiglio,
-//! *Pseudospectral differencing methods for characteristic roots of delay differential equations*, SIAM J.
-//! Sci. Comput. 27 (2005), 482–495. The arc is integrated by Gauss's rule over point forces, and the
-//! full model is taken.
+//! The delayed state is collocated at Chebyshev points of [−τ, 0]: with y(θ) = Bᵀx(t + θ) there, dy/dt = dy/dθ except
+//! at θ = 0, where y = Bᵀx. Its eigenvalues, those of one matrix, tend to those of the delayed system faster than any
+//! power of the number of points. Source: D. Breda, S. Maset & R. Vermiglio, *Pseudospectral differencing methods for
+//! characteristic roots of delay differential equations*, SIAM J. Sci. Comput. 27 (2005), 482–495. The arc is
+//! integrated by Gauss's rule over point forces, on the full model.
 
 use std::f64::consts::{PI, TAU};
 
@@ -69,7 +68,7 @@ fn gauss(count: usize) -> Vec<[f64; 2]> {
     (0..count).map(node).collect()
 }
 
-/// Eigenvalues of the collocated delay, of the full model that a report was made with.
+/// Eigenvalues of the collocated delay, on the full model of a report.
 fn collocated(scene: &Scene, report: &WashboardReport, stiffness: f64) -> Vec<c64> {
     let cut = scene.cut().unwrap();
     let typed = scene.file().cut.as_ref().unwrap();
@@ -184,14 +183,14 @@ fn generator(
     values.into_iter().map(|value| value * unit).collect()
 }
 
-/// The largest real part of those that a report looks at, and its frequency.
+/// The eigenvalue with the largest real part in the frequency range of a report.
 fn rightmost(values: &[c64], report: &WashboardReport) -> c64 {
     let within = |value: &&c64| value.im >= 0.0 && value.im <= TAU * report.complete_to_hz;
     let values = values.iter().filter(within);
     *values.max_by(|x, y| x.re.total_cmp(&y.re)).expect("some")
 }
 
-/// Modes, count and boundary: of even teeth, of teeth of two pitches, and with half the overlap.
+/// Modes, count and boundary for even teeth, for teeth of two pitches, and for half the overlap.
 #[test]
 fn washboarding_is_that_of_a_collocated_delay() {
     let scenes = [
@@ -220,14 +219,14 @@ fn washboarding_is_that_of_a_collocated_delay() {
             told.growth_per_s
         );
         assert!(report.lobes.confirmed.iter().all(|confirmed| *confirmed));
-        // One of them is enough for the boundary, which takes two more.
+        // One case is enough for the boundary, which needs two more computations.
         if case == 0 {
             boundary_is_between(&scene, &report);
         }
     }
 }
 
-/// Right of the boundary an eigenvalue is right of the axis, at the frequency told.
+/// Above the boundary an eigenvalue is right of the imaginary axis, at the reported frequency.
 fn boundary_is_between(scene: &Scene, report: &WashboardReport) {
     let critical = report.critical_stiffness_n_per_m.unwrap();
     let at = |share: f64| rightmost(&collocated(scene, report, share * critical), report);
@@ -249,7 +248,7 @@ fn the_diagram_goes_through_the_boundary_of_the_cut() {
     assert!(own > 0.9 * low && own < 1.1 * high, "{low} {own} {high}");
 }
 
-/// Without overlap the force is that of wood as an arc of the rim.
+/// Without overlap the force is that of wood on an arc of the rim.
 #[test]
 fn without_overlap_it_is_wood_on_the_rim() {
     let scene = resaw(|saw| washboarding(saw).overlap = 0.0);
@@ -281,7 +280,7 @@ fn without_overlap_it_is_wood_on_the_rim() {
     }
 }
 
-/// What a small stiffness does goes with it, and the boundary does not depend on it.
+/// The effect of a small stiffness is proportional to it, and the boundary does not depend on it.
 #[test]
 fn a_small_cutting_stiffness_changes_little() {
     let own = report(&resaw(|_| ()));
@@ -295,7 +294,7 @@ fn a_small_cutting_stiffness_changes_little() {
     assert!(relative_error(boundary(&small), boundary(&own)) < 1e-6);
 }
 
-/// Nothing to weigh the delayed force against: no answer.
+/// Without a stiffness against the delayed force there is no answer.
 #[test]
 fn an_undamped_and_a_loose_saw_are_refused() {
     let undamped = resaw(|saw| saw.damping = None);

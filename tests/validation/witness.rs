@@ -1,8 +1,8 @@
-//! Goal: the eigenvalues are those of the matrices, to the digits that double precision has.
+//! Goal: the eigenvalues agree with the matrices to the digits of double precision.
 //!
-//! Witnesses: a second solver of the same scaled companion problem (nalgebra's Francis QR
-//! beside faer's); another formulation, the inertia of the Hermitian L(ω), which needs no
-//! unsymmetric eigenproblem; and single modes computed with a hundred digits.
+//! Independent results: a second solver of the same scaled companion problem (nalgebra's Francis QR beside faer's);
+//! another formulation, the inertia of the Hermitian L(ω), which needs no unsymmetric eigenproblem; and single modes
+//! computed with a hundred digits.
 
 use crate::common::Worst;
 use dashu_float::FBig;
@@ -31,15 +31,15 @@ fn systems(scene: &Scene, resolution: Resolution) -> Vec<GyroscopicSystem> {
     }
 }
 
-/// Time in units of 1/s, s the power of two next to the root mean square frequency, as faer
-/// gets it: the two solvers see the same numbers.
+/// Time in units of 1/s, where s is the power of two next to the root mean square frequency, as in the call of faer:
+/// both solvers get the same numbers.
 fn unit_of_frequency(stiffness: &Mat<f64>) -> f64 {
     let mean_square = stiffness.norm_l2() / (stiffness.nrows() as f64).sqrt();
     mean_square.sqrt().log2().round().exp2()
 }
 
-/// The eigenvalues with Im λ ≥ 0 by nalgebra, or `None` where its QR iteration, which has no
-/// exceptional shifts, goes round in circles.
+/// The eigenvalues with Im λ ≥ 0 by nalgebra, or `None` if its QR iteration, which has no exceptional shifts, does not
+/// converge.
 fn by_nalgebra(system: &GyroscopicSystem, speed_rad_per_s: f64) -> Option<Vec<c64>> {
     let (stiffness, velocity) = (
         system.stiffness_at(speed_rad_per_s),
@@ -63,8 +63,8 @@ fn by_faer(system: &GyroscopicSystem, speed_rad_per_s: f64) -> Vec<c64> {
     pairs.into_iter().map(|(lambda, _)| lambda).collect()
 }
 
-/// Distance of the nearest of many, in units of the largest: both solvers are backward
-/// stable, so ε times the largest is what either may be off by.
+/// Distance to the nearest of many eigenvalues, in units of the largest: both solvers are backward stable, so that the
+/// error of each is at most about ε times the largest.
 fn off_by(lambda: c64, others: &[c64]) -> f64 {
     let largest = others
         .iter()
@@ -73,7 +73,7 @@ fn off_by(lambda: c64, others: &[c64]) -> f64 {
     nearest.fold(f64::INFINITY, f64::min) / largest
 }
 
-/// A blade that nothing holds has double zeros, which either solver knows to √ε only.
+/// A free blade has double zeros, which either solver finds to √ε only.
 const RIGID: f64 = 1e-6;
 
 #[test]
@@ -101,7 +101,7 @@ fn two_solvers_agree_on_every_scene() {
             }
         }
     }
-    // Heave and two tilts of the free blade, at rest and, of some, spinning.
+    // Heave and two tilts of the free blade, at rest and, for some, rotating.
     assert!((3..=18).contains(&rigid), "{rigid} rigid motions");
     worst.assert_at_most("faer against nalgebra", 1e-10);
 }
@@ -262,9 +262,9 @@ fn solve(mut a: Vec<Vec<Complex>>, mut b: Vec<Complex>) -> Vec<Complex> {
     b
 }
 
-/// The eigenvalue next to λ with over a hundred digits: Newton's method on L(λ)q = 0, vᵀq = 1
-/// (nonlinear inverse iteration), which doubles the digits at each step. The second value is
-/// the size of the last correction relative to λ.
+/// The eigenvalue next to λ with over a hundred digits: Newton's method on L(λ)q = 0, vᵀq = 1 (nonlinear inverse
+/// iteration), which doubles the digits at each step. The second value is the size of the last correction relative to
+/// λ.
 fn refined(system: &GyroscopicSystem, speed: f64, lambda: c64, q: &Col<c64>) -> (Complex, f64) {
     let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
     let size = system.order();
@@ -320,7 +320,7 @@ fn fluttering_rpm(system: &GyroscopicSystem) -> f64 {
         .expect("every guided saw flutters somewhere")
 }
 
-/// The matrices are taken as they are, in double precision; the mode is exact for them.
+/// The matrices are exact in double precision, and the mode is exact for them.
 #[test]
 fn both_solvers_against_a_hundred_digits() {
     let resolution = Resolution {
@@ -337,12 +337,12 @@ fn both_solvers_against_a_hundred_digits() {
     ] {
         let speed = rad_per_s(rpm);
         let systems = systems(&crate::common::scene(name), resolution);
-        // Of the collar saw the waves of two diameters.
+        // The collar saw is tested with the waves of two diameters.
         let system = systems.get(2).unwrap_or(&systems[0]);
         let others = by_nalgebra(system, speed).unwrap();
         for (lambda, q) in companion_eigenpairs(system, speed).unwrap().iter().take(5) {
             let (exact, correction) = refined(system, speed, *lambda, q);
-            // The next step would correct by its square: over a hundred digits.
+            // The next correction would be the square of this one: over a hundred digits.
             assert!(correction < 1e-55, "{correction:e}");
             let distance = |l: c64| exact.minus(&Complex::new(l.re, l.im)).norm() / exact.norm();
             let place = || format!("{name}, {rpm} rpm, {:.3e}", exact.rounded());

@@ -47,7 +47,7 @@ class Line:
     width: float = CURVE
     dashed: bool = False
     hover: Sequence[str] = ()
-    """What is said of each point, on lines of its own."""
+    """Text of each point, on lines of its own."""
     end: str = ""
     """Label at the last point."""
 
@@ -134,7 +134,7 @@ class Panel:
     harmonics: bool = False
     """Whether it shows frequencies over the rotation speed, so that its multiples are lines."""
     note: str = ""
-    """What is said where there is nothing to be seen."""
+    """Text shown instead of data."""
 
 
 @dataclass(frozen=True)
@@ -146,7 +146,7 @@ class Chart(Drawn):
     panels: Sequence[Panel] = field(default_factory=tuple)
 
     def chart(self) -> Chart:
-        """Itself.
+        """The chart itself.
 
         Returns
         -------
@@ -155,11 +155,11 @@ class Chart(Drawn):
         return self
 
     def lines(self) -> list[str]:
-        """The facts in lines that a figure has room for."""
+        """The facts in lines as long as the figure is wide."""
         return textwrap.wrap(self.facts, FACTS)
 
     def shown(self) -> Sequence[Panel]:
-        """The panels, or an empty one where there are none."""
+        """The panels, or an empty one if there are none."""
         return self.panels or (Panel("", "", ()),)
 
     def together(self) -> bool:
@@ -168,8 +168,8 @@ class Chart(Drawn):
 
 
 def end_labels(panel: Panel, apart: float) -> list[tuple[Line, float]]:
-    """Lines with a label at their end, and the height of the label: so far apart, as a share of the
-    axis, that none is printed over another."""
+    """Lines with a label at their end, and the height of the label: the labels are so far apart, as
+    a share of the axis, that they do not overlap."""
     low, high = panel.y_range or (0.0, 1.0)
     lines = [item for item in panel.items if isinstance(item, Line) and item.end]
     ends = sorted(((float(line.y[-1]), line) for line in lines), key=lambda pair: pair[0])

@@ -16,8 +16,8 @@ NARROW = 0.004
 
 
 def described(command: str, name: str, report: str) -> Chart | None:
-    """The chart of a figure of the program, by its name without an ending; none where the report
-    has no data for it."""
+    """The chart of a figure of the program, by its name without an ending; None if the report has
+    no data for it."""
     text = _native.chart(command, name, report)
     if text is None:
         return None

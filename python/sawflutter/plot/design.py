@@ -1,4 +1,4 @@
-"""Checks, fits, places, studies, and what accuracy takes."""
+"""Charts of checks, fits, places and studies, and of run time against accuracy."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def named(path: str) -> str:
 
 
 def check(r: CheckReport, facts: str) -> Chart:
-    """Of each limit the speed asked for (line) and the one found (dot)."""
+    """The required speed of each limit (line) and the computed one (dot)."""
     items: list[Item] = []
     for band in r.instabilities:
         if band.peak_growth_per_s >= r.flutter_threshold_per_s or band.kind == "divergence":
@@ -70,7 +70,7 @@ def check(r: CheckReport, facts: str) -> Chart:
 
 
 def fit(r: FitReport, facts: str) -> Chart:
-    """Measured frequencies over the computed ones, before and after; what is left below."""
+    """Measured frequencies over the computed ones, before and after, with the residuals below."""
     items: list[Item] = []
     for values, colour, dashed, name in (
         (r.curves.before_hz, colours()["standing"], True, "before"),
@@ -106,7 +106,7 @@ def fit(r: FitReport, facts: str) -> Chart:
 
 
 def place(r: PlaceReport, facts: str) -> Chart:
-    """The goal over one or two numbers, the best saw marked."""
+    """The goal over one or two numbers, with the best saw marked."""
     found = r.map
     if found is None:
         return Chart(r.scene["name"], f"{facts}; no map was asked for")
@@ -128,7 +128,7 @@ def place(r: PlaceReport, facts: str) -> Chart:
 
 
 def _fragile(r: PlaceReport) -> list[Item]:
-    """The saw that is better than the best one by itself, on a map of two numbers."""
+    """The saw that is better than the best one without tolerances, on a map of two numbers."""
     found, fragile = r.map, r.fragile_optimum
     if found is None or fragile is None or fragile.saw.outcome is None:
         return []

@@ -1,4 +1,4 @@
-"""What the probe sees: in the cut, and in a run-up."""
+"""Deflections at the probe in the cut and in a run-up."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .chart import Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colou
 
 
 def cut(r: CutReport, facts: str) -> Chart:
-    """Deflection at the probe over time, one panel a speed."""
+    """Deflection at the probe over time, one panel for each speed."""
     panels = []
     for run in r.runs:
         colour = colours()["forward" if run.verdict == "stable" else "flutter"]

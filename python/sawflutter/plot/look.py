@@ -12,7 +12,7 @@ import numpy as np
 from .._drawn import Units
 from .chart import Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
 
-# What one turn a second is in each of the units.
+# One rotation per second in each of the units.
 TURN: dict[str, float] = {"rpm": 60.0, "Hz": 1.0, "rad/s": tau}
 
 
@@ -63,7 +63,7 @@ def _harmonic(panel: Panel, order: float) -> Line:
 
 
 def _reach(items: Iterable[Item]) -> tuple[float, float]:
-    """The speeds that curves and points of a panel have."""
+    """The range of speeds of the curves and points of a panel."""
     speeds = np.concatenate([np.ravel(of.x) for of in items if isinstance(of, Line | Points)])
     return float(np.nanmin(speeds)), float(np.nanmax(speeds))
 
@@ -82,7 +82,7 @@ def _in_units(panel: Panel, units: dict[str, str]) -> Panel:
 
 
 def _axis(name: str, units: dict[str, str]) -> tuple[str, float]:
-    """The name of an axis in other units, and what its numbers are to be multiplied by."""
+    """The name of an axis in other units, and the factor of its numbers."""
     for own, wanted in units.items():
         if own != wanted and f"[{own}]" in name:
             # The imaginary part of an eigenvalue is in rad/s.

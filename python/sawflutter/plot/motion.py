@@ -1,4 +1,4 @@
-"""A mode in motion on the blade, seen from space."""
+"""A mode in motion on the blade, in the fixed frame."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The saw itself, seen along its axis."""
+"""The saw in axial view."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ ARROW_DEG = (20.0, 60.0)
 
 
 def saw(scene: Scene) -> Chart:
-    """Blade, guides, cut and probe, and which way angles and the rotation are positive."""
+    """Blade, guides, cut and probe, and the positive directions of angles and rotation."""
     blade, ink, quiet = scene.blade, colours()["ink"], colours()["quiet"]
     rim, bore = blade["outer_diameter_m"] / 2.0, blade["inner_diameter_m"] / 2.0
     items: list[Item] = [_arc(rim, 0.0, 360.0, ink, "rim"), _arc(bore, 0.0, 360.0, ink, "bore")]

@@ -21,7 +21,7 @@ FONTS = ["Inter", "Helvetica", "Arial", "DejaVu Sans"]
 
 
 def draw(chart: Chart, ax: Axes | Sequence[Axes] | None = None) -> Axes:
-    """Draws the panels of a chart into a new figure, or into axes that are there."""
+    """Draws the panels of a chart into a new figure, or into given axes."""
     if ax is not None:
         into: list[Axes] = np.ravel(np.asarray(ax, object)).tolist()
         for own, panel in zip(into, chart.panels):

@@ -28,7 +28,7 @@ def draw(chart: Chart, fig: Figure | None = None) -> Figure:
 
 
 def _rows(fig: Figure) -> int:
-    """Rows of a figure of ``make_subplots``; none where it was made without."""
+    """Rows of a figure of ``make_subplots``; None for another figure."""
     rows = 0
     try:
         while fig.get_subplot(rows + 1, 1) is not None:
@@ -95,7 +95,7 @@ def _panel(figure: Figure, panel: Panel, at: dict[str, int], last: bool) -> None
 
 
 def _scaled(values: Any, panel: Panel) -> Any:
-    """Places on the y axis."""
+    """Positions on the y axis."""
     values = np.asarray(values, float)
     return np.sign(values) * np.sqrt(np.abs(values)) if panel.y_root else values
 

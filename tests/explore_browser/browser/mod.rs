@@ -1,4 +1,4 @@
-//! A page of `sawflutter explore` in Chromium, and the hand that uses it.
+//! A page of `sawflutter explore` in Chromium, and simulated input of its user.
 
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -16,10 +16,10 @@ mod webdriver;
 
 /// The first pad.
 pub const PAD: &str = "[data-path='guides[0]'] .body";
-/// Longer than anything takes, also where others use the machine.
+/// A limit longer than any step takes, also on a busy machine.
 pub const PATIENCE: Duration = Duration::from_secs(180);
 
-/// A program that is ended with its owner.
+/// A program that is ended when this value is dropped.
 pub struct Running(pub Child);
 
 impl Drop for Running {
@@ -29,7 +29,7 @@ impl Drop for Running {
     }
 }
 
-/// Starts a program and waits for a line in which `find` finds what is wanted.
+/// Starts a program and waits for a line in which `find` has a result.
 fn start(command: &mut Command, find: impl Fn(&str) -> Option<String>) -> (Running, String) {
     let mut child = command
         .stdout(Stdio::piped())
@@ -43,12 +43,12 @@ fn start(command: &mut Command, find: impl Fn(&str) -> Option<String>) -> (Runni
     let found = lines
         .find_map(|line| find(&line))
         .expect("the program said nothing");
-    // Nobody may be stopped by a full pipe.
+    // The rest is read and dropped, because a full pipe would stop the program.
     std::thread::spawn(move || lines.for_each(drop));
     (running, found)
 }
 
-/// Starts `sawflutter explore` and waits until it says its address.
+/// Starts `sawflutter explore` and waits until it prints its address.
 fn explore(arguments: &[&str]) -> (Running, String) {
     let command = &mut Command::new(program());
     start(command.arg("explore").args(arguments), |line| {
@@ -65,7 +65,7 @@ pub struct Page {
     _chromedriver: Running,
 }
 
-/// Serves a folder as it is, and nothing else.
+/// Serves the files of a folder, and nothing else.
 fn served(folder: &Path) -> (Running, String) {
     assert!(
         folder.join("index.html").exists(),
@@ -130,7 +130,7 @@ impl Page {
         page
     }
 
-    /// Opens the page in a tab more, and goes there.
+    /// Opens the page in another tab and switches to it.
     pub async fn another_tab(&self) -> WindowHandle {
         let address = self.driver.current_url().await.unwrap();
         let tab = self.driver.new_tab().await.unwrap();
@@ -139,7 +139,7 @@ impl Page {
         tab
     }
 
-    /// Starts the program once more, at the address that the page knows.
+    /// Starts the program once more, at the address that the page uses.
     pub async fn start_again(&mut self, arguments: &[&str]) {
         let address = self.driver.current_url().await.unwrap();
         let (_, port) = address.trim_end_matches('/').rsplit_once(':').unwrap();
@@ -155,7 +155,7 @@ impl Page {
         self.script(&format!("return {expression}")).await
     }
 
-    /// What a script that waits for something comes to: an expression with `await`.
+    /// The value of an asynchronous script: an expression with `await`.
     pub async fn awaited(&self, expression: &str) -> Value {
         let script = format!(
             "const done = arguments[arguments.length - 1]; (async () => {expression})().then(done)"
@@ -196,7 +196,7 @@ impl Page {
         field.send_keys(Key::Tab + "").await.unwrap();
     }
 
-    /// Steps to a mode of the chart by key: the program still has the chart.
+    /// Selects a mode of the chart by key, which shows that the program still has the chart.
     pub async fn step_to_a_mode(&self) {
         let chart = self.find("#campbell").await;
         chart.focus().await.unwrap();
@@ -211,14 +211,14 @@ impl Page {
         self.driver.screenshot(&folder.join(name)).await.unwrap();
     }
 
-    /// Clicks a button that saves a file, and reads what the browser has put on the disk.
+    /// Clicks a button that saves a file, and reads the saved file.
     pub async fn download(&self, name: &str) -> Vec<u8> {
         let file = self.file_name(name).await;
-        // One that was saved before would be taken for the new one.
+        // A file that was saved before would be read instead of the new one.
         let _ = std::fs::remove_file(self.folder.path().join(file));
         self.script("document.querySelector('.menu').open = true")
             .await;
-        // By hand: a browser asks before a script saves a second file.
+        // The click is a real one, because the browser asks before a script saves a second file.
         self.find(&format!("[data-save={name:?}]"))
             .await
             .click()
@@ -233,8 +233,8 @@ impl Page {
         file.as_str().unwrap().to_owned()
     }
 
-    /// What the browser puts on the disk for a file of this saw. Chromium makes an empty file of that name first, and
-    /// then moves the whole one there.
+    /// The file that the browser saves for this saw. Chromium first makes an empty file of that name, and then moves
+    /// the complete one there.
     pub async fn wait_for_file(&self, name: &str) -> Vec<u8> {
         let path = self.folder.path().join(self.file_name(name).await);
         let begun = Instant::now();
@@ -248,12 +248,12 @@ impl Page {
         }
     }
 
-    /// What the command line makes of the scene as saved.
+    /// Runs `analyze` on the saved scene and gives its folder.
     pub async fn command_line(&self) -> PathBuf {
         self.command(&["analyze"]).await.0
     }
 
-    /// What a command makes of the scene as saved, and what it prints.
+    /// Runs a command on the saved scene; gives its folder and its output.
     pub async fn command(&self, command: &[&str]) -> (PathBuf, String) {
         let scene = self.download("scene.json").await;
         let path = self.folder.path().join("saved-scene.json");
@@ -282,13 +282,13 @@ pub fn run(test: impl Future<Output = ()>) {
     builder.enable_all().build().unwrap().block_on(test);
 }
 
-/// A hand that moves sixty times a second, as fast as a screen shows it.
+/// Moves the pointer sixty times a second, the rate of a screen.
 pub fn hand(page: &Page) -> Actions {
     let frame = Duration::from_millis(16);
     Actions::new(&page.driver, frame)
 }
 
-/// Presses on an element, moves in small steps, and lets go.
+/// Presses the button on an element, moves in small steps, and releases the button.
 pub async fn drag(page: &Page, selector: &str, steps: usize, step: (i64, i64)) {
     let grip = page.find(selector).await;
     let grasp = hand(page);
@@ -319,7 +319,7 @@ pub fn percentile(times: &Value, share: f64) -> f64 {
     times[((times.len() - 1) as f64 * share).round() as usize]
 }
 
-/// Equal to the last bit; JavaScript writes 1.0 as 1.
+/// Compares to the last bit, except that JavaScript writes 1.0 as 1.
 pub fn same(left: &Value, right: &Value) -> bool {
     match (left, right) {
         (Value::Number(x), Value::Number(y)) => x.as_f64() == y.as_f64(),

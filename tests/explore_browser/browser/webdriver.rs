@@ -1,4 +1,4 @@
-//! What these tests say to `chromedriver`, by W3C's WebDriver: commands in JSON over HTTP, one connection each.
+//! A client of `chromedriver`, by W3C's WebDriver: commands in JSON over HTTP, one connection each.
 
 use std::fmt::Display;
 use std::io::ErrorKind;
@@ -14,7 +14,7 @@ const LIMIT: Duration = Duration::from_secs(180);
 /// The key of an element in JSON, by the standard.
 const ELEMENT: &str = "element-6066-11e4-a52e-4f735466cecf";
 
-/// What the browser answered instead of a value.
+/// The browser's error message.
 #[derive(Debug)]
 pub struct Refused(String);
 
@@ -101,7 +101,7 @@ impl WebDriver {
         self.post("execute/async", content).await
     }
 
-    /// By a selector of CSS.
+    /// Finds an element by a CSS selector.
     pub async fn find(&self, selector: &str) -> Answer<WebElement> {
         let content = json!({ "using": "css selector", "value": selector });
         let element = self.post("element", content).await?;
@@ -125,7 +125,7 @@ impl WebDriver {
         self.post("window", content).await.map(drop)
     }
 
-    /// Closes the tab that is driven; another one must be switched to.
+    /// Closes the current tab; the caller has to switch to another one.
     pub async fn close_window(&self) -> Answer<()> {
         let path = format!("/session/{}/window", self.session);
         command(self.port, "DELETE", &path, None).await.map(drop)
@@ -176,10 +176,10 @@ impl WebElement {
     }
 }
 
-/// What a hand does with mouse and keyboard, one after the other.
+/// A sequence of actions with mouse and keyboard.
 pub struct Actions {
     driver: WebDriver,
-    /// How long a move takes.
+    /// Duration of a move.
     frame: Duration,
     mouse: Vec<Value>,
     keyboard: Vec<Value>,
@@ -195,7 +195,7 @@ impl Actions {
         }
     }
 
-    /// One of the two rests while the other acts.
+    /// Adds an action of the mouse, during which the keyboard pauses.
     fn with_mouse(mut self, action: Value) -> Self {
         self.mouse.push(action);
         self.keyboard.push(json!({ "type": "pause" }));
@@ -260,7 +260,7 @@ impl Actions {
     }
 }
 
-/// Says a command and waits for its value.
+/// Sends a command and waits for its value.
 async fn command(port: u16, method: &str, path: &str, content: Option<&Value>) -> Answer<Value> {
     let content = content.map(Value::to_string).unwrap_or_default();
     let said = format!(
@@ -282,7 +282,7 @@ async fn command(port: u16, method: &str, path: &str, content: Option<&Value>) -
     }
 }
 
-/// Sends a request, and reads what is answered below its head.
+/// Sends a request, and reads the body of the answer.
 async fn exchange(port: u16, mut said: &[u8]) -> std::io::Result<Vec<u8>> {
     let stream = TcpStream::connect(("127.0.0.1", port)).await?;
     while !said.is_empty() {
@@ -309,7 +309,7 @@ async fn exchange(port: u16, mut said: &[u8]) -> std::io::Result<Vec<u8>> {
     }
 }
 
-/// The content of an answer, once it is there as long as its head says.
+/// The body of an answer, as soon as its length is that of the head.
 fn whole_content(heard: &[u8]) -> Option<&[u8]> {
     let end = heard.windows(4).position(|four| four == b"\r\n\r\n")?;
     let head = std::str::from_utf8(&heard[..end]).expect("a head is text");

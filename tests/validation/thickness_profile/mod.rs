@@ -1,9 +1,8 @@
-//! Blades of varying thickness and with mass at the rim, against finite elements over the radius.
+//! Blades of varying thickness and with mass at the rim, compared with finite elements over the radius.
 //!
-//! The elements here share nothing with the library: Hermite cubics for the deflection and
-//! quadratics for the displacement in the plane, ring by ring, for each number of nodal diameters,
-//! with consistent mass. They converge with the fourth power of the element's width; eighty of them
-//! leave about 1e-7.
+//! The elements share nothing with the library: Hermite cubics for the deflection and quadratics for the displacement
+//! in the plane, ring by ring, for each number of nodal diameters, with consistent mass. They converge with the fourth
+//! power of the element's width; the error of eighty of them is about 1e-7.
 
 mod ring;
 
@@ -26,7 +25,7 @@ const ROWS: [(f64, f64); 4] = [
     (0.31, 1.9e-3),
 ];
 
-/// The same in words of its own: hub, taper, land, thin rim.
+/// The thickness as a function of the radius: hub, taper, land, thin rim.
 fn stepped(r: f64) -> f64 {
     match r {
         r if r < 0.16 => HUB,
@@ -186,7 +185,7 @@ fn the_mass_of_teeth_is_that_of_finite_elements() {
     compare("steps, teeth and a collar", &held, stepped, 1e-4);
 }
 
-/// A profile of one thickness is the blade of that thickness, and so is a step of a billionth.
+/// A profile of constant thickness is a blade of that thickness, and so is one with a step of a billionth.
 #[test]
 fn a_profile_of_one_thickness_is_the_plain_blade() {
     let plain = Plate::new(&saw(|saw| saw.blade.profile.clear()), RESOLUTION);
@@ -204,8 +203,8 @@ fn a_profile_of_one_thickness_is_the_plain_blade() {
     }
 }
 
-/// The virial: what dead loads do to the rigid tilts depends on where they act alone, not on the
-/// blade between.
+/// The virial: the effect of dead loads on the rigid tilts depends on their points of application alone, not on the
+/// blade between them.
 #[test]
 fn edge_loads_turn_a_stepped_blade_as_they_turn_a_plain_one() {
     let loads = [

@@ -10,9 +10,9 @@ const GAUSS: [(f64, f64); 4] = [
     (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
 ];
 
-/// A ring as the finite elements see it.
+/// A ring for the finite elements.
 pub struct Ring {
-    /// Nodes, at every radius where the thickness is not smooth too.
+    /// Nodes, including every radius where the thickness is not smooth.
     pub nodes: Vec<f64>,
     pub thickness: fn(f64) -> f64,
     /// Mass on a circle, all around, at the rim.
@@ -26,7 +26,7 @@ pub struct Ring {
     pub free_strain: fn(f64) -> f64,
 }
 
-/// What the elements are integrated over: radius, weight and the place in the element.
+/// Integration points of an element: radius, weight and the place in the element.
 fn points(from: f64, to: f64) -> impl Iterator<Item = (f64, f64, f64)> {
     let half = 0.5 * (to - from);
     GAUSS
@@ -35,8 +35,7 @@ fn points(from: f64, to: f64) -> impl Iterator<Item = (f64, f64, f64)> {
 }
 
 impl Ring {
-    /// Radial displacement at the ends and the middle of every element: of rotation at one rad/s,
-    /// or of the eigenstrain.
+    /// Radial displacement at the ends and the middle of every element, by rotation at one rad/s or by the eigenstrain.
     fn displacement(&self, of_rotation: bool) -> DVector<f64> {
         let count = 2 * (self.nodes.len() - 1) + 1;
         let plane = self.e / (1.0 - self.nu * self.nu);
@@ -77,7 +76,7 @@ impl Ring {
         stiffness.cholesky().expect("definite").solve(&load)
     }
 
-    /// σ_rr and σ_θθ at the points of every element, of the same.
+    /// σ_rr and σ_θθ at the points of every element, by rotation or by the eigenstrain.
     fn stress(&self, of_rotation: bool) -> Vec<[[f64; 2]; 4]> {
         let plane = self.e / (1.0 - self.nu * self.nu);
         let u = self.displacement(of_rotation);
