@@ -24,7 +24,7 @@
 //! The modules are in the order in which a scene passes through them, and each imports only from those before
 //! it: [`scene`] → [`plate`] → [`system`] → [`spectrum`] → [`campbell`] → [`stability`] → [`transient`] →
 //! [`report`] → [`figure`]. [`check`], [`fit`] and [`place`] follow [`stability`], [`study`] follows
-//! [`check`]. [`spline`] is on the level of [`system`] and imports [`scene`] and [`plate`] alone;
+//! [`check`], and [`map`] follows [`study`]. [`spline`] is on the level of [`system`] and imports [`scene`] and [`plate`] alone;
 //! [`stretched`] is on the level of [`campbell`]. [`analytical`] imports nothing; it contains closed forms
 //! with their sources, with which tests compare the other modules.
 
@@ -49,6 +49,7 @@ pub mod explore;
 pub mod figure;
 pub mod fit;
 pub mod gap;
+pub mod map;
 pub mod place;
 pub mod plate;
 pub mod report;

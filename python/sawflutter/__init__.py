@@ -31,6 +31,7 @@ from .errors import (
     SceneError,
     StudyError,
 )
+from .maps import MapResults
 from .matrices import Matrices
 from .modes import Modes
 from .motions import CutResults, DeflectResults, GapResults, RunUpResults, WashboardResults
@@ -57,6 +58,7 @@ __all__ = [
     "GapResults",
     "InputError",
     "Instability",
+    "MapResults",
     "Matrices",
     "Mode",
     "ModelWarning",

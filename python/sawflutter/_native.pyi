@@ -143,6 +143,22 @@ def page(command: str, report: str) -> str | None: ...
 def vtk_files(report: str) -> list[tuple[str, str]]: ...
 
 @final
+class Map:
+    def __new__(
+        cls,
+        scene: str,
+        x: tuple[str, float, float],
+        y: tuple[str, float, float] | None = None,
+        *,
+        points: SupportsIndex | None = None,
+        rpm: SupportsFloat | None = None,
+        to_rpm: SupportsFloat | None = None,
+    ) -> Map: ...
+    @property
+    def study(self) -> str: ...
+    def report(self, folder: str | os.PathLike[str]) -> str: ...
+
+@final
 class Study:
     def __new__(cls, scene: str, study: str) -> Study: ...
     @property

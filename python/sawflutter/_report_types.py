@@ -30,6 +30,8 @@ Verdict: TypeAlias = Literal["stable", "unstable"]
 
 TurnKind: TypeAlias = Literal["fold", "bifurcation"]
 
+Contoured: TypeAlias = Literal["flutter_speed", "lowest_critical_speed"]
+
 Goal: TypeAlias = Literal["flutter_speed", "stable_window"]
 
 Method: TypeAlias = Literal["reduced", "dense", "critical_speeds"]
@@ -1767,6 +1769,131 @@ class GapReport(Entry):
 
     deviation: Deviation
     """The deflection at the cut."""
+
+    warnings: tuple[str, ...]
+    """Remarks on the validity of the result."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MapAxis(Entry):
+    """A number along an axis of a map."""
+
+    path: str
+    """JSON path in the scene."""
+
+    name: str
+    """Name."""
+
+    unit: str
+    """Unit of the values; empty for a dimensionless number."""
+
+    values: FloatArray
+    """Values, ascending; on a logarithmic scale if the last is at least ten times the first."""
+
+    of_scene: float
+    """Value of the scene."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MappedBand(Entry):
+    """A band of instability of a saw of a map."""
+
+    kind: InstabilityKind
+    """Divergence or flutter."""
+
+    from_rpm: float
+    """Onset."""
+
+    to_rpm: float
+    """End, or the end of the sweep."""
+
+    peak_growth_per_s: float
+    """Largest growth rate."""
+
+    counted_rpm: FloatArray
+    """Ranges of speed in which the band counts; empty for flutter below the threshold."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MappedSaw(Entry):
+    """A saw of a map."""
+
+    x: float
+    """Value of the number along the horizontal axis."""
+
+    y: float | None
+    """Value of the number along the vertical axis; null for a map over the speed."""
+
+    lowest_critical_rpm: float | None
+    """Lowest critical speed; null if the blade has none."""
+
+    flutter_speed_rpm: float | None
+    """Flutter speed; null if no flutter counts within the sweep."""
+
+    instabilities: tuple[MappedBand, ...]
+    """Bands of instability within the sweep, by onset."""
+
+    state: StabilityState | None
+    """Whether the saw is stable at the speed at which the saws are judged; null without such a
+    speed."""
+
+    not_analysed: str | None
+    """Why the saw was not analysed; null if it was."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Contour(Entry):
+    """A line of equal speed."""
+
+    quantity: Contoured
+    """The quantity."""
+
+    rpm: float
+    """Its value along the line."""
+
+    points: FloatArray
+    """Points of the line: values of x and of y."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MapReport(Entry):
+    """map.json."""
+
+    sawflutter: str
+    """Version of the program that wrote the report."""
+
+    scene: SceneDict
+    """The scene, as typed."""
+
+    unusual_numbers: tuple[str, ...]
+    """Numbers that no saw has, each with its key, the usual range, and the remedy."""
+
+    x: MapAxis
+    """The number along the horizontal axis."""
+
+    y: MapAxis | None
+    """The number along the vertical axis; null if that is the speed."""
+
+    rpm: float | None
+    """Speed at which each saw is judged; null if neither the scene nor the options have one."""
+
+    to_rpm: float
+    """Last speed of the sweep, the same for every saw; flutter beyond it is unknown."""
+
+    flutter_threshold_per_s: float
+    """Growth rate from which on a band counts as flutter."""
+
+    saws: tuple[MappedSaw, ...]
+    """The saws, row by row: x varies fastest."""
+
+    contours: tuple[Contour, ...]
+    """Contours of a map over two numbers; empty for a map over the speed."""
+
+    largest_estimated_relative_error: float
+    """Largest estimated relative error of the critical speeds of any saw."""
+
+    saws_with_krein_violations: int
+    """Number of saws with a speed at which the Krein index disagrees; 0 is expected."""
 
     warnings: tuple[str, ...]
     """Remarks on the validity of the result."""

@@ -680,3 +680,8 @@ class StudyDict(_StudyDict, total=False):
 
     confidence: float
     """Confidence of the interval around the probability of passing."""
+
+    bands: bool
+    """Whether the table lists the bands of instability of each saw, in the column `bands`:
+    kind, onset and end in rpm, largest growth rate in 1/s, and the ranges of speed in which the
+    band counts; bands are separated by semicolons."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import Executor
 from functools import partial
-from typing import Literal, SupportsFloat, SupportsIndex, TypeAlias
+from typing import TYPE_CHECKING, Literal, SupportsFloat, SupportsIndex, TypeAlias, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +25,12 @@ from .errors import ModelWarning
 from .matrices import Matrices
 from .results import CampbellResults
 from .stiffness import StiffnessMap
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+    from .maps import Along, MapResults
+    from .scene import Scene
 
 # Paths of the scene and their bounds, or paths with the default bounds.
 Free: TypeAlias = "Mapping[str, tuple[SupportsFloat, SupportsFloat] | None] | Iterable[str] | None"
@@ -193,6 +201,76 @@ class Searches(SceneData):
             other_tolerance_share=other_tolerance_share,
         )
         return self._asked(PlaceResults, ask, "saws", accuracy, tolerance, progress)
+
+    def run_map(
+        self,
+        x: Along,
+        y: Along | None = None,
+        *,
+        points: SupportsIndex | None = None,
+        rpm: Number = None,
+        to_rpm: Number = None,
+        accuracy: Accuracy | None = None,
+        tolerance: Number = None,
+        folder: str | os.PathLike[str] | None = None,
+        executor: Executor | Client | None = None,
+        progress: Progress = None,
+    ) -> MapResults:
+        """Maps stability over one number of the scene and the speed, or over two numbers.
+
+        Parameters
+        ----------
+        x : (str, float, float)
+            Path of the number along the horizontal axis, and the ends of its axis in the unit of
+            the path, or as texts with a unit: ``("blade.thickness_m", "2.4 mm", "3.2 mm")``.
+        y : (str, float, float), optional
+            The number along the vertical axis; by default that is the speed.
+        points : int, optional
+            Points along the axis of a number; by default 41, or 17 along each of two.
+        rpm : float, optional
+            Speed at which the saws are judged; by default the operating speed.
+        to_rpm : float, optional
+            Last speed; by default the end of the scene's sweep.
+        folder : path, optional
+            Folder for the log of the saws and for ``map.json``: a map that was stopped continues
+            when computed again with the same folder. By default nothing is kept.
+        executor
+            As in :meth:`sawflutter.Study.run`.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        MapResults
+
+        Raises
+        ------
+        SceneError
+            If the scene has no such number, or refuses the ends of an axis.
+        StudyError
+            If another argument is out of range.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> found = free.run_map(("blade.thickness_m", "2.5 mm", "3 mm"), points=3)
+        >>> [round(1e3 * value, 3) for value in found.x.values.tolist()]
+        [2.5, 2.75, 3.0]
+        """
+        from .maps import run_map
+
+        return run_map(
+            cast("Scene", self.with_accuracy(accuracy, tolerance)),
+            x,
+            y,
+            points=points,
+            rpm=rpm,
+            to_rpm=to_rpm,
+            folder=folder,
+            executor=executor,
+            progress=progress,
+        )
 
     def tradeoff(self, *, progress: Progress = None) -> TradeoffResults:
         """Measures computing time against true error, for bases of several sizes.

@@ -55,8 +55,18 @@ class Study:
             text = _native.read_text(study, False)
         else:
             text = _values.to_json(study)
+        self._setup(scene, text)
+
+    def _setup(self, scene: Scene, text: str) -> None:
         self.scene, self._native = scene, _native.Study(scene.to_json(), text)
         self._text = json.dumps(json.loads(text))
+
+    @classmethod
+    def _of(cls, scene: Scene, text: str) -> Study:
+        """The study of a JSON text."""
+        study = cls.__new__(cls)
+        study._setup(scene, text)
+        return study
 
     @property
     def count(self) -> int:
@@ -169,6 +179,18 @@ class Study:
         <StudyResults 'Guided spline arbor saw': 4 saws>
         """
         place = Path(folder)
+        self._compute(place, executor, progress)
+        self._sum_up(place)
+        return StudyResults.load(place / "study.json")
+
+    def _compute(
+        self,
+        folder: str | os.PathLike[str],
+        executor: Executor | Client | None,
+        progress: Progress,
+    ) -> None:
+        """Adds the saws that its log does not have to a folder."""
+        place = Path(folder)
         place.mkdir(parents=True, exist_ok=True)
         if progress and (dashboard := getattr(executor, "dashboard_link", None)):
             print(f"dashboard {dashboard}", file=sys.stderr)
@@ -177,8 +199,6 @@ class Study:
                 self._native.run(place, progress=told)
             else:
                 self._fill(executor, place, told)
-        self._sum_up(place)
-        return StudyResults.load(place / "study.json")
 
     def _fill(self, executor: Executor | Client, folder: Path, told: Any = None) -> None:
         """Adds the saws that its log does not have to a folder, without summing them up."""

@@ -5,8 +5,8 @@ use pyo3::types::PyBytes;
 use sawflutter::document;
 use sawflutter::figure::{self, Figures};
 use sawflutter::report::{
-    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, PlaceReport,
-    Report, RunUpReport, WashboardReport,
+    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
+    PlaceReport, Report, RunUpReport, WashboardReport,
 };
 use sawflutter::study::StudyReport;
 use serde::de::DeserializeOwned;
@@ -31,6 +31,7 @@ fn drawn(name: &str, report: &str) -> Result<Option<Vec<u8>>, Failure> {
         of::<WashboardReport>,
         of::<CheckReport>,
         of::<FitReport>,
+        of::<MapReport>,
         of::<PlaceReport>,
         of::<StudyReport>,
     ];
@@ -74,6 +75,7 @@ macro_rules! read {
             "gap" => of!(GapReport),
             "washboard" => of!(WashboardReport),
             "fit" => of!(FitReport),
+            "map" => of!(MapReport),
             "place" => of!(PlaceReport),
             "study" => of!(StudyReport),
             _ => of!(Report),
@@ -107,6 +109,7 @@ pub fn page(command: &str, report: &str) -> PyResult<Option<String>> {
         "gap" => of!(GapReport),
         "washboard" => of!(WashboardReport),
         "fit" => of!(FitReport),
+        "map" => of!(MapReport),
         "place" => of!(PlaceReport),
         _ => return Ok(None),
     }))

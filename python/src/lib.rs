@@ -5,6 +5,7 @@ mod arguments;
 mod commands;
 mod failure;
 mod figures;
+mod map;
 mod matrices;
 mod study;
 mod watch;
@@ -20,6 +21,8 @@ mod _native {
     };
     #[pymodule_export]
     use super::figures::{campbell_csv, chart, page, palette, picture, summary, vtk_files};
+    #[pymodule_export]
+    use super::map::Map;
     #[pymodule_export]
     use super::matrices::{functions_at, matrices};
     #[pymodule_export]

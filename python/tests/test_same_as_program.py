@@ -136,6 +136,25 @@ def test_the_page(programs: list[str], scenes: Path, tmp_path: Path) -> None:
         assert page.read_bytes() == (tmp_path / "own.html").read_bytes()
 
 
+def test_the_report_of_a_map(programs: list[str], scenes: Path, tmp_path: Path) -> None:
+    saw = sf.Scene.load(scenes / "paper.json").with_accuracy("draft")
+    x = ("blade.thickness_m", "2.6 mm", 0.003)
+    found = saw.run_map(x, points=3, rpm=1800, folder=tmp_path / "own")
+    options = ["--x", "blade.thickness_m=2.6mm..3mm", "--points", 3, "--rpm", 1800]
+    for program in programs:
+        path = scenes / "paper.json"
+        same_report(program, found, tmp_path, path, *options)
+    assert sf.load(tmp_path / "map.json") == found
+    # The log of the program holds the saws of the same study.
+    (tmp_path / "map.json").unlink()
+    assert saw.run_map(x, points=3, rpm=1800, folder=tmp_path) == found
+    two = saw.run_map(x, ("guides[0].stiffness_n_per_m", 1e6, 1e8), points=2)
+    assert two.shape == (2, 2)
+    assert (two.lowest_critical_rpm[1] > two.lowest_critical_rpm[0]).all()
+    with pytest.raises(sf.StudyError, match="points is 1"):
+        saw.run_map(x, points=1)
+
+
 def test_the_shapes(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     found = sf.Scene.load(scenes / "paper.json").run_campbell(accuracy="draft", shapes=[1000])
     assert found.shapes[-1].rpm == pytest.approx(1000)

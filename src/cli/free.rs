@@ -5,20 +5,21 @@ use anyhow::{Context, bail};
 
 /// The paths asked for, with their bounds where they are given.
 pub fn named_bounds(asked: &[String]) -> anyhow::Result<Vec<NamedBounds>> {
-    asked.iter().map(|text| parse(text)).collect()
+    asked.iter().map(|text| range("--free", text)).collect()
 }
 
-fn parse(text: &str) -> anyhow::Result<NamedBounds> {
+/// The path and the range of an option, if it has one.
+pub fn range(option: &str, text: &str) -> anyhow::Result<NamedBounds> {
     let Some((path, range)) = text.split_once('=') else {
         return Ok((text.trim().to_owned(), None));
     };
     let Some((from, to)) = range.split_once("..") else {
         bail!(
-            "the range of --free {text} is {range:?}, but must be two numbers; write it like 0.15..0.3"
+            "the range of {option} {text} is {range:?}, but must be two numbers; write it like 0.15..0.3"
         );
     };
     let path = path.trim();
     let bound =
-        |bound| number_of(path, bound).with_context(|| format!("--free {text} was refused"));
+        |bound| number_of(path, bound).with_context(|| format!("{option} {text} was refused"));
     Ok((path.to_owned(), Some((bound(from)?, bound(to)?))))
 }

@@ -14,6 +14,7 @@ mod fit;
 mod free;
 mod gap;
 mod keys;
+mod map;
 mod output;
 mod page;
 mod paint;
@@ -80,6 +81,9 @@ enum Command {
     /// Vary a saw within tolerances or over a grid: quantiles and probability of passing
     #[command(after_help = study::EXAMPLES)]
     Study(study::Arguments),
+    /// Chart stability over one number and the speed, or over two numbers; map.json and a figure
+    #[command(after_help = map::EXAMPLES)]
+    Map(map::Arguments),
     /// Compare saws: Campbell diagrams one over the other, a table; compare.json and a figure
     #[command(after_help = compare::EXAMPLES)]
     Compare(compare::Arguments),
@@ -168,6 +172,7 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
         #[cfg(feature = "explore")]
         Some(Command::Explore(arguments)) => explore::run(&arguments),
         Some(Command::Fit(arguments)) => fit::run(&arguments),
+        Some(Command::Map(arguments)) => map::run(&arguments),
         Some(Command::Compare(arguments)) => compare::run(&arguments),
         Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments),
         Some(Command::Export(arguments)) => export::run(&arguments),

@@ -90,7 +90,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         None => compute(&study, shard, &folder)?,
     }
     if shard != Shard::WHOLE {
-        return print_part(arguments, &study, shard, &folder);
+        let next = format!("sawflutter study merge {}", folder.path().display());
+        return print_part(&arguments.output, &study, shard, &folder, &next);
     }
     let rows = Rows::in_folder(&study, folder.path())?;
     print(&arguments.output, &folder, &rows)
@@ -131,7 +132,7 @@ fn run_merge(merge: &Merge) -> anyhow::Result<()> {
 }
 
 /// Analyses what is missing, each saw logged as soon as it is done.
-fn compute(study: &Study, shard: Shard, folder: &OutputFolder) -> anyhow::Result<()> {
+pub fn compute(study: &Study, shard: Shard, folder: &OutputFolder) -> anyhow::Result<()> {
     let mut log = Log::open(folder.path(), shard, study)?;
     let (done, of) = (log.finished().done(), shard.count(study.count()));
     if done == of {
@@ -241,23 +242,24 @@ fn print(output: &Output, folder: &OutputFolder, rows: &Rows<'_>) -> anyhow::Res
     output.print_written(folder, writing, &optional, &json, || report.summary())
 }
 
-fn print_part(
-    arguments: &Arguments,
+/// Says where the log of a part is, and what follows when all parts are done.
+pub fn print_part(
+    output: &Output,
     study: &Study,
     shard: Shard,
     folder: &OutputFolder,
+    next: &str,
 ) -> anyhow::Result<()> {
     let saws = shard.count(study.count());
     let path = folder.path().join(Log::name(shard));
     let (Shard { number, of }, log) = (shard, path.display().to_string());
-    if arguments.output.json {
+    if output.json {
         let part = serde_json::json!({ "shard": number, "of": of, "saws": saws, "log": log });
         say(&format!("{part}\n"))?;
     } else {
-        let folder = folder.path().display();
         say(&format!(
             "Part {number} of {of}: {saws} saws in {log}\n\
-             When all parts are done: sawflutter study merge {folder}\n"
+             When all parts are done: {next}\n"
         ))?;
     }
     Ok(())
@@ -271,7 +273,8 @@ fn read_study(path: &Path) -> anyhow::Result<StudyFile> {
 /// More parts than a cluster has.
 const MAX_SHARDS: usize = 100_000;
 
-fn shard(text: &str) -> Result<Shard, String> {
+/// The part of an option.
+pub fn shard(text: &str) -> Result<Shard, String> {
     let numbers = text
         .split_once('/')
         .and_then(|(number, of)| Some((number.parse::<usize>().ok()?, of.parse::<usize>().ok()?)));

@@ -11,8 +11,8 @@ pub use layout::page;
 
 use crate::figure::Figures;
 use crate::report::{
-    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, PlaceReport,
-    Report, RunUpReport, WashboardReport,
+    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
+    PlaceReport, Report, RunUpReport, WashboardReport,
 };
 use crate::scene::SceneFile;
 
@@ -80,6 +80,7 @@ documented! {
     DeflectReport: "deflect",
     GapReport: "gap",
     FitReport: "fit",
+    MapReport: "map",
     PlaceReport: "place",
     RunUpReport: "runup",
     WashboardReport: "washboard",

@@ -4,12 +4,12 @@ use super::campbell::CampbellView;
 use super::canvas::Sheet;
 use super::chart_data::ChartData;
 use super::{
-    FigureError, campbell, check, compare, cut, cut_map, deflect, fit, gap, in_cut, membrane,
+    FigureError, campbell, check, compare, cut, cut_map, deflect, fit, gap, in_cut, map, membrane,
     modes, place, render, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
-    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, PlaceReport,
-    Report, RunUpReport, WashboardReport,
+    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
+    PlaceReport, Report, RunUpReport, WashboardReport,
 };
 use crate::stability::Setting;
 use crate::study::StudyReport;
@@ -225,6 +225,14 @@ impl Figures for FitReport {
 
     fn figures(&self) -> Vec<Figure> {
         named(Self::NAMES, [Some(fit::sheet(self))])
+    }
+}
+
+impl Figures for MapReport {
+    const NAMES: &'static [[&'static str; 2]] = &[["map.png", "map.svg"]];
+
+    fn figures(&self) -> Vec<Figure> {
+        named(Self::NAMES, [Some(map::sheet(self))])
     }
 }
 

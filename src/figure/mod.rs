@@ -5,6 +5,7 @@
 //! A figure is laid out on a `Sheet`, a list of marks in figure units, and then rendered to PNG bytes or an
 //! SVG string. This module writes no files.
 
+mod along;
 mod axis;
 mod bands;
 mod campbell;
@@ -36,6 +37,7 @@ mod heat;
 mod in_cut;
 mod key;
 mod letters;
+mod map;
 mod meeting;
 mod membrane;
 mod modes;

@@ -1,10 +1,11 @@
 //! The goal over two numbers of a guide, with marks for the best saw and for the saw that is best at its
 //! nominal numbers.
 
+use super::along::Along;
 use super::canvas::{Sheet, Stroke};
 use super::heading;
 use super::key::Key;
-use super::place_map::{Along, BROKEN, HEIGHT, PANEL, Shades, draw_panel, empty, goals, title};
+use super::place_map::{BROKEN, HEIGHT, PANEL, Shades, draw_panel, empty, goals, title};
 use super::style::{ALARM, BETWEEN_FACTS, INK, PAPER, STRONG_CURVE};
 use super::written::in_words;
 use crate::report::{GoalEntry, MapEntry, PlaceReport};

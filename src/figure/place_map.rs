@@ -1,10 +1,10 @@
 //! Axes, cells and colour bar of the goal over two numbers of a guide.
 
-use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
+use super::along::Along;
+use super::axis::{draw_named, draw_vertical, tick_label};
 use super::canvas::{Frame, Sheet};
 use super::heat::{draw_grid, draw_scale, ramp};
 use super::style::Colour;
-use super::written;
 use crate::report::{GoalEntry, MapEntry};
 
 const WIDTH: u32 = 1100;
@@ -26,47 +26,6 @@ const LOW_TO_HIGH: [Colour; 5] = [
 ];
 /// Colour of saws that break the limit, and of cells without a saw.
 pub const BROKEN: Colour = plotters::style::RGBColor(214, 216, 220);
-
-/// The axis of a number of the scene, logarithmic if its bounds are decades apart. It is half a cell longer
-/// on either side, so that a saw at a bound lies within.
-pub struct Along {
-    axis: Axis,
-    values: Vec<f64>,
-    /// Factor from the unit of the scene to the unit of the axis.
-    factor: f64,
-    name: String,
-}
-
-impl Along {
-    fn new(path: &str, values: &[f64], places: [f64; 2]) -> Self {
-        let (unit, factor) = written::unit(path);
-        let name = match unit {
-            "" => written::name(path),
-            _ => format!("{}\u{2003}[{unit}]", written::name(path)),
-        };
-        let values: Vec<f64> = values.iter().map(|value| factor * value).collect();
-        let first = values.first().copied().unwrap_or(0.0);
-        let last = values.last().copied().unwrap_or(1.0);
-        let cells = values.len().saturating_sub(1).max(1) as f64;
-        let (spread, ends) = if first > 0.0 && last >= 10.0 * first {
-            let half = (last / first).powf(0.5 / cells);
-            (Spread::Logarithmic, [first / half, last * half])
-        } else {
-            let half = 0.5 * (last - first) / cells;
-            (Spread::Linear, [first - half, last + half])
-        };
-        Along {
-            axis: Axis::new(ends, places, spread),
-            values,
-            factor,
-            name,
-        }
-    }
-
-    pub fn at(&self, value: f64) -> f64 {
-        self.axis.at(self.factor * value)
-    }
-}
 
 /// An empty sheet.
 pub fn empty() -> Sheet {
@@ -126,9 +85,9 @@ pub fn draw_panel(
     shades: &Shades,
     colour: impl Fn(usize, usize) -> Colour,
 ) -> (Along, Along) {
-    let x = Along::new(&map.x_path, &map.x, [PANEL.left, PANEL.right]);
+    let x = Along::of_cells(&map.x_path, &map.x, [PANEL.left, PANEL.right]);
     let y_path = map.y_path.as_deref();
-    let y = Along::new(
+    let y = Along::of_cells(
         y_path.unwrap_or_default(),
         &map.y,
         [PANEL.bottom, PANEL.top],

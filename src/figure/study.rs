@@ -225,6 +225,7 @@ mod tests {
                 functions: 85,
                 estimated_relative_error: 1e-3,
                 krein_violations: 0,
+                bands: Vec::new(),
             };
             Saw {
                 index,

@@ -21,6 +21,7 @@ mod gap;
 #[cfg(feature = "page")]
 mod growing;
 mod in_cut;
+mod map;
 mod membrane;
 mod mode;
 mod place;
@@ -55,6 +56,9 @@ pub use self::gap::{AtAmplitudeEntry, DeviationEntry, GapReport};
 #[cfg(feature = "page")]
 pub(crate) use self::growing::GrowingMapEntry;
 pub use self::in_cut::{IdlingEntry, InCutEntry};
+pub use self::map::{
+    ContourEntry, ContouredEntry, MapAxisEntry, MapReport, MappedBandEntry, MappedSawEntry,
+};
 pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry};
 pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
 pub use self::place::{

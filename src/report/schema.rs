@@ -5,8 +5,8 @@ use schemars::generate::SchemaSettings;
 use serde_json::{Value, json};
 
 use super::{
-    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, ModeEntry,
-    PlaceReport, Report, RunUpReport, WashboardReport,
+    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
+    ModeEntry, PlaceReport, Report, RunUpReport, WashboardReport,
 };
 use crate::stability::Setting;
 use crate::study::StudyReport;
@@ -22,6 +22,7 @@ pub fn json_schema() -> Value {
         "deflect": of::<DeflectReport>(),
         "gap": of::<GapReport>(),
         "fit": of::<FitReport>(),
+        "map": of::<MapReport>(),
         "modes": of::<Vec<ModeEntry>>(),
         "place": of::<PlaceReport>(),
         "runup": of::<RunUpReport>(),

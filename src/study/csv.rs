@@ -3,8 +3,9 @@
 use std::io::{self, Write};
 
 use super::plan::Study;
-use super::saw::{Found, Outcome, Saw};
+use super::saw::{Found, FoundBand, Outcome, Saw};
 use super::table::Table;
+use crate::stability::InstabilityKind;
 
 /// Values of the column `status`.
 pub(super) const STATUS: [&str; 3] = ["analysed", "refused", "failed"];
@@ -53,18 +54,16 @@ pub(super) fn columns(study: &Study) -> Vec<String> {
         "first_merge_rpm",
         "passed",
     ];
-    let after = [
-        "functions",
-        "estimated_relative_error",
-        "krein_violations",
-        "reason",
-    ];
+    let after = ["functions", "estimated_relative_error", "krein_violations"];
+    let bands = study.file().bands.then(|| "bands".to_owned());
     let owned = |names: &[&str]| names.iter().map(|n| (*n).to_owned()).collect::<Vec<_>>();
     std::iter::once("saw".to_owned())
         .chain(paths)
         .chain(owned(&before))
         .chain(kept)
         .chain(owned(&after))
+        .chain(bands)
+        .chain(["reason".to_owned()])
         .collect()
 }
 
@@ -89,6 +88,9 @@ pub(super) fn record(study: &Study, saw: &Saw) -> Vec<String> {
     cells.push(text(found.map(|f| f.functions.to_string())));
     cells.push(number(found.map(|f| f.estimated_relative_error)));
     cells.push(text(found.map(|f| f.krein_violations.to_string())));
+    if study.file().bands {
+        cells.push(text(found.map(|f| bands_in_words(&f.bands))));
+    }
     cells.push(reason.to_owned());
     cells
 }
@@ -108,7 +110,7 @@ pub(super) fn saw(study: &Study, cells: &mut dyn Iterator<Item = &str>) -> Optio
         1 => Outcome::Refused((*reason).to_owned()),
         _ => Outcome::Failed((*reason).to_owned()),
     };
-    let width = study.criteria_of_nothing().len() + 7;
+    let width = study.criteria_of_nothing().len() + 7 + usize::from(study.file().bands);
     (index < study.count() && speeds.len() == width).then_some(Saw {
         index,
         values,
@@ -120,6 +122,10 @@ fn found(study: &Study, cells: &[&str]) -> Option<Found> {
     let number = |cell: &str| match cell {
         "" => Some(None),
         digits => digits.parse::<f64>().ok().map(Some),
+    };
+    let (bands, cells) = match (study.file().bands, cells.split_last()) {
+        (true, Some((bands, cells))) => (bands_of(bands)?, cells),
+        _ => (Vec::new(), cells),
     };
     let [
         critical,
@@ -144,5 +150,43 @@ fn found(study: &Study, cells: &[&str]) -> Option<Found> {
         functions: functions.parse().ok()?,
         estimated_relative_error: number(error)??,
         krein_violations: violations.parse().ok()?,
+        bands,
     })
+}
+
+/// Bands as text: "divergence 1500 1560 0.4 1500 1560;flutter 2255.9 2266.1 0.1".
+pub(super) fn bands_in_words(bands: &[FoundBand]) -> String {
+    let band = |band: &FoundBand| {
+        let kind = match band.kind {
+            InstabilityKind::Divergence => "divergence",
+            InstabilityKind::Flutter => "flutter",
+        };
+        let numbers = [band.from_rpm, band.to_rpm, band.peak_growth_per_s];
+        let numbers = numbers.iter().chain(band.counted_rpm.iter().flatten());
+        numbers.fold(kind.to_owned(), |text, number| format!("{text} {number}"))
+    };
+    bands.iter().map(band).collect::<Vec<_>>().join(";")
+}
+
+fn bands_of(text: &str) -> Option<Vec<FoundBand>> {
+    let band = |text: &str| {
+        let (kind, numbers) = text.split_once(' ')?;
+        let kind = match kind {
+            "divergence" => InstabilityKind::Divergence,
+            "flutter" => InstabilityKind::Flutter,
+            _ => return None,
+        };
+        let numbers = numbers.split(' ').map(|number| number.parse().ok());
+        let numbers: Vec<f64> = numbers.collect::<Option<_>>()?;
+        let (&[from_rpm, to_rpm, peak_growth_per_s], counted) = numbers.split_first_chunk()?;
+        Some(FoundBand {
+            kind,
+            from_rpm,
+            to_rpm,
+            peak_growth_per_s,
+            counted_rpm: counted.chunks_exact(2).map(|c| [c[0], c[1]]).collect(),
+        })
+    };
+    let parts = text.split(';').filter(|part| !part.is_empty());
+    parts.map(band).collect()
 }

@@ -38,6 +38,10 @@ pub struct StudyFile {
     /// Confidence of the interval around the probability of passing.
     #[serde(default = "default_confidence")]
     pub confidence: f64,
+    /// Whether the table lists the bands of instability of each saw, in the column `bands`: kind, onset and end in rpm, largest
+    /// growth rate in 1/s, and the ranges of speed in which the band counts; bands are separated by semicolons.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub bands: bool,
 }
 
 fn default_quantiles() -> Vec<f64> {

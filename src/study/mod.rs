@@ -66,7 +66,7 @@ pub use report::{
 };
 #[doc(hidden)]
 pub use rows::Rows;
-pub use saw::{Found, Outcome, Saw};
+pub use saw::{Found, FoundBand, Outcome, Saw};
 #[doc(hidden)]
 pub use sum::sum_up;
 #[doc(hidden)]

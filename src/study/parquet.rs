@@ -11,7 +11,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{Type, TypePtr};
 
-use super::csv::{STATUS, columns};
+use super::csv::{STATUS, bands_in_words, columns};
 use super::inputs::Inputs;
 use super::plan::Study;
 use super::saw::{Found, Outcome, Saw};
@@ -98,11 +98,16 @@ fn values(study: &Study, saws: &[Saw]) -> Vec<Column> {
         integers(&|saw| saw.found().map(|found| found.functions)),
         speeds(|found| Some(found.estimated_relative_error)),
         integers(&|saw| saw.found().map(|found| found.krein_violations)),
-        texts(|saw| match &saw.outcome {
-            Outcome::Analysed(_) => None,
-            Outcome::Refused(reason) | Outcome::Failed(reason) => Some(reason.clone()),
-        }),
     ]);
+    if study.file().bands {
+        columns.push(texts(|saw| {
+            saw.found().map(|found| bands_in_words(&found.bands))
+        }));
+    }
+    columns.push(texts(|saw| match &saw.outcome {
+        Outcome::Analysed(_) => None,
+        Outcome::Refused(reason) | Outcome::Failed(reason) => Some(reason.clone()),
+    }));
     columns
 }
 

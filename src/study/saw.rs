@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::plan::Study;
 use crate::scene::{Scene, rpm};
-use crate::stability::{AnalysisError, Evidence, Onsets};
+use crate::stability::{AnalysisError, Evidence, Instability, InstabilityKind, Onsets};
 
 /// A saw and its result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -31,7 +31,7 @@ pub enum Outcome {
 }
 
 /// Speeds of a saw, and the limits that it keeps.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Found {
     /// Lowest critical speed; `None` if the blade has none.
     pub lowest_critical_rpm: Option<f64>,
@@ -47,6 +47,37 @@ pub struct Found {
     pub estimated_relative_error: f64,
     /// Number of speeds at which the Krein index disagrees; 0 is expected.
     pub krein_violations: usize,
+    /// Bands of instability by onset; empty in a study that does not list them.
+    #[serde(default)]
+    pub bands: Vec<FoundBand>,
+}
+
+/// A band of instability of a saw.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FoundBand {
+    /// Divergence or flutter.
+    pub kind: InstabilityKind,
+    /// Onset.
+    pub from_rpm: f64,
+    /// End, or the end of the sweep.
+    pub to_rpm: f64,
+    /// Largest growth rate.
+    pub peak_growth_per_s: f64,
+    /// Ranges of speed in which the band counts; empty for flutter below the threshold.
+    pub counted_rpm: Vec<[f64; 2]>,
+}
+
+impl FoundBand {
+    fn new(band: &Instability, threshold_per_s: f64) -> Self {
+        let counted = band.counted(threshold_per_s).into_iter();
+        FoundBand {
+            kind: band.kind,
+            from_rpm: rpm(band.from_rad_per_s),
+            to_rpm: rpm(band.to_rad_per_s),
+            peak_growth_per_s: band.peak_growth_per_s,
+            counted_rpm: counted.map(|(from, to)| [rpm(from), rpm(to)]).collect(),
+        }
+    }
 }
 
 impl Outcome {
@@ -105,7 +136,10 @@ impl Study {
             range_rad_per_s: (0.0, self.to_rad_per_s()),
         };
         let criteria = self.limits().map(|limits| limits.criteria(&evidence));
+        let listed = onsets.instabilities.iter().filter(|_| self.file().bands);
+        let bands = listed.map(|band| FoundBand::new(band, scene.flutter_threshold_per_s()));
         Ok(Found {
+            bands: bands.collect(),
             lowest_critical_rpm: onsets.lowest_critical_rad_per_s.map(rpm),
             flutter_rpm: onsets.flutter_speed_rad_per_s.map(rpm),
             first_merge_rpm: onsets.first_merge_rad_per_s.map(rpm),

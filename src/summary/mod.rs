@@ -14,6 +14,7 @@ mod fit;
 mod gap;
 mod in_cut;
 mod influences;
+mod map;
 mod place;
 mod report;
 mod runup;

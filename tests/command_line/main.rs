@@ -20,6 +20,7 @@ mod faults;
 mod gap;
 mod growth;
 mod input;
+mod map;
 mod matrices;
 mod membrane;
 #[cfg(target_os = "linux")]

@@ -1,0 +1,68 @@
+//! Maps: the grid of saws that is computed as a study, and the report of their rows.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use sawflutter::map::{self, Options, Range};
+use sawflutter::report::MapReport;
+use sawflutter::study::Rows;
+
+use crate::arguments;
+use crate::failure::Failure;
+use crate::watch::compute;
+
+/// A path of the scene and the ends of its axis.
+type Along = (String, f64, f64);
+
+/// A map of a scene.
+#[pyclass(frozen, module = "sawflutter._native")]
+pub struct Map(map::Map);
+
+#[pymethods]
+impl Map {
+    #[new]
+    #[pyo3(signature = (scene, x, y=None, *, points=None, rpm=None, to_rpm=None))]
+    fn new(
+        py: Python<'_>,
+        scene: &str,
+        x: Along,
+        y: Option<Along>,
+        points: Option<usize>,
+        rpm: Option<f64>,
+        to_rpm: Option<f64>,
+    ) -> PyResult<Self> {
+        let scene = arguments::scene(scene)?;
+        let range = |(path, from, to)| Range { path, from, to };
+        let options = Options {
+            x: range(x),
+            y: y.map(range),
+            points,
+            rpm,
+            to_rpm,
+        };
+        // Without an end of the sweep, the saw of the scene itself is analysed for one.
+        let map = compute(py, None, move |_| Ok(map::Map::new(scene, &options)?))?;
+        Ok(Map(map))
+    }
+
+    /// The study of its saws, as JSON.
+    #[getter]
+    fn study(&self) -> PyResult<String> {
+        let file = self.0.study().file();
+        Ok(serde_json::to_string(file).map_err(Failure::from)?)
+    }
+
+    /// `map.json` of the saws in the logs of a folder.
+    fn report(&self, py: Python<'_>, folder: PathBuf) -> PyResult<String> {
+        let report = py.detach(|| self.reported(&folder))?;
+        Ok(report)
+    }
+}
+
+impl Map {
+    fn reported(&self, folder: &std::path::Path) -> Result<String, Failure> {
+        let rows = Rows::in_folder(self.0.study(), folder)?;
+        let report = MapReport::of_rows(&self.0, &rows)?;
+        Ok(serde_json::to_string_pretty(&report)?)
+    }
+}

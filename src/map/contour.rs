@@ -1,0 +1,130 @@
+//! Contours of a speed over a grid, by marching squares.
+
+/// A line of equal speed over the two numbers of a map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contour {
+    /// The speed.
+    pub rpm: f64,
+    /// Points of the line, as places in the grid: column and row, with shares of the way to the next.
+    pub places: Vec<[f64; 2]>,
+}
+
+/// Number of contours aimed at.
+const LEVELS: f64 = 8.0;
+
+/// Contours at round speeds of values over a grid, one row for each value of y. Between the corners of a cell the values vary
+/// linearly along its edges. A cell of which a corner has no value has no contours.
+pub fn contours(rows: &[Vec<Option<f64>>]) -> Vec<Contour> {
+    let levels = levels(rows.iter().flatten().flatten().copied());
+    let level = |rpm: f64| {
+        let lines = joined(segments(rows, rpm)).into_iter();
+        lines.map(move |places| Contour { rpm, places })
+    };
+    levels.into_iter().flat_map(level).collect()
+}
+
+/// Round speeds strictly between the smallest and the largest value.
+fn levels(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+        (low.min(value), high.max(value))
+    });
+    let raw = (high - low) / LEVELS;
+    if !raw.is_finite() || raw <= 1e-9 * high.abs() {
+        return Vec::new();
+    }
+    let ten = 10f64.powf(raw.log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * ten);
+    let step = step
+        .into_iter()
+        .find(|step| *step >= raw)
+        .unwrap_or(10.0 * ten);
+    let first = (low / step).floor() as i64 + 1;
+    (first..)
+        .map(|k| k as f64 * step)
+        .take_while(|level| *level < high)
+        .collect()
+}
+
+type Segment = [[f64; 2]; 2];
+
+fn segments(rows: &[Vec<Option<f64>>], level: f64) -> Vec<Segment> {
+    let mut segments = Vec::new();
+    for (row, pair) in rows.windows(2).enumerate() {
+        for column in 0..pair[0].len().saturating_sub(1) {
+            let corners = [
+                pair[0][column],
+                pair[0][column + 1],
+                pair[1][column + 1],
+                pair[1][column],
+            ];
+            if let [Some(a), Some(b), Some(c), Some(d)] = corners {
+                cell(
+                    [a, b, c, d],
+                    [column as f64, row as f64],
+                    level,
+                    &mut segments,
+                );
+            }
+        }
+    }
+    // A level through a corner also gives segments without length, which would end lines there.
+    segments.retain(|[a, b]| a != b);
+    segments
+}
+
+/// The segments in a cell whose corners, in turn around it from its origin, have these values.
+fn cell(corners: [f64; 4], [x, y]: [f64; 2], level: f64, segments: &mut Vec<Segment>) {
+    const AROUND: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let above = corners.map(|value| value > level);
+    let mut crossings = Vec::new();
+    for k in 0..4 {
+        let next = (k + 1) % 4;
+        if above[k] != above[next] {
+            // Both cells at an edge compute its crossing from the same end, so that it has the same bits.
+            let (from, to) = match k < 2 {
+                true => (k, next),
+                false => (next, k),
+            };
+            let share = (level - corners[from]) / (corners[to] - corners[from]);
+            let at =
+                |axis: usize| AROUND[from][axis] + share * (AROUND[to][axis] - AROUND[from][axis]);
+            crossings.push([x + at(0), y + at(1)]);
+        }
+    }
+    match crossings[..] {
+        [a, b] => segments.push([a, b]),
+        // A saddle: the mean of the corners decides which of them are joined.
+        [a, b, c, d] => {
+            let mean = 0.25 * corners.iter().sum::<f64>();
+            match (mean > level) == above[0] {
+                true => segments.extend([[a, b], [c, d]]),
+                false => segments.extend([[d, a], [b, c]]),
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Lines of segments that share their ends.
+fn joined(mut segments: Vec<Segment>) -> Vec<Vec<[f64; 2]>> {
+    let mut lines = Vec::new();
+    while let Some([from, to]) = segments.pop() {
+        let mut line = std::collections::VecDeque::from([from, to]);
+        while let Some(end) = next(&mut segments, line[line.len() - 1]) {
+            line.push_back(end);
+        }
+        while let Some(end) = next(&mut segments, line[0]) {
+            line.push_front(end);
+        }
+        lines.push(line.into());
+    }
+    lines
+}
+
+/// Takes a segment that begins or ends at a point from the list; returns its other end.
+fn next(segments: &mut Vec<Segment>, at: [f64; 2]) -> Option<[f64; 2]> {
+    let near = |point: &[f64; 2]| (point[0] - at[0]).hypot(point[1] - at[1]) < 1e-9;
+    let place = segments.iter().position(|pair| pair.iter().any(near))?;
+    let [a, b] = segments.swap_remove(place);
+    Some(if near(&a) { b } else { a })
+}

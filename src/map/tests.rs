@@ -1,0 +1,51 @@
+use super::*;
+use crate::stability::InstabilityKind;
+
+fn grid(size: usize, value: impl Fn(f64, f64) -> f64) -> Vec<Vec<Option<f64>>> {
+    let row = |y: usize| (0..size).map(|x| Some(value(x as f64, y as f64))).collect();
+    (0..size).map(row).collect()
+}
+
+/// Reference: the contours of a plane are straight lines, those of a cone closed circles.
+#[test]
+fn contours_of_a_plane_and_of_a_cone_are_lines_and_circles() {
+    let plane = contours(&grid(9, |x, y| 1000.0 + 30.0 * x + 10.0 * y));
+    assert_eq!(plane.len(), 6, "every 50 rpm from 1050 to 1300");
+    for line in &plane {
+        for [x, y] in &line.places {
+            assert!((1000.0 + 30.0 * x + 10.0 * y - line.rpm).abs() < 1e-9);
+        }
+    }
+    let middle = 20.0;
+    let cone = contours(&grid(41, |x, y| (x - middle).hypot(y - middle)));
+    let within: Vec<&Contour> = cone.iter().filter(|line| line.rpm < 19.0).collect();
+    assert!(within.len() >= 3);
+    for line in within {
+        assert_eq!(line.places.first(), line.places.last());
+        for [x, y] in &line.places {
+            let radius = (x - middle).hypot(y - middle);
+            // The chord of a cell lies within the circle by at most 1/(8 r).
+            assert!((radius - line.rpm).abs() < 0.2 / line.rpm, "{radius}");
+        }
+    }
+    let hole = contours(&[vec![Some(1.0), None], vec![Some(2.0), Some(3.0)]]);
+    assert!(hole.is_empty());
+    assert!(contours(&grid(3, |_, _| 7.0)).is_empty());
+}
+
+#[test]
+fn divergence_counts_before_flutter() {
+    let band = |kind, counted: &[[f64; 2]]| FoundBand {
+        kind,
+        from_rpm: 1000.0,
+        to_rpm: 1100.0,
+        peak_growth_per_s: 0.3,
+        counted_rpm: counted.to_vec(),
+    };
+    let flutter = band(InstabilityKind::Flutter, &[[1020.0, 1080.0]]);
+    let divergence = band(InstabilityKind::Divergence, &[[1000.0, 1050.0]]);
+    let bands = [flutter, divergence];
+    let states = [990.0, 1010.0, 1030.0, 1060.0, 1090.0].map(|rpm| state_at(&bands, rpm));
+    use StabilityState::{Divergence, Flutter, Stable};
+    assert_eq!(states, [Stable, Divergence, Divergence, Flutter, Stable]);
+}

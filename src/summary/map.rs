@@ -1,0 +1,185 @@
+//! The summary of a map.
+
+use std::fmt::Write;
+
+use super::{ROWS, WIDTH, shortened, unusual_numbers, wrapped};
+use crate::report::{MapAxisEntry, MapReport, MappedSawEntry, StabilityState};
+use crate::text::{shown, shown_to};
+
+/// A speed of a saw.
+type Speed = fn(&MappedSawEntry) -> Option<f64>;
+
+impl MapReport {
+    /// The summary, 80 columns wide: how many saws are stable, the range of the flutter speed, and a table.
+    pub fn summary(&self) -> String {
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = of_report(&mut text, self);
+        text
+    }
+}
+
+fn of_report(text: &mut String, report: &MapReport) -> std::fmt::Result {
+    unusual_numbers(text, &report.unusual_numbers)?;
+    verdict(text, report)?;
+    speeds(text, report)?;
+    let name = shortened(&report.scene.name, WIDTH - 10);
+    writeln!(text, "\n{} saws of {name}", report.saws.len())?;
+    for axis in std::iter::once(&report.x).chain(&report.y) {
+        writeln!(text, "{}", wrapped(&format!("  {}", range(axis))))?;
+    }
+    if report.y.is_none() {
+        table(text, report)?;
+    }
+    remarks(text, report)
+}
+
+fn range(axis: &MapAxisEntry) -> String {
+    let ends = [axis.values.first(), axis.values.last()].map(|end| end.copied().unwrap_or(0.0));
+    let [from, to] = ends.map(|value| shown_to(6, value));
+    let unit = match axis.unit.as_str() {
+        "" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    format!(
+        "{} ({}) from {from} to {to}{unit}; the scene has {}{unit}",
+        axis.path,
+        axis.name,
+        shown(axis.of_scene)
+    )
+}
+
+fn verdict(text: &mut String, report: &MapReport) -> std::fmt::Result {
+    let Some(rpm) = report.rpm else {
+        return writeln!(
+            text,
+            "{}",
+            wrapped(
+                "No saw is judged: the scene has no operating_rpm, and no speed was given (--rpm)"
+            )
+        );
+    };
+    let count = |state: StabilityState| {
+        let saws = report.saws.iter();
+        saws.filter(|saw| saw.state == Some(state)).count()
+    };
+    let judged = report.saws.iter().filter(|saw| saw.state.is_some()).count();
+    let [stable, divergence, flutter] = [
+        StabilityState::Stable,
+        StabilityState::Divergence,
+        StabilityState::Flutter,
+    ]
+    .map(count);
+    writeln!(
+        text,
+        "{}",
+        wrapped(&format!(
+            "At {rpm:.0} rpm {stable} of {judged} saws are stable, {divergence} diverge, {flutter} flutter"
+        ))
+    )
+}
+
+/// Writes the saws with the lowest and the highest flutter speed and critical speed.
+fn speeds(text: &mut String, report: &MapReport) -> std::fmt::Result {
+    let kinds: [(&str, Speed); 2] = [
+        ("Flutter speed", |saw| saw.flutter_speed_rpm),
+        ("Lowest critical speed", |saw| saw.lowest_critical_rpm),
+    ];
+    for (name, of) in kinds {
+        let known = report.saws.iter().filter_map(|saw| Some((of(saw)?, saw)));
+        let by_speed = |a: &(f64, &MappedSawEntry), b: &(f64, &MappedSawEntry)| a.0.total_cmp(&b.0);
+        let ends = known.clone().min_by(by_speed).zip(known.max_by(by_speed));
+        let Some((low, high)) = ends else {
+            let to = report.to_rpm;
+            writeln!(text, "{name}: none up to {to:.0} rpm")?;
+            continue;
+        };
+        let place = |saw: &MappedSawEntry| {
+            let y = report.y.as_ref().zip(saw.y);
+            let all = std::iter::once((&report.x, saw.x)).chain(y);
+            let all = all.map(|(axis, value)| {
+                let unit = axis.unit.as_str();
+                let key = axis.path.rsplit('.').next().unwrap_or(&axis.path);
+                format!("{key} = {} {unit}", shown_to(5, value))
+                    .trim_end()
+                    .to_owned()
+            });
+            all.collect::<Vec<_>>().join(", ")
+        };
+        let line = format!(
+            "{name}: {:.1} rpm ({}) to {:.1} rpm ({})",
+            low.0,
+            place(low.1),
+            high.0,
+            place(high.1)
+        );
+        writeln!(text, "{}", wrapped(&line))?;
+    }
+    let beyond = report
+        .saws
+        .iter()
+        .filter(|saw| saw.flutter_speed_rpm.is_none() && saw.not_analysed.is_none());
+    match beyond.count() {
+        0 => Ok(()),
+        count => writeln!(
+            text,
+            "  {count} saws do not flutter up to {:.0} rpm",
+            report.to_rpm
+        ),
+    }
+}
+
+fn table(text: &mut String, report: &MapReport) -> std::fmt::Result {
+    let key = report.x.path.rsplit('.').next().unwrap_or(&report.x.path);
+    writeln!(
+        text,
+        "\n  {:<24} critical   flutter   bands   state",
+        shortened(key, 24)
+    )?;
+    // Evenly spaced rows, with the first and the last.
+    let last = report.saws.len().saturating_sub(1);
+    let rows = ROWS.min(report.saws.len());
+    let shown_rows = (0..rows).map(|k| k * last / rows.saturating_sub(1).max(1));
+    for saw in shown_rows.filter_map(|k| report.saws.get(k)) {
+        let number = |rpm: Option<f64>| rpm.map_or("–".to_owned(), |rpm| format!("{rpm:.1}"));
+        let state = match saw.state {
+            _ if saw.not_analysed.is_some() => "not analysed",
+            None => "–",
+            Some(StabilityState::Stable) => "stable",
+            Some(StabilityState::Divergence) => "divergence",
+            Some(StabilityState::Flutter) => "flutter",
+            Some(StabilityState::OutsideSweep) => "outside sweep",
+        };
+        writeln!(
+            text,
+            "  {:<24} {:>8} {:>9} {:>7}   {state}",
+            shown_to(6, saw.x),
+            number(saw.lowest_critical_rpm),
+            number(saw.flutter_speed_rpm),
+            saw.instabilities.len()
+        )?;
+    }
+    match report.saws.len() - rows {
+        0 => Ok(()),
+        rest => writeln!(text, "  … and {rest} more in map.json"),
+    }
+}
+
+fn remarks(text: &mut String, report: &MapReport) -> std::fmt::Result {
+    writeln!(
+        text,
+        "\nEstimated error of critical speeds: {} % at most",
+        shown_to(2, 100.0 * report.largest_estimated_relative_error)
+    )?;
+    if report.saws_with_krein_violations > 0 {
+        writeln!(
+            text,
+            "The Krein index does not match in {} saws",
+            report.saws_with_krein_violations
+        )?;
+    }
+    for warning in &report.warnings {
+        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
+    }
+    Ok(())
+}

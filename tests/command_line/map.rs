@@ -1,0 +1,174 @@
+//! Goal: a map holds what each of its saws is alone; a run that was stopped continues.
+//!
+//! Independent values: `analyze` of the scene with the numbers typed in; the critical speed of a blade without guides is
+//! proportional to its thickness.
+
+use sawflutter::report::{MapReport, Report, StabilityState};
+use sawflutter::scene::{Accuracy, Scene};
+use tempfile::TempDir;
+
+use super::program::{names_in, out, run, text, write_scene};
+
+fn saw(folder: &TempDir) -> String {
+    let mut file = Scene::paper().file().clone();
+    (file.accuracy, file.measured) = (Accuracy::Draft, None);
+    file.operating_rpm = Some(2260.0);
+    let path = write_scene(folder, &file);
+    path.to_str().unwrap().to_owned()
+}
+
+fn written(folder: &TempDir) -> MapReport {
+    let json = std::fs::read(out(folder).join("map.json")).unwrap();
+    assert!(!text(&json).contains("NaN"));
+    serde_json::from_slice(&json).unwrap()
+}
+
+#[test]
+fn a_map_over_the_speed_holds_what_each_saw_is_alone() {
+    let folder = TempDir::new().unwrap();
+    let path = saw(&folder);
+    let line = [
+        "map",
+        &path,
+        "--x",
+        "blade.thickness_m=2.6mm..3mm",
+        "--points",
+        "3",
+    ];
+    let output = run(&line, &folder);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let names = names_in(&out(&folder));
+    assert_eq!(names, ["map.json", "map.png", "map.svg", "study.log"]);
+    let summary = text(&output.stdout).to_owned();
+    for line in summary.lines() {
+        assert!(
+            line.chars().count() <= 80 || line.starts_with("Written"),
+            "{line}"
+        );
+    }
+    let map = written(&folder);
+    assert_eq!(map.x.values, [0.0026, 0.0028, 0.003]);
+    let alone = TempDir::new().unwrap();
+    for (thickness, saw) in ["2.6mm", "2.8mm", "3mm"].iter().zip(&map.saws) {
+        let set = format!("blade.thickness_m={thickness}");
+        assert!(
+            run(&["analyze", &path, "--set", &set], &alone)
+                .status
+                .success()
+        );
+        let report = std::fs::read(out(&alone).join("report.json")).unwrap();
+        let report: Report = serde_json::from_slice(&report).unwrap();
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 2e-3;
+        let critical = saw.lowest_critical_rpm.unwrap();
+        assert!(near(critical, report.critical_speeds[0].rpm));
+        assert!(near(
+            saw.flutter_speed_rpm.unwrap(),
+            report.flutter_speed_rpm.unwrap()
+        ));
+        assert_eq!(saw.instabilities.len(), report.instabilities.len());
+        for (own, band) in saw.instabilities.iter().zip(&report.instabilities) {
+            assert_eq!(own.kind, band.kind);
+            assert!(near(own.from_rpm, band.from_rpm) && near(own.to_rpm, band.to_rpm));
+            assert_eq!(own.counted_rpm.len(), band.counted_rpm.len());
+        }
+        assert_eq!(
+            saw.state,
+            report.operating.map(|operating| operating.verdict)
+        );
+    }
+    assert_eq!(map.saws[1].state, Some(StabilityState::Flutter));
+    let flutters = map
+        .saws
+        .iter()
+        .filter(|saw| saw.state == Some(StabilityState::Flutter));
+    assert!(
+        summary.contains(&format!("{} flutter", flutters.count())),
+        "{summary}"
+    );
+
+    // The same line again reads the log, and gives the same bytes; a log that was cut off is completed.
+    let first = std::fs::read(out(&folder).join("map.json")).unwrap();
+    let log = out(&folder).join("study.log");
+    let whole = std::fs::read_to_string(&log).unwrap();
+    let rows: Vec<&str> = whole.lines().collect();
+    std::fs::write(&log, format!("{}\n", rows[..rows.len() - 1].join("\n"))).unwrap();
+    assert!(run(&line, &folder).status.success());
+    assert_eq!(std::fs::read(out(&folder).join("map.json")).unwrap(), first);
+    let lines = std::fs::read_to_string(&log).unwrap().lines().count();
+    assert_eq!(lines, rows.len());
+}
+
+#[test]
+fn parts_of_a_map_are_put_together_over_two_numbers() {
+    let folder = TempDir::new().unwrap();
+    fn line<'a>(more: &[&'a str]) -> Vec<&'a str> {
+        let numbers = [
+            "blade.thickness_m=2.5mm..3mm",
+            "blade.outer_diameter_m=0.6..0.72",
+        ];
+        let of = [
+            "map",
+            "--accuracy",
+            "draft",
+            "--points",
+            "3",
+            "--x",
+            numbers[0],
+        ];
+        [&of[..], &["--y", numbers[1]], more].concat()
+    }
+    let page = folder.path().join("page.html");
+    for part in ["1/2", "2/2"] {
+        let output = run(&line(&["--shard", part]), &folder);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        assert!(text(&output.stdout).contains("without --shard"));
+    }
+    let output = run(&line(&["--report", page.to_str().unwrap()]), &folder);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let map = written(&folder);
+    assert_eq!(map.saws.len(), 9);
+    let rows: Vec<f64> = map.rows().map(|row| row[0].y.unwrap()).collect();
+    assert_eq!(rows, [0.6, 0.66, 0.72]);
+    assert!(!map.contours.is_empty());
+    let page = std::fs::read_to_string(page).unwrap();
+    assert!(page.contains("Flutter speed") && page.contains("<svg"));
+}
+
+#[test]
+fn numbers_that_are_none_and_ranges_without_ends_are_refused() {
+    let folder = TempDir::new().unwrap();
+    for (words, said) in [
+        (
+            &["--x", "blade.thickness_m"][..],
+            "--x blade.thickness_m has no range",
+        ),
+        (&["--x", "blade.thickness_m=3mm..2mm"], "--x was refused"),
+        (
+            &["--x", "blade.width_m=2..3"],
+            "--x blade.width_m=2..3 was refused",
+        ),
+        (
+            &[
+                "--x",
+                "blade.thickness_m=2mm..3mm",
+                "--y",
+                "blade.thickness_m=2mm..3mm",
+            ],
+            "--y is blade.thickness_m again",
+        ),
+        (
+            &["--x", "blade.thickness_m=2mm..3mm", "--points", "1"],
+            "--points is 1",
+        ),
+        (
+            &["--x", "blade.thickness_m=2mm..3mm", "--rpm", "-1"],
+            "--rpm is -1",
+        ),
+    ] {
+        let output = run(&[&["map"][..], words].concat(), &folder);
+        assert_eq!(output.status.code(), Some(2), "{words:?}");
+        let message = text(&output.stderr);
+        assert!(message.contains(said), "{message}");
+        assert!(!out(&folder).exists());
+    }
+}
