@@ -36,6 +36,14 @@ impl Stroke {
             dash,
         }
     }
+
+    /// A dashed line.
+    pub fn dashed(colour: Colour, width: f64, dash: [f64; 2]) -> Self {
+        Self {
+            dash: Some(dash),
+            ..Self::solid(colour, width)
+        }
+    }
 }
 
 /// Style of a text.

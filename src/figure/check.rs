@@ -63,10 +63,7 @@ fn draw_end_of_sweep(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, bott
         return;
     }
     let x = speed.at(report.to_rpm);
-    let dashed = Stroke {
-        dash: Some(FINE_DASH),
-        ..Stroke::solid(QUIET, HAIRLINE)
-    };
+    let dashed = Stroke::dashed(QUIET, HAIRLINE, FINE_DASH);
     sheet.line([[x, TOP - 16.0], [x, bottom]], dashed);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
     // The text is above the name of the operating speed.

@@ -230,10 +230,7 @@ fn draw_key(sheet: &mut Sheet, baseline: f64) {
     let line = |stroke: Stroke| {
         move |sheet: &mut Sheet, [x, y]: [f64; 2]| sheet.line([[x, y], [x + 24.0, y]], stroke)
     };
-    let dashed = Stroke {
-        dash: Some(super::style::DASH),
-        ..Stroke::solid(QUIET, CURVE)
-    };
+    let dashed = Stroke::dashed(QUIET, CURVE, super::style::DASH);
     Key::new(sheet, FREQUENCIES.left, baseline)
         .mark(24.0, line(Stroke::solid(QUIET, STRONG_CURVE)))
         .word("grows")

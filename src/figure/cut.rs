@@ -177,10 +177,7 @@ fn draw_envelope(
             })
             .collect();
         for part in clip(&places, panel) {
-            let dashed = Stroke {
-                dash: Some(FINE_DASH),
-                ..Stroke::solid(FLUTTER, CURVE)
-            };
+            let dashed = Stroke::dashed(FLUTTER, CURVE, FINE_DASH);
             sheet.line(part, dashed);
         }
     }

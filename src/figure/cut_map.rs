@@ -147,10 +147,7 @@ fn over_load(report: &CutReport) -> Sheet {
         );
         draw_named(&mut sheet, &level, panel.bottom, LOAD);
         let threshold = growth.at(report.flutter_threshold_per_s);
-        let dashed = Stroke {
-            dash: Some(FINE_DASH),
-            ..Stroke::solid(QUIET, HAIRLINE)
-        };
+        let dashed = Stroke::dashed(QUIET, HAIRLINE, FINE_DASH);
         sheet.line([[panel.left, threshold], [panel.right, threshold]], dashed);
         let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
         let at = [panel.right - 4.0, threshold - 6.0];

@@ -276,10 +276,7 @@ fn draw_key(sheet: &mut Sheet) {
     let line = |stroke: Stroke| {
         move |sheet: &mut Sheet, [x, y]: [f64; 2]| sheet.line([[x, y], [x + 24.0, y]], stroke)
     };
-    let dashed = Stroke {
-        dash: Some(FINE_DASH),
-        ..Stroke::solid(STANDING, HAIRLINE)
-    };
+    let dashed = Stroke::dashed(STANDING, HAIRLINE, FINE_DASH);
     let y = f64::from(HEIGHT);
     Key::new(sheet, LEAN.left, y - 52.0)
         .mark(24.0, line(Stroke::solid(UP.colour(), WIDER)))

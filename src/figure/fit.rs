@@ -71,10 +71,7 @@ pub fn sheet(report: &FitReport) -> Sheet {
     let reach = round_up(1.05 * largest);
     let residual = Axis::new([-reach, reach], [LOWER.bottom, LOWER.top], Spread::Linear);
     draw_axes(&mut sheet, &speed, &frequency, &residual);
-    let before = Stroke {
-        dash: Some(DASH),
-        ..Stroke::solid(BEFORE, HAIRLINE)
-    };
+    let before = Stroke::dashed(BEFORE, HAIRLINE, DASH);
     draw_curves(
         &mut sheet,
         report,
@@ -203,10 +200,7 @@ fn draw_key(sheet: &mut Sheet, report: &FitReport, some_left_out: bool) {
         key.mark(6.0, |sheet, [x, y]| sheet.disc([x + 3.0, y], 2.0, QUIET))
             .word("not fitted");
     }
-    let before = Stroke {
-        dash: Some(DASH),
-        ..Stroke::solid(BEFORE, HAIRLINE)
-    };
+    let before = Stroke::dashed(BEFORE, HAIRLINE, DASH);
     for (stroke, text) in [(Stroke::solid(FITTED, CURVE), "fitted"), (before, "before")] {
         key.mark(22.0, |sheet, [x, y]| {
             sheet.line([[x, y], [x + 22.0, y]], stroke)

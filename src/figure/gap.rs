@@ -99,10 +99,7 @@ fn draw_speeds(sheet: &mut Sheet, report: &GapReport) {
         let x = amplitude
             .at(1e6 * (half - report.smallest_gap_m))
             .clamp(places[0], places[1]);
-        let stroke = Stroke {
-            dash: Some(DASH),
-            ..Stroke::solid(QUIET, HAIRLINE)
-        };
+        let stroke = Stroke::dashed(QUIET, HAIRLINE, DASH);
         sheet.line([[x, panel.top], [x, panel.bottom]], stroke);
     }
     let place = |at: &AtAmplitudeEntry, fallback: f64| {
@@ -190,10 +187,7 @@ fn draw_deflections(sheet: &mut Sheet, report: &GapReport) {
     name_x(sheet, panel, "smallest gap [mm]; all gaps in proportion");
     if let Some(limit) = map.max_deflection_m {
         let y = deflection.at(1e3 * limit);
-        let stroke = Stroke {
-            dash: Some(DASH),
-            ..Stroke::solid(ALARM, CURVE)
-        };
+        let stroke = Stroke::dashed(ALARM, CURVE, DASH);
         sheet.line([[panel.left, y], [panel.right, y]], stroke);
     }
     for k in 0..map.forces_n.len() {
@@ -266,10 +260,7 @@ fn draw_key(sheet: &mut Sheet, has_limit: bool) {
         })
         .word("flutter speed");
     if has_limit {
-        let dashed = Stroke {
-            dash: Some(DASH),
-            ..Stroke::solid(ALARM, CURVE)
-        };
+        let dashed = Stroke::dashed(ALARM, CURVE, DASH);
         Key::new(sheet, DEFLECTION.left, y + 26.0)
             .mark(24.0, move |sheet, [x, y]| {
                 sheet.line([[x, y], [x + 24.0, y]], dashed)

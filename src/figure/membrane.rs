@@ -172,10 +172,7 @@ fn draw_limits(
         let sign = if k > 0.0 { "+" } else { "" };
         format!("{sign}{} K", tick_label((10.0 * k).round() / 10.0))
     };
-    let dashed = |colour, dash| Stroke {
-        dash: Some(dash),
-        ..Stroke::solid(colour, HAIRLINE)
-    };
+    let dashed = |colour, dash| Stroke::dashed(colour, HAIRLINE, dash);
     if heat.rise_k != 0.0 && rise.shows(heat.rise_k) {
         let x = rise.at(heat.rise_k);
         let line = [[x, SPEEDS.top], [x, SPEEDS.bottom]];

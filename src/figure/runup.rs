@@ -102,10 +102,7 @@ fn label_critical_speeds(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis) 
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
     let places = push_apart(&wishes, PANEL.left, PANEL.right);
     for ((x, text), place) in labels.iter().zip(places) {
-        let dashed = Stroke {
-            dash: Some(FINE_DASH),
-            ..Stroke::solid(QUIET, HAIRLINE)
-        };
+        let dashed = Stroke::dashed(QUIET, HAIRLINE, FINE_DASH);
         sheet.line([[*x, PANEL.top], [*x, PANEL.bottom]], dashed);
         if let Some(place) = place {
             let leader = [[*x, PANEL.top], [place, PANEL.top - 12.0]];

@@ -131,10 +131,7 @@ fn draw_clearance(
         [x.at(radius * cos), y.at(radius * sin)]
     });
     let circle: Vec<[f64; 2]> = circle.collect();
-    let dashed = Stroke {
-        dash: Some(FINE_DASH),
-        ..Stroke::solid(QUIET, HAIRLINE)
-    };
+    let dashed = Stroke::dashed(QUIET, HAIRLINE, FINE_DASH);
     for part in clip(&circle, panel) {
         sheet.line(part, dashed);
     }

@@ -153,10 +153,7 @@ fn draw_axes(sheet: &mut Sheet, error: &Axis, time: &Axis) {
     for (percent, word) in [(1.0, "draft"), (0.1, "design"), (0.01, "reference")] {
         if error.shows(percent) {
             let x = error.at(percent);
-            let guide = Stroke {
-                dash: Some(DASH),
-                ..Stroke::solid(QUIET, HAIRLINE)
-            };
+            let guide = Stroke::dashed(QUIET, HAIRLINE, DASH);
             sheet.line([[x, PANEL.top], [x, PANEL.bottom]], guide);
             let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
             sheet.text([x, PANEL.top - 7.0], letters, word);

@@ -217,10 +217,7 @@ fn own_hue(report: &WashboardReport) -> Hue {
 fn draw_key(sheet: &mut Sheet, report: &WashboardReport) {
     let colour = own_hue(report).colour();
     let dashes = |sheet: &mut Sheet, [x, y]: [f64; 2]| {
-        let dashed = Stroke {
-            dash: Some(FINE_DASH),
-            ..Stroke::solid(QUIET, HAIRLINE)
-        };
+        let dashed = Stroke::dashed(QUIET, HAIRLINE, FINE_DASH);
         sheet.line([[x, y], [x + 26.0, y]], dashed);
     };
     Key::new(sheet, LOBES.left, f64::from(HEIGHT) - 24.0)

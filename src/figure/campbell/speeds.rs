@@ -27,10 +27,7 @@ fn critical_shown(chart: &Chart) -> Vec<f64> {
 
 pub fn draw_critical(sheet: &mut Sheet, chart: &Chart) {
     let speeds = critical_shown(chart);
-    let dashed = Stroke {
-        dash: Some(FINE_DASH),
-        ..Stroke::solid(QUIET, HAIRLINE)
-    };
+    let dashed = Stroke::dashed(QUIET, HAIRLINE, FINE_DASH);
     for &rpm in &speeds {
         let x = chart.speed.at(rpm);
         sheet.line([[x, chart.upper.bottom], [x, CRITICAL_TOP]], dashed);
