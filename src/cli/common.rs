@@ -3,13 +3,17 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use crate::document::Documented;
 use crate::scene::{Accuracy, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting};
 use crate::text::{FileError, Kind, printable, read_path, read_stream};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
+use serde::Serialize;
 
 use super::output::{OutputFolder, Writing};
+use super::page::Page;
 use super::paint::Paint;
+use super::pictures::{drawn, figure_names};
 
 /// The saw to look at, and what is changed in it.
 #[derive(Args, Default)]
@@ -41,7 +45,7 @@ pub struct Common {
     #[command(flatten)]
     input: Input,
     #[command(flatten)]
-    output: Output,
+    pub output: Output,
 }
 
 /// Where results go.
@@ -182,18 +186,6 @@ impl Common {
     pub fn folder(&self) -> anyhow::Result<OutputFolder> {
         self.output.folder()
     }
-
-    /// Writes the files and prints the report, as [`Output::print`] does.
-    pub fn print(
-        &self,
-        folder: &OutputFolder,
-        files: &[NamedFile],
-        optional: &[&str],
-        json: &str,
-        summary: impl FnOnce() -> String,
-    ) -> anyhow::Result<()> {
-        self.output.print(folder, files, optional, json, summary)
-    }
 }
 
 impl Output {
@@ -205,6 +197,24 @@ impl Output {
     /// Where the folder is.
     pub fn path(&self) -> PathBuf {
         self.out.clone().unwrap_or_else(|| "sawflutter-out".into())
+    }
+
+    /// Writes the page of a report, its figures, the `others` and the report itself under `name`, and prints it.
+    pub fn report<R: Documented + Serialize>(
+        &self,
+        folder: &OutputFolder,
+        page: &Page,
+        report: &R,
+        others: Vec<NamedFile>,
+        name: &'static str,
+    ) -> anyhow::Result<()> {
+        page.write(report)?;
+        let json = serde_json::to_string_pretty(report)?;
+        let mut files = drawn(report)?;
+        files.extend(others);
+        files.push((name, json.clone().into_bytes()));
+        let summary = || report.document().summary;
+        self.print(folder, &files, &figure_names::<R>(), &json, summary)
     }
 
     /// Writes the files, removes those of the `optional` names that an earlier run has left and

@@ -11,7 +11,6 @@ use clap::Args;
 
 use super::common::{Changes, Output, is_standard_input, read_text, refused, with_settings};
 use super::page::Page;
-use super::pictures::drawn;
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
@@ -74,12 +73,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         }
         CompareReport::new(compared).ok_or_else(|| anyhow!("there is no saw to compare"))
     })??;
-    arguments.page.write(&report)?;
-    let json = serde_json::to_string_pretty(&report)?;
-    let mut files = drawn(&report)?;
-    files.push(("compare.json", json.clone().into_bytes()));
-    let words = || report.summary();
-    arguments.output.print(&folder, &files, &[], &json, words)
+    let output = &arguments.output;
+    output.report(
+        &folder,
+        &arguments.page,
+        &report,
+        Vec::new(),
+        "compare.json",
+    )
 }
 
 /// The saws asked for, with their labels; scenes that name no sweep over common speeds.

@@ -9,7 +9,6 @@ use super::assumed::{Block, Given};
 use super::common::{Common, number};
 use super::page::Page;
 use super::paste::{pasted, usual_cut};
-use super::pictures::{drawn, figure_names};
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
@@ -113,13 +112,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         Cutting::new(&scene, &runs, &map)
     })??;
     let report = CutReport::new(&cutting);
-    arguments.page.write(&report)?;
-    let json = serde_json::to_string_pretty(&report)?;
-    let mut files = drawn(&report)?;
-    files.push(("cut.json", json.clone().into_bytes()));
-    arguments
-        .common
-        .print(&folder, &files, &figure_names::<CutReport>(), &json, || {
-            report.summary()
-        })
+    let output = &arguments.common.output;
+    output.report(&folder, &arguments.page, &report, Vec::new(), "cut.json")
 }

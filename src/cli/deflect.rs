@@ -6,7 +6,6 @@ use clap::Args;
 
 use super::common::{Common, number, of_option};
 use super::page::Page;
-use super::pictures::drawn;
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
@@ -55,11 +54,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         other => other.into(),
     })?;
     let report = DeflectReport::new(&found);
-    arguments.page.write(&report)?;
-    let json = serde_json::to_string_pretty(&report)?;
-    let mut files = drawn(&report)?;
-    files.push(("deflect.json", json.clone().into_bytes()));
-    arguments
-        .common
-        .print(&folder, &files, &[], &json, || report.summary())
+    let output = &arguments.common.output;
+    output.report(
+        &folder,
+        &arguments.page,
+        &report,
+        Vec::new(),
+        "deflect.json",
+    )
 }

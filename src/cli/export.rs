@@ -73,6 +73,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     files.push(("matrices.json", json.clone().into_bytes()));
     arguments
         .common
+        .output
         .print(&folder, &files, &OPTIONAL, &json, || {
             format!(
                 "{} functions: n up to {}, {} radial functions each\n{}\n",

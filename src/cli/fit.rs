@@ -11,7 +11,6 @@ use clap::Args;
 use super::common::{Common, count, number, of_option, read_text, refused};
 use super::free::named_bounds;
 use super::page::Page;
-use super::pictures::drawn;
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
@@ -84,15 +83,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         Fit::new(&scene, &measurement, &freed, &options, &starts)
     })??;
     let report = FitReport::new(&fit);
-    arguments.page.write(&report)?;
-    let json = serde_json::to_string_pretty(&report)?;
-    let mut files = drawn(&report)?;
     let fitted = serde_json::to_string_pretty(&report.scene)?;
-    files.push(("fitted-scene.json", fitted.into_bytes()));
-    files.push(("fit.json", json.clone().into_bytes()));
-    arguments
-        .common
-        .print(&folder, &files, &[], &json, || report.summary())
+    let others = vec![("fitted-scene.json", fitted.into_bytes())];
+    let output = &arguments.common.output;
+    output.report(&folder, &arguments.page, &report, others, "fit.json")
 }
 
 fn measurement(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Measurement> {

@@ -9,7 +9,6 @@ use clap::Args;
 use super::common::{Changes, Output, number, of_option, read_scene};
 use super::free::range;
 use super::page::Page;
-use super::pictures::drawn;
 use super::study::{compute, print_part, shard};
 use super::{common, scheduler};
 use crate::scene::{Scene, SceneError};
@@ -81,12 +80,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let rows = Rows::of(study, Log::all_in(folder.path())?)?;
     let report = MapReport::of_rows(&map, &rows)?;
-    arguments.page.write(&report)?;
-    let json = serde_json::to_string_pretty(&report)?;
-    let mut files = drawn(&report)?;
-    files.push(("map.json", json.clone().into_bytes()));
-    let words = || report.summary();
-    arguments.output.print(&folder, &files, &[], &json, words)
+    let output = &arguments.output;
+    output.report(&folder, &arguments.page, &report, Vec::new(), "map.json")
 }
 
 fn planned(arguments: &Arguments) -> anyhow::Result<Map> {

@@ -8,7 +8,6 @@ use clap::{Args, ValueEnum};
 use super::common::{Common, count, number, of_option};
 use super::free::named_bounds;
 use super::page::Page;
-use super::pictures::{drawn, figure_names};
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
@@ -99,19 +98,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
         Placement::new(&scene, &freed, &demands, &options, &steps)
     })??;
     let report = PlaceReport::new(&demands, &found);
-    arguments.page.write(&report)?;
-    let json = serde_json::to_string_pretty(&report)?;
-    let mut files = drawn(&report)?;
     let placed = serde_json::to_string_pretty(&report.scene)?;
-    files.push(("placed-scene.json", placed.into_bytes()));
-    files.push(("place.json", json.clone().into_bytes()));
-    arguments.common.print(
-        &folder,
-        &files,
-        &figure_names::<PlaceReport>(),
-        &json,
-        || report.summary(),
-    )?;
+    let others = vec![("placed-scene.json", placed.into_bytes())];
+    let output = &arguments.common.output;
+    output.report(&folder, &arguments.page, &report, others, "place.json")?;
     Ok(report.kept)
 }
 

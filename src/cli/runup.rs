@@ -9,7 +9,6 @@ use super::assumed::{Block, Given};
 use super::common::Common;
 use super::page::Page;
 use super::paste::{pasted, usual_runup};
-use super::pictures::{drawn, figure_names};
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
@@ -96,15 +95,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         RunningUp::new(&scene, &steps)
     })??;
     let report = RunUpReport::new(&found);
-    arguments.page.write(&report)?;
-    let json = serde_json::to_string_pretty(&report)?;
-    let mut files = drawn(&report)?;
-    files.push(("runup.json", json.clone().into_bytes()));
-    arguments.common.print(
-        &folder,
-        &files,
-        &figure_names::<RunUpReport>(),
-        &json,
-        || report.summary(),
-    )
+    let output = &arguments.common.output;
+    output.report(&folder, &arguments.page, &report, Vec::new(), "runup.json")
 }

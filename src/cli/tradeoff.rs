@@ -34,6 +34,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     files.push(("tradeoff.json", json.clone().into_bytes()));
     arguments
         .common
+        .output
         .print(&folder, &files, &[], &json, || summary(&settings))
 }
 

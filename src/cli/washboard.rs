@@ -7,7 +7,6 @@ use clap::Args;
 use super::common::{Common, number};
 use super::page::Page;
 use super::paste::pasted;
-use super::pictures::{drawn, figure_names};
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
@@ -42,11 +41,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         Washboard::new(&scene, &run, &speeds)
     })??;
     let report = WashboardReport::new(&found);
-    arguments.page.write(&report)?;
-    let json = serde_json::to_string_pretty(&report)?;
-    let mut files = drawn(&report)?;
-    files.push(("washboard.json", json.clone().into_bytes()));
-    let names = figure_names::<WashboardReport>();
-    let common = &arguments.common;
-    common.print(&folder, &files, &names, &json, || report.summary())
+    let output = &arguments.common.output;
+    output.report(
+        &folder,
+        &arguments.page,
+        &report,
+        Vec::new(),
+        "washboard.json",
+    )
 }
