@@ -201,9 +201,9 @@ fn draw_key(sheet: &mut Sheet, baseline: f64) {
         .word("flutter")
         .mark(4.0, limit)
         .word("limit")
-        .mark(12.0, |sheet, [x, y]| sheet.disc([x + 6.0, y], 6.0, PASS))
+        .dot(12.0, 6.0, PASS)
         .word("result, with margin")
-        .mark(12.0, |sheet, [x, y]| sheet.disc([x + 6.0, y], 6.0, ALARM))
+        .dot(12.0, 6.0, ALARM)
         .word("result, with shortfall");
 }
 

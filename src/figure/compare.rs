@@ -227,16 +227,12 @@ fn events(row: usize, saw: &ComparedEntry, hue: Hue) -> Vec<Item> {
 }
 
 fn draw_key(sheet: &mut Sheet, baseline: f64) {
-    let line = |stroke: Stroke| {
-        move |sheet: &mut Sheet, [x, y]: [f64; 2]| sheet.line([[x, y], [x + 24.0, y]], stroke)
-    };
-    let dashed = Stroke::dashed(QUIET, CURVE, super::style::DASH);
     Key::new(sheet, FREQUENCIES.left, baseline)
-        .mark(24.0, line(Stroke::solid(QUIET, STRONG_CURVE)))
+        .line(24.0, Stroke::solid(QUIET, STRONG_CURVE))
         .word("grows")
-        .mark(24.0, line(dashed))
+        .line(24.0, Stroke::dashed(QUIET, CURVE, super::style::DASH))
         .word("reflected wave")
-        .mark(7.0, |sheet, [x, y]| sheet.disc([x + 3.5, y], 3.5, INK))
+        .dot(7.0, 3.5, INK)
         .word("critical speed")
         .mark(11.0, |sheet, [x, y]| {
             sheet.ring(

@@ -10,7 +10,7 @@ use super::key::Key;
 use super::paint::Ground;
 use super::palette::Hue;
 use super::style::{
-    ALARM, BETWEEN_FACTS, Colour, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, HAIRLINE, INK, PAPER,
+    ALARM, BETWEEN_FACTS, Colour, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, HAIRLINE, INK,
     STANDING, STRONG_CURVE, tint,
 };
 use super::{bands, heading};
@@ -273,29 +273,20 @@ fn frequencies(report: &DeflectReport) -> Vec<Item> {
 }
 
 fn draw_key(sheet: &mut Sheet) {
-    let line = |stroke: Stroke| {
-        move |sheet: &mut Sheet, [x, y]: [f64; 2]| sheet.line([[x, y], [x + 24.0, y]], stroke)
-    };
-    let dashed = Stroke::dashed(STANDING, HAIRLINE, FINE_DASH);
     let y = f64::from(HEIGHT);
     Key::new(sheet, LEAN.left, y - 52.0)
-        .mark(24.0, line(Stroke::solid(UP.colour(), WIDER)))
+        .line(24.0, Stroke::solid(UP.colour(), WIDER))
         .word("stable, while the speed rises")
-        .mark(24.0, line(Stroke::solid(DOWN.colour(), NARROWER)))
+        .line(24.0, Stroke::solid(DOWN.colour(), NARROWER))
         .word("while it falls")
-        .mark(24.0, line(Stroke::solid(STANDING, NARROWER)))
+        .line(24.0, Stroke::solid(STANDING, NARROWER))
         .word("stable, not reached")
-        .mark(24.0, line(dashed))
+        .line(24.0, Stroke::dashed(STANDING, HAIRLINE, FINE_DASH))
         .word("unstable")
-        .mark(6.0, |sheet, [x, y]| {
-            sheet.ring([x + 3.0, y], 3.0, Stroke::solid(INK, HAIRLINE), PAPER);
-        })
+        .ring(6.0, 3.0, Stroke::solid(INK, HAIRLINE))
         .word("fold or bifurcation");
     Key::new(sheet, LEAN.left, y - 26.0)
-        .mark(
-            24.0,
-            line(Stroke::solid(tint(STANDING, FLAT_TINT), NARROWER)),
-        )
+        .line(24.0, Stroke::solid(tint(STANDING, FLAT_TINT), NARROWER))
         .word("frequencies of the flat blade")
         .shade(DIVERGENCE_SHADE)
         .word("the flat blade diverges")

@@ -197,15 +197,11 @@ fn draw_key(sheet: &mut Sheet, report: &FitReport, some_left_out: bool) {
     key.mark(8.0, |sheet, [x, y]| draw_measured_mark(sheet, [x + 4.0, y]))
         .word(&source);
     if some_left_out {
-        key.mark(6.0, |sheet, [x, y]| sheet.disc([x + 3.0, y], 2.0, QUIET))
-            .word("not fitted");
+        key.dot(6.0, 2.0, QUIET).word("not fitted");
     }
     let before = Stroke::dashed(BEFORE, HAIRLINE, DASH);
     for (stroke, text) in [(Stroke::solid(FITTED, CURVE), "fitted"), (before, "before")] {
-        key.mark(22.0, |sheet, [x, y]| {
-            sheet.line([[x, y], [x + 22.0, y]], stroke)
-        })
-        .word(text);
+        key.line(22.0, stroke).word(text);
     }
     let deepest = report.residuals.iter().map(|r| r.place).max().unwrap_or(0);
     for (place, (shape, colour)) in PLACES.into_iter().enumerate().take(deepest) {

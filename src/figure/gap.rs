@@ -249,22 +249,17 @@ fn name_x(sheet: &mut Sheet, panel: &Frame, name: &str) {
 fn draw_key(sheet: &mut Sheet, has_limit: bool) {
     let y = f64::from(HEIGHT) - 50.0;
     Key::new(sheet, SPEEDS.left, y)
-        .mark(6.0, |sheet, [x, y]| sheet.disc([x + 3.0, y], 2.6, FORWARD))
+        .dot(6.0, 2.6, FORWARD)
         .word("critical speeds")
         .shade(DIVERGENCE_STREAK)
         .word("divergence")
         .shade(FLUTTER_STREAK)
         .word("flutter")
-        .mark(9.0, |sheet, [x, y]| {
-            sheet.ring([x + 4.5, y], 4.5, Stroke::solid(ALARM, CURVE), PAPER);
-        })
+        .ring(9.0, 4.5, Stroke::solid(ALARM, CURVE))
         .word("flutter speed");
     if has_limit {
-        let dashed = Stroke::dashed(ALARM, CURVE, DASH);
         Key::new(sheet, DEFLECTION.left, y + 26.0)
-            .mark(24.0, move |sheet, [x, y]| {
-                sheet.line([[x, y], [x + 24.0, y]], dashed)
-            })
+            .line(24.0, Stroke::dashed(ALARM, CURVE, DASH))
             .word("largest deflection allowed");
     }
 }

@@ -124,6 +124,6 @@ fn draw_key(sheet: &mut Sheet) {
         .word("flutter")
         .mark(4.0, upright)
         .word("flutter speed")
-        .mark(8.0, |sheet, [x, y]| sheet.disc([x + 4.0, y], 3.5, INK))
+        .dot(8.0, 3.5, INK)
         .word("critical speed");
 }

@@ -1,7 +1,7 @@
 //! The key below a figure, which explains its marks.
 
-use super::canvas::{Anchor, Frame, Lettering, Sheet};
-use super::style::{Colour, LABEL_SIZE, QUIET, Weight, text_width};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::style::{Colour, LABEL_SIZE, PAPER, QUIET, Weight, text_width};
 
 /// Space after each word, and between a mark and its word.
 const AFTER_WORD: f64 = 24.0;
@@ -42,6 +42,27 @@ impl<'a> Key<'a> {
                 bottom: y + 6.0,
             };
             sheet.fill(frame, colour);
+        })
+    }
+
+    /// Adds a horizontal line.
+    pub fn line(&mut self, width: f64, stroke: Stroke) -> &mut Self {
+        self.mark(width, |sheet, [x, y]| {
+            sheet.line([[x, y], [x + width, y]], stroke)
+        })
+    }
+
+    /// Adds a dot in the middle of a width.
+    pub fn dot(&mut self, width: f64, radius: f64, colour: Colour) -> &mut Self {
+        self.mark(width, |sheet, [x, y]| {
+            sheet.disc([x + 0.5 * width, y], radius, colour)
+        })
+    }
+
+    /// Adds a ring on the background in the middle of a width.
+    pub fn ring(&mut self, width: f64, radius: f64, stroke: Stroke) -> &mut Self {
+        self.mark(width, |sheet, [x, y]| {
+            sheet.ring([x + 0.5 * width, y], radius, stroke, PAPER);
         })
     }
 

@@ -122,19 +122,14 @@ fn shares(shape: &EventShapeEntry) -> String {
 }
 
 fn key(sheet: &mut Sheet, baseline: f64) {
-    let line = |width: f64, colour| {
-        move |sheet: &mut Sheet, [x, y]: [f64; 2]| {
-            sheet.line([[x, y], [x + 22.0, y]], Stroke::solid(colour, width));
-        }
-    };
     Key::new(sheet, MARGIN, baseline)
         .shade(colour(1.0))
         .word("towards the viewer")
         .shade(colour(-1.0))
         .word("away")
-        .mark(22.0, line(NODAL_WIDTH, INK))
+        .line(22.0, Stroke::solid(INK, NODAL_WIDTH))
         .word("nodal line, of a wave that travels at this moment")
-        .mark(22.0, line(GUIDE_WIDTH, INK))
+        .line(22.0, Stroke::solid(INK, GUIDE_WIDTH))
         .word("guide");
 }
 

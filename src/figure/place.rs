@@ -95,9 +95,7 @@ fn draw_key(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry) {
     let mut key = Key::new(sheet, PANEL.left, f64::from(HEIGHT) - 26.0);
     key.mark(22.0, |sheet, [x, y]| draw_best(sheet, [x + 11.0, y]))
         .word("best in the worst case of its tolerances")
-        .mark(10.0, |sheet, [x, y]| {
-            sheet.ring([x + 5.0, y], 5.0, Stroke::solid(INK, 2.0), PAPER);
-        })
+        .ring(10.0, 5.0, Stroke::solid(INK, 2.0))
         .word("the scene")
         .word("colours: coarse model");
     if report.fragile_optimum.is_some() {

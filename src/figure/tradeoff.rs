@@ -103,8 +103,7 @@ fn draw_key(sheet: &mut Sheet) {
     let mut key = Key::new(sheet, PANEL.left, f64::from(HEIGHT) - 22.0);
     for method in METHODS {
         let (colour, name) = look(method);
-        key.mark(8.0, |sheet, [x, y]| sheet.disc([x + 4.0, y], 4.0, colour))
-            .word(name);
+        key.dot(8.0, 4.0, colour).word(name);
     }
 }
 

@@ -7,7 +7,7 @@ use super::heading;
 use super::key::Key;
 use super::paint::Ground;
 use super::palette::Hue;
-use super::style::{BETWEEN_FACTS, FINE_DASH, FLUTTER_SHADE, HAIRLINE, PAPER, QUIET};
+use super::style::{BETWEEN_FACTS, FINE_DASH, FLUTTER_SHADE, HAIRLINE, QUIET};
 use crate::report::{Verdict, WashboardReport};
 use crate::text::shown_to;
 
@@ -216,17 +216,11 @@ fn own_hue(report: &WashboardReport) -> Hue {
 
 fn draw_key(sheet: &mut Sheet, report: &WashboardReport) {
     let colour = own_hue(report).colour();
-    let dashes = |sheet: &mut Sheet, [x, y]: [f64; 2]| {
-        let dashed = Stroke::dashed(QUIET, HAIRLINE, FINE_DASH);
-        sheet.line([[x, y], [x + 26.0, y]], dashed);
-    };
     Key::new(sheet, LOBES.left, f64::from(HEIGHT) - 24.0)
         .shade(FLUTTER_SHADE)
         .word("above the smallest stiffness at which a motion grows")
-        .mark(12.0, |sheet, [x, y]| {
-            sheet.ring([x + 6.0, y], 6.0, Stroke::solid(colour, 2.5), PAPER);
-        })
+        .ring(12.0, 6.0, Stroke::solid(colour, 2.5))
         .word("this cut")
-        .mark(26.0, dashes)
+        .line(26.0, Stroke::dashed(QUIET, HAIRLINE, FINE_DASH))
         .word("tooth passing frequency, and half of it");
 }

@@ -59,10 +59,7 @@ fn grey(line: &Line) -> Stroke {
 }
 
 fn draw_sample(key: &mut Key, stroke: Stroke, word: &str) {
-    key.mark(SAMPLE, |sheet, [x, y]| {
-        sheet.line([[x, y], [x + SAMPLE, y]], stroke)
-    });
-    key.word(word);
+    key.line(SAMPLE, stroke).word(word);
 }
 
 fn draw_notes(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
