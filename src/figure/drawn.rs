@@ -168,88 +168,34 @@ impl Figures for RunUpReport {
     }
 }
 
-impl Figures for DeflectReport {
-    const NAMES: &'static [[&'static str; 2]] = &[["deflect.png", "deflect.svg"]];
+/// Implements [`Figures`] for a report with a single figure, drawn by a function, and described by another.
+macro_rules! single {
+    ($($report:ty: $name:literal, $sheet:path $(, $chart:path)?;)*) => {$(
+        impl Figures for $report {
+            const NAMES: &'static [[&'static str; 2]] =
+                &[[concat!($name, ".png"), concat!($name, ".svg")]];
 
-    fn figures(&self) -> Vec<Figure> {
-        named(Self::NAMES, [Some(deflect::sheet(self))])
-    }
+            fn figures(&self) -> Vec<Figure> {
+                named(Self::NAMES, [$sheet(self).into()])
+            }
 
-    fn chart(&self, name: &str) -> Option<ChartData> {
-        (name == "deflect").then(|| deflect::chart(self))
-    }
+            $(fn chart(&self, name: &str) -> Option<ChartData> {
+                (name == $name).then(|| $chart(self))
+            })?
+        }
+    )*};
 }
 
-impl Figures for GapReport {
-    const NAMES: &'static [[&'static str; 2]] = &[["gap.png", "gap.svg"]];
-
-    fn figures(&self) -> Vec<Figure> {
-        named(Self::NAMES, [Some(gap::sheet(self))])
-    }
-}
-
-impl Figures for WashboardReport {
-    const NAMES: &'static [[&'static str; 2]] = &[["washboard.png", "washboard.svg"]];
-
-    fn figures(&self) -> Vec<Figure> {
-        named(Self::NAMES, [Some(washboard::sheet(self))])
-    }
-
-    fn chart(&self, name: &str) -> Option<ChartData> {
-        (name == "washboard").then(|| washboard::chart(self))
-    }
-}
-
-impl Figures for CheckReport {
-    const NAMES: &'static [[&'static str; 2]] = &[["check.png", "check.svg"]];
-
-    fn figures(&self) -> Vec<Figure> {
-        named(Self::NAMES, [Some(check::sheet(self))])
-    }
-}
-
-impl Figures for CompareReport {
-    const NAMES: &'static [[&'static str; 2]] = &[["compare.png", "compare.svg"]];
-
-    fn figures(&self) -> Vec<Figure> {
-        named(Self::NAMES, [Some(compare::sheet(self))])
-    }
-
-    fn chart(&self, name: &str) -> Option<ChartData> {
-        (name == "compare").then(|| compare::chart(self))
-    }
-}
-
-impl Figures for FitReport {
-    const NAMES: &'static [[&'static str; 2]] = &[["fit.png", "fit.svg"]];
-
-    fn figures(&self) -> Vec<Figure> {
-        named(Self::NAMES, [Some(fit::sheet(self))])
-    }
-}
-
-impl Figures for MapReport {
-    const NAMES: &'static [[&'static str; 2]] = &[["map.png", "map.svg"]];
-
-    fn figures(&self) -> Vec<Figure> {
-        named(Self::NAMES, [Some(map::sheet(self))])
-    }
-}
-
-impl Figures for PlaceReport {
-    const NAMES: &'static [[&'static str; 2]] = &[["place.png", "place.svg"]];
-
-    fn figures(&self) -> Vec<Figure> {
-        named(Self::NAMES, [place::sheet(self)])
-    }
-}
-
-impl Figures for StudyReport {
-    const NAMES: &'static [[&'static str; 2]] = &[["study.png", "study.svg"]];
-
-    fn figures(&self) -> Vec<Figure> {
-        named(Self::NAMES, [Some(study::sheet(self))])
-    }
+single! {
+    DeflectReport: "deflect", deflect::sheet, deflect::chart;
+    GapReport: "gap", gap::sheet;
+    WashboardReport: "washboard", washboard::sheet, washboard::chart;
+    CheckReport: "check", check::sheet;
+    CompareReport: "compare", compare::sheet, compare::chart;
+    FitReport: "fit", fit::sheet;
+    MapReport: "map", map::sheet;
+    PlaceReport: "place", place::sheet;
+    StudyReport: "study", study::sheet;
 }
 
 /// The map of a placement in progress; that of a finished one is a figure of its report with the same name.
