@@ -268,7 +268,7 @@ class Result(Report, Entry):
         >>> r.figure("campbell.png")[1:4]
         b'PNG'
         """
-        return _native.picture(name, self._text)
+        return _native.picture(self.command, name, self._text)
 
     def save_page(self, path: str | os.PathLike[str]) -> None:
         """Writes one self-contained page of HTML, as the program does with ``--report``: verdict,

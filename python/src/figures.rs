@@ -9,54 +9,8 @@ use sawflutter::report::{
     PlaceReport, Report, RunUpReport, WashboardReport,
 };
 use sawflutter::study::StudyReport;
-use serde::de::DeserializeOwned;
 
 use crate::failure::Failure;
-
-/// A figure of a report by the name of its file; `None` if the saw has no data for it.
-#[pyfunction]
-pub fn picture(py: Python<'_>, name: &str, report: &str) -> PyResult<Option<Py<PyBytes>>> {
-    let bytes = py.detach(|| drawn(name, report))?;
-    Ok(bytes.map(|bytes| PyBytes::new(py, &bytes).unbind()))
-}
-
-fn drawn(name: &str, report: &str) -> Result<Option<Vec<u8>>, Failure> {
-    let kinds = [
-        of::<Report>,
-        of::<CompareReport>,
-        of::<CutReport>,
-        of::<RunUpReport>,
-        of::<DeflectReport>,
-        of::<GapReport>,
-        of::<WashboardReport>,
-        of::<CheckReport>,
-        of::<FitReport>,
-        of::<MapReport>,
-        of::<PlaceReport>,
-        of::<StudyReport>,
-    ];
-    let mut found = kinds.into_iter().filter_map(|kind| kind(name, report));
-    found.next().unwrap_or_else(|| {
-        Err(Failure::argument(
-            "name",
-            format!("{name:?}"),
-            "the name of a figure that the program writes".to_owned(),
-            "the method figure_names lists them",
-        ))
-    })
-}
-
-type Picture = Result<Option<Vec<u8>>, Failure>;
-
-/// The figure of a report of this kind; `None` if the report has no figure of that name.
-fn of<R: Figures + DeserializeOwned>(name: &str, report: &str) -> Option<Picture> {
-    let known = R::NAMES.iter().flatten().any(|own| *own == name);
-    known.then(|| {
-        let report: R = serde_json::from_str(report)?;
-        let mut files = report.figures().into_iter();
-        Ok(files.find_map(|figure| figure.file(name)).transpose()?)
-    })
-}
 
 /// Reads a report of the command of this name and applies a function to it.
 macro_rules! read {
@@ -82,6 +36,32 @@ macro_rules! read {
         };
         read.map_err(Failure::from)?
     }};
+}
+
+/// A figure of a report by the name of its file; `None` if the saw has no data for it.
+#[pyfunction]
+pub fn picture(
+    py: Python<'_>,
+    command: &str,
+    name: &str,
+    report: &str,
+) -> PyResult<Option<Py<PyBytes>>> {
+    let bytes =
+        py.detach(|| -> Result<_, Failure> { read!(command, |report| drawn(&report, name)) })?;
+    Ok(bytes.map(|bytes| PyBytes::new(py, &bytes).unbind()))
+}
+
+fn drawn<R: Figures>(report: &R, name: &str) -> Result<Option<Vec<u8>>, Failure> {
+    if !R::NAMES.iter().flatten().any(|own| *own == name) {
+        return Err(Failure::argument(
+            "name",
+            format!("{name:?}"),
+            "the name of a figure that the program writes for this report".to_owned(),
+            "the method figure_names lists them",
+        ));
+    }
+    let mut figures = report.figures().into_iter();
+    Ok(figures.find_map(|figure| figure.file(name)).transpose()?)
 }
 
 /// The summary that the program prints for a report of the command of this name.
