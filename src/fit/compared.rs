@@ -1,6 +1,8 @@
 //! Computed frequencies before and after a fit, at the measured speeds and over speed.
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::Measurement;
 use super::model::Model;
@@ -9,14 +11,15 @@ use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, rad_per_s};
 use crate::spectrum::{LowestModes, SpectrumError};
 
-/// Lowest frequencies, ascending, at some speeds.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct BeforeAndAfter {
+/// Lowest frequencies, ascending, one row for each speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Curves {
     /// Speeds.
     pub rpm: Vec<f64>,
-    /// Frequencies of the original scene in Hz, one row for each speed.
+    /// Frequencies before the fit.
     pub before_hz: Vec<Vec<f64>>,
-    /// Frequencies of the fitted scene in Hz.
+    /// Frequencies after the fit.
     pub fitted_hz: Vec<Vec<f64>>,
 }
 
@@ -24,9 +27,9 @@ pub(crate) struct BeforeAndAfter {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Compared {
     /// At the measured speeds, including those that were excluded from the fit.
-    pub measured: BeforeAndAfter,
+    pub measured: Curves,
     /// From rest to slightly beyond the last fitted speed.
-    pub curves: BeforeAndAfter,
+    pub curves: Curves,
 }
 
 /// Number of speeds of the curves.
@@ -61,7 +64,7 @@ impl Compared {
         let [before, fitted] = scenes.map(|scene| LowestModes::new(&Plate::new(scene, resolution)));
         let of = |rpm: Vec<f64>, measurement: &Measurement| -> Result<_, SpectrumError> {
             let depth = measurement.depth();
-            Ok(BeforeAndAfter {
+            Ok(Curves {
                 before_hz: frequencies_hz(&before, &rpm, depth)?,
                 fitted_hz: frequencies_hz(&fitted, &rpm, depth)?,
                 rpm,

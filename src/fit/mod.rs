@@ -38,13 +38,13 @@ use crate::scene::{
 use crate::spectrum::SpectrumError;
 use crate::stability::ChosenBasis;
 
-pub(crate) use compared::BeforeAndAfter;
 pub(crate) use compared::Compared;
+pub use compared::Curves;
 pub use error::FitError;
 pub use measurement::{Measurement, Row};
 use model::Model;
 use solve::{Found, at_bound, statistics};
-pub(crate) use starts::Start;
+pub use starts::Start;
 use starts::{refined, search};
 
 /// Confidence, starts and speeds of a fit.

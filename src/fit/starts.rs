@@ -1,6 +1,8 @@
 //! Least squares from several starts.
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::Options;
 use super::model::Model;
@@ -10,12 +12,15 @@ use crate::scene::spread;
 use crate::spectrum::SpectrumError;
 
 /// A start and its result.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Start {
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Start {
     /// Initial values.
     pub from: Vec<f64>,
-    /// Final values and the root mean square of the residuals; `None` if the start is not a valid saw.
-    pub to: Option<(Vec<f64>, f64)>,
+    /// Final values; null for a start that is not a valid saw.
+    pub to: Option<Vec<f64>>,
+    /// Root mean square of the residuals at the final values.
+    pub rms_hz: Option<f64>,
 }
 
 /// Largest number of starts with different results that are refined.
@@ -48,7 +53,8 @@ pub fn search(
     };
     let starts = from.iter().zip(&found).map(|(from, found)| Start {
         from: values(from),
-        to: found.as_ref().map(|f| (values(&f.shares), f.rms_hz)),
+        to: found.as_ref().map(|f| values(&f.shares)),
+        rms_hz: found.as_ref().map(|f| f.rms_hz),
     });
     let starts = starts.collect();
     let mut reached: Vec<Found> = found.into_iter().flatten().collect();

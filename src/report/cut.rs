@@ -16,7 +16,9 @@ use self::warnings::warnings;
 use super::SplineEntry;
 use super::remarks::lifting_off;
 use crate::scene::{Scene, SceneFile, unusual_number};
-use crate::transient::{CutHistory, Cutting, CuttingRun, ToothPassing, VerdictMap, linear_limit_m};
+use crate::transient::{
+    CutHistory, CutStretching, Cutting, CuttingRun, ToothPassing, VerdictMap, linear_limit_m,
+};
 
 /// Report of a cut (`cut.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -101,7 +103,7 @@ pub struct CutRunEntry {
     pub forces_to_s: f64,
     /// Results with stretching, if the scene requests it.
     #[serde(default)]
-    pub stretching: Option<CutStretchingEntry>,
+    pub stretching: Option<CutStretching>,
     /// Times of the record.
     pub time_s: Vec<f64>,
     /// Deflection at the probe.
@@ -110,20 +112,6 @@ pub struct CutRunEntry {
     pub map: VerdictMapEntry,
     /// The cut with the reaction of the simulated spline teeth, if the scene requests it.
     pub spline: Option<SplineEntry>,
-}
-
-/// A cut with stretching.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CutStretchingEntry {
-    /// Number of shapes of the reduced basis.
-    pub shapes: usize,
-    /// Longest step of the integration.
-    pub step_s: f64,
-    /// Largest slope of the blade.
-    pub largest_slope: f64,
-    /// Time at which slopes exceed 0.1 and the record ends; null if they do not.
-    pub valid_until_s: Option<f64>,
 }
 
 /// A cut with the force that follows from its power.
@@ -293,12 +281,7 @@ impl CutRunEntry {
             largest_deflection_after_m: after_m,
             forces_from_s: history.forces_s.0,
             forces_to_s: history.forces_s.1,
-            stretching: history.stretched.as_ref().map(|found| CutStretchingEntry {
-                shapes: found.shapes,
-                step_s: found.step_s,
-                largest_slope: found.largest_slope,
-                valid_until_s: found.valid_until_s,
-            }),
+            stretching: history.stretched.clone(),
             time_s: history.time_s.clone(),
             deflection_m: history.deflection_m.clone(),
             map: VerdictMapEntry::new(scene, map),

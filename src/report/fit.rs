@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::fit::{BeforeAndAfter, Fit, FittedParameter, Measurement, Row, Start};
+use crate::fit::{Curves, Fit, FittedParameter, Measurement, Row, Start};
 use crate::scene::{SceneFile, unusual_number};
 
 /// Report of a fit (`fit.json`).
@@ -39,9 +39,9 @@ pub struct FitReport {
     /// Measured and computed frequencies in pairs.
     pub residuals: Vec<ResidualEntry>,
     /// Lowest frequencies over speed, before and after.
-    pub curves: CurvesEntry,
+    pub curves: Curves,
     /// All starts and their results, on a coarser basis.
-    pub starts: Vec<StartEntry>,
+    pub starts: Vec<Start>,
     /// Largest number of nodal diameters of the basis.
     pub max_diameters: usize,
     /// Polynomials over the radius for each.
@@ -93,30 +93,6 @@ pub struct ResidualEntry {
     pub fitted: bool,
 }
 
-/// Lowest frequencies, ascending, one row for each speed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CurvesEntry {
-    /// Speeds.
-    pub rpm: Vec<f64>,
-    /// Frequencies before the fit.
-    pub before_hz: Vec<Vec<f64>>,
-    /// Frequencies after the fit.
-    pub fitted_hz: Vec<Vec<f64>>,
-}
-
-/// A start and its result.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct StartEntry {
-    /// Initial values.
-    pub from: Vec<f64>,
-    /// Final values; null for a start that is not a valid saw.
-    pub to: Option<Vec<f64>>,
-    /// Root mean square of the residuals at the final values.
-    pub rms_hz: Option<f64>,
-}
-
 /// Two numbers of higher correlation cannot be determined separately.
 const HIGH_CORRELATION: f64 = 0.95;
 
@@ -141,8 +117,8 @@ impl FitReport {
             rms_hz: fit.rms_hz,
             rms_before_hz: fit.rms_before_hz,
             residuals: residuals(fit),
-            curves: CurvesEntry::from(&fit.compared.curves),
-            starts: fit.starts.iter().map(StartEntry::from).collect(),
+            curves: fit.compared.curves.clone(),
+            starts: fit.starts.clone(),
             max_diameters: fit.resolution.max_diameters,
             radial_functions: fit.resolution.radial_functions,
             estimated_relative_error: fit.estimated_relative_error,
@@ -162,26 +138,6 @@ impl From<&FittedParameter> for ParameterEntry {
             bound_from: found.freed.from,
             bound_to: found.freed.to,
             at_bound: found.at_bound,
-        }
-    }
-}
-
-impl From<&Start> for StartEntry {
-    fn from(start: &Start) -> Self {
-        StartEntry {
-            from: start.from.clone(),
-            to: start.to.as_ref().map(|(values, _)| values.clone()),
-            rms_hz: start.to.as_ref().map(|(_, rms)| *rms),
-        }
-    }
-}
-
-impl From<&BeforeAndAfter> for CurvesEntry {
-    fn from(curves: &BeforeAndAfter) -> Self {
-        CurvesEntry {
-            rpm: curves.rpm.clone(),
-            before_hz: curves.before_hz.clone(),
-            fitted_hz: curves.fitted_hz.clone(),
         }
     }
 }

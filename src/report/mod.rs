@@ -51,7 +51,7 @@ pub use self::deflect::{
 };
 pub use self::event_shape::{EventShapeEntry, ShapeOccasion};
 pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
-pub use self::fit::{CurvesEntry, FitReport, ParameterEntry, ResidualEntry, StartEntry};
+pub use self::fit::{FitReport, ParameterEntry, ResidualEntry};
 pub use self::gap::{AtAmplitudeEntry, DeviationEntry, GapReport};
 #[cfg(feature = "page")]
 pub(crate) use self::growing::GrowingMapEntry;

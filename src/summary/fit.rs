@@ -56,7 +56,7 @@ fn table(text: &mut String, report: &FitReport) -> std::fmt::Result {
     }
     residuals(text, report)?;
     writeln!(text)?;
-    let reached = |s: &&crate::report::StartEntry| s.rms_hz.is_some();
+    let reached = |s: &&crate::fit::Start| s.rms_hz.is_some();
     let best = report
         .starts
         .iter()

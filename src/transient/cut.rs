@@ -13,7 +13,7 @@ use crate::system::GyroscopicSystem;
 use super::linear::Gauge;
 use super::saw_in_cut::{MODES, SawInCut, lateral_load};
 use super::sinusoids::{SAMPLES, Sinusoid, damped_sinusoids, fitted_growth};
-use super::{Integrator, Propagator, State, StretchedCut, TransientError, stretched_cut};
+use super::{CutStretching, Integrator, Propagator, State, TransientError, stretched_cut};
 
 /// Growth rate and frequency of the fastest growing motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,7 +74,7 @@ pub(crate) struct CutHistory {
     /// Time at which the deflection exceeds the linear model, and the record ends; `None` if it does not.
     pub linear_until_s: Option<f64>,
     /// Results with stretching, if the scene requests it.
-    pub stretched: Option<StretchedCut>,
+    pub stretched: Option<CutStretching>,
     /// Times of the record.
     pub time_s: Vec<f64>,
     /// Deflection at the probe.

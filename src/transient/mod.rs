@@ -45,7 +45,8 @@ pub(crate) use scenario::CuttingRun;
 pub use scenario::{Cutting, RunningUp};
 #[doc(hidden)]
 pub use sinusoids::{FitError, fitted_growth};
-pub(crate) use stretched_cut::{StretchedCut, stretched_cut};
+pub use stretched_cut::CutStretching;
+pub(crate) use stretched_cut::stretched_cut;
 pub(crate) use stretched_runup::{StretchedRunUp, stretched_run_up};
 pub(crate) use teeth::{ToothPassing, tooth_passing};
 pub(crate) use verdict_map::VerdictMap;

@@ -3,6 +3,8 @@
 use std::f64::consts::TAU;
 
 use faer::{Col, Scale};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::scene::Probe;
 use crate::spectrum::{Cancellation, companion_eigenpairs};
@@ -16,16 +18,17 @@ use super::stretched_probe::StretchedProbe;
 use super::stretching::{forces, system};
 use super::{Growth, Integrator, Newmark, State, TransientError};
 
-/// Results with stretching at one speed of a cut.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct StretchedCut {
-    /// Number of shapes.
+/// A cut with stretching.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CutStretching {
+    /// Number of shapes of the reduced basis.
     pub shapes: usize,
     /// Longest step of the integration.
     pub step_s: f64,
     /// Largest slope of the blade.
     pub largest_slope: f64,
-    /// Time at which slopes exceed 0.1, and the record ends.
+    /// Time at which slopes exceed 0.1 and the record ends; null if they do not.
     pub valid_until_s: Option<f64>,
 }
 
@@ -45,7 +48,7 @@ pub fn stretched_cut(
     saw: &SawInCut<'_>,
     probe: &Probe,
     growths: [Growth; 2],
-) -> Result<(Record, StretchedCut), TransientError> {
+) -> Result<(Record, CutStretching), TransientError> {
     with_modes(saw, probe, growths, MODES)
 }
 
@@ -54,7 +57,7 @@ fn with_modes(
     probe: &Probe,
     growths: [Growth; 2],
     modes: usize,
-) -> Result<(Record, StretchedCut), TransientError> {
+) -> Result<(Record, CutStretching), TransientError> {
     let (cut, run) = (saw.cut, saw.run);
     let reduced = basis(saw, modes);
     let blade = StretchedBlade::of_shapes(saw.plate, reduced.basis().to_owned())?;
@@ -126,7 +129,7 @@ struct Samples<'a> {
     speed_rad_per_s: f64,
     record: Record,
     looked_s: f64,
-    found: StretchedCut,
+    found: CutStretching,
 }
 
 impl<'a> Samples<'a> {
@@ -141,7 +144,7 @@ impl<'a> Samples<'a> {
                 linear_until_s: None,
             },
             looked_s: 0.0,
-            found: StretchedCut {
+            found: CutStretching {
                 shapes: blade.shapes().ncols(),
                 step_s: 0.0,
                 largest_slope: 0.0,
