@@ -17,6 +17,7 @@ use rayon::prelude::*;
 use crate::scene::rpm;
 use crate::spectrum::{DescribedMode, HarmonicShare, SpectralModel, SpectrumError, Work};
 
+use matching::Match;
 pub(crate) use matching::{Sighted, match_modes};
 pub(crate) use refine::{Closeness, refined};
 
@@ -194,18 +195,21 @@ impl Campbell {
     /// last speed or at that height.
     pub fn track(mut samples: Vec<SpeedSample>, height_rad_per_s: f64) -> Self {
         samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+        let matches: Vec<Vec<Match>> = samples
+            .par_windows(2)
+            .map(|pair| {
+                let seen = [&pair[0], &pair[1]].map(|s| Sighted::of_described(&s.modes));
+                let step = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
+                match_modes([&seen[0], &seen[1]], step, height_rad_per_s)
+            })
+            .collect();
         let mut branches: Vec<Branch> = Vec::new();
         // Branch of each mode of the previous sample.
         let mut current: Vec<usize> = Vec::new();
-        for index in 0..samples.len() {
-            let previous = index.checked_sub(1).map(|i| &samples[i]);
-            let matches = previous.map_or(Vec::new(), |before| {
-                let after = &samples[index];
-                let seen = [before, after].map(|sample| Sighted::of_described(&sample.modes));
-                let step = after.speed_rad_per_s - before.speed_rad_per_s;
-                match_modes([&seen[0], &seen[1]], step, height_rad_per_s)
-            });
-            let mut next = vec![usize::MAX; samples[index].modes.len()];
+        for (index, sample) in samples.iter().enumerate() {
+            let before = index.checked_sub(1);
+            let matches = before.map_or(&[][..], |before| &matches[before]);
+            let mut next = vec![usize::MAX; sample.modes.len()];
             for found in matches {
                 next[found.after] = current[found.before];
             }

@@ -1,6 +1,6 @@
 //! Assignment of the modes at one speed to those at the next.
 
-use faer::{Col, c64};
+use faer::{Col, Mat, c64};
 
 use super::assignment::cheapest;
 use crate::spectrum::{DescribedMode, Mode, ModeKind};
@@ -74,12 +74,13 @@ pub fn match_modes(
     step: f64,
     height_rad_per_s: f64,
 ) -> Vec<Match> {
-    let old: Vec<Carrier<'_>> = before.iter().map(Carrier::new).collect();
-    let new: Vec<Carrier<'_>> = after.iter().map(Carrier::new).collect();
+    let old: Vec<Carrier> = before.iter().map(Carrier::new).collect();
+    let new: Vec<Carrier> = after.iter().map(Carrier::new).collect();
+    let alike = Likenesses::new([before, after]);
     let height = height_rad_per_s.max(f64::MIN_POSITIVE);
     // Costs of ending within the step, by the slope at each mode's own speed. A damped mode that stops
     // oscillating turns into two real λ, one of which begins or ends there.
-    let leaving = |c: &Carrier<'_>, step: f64| {
+    let leaving = |c: &Carrier, step: f64| {
         let there = (c.frequency + c.slope * step).abs().max(c.frequency.abs());
         match there >= (1.0 - TOP) * height || c.has_stopped(height) {
             true => AT_EDGE,
@@ -91,7 +92,8 @@ pub fn match_modes(
     let mut likeness = vec![vec![0.0; new.len()]; old.len()];
     for (i, x) in old.iter().enumerate() {
         for (k, y) in new.iter().enumerate() {
-            (costs[i][k], likeness[i][k]) = x.cost(y, step, height);
+            let likeness_of = |is_mirrored| alike.of(i, k, is_mirrored);
+            (costs[i][k], likeness[i][k]) = x.cost(y, step, height, likeness_of);
         }
         costs[i][new.len()..].fill(leaving(x, step));
     }
@@ -113,25 +115,23 @@ pub fn match_modes(
 }
 
 /// A mode converted to positive action.
-struct Carrier<'a> {
+struct Carrier {
     frequency: f64,
     slope: f64,
     component: usize,
-    shape: &'a Col<c64>,
     conjugated: bool,
     damped: bool,
     growth: f64,
 }
 
-impl<'a> Carrier<'a> {
-    fn new(&Sighted { mode, shape }: &Sighted<'a>) -> Self {
+impl Carrier {
+    fn new(&Sighted { mode, .. }: &Sighted<'_>) -> Self {
         let conjugated = mode.action < 0;
         let sign = if conjugated { -1.0 } else { 1.0 };
         Carrier {
             frequency: sign * mode.lambda.im,
             slope: sign * mode.frequency_slope,
             component: mode.component,
-            shape,
             conjugated,
             damped: mode.kind == ModeKind::Damped,
             growth: mode.lambda.re,
@@ -148,22 +148,30 @@ impl<'a> Carrier<'a> {
         }
     }
 
-    /// Cost of identifying two modes, and the likeness of their shapes.
-    fn cost(&self, other: &Carrier<'_>, step: f64, height: f64) -> (f64, f64) {
+    /// Cost of identifying two modes, and the likeness of their shapes, which a function gives for x and y or
+    /// for x̄ and y.
+    fn cost(
+        &self,
+        other: &Carrier,
+        step: f64,
+        height: f64,
+        likeness: impl Fn(bool) -> f64,
+    ) -> (f64, f64) {
         if self.component != other.component {
             return (NEVER, 0.0);
         }
-        let direct = self.cost_as_is(other, step, height);
+        let alike = |x: &Carrier| likeness(x.conjugated != other.conjugated);
+        let direct = self.cost_as_is(other, step, height, alike(self));
         if !self.damped {
             return direct;
         }
         // Near a coalescence the action of two damped modes is rounding.
-        let turned = self.mirrored().cost_as_is(other, step, height);
+        let mirrored = self.mirrored();
+        let turned = mirrored.cost_as_is(other, step, height, alike(&mirrored));
         if turned.0 < direct.0 { turned } else { direct }
     }
 
-    fn cost_as_is(&self, other: &Carrier<'_>, step: f64, height: f64) -> (f64, f64) {
-        let likeness = self.likeness(other);
+    fn cost_as_is(&self, other: &Carrier, step: f64, height: f64, likeness: f64) -> (f64, f64) {
         let moved = other.frequency - self.frequency;
         // Next to a coalescence the slope of a frequency is unbounded, so one end is more reliable.
         let slopes = [self.slope, other.slope, 0.5 * (self.slope + other.slope)];
@@ -188,7 +196,7 @@ impl<'a> Carrier<'a> {
 
     /// Relative difference of the growth rates, from 0 to 1; for a wave and a real λ, 1 if λ grows less than
     /// the wave.
-    fn regrown(&self, other: &Carrier<'_>, height: f64) -> f64 {
+    fn regrown(&self, other: &Carrier, height: f64) -> f64 {
         match [self, other].map(|c| c.has_stopped(height)) {
             [true, false] => f64::from(u8::from(self.growth < other.growth)),
             [false, true] => f64::from(u8::from(other.growth < self.growth)),
@@ -198,14 +206,39 @@ impl<'a> Carrier<'a> {
             }
         }
     }
+}
 
-    /// |xᴴy|², 1 for the same shape.
-    fn likeness(&self, other: &Carrier<'_>) -> f64 {
-        let product: c64 = match self.conjugated == other.conjugated {
-            true => self.shape.adjoint() * other.shape,
-            false => self.shape.transpose() * other.shape,
+/// |xᴴy|² and |xᵀy|² of every mode of one speed with every one of another, from one product of real matrices:
+/// hundreds of thousands of operations for each pair of speeds of a chart.
+struct Likenesses {
+    /// (Re x, Im x)ᵀ(Re y, Im y), two rows for each x and two columns for each y.
+    products: Mat<f64>,
+}
+
+impl Likenesses {
+    fn new(speeds: [&[Sighted<'_>]; 2]) -> Self {
+        let [x, y] = speeds.map(|modes| {
+            let rows = modes.first().map_or(0, |mode| mode.shape.nrows());
+            Mat::from_fn(rows, 2 * modes.len(), |i, k| {
+                let z = modes[k / 2].shape[i];
+                if k % 2 == 0 { z.re } else { z.im }
+            })
+        });
+        let products = match x.nrows() == y.nrows() {
+            true => x.transpose() * y,
+            // One of the speeds has no modes.
+            false => Mat::zeros(x.ncols(), y.ncols()),
         };
-        product.norm_sqr()
+        Likenesses { products }
+    }
+
+    /// |xᴴy|², or |xᵀy|² if x is mirrored: 1 for the same shape.
+    fn of(&self, x: usize, y: usize, is_mirrored: bool) -> f64 {
+        let product = |row: usize, column: usize| self.products[(2 * x + row, 2 * y + column)];
+        let sign = if is_mirrored { -1.0 } else { 1.0 };
+        let re = product(0, 0) + sign * product(1, 1);
+        let im = product(0, 1) - sign * product(1, 0);
+        re * re + im * im
     }
 }
 
