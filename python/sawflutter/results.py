@@ -168,7 +168,7 @@ class CampbellResults(Result, CampbellReport):
         if not files:
             raise ValueError("the chart has no shapes; run_campbell(shapes=True) computes them")
         for name, text in files:
-            (Path(folder) / name).write_text(text, encoding="utf-8")
+            (Path(folder) / name).write_text(text, encoding="utf-8", newline="\n")
 
     def to_dataframe(self, of: Table = "branches") -> pd.DataFrame:
         """Part of the results as a table; needs pandas.

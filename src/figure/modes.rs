@@ -36,7 +36,7 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
         let corner = [MARGIN + column * PANEL[0], TOP + row * PANEL[1]];
         panel(&mut sheet, corner, report, shape);
     }
-    key(&mut sheet, height - 24.0);
+    key(&mut sheet, height - 24.0, !report.scene.guides.is_empty());
     Some(sheet)
 }
 
@@ -121,16 +121,18 @@ fn shares(shape: &EventShapeEntry) -> String {
     format!("n = {}", shares.collect::<Vec<_>>().join(", "))
 }
 
-fn key(sheet: &mut Sheet, baseline: f64) {
-    Key::new(sheet, MARGIN, baseline)
-        .shade(colour(1.0))
+fn key(sheet: &mut Sheet, baseline: f64, has_guides: bool) {
+    let mut key = Key::new(sheet, MARGIN, baseline);
+    key.shade(colour(1.0))
         .word("towards the viewer")
         .shade(colour(-1.0))
         .word("away")
         .line(22.0, Stroke::solid(INK, NODAL_WIDTH))
-        .word("nodal line, of a wave that travels at this moment")
-        .line(22.0, Stroke::solid(INK, GUIDE_WIDTH))
-        .word("guide");
+        .word("nodal line, of a wave that travels at this moment");
+    if has_guides {
+        key.line(22.0, Stroke::solid(INK, GUIDE_WIDTH))
+            .word("guide");
+    }
 }
 
 #[cfg(test)]
@@ -163,6 +165,11 @@ mod tests {
         let critical = format!("{:.0} rpm, critical", report.critical_speeds[0].rpm);
         assert!(all.contains(&critical.as_str()), "{all:?}");
         assert!(all.contains(&"1000 rpm, mode"), "{all:?}");
+        assert!(all.contains(&"guide"), "{all:?}");
+        let mut free = report.clone();
+        free.scene.guides.clear();
+        let sheet = super::sheet(&free).unwrap();
+        assert!(texts(&sheet).iter().all(|(_, text)| *text != "guide"));
         let without = Report {
             shapes: Vec::new(),
             ..report

@@ -34,13 +34,14 @@ pub fn draw(sheet: &mut Sheet, centre: [f64; 2], report: &Report, shape: &EventS
         .map(|k| TAU * k as f64 / ANGLES as f64)
         .collect();
     let values = shape.at(&angles);
-    let rings: Vec<Vec<Corner>> = (shape.radius_m.iter().zip(values))
+    let mut rings: Vec<Vec<Corner>> = (shape.radius_m.iter().zip(values))
         .step_by(STRIDE)
         .map(|(r, row)| {
             let corners = angles.iter().zip(row);
             corners.map(|(a, [re, _])| (on_sheet(*r, *a), re)).collect()
         })
         .collect();
+    continue_to_clamp(&mut rings);
     let tiles = || {
         let rings = rings.windows(2);
         rings.flat_map(|pair| {
@@ -65,6 +66,20 @@ pub fn draw(sheet: &mut Sheet, centre: [f64; 2], report: &Report, shape: &EventS
     }
     for guide in &report.scene.guides {
         draw_guide(sheet, guide, RADIUS / outer, centre);
+    }
+}
+
+/// Share of the deflection of the next ring below which that of the innermost one is rounding.
+const CLAMPED: f64 = 1e-3;
+
+/// A clamped bore does not deflect, so that nodal lines would end there where rounding changes its sign. They
+/// go on at the angles at which they cross the next ring.
+fn continue_to_clamp(rings: &mut [Vec<Corner>]) {
+    let [bore, next, ..] = rings else { return };
+    for (corner, beside) in bore.iter_mut().zip(next) {
+        if corner.1.abs() < CLAMPED * beside.1.abs() {
+            corner.1 = CLAMPED * beside.1;
+        }
     }
 }
 
