@@ -3,7 +3,7 @@
 use faer::c64;
 
 use super::band::{Instability, InstabilityKind};
-use super::basis::{ChosenBasis, two_digits_down};
+use super::basis::{ChosenBasis, check_stretch, two_digits_down};
 use super::chart::{CHART_SPEEDS, StabilityChart, chart, drawn};
 use super::detail::Detail;
 use super::error::AnalysisError;
@@ -151,6 +151,10 @@ impl Analysis {
         scene: &Scene,
         options: AnalysisOptions<'_>,
     ) -> Result<Self, AnalysisError> {
+        // Counting the critical speeds of such a sweep, for the expected work, would take minutes.
+        if let Some(sweep) = scene.sweep() {
+            check_stretch(scene.blade(), sweep.to_rad_per_s)?;
+        }
         if let Some(tell) = options.expected {
             ExpectedWork::of_sweep(scene).into_iter().for_each(tell);
         }

@@ -69,12 +69,8 @@ impl ChosenBasis {
         least: Resolution,
     ) -> Result<Self, AnalysisError> {
         let cancellation = Cancellation::current();
-        let fastest = fastest_rad_per_s(scene.blade());
-        if let Some(sweep) = scene.sweep().filter(|sweep| sweep.to_rad_per_s > fastest) {
-            return Err(AnalysisError::Overstretched {
-                to_rpm: rpm(sweep.to_rad_per_s),
-                limit_rpm: rpm(fastest),
-            });
+        if let Some(sweep) = scene.sweep() {
+            check_stretch(scene.blade(), sweep.to_rad_per_s)?;
         }
         let mut rung = rung_of(least);
         let sizes = Work::of("sizes of the basis", LADDER.len() - rung);
@@ -158,13 +154,7 @@ pub(crate) fn resolved(
     least: Resolution,
     to_rad_per_s: f64,
 ) -> Result<(Assembled, Vec<NamedCriticalSpeed>), AnalysisError> {
-    let fastest = fastest_rad_per_s(scene.blade());
-    if to_rad_per_s > fastest {
-        return Err(AnalysisError::Overstretched {
-            to_rpm: rpm(to_rad_per_s),
-            limit_rpm: rpm(fastest),
-        });
-    }
+    check_stretch(scene.blade(), to_rad_per_s)?;
     let mut larger = larger_than(least);
     let mut resolution = least;
     loop {
@@ -263,6 +253,21 @@ fn fastest_rad_per_s(blade: &Blade) -> f64 {
         ..
     } = blade.material;
     (LARGEST_STRETCH * youngs_modulus_pa / density_kg_per_m3).sqrt() / blade.outer_radius_m
+}
+
+/// Refuses a sweep that ends at a speed at which the blade would have yielded long before.
+///
+/// # Errors
+/// [`AnalysisError::Overstretched`].
+pub(super) fn check_stretch(blade: &Blade, to_rad_per_s: f64) -> Result<(), AnalysisError> {
+    let fastest = fastest_rad_per_s(blade);
+    match to_rad_per_s > fastest {
+        true => Err(AnalysisError::Overstretched {
+            to_rpm: rpm(to_rad_per_s),
+            limit_rpm: rpm(fastest),
+        }),
+        false => Ok(()),
+    }
 }
 
 /// End of the sweep in rad/s, from the scene or chosen by the program.
