@@ -466,8 +466,8 @@ class Work(Entry):
     """Dense eigenproblems of the Hamiltonian reduction between two speeds."""
 
     refined_pairs: int
-    """Pairs of modes (single modes of a damped blade) refined by inverse iteration with a few
-    factorizations each."""
+    """Pairs of modes (single modes of a damped blade or in divergence) refined by inverse
+    iteration with a few factorizations each."""
 
     heat_solves: int
     """Symmetric eigenproblems of the full model at other temperatures, for limits of heat."""

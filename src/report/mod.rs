@@ -280,8 +280,8 @@ pub struct WorkEntry {
     pub reduced_solves: usize,
     /// Dense eigenproblems of the Hamiltonian reduction between two speeds.
     pub local_solves: usize,
-    /// Pairs of modes (single modes of a damped blade) refined by inverse iteration with a few factorizations
-    /// each.
+    /// Pairs of modes (single modes of a damped blade or in divergence) refined by inverse iteration with a
+    /// few factorizations each.
     pub refined_pairs: usize,
     /// Symmetric eigenproblems of the full model at other temperatures, for limits of heat.
     pub heat_solves: usize,

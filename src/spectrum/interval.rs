@@ -13,6 +13,7 @@ use faer::{Col, c64};
 use rayon::prelude::*;
 
 use super::component::{Component, Solution};
+use super::derivative;
 use super::error::SpectrumError;
 use super::half_order;
 use super::hamiltonian::{HamiltonianReduction, State};
@@ -26,6 +27,10 @@ use crate::tuned::Tuned;
 
 /// Modes up to this multiple of the window are included, because some of them enter it between two speeds.
 pub(super) const SPAN_MARGIN: Tuned = Tuned::new("spectrum/interval::SPAN_MARGIN", 1.5);
+
+/// A growth of the projection that differs from that of the states by more than this share of it belongs to
+/// another mode: the states are accurate to 1e-5 of the height.
+const SAME_GROWTH: f64 = 0.01;
 
 /// The low modes at a speed, in the coordinates of a projection.
 #[derive(Debug, Clone)]
@@ -249,6 +254,16 @@ impl<'a> SearchModel<'a> {
         let pairs = interval.projected_pairs(speed_rad_per_s, self.counters)?;
         let system = &interval.projection.reduced;
         Ok(classify(system, speed_rad_per_s, 0, pairs))
+    }
+
+    /// The real eigenvalue of the projection next to an expected one, without an eigenproblem. `None` if
+    /// Newton's method ends elsewhere.
+    pub fn growth_next_to(&self, speed_rad_per_s: f64, expected_per_s: f64) -> Option<f64> {
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        let system = &self.at(speed_rad_per_s).projection.reduced;
+        let expected = c64::new(expected_per_s, 0.0);
+        let (found, _) = derivative::next_to(system, speed_rad_per_s, expected)?;
+        ((found - expected).norm() <= SAME_GROWTH * expected_per_s).then_some(found.re)
     }
 
     /// These modes in the coordinates of the component, which are common to all speeds.

@@ -14,8 +14,8 @@ pub struct WorkCounters {
     pub reduced_solves: AtomicUsize,
     /// Eigenproblems of the few states between two speeds.
     pub local_solves: AtomicUsize,
-    /// Pairs of modes (single modes of a damped blade) refined by inverse iteration on the projected
-    /// matrices.
+    /// Pairs of modes (single modes of a damped blade or in divergence) refined by inverse iteration on the
+    /// projected matrices.
     pub refined_pairs: AtomicUsize,
     /// Eigenproblems of the full model: shifted Krylov iterations, or dense ones.
     pub full_solves: AtomicUsize,

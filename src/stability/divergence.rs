@@ -117,12 +117,9 @@ fn band(
     // The few states between two speeds locate the largest growth; the projection gives its size.
     let peak_growth_per_s = match found {
         Some(found) if found.value > 0.0 => {
-            let exact = evaluator.divergence(found.at)?;
-            if exact > 0.0 {
-                exact
-            } else {
-                found.value.sqrt()
-            }
+            let expected = found.value.sqrt();
+            let exact = evaluator.divergence_next_to(found.at, expected)?;
+            if exact > 0.0 { exact } else { expected }
         }
         _ => 0.0,
     };

@@ -328,6 +328,20 @@ impl<'a> SignatureEvaluator<'a> {
             .map_or(0.0, |mode| mode.lambda.re))
     }
 
+    /// The growth of a divergent mode that the states of an interval give approximately, without their error.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn divergence_next_to(
+        &self,
+        speed_rad_per_s: f64,
+        expected_per_s: f64,
+    ) -> Result<f64, SpectrumError> {
+        let low = self.low.as_ref();
+        let found = low.and_then(|low| low.growth_next_to(speed_rad_per_s, expected_per_s));
+        found.map_or_else(|| self.divergence(speed_rad_per_s), Ok)
+    }
+
     /// Whether a critical speed lies between two speeds.
     pub fn spans_critical(&self, from_rad_per_s: f64, to_rad_per_s: f64) -> bool {
         let below = |speed| self.model.negative_stiffness_directions(speed);
