@@ -1,7 +1,7 @@
 //! The goal of a placement, its limit, and the extent of the search.
 
 use crate::plate::Resolution;
-use crate::scene::{Parameter, RefusedValue, Scene, rad_per_s, speed_rad_per_s};
+use crate::scene::{Kind, Parameter, Quantity, RefusedValue, Scene, rad_per_s, speed_rad_per_s};
 use crate::text::shown;
 
 /// The quantity to maximize.
@@ -138,11 +138,11 @@ impl Tolerances {
 
     /// The tolerance of a number with this value, in its unit.
     pub(super) fn of(&self, parameter: &Parameter, value: f64) -> f64 {
-        match parameter.path().rsplit('.').next().unwrap_or_default() {
-            "radius_m" => self.radius_m,
-            "angle_deg" => self.angle_deg,
-            "stiffness_n_per_m" | "damping_n_s_per_m" => self.guide_share * value,
-            _ => self.other_share * value.abs(),
+        match Quantity::kind_of(parameter.path()) {
+            Kind::GuideRadius | Kind::Radius => self.radius_m,
+            Kind::Angle => self.angle_deg,
+            Kind::Stiffness | Kind::Damping => self.guide_share * value,
+            Kind::Other => self.other_share * value.abs(),
         }
     }
 }

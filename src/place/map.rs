@@ -1,6 +1,7 @@
 //! Map of the goal over two of the freed numbers.
 
 use crate::campbell::even_speeds;
+use crate::scene::Quantity;
 
 use super::outcome::Outcome;
 use super::search::{Search, Tried};
@@ -27,15 +28,8 @@ pub(crate) struct Map {
 
 /// The numbers of the axes: radius and angle of a pad if both are free, otherwise others.
 fn axes(paths: &[&str]) -> (usize, Option<usize>) {
-    let rank = |path: &str| {
-        let name = path.rsplit('.').next().unwrap_or_default();
-        ["radius_m", "angle_deg", "stiffness_n_per_m"]
-            .iter()
-            .position(|known| *known == name)
-            .unwrap_or(3)
-    };
     let mut order: Vec<usize> = (0..paths.len()).collect();
-    order.sort_by_key(|&i| (rank(paths[i]), i));
+    order.sort_by_key(|&i| (Quantity::kind_of(paths[i]), i));
     (order[0], next(paths, &order))
 }
 

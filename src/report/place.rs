@@ -8,7 +8,7 @@ use super::certificate::statement;
 use crate::place::{
     Demands, FragileOptimum, Goal, Map, Neighbour, Neighbours, Outcome, PlacedParameter, Placement,
 };
-use crate::scene::{Scene, SceneFile, rpm};
+use crate::scene::{Kind, Quantity, Scene, SceneFile, rpm};
 
 /// Report of a placement (`place.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -329,7 +329,7 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
     let mut warnings = Vec::new();
     for freed in &found.without_effect {
         let path = freed.parameter.path();
-        warnings.push(if path.ends_with("angle_deg") {
+        warnings.push(if Quantity::kind_of(path) == Kind::Angle {
             format!(
                 "{path} was kept: without the forces of a cut a common rotation of all guides changes nothing, so a single guide may be at any angle"
             )

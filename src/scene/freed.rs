@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{Parameter, RefusedValue, Scene, SceneError, SceneFile};
+use super::{Kind, Parameter, Quantity, RefusedValue, Scene, SceneError, SceneFile};
 use crate::text::shown;
 
 /// A number of a scene and its bounds. [`crate::fit`] and [`crate::place`] work with its share, between 0 and
@@ -63,13 +63,11 @@ impl Freed {
     /// As [`Freed::new`].
     pub fn with_usual_bounds(scene: &Scene, path: &str) -> Result<Self, SceneError> {
         let value = Parameter::new(path).get(&scene.file)?;
-        let (from, to) = match path.rsplit('.').next().unwrap_or_default() {
-            "radius_m" if path.starts_with("guides") => {
-                (scene.blade.inner_radius_m, scene.blade.outer_radius_m)
-            }
-            "stiffness_n_per_m" | "damping_n_s_per_m" => (value / 30.0, value * 30.0),
-            "angle_deg" => (value - 60.0, value + 60.0),
-            _ => (value - 0.2 * value.abs(), value + 0.2 * value.abs()),
+        let (from, to) = match Quantity::kind_of(path) {
+            Kind::GuideRadius => (scene.blade.inner_radius_m, scene.blade.outer_radius_m),
+            Kind::Stiffness | Kind::Damping => (value / 30.0, value * 30.0),
+            Kind::Angle => (value - 60.0, value + 60.0),
+            Kind::Radius | Kind::Other => (value - 0.2 * value.abs(), value + 0.2 * value.abs()),
         };
         Freed::new(&scene.file, path, from, to)
     }

@@ -58,7 +58,7 @@ pub use parameter::Parameter;
 pub(crate) use profile::Profile;
 #[cfg(any(test, feature = "page"))]
 pub(crate) use quantity::QUANTITIES;
-pub use quantity::Quantity;
+pub use quantity::{Kind, Quantity};
 #[cfg(feature = "cli")]
 pub(crate) use read::SCENE_TEXT;
 pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};

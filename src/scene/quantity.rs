@@ -14,6 +14,26 @@ pub struct Quantity {
     /// Range that includes all saws in use. Zero is always accepted, because it means that the feature is
     /// absent.
     pub usual: (f64, f64),
+    /// How the number varies in production and in searches.
+    pub kind: Kind,
+}
+
+/// How a number varies: each kind has tolerances of production and usual bounds of a search of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Radius of a guide, anywhere on the blade.
+    GuideRadius,
+    /// Another radius.
+    Radius,
+    /// Angle.
+    Angle,
+    /// Stiffness of a contact, known by its power of ten.
+    Stiffness,
+    /// Damping of a contact, likewise.
+    Damping,
+    /// Any other number.
+    Other,
 }
 
 const fn q(
@@ -28,6 +48,13 @@ const fn q(
         name,
         unit,
         usual: (from, to),
+        kind: Kind::Other,
+    }
+}
+
+impl Quantity {
+    const fn of_kind(self, kind: Kind) -> Self {
+        Quantity { kind, ..self }
     }
 }
 
@@ -39,21 +66,21 @@ pub const QUANTITIES: [Quantity; 83] = [
     q("blade.outer_diameter_m", "outer diameter", "m", 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", 1e-4, 0.04),
-    q("blade.profile[].radius_m", "radius", "m", 1e-3, 2.5),
+    q("blade.profile[].radius_m", "radius", "m", 1e-3, 2.5).of_kind(Kind::Radius),
     q("blade.profile[].thickness_m", "thickness", "m", 1e-4, 0.04),
     q("blade.teeth", "number of teeth", "", 1.0, 1000.0),
     q("blade.rim.mass_per_tooth_kg", "mass of a tooth", "kg", 1e-6, 10.0),
-    q("blade.rim.radius_m", "radius of the mass of teeth", "m", 0.02, 2.5),
+    q("blade.rim.radius_m", "radius of the mass of teeth", "m", 0.02, 2.5).of_kind(Kind::Radius),
     q("blade.material.youngs_modulus_pa", "Young's modulus", "Pa", 4e10, 7.5e11),
     q("blade.material.poisson_ratio", "Poisson's ratio", "", 0.15, 0.45),
     q("blade.material.density_kg_per_m3", "density", "kg/m³", 2e3, 2e4),
     q("mount.diameter_m", "collar diameter", "m", 0.01, 3.0),
-    q("guides[].radius_m", "radius of the guide", "m", 0.005, 2.5),
-    q("guides[].angle_deg", "angle of the guide", "°", -360.0, 360.0),
+    q("guides[].radius_m", "radius of the guide", "m", 0.005, 2.5).of_kind(Kind::GuideRadius),
+    q("guides[].angle_deg", "angle of the guide", "°", -360.0, 360.0).of_kind(Kind::Angle),
     q("guides[].radial_length_m", "radial length of the guide", "m", 1e-4, 1.0),
     q("guides[].tangential_length_m", "tangential length of the guide", "m", 1e-4, 1.0),
-    q("guides[].stiffness_n_per_m", "stiffness of the guide", "N/m", 2.5e4, 1e10),
-    q("guides[].damping_n_s_per_m", "damping of the guide", "N·s/m", 1e-2, 1e6),
+    q("guides[].stiffness_n_per_m", "stiffness of the guide", "N/m", 2.5e4, 1e10).of_kind(Kind::Stiffness),
+    q("guides[].damping_n_s_per_m", "damping of the guide", "N·s/m", 1e-2, 1e6).of_kind(Kind::Damping),
     q("guides[].gap_m", "gap of the guide", "m", 1e-6, 5e-3),
     q("guides[].film_stiffness_n_per_m", "stiffness within the gap of the guide", "N/m", 10.0, 1e10),
     q("damping.material_retardation_time_s", "retardation time of the material", "s", 1e-10, 1e-2),
@@ -63,12 +90,12 @@ pub const QUANTITIES: [Quantity; 83] = [
     q("membrane.temperature.rim_rise_k", "temperature rise of the rim", "K", -200.0, 600.0),
     q("membrane.temperature.from_radius_m", "radius where the rise begins", "m", 1e-3, 2.5),
     q("membrane.temperature.exponent", "exponent of the rise", "", 0.1, 20.0),
-    q("membrane.temperature.table[].radius_m", "radius", "m", 1e-3, 2.5),
+    q("membrane.temperature.table[].radius_m", "radius", "m", 1e-3, 2.5).of_kind(Kind::Radius),
     q("membrane.temperature.table[].rise_k", "temperature rise", "K", -200.0, 600.0),
-    q("membrane.roll_tension[].radius_m", "radius of the rolled band", "m", 1e-3, 2.5),
+    q("membrane.roll_tension[].radius_m", "radius of the rolled band", "m", 1e-3, 2.5).of_kind(Kind::Radius),
     q("membrane.roll_tension[].width_m", "width of the rolled band", "m", 1e-4, 1.0),
     q("membrane.roll_tension[].eigenstrain", "rolling strain", "", -0.02, 0.02),
-    q("membrane.residual_stress[].radius_m", "radius", "m", 1e-3, 2.5),
+    q("membrane.residual_stress[].radius_m", "radius", "m", 1e-3, 2.5).of_kind(Kind::Radius),
     q("membrane.residual_stress[].hoop_pa", "hoop stress", "Pa", -3e9, 3e9),
     q("membrane.residual_stress[].radial_pa", "radial stress", "Pa", -3e9, 3e9),
     q("spline.teeth", "number of spline teeth", "", 1.0, 200.0),
@@ -85,7 +112,7 @@ pub const QUANTITIES: [Quantity; 83] = [
     q("sweep.to_rpm", "last speed of the sweep", "rpm", 30.0, 2e5),
     q("flutter_threshold_per_s", "growth rate that counts as flutter", "1/s", 1e-6, 1e3),
     q("tolerance", "tolerance", "", 0.0, 1.0),
-    q("cut.angle_deg", "angle of the cut", "°", -360.0, 360.0),
+    q("cut.angle_deg", "angle of the cut", "°", -360.0, 360.0).of_kind(Kind::Angle),
     q("cut.depth_m", "depth of cut", "m", 1e-4, 3.0),
     q("cut.teeth_in_cut", "teeth in the cut", "", 1.0, 1000.0),
     q("cut.tangential_n_per_tooth", "tangential force on a tooth", "N", -1e5, 1e5),
@@ -96,11 +123,11 @@ pub const QUANTITIES: [Quantity; 83] = [
     q("cut.board_length_m", "length of the board", "m", 0.01, 50.0),
     q("cut.idle_s", "time before and after the cut", "s", 0.0, 600.0),
     q("cut.chart_rpm", "speed of the cut in the diagram", "rpm", 30.0, 6e4),
-    q("cut.wood.stiffness_n_per_m", "stiffness of the wood", "N/m", 1.0, 1e9),
-    q("cut.wood.damping_n_s_per_m", "damping of the wood", "N·s/m", 1e-3, 1e6),
+    q("cut.wood.stiffness_n_per_m", "stiffness of the wood", "N/m", 1.0, 1e9).of_kind(Kind::Stiffness),
+    q("cut.wood.damping_n_s_per_m", "damping of the wood", "N·s/m", 1e-3, 1e6).of_kind(Kind::Damping),
     q("cut.wood.depth_m", "depth of the contact with the wood", "m", 1e-4, 2.0),
     q("cut.wood.arc_deg", "arc of the contact with the wood", "°", 1.0, 360.0),
-    q("cut.washboarding.stiffness_n_per_m", "lateral cutting stiffness", "N/m", 10.0, 1e8),
+    q("cut.washboarding.stiffness_n_per_m", "lateral cutting stiffness", "N/m", 10.0, 1e8).of_kind(Kind::Stiffness),
     q("cut.washboarding.overlap", "overlap with the preceding tooth", "", 0.0, 1.0),
     q("cut.washboarding.arc_deg", "arc of the teeth in the cut", "°", 1.0, 360.0),
     q("cut.washboarding.pitches_deg[]", "pitch of a tooth", "°", 0.3, 360.0),
@@ -114,9 +141,9 @@ pub const QUANTITIES: [Quantity; 83] = [
     q("runup.to_rpm", "last speed of the run-up", "rpm", 30.0, 2e5),
     q("runup.duration_s", "duration of the run-up", "s", 0.0, 3600.0),
     q("runup.force_n", "lateral force", "N", -1e5, 1e5),
-    q("runup.angle_deg", "angle of the force", "°", -360.0, 360.0),
-    q("probe.radius_m", "radius of the probe", "m", 0.005, 2.5),
-    q("probe.angle_deg", "angle of the probe", "°", -360.0, 360.0),
+    q("runup.angle_deg", "angle of the force", "°", -360.0, 360.0).of_kind(Kind::Angle),
+    q("probe.radius_m", "radius of the probe", "m", 0.005, 2.5).of_kind(Kind::Radius),
+    q("probe.angle_deg", "angle of the probe", "°", -360.0, 360.0).of_kind(Kind::Angle),
     q("measured.rows[].rpm", "rotation speed", "rpm", 0.0, 1e5),
     q("measured.rows[].frequencies_hz[]", "frequency", "Hz", 0.0, 1e5),
 ];
@@ -126,6 +153,11 @@ impl Quantity {
     pub fn of(path: &str) -> Option<&'static Self> {
         let general = general(path);
         QUANTITIES.iter().find(|quantity| quantity.path == general)
+    }
+
+    /// The kind of the number at a path.
+    pub fn kind_of(path: &str) -> Kind {
+        Self::of(path).map_or(Kind::Other, |quantity| quantity.kind)
     }
 
     /// Whether a value is usual.
@@ -180,6 +212,32 @@ mod tests {
         for (key, below) in node["properties"].as_object().into_iter().flatten() {
             let dot = if path.is_empty() { "" } else { "." };
             numbers(schema, below, &format!("{path}{dot}{key}"), found);
+        }
+    }
+
+    #[test]
+    fn kinds_follow_from_the_last_key_and_from_guides() {
+        let kinds = [
+            ("guides[2].radius_m", Kind::GuideRadius),
+            ("probe.radius_m", Kind::Radius),
+            ("cut.angle_deg", Kind::Angle),
+            ("cut.wood.stiffness_n_per_m", Kind::Stiffness),
+            ("guides[0].damping_n_s_per_m", Kind::Damping),
+            ("blade.thickness_m", Kind::Other),
+        ];
+        for (path, kind) in kinds {
+            assert_eq!(Quantity::kind_of(path), kind, "{path}");
+        }
+        // A number that is added to the table has the kind of those with the same last key.
+        for (k, one) in QUANTITIES.iter().enumerate() {
+            let last = |quantity: &Quantity| quantity.path.rsplit('.').next();
+            let is_guide = |quantity: &Quantity| quantity.kind == Kind::GuideRadius;
+            let alike = QUANTITIES[..k]
+                .iter()
+                .filter(|other| last(other) == last(one));
+            for other in alike.filter(|other| !is_guide(other) && !is_guide(one)) {
+                assert_eq!(one.kind, other.kind, "{} {}", one.path, other.path);
+            }
         }
     }
 

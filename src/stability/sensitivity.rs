@@ -8,7 +8,7 @@ use faer::{Col, c64};
 use super::analysis::Analysis;
 use super::band::{Instability, InstabilityKind};
 use crate::plate::Plate;
-use crate::scene::{Parameter, Scene, SceneError, SceneFile};
+use crate::scene::{Parameter, Quantity, Scene, SceneError, SceneFile};
 use crate::spectrum::{Differences, Mode, ModeKind, SpectrumError, derivative, matrix_slopes};
 use crate::system::GyroscopicSystem;
 
@@ -137,10 +137,16 @@ impl Variation {
     /// Variations of the blade, of every guide, and of the heat and roll tension of the scene.
     fn of_scene(scene: &SceneFile) -> Vec<Self> {
         let mut all = Vec::new();
-        let mut add = |path: String, by| {
+        let mut add = |path: String| {
             let parameter = Parameter::new(&path);
             // Keys that the scene omits have no number to vary.
             if let Ok(value) = parameter.get(scene) {
+                let unit = Quantity::of(&path).map_or("", |quantity| quantity.unit);
+                let by = match unit {
+                    "°" => By::One("1 degree"),
+                    "K" => By::One("1 K"),
+                    _ => By::Percent,
+                };
                 all.push(Variation {
                     parameter,
                     value,
@@ -153,30 +159,23 @@ impl Variation {
             "material.youngs_modulus_pa",
             "material.density_kg_per_m3",
         ] {
-            add(format!("blade.{name}"), By::Percent);
+            add(format!("blade.{name}"));
         }
         for index in 0..scene.blade.profile.len() {
-            add(format!("blade.profile[{index}].thickness_m"), By::Percent);
+            add(format!("blade.profile[{index}].thickness_m"));
         }
-        add("blade.rim.mass_per_tooth_kg".into(), By::Percent);
+        add("blade.rim.mass_per_tooth_kg".into());
         for index in 0..scene.guides.len() {
-            for (name, by) in [
-                ("radius_m", By::Percent),
-                ("angle_deg", By::One("1 degree")),
-                ("stiffness_n_per_m", By::Percent),
-            ] {
-                add(format!("guides[{index}].{name}"), by);
+            for name in ["radius_m", "angle_deg", "stiffness_n_per_m"] {
+                add(format!("guides[{index}].{name}"));
             }
         }
         let membrane = scene.membrane.as_ref();
-        add("membrane.temperature.expansion_per_k".into(), By::Percent);
-        add("membrane.temperature.rim_rise_k".into(), By::One("1 K"));
+        add("membrane.temperature.expansion_per_k".into());
+        add("membrane.temperature.rim_rise_k".into());
         for index in 0..membrane.map_or(0, |m| m.roll_tension.len()) {
             for name in ["radius_m", "eigenstrain"] {
-                add(
-                    format!("membrane.roll_tension[{index}].{name}"),
-                    By::Percent,
-                );
+                add(format!("membrane.roll_tension[{index}].{name}"));
             }
         }
         all
