@@ -1,5 +1,7 @@
 //! Reasons of a failed computation, and the Python exceptions for them.
 
+use std::fmt::Display;
+
 use pyo3::exceptions::{PyIsADirectoryError, PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
@@ -139,60 +141,6 @@ impl From<StudyError> for Failure {
     }
 }
 
-impl From<FitError> for Failure {
-    fn from(error: FitError) -> Self {
-        match error {
-            FitError::Scene(source) => source.into(),
-            FitError::Analysis(source) => source.into(),
-            FitError::Spectrum(source) => source.into(),
-            other => Refusal::saying("ArgumentError", other, None),
-        }
-    }
-}
-
-impl From<PlaceError> for Failure {
-    fn from(error: PlaceError) -> Self {
-        match error {
-            PlaceError::Scene(source) => source.into(),
-            PlaceError::Analysis(source) => source.into(),
-            PlaceError::Spectrum(source) => source.into(),
-            other => Refusal::saying("ArgumentError", other, None),
-        }
-    }
-}
-
-impl From<TransientError> for Failure {
-    fn from(error: TransientError) -> Self {
-        match error {
-            TransientError::Scene(source) => source.into(),
-            other => Failure::Failed(other.to_string()),
-        }
-    }
-}
-
-impl From<GapError> for Failure {
-    fn from(error: GapError) -> Self {
-        match error {
-            GapError::Refused(source) => source.into(),
-            GapError::Scene(source) => source.into(),
-            GapError::Analysis(source) => source.into(),
-            GapError::Spectrum(source) => source.into(),
-            GapError::Stretched(source) => source.into(),
-        }
-    }
-}
-
-impl From<DeflectError> for Failure {
-    fn from(error: DeflectError) -> Self {
-        match error {
-            DeflectError::Refused(source) => source.into(),
-            DeflectError::Scene(source) => source.into(),
-            DeflectError::Analysis(source) => source.into(),
-            other => Failure::Failed(other.to_string()),
-        }
-    }
-}
-
 impl From<WashboardError> for Failure {
     fn from(error: WashboardError) -> Self {
         let message = error.to_string();
@@ -210,17 +158,6 @@ impl From<WashboardError> for Failure {
     }
 }
 
-impl From<CheckError> for Failure {
-    fn from(error: CheckError) -> Self {
-        match error {
-            CheckError::Scene(source) => source.into(),
-            CheckError::Analysis(source) => source.into(),
-            CheckError::Spectrum(source) => source.into(),
-            CheckError::Stretched(source) => source.into(),
-        }
-    }
-}
-
 impl From<LogError> for Failure {
     fn from(error: LogError) -> Self {
         let message = error.to_string();
@@ -231,6 +168,36 @@ impl From<LogError> for Failure {
             _ => Refusal::saying("StudyError", message, None),
         }
     }
+}
+
+/// Conversions of errors by the error of a variant; a function converts the other variants.
+macro_rules! passed_on {
+    ($($error:ident: $($variant:ident)+ $(, $others:expr)?;)*) => {
+        $(impl From<$error> for Failure {
+            fn from(error: $error) -> Self {
+                match error {
+                    $($error::$variant(source) => source.into(),)+
+                    $(other => $others(&other),)?
+                }
+            }
+        })*
+    };
+}
+passed_on! {
+    FitError: Scene Analysis Spectrum, refused;
+    PlaceError: Scene Analysis Spectrum, refused;
+    TransientError: Scene, failed;
+    GapError: Refused Scene Analysis Spectrum Stretched;
+    DeflectError: Refused Scene Analysis, failed;
+    CheckError: Scene Analysis Spectrum Stretched;
+}
+
+fn refused(error: &dyn Display) -> Failure {
+    Refusal::saying("ArgumentError", error, None)
+}
+
+fn failed(error: &dyn Display) -> Failure {
+    Failure::Failed(error.to_string())
 }
 
 /// Conversions of errors whose message is complete.
