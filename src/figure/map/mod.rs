@@ -3,7 +3,7 @@
 mod over_numbers;
 mod over_speed;
 
-use super::canvas::{Frame, Sheet, Stroke};
+use super::canvas::{Frame, Sheet};
 use super::style::{BETWEEN_FACTS, Colour};
 use crate::report::MapReport;
 
@@ -46,11 +46,6 @@ fn facts(report: &MapReport) -> String {
         .flatten()
         .collect::<Vec<_>>()
         .join(BETWEEN_FACTS)
-}
-
-/// A sample of a line for the key.
-fn sample(stroke: Stroke) -> impl FnOnce(&mut Sheet, [f64; 2]) {
-    move |sheet, [x, y]| sheet.line([[x, y], [x + 24.0, y]], stroke)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Areas of stable, diverging and fluttering saws over two numbers, with contours of speeds.
 
-use super::{BLANK, HEIGHT, KEYS, PANEL, WIDTH, facts, sample};
+use super::{BLANK, HEIGHT, KEYS, PANEL, WIDTH, facts};
 use crate::figure::along::Along;
 use crate::figure::axis::{draw_named, draw_vertical};
 use crate::figure::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
@@ -56,10 +56,7 @@ fn colour(saw: &MappedSawEntry) -> Colour {
 fn stroke(quantity: ContouredEntry) -> Stroke {
     match quantity {
         ContouredEntry::FlutterSpeed => Stroke::solid(FLUTTER, CURVE),
-        ContouredEntry::LowestCriticalSpeed => Stroke {
-            dash: Some(DASH),
-            ..Stroke::solid(FORWARD, CURVE)
-        },
+        ContouredEntry::LowestCriticalSpeed => Stroke::dashed(FORWARD, CURVE, DASH),
     }
 }
 
@@ -126,12 +123,10 @@ fn draw_key(sheet: &mut Sheet, report: &MapReport) {
         key.shade(BLANK).word("not analysed");
     }
     Key::new(sheet, PANEL.left, KEYS[1])
-        .mark(24.0, sample(stroke(ContouredEntry::FlutterSpeed)))
+        .line(24.0, stroke(ContouredEntry::FlutterSpeed))
         .word("flutter speed [rpm]")
-        .mark(24.0, sample(stroke(ContouredEntry::LowestCriticalSpeed)))
+        .line(24.0, stroke(ContouredEntry::LowestCriticalSpeed))
         .word("lowest critical speed [rpm]")
-        .mark(10.0, |sheet, [x, y]| {
-            sheet.ring([x + 5.0, y], 5.0, Stroke::solid(INK, 2.0), PAPER);
-        })
+        .ring(10.0, 5.0, Stroke::solid(INK, 2.0))
         .word("the scene");
 }

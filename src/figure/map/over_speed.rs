@@ -1,6 +1,6 @@
 //! Bands as areas over a number and the speed.
 
-use super::{BLANK, HEIGHT, KEYS, PANEL, WIDTH, facts, sample};
+use super::{BLANK, HEIGHT, KEYS, PANEL, WIDTH, facts};
 use crate::figure::along::Along;
 use crate::figure::axis::{Axis, Spread, draw_named, draw_vertical};
 use crate::figure::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
@@ -226,10 +226,7 @@ fn draw_blank(sheet: &mut Sheet, report: &MapReport, x: &Along) {
 
 /// Marks the scene's own number and the speed at which the saws are judged.
 fn draw_marks(sheet: &mut Sheet, report: &MapReport, x: &Along, speed: &Axis) {
-    let dashed = Stroke {
-        dash: Some(FINE_DASH),
-        ..Stroke::solid(INK, HAIRLINE)
-    };
+    let dashed = Stroke::dashed(INK, HAIRLINE, FINE_DASH);
     if x.shows(report.x.of_scene) {
         let at = x.at(report.x.of_scene);
         sheet.line([[at, PANEL.top], [at, PANEL.bottom]], dashed);
@@ -246,10 +243,7 @@ fn draw_marks(sheet: &mut Sheet, report: &MapReport, x: &Along, speed: &Axis) {
 }
 
 fn draw_key(sheet: &mut Sheet, report: &MapReport) {
-    let dashed = Stroke {
-        dash: Some(FINE_DASH),
-        ..Stroke::solid(INK, HAIRLINE)
-    };
+    let dashed = Stroke::dashed(INK, HAIRLINE, FINE_DASH);
     Key::new(sheet, PANEL.left, KEYS[0])
         .shade(Look::Divergence.colour())
         .word("divergence")
@@ -258,11 +252,11 @@ fn draw_key(sheet: &mut Sheet, report: &MapReport) {
         .shade(Look::Weak.colour())
         .word("flutter below the threshold, unless the band is wide");
     let mut key = Key::new(sheet, PANEL.left, KEYS[1]);
-    key.mark(24.0, sample(Stroke::solid(FORWARD, CURVE)))
+    key.line(24.0, Stroke::solid(FORWARD, CURVE))
         .word("lowest critical speed")
-        .mark(24.0, sample(Stroke::solid(ALARM, CURVE)))
+        .line(24.0, Stroke::solid(ALARM, CURVE))
         .word("flutter speed")
-        .mark(24.0, sample(dashed))
+        .line(24.0, dashed)
         .word("the scene");
     if report.saws.iter().any(|saw| saw.not_analysed.is_some()) {
         key.shade(BLANK).word("not analysed");
