@@ -36,16 +36,10 @@ pub fn reaction_effect(
 }
 
 impl ReactionEffect {
-    /// ‖K_simulated − K_assumed‖ / ‖K_assumed‖ in the Frobenius norm; 0 without any load.
-    ///
-    /// On the full model functions that vary strongly near the bore dominate this norm, so that it grows with
-    /// the basis. See [`ReactionEffect::relative_change_on`].
-    pub fn relative_change(&self) -> f64 {
-        relative(&(&self.simulated - &self.assumed), &self.assumed)
-    }
-
-    /// As [`ReactionEffect::relative_change`], on the span of the columns of `modes`, orthonormal in the
-    /// mass-normalised basis: the modes that decide a verdict.
+    /// ‖K_simulated − K_assumed‖ / ‖K_assumed‖ in the Frobenius norm, on the span of the columns of `modes`,
+    /// orthonormal in the mass-normalised basis: the modes that decide a verdict; 0 without any load. On the
+    /// full model functions that vary strongly near the bore would dominate this norm, so that it would grow
+    /// with the basis.
     pub fn relative_change_on(&self, modes: MatRef<'_, f64>) -> f64 {
         let on_modes = |matrix: &Mat<f64>| modes.transpose() * matrix * modes;
         let (assumed, simulated) = (on_modes(&self.assumed), on_modes(&self.simulated));

@@ -43,8 +43,7 @@ pub(crate) use runup::run_up;
 pub(crate) use saw_in_cut::SawInCut;
 pub(crate) use scenario::CuttingRun;
 pub use scenario::{Cutting, RunningUp};
-#[doc(hidden)]
-pub use sinusoids::{FitError, fitted_growth};
+pub use sinusoids::FitError;
 pub use stretched_cut::CutStretching;
 pub(crate) use stretched_cut::stretched_cut;
 pub(crate) use stretched_runup::{StretchedRunUp, stretched_run_up};
