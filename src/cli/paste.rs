@@ -29,7 +29,7 @@ pub fn pasted<T>(scene: &Scene, needed: Result<T, RefusedValue>) -> anyhow::Resu
     })
 }
 
-/// A middling cut for this blade.
+/// A typical cut for this blade.
 pub fn usual_cut(scene: &SceneFile) -> Value {
     let depth_m = rounded(0.25 * scene.blade.outer_diameter_m);
     let mut cut = json!({
