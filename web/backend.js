@@ -3,12 +3,16 @@
 // Tasks take minutes, and depend on no chart: charts do not wait for them.
 const CHARTS = "charts";
 const TASKS = "tasks";
+// What takes no time waits for neither.
+const QUICK = "quick";
+const IS_QUICK = /^(start|read|measured|part)$/;
 // The charts of a worker that was ended are gone: later ones have other numbers.
 const NUMBERS = 1_000_000;
 
 const compiled = fetch("page/sawflutter.wasm").then((answer) => answer.arrayBuffer()).then((bytes) => WebAssembly.compile(bytes));
 
-class Desk {
+// A worker, and the requests that wait for it.
+class Queue {
   #worker = null;
   #begun = 0;
   #waiting = [];
@@ -90,15 +94,20 @@ class Desk {
   }
 }
 
-const desks = { [CHARTS]: new Desk(), [TASKS]: new Desk() };
+const queues = { [CHARTS]: new Queue(), [TASKS]: new Queue(), [QUICK]: new Queue() };
+
+function queueOf(path) {
+  if (path.startsWith("task/")) return queues[TASKS];
+  return queues[IS_QUICK.test(path) ? QUICK : CHARTS];
+}
 
 export async function ask(path, options = undefined) {
   const { body = "", signal = undefined, headers = {} } = options ?? {};
   if (path === "alive") return new Response(null, { status: 204 });
-  if (path === "progress") return Response.json(desks[CHARTS].stage);
+  if (path === "progress") return Response.json(queues[CHARTS].stage);
   const header = (name) => String(headers[`sawflutter-${name}`] ?? "");
-  const question = { path, page: header("page"), chart: header("chart"), body };
-  return desks[path.startsWith("task/") ? TASKS : CHARTS].ask(question, signal);
+  const question = { path, page: header("page"), chart: header("chart"), units: header("units") || "metric", body };
+  return queueOf(path).ask(question, signal);
 }
 
 // No server is there that would wait for the page.

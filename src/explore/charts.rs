@@ -5,8 +5,10 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use serde::Serialize;
 
-use super::desk::Clock;
-use super::reply::{Refusal, SavedFile};
+use super::backend::Clock;
+use super::influence::{Influence, influences};
+use super::refusal::Refusal;
+use super::reply::SavedFile;
 use super::told::Told;
 use super::under_way::UnderWay;
 use crate::figure::ChartData;
@@ -136,14 +138,17 @@ impl Charts {
         .map_err(|error| Refusal::of(&error))
     }
 
-    /// Derivatives of the speeds of a diagram by the numbers of its scene.
+    /// Influences of the numbers of a scene on the speeds of its diagram.
     ///
     /// # Errors
     /// [`Refusal`] if the diagram is no longer kept, or a computation fails.
-    pub fn influence(&self, asked: &str) -> Result<Vec<SensitivityEntry>, Refusal> {
+    pub fn influence(&self, asked: &str) -> Result<Vec<Influence>, Refusal> {
         let chart: usize = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
-        let analysis = self.named(chart).ok_or_else(|| Refusal::gone(chart))?;
-        SensitivityEntry::all(&analysis).map_err(|error| Refusal::of(&error))
+        let found = self.find(chart, |kept| (kept.analysis.clone(), kept.report.clone()));
+        let (analysis, report) = found.ok_or_else(|| Refusal::gone(chart))?;
+        let entries = SensitivityEntry::all(&analysis).map_err(|error| Refusal::of(&error))?;
+        let report = report.unwrap_or_else(|| Arc::new(analysis.report()));
+        Ok(influences(&entries, &report))
     }
 
     /// A file for a scene as `sawflutter analyze` writes it: from the diagram with this identifier if it

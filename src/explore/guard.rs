@@ -7,14 +7,14 @@ use axum::response::{IntoResponse, Response};
 
 /// Host names of the server, with its port.
 #[derive(Debug, Clone)]
-pub struct Door {
+pub struct OwnHosts {
     hosts: [String; 2],
 }
 
-impl Door {
+impl OwnHosts {
     /// The host names with a port.
     pub fn new(port: u16) -> Self {
-        Door {
+        OwnHosts {
             hosts: ["127.0.0.1", "localhost"].map(|name| format!("{name}:{port}")),
         }
     }
@@ -52,8 +52,8 @@ const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'u
     form-action 'none'; frame-ancestors 'none'";
 
 /// Refuses foreign requests and sends the content policy.
-pub async fn guard(State(door): State<Door>, request: Request, next: Next) -> Response {
-    let mut response = match door.refusal(request.headers()) {
+pub async fn guard(State(hosts): State<OwnHosts>, request: Request, next: Next) -> Response {
+    let mut response = match hosts.refusal(request.headers()) {
         Some(reason) => (StatusCode::FORBIDDEN, reason).into_response(),
         None => next.run(request).await,
     };
@@ -81,7 +81,7 @@ mod tests {
         let headers = headers
             .iter()
             .map(|(name, value)| (name.clone(), HeaderValue::from_str(value).unwrap()));
-        Door::new(4711).refusal(&headers.collect())
+        OwnHosts::new(4711).refusal(&headers.collect())
     }
 
     #[test]

@@ -4,11 +4,13 @@
 //! request and computes nothing: all that it shows, and every file that it saves, comes from the same
 //! functions as on the command line.
 
+mod backend;
 mod charts;
-mod desk;
 mod examples;
+mod fields;
 #[cfg(feature = "explore")]
 mod guard;
+mod influence;
 #[cfg(feature = "explore")]
 mod job;
 mod mode;
@@ -16,13 +18,18 @@ mod mode;
 mod page;
 #[cfg(feature = "explore")]
 mod pages;
+mod parts;
+mod refusal;
 mod reply;
 #[cfg(feature = "explore")]
 mod server;
+mod tables;
 mod task;
 mod told;
+mod tolerances;
 mod under_way;
+mod wording;
 
-pub use desk::{Answer, Clock, Desk, Question};
+pub use backend::{Answer, Backend, Clock, Question};
 #[cfg(feature = "explore")]
 pub use server::{ExploreError, Options, serve};

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use serde::Deserialize;
 
 use super::charts::Charts;
-use super::reply::Refusal;
+use super::refusal::Refusal;
 use crate::report::ModeEntry;
 use crate::scene::rpm;
 use crate::spectrum::DescribedMode;

@@ -23,14 +23,14 @@ files! {
     "scene.js": SCRIPT, "page/scene.js";
     "kept.js": SCRIPT, "page/kept.js";
     "link.js": SCRIPT, "page/link.js";
-    "beginnings.js": SCRIPT, "page/beginnings.js";
     "branches.js": SCRIPT, "page/branches.js";
     "files.js": SCRIPT, "page/files.js";
     "pointed.js": SCRIPT, "page/pointed.js";
     "live.js": SCRIPT, "page/live.js";
     "pinned.js": SCRIPT, "page/pinned.js";
     "range.js": SCRIPT, "page/range.js";
-    "refusal.js": SCRIPT, "page/refusal.js";
+    "fields.js": SCRIPT, "page/fields.js";
+    "parts.js": SCRIPT, "page/parts.js";
     "dock.js": SCRIPT, "page/dock.js";
     "dom.js": SCRIPT, "page/dom.js";
     "form.js": SCRIPT, "page/form.js";
@@ -40,7 +40,6 @@ files! {
     "marks.js": SCRIPT, "page/marks.js";
     "panel.js": SCRIPT, "page/panel.js";
     "tasks.js": SCRIPT, "page/tasks.js";
-    "influence.js": SCRIPT, "page/influence.js";
     "verdict.js": SCRIPT, "page/verdict.js";
     "waiting.js": SCRIPT, "page/waiting.js";
     "words.js": SCRIPT, "page/words.js";

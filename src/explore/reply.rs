@@ -1,15 +1,18 @@
-//! Replies to the page other than diagrams: initial data, files and errors.
+//! Replies to the page other than diagrams: initial data and files.
 
 use std::sync::Arc;
 
 use serde::Serialize;
 
 use super::examples::examples;
+use super::fields::Field;
+use super::parts::{NEEDS, Need};
+use super::refusal::Refusal;
+use super::tolerances::{USUAL, UsualTolerance};
 use crate::figure::{self, FigureError};
 use crate::report::Report;
-use crate::scene::{QUANTITIES, Quantity, RefusedValue, Scene, SceneError, SceneFile, json_schema};
-use crate::spectrum::SpectrumError;
-use crate::stability::{Analysis, AnalysisError};
+use crate::scene::{Scene, SceneFile, json_schema};
+use crate::stability::Analysis;
 
 /// Initial data of the page.
 #[derive(Serialize)]
@@ -18,8 +21,12 @@ pub struct Start {
     schema: serde_json::Value,
     /// Example saws.
     examples: Vec<SceneFile>,
-    /// Usual ranges of the numbers of scenes, for sliders.
-    quantities: &'static [Quantity],
+    /// Names, units and usual ranges of the numbers of scenes.
+    fields: Vec<Field>,
+    /// What parts and tasks need.
+    needs: &'static [Need],
+    /// Tolerances of a study.
+    tolerances: &'static [UsualTolerance],
     colours: figure::Palette,
     version: &'static str,
 }
@@ -31,85 +38,11 @@ impl Start {
             scene: scene.file().clone(),
             schema: json_schema(),
             examples: examples(),
-            quantities: &QUANTITIES,
+            fields: Field::all(),
+            needs: NEEDS,
+            tolerances: &USUAL,
             colours: figure::PALETTE,
             version: env!("CARGO_PKG_VERSION"),
-        }
-    }
-}
-
-/// An error, with the quantity that causes it.
-#[derive(Debug, Serialize)]
-pub struct Refusal {
-    /// JSON path of the quantity, if there is one.
-    pub key: Option<String>,
-    /// Message of the library.
-    pub message: String,
-    /// Allowed values of a number of the scene, which the page converts to the unit of its field.
-    pub allowed: Option<String>,
-}
-
-impl From<RefusedValue> for Refusal {
-    fn from(error: RefusedValue) -> Self {
-        Refusal {
-            message: error.to_string(),
-            key: Some(error.key),
-            allowed: Some(error.allowed),
-        }
-    }
-}
-
-impl From<SceneError> for Refusal {
-    fn from(error: SceneError) -> Self {
-        match error {
-            SceneError::Value(refused) => refused.into(),
-            SceneError::Syntax { ref key, .. } => Refusal {
-                key: Some(key.clone()),
-                ..Refusal::of(&error)
-            },
-            _ => Refusal::of(&error),
-        }
-    }
-}
-
-impl From<AnalysisError> for Refusal {
-    fn from(error: AnalysisError) -> Self {
-        let key = match &error {
-            AnalysisError::Unresolved { .. } | AnalysisError::Overstretched { .. } => {
-                Some("sweep.to_rpm".to_owned())
-            }
-            _ => None,
-        };
-        Refusal {
-            key,
-            message: error.to_string(),
-            allowed: None,
-        }
-    }
-}
-
-impl From<SpectrumError> for Refusal {
-    fn from(error: SpectrumError) -> Self {
-        Refusal::of(&error)
-    }
-}
-
-impl Refusal {
-    /// The diagram has been replaced by later ones.
-    pub fn gone(chart: usize) -> Self {
-        Refusal {
-            key: None,
-            message: format!("chart {chart} is not kept any more"),
-            allowed: None,
-        }
-    }
-
-    /// An error that no quantity causes.
-    pub fn of(error: &dyn std::error::Error) -> Self {
-        Refusal {
-            key: None,
-            message: error.to_string(),
-            allowed: None,
         }
     }
 }

@@ -15,12 +15,13 @@ use axum::routing::{get, post};
 use futures_util::stream::unfold;
 use tokio::net::TcpListener;
 
-use super::desk::{Answer, Desk, Question};
-use super::guard::{Door, guard};
+use super::backend::{Answer, Backend, Question};
+use super::fields::Units;
+use super::guard::{OwnHosts, guard};
 use super::job::Jobs;
 use super::page;
 use super::pages::Pages;
-use super::reply::Refusal;
+use super::refusal::Refusal;
 use super::task::Task;
 use crate::scene::{MAX_SCENE_BYTES, Scene};
 use crate::spectrum::SpectrumError;
@@ -56,8 +57,8 @@ fn milliseconds() -> f64 {
 
 /// State common to all routes.
 #[derive(Clone)]
-struct ServedDesk {
-    answers: Arc<Desk>,
+struct Server {
+    backend: Arc<Backend>,
     jobs: Jobs,
     /// Queue of tasks, which take longer than a diagram; diagrams do not wait for it.
     tasks: Jobs,
@@ -88,15 +89,15 @@ pub fn serve(
         };
         let listener = TcpListener::bind(address).await.map_err(refused)?;
         let port = listener.local_addr()?.port();
-        let desk = ServedDesk {
-            answers: Arc::new(Desk::new(scene, milliseconds)),
+        let server = Server {
+            backend: Arc::new(Backend::new(scene, milliseconds)),
             jobs: Jobs::default(),
             tasks: Jobs::default(),
             influences: Jobs::default(),
             pages: Arc::default(),
         };
-        let pages = desk.pages.clone();
-        let app = router(desk, Door::new(port));
+        let pages = server.pages.clone();
+        let app = router(server, OwnHosts::new(port));
         ready(&format!("http://127.0.0.1:{port}/"));
         tokio::select! {
             served = async { axum::serve(listener, app).await } => served.map_err(ExploreError::from),
@@ -109,10 +110,10 @@ pub fn serve(
     served
 }
 
-fn router(desk: ServedDesk, door: Door) -> Router {
+fn router(server: Server, hosts: OwnHosts) -> Router {
     let waiting_in = |queue: Queue| {
-        move |State(desk): State<ServedDesk>, uri: Uri, headers: HeaderMap, body: String| {
-            asked(desk, queue, uri, headers, body)
+        move |State(server): State<Server>, uri: Uri, headers: HeaderMap, body: String| {
+            asked(server, queue, uri, headers, body)
         }
     };
     let at_once = waiting_in(Queue::None);
@@ -127,6 +128,7 @@ fn router(desk: ServedDesk, door: Door) -> Router {
         .route("/start", get(at_once))
         .route("/read", post(at_once))
         .route("/measured", post(at_once))
+        .route("/part", post(at_once))
         .route("/mode", post(at_once))
         .route("/chart/{fidelity}", post(drawn))
         .route("/save/{name}", post(drawn))
@@ -137,14 +139,14 @@ fn router(desk: ServedDesk, door: Door) -> Router {
         .route("/jobs", get(jobs))
         .route("/progress", get(progress))
         .layer(DefaultBodyLimit::max(MAX_SCENE_BYTES as usize))
-        .layer(from_fn_with_state(door, guard))
-        .with_state(desk)
+        .layer(from_fn_with_state(hosts, guard))
+        .with_state(server)
 }
 
 /// Sends the numbers of completed and cancelled computations, with which tests check that nothing outdated is
 /// computed.
-async fn jobs(State(desk): State<ServedDesk>) -> Response {
-    let [finished, stopped] = desk.jobs.counts();
+async fn jobs(State(server): State<Server>) -> Response {
+    let [finished, stopped] = server.jobs.counts();
     sent(Answer::json(
         &serde_json::json!({ "finished": finished, "stopped": stopped }),
     ))
@@ -154,6 +156,8 @@ async fn jobs(State(desk): State<ServedDesk>) -> Response {
 const PAGE: &str = "sawflutter-page";
 /// Header with the identifier of the diagram that the page shows.
 const CHART: &str = "sawflutter-chart";
+/// Header with the units of the form.
+const UNITS: &str = "sawflutter-units";
 
 fn text(headers: &HeaderMap, name: &str) -> String {
     let text = headers.get(name).and_then(|text| text.to_str().ok());
@@ -161,8 +165,8 @@ fn text(headers: &HeaderMap, name: &str) -> String {
 }
 
 /// Sends the stage of the page's diagram that is being computed; null if there is none.
-async fn progress(State(desk): State<ServedDesk>, headers: HeaderMap) -> Response {
-    let stage = desk.answers.charts.under_way.stage(&text(&headers, PAGE));
+async fn progress(State(server): State<Server>, headers: HeaderMap) -> Response {
+    let stage = server.backend.charts.under_way.stage(&text(&headers, PAGE));
     sent(Answer::json(&stage))
 }
 
@@ -178,18 +182,18 @@ enum Queue {
 
 /// Sends the answer to a request.
 async fn asked(
-    desk: ServedDesk,
+    server: Server,
     queue: Queue,
     uri: Uri,
     headers: HeaderMap,
     body: String,
 ) -> Response {
     let question = question(&uri, &headers, body);
-    let answers = desk.answers.clone();
-    let work = move || answers.answer(&question, |_| ());
+    let backend = server.backend.clone();
+    let work = move || backend.answer(&question, |_| ());
     let answer = match queue {
-        Queue::Charts => desk.jobs.run(work).await,
-        Queue::Influences => desk.influences.run(work).await,
+        Queue::Charts => server.jobs.run(work).await,
+        Queue::Influences => server.influences.run(work).await,
         Queue::None => Some(work()),
     };
     answer.map_or_else(|| StatusCode::SERVICE_UNAVAILABLE.into_response(), sent)
@@ -200,6 +204,10 @@ fn question(uri: &Uri, headers: &HeaderMap, body: String) -> Question {
         path: uri.path().trim_start_matches('/').to_owned(),
         page: text(headers, PAGE),
         chart: text(headers, CHART),
+        units: match text(headers, UNITS).as_str() {
+            "inches" => Units::Inches,
+            _ => Units::Metric,
+        },
         body,
     }
 }
@@ -212,7 +220,7 @@ fn sent(answer: Answer) -> Response {
 
 /// Sends progress and then the result, line by line; the task is cancelled when the connection closes.
 async fn task(
-    State(desk): State<ServedDesk>,
+    State(server): State<Server>,
     Path(name): Path<String>,
     uri: Uri,
     headers: HeaderMap,
@@ -224,10 +232,10 @@ async fn task(
     let question = question(&uri, &headers, body);
     let (tell, told) = tokio::sync::mpsc::unbounded_channel();
     let job = async move {
-        let answers = desk.answers.clone();
+        let backend = server.backend.clone();
         // Errors are ignored, because the receiver may have closed.
-        let work = move || answers.answer(&question, move |line| drop(tell.send(line)));
-        let done = desk.tasks.run(work).await.map(|answer| answer.content);
+        let work = move || backend.answer(&question, move |line| drop(tell.send(line)));
+        let done = server.tasks.run(work).await.map(|answer| answer.content);
         done.and_then(|line| String::from_utf8(line).ok())
             .unwrap_or_else(cancelled)
     };
@@ -249,14 +257,14 @@ fn cancelled() -> String {
 }
 
 /// Registers an open page by its name.
-async fn alive(State(desk): State<ServedDesk>, page: String) -> StatusCode {
-    desk.pages.seen(page);
+async fn alive(State(server): State<Server>, page: String) -> StatusCode {
+    server.pages.seen(page);
     StatusCode::NO_CONTENT
 }
 
 /// Removes a page that is being closed.
-async fn leave(State(desk): State<ServedDesk>, page: String) -> StatusCode {
-    desk.pages.left(&page);
-    desk.answers.charts.forget(&page);
+async fn leave(State(server): State<Server>, page: String) -> StatusCode {
+    server.pages.left(&page);
+    server.backend.charts.forget(&page);
     StatusCode::NO_CONTENT
 }

@@ -5,8 +5,9 @@ use std::sync::Mutex;
 
 use serde::{Deserialize, Serialize};
 
-use super::desk::Clock;
-use super::reply::Refusal;
+use super::backend::Clock;
+use super::refusal::Refusal;
+use super::tolerances::{Tolerance, Typed, study as study_of};
 use crate::figure::{Figure, Figures, growing_map};
 use crate::fit::{self, Fit, FitError, Measurement};
 use crate::place::{self, Demands, Goal, GrowingMap, PlaceError, Placement};
@@ -14,7 +15,7 @@ use crate::report::{
     CutReport, FitReport, GrowingMapEntry, PlaceReport, RunUpReport, WashboardReport,
 };
 use crate::scene::{Freed, Scene, SceneFile};
-use crate::study::{Saw, Study, StudyFile, StudyReport};
+use crate::study::{Saw, Study, StudyReport};
 use crate::transient::{Cutting, RunningUp, TransientError};
 use crate::washboarding::{Washboard, WashboardError};
 
@@ -45,10 +46,10 @@ pub struct Asked {
     window: bool,
     /// For a placement: lower limit of the first critical speed.
     #[serde(default)]
-    min_critical_rpm: Option<f64>,
-    /// For a study: the varying numbers and their distributions, as in a file for `sawflutter study`.
+    min_critical_rpm: Option<Typed>,
+    /// For a study: the tolerances.
     #[serde(default)]
-    study: serde_json::Value,
+    tolerances: Vec<Tolerance>,
 }
 
 /// Interval between progress messages.
@@ -211,12 +212,17 @@ fn fit(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
     answer(&report, report.summary(), Some(&report.scene))
 }
 
+const NO_SPEED: &str = "A window is sought around the operating speed: the form has none yet";
+const NO_LIMIT: &str = "The lower limit of the first critical speed must be above 0 rpm";
+
 fn place(scene: &Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     let goal = match asked.window {
         false => Goal::FlutterSpeed,
-        true => Goal::window_of(scene)?,
+        true => Goal::window_of(scene).map_err(|_| Refusal::with_message(NO_SPEED))?,
     };
-    let demands = Demands::new(goal, asked.min_critical_rpm)?;
+    let limit = asked.min_critical_rpm.as_ref().map(Typed::number);
+    let demands = Demands::new(goal, limit.transpose()?);
+    let demands = demands.map_err(|_| Refusal::with_message(NO_LIMIT))?;
     let freed = Freed::to_place(scene, &[])?;
     let progress = |what: &'static str, done, of| meter.show(what, done, of);
     let options = place::Options::default();
@@ -230,8 +236,7 @@ fn place(scene: &Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refu
 }
 
 fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
-    let file = StudyFile::from_json(&asked.study.to_string());
-    let file = file.map_err(|error| Refusal::of(&error))?;
+    let file = study_of(scene.file(), &asked.tolerances)?;
     let study = Study::new(scene, file).map_err(|error| Refusal::of(&error))?;
     // Saws are sorted by number, in whatever order they were finished.
     let saws = Mutex::new(Vec::<Saw>::new());

@@ -1,7 +1,8 @@
-//! Text beside a diagram: the answer of the summary, and the numbers by which a change is judged.
+//! Text beside a diagram: the answer of the summary, the numbers by which a change is judged, and tables.
 
 use serde::Serialize;
 
+use super::tables::{Table, tables};
 use crate::report::{HeatEntry, Report};
 use crate::summary::{Answer, answer};
 use crate::text::shown_to;
@@ -14,6 +15,7 @@ pub struct Told {
     /// This answer as text, and its reasons.
     lines: Vec<String>,
     facts: Vec<Fact>,
+    tables: Vec<Table>,
 }
 
 /// A number by which a change is judged.
@@ -32,6 +34,7 @@ impl Told {
             answer: report.operating.as_ref().map(Answer::new),
             lines: answer(report).into_iter().map(on_one_line).collect(),
             facts: facts(report),
+            tables: tables(report),
         }
     }
 }

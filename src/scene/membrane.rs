@@ -10,7 +10,7 @@ use super::{Blade, SceneError};
 use crate::text::shown;
 
 /// Axisymmetric stress in the plane of the blade. Missing parts are zero.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MembraneFile {
     /// Heat of the cut and of guides.

@@ -59,11 +59,15 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] with the JSON path of the offending key.
     pub fn from_json(text: &str) -> Result<Self, SceneError> {
+        Scene::try_from(Self::file_from_json(text)?)
+    }
+
+    /// Reads a scene file without validating its numbers.
+    pub(crate) fn file_from_json(text: &str) -> Result<SceneFile, SceneError> {
         if text.trim().is_empty() {
             return Err(SceneError::Empty);
         }
-        let file: SceneFile = from_keyed_json(text, "the scene").map_err(syntax)?;
-        Scene::try_from(file)
+        from_keyed_json(text, "the scene").map_err(syntax)
     }
 }
 

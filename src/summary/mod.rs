@@ -36,13 +36,13 @@ const ROWS: usize = 12;
 const WIDTH: usize = 80;
 
 /// Whether the scene has damping, so that every mode at rest has a damping ratio.
-fn is_damped(report: &Report) -> bool {
+pub fn is_damped(report: &Report) -> bool {
     let mut modes = report.modes_at_rest.iter();
     modes.any(|mode| mode.damping_ratio.is_some())
 }
 
 /// Number and name of a branch, as in the Campbell diagram.
-fn numbered(branch: Option<usize>, name: &str) -> String {
+pub fn numbered(branch: Option<usize>, name: &str) -> String {
     match branch {
         Some(number) => format!("{number}: {name}"),
         None => name.to_owned(),

@@ -340,10 +340,9 @@ fn a_pad_that_is_dragged_off_the_blade_stays_on_it() {
 /// The refused changes among all that the form and the tabs make to the saws of the gallery: "name: text of the button:
 /// reason".
 const REFUSED: &str = "
-    const [{ Form }, { lacks, putIn }, begun] = await Promise.all([
-        import('/page/form.js'), import('/page/beginnings.js'), fetch('start').then((answer) => answer.json()),
+    const [{ Form }, { lacks }, begun] = await Promise.all([
+        import('/page/form.js'), import('/page/parts.js'), fetch('start').then((answer) => answer.json()),
     ]);
-    const quantities = new Map(begun.quantities.map((quantity) => [quantity.path, quantity]));
     const refused = [];
     const asked = new Set();
     const ask = async (path, body, words) => {
@@ -357,20 +356,19 @@ const REFUSED: &str = "
         if (answer.status !== 200 || line.startsWith('{\"refusal')) refused.push(`${words}: ${line}`);
         abort.abort();
     };
-    const buttons = (scene) => {
+    const putIn = async (scene, path) => {
+        const answer = await fetch('part', { method: 'POST', body: JSON.stringify({ scene, path }) });
+        if (answer.status !== 200) refused.push(`${scene.name}: ${path}: ${await answer.text()}`);
+        return answer.status === 200 ? answer.json() : scene;
+    };
+    const buttons = async (scene) => {
         const place = document.createElement('div');
-        let made = null;
-        const state = {
-            scene,
-            change(edit) { made = structuredClone(scene); edit(made); },
-        };
-        new Form(place, begun.schema, quantities, state).build();
+        new Form(place, begun, { scene }, () => {}).build();
         const all = [...place.querySelectorAll('button')].filter(({ textContent }) => /^(Put|Add)/.test(textContent));
-        return all.map((button) => {
-            const part = button.closest('details').dataset.path;
-            button.click();
-            return { words: `${part}: ${button.textContent}`, made };
-        });
+        return Promise.all(all.map(async ({ id, textContent }) => {
+            const path = id.replace(/:switch$/, '').replace(/:add$/, '[]');
+            return { words: `${path}: ${textContent}`, made: await putIn(scene, path) };
+        }));
     };
     // Each saw is tried with every third part, and each part with every third saw.
     const isAsked = (saw, part) => (saw + part) % 3 === 0;
@@ -378,10 +376,13 @@ const REFUSED: &str = "
         // A refusal does not depend on the range or the accuracy of the chart.
         const scene = { ...example, tolerance: 0.1, sweep: { from_rpm: 0, to_rpm: 300 } };
         delete scene.accuracy;
-        const first = buttons(scene);
+        const first = await buttons(scene);
         const known = new Set(first.map(({ words }) => words));
-        const inner = first.flatMap(({ words, made }) =>
-            buttons(made).filter((button) => !known.has(button.words)).map((button) => ({ ...button, words: `${words}, ${button.words}` })));
+        const inner = [];
+        for (const { words, made } of first) {
+            const more = (await buttons(made)).filter((button) => !known.has(button.words));
+            inner.push(...more.map((button) => ({ ...button, words: `${words}, ${button.words}` })));
+        }
         for (const [part, { words, made }] of [...first, ...inner].entries()) {
             if (!isAsked(saw, part)) continue;
             const isInChart = !/^(cut|runup|probe|spline)/.test(words);
@@ -389,9 +390,8 @@ const REFUSED: &str = "
         }
         const tasks = [['cut', 'cut'], ['runup', 'runup'], ['washboard', 'cut.washboarding']];
         for (const [task, part] of tasks.filter((_, task) => isAsked(saw, task))) {
-            const made = structuredClone(scene);
-            if (lacks(part, made)) continue;
-            if (!part.split('.').reduce((value, key) => value?.[key], made)) putIn(made, part);
+            if (lacks(begun.needs, part, scene)) continue;
+            const made = part.split('.').reduce((value, key) => value?.[key], scene) ? scene : await putIn(scene, part);
             await ask(`task/${task}`, JSON.stringify({ scene: made }), `${example.name}: ${task}`);
         }
     }

@@ -6,7 +6,7 @@
 
 use std::cell::RefCell;
 
-use sawflutter::explore::{Answer, Desk, Question};
+use sawflutter::explore::{Answer, Backend, Question};
 use sawflutter::scene::Scene;
 
 #[link(wasm_import_module = "page")]
@@ -20,7 +20,7 @@ unsafe extern "C" {
 }
 
 thread_local! {
-    static DESK: RefCell<Option<Desk>> = const { RefCell::new(None) };
+    static BACKEND: RefCell<Option<Backend>> = const { RefCell::new(None) };
     static REQUEST: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
     static ANSWER: RefCell<Option<Answer>> = const { RefCell::new(None) };
 }
@@ -32,12 +32,12 @@ fn clock() -> f64 {
 /// Begins to answer; diagrams are numbered from `first` on.
 #[unsafe(no_mangle)]
 pub extern "C" fn begin(first: usize) {
-    let desk = Desk::new(&Scene::paper(), clock).on_stage(|at| {
+    let backend = Backend::new(&Scene::paper(), clock).on_stage(|at| {
         if let Ok(text) = serde_json::to_string(&at) {
             stage(text.as_ptr(), text.len());
         }
     });
-    DESK.set(Some(desk.numbered_from(first)));
+    BACKEND.set(Some(backend.numbered_from(first)));
 }
 
 /// Room for a request.
@@ -55,7 +55,8 @@ pub extern "C" fn reserve(length: usize) -> *mut u8 {
 pub extern "C" fn answer() -> u32 {
     let question = REQUEST.with_borrow(|request| serde_json::from_slice::<Question>(request));
     let told = |text: String| line(text.as_ptr(), text.len());
-    let answer = DESK.with_borrow(|desk| Some(desk.as_ref()?.answer(&question.ok()?, told)));
+    let answer =
+        BACKEND.with_borrow(|backend| Some(backend.as_ref()?.answer(&question.ok()?, told)));
     let status = answer.as_ref().map_or(0, |answer| answer.status.into());
     ANSWER.set(answer);
     status

@@ -2,7 +2,6 @@
 
 import { download, node } from "./dom.js";
 import { bare, carried, link } from "./link.js";
-import { clone } from "./scene.js";
 import { measured, read, saved } from "./talk.js";
 
 export class Files {
@@ -62,14 +61,7 @@ export class Files {
     this.#stem = stem;
     this.saved(scene);
     this.onReplaced();
-    this.replace(clone(scene));
-  }
-
-  replace(scene) {
-    this.state.change((current) => {
-      for (const key of Object.keys(current)) delete current[key];
-      Object.assign(current, scene);
-    }, { structure: true });
+    this.state.replace(scene);
   }
 
   offerExamples(list) {
@@ -148,7 +140,7 @@ export class Files {
     if (linked !== null) return this.#openLinked(linked);
     if (earlier === null || JSON.stringify(earlier) === JSON.stringify(this.begun.scene)) return undefined;
     note.hidden = false;
-    return this.replace(earlier);
+    return this.state.replace(earlier);
   }
 
   async #carried() {

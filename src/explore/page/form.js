@@ -1,12 +1,12 @@
 // A field for every quantity of a scene, made from its schema: what the library can read, the
 // page can set.
 
-import * as beginnings from "./beginnings.js";
 import { node } from "./dom.js";
+import { fieldOf, unitOf } from "./fields.js";
+import { lacks, putIn } from "./parts.js";
 import { Range } from "./range.js";
-import { Refusals } from "./refusal.js";
-import { get, set } from "./scene.js";
-import { numberOf, partName, readings, shown, tidy, unitOf } from "./words.js";
+import { get } from "./scene.js";
+import { numberOf, partName, readings, shown, tidy } from "./words.js";
 
 // The order in which a saw is thought of: what it shall run at, the blade, what guides it, what it
 // is mounted on and what it cuts.
@@ -19,13 +19,14 @@ const WEIGHED = new RegExp("^(blade[.](thickness_m|profile[[].*thickness_m|rim[.
   + "|guides[[].*[.](radius_m|angle_deg|stiffness_n_per_m)|membrane[.].*(expansion_per_k|rim_rise_k|eigenstrain)|membrane[.]roll_tension.*radius_m)$");
 
 export class Form {
-  constructor(place, schema, quantities, state) {
+  // `say(words)` is for what no field can say.
+  constructor(place, { schema, needs }, state, say) {
     this.place = place;
     this.schema = schema;
-    this.quantities = quantities;
+    this.needs = needs;
     this.state = state;
+    this.say = say;
     this.fields = new Map();
-    this.refusals = new Refusals(quantities);
     this.found = [];
     // The part that was put in last, until its fields are made.
     this.fresh = null;
@@ -99,8 +100,8 @@ export class Form {
   }
 
   // A refusal in the words and the unit of the field that it is about.
-  inWords({ key, message, allowed }) {
-    return this.fields.get(key)?.words?.(allowed) ?? message;
+  inWords({ key, message, told }) {
+    return (this.fields.has(key) && told) || message;
   }
 
   // What is wrong, at the field it is about; whether there is one.
@@ -170,28 +171,34 @@ export class Form {
     const title = partName(key);
     const there = value !== undefined && value !== null;
     const children = there ? this.#object(schema, path, value) : [];
-    const lacking = there ? "" : beginnings.lacks(path, this.state.scene);
+    const lacking = there ? "" : lacks(this.needs, path, this.state.scene);
     if (lacking) children.push(node("p", { className: "remark", textContent: lacking }));
-    else if (!required) children.push(this.#switch(path, title, there, () => this.#beginning(schema, path)));
+    else if (!required) children.push(this.#switch(path, title, there));
     return this.#details(path, there ? title : `${title} (none)`, schema.description, ...children);
   }
 
-  #switch(path, title, there, make) {
+  #switch(path, title, there) {
     const textContent = there ? `Take ${title} out` : `Put ${title} in`;
     // The same before and after: it keeps the focus.
     const button = node("button", { type: "button", id: `${path}:switch`, textContent });
-    button.addEventListener("click", () => this.state.change((scene) => {
-      if (there) return set(scene, path, undefined);
-      this.fresh = path;
-      return beginnings.put(scene, path, make());
-    }, { structure: true }));
+    button.addEventListener("click", () => (there ? this.state.set(path, undefined, { structure: true }) : this.#putIn(path, path)));
     return button;
+  }
+
+  // Puts a part in; the fields of `fresh` are opened.
+  async #putIn(path, fresh, kind = "") {
+    try {
+      await putIn(this.state, path, { kind, before: () => (this.fresh = fresh) });
+    } catch (error) {
+      this.build();
+      this.say(this.inWords(error));
+    }
   }
 
   #list(schema, path, key, value) {
     const items = this.#resolve(schema.items);
     if (items.type === "string") return this.#lines(path, key);
-    if (items.type === "number") return this.#numbers(schema, path, key);
+    if (items.type === "number") return this.#numbers(schema, path);
     const title = partName(key);
     const one = title.replace(/(?<!s)s$/, "");
     const parts = (value ?? []).map((item, i) => {
@@ -200,31 +207,8 @@ export class Form {
       return this.#details(at, `${one} ${i + 1}`, items.description, ...this.#object(items, at, item), out);
     });
     const add = node("button", { type: "button", id: `${path}:add`, textContent: `Add a ${one}` });
-    add.addEventListener("click", () => {
-      const more = (scene) => {
-        this.fresh = `${path}[${parts.length}]`;
-        beginnings.put(scene, `${path}[]`, this.#beginning(items, `${path}[]`));
-      };
-      this.state.change(more, { structure: true });
-    });
+    add.addEventListener("click", () => this.#putIn(`${path}[]`, `${path}[${parts.length}]`));
     return this.#details(path, `${title} (${parts.length})`, schema.description, ...parts, add);
-  }
-
-  #beginning(schema, path) {
-    const scene = this.state.scene;
-    const whole = beginnings.part(path, scene);
-    if (whole) return whole;
-    const made = {};
-    for (const key of schema.required ?? []) {
-      const inner = this.#resolve(schema.properties[key]);
-      const at = `${path}.${key}`;
-      if (inner.type === "object" || inner.properties) made[key] = this.#beginning(inner, at);
-      else if (inner.enum) made[key] = inner.enum[0];
-      else if (inner.oneOf) made[key] = inner.oneOf[0].const ?? inner.oneOf[0].enum?.[0];
-      else if (inner.type === "array") made[key] = [];
-      else made[key] = inner.default ?? beginnings.number(key, scene) ?? (inner.type === "string" ? "" : 1);
-    }
-    return made;
   }
 
   #variants(schema, path, value) {
@@ -232,16 +216,13 @@ export class Form {
     const chosen = schema.oneOf[kinds.indexOf(value?.kind)];
     const select = node("select", { id: `${path}.kind` }, ...kinds.map((kind) => node("option", { value: kind, textContent: kind })));
     select.value = value?.kind;
-    select.addEventListener("change", () => {
-      const next = schema.oneOf[kinds.indexOf(select.value)];
-      this.state.set(path, { ...this.#beginning(next, path), kind: select.value }, { structure: true });
-    });
+    select.addEventListener("change", () => this.#putIn(path, path, select.value));
     const label = node("label", { htmlFor: select.id, textContent: "kind" });
     const row = node("div", { className: "field" }, label, select);
     return this.#details(path, path, schema.description, row, ...(chosen ? this.#object(chosen, path, value) : []));
   }
 
-  #register(path, element, show, words) {
+  #register(path, element, show) {
     const fault = node("p", { className: "fault", role: "alert", id: `${path}:fault` });
     element.append(fault);
     const control = element.querySelector("input, select, textarea");
@@ -256,7 +237,7 @@ export class Form {
       // What is of the scene, to tell it from what is being typed.
       if (!control.matches("select")) control.defaultValue = control.value;
     };
-    this.fields.set(path, { path, element, show: shows, error, words });
+    this.fields.set(path, { path, element, show: shows, error });
     shows(get(this.state.scene, path));
     return element;
   }
@@ -289,8 +270,8 @@ export class Form {
   }
 
   // A list of numbers, with commas between them.
-  #numbers(schema, path, key) {
-    const { unit, scale, name } = unitOf(key);
+  #numbers(schema, path) {
+    const { unit, scale, name } = unitOf(path);
     const input = node("input", { id: path, type: "text", placeholder: "none" });
     input.addEventListener("change", () => {
       const texts = input.value.split(/[,;\s]+/).filter((text) => text !== "");
@@ -305,8 +286,9 @@ export class Form {
   }
 
   #number(schema, path, key, value, required) {
-    const { unit, scale, name, digits } = unitOf(key);
+    const { unit, scale, name, digits } = unitOf(path);
     const whole = schema.type === "integer";
+    const usual = fieldOf(path)?.usual;
     const fallback = schema.default ?? undefined;
     const input = node("input", { id: path, type: "text", inputMode: "decimal", autocomplete: "off" });
     if (!required) input.placeholder = typeof fallback === "number" ? shown(fallback * scale) : "none";
@@ -314,10 +296,9 @@ export class Form {
     const fullName = inWords(path, name);
     input.setAttribute("aria-label", unit ? `${fullName}, ${unit}` : fullName);
     slider.setAttribute("aria-label", `${fullName}, slider`);
-    const quantity = this.quantities.get(path.replace(/\[\d+\]/g, "[]"));
-    const range = new Range(key, value ?? fallback ?? beginnings.number(key, this.state.scene) ?? 0, quantity, this.state.scene);
+    const range = new Range(key, value ?? fallback, usual, this.state.scene);
     const send = (number, options) => this.state.set(path, number, options);
-    const isUsual = (typed) => !quantity || (quantity.usual[0] <= typed / scale && typed / scale <= quantity.usual[1]);
+    const isUsual = (typed) => !usual || (usual[0] <= typed / scale && typed / scale <= usual[1]);
     input.addEventListener("change", () => {
       const number = numberOf(input.value, isUsual);
       if (input.value.trim() === "" && !required) send(undefined);
@@ -341,7 +322,7 @@ export class Form {
         slider.value = range.notch(known);
         slider.setAttribute("aria-valuetext", `${shown(known * scale)} ${unit}`);
       }
-    }, (allowed) => this.refusals.told(path, { typed: get(this.state.scene, path), whole }, allowed));
+    });
   }
 }
 

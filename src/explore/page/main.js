@@ -2,12 +2,13 @@
 
 import { Blade } from "./blade.js";
 import { Charts } from "./charts.js";
+import { describe, useInches } from "./fields.js";
 import { Form } from "./form.js";
 import { Files } from "./files.js";
 import { Kept } from "./kept.js";
 import { publish } from "./marks.js";
-import { influences } from "./influence.js";
 import { Live } from "./live.js";
+import { isPuttingIn } from "./parts.js";
 import { Pinned } from "./pinned.js";
 import { Pointed } from "./pointed.js";
 import { SceneState } from "./scene.js";
@@ -17,13 +18,14 @@ import { facts, tables, verdict } from "./verdict.js";
 import { dock } from "./dock.js";
 import { write } from "./dom.js";
 import { Waiting } from "./waiting.js";
-import { shown, useInches } from "./words.js";
+import { shown } from "./words.js";
 
 /** @returns {any} */
 const by = (id) => document.getElementById(id);
 /** @returns {any} */
 const first = (selector) => document.querySelector(selector);
 const begun = await start();
+describe(begun.fields);
 let colours = publish(begun.colours);
 let latest = null;
 let refusedKey = null;
@@ -56,11 +58,11 @@ const pointed = new Pointed({
 const files = new Files(state, kept, begun, {
   say, onReplaced: () => pinned.reset(), onBusy: (what) => (what ? waiting.begin(what) : waiting.end()), shown: chartOfScene,
 });
-const form = new Form(by("fields"), begun.schema, new Map(begun.quantities.map((quantity) => [quantity.path, quantity])), state);
+const form = new Form(by("fields"), begun, state, say);
 const charts = new Charts(by("campbell"), by("growth"), colours, { onHover: (point) => pointed.show(latest.chart, point), onZoom });
 const pinned = new Pinned(by("beside"), charts);
-const tasks = new Tasks(by("tabs"), by("panels"), by("panel-chart"), state, {
-  onScene: (scene) => files.replace(scene),
+const tasks = new Tasks(by("tabs"), by("panels"), by("panel-chart"), state, begun, {
+  onScene: (scene) => state.replace(scene),
   inWords: (refusal) => form.inWords(refusal),
   nameOf: (file) => files.nameOf(file),
 });
@@ -68,7 +70,7 @@ const live = new Live({ onChart, onRefused, onBusy });
 const waiting = new Waiting(by("waiting"), { onStop, onAgain: () => live.again(state.scene), ask: progress });
 seen.state = state;
 // Whether the chart that is painted is that of the scene, at its own accuracy.
-seen.settled = () => seen.painted === JSON.stringify(state.scene) && !document.body.classList.contains("stale");
+seen.settled = () => !isPuttingIn() && seen.painted === JSON.stringify(state.scene) && !document.body.classList.contains("stale");
 // The same at whatever accuracy.
 seen.follows = () => seen.newest === JSON.stringify(state.scene);
 seen.report = () => latest.report;
@@ -155,7 +157,7 @@ async function weigh(chart) {
   try {
     const found = await influence(chart.chart, weighing.signal);
     if (weighing.signal.aborted || latest !== chart) return;
-    form.influence(influences(found, chart.report));
+    form.influence(found);
     by("fields").classList.remove("unweighed");
   } catch (error) {
     // No chart depends on it: where it fails, the fields are as they were.
@@ -210,7 +212,7 @@ function tell() {
   const { report, told, milliseconds } = latest;
   verdict(by("verdict"), told);
   facts(by("facts"), told.facts, pinned.facts);
-  if (first(".numbers").open) tables(by("tables"), report);
+  if (first(".numbers").open) tables(by("tables"), told.tables);
   const accuracy = report.accuracy;
   by("computed").textContent = `${accuracy.name} accuracy, ${accuracy.degrees_of_freedom} functions, `
     + `estimated error ${shown(100 * accuracy.estimated_relative_error, 2)} %, computed in ${Math.round(milliseconds)} ms`;

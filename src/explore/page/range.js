@@ -5,9 +5,10 @@ export class Range {
   // A slider has this many steps.
   static NOTCHES = 400;
 
-  // `quantity.usual`: between which values those of all saws lie.
-  constructor(key, value, quantity, scene) {
-    const [least, most] = quantity?.usual ?? [-Infinity, Infinity];
+  // `usual`: between which values those of all saws lie. A number that a scene does not have begins amid them.
+  constructor(key, known, usual, scene) {
+    const [least, most] = usual ?? [-Infinity, Infinity];
+    const value = known ?? (least > 0 ? Math.sqrt(least * most) : 0);
     // Values over decades are searched by decades.
     this.log = value > 0 && least > 0 && most / least > 3000;
     const [from, to] = this.#around(key, value, scene);

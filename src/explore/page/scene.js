@@ -55,6 +55,14 @@ export class SceneState {
     this.change((scene) => set(scene, path, value), options);
   }
 
+  // Another scene in place of this one.
+  replace(scene) {
+    this.change((current) => {
+      for (const key of Object.keys(current)) delete current[key];
+      Object.assign(current, clone(scene));
+    }, { structure: true });
+  }
+
   // The end of a drag.
   settle(released) {
     if (this.#before === null) return;

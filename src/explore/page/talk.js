@@ -1,12 +1,14 @@
 // Everything that is asked of the program.
 
 import { ask, leave } from "./backend.js";
+import { unitsNow } from "./fields.js";
 
 export class Refused extends Error {
-  constructor({ key, message, allowed = null }) {
+  // `told` is the message in the unit of the field of the key, where it has one.
+  constructor({ key, message, told = null }) {
     super(message);
     this.key = key;
-    this.allowed = allowed;
+    this.told = told;
   }
 }
 
@@ -14,7 +16,8 @@ export class Refused extends Error {
 const page = crypto.randomUUID();
 
 async function post(path, body, signal, shown = "") {
-  const answer = await ask(path, { method: "POST", body, signal, headers: { "sawflutter-page": page, "sawflutter-chart": shown } });
+  const headers = { "sawflutter-page": page, "sawflutter-chart": shown, "sawflutter-units": unitsNow() };
+  const answer = await ask(path, { method: "POST", body, signal, headers });
   if (answer.ok) return answer;
   if (answer.status === 422) throw new Refused(await answer.json());
   const text = await answer.text();
@@ -50,6 +53,12 @@ export async function saved(name, scene, shown, signal) {
 // A scene as the program reads it, or a refusal.
 export async function read(text) {
   const answer = await post("read", text);
+  return answer.json();
+}
+
+// A scene with one more part.
+export async function part(asked) {
+  const answer = await post("part", JSON.stringify(asked));
   return answer.json();
 }
 

@@ -1,50 +1,42 @@
 // What besides the chart can be asked of a saw: the cut, a run-up, a fit, a placement, tolerances.
 // Each is a tab with what the program prints, its figures, and its report to save.
 
-import * as beginnings from "./beginnings.js";
 import { download, node } from "./dom.js";
+import { unitOf } from "./fields.js";
+import { lacks, putIn } from "./parts.js";
 import { get } from "./scene.js";
 import { Refused, task } from "./talk.js";
-import { numberOf, partName, shown, tidy, unitOf, whichOf } from "./words.js";
+import { numberOf, partName, shown, tidy } from "./words.js";
 
-// The deviations that are usual of what is made and set, in the unit of the scene: a plate ground to
-// size, pads set by hand, stiffness guessed from the material.
-/** @type {[string, (value: number) => number][]} */
-const TOLERANCES = [
-  ["blade.thickness_m", () => 5e-5],
-  ["guides[].radius_m", () => 2e-3],
-  ["guides[].angle_deg", () => 1],
-  ["guides[].stiffness_n_per_m", (value) => 0.2 * value],
-];
-const SAWS = 200;
-
-function usualTolerances(scene) {
-  const places = TOLERANCES.flatMap(([pattern, width]) =>
-    pattern.startsWith("guides[]") ? (scene.guides ?? []).map((_, i) => [pattern.replace("[]", `[${i}]`), width]) : [[pattern, width]]);
-  const known = places.map(([path, width]) => [path, get(scene, path), width]);
-  return known.filter(([, value]) => typeof value === "number").map(([path, value, width]) => [path, tidy(Number(width(value).toPrecision(3)))]);
+// The numbers of a scene that have a usual tolerance, each with this tolerance in its own unit.
+function usualTolerances(tolerances, scene) {
+  const known = (path) => [path, get(scene, path)];
+  return tolerances.flatMap(({ path, plus_minus, share }) => {
+    const places = path.startsWith("guides[]") ? (scene.guides ?? []).map((_, i) => known(path.replace("[]", `[${i}]`))) : [known(path)];
+    return places.filter(([, value]) => typeof value === "number")
+      .map(([place, value]) => [place, tidy(Number((plus_minus + share * value).toPrecision(3)))]);
+  });
 }
 
 const TASKS = [
   { name: "cut", title: "Cut", part: "cut", what: "The blade before, during and after the cut: history at the probe, verdicts over speed and force." },
   { name: "runup", title: "Run-up", part: "runup", what: "The blade run up under a lateral force: deflection at the probe, and what each band of instability adds." },
   { name: "washboard", title: "Washboard", part: "cut.washboarding", what: "Whether a motion grows from tooth to tooth on the surface that the one before has left, over speed and cutting stiffness." },
-  { name: "fit", title: "Fit", what: "Radius and stiffness of every guide from the measured frequencies of the scene; drop a table (rpm, then frequencies in Hz) on the page.", took: "Take the fitted saw",
-    lacks: (scene) => (scene.measured ? "" : "The scene has no measured frequencies yet.") },
-  { name: "place", title: "Place", what: "Radius, angle and stiffness of the first guide for the largest flutter speed.", took: "Take the best saw",
-    lacks: (scene) => (scene.guides?.length ? "" : "The scene has no guide to place yet.") },
-  { name: "study", title: "Tolerances", what: `${SAWS} saws within tolerances: how their critical and flutter speeds spread.` },
+  { name: "fit", title: "Fit", what: "Radius and stiffness of every guide from the measured frequencies of the scene; drop a table (rpm, then frequencies in Hz) on the page.", took: "Take the fitted saw" },
+  { name: "place", title: "Place", what: "Radius, angle and stiffness of the first guide for the largest flutter speed.", took: "Take the best saw" },
+  { name: "study", title: "Tolerances", what: "Random saws within tolerances: how their critical and flutter speeds spread." },
 ];
 
 export class Tasks {
   #panels = new Map();
 
   // `onScene(scene)` takes a saw over that was found; `inWords(refusal)` is what a field says of it.
-  constructor(tabs, panels, chartPanel, state, listeners) {
+  constructor(tabs, panels, chartPanel, state, begun, listeners) {
     this.tabs = tabs;
     this.panels = panels;
     this.chartPanel = chartPanel;
     this.state = state;
+    this.begun = begun;
     this.listeners = listeners;
     const all = [{ name: "chart", title: "Chart" }, ...TASKS];
     for (const { name, title } of all) {
@@ -93,7 +85,7 @@ export class Tasks {
     const panel = node("div", { id: `panel-${entry.name}`, hidden: true });
     panel.setAttribute("role", "tabpanel");
     panel.setAttribute("aria-labelledby", `tab-${entry.name}`);
-    panel.task = new Task(panel, entry, this.state, this.listeners);
+    panel.task = new Task(panel, entry, this.state, this.begun, this.listeners);
     this.panels.append(panel);
     return panel;
   }
@@ -106,10 +98,12 @@ class Task {
   // Of a study: the fields of its tolerances, each with the unit that it is typed in.
   tolerances = [];
 
-  constructor(panel, entry, state, { onScene, inWords, nameOf }) {
+  constructor(panel, entry, state, { needs, tolerances }, { onScene, inWords, nameOf }) {
     this.panel = panel;
     this.entry = entry;
     this.state = state;
+    this.needs = needs;
+    this.usual = tolerances;
     this.onScene = onScene;
     this.inWords = inWords;
     this.nameOf = nameOf;
@@ -134,17 +128,17 @@ class Task {
   // What the scene has and lacks now.
   refresh() {
     if (this.panel.hidden) return;
-    const { part, lacks } = this.entry;
+    const { name, part } = this.entry;
     const scene = this.state.scene;
     const isPartMissing = part !== undefined && !get(scene, part);
-    const missing = lacks?.(scene) || (isPartMissing ? beginnings.lacks(part, scene) : "");
+    const missing = part === undefined ? lacks(this.needs, name, scene) : isPartMissing ? lacks(this.needs, part, scene) : "";
     const hadFocus = this.missing.contains(document.activeElement);
     this.missing.replaceChildren(missing);
     if (isPartMissing && missing === "") {
-      const name = partName(part.split(".").at(-1));
-      const add = node("button", { type: "button", textContent: `Put ${name} in` });
-      add.addEventListener("click", () => this.state.change((changed) => beginnings.putIn(changed, part), { structure: true }));
-      this.missing.append(`The scene has no ${name} yet. `, add);
+      const words = partName(part.split(".").at(-1));
+      const add = node("button", { type: "button", textContent: `Put ${words} in` });
+      add.addEventListener("click", () => putIn(this.state, part).catch((error) => (this.fault.textContent = this.inWords(error))));
+      this.missing.append(`The scene has no ${words} yet. `, add);
     }
     this.start.disabled = isPartMissing || missing !== "";
     if (hadFocus) (this.missing.querySelector("button") ?? this.start).focus();
@@ -164,7 +158,7 @@ class Task {
 
   // A field for each number that has a usual tolerance; what was typed stays, in the unit that is shown now.
   #offerTolerances(scene) {
-    const usual = usualTolerances(scene).map(([path, width]) => ({ path, width, ...unitOf(path.split(".").at(-1)) }));
+    const usual = usualTolerances(this.usual, scene).map(([path, width]) => ({ path, width, ...unitOf(path) }));
     const same = (one, k) => one.path === this.tolerances[k]?.path && one.unit === this.tolerances[k].unit;
     if (this.tolerances.length === usual.length && usual.every(same)) return;
     const typed = new Map(this.tolerances.map(({ path, scale, input }) => [path, { text: input.value, scale }]));
@@ -183,22 +177,11 @@ class Task {
   #asked() {
     const scene = this.state.scene;
     if (this.entry.name === "place") {
-      const least = this.least.value.trim() === "" ? null : number(this.least.value);
-      if (least !== null && least <= 0) throw new RangeError("The lower limit of the first critical speed must be above 0 rpm");
-      const window = this.goal.value === "window";
-      if (window && !scene.operating_rpm) throw new RangeError("A window is sought around the operating speed: the form has none yet");
-      return { scene, window, min_critical_rpm: least };
+      const min_critical_rpm = this.least.value.trim() === "" ? null : asTyped(this.least.value, 1);
+      return { scene, window: this.goal.value === "window", min_critical_rpm };
     }
     if (this.entry.name !== "study") return { scene };
-    const parameters = this.tolerances.map(({ path, scale, input }) => {
-      const plus_minus = tidy(number(input.value) / scale);
-      if (plus_minus < 0) throw new RangeError("A tolerance must be at least 0: it counts to both sides");
-      return { path, distribution: { kind: "tolerance", plus_minus } };
-    });
-    const varied = parameters.filter((p) => p.distribution.plus_minus !== 0);
-    if (varied.length === 0) throw new RangeError("At least one tolerance must be above 0: without one all saws are the same");
-    const limits = scene.operating_rpm ? { operating_rpm: scene.operating_rpm } : null;
-    return { scene, study: { name: "Tolerances", parameters: varied, saws: SAWS, limits } };
+    return { scene, tolerances: this.tolerances.map(({ path, scale, input }) => ({ path, plus_minus: asTyped(input.value, scale) })) };
   }
 
   async #run() {
@@ -226,7 +209,6 @@ class Task {
       this.#show(answer);
     } catch (error) {
       if (error instanceof Refused) this.fault.textContent = this.inWords(error);
-      else if (error instanceof RangeError) this.fault.textContent = error.message;
       else if (error.name !== "AbortError") this.fault.textContent = "The program does not answer any more.";
     }
     if (this.#abort === abort) this.#busy(false);
@@ -293,9 +275,8 @@ class Task {
 
 const pictureOf = (svg) => URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
 
-// A number as it was typed.
-function number(text) {
+// A number in its own unit, or the text that is none: the program refuses it.
+function asTyped(text, scale) {
   const value = numberOf(text);
-  if (value === null) throw new RangeError(whichOf(text) ?? `${text ? `“${text}”` : "Nothing"} is no number`);
-  return value;
+  return value === null ? text : tidy(value / scale);
 }

@@ -3,9 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::charts::{Charts, Fidelity};
-use super::mode;
-use super::reply::{Refusal, SavedFile, Start};
+use super::fields::Units;
+use super::refusal::Refusal;
+use super::reply::{SavedFile, Start};
 use super::task::{Meter, Task};
+use super::{mode, parts};
 use crate::fit::Measurement;
 use crate::scene::Scene;
 use crate::spectrum::Stage;
@@ -18,7 +20,7 @@ pub type Clock = fn() -> f64;
 #[serde(deny_unknown_fields)]
 pub struct Question {
     /// What is asked for: `start`, `chart/draft`, `chart/scene`, `mode`, `influence`, `save/NAME`, `task/NAME`,
-    /// `read` or `measured`.
+    /// `read`, `measured` or `part`.
     pub path: String,
     /// Name of the page.
     #[serde(default)]
@@ -26,6 +28,9 @@ pub struct Question {
     /// Identifier of the diagram that the page shows, if any.
     #[serde(default)]
     pub chart: String,
+    /// Units of the form, for messages.
+    #[serde(default)]
+    pub units: Units,
     /// The content of the request.
     #[serde(default)]
     pub body: String,
@@ -72,13 +77,6 @@ impl Answer {
             Err(_) => Self::empty(FAILED),
         }
     }
-
-    fn of<T>(found: Result<T, Refusal>, answer: impl FnOnce(T) -> Answer) -> Self {
-        match found {
-            Ok(found) => answer(found),
-            Err(refusal) => Self::with_status(REFUSED, &refusal),
-        }
-    }
 }
 
 /// A table of measured frequencies.
@@ -90,17 +88,17 @@ struct Table {
 }
 
 /// Answers requests, and keeps the diagrams that later ones are about.
-pub struct Desk {
+pub struct Backend {
     start: Start,
     clock: Clock,
     /// The diagrams.
     pub(super) charts: Charts,
 }
 
-impl Desk {
-    /// A desk that begins with a scene.
+impl Backend {
+    /// A backend whose page begins with a scene.
     pub fn new(scene: &Scene, clock: Clock) -> Self {
-        Desk {
+        Backend {
             start: Start::new(scene),
             clock,
             charts: Charts::new(clock),
@@ -113,7 +111,7 @@ impl Desk {
         self
     }
 
-    /// Numbers diagrams from another number than 1 on, if an earlier desk has used the others.
+    /// Numbers diagrams from another number than 1 on, if an earlier backend has used the others.
     pub fn numbered_from(self, number: usize) -> Self {
         self.charts.number_from(number);
         self
@@ -121,59 +119,70 @@ impl Desk {
 
     /// The answer to a request; `tell` is called with the progress of a task, line by line.
     pub fn answer(&self, asked: &Question, tell: impl Fn(String) + Send + Sync) -> Answer {
-        let Question {
-            path,
-            page,
-            chart,
-            body,
-        } = asked;
+        self.found(asked, tell).unwrap_or_else(|refusal| {
+            Answer::with_status(REFUSED, &refusal.in_field(&asked.body, asked.units))
+        })
+    }
+
+    fn found(
+        &self,
+        asked: &Question,
+        tell: impl Fn(String) + Send + Sync,
+    ) -> Result<Answer, Refusal> {
+        let (path, body) = (&asked.path, &asked.body);
         let (what, name) = path.split_once('/').unwrap_or((path, ""));
-        match what {
+        Ok(match what {
             "start" => Answer::json(&self.start),
             "chart" => match Fidelity::named(name) {
-                Some(fidelity) => {
-                    Answer::of(self.charts.chart(page, body, fidelity), |text| Answer {
-                        status: OK,
-                        media_type: JSON,
-                        content: text.into_bytes(),
-                    })
-                }
+                Some(fidelity) => Answer {
+                    status: OK,
+                    media_type: JSON,
+                    content: self.charts.chart(&asked.page, body, fidelity)?.into_bytes(),
+                },
                 None => Answer::empty(BAD_REQUEST),
             },
-            "mode" => Answer::of(mode::answer(&self.charts, body), |mode| Answer::json(&mode)),
-            "influence" => Answer::of(self.charts.influence(body), |found| Answer::json(&found)),
+            "mode" => Answer::json(&mode::answer(&self.charts, body)?),
+            "influence" => Answer::json(&self.charts.influence(body)?),
             "save" => match SavedFile::named(name) {
-                Some(kind) => {
-                    let chart = chart.parse().unwrap_or_default();
-                    Answer::of(self.charts.file(kind, chart, body), |content| Answer {
-                        status: OK,
-                        media_type: kind.media_type(),
-                        content,
-                    })
-                }
+                Some(kind) => Answer {
+                    status: OK,
+                    media_type: kind.media_type(),
+                    content: self.charts.file(
+                        kind,
+                        asked.chart.parse().unwrap_or_default(),
+                        body,
+                    )?,
+                },
                 None => Answer::empty(NOT_FOUND),
             },
-            "read" => Answer::of(Scene::from_json(body).map_err(Refusal::from), |scene| {
-                Answer::json(scene.file())
-            }),
-            "measured" => Answer::of(measured(body), |block| Answer::json(&block)),
+            "read" => Answer::json(Scene::from_json(body)?.file()),
+            "part" => Answer::json(&parts::with_part(body)?),
+            "measured" => Answer::json(&measured(body)?),
             "task" => match Task::named(name) {
                 Some(task) => Answer {
                     status: OK,
                     media_type: "application/x-ndjson",
-                    content: self.last_line(task, body, tell).into_bytes(),
+                    content: self.last_line(task, asked, tell).into_bytes(),
                 },
                 None => Answer::empty(BAD_REQUEST),
             },
             _ => Answer::empty(NOT_FOUND),
-        }
+        })
     }
 
     /// Does a task; its answer or refusal is the last line of what is told.
-    fn last_line(&self, task: Task, body: &str, tell: impl Fn(String) + Send + Sync) -> String {
-        match task.run(body, &Meter::new(&tell, self.clock)) {
+    fn last_line(
+        &self,
+        task: Task,
+        asked: &Question,
+        tell: impl Fn(String) + Send + Sync,
+    ) -> String {
+        match task.run(&asked.body, &Meter::new(&tell, self.clock)) {
             Ok(answer) => answer,
-            Err(refusal) => serde_json::json!({ "refusal": refusal }).to_string(),
+            Err(refusal) => {
+                let refusal = refusal.in_field(&asked.body, asked.units);
+                serde_json::json!({ "refusal": refusal }).to_string()
+            }
         }
     }
 }

@@ -1,0 +1,36 @@
+// Parts that are put into the scene: the program gives their values.
+
+import { get } from "./scene.js";
+import { part } from "./talk.js";
+
+let underWay = 0;
+
+// Whether a part is on its way.
+export const isPuttingIn = () => underWay > 0;
+
+// Puts a part in, and what it needs. `path` ends with [] for another entry of a list; `kind` is that of a mount.
+// `before()` is called just before the scene is changed.
+export async function putIn(state, path, { kind = "", before = () => {} } = {}) {
+  underWay += 1;
+  try {
+    for (;;) {
+      const asked = JSON.stringify(state.scene);
+      const made = await part({ scene: state.scene, path, kind });
+      // A scene that was changed while the program answered gets the part once more.
+      if (JSON.stringify(state.scene) !== asked) continue;
+      before();
+      return state.replace(made);
+    }
+  } finally {
+    underWay -= 1;
+  }
+}
+
+const isThere = (value) => (Array.isArray(value) ? value.length > 0 : value !== undefined && value !== null);
+
+// Why a part cannot be put into this scene, or a task cannot be computed for it; nothing where it can.
+export function lacks(needs, name, scene) {
+  const need = needs.find((one) => one.of === name);
+  const has = ({ path, is }) => (is === null ? isThere(get(scene, path)) : get(scene, path) === is);
+  return need && !need.any.some(has) ? need.otherwise : "";
+}
