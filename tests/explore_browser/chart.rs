@@ -280,3 +280,89 @@ fn a_long_chart_reports_its_progress_and_can_be_stopped() {
         page.close().await;
     });
 }
+
+/// Ends of all axes.
+const AXES: &str = "['#campbell', '#growth'].map((place) => document.querySelector(place).chart.scales)\
+    .flatMap(({ x, y }) => [x.min, x.max, y.min, y.max])";
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn the_axes_stay_while_a_pad_is_moved_and_follow_after_the_release() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let before = page.value(AXES).await;
+        page.script(&format!(
+            "window.seenAxes = new Set(); const look = () => {{ window.seenAxes.add(JSON.stringify({AXES})); \
+             requestAnimationFrame(look); }}; look();"
+        ))
+        .await;
+        drag(&page, PAD, 40, (1, 2)).await;
+        page.wait("sawflutter.follows()").await;
+        let charts = page.value("sawflutter.latencies.draft.length").await;
+        assert!(charts.as_u64().unwrap() > 1, "{charts}");
+        assert_eq!(page.value("window.seenAxes.size").await, json!(1));
+        let_go(&page).await;
+        page.settle().await;
+        assert_ne!(page.value(AXES).await, before);
+        // One step from the axes of the drag to those of the chart after it.
+        assert_eq!(page.value("window.seenAxes.size").await, json!(2));
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn several_saws_are_pinned_listed_and_taken_out() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        for (name, thickness) in [("as delivered", "3.2"), ("thick", "3.6"), ("thick", "2.6")] {
+            page.script(&format!(
+                "window.prompt = () => {name:?}; document.querySelector('#pin').click()"
+            ))
+            .await;
+            page.enter("blade.thickness_m", thickness).await;
+            page.settle().await;
+        }
+        let rows = "[...document.querySelectorAll('#pinned tbody tr')].map((row) => (row.cells[0].querySelector('span') ?? row.cells[0]).textContent)";
+        assert_eq!(
+            page.value(rows).await,
+            json!(["as delivered", "thick", "thick (2)", "as it is now"])
+        );
+        let column = "[...document.querySelectorAll('#pinned tbody tr')].map((row) => row.cells[1].textContent)";
+        let speeds = page.value(column).await;
+        let mut speeds: Vec<&str> = speeds
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter_map(|s| s.as_str())
+            .collect();
+        assert!(
+            speeds.iter().all(|speed| speed.ends_with(" rpm")),
+            "{speeds:?}"
+        );
+        speeds.sort_unstable();
+        speeds.dedup();
+        assert_eq!(speeds.len(), 4, "{speeds:?}");
+        // Their lines have dashes of their own.
+        let dashes = "new Set([...document.querySelectorAll('#pinned line')].map((line) => line.getAttribute('stroke-dasharray'))).size";
+        assert_eq!(page.value(dashes).await, json!(3));
+        for (width, height) in [(1440, 1000), (390, 1400)] {
+            page.resize(width, height).await;
+            page.script("scrollTo(0, 0)").await;
+            page.screenshot(&format!("{width}-several.png")).await;
+        }
+        page.resize(1280, 900).await;
+        page.find("[aria-label='Unpin thick']")
+            .await
+            .click()
+            .await
+            .unwrap();
+        assert_eq!(
+            page.value(rows).await,
+            json!(["as delivered", "thick (2)", "as it is now"])
+        );
+        page.close().await;
+    });
+}

@@ -98,7 +98,7 @@ fn an_audit_finds_no_accessibility_fault() {
 
 impl Page {
     /// Sets the size of the screen.
-    async fn resize(&self, width: u32, height: u32) {
+    pub async fn resize(&self, width: u32, height: u32) {
         let size =
             json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
         self.driver

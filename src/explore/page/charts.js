@@ -15,13 +15,16 @@ const ROW_PX = 14;
 export class Charts {
   // The chart, its figure and its report, as the program sends them.
   #chart = null;
-  pinned = null;
+  // Other saws whose lines are drawn behind, each with its chart and its dashes.
+  #others = [];
   // Another chart that is shown beside this one, on the same axes.
   #other = null;
   width = 600;
   // The point that is looked at, on the chart as it is now: a branch and the number of a speed.
   pointed = null;
   #zoom = null;
+  // The axes while a hand moves something.
+  #held = null;
 
   constructor(campbellPlace, growthPlace, colours, { onHover, onZoom }) {
     this.colours = colours;
@@ -71,15 +74,21 @@ export class Charts {
     this.redraw();
   }
 
-  show(chart, pinned) {
+  show(chart, others) {
     this.#chart = chart;
-    this.pinned = pinned;
+    this.#others = others;
     this.pointed &&= samePoint(this.report, this.pointed);
     this.redraw();
   }
 
   get report() {
     return this.#chart?.report ?? null;
+  }
+
+  // Keeps the axes as they are, so that a hand sees what it moves; or lets them follow the chart again.
+  hold(on) {
+    if (!on) this.#held = null;
+    else if (this.#chart) this.#held ??= { ranges: [this.#range(0), this.#range(1)], isRooted: this.#isRooted, rows: this.#rows, sweep: this.#sweep };
   }
 
   // Drawn with the next chart.
@@ -95,18 +104,19 @@ export class Charts {
 
   // The vertical axis of a panel.
   #range(number) {
+    if (this.#held) return this.#held.ranges[number];
     const ranges = this.#panels(number).map(({ y }) => y.range);
     return ranges.length ? [Math.min(...ranges.map((r) => r[0])), Math.max(...ranges.map((r) => r[1]))] : [0, 1];
   }
 
   // Whether growth rates stand on a root scale: divergence may grow thirty times as fast as the flutter beside it.
   get #isRooted() {
-    return this.#panels(1).some(({ y }) => y.spread === "signed_root");
+    return this.#held?.isRooted ?? this.#panels(1).some(({ y }) => y.spread === "signed_root");
   }
 
   // Rows of labels of bands above the curves of growth.
   get #rows() {
-    return Math.min(this.#panels(1)[0].items.filter(({ item }) => item === "band").length, ROWS);
+    return this.#held?.rows ?? Math.min(this.#panels(1)[0].items.filter(({ item }) => item === "band").length, ROWS);
   }
 
   // The axis of growth rates, with room for the labels of bands.
@@ -121,6 +131,7 @@ export class Charts {
 
   // From the first to the last speed that is swept.
   get #sweep() {
+    if (this.#held) return this.#held.sweep;
     const sweeps = this.#panels(0).map(({ x }) => x.range);
     return [Math.min(...sweeps.map((s) => s[0])), Math.max(...sweeps.map((s) => s[1]))];
   }
@@ -195,9 +206,11 @@ export class Charts {
     painter.within(() => {
       painter.bands(items);
       painter.uprights(items, this.#alarms);
-      const lowest = this.pinned?.report.critical_speeds[0];
-      if (lowest) painter.upright(lowest.rpm, this.colours.standing, 1, [1, 3]);
-      if (this.pinned) painter.lines(this.pinned.figure.panels[0].items, { ghost: true });
+      for (const { chart, dash } of this.#others) {
+        const lowest = chart.report.critical_speeds[0];
+        if (lowest) painter.upright(lowest.rpm, this.colours.standing, 1, dash.length > 0 ? dash : [1, 3]);
+        painter.lines(chart.figure.panels[0].items, { ghost: dash });
+      }
       painter.lines(items, { highlighted: this.pointed?.branch.branch });
       const source = this.measured ? null : this.report.scene.measured?.source;
       painter.points(items.filter(({ name }) => name !== source));

@@ -60,7 +60,11 @@ const files = new Files(state, kept, begun, {
 });
 const form = new Form(by("fields"), begun, state, say);
 const charts = new Charts(by("campbell"), by("growth"), colours, { onHover: (point) => pointed.show(latest.chart, point), onZoom });
-const pinned = new Pinned(by("beside"), charts);
+const pinned = new Pinned(by("beside"), by("pinned"), charts, () => {
+  if (!pinned.isNamed) by("side").checked = false;
+  compare();
+  buttons();
+});
 const tasks = new Tasks(by("tabs"), by("panels"), by("panel-chart"), state, begun, {
   onScene: (scene) => state.replace(scene),
   inWords: (refusal) => form.inWords(refusal),
@@ -123,6 +127,8 @@ function onChart(chart, request) {
   form.refuse(null);
   say("");
   document.body.classList.remove("stale");
+  // Until the chart after the release.
+  pinned.hold(request.draft || state.isMoving);
   compare();
   if (!request.draft) weigh(chart);
   blade.draw(state.scene, null);
@@ -212,6 +218,7 @@ function tell() {
   const { report, told, milliseconds } = latest;
   verdict(by("verdict"), told);
   facts(by("facts"), told.facts, pinned.facts);
+  pinned.tell(told.facts);
   if (first(".numbers").open) tables(by("tables"), told.tables);
   const accuracy = report.accuracy;
   by("computed").textContent = `${accuracy.name} accuracy, ${accuracy.degrees_of_freedom} functions, `
@@ -238,20 +245,14 @@ function buttons() {
   by("points").hidden = source === undefined;
   by("source").textContent = source ?? "";
   by("source").title = source ?? "";
-  by("unpin").hidden = !pinned.isNamed;
-  by("unpin").textContent = `Unpin ${pinned.name}`;
-  by("sides").hidden = by("unpin").hidden;
-  first(".key .pinned").hidden = by("unpin").hidden;
+  by("pin").disabled = pinned.isFull;
+  by("sides").hidden = !pinned.isNamed;
 }
 
 function pin() {
   const name = prompt("Name of the reference", state.scene.name ?? "reference");
-  if (name !== null) hold(name.trim() || "reference");
-}
-
-// Holds later changes against the saw as it is now; without a name, until another one is pinned.
-function hold(name) {
-  pinned.pin(latest, name);
+  if (name === null) return;
+  pinned.pin(latest, name.trim() || "reference");
   compare();
   buttons();
 }
@@ -295,7 +296,6 @@ function wire() {
   by("undo").addEventListener("click", () => state.undo());
   by("redo").addEventListener("click", () => state.redo());
   by("pin").addEventListener("click", pin);
-  by("unpin").addEventListener("click", () => hold(""));
   by("link").addEventListener("click", () => files.copyLink(by("link")));
   by("all").addEventListener("click", () => charts.zoom(null));
   by("over").addEventListener("click", () => {

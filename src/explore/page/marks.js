@@ -85,14 +85,14 @@ export class Painter {
     }
   }
 
-  // The branch of a number is thicker. A saw that another is held against is grey, and its branches alone are drawn.
-  lines(items, { highlighted = null, ghost = false } = {}) {
+  // The branch of a number is thicker. Of another saw, whose lines have the dashes `ghost`, branches alone are drawn in grey.
+  lines(items, { highlighted = null, ghost = null } = {}) {
     for (const line of items) {
       if (line.item !== "line" || (ghost && line.branch === null)) continue;
       const strong = line.branch !== null && line.branch === highlighted && line.width < 3 ? 1.6 : 0;
       this.context.globalAlpha = ghost ? 0.45 : line.tint;
       const dash = line.width > 1 ? DASH : FINE_DASH;
-      this.#stroke(this.colours[ghost ? "standing" : line.colour], ghost ? 1 : line.width + strong, line.dashed ? dash : []);
+      this.#stroke(this.colours[ghost ? "standing" : line.colour], ghost ? 1 : line.width + strong, ghost ?? (line.dashed ? dash : []));
       this.#trace(line);
     }
     this.context.globalAlpha = 1;

@@ -1,19 +1,27 @@
-// The saw that later changes are held against, and its chart beside the present one.
+// Saws that later changes are compared with: their lines in the chart, their numbers in a table, and the chart of the
+// last one beside the present one.
 
 import { Charts } from "./charts.js";
 import { node } from "./dom.js";
 import { clone } from "./scene.js";
 
+// Dashes of the lines of pinned saws; with more the chart is hard to read.
+const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
+const SVG = "http://www.w3.org/2000/svg";
+
 export class Pinned {
-  // Before anything was pinned by hand, numbers are held against the saw that the page began with.
-  #chart = null;
-  name = "";
+  // The chart that the page began with, before a saw is pinned by hand.
+  #begun = null;
+  // Each with its name, its chart and the dashes of its lines.
+  #saws = [];
   #charts = null;
 
-  // `present` are the charts of the saw as it is.
-  constructor(place, present) {
+  // `present` are the charts of the saw as it is; `onUnpin()` is called after a saw was taken out.
+  constructor(place, list, present, onUnpin) {
     this.place = place;
+    this.list = list;
     this.present = present;
+    this.onUnpin = onUnpin;
     this.campbell = node("div", { role: "img", className: "campbell" });
     this.growth = node("div", { role: "img", ariaLabel: "Growth rates of the pinned saw" });
     this.title = node("h2");
@@ -21,56 +29,100 @@ export class Pinned {
   }
 
   begin(chart) {
-    this.#chart ??= clone(chart);
+    this.#begun ??= clone(chart);
   }
 
-  // Another saw is held against itself, where none was pinned by hand.
+  // Another saw is compared with itself, where none was pinned by hand.
   reset() {
-    if (!this.isNamed) this.#chart = null;
+    if (!this.isNamed) this.#begun = null;
   }
 
   pin(chart, name) {
-    this.#chart = clone(chart);
-    this.name = name;
+    const isFree = (dash) => this.#saws.every((saw) => saw.dash !== dash);
+    const same = this.#saws.filter((saw) => saw.name === name || saw.name.startsWith(`${name} (`)).length;
+    this.#saws.push({ name: same > 0 ? `${name} (${same + 1})` : name, chart: clone(chart), dash: DASHES.find(isFree) });
   }
 
-  // The numbers that changes are held against.
-  get facts() {
-    return this.#chart.told.facts;
+  get isFull() {
+    return this.#saws.length >= DASHES.length;
   }
 
   get isNamed() {
-    return this.name !== "";
+    return this.#saws.length > 0;
   }
 
-  #differs(report) {
-    return JSON.stringify(this.#chart.report.scene) !== JSON.stringify(report.scene);
+  // The chart that numbers are compared with.
+  get #last() {
+    return this.#saws.at(-1)?.chart ?? this.#begun;
   }
 
-  // Both saws on the same axes, or the present one alone.
+  get facts() {
+    return this.#last.told.facts;
+  }
+
+  #unpin(saw) {
+    this.#saws = this.#saws.filter((other) => other !== saw);
+    if (!this.isNamed) this.#begun = saw.chart;
+    this.onUnpin();
+  }
+
+  // A row for each pinned saw and one for the present one.
+  tell(facts) {
+    const hadFocus = this.list.contains(document.activeElement);
+    this.list.hidden = !this.isNamed;
+    const told = (all) => all.map(({ words, unit }) => node("td", { textContent: `${words} ${unit}`.trimEnd() }));
+    const rows = this.#saws.map((saw) => {
+      const out = node("button", { type: "button", textContent: "×", title: "Unpin", ariaLabel: `Unpin ${saw.name}` });
+      out.addEventListener("click", () => this.#unpin(saw));
+      return node("tr", {}, node("th", { scope: "row" }, out, " ", sample(saw.dash), " ", node("span", { textContent: saw.name })), ...told(saw.chart.told.facts));
+    });
+    const heads = ["Saw", ...facts.map(({ name }) => name)].map((textContent) => node("th", { scope: "col", textContent }));
+    const now = node("tr", {}, node("th", { scope: "row", textContent: "as it is now" }), ...told(facts));
+    this.list.replaceChildren(node("table", {}, node("thead", {}, node("tr", {}, ...heads)), node("tbody", {}, ...rows, now)));
+    if (hadFocus) this.list.querySelector("button")?.focus();
+  }
+
+  // All saws on the axes of the present one; or the last pinned one beside it.
   showWith(chart, beside) {
     this.place.hidden = !beside;
     this.place.parentElement.classList.toggle("two", beside);
-    this.present.shareAxes(beside ? this.#chart : null);
+    this.present.shareAxes(beside ? this.#last : null);
+    const differs = (saw) => JSON.stringify(saw.chart.report.scene) !== JSON.stringify(chart.report.scene);
     // Side by side nothing lies over each other.
-    this.present.show(chart, !beside && this.isNamed && this.#differs(chart.report) ? this.#chart : null);
+    this.present.show(chart, beside ? [] : this.#saws.filter(differs));
     if (!beside) return;
     this.#charts ??= new Charts(this.campbell, this.growth, this.present.colours, {
       onHover: () => {},
       onZoom: (speeds) => this.present.zoom(speeds),
     });
-    this.title.textContent = this.name;
-    this.campbell.ariaLabel = `Campbell diagram of ${this.name}`;
+    const { name } = this.#saws.at(-1);
+    this.title.textContent = name;
+    this.campbell.ariaLabel = `Campbell diagram of ${name}`;
     this.#charts.resize();
     this.#charts.shareAxes(chart, this.present.stretch);
-    this.#charts.show(this.#chart, null);
+    this.#charts.show(this.#last, []);
   }
 
   zoomed(speeds) {
     this.#charts?.zoomed(speeds);
   }
 
+  // Keeps the axes of all charts as they are.
+  hold(on) {
+    for (const charts of [this.present, this.#charts]) charts?.hold(on);
+  }
+
   setColours(colours) {
     this.#charts?.setColours(colours);
   }
+}
+
+// A piece of the line of a saw.
+function sample(dash) {
+  const picture = document.createElementNS(SVG, "svg");
+  const line = document.createElementNS(SVG, "line");
+  for (const [key, value] of Object.entries({ width: 30, height: 8, "aria-hidden": "true" })) picture.setAttribute(key, String(value));
+  for (const [key, value] of Object.entries({ x2: 30, y1: 4, y2: 4, "stroke-dasharray": dash.join(" ") })) line.setAttribute(key, String(value));
+  picture.append(line);
+  return picture;
 }

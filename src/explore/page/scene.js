@@ -83,6 +83,11 @@ export class SceneState {
     this.#pending = null;
   }
 
+  // Whether a hand is changing something that it has not let go of.
+  get isMoving() {
+    return this.#before !== null;
+  }
+
   get canUndo() {
     return this.#past.length > 0;
   }
