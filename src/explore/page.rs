@@ -30,6 +30,7 @@ files! {
     "pinned.js": SCRIPT, "page/pinned.js";
     "range.js": SCRIPT, "page/range.js";
     "fields.js": SCRIPT, "page/fields.js";
+    "pairs.js": SCRIPT, "page/pairs.js";
     "parts.js": SCRIPT, "page/parts.js";
     "dock.js": SCRIPT, "page/dock.js";
     "dom.js": SCRIPT, "page/dom.js";

@@ -429,3 +429,66 @@ fn parts_added_to_saws_of_the_gallery_can_be_computed() {
         page.close().await;
     });
 }
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn pads_are_added_by_a_click_and_moved_in_pairs() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let angles = "sawflutter.state.scene.guides.map((pad) => pad.angle_deg)";
+        page.script(
+            "document.getElementById('pairs').value = 'mirrored'; \
+            document.getElementById('pairs').dispatchEvent(new Event('change'))",
+        )
+        .await;
+        // Above the middle of the blade, a little to the right; without the button a click adds nothing.
+        let drawing = page.find("#drawing").await;
+        let click = || {
+            let there = hand(&page)
+                .move_to_element_center(&drawing)
+                .move_by_offset(60, -120);
+            there.click_and_hold().release().perform()
+        };
+        click().await.unwrap();
+        assert_eq!(page.value(&format!("{angles}.length")).await, json!(1));
+        page.find("#add").await.click().await.unwrap();
+        click().await.unwrap();
+        page.wait(&format!("{angles}.length === 3")).await;
+        page.settle().await;
+        let found: Vec<f64> = serde_json::from_value(page.value(angles).await).unwrap();
+        assert!((found[1] - 63.4).abs() < 1.0, "{found:?}");
+        assert!((found[2] - (180.0 - found[1])).abs() < 1e-9, "{found:?}");
+        assert_eq!(page.text("#fault").await, "");
+
+        // The partner follows the hand, the keys and the fields.
+        drag(&page, "[data-path='guides[1]'] .body", 10, (2, 1)).await;
+        let_go(&page).await;
+        page.settle().await;
+        let pads = page.value("sawflutter.state.scene.guides").await;
+        let angle = |k: usize| pads[k]["angle_deg"].as_f64().unwrap();
+        assert!((angle(1) - found[1]).abs() > 1.0, "{pads}");
+        assert!((angle(1) + angle(2) - 180.0).abs() < 0.11, "{pads}");
+        assert_eq!(pads[1]["radius_m"], pads[2]["radius_m"]);
+        let opened = "document.querySelectorAll('#fields details').forEach((d) => (d.open = true))";
+        page.script(opened).await;
+        page.enter("guides[2].stiffness_n_per_m", "7").await;
+        page.settle().await;
+        let stiffness = "sawflutter.state.scene.guides.map((pad) => pad.stiffness_n_per_m)";
+        assert!(same(&page.value(stiffness).await, &json!([2e7, 7e6, 7e6])));
+        page.script(
+            "document.getElementById('pairs').value = ''; \
+            document.getElementById('pairs').dispatchEvent(new Event('change'))",
+        )
+        .await;
+        page.enter("guides[2].stiffness_n_per_m", "8").await;
+        page.settle().await;
+        assert!(same(&page.value(stiffness).await, &json!([2e7, 7e6, 8e6])));
+        for (width, height) in [(1440, 1000), (390, 844)] {
+            page.resize(width, height).await;
+            page.script("scrollTo(0, 0)").await;
+            page.screenshot(&format!("{width}-pairs.png")).await;
+        }
+        page.close().await;
+    });
+}

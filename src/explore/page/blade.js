@@ -21,11 +21,15 @@ const turned = (value) => ((((value + 180) % 360) + 360) % 360) - 180;
 const radians = (value) => (value * Math.PI) / 180;
 
 export class Blade {
-  // `onSelect(path)` is told what was taken hold of.
-  constructor(svg, state, onSelect) {
+  // `onSelect(path)` is told what was taken hold of, `onAdd(place)` where on the blade a pad is to be added.
+  constructor(svg, state, { onSelect, onAdd }) {
     this.svg = svg;
     this.state = state;
     this.onSelect = onSelect;
+    svg.addEventListener("click", (event) => {
+      const place = this.isAdding && this.#onBlade(event);
+      if (place) onAdd(place);
+    });
     this.ground = element("g", {}, svg);
     this.things = element("g", {}, svg);
     this.mark = element("g", { class: "turns" }, svg);
@@ -35,6 +39,24 @@ export class Blade {
       this.width = svg.clientWidth || 400;
       this.draw(state.scene, this.refusedKey);
     }).observe(svg);
+  }
+
+  // Whether a click on the blade adds a pad.
+  get isAdding() {
+    return this.svg.classList.contains("adding");
+  }
+
+  set isAdding(on) {
+    this.svg.classList.toggle("adding", on);
+  }
+
+  // Where on the blade the pointer is; nothing beside it.
+  #onBlade(event) {
+    const { scene } = this.state;
+    const [x, y] = this.#place(event);
+    const radius = Math.hypot(x, y);
+    const isOn = 0.5 * scene.blade.inner_diameter_m <= radius && radius <= 0.5 * scene.blade.outer_diameter_m;
+    return isOn ? { radius_m: metres(radius), angle_deg: degrees((Math.atan2(y, x) * 180) / Math.PI) } : null;
   }
 
   // Half the width of the drawing.
@@ -183,6 +205,7 @@ export class Blade {
 
   #hold(target, kind, path, action) {
     target.addEventListener("pointerdown", (event) => {
+      if (this.isAdding) return;
       event.preventDefault();
       target.parentNode.focus();
       target.setPointerCapture(event.pointerId);

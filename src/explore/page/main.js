@@ -8,7 +8,8 @@ import { Files } from "./files.js";
 import { Kept } from "./kept.js";
 import { publish } from "./marks.js";
 import { Live } from "./live.js";
-import { isPuttingIn } from "./parts.js";
+import { imageOf } from "./pairs.js";
+import { isPuttingIn, putIn } from "./parts.js";
 import { Pinned } from "./pinned.js";
 import { Pointed } from "./pointed.js";
 import { SceneState } from "./scene.js";
@@ -50,7 +51,7 @@ const state = new SceneState(begun.scene, (scene, { draft, structure, stamp, rel
   files.changed(scene);
   tasks.changed();
 });
-const blade = new Blade(by("drawing"), state, (path) => select(path));
+const blade = new Blade(by("drawing"), state, { onSelect: (path) => select(path), onAdd: addPad });
 const pointed = new Pointed({
   canvas: by("motion"), words: by("mode"), film: by("film"), mark: blade.mark, colours: () => colours, scene: () => state.scene,
   nameOf: (file) => files.nameOf(file),
@@ -86,6 +87,28 @@ seen.open = (file) => files.open(file);
 async function chartOfScene() {
   while (live.isBusy && !seen.settled()) await new Promise((resolve) => setTimeout(resolve, STEP_MS));
   return seen.settled() ? latest.chart : null;
+}
+
+// Adds a pad at a place of the blade, and its partner where pads are changed in pairs.
+async function addPad(place) {
+  adding(false);
+  const before = (made) => {
+    const pad = Object.assign(made.guides.at(-1), place);
+    const partner = imageOf(pad, state.pairs);
+    if (partner) made.guides.push(partner);
+  };
+  try {
+    await putIn(state, "guides[]", { before });
+    select(`guides[${state.scene.guides.length - (state.pairs ? 2 : 1)}]`);
+  } catch (error) {
+    say(form.inWords(error));
+  }
+}
+
+// Whether the next click on the blade adds a pad.
+function adding(on) {
+  blade.isAdding = on;
+  by("add").setAttribute("aria-pressed", String(on));
 }
 
 // A thing on the blade and its fields are marked together.
@@ -296,6 +319,9 @@ function wire() {
   by("undo").addEventListener("click", () => state.undo());
   by("redo").addEventListener("click", () => state.redo());
   by("pin").addEventListener("click", pin);
+  by("add").addEventListener("click", () => adding(!blade.isAdding));
+  addEventListener("keydown", (event) => event.key === "Escape" && adding(false));
+  by("pairs").addEventListener("change", (event) => (state.pairs = event.target.value));
   by("link").addEventListener("click", () => files.copyLink(by("link")));
   by("all").addEventListener("click", () => charts.zoom(null));
   by("over").addEventListener("click", () => {

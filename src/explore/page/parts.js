@@ -9,8 +9,8 @@ let underWay = 0;
 export const isPuttingIn = () => underWay > 0;
 
 // Puts a part in, and what it needs. `path` ends with [] for another entry of a list; `kind` is that of a mount.
-// `before()` is called just before the scene is changed.
-export async function putIn(state, path, { kind = "", before = () => {} } = {}) {
+// `before(made)` is called with the new scene just before it takes the place of the other.
+export async function putIn(state, path, { kind = "", before = (/** @type {any} */ _) => {} } = {}) {
   underWay += 1;
   try {
     for (;;) {
@@ -18,7 +18,7 @@ export async function putIn(state, path, { kind = "", before = () => {} } = {}) 
       const made = await part({ scene: state.scene, path, kind });
       // A scene that was changed while the program answered gets the part once more.
       if (JSON.stringify(state.scene) !== asked) continue;
-      before();
+      before(made);
       return state.replace(made);
     }
   } finally {

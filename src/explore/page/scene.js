@@ -1,5 +1,7 @@
 // The scene that is being changed, and what it was before.
 
+import { follow } from "./pairs.js";
+
 const STEPS = 200;
 // Changes of one run follow each other within this time.
 const RUN_MS = 1500;
@@ -37,6 +39,8 @@ export class SceneState {
   #before = null;
   #pending = null;
   #run = { name: null, at: 0 };
+  // How pads are changed together, see pairs.js; one by one if empty.
+  pairs = "";
 
   constructor(scene, listener) {
     this.scene = clone(scene);
@@ -45,7 +49,9 @@ export class SceneState {
 
   change(edit, { draft = false, structure = false, stamp = undefined, run = null } = {}) {
     this.#before ??= clone(this.scene);
+    const earlier = this.pairs && clone({ guides: this.scene.guides ?? [] });
     edit(this.scene);
+    if (earlier) follow(earlier, this.scene, this.pairs);
     this.#pending = run;
     if (!draft) this.#settle();
     this.listener(this.scene, { draft, structure, stamp });
