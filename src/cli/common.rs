@@ -78,6 +78,13 @@ impl Input {
         };
         self.changes.applied(scene)
     }
+
+    /// The file of the scene, if it is one.
+    #[cfg(feature = "explore")]
+    pub fn file(&self) -> Option<&Path> {
+        let path = self.scene.as_deref();
+        path.filter(|path| !is_standard_input(path))
+    }
 }
 
 /// The scene of a file, or of standard input.

@@ -1,6 +1,7 @@
 //! `sawflutter explore`.
 
 use std::io::Write;
+use std::path::Path;
 
 use crate::explore::{Options, serve};
 use clap::Args;
@@ -40,8 +41,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.input.scene()?;
     let options = Options {
         port: arguments.port,
+        file: arguments.input.file().map(Path::to_owned),
     };
-    serve(&scene, options, |address| {
+    serve(&scene, &options, |address| {
         let mut stdout = std::io::stdout().lock();
         // Whoever closed the output does not want to read the address.
         let _ = writeln!(

@@ -5,6 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::charts::{Charts, Fidelity};
 use super::fields::Units;
 use super::refusal::Refusal;
+#[cfg(feature = "explore")]
+use super::reply::FileNote;
 use super::reply::{SavedFile, Start};
 use super::task::{Meter, Task};
 use super::{mode, parts};
@@ -67,6 +69,12 @@ impl Answer {
         Self::with_status(OK, value)
     }
 
+    /// A refusal.
+    #[cfg(feature = "explore")]
+    pub(super) fn refused(refusal: &Refusal) -> Self {
+        Self::with_status(REFUSED, refusal)
+    }
+
     fn with_status(status: u16, value: &impl Serialize) -> Self {
         match serde_json::to_vec(value) {
             Ok(content) => Answer {
@@ -108,6 +116,13 @@ impl Backend {
     /// Calls a function with every stage of diagrams that are computed.
     pub fn on_stage(mut self, tell: impl Fn(Stage) + Send + Sync + 'static) -> Self {
         self.charts.under_way.on_stage(tell);
+        self
+    }
+
+    /// Tells the page of a file that it can save to.
+    #[cfg(feature = "explore")]
+    pub(super) fn with_file(mut self, note: Option<FileNote>) -> Self {
+        self.start.file = note;
         self
     }
 

@@ -15,6 +15,8 @@ mod influence;
 mod job;
 mod mode;
 #[cfg(feature = "explore")]
+mod opened;
+#[cfg(feature = "explore")]
 mod page;
 #[cfg(feature = "explore")]
 mod pages;

@@ -14,10 +14,21 @@ use crate::report::Report;
 use crate::scene::{Scene, SceneFile, json_schema};
 use crate::stability::Analysis;
 
+/// A file that the page can save to.
+#[derive(Debug, Clone, Serialize)]
+pub struct FileNote {
+    /// Its name without folders.
+    pub name: String,
+    /// Whether it is plain JSON. Comments are lost when it is saved.
+    pub plain: bool,
+}
+
 /// Initial data of the page.
 #[derive(Serialize)]
 pub struct Start {
     scene: SceneFile,
+    /// The file of the scene, if the page can save to it.
+    pub file: Option<FileNote>,
     schema: serde_json::Value,
     /// Example saws.
     examples: Vec<SceneFile>,
@@ -36,6 +47,7 @@ impl Start {
     pub fn new(scene: &Scene) -> Self {
         Start {
             scene: scene.file().clone(),
+            file: None,
             schema: json_schema(),
             examples: examples(),
             fields: Field::all(),

@@ -2,6 +2,7 @@
 
 use std::convert::Infallible;
 use std::net::{Ipv4Addr, SocketAddr};
+use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
@@ -19,6 +20,7 @@ use super::backend::{Answer, Backend, Question};
 use super::fields::Units;
 use super::guard::{OwnHosts, guard};
 use super::job::Jobs;
+use super::opened::OpenedFile;
 use super::page;
 use super::pages::Pages;
 use super::refusal::Refusal;
@@ -27,10 +29,12 @@ use crate::scene::{MAX_SCENE_BYTES, Scene};
 use crate::spectrum::SpectrumError;
 
 /// Options of the server.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Options {
     /// Port on 127.0.0.1; 0 takes a free one.
     pub port: u16,
+    /// File of the scene, to which the page saves on request.
+    pub file: Option<PathBuf>,
 }
 
 /// Reason for which the page could not be served.
@@ -66,6 +70,7 @@ struct Server {
     /// waiting requests would occupy connections that diagrams need.
     influences: Jobs,
     pages: Arc<Pages>,
+    file: Option<Arc<OpenedFile>>,
 }
 
 /// Serves the page of a scene until Ctrl-C, or until the last page is closed. `ready` is called with the
@@ -75,7 +80,7 @@ struct Server {
 /// [`ExploreError`] when the port cannot be had or the system fails.
 pub fn serve(
     scene: &Scene,
-    options: Options,
+    options: &Options,
     ready: impl FnOnce(&str),
 ) -> Result<(), ExploreError> {
     let runtime = tokio::runtime::Builder::new_current_thread()
@@ -89,12 +94,15 @@ pub fn serve(
         };
         let listener = TcpListener::bind(address).await.map_err(refused)?;
         let port = listener.local_addr()?.port();
+        let file = options.file.as_deref().and_then(OpenedFile::new);
+        let note = file.as_ref().map(OpenedFile::note);
         let server = Server {
-            backend: Arc::new(Backend::new(scene, milliseconds)),
+            backend: Arc::new(Backend::new(scene, milliseconds).with_file(note)),
             jobs: Jobs::default(),
             tasks: Jobs::default(),
             influences: Jobs::default(),
             pages: Arc::default(),
+            file: file.map(Arc::new),
         };
         let pages = server.pages.clone();
         let app = router(server, OwnHosts::new(port));
@@ -134,6 +142,7 @@ fn router(server: Server, hosts: OwnHosts) -> Router {
         .route("/save/{name}", post(drawn))
         .route("/influence", post(weighed))
         .route("/task/{task}", post(task))
+        .route("/file", post(save_to_file))
         .route("/alive", post(alive))
         .route("/leave", post(leave))
         .route("/jobs", get(jobs))
@@ -204,11 +213,15 @@ fn question(uri: &Uri, headers: &HeaderMap, body: String) -> Question {
         path: uri.path().trim_start_matches('/').to_owned(),
         page: text(headers, PAGE),
         chart: text(headers, CHART),
-        units: match text(headers, UNITS).as_str() {
-            "inches" => Units::Inches,
-            _ => Units::Metric,
-        },
+        units: units(headers),
         body,
+    }
+}
+
+fn units(headers: &HeaderMap) -> Units {
+    match text(headers, UNITS).as_str() {
+        "inches" => Units::Inches,
+        _ => Units::Metric,
     }
 }
 
@@ -254,6 +267,17 @@ async fn task(
 
 fn cancelled() -> String {
     serde_json::json!({ "refusal": Refusal::of(&SpectrumError::Cancelled) }).to_string()
+}
+
+/// Saves the scene to the file that the program was started with.
+async fn save_to_file(State(server): State<Server>, headers: HeaderMap, body: String) -> Response {
+    let Some(file) = &server.file else {
+        return StatusCode::NOT_FOUND.into_response();
+    };
+    match file.save(&body) {
+        Ok(()) => StatusCode::NO_CONTENT.into_response(),
+        Err(refusal) => sent(Answer::refused(&refusal.in_field(&body, units(&headers)))),
+    }
 }
 
 /// Registers an open page by its name.

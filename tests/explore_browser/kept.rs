@@ -2,9 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use serde_json::json;
+use serde_json::{Value, json};
 
-use crate::browser::{PATIENCE, Page, run};
+use crate::browser::{PATIENCE, Page, run, same};
 
 const THICKNESS: &str = "sawflutter.state.scene.blade.thickness_m";
 
@@ -247,6 +247,107 @@ fn the_program_ends_with_its_page() {
             tokio::time::sleep(Duration::from_millis(50)).await;
         };
         assert!(status.success(), "{status}");
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_saw_is_saved_to_the_file_that_the_program_was_started_with() {
+    run(async {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("my-saw.json");
+        let paper = include_str!("../../scenes/paper.json");
+        std::fs::write(&path, paper).unwrap();
+        let page = Page::open(&[path.to_str().unwrap(), "--accuracy", "draft"]).await;
+        page.settle().await;
+        let read = || std::fs::read_to_string(&path).unwrap();
+        let save = page.find("#write").await;
+        assert_eq!(page.text("#write").await, "Save to my-saw.json");
+        page.enter("blade.thickness_m", "3").await;
+        page.settle().await;
+        // Nothing is written before somebody says so.
+        assert_eq!(read(), paper);
+        for (width, height) in [(1440, 1000), (390, 844)] {
+            page.resize(width, height).await;
+            page.script("scrollTo(0, 0)").await;
+            page.screenshot(&format!("{width}-save.png")).await;
+        }
+        page.resize(1280, 900).await;
+        save.click().await.unwrap();
+        page.wait("document.querySelector('#write').disabled").await;
+        let saved: Value = serde_json::from_str(&read()).unwrap();
+        assert!(same(&saved, &page.value("sawflutter.state.scene").await));
+
+        // Another program has changed the file in the meantime.
+        std::fs::write(&path, paper).unwrap();
+        page.enter("blade.thickness_m", "3.1").await;
+        page.settle().await;
+        save.click().await.unwrap();
+        page.wait("document.querySelector('#fault').textContent.includes('another program has changed it')")
+            .await;
+        assert_eq!(read(), paper);
+
+        let mut permissions = folder.path().metadata().unwrap().permissions();
+        permissions.set_readonly(true);
+        std::fs::set_permissions(folder.path(), permissions).unwrap();
+        std::fs::write(&path, serde_json::to_string_pretty(&saved).unwrap() + "\n").unwrap();
+        save.click().await.unwrap();
+        page.wait("document.querySelector('#fault').textContent.includes('is read-only')")
+            .await;
+
+        // Another saw is not saved over this one.
+        page.script(
+            "window.confirm = () => true; document.getElementById('examples').value = 1; \
+            document.getElementById('examples').dispatchEvent(new Event('change'))",
+        )
+        .await;
+        page.settle().await;
+        assert_eq!(
+            page.value("document.querySelector('#write').hidden").await,
+            json!(true)
+        );
+        page.script("sawflutter.state.undo()").await;
+        page.settle().await;
+        assert_eq!(page.text("#write").await, "Save to my-saw.json");
+        page.wait("!document.querySelector('#write').hidden").await;
+        page.close().await;
+    });
+}
+
+/// A file of the browser's own storage stands for one of the computer.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_saw_is_saved_to_the_file_that_was_opened_in_the_browser() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        assert_eq!(
+            page.value("document.querySelector('#write').hidden").await,
+            json!(true)
+        );
+        page.awaited(
+            "{ const root = await navigator.storage.getDirectory(); \
+             const handle = await root.getFileHandle('ring.json', { create: true }); \
+             const stream = await handle.createWritable(); \
+             await stream.write(JSON.stringify(sawflutter.state.scene)); await stream.close(); \
+             window.showOpenFilePicker = async () => [handle]; }",
+        )
+        .await;
+        page.script("document.querySelector('#open').click()").await;
+        page.wait("!document.querySelector('#write').hidden").await;
+        page.enter("blade.thickness_m", "3").await;
+        page.settle().await;
+        page.find("#write").await.click().await.unwrap();
+        page.wait("document.querySelector('#write').disabled").await;
+        let saved = page
+            .awaited(
+                "{ const root = await navigator.storage.getDirectory(); \
+                 const file = await (await root.getFileHandle('ring.json')).getFile(); \
+                 return JSON.parse(await file.text()).blade.thickness_m; }",
+            )
+            .await;
+        assert_eq!(saved, json!(0.003));
         page.close().await;
     });
 }

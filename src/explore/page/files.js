@@ -2,7 +2,7 @@
 
 import { download, node } from "./dom.js";
 import { bare, carried, link } from "./link.js";
-import { measured, read, saved } from "./talk.js";
+import { Refused, measured, read, saved, write } from "./talk.js";
 
 export class Files {
   // The scene as it was last saved to a file, or as the program was started with.
@@ -14,7 +14,6 @@ export class Files {
   #stem = null;
 
   #saving = null;
-
   // `say(words)` is for what went wrong, `onReplaced()` for another saw than before, `onBusy(what)` for
   // a file that is made; `shown()` waits for the name of the scene's chart.
   constructor(state, kept, begun, { say, onReplaced, onBusy, shown }) {
@@ -26,6 +25,7 @@ export class Files {
     this.onBusy = onBusy;
     this.shown = shown;
     this.saved(begun.scene);
+    state.origin = this.#origin(this.#ofProgram(), begun.scene);
     addEventListener("hashchange", () => this.#paste());
   }
 
@@ -36,6 +36,58 @@ export class Files {
 
   get isSaved() {
     return JSON.stringify(this.state.scene) === this.#onDisk;
+  }
+
+  // The file that the program was started with.
+  #ofProgram() {
+    const { file } = this.begun;
+    return file && { ...file, write: () => write(this.state.scene) };
+  }
+
+  // A file of this computer that the browser lets the page write to, once its user agrees.
+  #ofBrowser(handle, text) {
+    const put = async () => {
+      const stream = await handle.createWritable();
+      await stream.write(this.#text());
+      await stream.close();
+    };
+    return { name: handle.name, plain: isPlain(text), write: put };
+  }
+
+  // The file that a saw came from and can be saved to, if any, and the saw as it is there.
+  #origin(target, scene) {
+    return { target, written: JSON.stringify(scene) };
+  }
+
+  // The file that the saw can be saved to, and whether the saw differs from it; nothing without one.
+  get target() {
+    const { target, written } = this.state.origin;
+    return target && { name: target.name, differs: JSON.stringify(this.state.scene) !== written };
+  }
+
+  // Saves the saw to the file that it came from.
+  async write() {
+    const { origin } = this.state;
+    const { target } = origin;
+    if (!target.plain && !confirm(`${target.name} has comments, which are lost when the page saves it. Save it?`)) return;
+    const scene = JSON.stringify(this.state.scene);
+    try {
+      await target.write();
+      target.plain = true;
+      origin.written = scene;
+      if (scene === JSON.stringify(this.state.scene)) this.saved();
+      this.say("");
+    } catch (error) {
+      const elsewhere = "“Save a copy” saves the saw elsewhere";
+      const reason = error instanceof Refused ? error.message
+        : error instanceof DOMException ? `${target.name} was not saved: ${error.message}; ${elsewhere}`
+        : `${target.name} was not saved: the program does not answer any more; ${elsewhere}`;
+      this.say(reason);
+    }
+  }
+
+  #text() {
+    return `${JSON.stringify(this.state.scene, null, 2)}\n`;
   }
 
   // A file of this saw: "six-pads-campbell.png", and "six-pads.json" of the scene itself.
@@ -57,11 +109,11 @@ export class Files {
   }
 
   // Another saw in place of this one.
-  #open(scene, stem = null) {
+  #open(scene, { stem = null, target = null } = {}) {
     this.#stem = stem;
     this.saved(scene);
     this.onReplaced();
-    this.state.replace(scene);
+    this.state.replace(scene, this.#origin(target, scene));
   }
 
   offerExamples(list) {
@@ -77,7 +129,7 @@ export class Files {
   async save(name) {
     if (name === "scene.json") {
       // Without the server: it may have ended.
-      download(this.nameOf(name), new Blob([`${JSON.stringify(this.state.scene, null, 2)}\n`], { type: "application/json" }));
+      download(this.nameOf(name), new Blob([this.#text()], { type: "application/json" }));
       this.saved();
       return;
     }
@@ -99,8 +151,9 @@ export class Files {
     this.#saving = null;
   }
 
-  // A scene, or a table of measured frequencies. What is neither leaves everything as it is.
-  async open(file) {
+  // A scene, or a table of measured frequencies. What is neither leaves everything as it is. With a `handle` the page
+  // can save to the file.
+  async open(file, handle = null) {
     try {
       const text = await file.text();
       if (/\.(csv|tsv|txt)$/i.test(file.name)) {
@@ -109,7 +162,7 @@ export class Files {
         return;
       }
       const scene = await read(text);
-      if (this.#mayReplace(file.name)) this.#open(scene, file.name.replace(/\.[^.]*$/, ""));
+      if (this.#mayReplace(file.name)) this.#open(scene, { stem: file.name.replace(/\.[^.]*$/, ""), target: handle && this.#ofBrowser(handle, text) });
     } catch (error) {
       this.say(`${file.name} was not opened, the scene is as it was: ${error.message}`);
     }
@@ -168,6 +221,16 @@ export class Files {
   }
 
   startOver() {
-    this.#open(this.begun.scene);
+    this.#open(this.begun.scene, { target: this.#ofProgram() });
+  }
+}
+
+// Whether a text is JSON without comments.
+function isPlain(text) {
+  try {
+    JSON.parse(text);
+    return true;
+  } catch {
+    return false;
   }
 }

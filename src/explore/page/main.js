@@ -268,6 +268,14 @@ function buttons() {
   by("points").hidden = source === undefined;
   by("source").textContent = source ?? "";
   by("source").title = source ?? "";
+  const { target } = files;
+  by("write").hidden = target === null;
+  by("write").textContent = target ? `Save to ${target.name}` : "";
+  by("write").title = by("write").textContent;
+  by("write").disabled = !target?.differs;
+  const copy = first("[data-save='scene.json']");
+  copy.textContent = target ? "Save a copy" : "Save saw";
+  copy.classList.toggle("main", target === null);
   by("pin").disabled = pinned.isFull;
   by("sides").hidden = !pinned.isNamed;
 }
@@ -335,10 +343,25 @@ function wire() {
   addEventListener("dragover", (event) => event.preventDefault());
   addEventListener("drop", (event) => {
     event.preventDefault();
-    if (event.dataTransfer.files[0]) files.open(event.dataTransfer.files[0]);
+    const [file] = event.dataTransfer.files;
+    if (!file) return;
+    // Asked for at once: later the browser does not know what was dropped.
+    const handle = /** @type {any} */ (event.dataTransfer.items[0]).getAsFileSystemHandle?.() ?? Promise.resolve(null);
+    handle.catch(() => null).then((found) => files.open(file, found));
   });
   addEventListener("beforeunload", (event) => {
     if (!files.isSaved && !kept.works) event.preventDefault();
+  });
+  by("write").addEventListener("click", async () => {
+    await files.write();
+    buttons();
+  });
+  by("open").addEventListener("click", async (event) => {
+    if (!("showOpenFilePicker" in globalThis)) return;
+    // A file that the page may save to.
+    event.preventDefault();
+    const [handle] = await /** @type {any} */ (globalThis).showOpenFilePicker().catch(() => []);
+    if (handle) await files.open(await handle.getFile(), handle);
   });
   by("open").addEventListener("change", async (event) => {
     if (event.target.files[0]) await files.open(event.target.files[0]);

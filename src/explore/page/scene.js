@@ -41,14 +41,17 @@ export class SceneState {
   #run = { name: null, at: 0 };
   // How pads are changed together, see pairs.js; one by one if empty.
   pairs = "";
+  // Where the scene comes from, see files.js. It is taken back with the scene.
+  origin = null;
 
   constructor(scene, listener) {
     this.scene = clone(scene);
     this.listener = listener;
   }
 
-  change(edit, { draft = false, structure = false, stamp = undefined, run = null } = {}) {
-    this.#before ??= clone(this.scene);
+  change(edit, { draft = false, structure = false, stamp = undefined, run = null, origin = this.origin } = {}) {
+    this.#before ??= { scene: clone(this.scene), origin: this.origin };
+    this.origin = origin;
     const earlier = this.pairs && clone({ guides: this.scene.guides ?? [] });
     edit(this.scene);
     if (earlier) follow(earlier, this.scene, this.pairs);
@@ -62,11 +65,11 @@ export class SceneState {
   }
 
   // Another scene in place of this one.
-  replace(scene) {
+  replace(scene, origin = this.origin) {
     this.change((current) => {
       for (const key of Object.keys(current)) delete current[key];
       Object.assign(current, clone(scene));
-    }, { structure: true });
+    }, { structure: true, origin });
   }
 
   // The end of a drag.
@@ -77,7 +80,7 @@ export class SceneState {
   }
 
   #settle() {
-    if (JSON.stringify(this.#before) !== JSON.stringify(this.scene)) {
+    if (JSON.stringify(this.#before.scene) !== JSON.stringify(this.scene)) {
       const now = performance.now();
       const goesOn = this.#pending !== null && this.#run.name === this.#pending && now - this.#run.at < RUN_MS;
       this.#run = { name: this.#pending, at: now };
@@ -112,8 +115,8 @@ export class SceneState {
 
   #travel(from, to) {
     if (from.length === 0) return;
-    to.push(this.scene);
-    this.scene = from.pop();
+    to.push({ scene: this.scene, origin: this.origin });
+    ({ scene: this.scene, origin: this.origin } = from.pop());
     this.#run = { name: null, at: 0 };
     this.#before = null;
     this.listener(this.scene, { draft: false, structure: true });

@@ -62,6 +62,11 @@ export async function part(asked) {
   return answer.json();
 }
 
+// Saves the scene to the file that the program was started with.
+export async function write(scene) {
+  await post("file", JSON.stringify(scene));
+}
+
 // A table of measured frequencies as the program reads it, as the `measured` block of a scene.
 export async function measured(name, table) {
   const answer = await post("measured", JSON.stringify({ name, table }));
