@@ -4,6 +4,7 @@
 //! request and computes nothing: all that it shows, and every file that it saves, comes from the same
 //! functions as on the command line.
 
+mod answers;
 mod backend;
 mod charts;
 mod examples;

@@ -5,6 +5,7 @@ use std::sync::Mutex;
 
 use serde::{Deserialize, Serialize};
 
+use super::answers::{TaskAnswer, of_cut, of_fit, of_place, of_runup, of_washboard};
 use super::backend::Clock;
 use super::refusal::Refusal;
 use super::tolerances::{Tolerance, Typed, study as study_of};
@@ -114,6 +115,8 @@ impl<'a> Meter<'a> {
 struct Answer<'a, R> {
     /// Summary as printed by the program.
     summary: String,
+    /// Its main numbers.
+    answers: Vec<TaskAnswer>,
     report: &'a R,
     /// Figures as SVG, by file name.
     figures: Vec<(&'static str, String)>,
@@ -156,6 +159,7 @@ impl Task {
 fn answer<R: Figures + Serialize>(
     report: &R,
     summary: String,
+    answers: Vec<TaskAnswer>,
     scene: Option<&SceneFile>,
 ) -> Result<String, Refusal> {
     let figures = report.figures().into_iter().map(|figure| {
@@ -165,6 +169,7 @@ fn answer<R: Figures + Serialize>(
     let figures = figures.collect::<Result<_, Refusal>>()?;
     let answer = Answer {
         summary,
+        answers,
         report,
         figures,
         scene,
@@ -181,7 +186,7 @@ fn cut(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
     let progress = |done, of| meter.show("points of the map", done, of);
     let cutting = Cutting::new(scene, &runs, &progress).map_err(refused)?;
     let report = CutReport::new(&cutting);
-    answer(&report, report.summary(), None)
+    answer(&report, report.summary(), of_cut(&report), None)
 }
 
 fn runup(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
@@ -189,7 +194,7 @@ fn runup(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
     let progress = |done, of| meter.show("steps", done, of);
     let found = RunningUp::new(scene, &progress).map_err(refused)?;
     let report = RunUpReport::new(&found);
-    answer(&report, report.summary(), None)
+    answer(&report, report.summary(), of_runup(&report), None)
 }
 
 fn washboard(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
@@ -199,7 +204,7 @@ fn washboard(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
     let found = Washboard::new(scene, &run, &progress);
     let found = found.map_err(|error: WashboardError| Refusal::of(&error))?;
     let report = WashboardReport::new(&found);
-    answer(&report, report.summary(), None)
+    answer(&report, report.summary(), of_washboard(&report), None)
 }
 
 fn fit(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
@@ -209,7 +214,12 @@ fn fit(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
     let progress = |done, of| meter.show("starts", done, of);
     let fit = Fit::new(scene, &measurement, &freed, &options, &progress);
     let report = FitReport::new(&fit.map_err(|error: FitError| Refusal::of(&error))?);
-    answer(&report, report.summary(), Some(&report.scene))
+    answer(
+        &report,
+        report.summary(),
+        of_fit(&report),
+        Some(&report.scene),
+    )
 }
 
 const NO_SPEED: &str = "A window is sought around the operating speed: the form has none yet";
@@ -232,7 +242,12 @@ fn place(scene: &Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refu
     let found = Placement::watched(scene, &freed, &demands, &options, &progress, &watch);
     let found = found.map_err(|error: PlaceError| Refusal::of(&error))?;
     let report = PlaceReport::new(&demands, &found);
-    answer(&report, report.summary(), Some(&report.scene))
+    answer(
+        &report,
+        report.summary(),
+        of_place(&report),
+        Some(&report.scene),
+    )
 }
 
 fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
@@ -254,5 +269,5 @@ fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
     let Ok(()) = study.run(None, 0..study.count(), &done);
     let saws = saws.into_inner().unwrap_or_else(|e| e.into_inner());
     let report = StudyReport::new(&study, &saws).map_err(|error| Refusal::of(&error))?;
-    answer(&report, report.summary(), None)
+    answer(&report, report.summary(), Vec::new(), None)
 }

@@ -69,6 +69,8 @@ pub use drawn::{Figure, Figures, tradeoff};
 pub use palette::Hue;
 #[doc(hidden)]
 pub use palette::{PALETTE, Palette};
+#[cfg(feature = "page")]
+pub(crate) use written::name as number_name;
 
 use crate::report::Report;
 

@@ -299,3 +299,55 @@ fn a_task_that_cannot_be_done_says_why_in_the_words_of_the_form() {
         page.close().await;
     });
 }
+
+/// The main numbers of an answer have three digits, and follow the units of the form.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn answers_are_in_the_units_of_the_form() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        page.compute("runup").await;
+        let told = "[...document.querySelectorAll('#panel-runup .fact')].map((fact) => [...fact.children].map((part) => part.textContent))";
+        let metric = page.value(told).await;
+        assert_eq!(metric[0][0], json!("Largest deflection"));
+        let number = |told: &Value, unit: &str| -> f64 {
+            let text = told[0][1].as_str().unwrap();
+            text.strip_suffix(unit)
+                .unwrap_or_else(|| panic!("{text}"))
+                .trim()
+                .parse()
+                .unwrap()
+        };
+        let (out, _) = page.command(&["runup"]).await;
+        let report = std::fs::read(out.join("runup.json")).unwrap();
+        let report: Value = serde_json::from_slice(&report).unwrap();
+        let deflections = report["deflection_m"].as_array().unwrap().iter();
+        let largest = deflections
+            .map(|w| w.as_f64().unwrap().abs())
+            .fold(0.0, f64::max);
+        let in_mm = number(&metric, "mm");
+        assert!(
+            (in_mm / (1e3 * largest) - 1.0).abs() < 5e-3,
+            "{in_mm} {largest}"
+        );
+        page.script("document.querySelector('#inches').click()")
+            .await;
+        let in_inches = number(&page.value(told).await, "in");
+        assert!((25.4 * in_inches / in_mm - 1.0).abs() < 1e-2, "{in_inches}");
+        page.script("document.querySelector('#inches').click()")
+            .await;
+
+        page.script("sawflutter.state.set('guides[0].stiffness_n_per_m', 1.5e7)")
+            .await;
+        page.settle().await;
+        page.compute("fit").await;
+        let fit = page.text("#panel-fit .numbers-of-answer").await;
+        assert!(fit.contains("stiffness of guide 115 → "), "{fit}");
+        page.resize(1440, 1000).await;
+        page.screenshot("1440-fit.png").await;
+        page.resize(390, 844).await;
+        page.screenshot("390-fit.png").await;
+        page.close().await;
+    });
+}

@@ -119,6 +119,8 @@ class Task {
     this.fault.setAttribute("role", "alert");
     this.old = node("p", { className: "remark", hidden: true, textContent: "Computed for an earlier scene." });
     this.answer = node("div", { className: "answer" });
+    this.answers = [];
+    this.numbers = node("dl", { className: "numbers-of-answer" });
     this.start.addEventListener("click", () => this.#run());
     this.stop.addEventListener("click", () => this.#abort?.abort());
     const row = node("p", { className: "start" }, this.start, " ", this.stop, " ", this.bar, " ", this.so_far);
@@ -144,6 +146,7 @@ class Task {
     if (hadFocus) (this.missing.querySelector("button") ?? this.start).focus();
     this.old.hidden = this.#scene === null || this.#scene === JSON.stringify(scene);
     this.answer.classList.toggle("earlier", !this.old.hidden);
+    this.#tellNumbers();
     if (this.entry.name === "study") this.#offerTolerances(scene);
     if (this.entry.name === "place" && !this.inputs.hasChildNodes()) this.#offerGoals();
   }
@@ -250,7 +253,7 @@ class Task {
     this.so_far.textContent = `${what}: ${done} of ${of}`;
   }
 
-  #show({ summary, report, figures, scene }) {
+  #show({ summary, answers, report, figures, scene }) {
     const { name, took } = this.entry;
     const text = node("pre", { textContent: summary, tabIndex: 0 });
     text.setAttribute("role", "region");
@@ -269,7 +272,20 @@ class Task {
       link.addEventListener("click", () => download(this.nameOf(file), new Blob([svg], { type: "image/svg+xml" })));
       return node("figure", {}, picture, link);
     });
-    this.#replace(tools, ...pictures, text);
+    this.answers = answers;
+    this.#replace(this.numbers, tools, ...pictures, text);
+    this.#tellNumbers();
+  }
+
+  // The main numbers of the answer, with three digits in the units of the form.
+  #tellNumbers() {
+    this.numbers.replaceChildren(...this.answers.map(({ name, unit_of, value, before }) => {
+      const { unit, scale } = unitOf(unit_of);
+      const told = (number) => shown(number * scale, 3).replace("-", "−");
+      const now = value === null ? "none" : `${told(value)} ${unit}`;
+      const text = before === null || value === null || told(before) === told(value) ? now : `${told(before)} → ${now}`;
+      return node("div", { className: "fact" }, node("dt", { textContent: name }), node("dd", { textContent: text }));
+    }));
   }
 }
 

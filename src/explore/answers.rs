@@ -1,0 +1,109 @@
+//! Answers of tasks in few numbers, which the page shows in the units of the form.
+
+use serde::Serialize;
+
+use crate::figure::number_name;
+use crate::report::{CutReport, FitReport, PlaceReport, RunUpReport, WashboardReport};
+use crate::scene::Quantity;
+
+/// A number of an answer.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TaskAnswer {
+    /// What it is.
+    name: String,
+    /// Path of a number of scenes with the same unit.
+    unit_of: &'static str,
+    /// In the unit of this path; null if there is none.
+    value: Option<f64>,
+    /// The value before a search; null elsewhere.
+    before: Option<f64>,
+}
+
+const LENGTH: &str = "blade.thickness_m";
+const SPEED: &str = "operating_rpm";
+const STIFFNESS: &str = "cut.washboarding.stiffness_n_per_m";
+const FREQUENCY: &str = "measured.rows[].frequencies_hz[]";
+
+fn answer(name: impl Into<String>, unit_of: &'static str, value: Option<f64>) -> TaskAnswer {
+    TaskAnswer {
+        name: name.into(),
+        unit_of,
+        value,
+        before: None,
+    }
+}
+
+/// Largest deflections at each speed of a cut.
+pub fn of_cut(report: &CutReport) -> Vec<TaskAnswer> {
+    let runs = report.runs.iter().flat_map(|run| {
+        let at = |what| format!("Deflection {what} the cut at {:.0} rpm", run.rpm);
+        [
+            answer(at("in"), LENGTH, run.largest_deflection_in_cut_m),
+            answer(at("after"), LENGTH, run.largest_deflection_after_m),
+        ]
+    });
+    runs.collect()
+}
+
+/// Largest deflection of a run-up, and where it first doubles.
+pub fn of_runup(report: &RunUpReport) -> Vec<TaskAnswer> {
+    let deflections = report.rpm.iter().zip(&report.deflection_m);
+    let largest = deflections.max_by(|x, y| x.1.abs().total_cmp(&y.1.abs()));
+    vec![
+        answer("Largest deflection", LENGTH, largest.map(|(_, w)| w.abs())),
+        answer("at", SPEED, largest.map(|(rpm, _)| *rpm)),
+        answer("Doubles first at", SPEED, report.first_doubling_rpm),
+    ]
+}
+
+/// Smallest cutting stiffness at which a motion grows.
+pub fn of_washboard(report: &WashboardReport) -> Vec<TaskAnswer> {
+    let stiffness = report.critical_stiffness_n_per_m;
+    vec![
+        answer("A motion grows from a stiffness of", STIFFNESS, stiffness),
+        answer("at", FREQUENCY, report.critical_frequency_hz),
+    ]
+}
+
+/// The numbers that were fitted, and the remaining deviation.
+pub fn of_fit(report: &FitReport) -> Vec<TaskAnswer> {
+    let found = report.parameters.iter();
+    let found = found.filter_map(|found| number(&found.path, found.start, found.value));
+    let rms = TaskAnswer {
+        before: Some(report.rms_before_hz),
+        ..answer("Deviation (rms)", FREQUENCY, Some(report.rms_hz))
+    };
+    found.chain([rms]).collect()
+}
+
+/// The numbers that were placed, and the speeds of the saw.
+pub fn of_place(report: &PlaceReport) -> Vec<TaskAnswer> {
+    let found = report.parameters.iter();
+    let found = found.filter_map(|found| number(&found.path, found.start, found.value));
+    let speeds = [
+        (
+            "Flutter speed",
+            report.before.flutter_rpm,
+            report.best.flutter_rpm,
+        ),
+        (
+            "First critical speed",
+            report.before.critical_rpm,
+            report.best.critical_rpm,
+        ),
+    ];
+    let speeds = speeds.map(|(name, before, value)| TaskAnswer {
+        before,
+        ..answer(name, SPEED, value)
+    });
+    found.chain(speeds).collect()
+}
+
+/// A number of the scene, by its path.
+fn number(path: &str, before: f64, value: f64) -> Option<TaskAnswer> {
+    let quantity = Quantity::of(path)?;
+    Some(TaskAnswer {
+        before: Some(before),
+        ..answer(number_name(path), quantity.path, Some(value))
+    })
+}
