@@ -1679,6 +1679,27 @@ class AtAmplitude(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class BasisError(Entry):
+    """Largest relative change of the deflections at the cut over gap and force, every third of
+    each, in a larger basis."""
+
+    share: float
+    """The change."""
+
+    gap_factor: float
+    """Factor of the gaps at which it occurs."""
+
+    force_n: float
+    """Side force at which it occurs."""
+
+    modes: int
+    """Number of modes at rest in the basis."""
+
+    more_modes: int
+    """Number of modes at rest in the larger basis."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Deviation(Entry):
     """Stationary deflection of the rim at the cut under a side force there."""
 
@@ -1714,17 +1735,29 @@ class Deviation(Entry):
     exceeds it. Empty without a limit."""
 
     force_n: float
-    """Side force of the series over the speed, with the gaps of the scene."""
+    """Side force of the map over gap and speed, and of the series over the speed with the gaps
+    of the scene."""
 
     speeds_rpm: FloatArray
-    """Speeds of the series."""
+    """Speeds of this map and of the series."""
+
+    deflection_over_gap_and_speed_m: FloatArray
+    """Deflection at the cut over gap and speed, one row a gap; null where the blade leans by
+    more than its thickness."""
+
+    speed_within_rpm: FloatArray
+    """Largest speed up to which the deflection at the cut is allowed under this force, for each
+    gap; null where that at rest is not. Empty without a limit."""
 
     deflection_over_speed_m: FloatArray
-    """Deflection at the cut at these speeds; null where the blade leans by more than its
-    thickness."""
+    """Deflection at the cut at these speeds, with the gaps of the scene; null where the blade
+    leans by more than its thickness."""
 
     pad_forces_over_speed_n: FloatArray
     """Forces of the pads at these speeds, one row a pad; null where the blade leans."""
+
+    basis_error: BasisError | None
+    """Estimated error of the deflections over gap and force; null if none could be compared."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1981,8 +2014,11 @@ class Outcome(Entry):
     window_rpm: FloatArray | None
     """Window without instability around the operating speed, if it is the goal."""
 
+    deflection_m: float | None
+    """Deflection at the cut, as an absolute value, if it has a limit."""
+
     kept: bool
-    """Whether the limit of the critical speed is kept."""
+    """Whether the limits of the critical speed and of the deflection are kept."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2068,8 +2104,18 @@ class PlaceReport(Entry):
     min_critical_rpm: float | None
     """Lower limit of the first critical speed, if there is one."""
 
+    amplitude_m: float | None
+    """Amplitude at guides with a gap with whose mean stiffness bands and critical speeds were
+    computed, if one was given."""
+
+    max_deflection_m: float | None
+    """Upper limit of the deflection at the cut, if there is one."""
+
+    force_n: float | None
+    """Side force at the cut for this limit."""
+
     kept: bool
-    """Whether the best saw keeps the limit in the worst case of its tolerances."""
+    """Whether the best saw keeps the limits in the worst case of its tolerances."""
 
     improved: bool
     """Whether the best saw is better than the original scene, both in the worst case of their
@@ -2361,6 +2407,49 @@ class Passing(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class NumberQuantile(Entry):
+    """A number below which a share of the saws lies."""
+
+    share: float
+    """The share."""
+
+    value: float | None
+    """The number; null if it is not known."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Number(Entry):
+    """Distribution of a number of the analysed saws, in SI units or rpm."""
+
+    saws: int
+    """Number of saws whose number is known. That of the others, where slopes of the blade
+    exceed 0.1, counts as larger."""
+
+    median: float | None
+    """Median; null if it is not known."""
+
+    quantiles: tuple[NumberQuantile, ...]
+    """Numbers below which given shares of the saws lie."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class GapStatistics(Entry):
+    """Deflections and pad forces of the analysed saws of a group."""
+
+    deflection_at_cut: Number
+    """Deflection of the rim at the cut, in m, as an absolute value."""
+
+    largest_pad_force: Number
+    """Largest force of a pad, in N, as an absolute value."""
+
+    critical_at_amplitude: Number | None
+    """First critical speed at the amplitude of the study, in rpm; null without an amplitude."""
+
+    saws_within: int | None
+    """Number of saws whose deflection is allowed; null without a limit."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Group(Entry):
     """A group of saws."""
 
@@ -2384,6 +2473,9 @@ class Group(Entry):
 
     passing: Passing | None
     """Share of saws that keep the limits, if the study has any."""
+
+    gap: GapStatistics | None
+    """Guides with a gap, if the study asks for them."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

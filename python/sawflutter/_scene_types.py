@@ -646,6 +646,27 @@ class LimitsDict(TypedDict, total=False):
     """Lower limit of the first critical speed."""
 
 
+class _GapDict(TypedDict):
+    """The deflection at the cut of a saw with guides with a gap, as of `sawflutter gap`."""
+
+    force_n: float
+    """Side force at the rim at the cut."""
+
+
+class GapDict(_GapDict, total=False):
+    """The deflection at the cut of a saw with guides with a gap, as of `sawflutter gap`."""
+
+    rpm: float | None
+    """Speed; by default the operating speed of the scene."""
+
+    max_deviation_mm: float | None
+    """Largest deflection at the cut that is allowed: the saws that keep it are counted."""
+
+    amplitude_mm: float | None
+    """Amplitude of an oscillation at the guides, with whose mean stiffness the first critical
+    speed is computed."""
+
+
 class _StudyDict(TypedDict):
     """Numbers of a scene that vary, their distributions, and limits of the saws."""
 
@@ -674,6 +695,9 @@ class StudyDict(_StudyDict, total=False):
 
     limits: LimitsDict | None
     """Limits of each saw, as for `sawflutter check`."""
+
+    gap: GapDict | None
+    """What is computed of guides with a gap; at least one guide of the scene is one-sided."""
 
     quantiles: list[float]
     """Shares of the saws for which quantiles of the speeds are reported."""

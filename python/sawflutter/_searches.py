@@ -132,6 +132,9 @@ class Searches(SceneData):
         free: Free = None,
         goal: Literal["flutter", "window"] = "flutter",
         min_critical_rpm: Number = None,
+        amplitude_mm: Number = None,
+        max_deviation_mm: Number = None,
+        force_n: Number = None,
         samples: SupportsIndex = 64,
         refine: SupportsIndex = 60,
         map: SupportsIndex = 17,
@@ -155,6 +158,14 @@ class Searches(SceneData):
             speed.
         min_critical_rpm : float, optional
             Lowest allowed first critical speed.
+        amplitude_mm : float, optional
+            Amplitude at guides with a gap, with whose mean stiffness bands and critical speeds are
+            computed; by default guides have their full stiffness.
+        max_deviation_mm : float, optional
+            Largest allowed deflection at the cut at the operating speed, with guides with a gap.
+        force_n : float, optional
+            Side force at the rim at the cut for this limit; that of the scene's ``runup`` by
+            default, or 1 N.
         samples, refine, map : int
             Number of saws in the first sampling of the bounds, of saws in each refinement, and of
             points of the map along each axis (0 for no map).
@@ -162,7 +173,7 @@ class Searches(SceneData):
             Manufacturing tolerance of radii and angles. A saw is rated by the worst of its
             neighbours within the tolerances.
         guide_tolerance_share, other_tolerance_share : float
-            Tolerance of the stiffness or damping of a guide, and of other numbers, as a share of
+            Tolerance of the stiffness, damping or gap of a guide, and of other numbers, as a share of
             the value.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
@@ -192,6 +203,9 @@ class Searches(SceneData):
             free=_bounds(free),
             goal=goal,
             min_critical_rpm=min_critical_rpm,
+            amplitude_mm=amplitude_mm,
+            max_deviation_mm=max_deviation_mm,
+            force_n=force_n,
             samples=whole("samples", samples),
             refine=whole("refine", refine),
             map=whole("map", map),

@@ -5,7 +5,7 @@ use sawflutter::check::{Check, Limits, LimitsFile};
 use sawflutter::deflect::{Deflecting, Options as DeflectOptions};
 use sawflutter::fit::{Fit, Measurement, Options as FitOptions};
 use sawflutter::gap::{GuideGaps, Options as GapOptions};
-use sawflutter::place::{Options as PlaceOptions, Placement, Tolerances};
+use sawflutter::place::{Demands, GapDemands, Options as PlaceOptions, Placement, Tolerances};
 use sawflutter::report::{
     CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, FitReport, GapReport,
     ModeEntry, PlaceReport, RunUpReport, SensitivityEntry, WashboardReport, over_common_speeds,
@@ -297,7 +297,8 @@ fn measurement(scene: &Scene, measured: Option<(String, String)>) -> Result<Meas
 
 /// `place.json` of a scene.
 #[pyfunction]
-#[pyo3(signature = (scene, free, *, goal="flutter", min_critical_rpm=None, samples=64, refine=60,
+#[pyo3(signature = (scene, free, *, goal="flutter", min_critical_rpm=None, amplitude_mm=None,
+                    max_deviation_mm=None, force_n=None, samples=64, refine=60,
                     map=17, radius_tolerance_m=0.002, angle_tolerance_deg=1.0,
                     guide_tolerance_share=0.1, other_tolerance_share=0.01, progress=None))]
 #[allow(clippy::too_many_arguments, reason = "they are Python's")]
@@ -307,6 +308,9 @@ pub fn place(
     free: Vec<NamedBounds>,
     goal: &str,
     min_critical_rpm: Option<f64>,
+    amplitude_mm: Option<f64>,
+    max_deviation_mm: Option<f64>,
+    force_n: Option<f64>,
     samples: usize,
     refine: u64,
     map: usize,
@@ -317,7 +321,11 @@ pub fn place(
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
-    let demands = arguments::demands(&scene, goal, min_critical_rpm)?;
+    let gap = GapDemands::new(&scene, amplitude_mm, max_deviation_mm, force_n);
+    let demands = Demands {
+        gap: gap.map_err(Failure::from)?,
+        ..arguments::demands(&scene, goal, min_critical_rpm)?
+    };
     let options = PlaceOptions {
         samples,
         refine: refine.max(1),

@@ -185,7 +185,7 @@ macro_rules! passed_on {
 }
 passed_on! {
     FitError: Scene Analysis Spectrum, refused;
-    PlaceError: Scene Analysis Spectrum, refused;
+    PlaceError: Scene Analysis Spectrum Gap, refused;
     TransientError: Scene, failed;
     GapError: Refused Scene Analysis Spectrum Stretched;
     DeflectError: Refused Scene Analysis, failed;

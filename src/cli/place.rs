@@ -1,8 +1,8 @@
 //! `sawflutter place`.
 
-use crate::place::{Demands, Goal, Options, Placement, Tolerances};
+use crate::place::{Demands, GapDemands, Goal, Options, Placement, Tolerances};
 use crate::report::PlaceReport;
-use crate::scene::{Freed, Scene};
+use crate::scene::{Freed, RefusedValue, Scene};
 use clap::{Args, ValueEnum};
 
 use super::common::{Common, count, number, of_option};
@@ -21,7 +21,7 @@ The best saw is placed-scene.json; try it with `check` and `cut`.
 
 Every saw counts as the worst of those whose numbers are off by the tolerances
 of production, by default 2 mm of a radius, 1 degree of an angle, 10 % of a
-stiffness or damping, 1 % of other numbers.
+stiffness, damping or gap, 1 % of other numbers.
 
 Exit code: 0 done, 1 no tried saw keeps the limit within all its tolerances,
 2 the input was refused or the run failed.";
@@ -40,6 +40,16 @@ pub struct Arguments {
     /// Lower limit of the lowest critical speed
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     min_critical_rpm: Option<f64>,
+    /// Amplitude at guides with a gap, with whose mean stiffness bands and critical speeds are computed; without it
+    /// guides have their full stiffness
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
+    amplitude_mm: Option<f64>,
+    /// Upper limit of the deflection at the cut at the operating speed, with the gaps of one-sided guides
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
+    max_deviation_mm: Option<f64>,
+    /// Side force at the rim at the cut for this limit; by default that of the scene's run-up, or 1 N
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
+    force_n: Option<f64>,
     /// Saws spread over the bounds at first
     #[arg(long, value_name = "COUNT", default_value_t = 64, value_parser = count::<usize>)]
     samples: usize,
@@ -52,7 +62,7 @@ pub struct Arguments {
     /// Tolerance of an angle
     #[arg(long, value_name = "DEG", default_value_t = Tolerances::USUAL.angle_deg, allow_negative_numbers = true, value_parser = number)]
     angle_tolerance_deg: f64,
-    /// Tolerance of a guide's stiffness or damping, as a share of it
+    /// Tolerance of a guide's stiffness, damping or gap, as a share of it
     #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.guide_share, allow_negative_numbers = true, value_parser = number)]
     guide_tolerance_share: f64,
     /// Tolerance of other numbers, as a share of each
@@ -110,5 +120,21 @@ fn demands(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Demands> {
         GoalName::Flutter => Goal::FlutterSpeed,
         GoalName::Window => Goal::window_of(scene)?,
     };
-    Demands::new(goal, arguments.min_critical_rpm).map_err(of_option)
+    let demands = Demands::new(goal, arguments.min_critical_rpm).map_err(of_option)?;
+    let Arguments {
+        amplitude_mm,
+        max_deviation_mm,
+        force_n,
+        ..
+    } = *arguments;
+    let gap = GapDemands::new(scene, amplitude_mm, max_deviation_mm, force_n);
+    let refused =
+        |refused: RefusedValue| match refused.key.ends_with("_mm") || refused.key == "force_n" {
+            true => of_option(refused),
+            false => refused.into(),
+        };
+    Ok(Demands {
+        gap: gap.map_err(refused)?,
+        ..demands
+    })
 }

@@ -56,7 +56,7 @@ pub fn sheet(report: &CutReport) -> Sheet {
     draw_scale(
         &mut sheet,
         (&PANELS.panel(0, panels), 10.0, SCALE),
-        [0.0, fastest],
+        ([0.0, fastest], Spread::Linear),
         "growth [1/s]",
         (shade, |v| Some(tick_label(v))),
     );

@@ -4,8 +4,8 @@ use super::campbell::CampbellView;
 use super::canvas::Sheet;
 use super::chart_data::ChartData;
 use super::{
-    FigureError, campbell, check, compare, cut, cut_map, deflect, fit, gap, in_cut, map, membrane,
-    modes, place, render, response_map, root_loci, runup, spline_orbit, study, washboard,
+    FigureError, campbell, check, compare, cut, cut_map, deflect, fit, gap, gap_map, in_cut, map,
+    membrane, modes, place, render, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
     CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
@@ -168,6 +168,15 @@ impl Figures for RunUpReport {
     }
 }
 
+impl Figures for GapReport {
+    const NAMES: &'static [[&'static str; 2]] =
+        &[["gap.png", "gap.svg"], ["gap-map.png", "gap-map.svg"]];
+
+    fn figures(&self) -> Vec<Figure> {
+        named(Self::NAMES, [Some(gap::sheet(self)), gap_map::sheet(self)])
+    }
+}
+
 /// Implements [`Figures`] for a report with a single figure, drawn by a function, and described by another.
 macro_rules! single {
     ($($report:ty: $name:literal, $sheet:path $(, $chart:path)?;)*) => {$(
@@ -188,7 +197,6 @@ macro_rules! single {
 
 single! {
     DeflectReport: "deflect", deflect::sheet, deflect::chart;
-    GapReport: "gap", gap::sheet;
     WashboardReport: "washboard", washboard::sheet, washboard::chart;
     CheckReport: "check", check::sheet;
     CompareReport: "compare", compare::sheet, compare::chart;

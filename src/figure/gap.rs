@@ -28,6 +28,8 @@ const DEFLECTION: Frame = Frame {
 };
 /// Room at both ends of the amplitudes, and before the gaps, for what has no place on a logarithmic axis.
 const BESIDE: f64 = 80.0;
+/// Every third force has a curve, and every third gap a label.
+const EVERY: usize = 3;
 /// Width of the stroke of a band.
 const BAND: f64 = 7.0;
 
@@ -181,7 +183,8 @@ fn draw_deflections(sheet: &mut Sheet, report: &GapReport) {
     draw_vertical(sheet, &deflection, panel, "deflection at the cut [mm]");
     let linear = panel.left + 0.4 * BESIDE;
     label_x(sheet, panel, linear, "linear");
-    for mm in gaps_mm.iter().filter(|mm| **mm > 0.0) {
+    let above_zero = gaps_mm.iter().filter(|mm| **mm > 0.0);
+    for mm in above_zero.step_by(EVERY) {
         label_x(sheet, panel, gap.at(*mm), &shown_to(2, *mm));
     }
     name_x(sheet, panel, "smallest gap [mm]; all gaps in proportion");
@@ -190,13 +193,13 @@ fn draw_deflections(sheet: &mut Sheet, report: &GapReport) {
         let stroke = Stroke::dashed(ALARM, CURVE, DASH);
         sheet.line([[panel.left, y], [panel.right, y]], stroke);
     }
-    for k in 0..map.forces_n.len() {
+    for k in (0..map.forces_n.len()).step_by(EVERY) {
         let at = |row: usize| map.deflection_m[row][k].map(|m| deflection.at(1e3 * m.abs()));
         let rows = 0..gaps_mm.len();
         let lifting = rows.clone().filter(|row| gaps_mm[*row] > 0.0);
         let points = lifting.filter_map(|row| Some([gap.at(gaps_mm[row]), at(row)?]));
         let points: Vec<[f64; 2]> = points.collect();
-        let colour = tint(FORWARD, 0.4 + 0.15 * k as f64);
+        let colour = tint(FORWARD, 0.4 + 0.6 * k as f64 / (map.forces_n.len() as f64));
         sheet.line(points.clone(), Stroke::solid(colour, CURVE));
         for point in &points {
             sheet.disc(*point, 2.6, colour);
@@ -220,6 +223,7 @@ fn label_forces(sheet: &mut Sheet, report: &GapReport, (gap, deflection): (&Axis
         .forces_n
         .iter()
         .zip(last)
+        .step_by(EVERY)
         .filter_map(|(force, m)| Some((deflection.at(1e3 * (*m)?.abs()), *force)))
         .collect();
     ends.sort_by(|x, y| y.0.total_cmp(&x.0));

@@ -65,7 +65,7 @@ fn edges(axis: &Axis, values: &[f64]) -> Vec<f64> {
 pub fn draw_scale(
     sheet: &mut Sheet,
     (panel, below, [left, right]): (&Frame, f64, [f64; 2]),
-    ends: [f64; 2],
+    (ends, spread): ([f64; 2], Spread),
     name: &str,
     (colour, label): (impl Fn(f64) -> Colour, impl Fn(f64) -> Option<String>),
 ) {
@@ -76,12 +76,16 @@ pub fn draw_scale(
         right,
         bottom: panel.bottom,
     };
-    let axis = Axis::new(ends, [frame.bottom, frame.top], Spread::Linear);
+    let axis = Axis::new(ends, [frame.bottom, frame.top], spread);
     let [low, high] = axis.values();
     let height = (frame.bottom - frame.top) / BARS as f64;
     for bar in 0..BARS {
         let bottom = frame.bottom - bar as f64 * height;
-        let value = low + (high - low) * (bar as f64 + 0.5) / BARS as f64;
+        let share = (bar as f64 + 0.5) / BARS as f64;
+        let value = match spread {
+            Spread::Logarithmic => low * (high / low).powf(share),
+            _ => low + (high - low) * share,
+        };
         let cell = Frame {
             top: bottom - height,
             bottom,

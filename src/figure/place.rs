@@ -125,6 +125,7 @@ mod tests {
             flutter_rpm: Some(2300.0),
             critical_rpm: Some(1600.0),
             window_rpm: None,
+            deflection_m: None,
             kept: true,
         };
         let neighbour = |goal_rpm: f64, values: [f64; 2]| NeighbourEntry {
@@ -153,6 +154,9 @@ mod tests {
             unusual_numbers: Vec::new(),
             goal: GoalEntry::FlutterSpeed,
             min_critical_rpm: Some(1500.0),
+            amplitude_m: None,
+            max_deflection_m: None,
+            force_n: None,
             kept: true,
             improved: true,
             from_rpm: 0.0,

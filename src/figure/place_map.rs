@@ -1,7 +1,7 @@
 //! Axes, cells and colour bar of the goal over two numbers of a guide.
 
 use super::along::Along;
-use super::axis::{draw_named, draw_vertical, tick_label};
+use super::axis::{Spread, draw_named, draw_vertical, tick_label};
 use super::canvas::{Frame, Sheet};
 use super::heat::{draw_grid, draw_scale, ramp};
 use super::style::Colour;
@@ -100,6 +100,7 @@ pub fn draw_panel(
     let label = |rpm: f64| Some(tick_label(rpm));
     let shade = |rpm: f64| shades.colour(rpm);
     let (place, ends) = ((&PANEL, 20.0, SCALE), [shades.low, shades.high]);
+    let ends = (ends, Spread::Linear);
     draw_scale(sheet, place, ends, "rpm", (shade, label));
     (x, y)
 }

@@ -1,6 +1,6 @@
 //! The response at the probe over speed and frequency, with the branches, as in the paper's Figure 15.
 
-use super::axis::{Axis, draw_named, draw_vertical, tick_label};
+use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
 use super::campbell::draw_measured_mark;
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::clip;
@@ -104,7 +104,13 @@ impl Map<'_> {
         let name = "rotation speed Ω\u{2003}[rpm]";
         draw_named(&mut sheet, &speed, PANEL.bottom, name);
         let (place, ends) = ((&PANEL, 20.0, SCALE), [strongest - DECADES, strongest]);
-        draw_scale(&mut sheet, place, ends, self.unit, (shade, decade));
+        draw_scale(
+            &mut sheet,
+            place,
+            (ends, Spread::Linear),
+            self.unit,
+            (shade, decade),
+        );
         draw_key(&mut sheet, report);
         sheet
     }

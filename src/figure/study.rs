@@ -222,6 +222,7 @@ mod tests {
                 flutter_rpm: lowest.map(|rpm| 1.5 * rpm).filter(|rpm| *rpm < 2300.0),
                 first_merge_rpm: None,
                 kept: vec![true, true, share > 0.5],
+                gap: Vec::new(),
                 functions: 85,
                 estimated_relative_error: 1e-3,
                 krein_violations: 0,

@@ -2,13 +2,12 @@
 
 use std::f64::consts::PI;
 
-use crate::plate::Plate;
 use crate::scene::{ContactLaw, GuideFile, GuideSide, Scene};
-use crate::spectrum::{Work, critical_speeds};
+use crate::spectrum::Work;
 use crate::stability::{Analysis, Instability};
-use crate::system::GyroscopicSystem;
 
 use super::GapError;
+use super::numbers::first_critical;
 
 /// Critical speeds, bands and flutter speed over the amplitude at the guides.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,7 +78,7 @@ fn equivalent_stiffness(guide: &GuideFile, amplitude_m: f64) -> f64 {
 }
 
 /// The scene with one-sided guides replaced by linear ones of their mean stiffness.
-fn at_amplitude(scene: &Scene, amplitude_m: f64) -> Result<(Scene, Vec<f64>), GapError> {
+pub(super) fn at_amplitude(scene: &Scene, amplitude_m: f64) -> Result<(Scene, Vec<f64>), GapError> {
     let mut shares = Vec::new();
     let linear = scene.edited(|file| {
         let guides = file.guides.iter_mut();
@@ -166,12 +165,7 @@ fn read(analysis: &Analysis, amplitude_m: Option<f64>, shares: Vec<f64>) -> AtAm
 fn half_way(analysis: &Analysis, smallest_gap_m: f64) -> Result<Option<f64>, GapError> {
     // The same functions at all amplitudes, so that only the stiffness makes a difference.
     let resolution = analysis.model.plate.resolution;
-    let at = |amplitude_m: f64| -> Result<Option<f64>, GapError> {
-        let (scene, _) = at_amplitude(&analysis.scene, amplitude_m)?;
-        let system = GyroscopicSystem::of_plate(&Plate::new(&scene, resolution));
-        let critical = critical_speeds(&system)?;
-        Ok(critical.first().map(|c| c.speed_rad_per_s))
-    };
+    let at = |amplitude_m: f64| first_critical(&analysis.scene, resolution, amplitude_m);
     let linear = analysis.model.critical.first();
     let [Some(free), Some(linear)] = [at(0.0)?, linear.map(|c| c.speed_rad_per_s)] else {
         return Ok(None);

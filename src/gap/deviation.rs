@@ -1,12 +1,11 @@
 //! The deflection at the cut, and the forces of the pads, over gap, side force and speed.
 
-use crate::plate::{Plate, Resolution};
-use crate::scene::{ContactLaw, Scene, rad_per_s};
-use crate::spectrum::{Cancellation, Work};
+use crate::scene::Scene;
+use crate::spectrum::Work;
 use crate::stability::Analysis;
-use crate::stretched::{LARGEST_SLOPE, StretchedBlade};
 
 use super::GapError;
+use super::pressed::{Deviation, PressedBlade, angle_rad, with_linear_guides};
 
 /// Deflections at the cut under a side force there.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,148 +20,149 @@ pub struct DeviationMap {
     pub forces_n: Vec<f64>,
     /// One row for each gap, one entry for each force; `None` where slopes exceed 0.1 and the model is not valid.
     pub over_gap: Vec<Vec<Option<Deviation>>>,
-    /// Side force of the series over the speed, with the gaps of the scene.
+    /// Side force of the map over gap and speed.
     pub force_n: f64,
-    /// Speeds of the series.
+    /// Speeds of this map.
     pub speeds_rpm: Vec<f64>,
-    /// One entry for each speed; `None` where the blade leans by more than its thickness.
-    pub over_speed: Vec<Option<Deviation>>,
+    /// One row for each gap, one entry for each speed; `None` where the blade leans by more than its thickness.
+    pub over_speed: Vec<Vec<Option<Deviation>>>,
+    /// Estimated error of the deflections over gap and force.
+    pub basis_error: Option<BasisError>,
 }
 
-/// A stationary deflection.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Deviation {
-    /// Deflection of the rim at the cut.
-    pub deviation_m: f64,
-    /// Largest deflection of the blade, as an absolute value.
-    pub largest_m: f64,
-    /// Force of each one-sided pad on the blade beyond its gap; empty for linear guides.
-    pub pad_forces_n: Vec<f64>,
+/// Largest relative change of the deflections at the cut in a larger basis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BasisError {
+    /// The change.
+    pub share: f64,
+    /// Factor of the gaps at which it occurs.
+    pub gap_factor: f64,
+    /// Side force at which it occurs.
+    pub force_n: f64,
+    /// Numbers of modes at rest in the two bases.
+    pub modes: [usize; 2],
 }
 
-/// Gaps and forces, relative to those given.
-const GAPS: [f64; 6] = [0.0, 0.25, 0.5, 1.0, 2.0, 4.0];
-const FORCES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
-/// Speeds of the series over the speed, from rest to the end of the sweep.
+/// Gaps and forces relative to those given, each times the cube root of two of the one before.
+const FACTORS: usize = 13;
+const LEAST_FACTOR: f64 = 0.25;
+/// The estimated error is that of every third gap and force.
+const ESTIMATED_EVERY: usize = 3;
+/// Speeds of the map over gap and speed, from rest to the end of the sweep.
 const SPEEDS: usize = 13;
-/// Modes at rest in the basis. With 36 in the place of 24, at draft accuracy, the deflections at the cut of the built-in
-/// saw with a gap of 40 µm change by 0.01 %, and those of a saw with two pads and a gap of 50 µm by less than 0.5 %,
-/// except one of thirty, which changes by 5 %.
-const MODES: usize = 24;
+/// Modes at rest in the basis.
+pub(super) const MODES: usize = 24;
+/// Modes at rest in the larger basis with which the deflections are compared.
+const MORE_MODES: usize = 36;
+
+fn factors() -> impl Iterator<Item = f64> {
+    (0..FACTORS).map(|k| LEAST_FACTOR * (k as f64 / 3.0).exp2())
+}
 
 impl DeviationMap {
-    /// Computes the map and the series of the saw of an analysis.
+    /// Computes both maps of the saw of an analysis.
     ///
     /// # Errors
     /// [`GapError`].
     pub(super) fn new(analysis: &Analysis, rpm: f64, force_n: f64) -> Result<Self, GapError> {
         let scene = &analysis.scene;
-        let angle_rad = scene.cut().map_or(0.0, |cut| cut.angle_rad);
-        let resolution = analysis.model.plate.resolution;
-        let forces_n: Vec<f64> = FORCES.map(|factor| factor * force_n).to_vec();
-        let work = Work::of("gaps", GAPS.len() + 1);
-        let mut over_gap = Vec::new();
-        for factor in GAPS {
-            let scene = with_gaps(scene, factor)?;
-            let pressed = Pressed::new(&scene, resolution, (rpm, angle_rad))?;
-            let of = |force: &f64| pressed.deviation(*force, rpm);
-            over_gap.push(forces_n.iter().map(of).collect::<Result<Vec<_>, _>>()?);
+        let end_rpm = crate::scene::rpm(analysis.range_rad_per_s.1);
+        let blade_of = |scene: &Scene, modes: usize| {
+            let resolution = analysis.model.plate.resolution;
+            PressedBlade::new(scene, resolution, end_rpm.max(rpm), modes)
+        };
+        let thickness_m = scene.blade().thickness_m;
+        let last = (SPEEDS - 1) as f64;
+        let mut map = DeviationMap {
+            angle_rad: angle_rad(scene),
+            rpm,
+            gap_factors: [0.0].into_iter().chain(factors()).collect(),
+            forces_n: factors().map(|factor| factor * force_n).collect(),
+            over_gap: Vec::new(),
+            force_n,
+            speeds_rpm: (0..SPEEDS).map(|k| end_rpm * k as f64 / last).collect(),
+            over_speed: Vec::new(),
+            basis_error: None,
+        };
+        let work = Work::of("gaps", map.gap_factors.len() + 1);
+        let linear = blade_of(&with_linear_guides(scene)?, MODES)?;
+        let lifting = blade_of(scene, MODES)?;
+        for factor in &map.gap_factors {
+            let own = (*factor > 0.0).then(|| lifting.with_gaps(*factor));
+            let pressed = own.as_ref().unwrap_or(&linear);
+            let forces = map.forces_n.iter();
+            let over_forces = forces.map(|force| pressed.deviation(*force, rpm));
+            map.over_gap.push(over_forces.collect::<Result<_, _>>()?);
+            let over_speeds = map.speeds_rpm.iter().map(|speed| {
+                let found = pressed.deviation(force_n, *speed)?;
+                Ok(found.filter(|found| found.largest_m <= thickness_m))
+            });
+            let over_speeds: Result<_, GapError> = over_speeds.collect();
+            map.over_speed.push(over_speeds?);
             work.advance();
         }
-        let end_rpm = crate::scene::rpm(analysis.range_rad_per_s.1);
-        let speeds_rpm: Vec<f64> = (0..SPEEDS)
-            .map(|k| end_rpm * k as f64 / (SPEEDS - 1) as f64)
-            .collect();
-        let pressed = Pressed::new(scene, resolution, (end_rpm, angle_rad))?;
-        let thickness_m = scene.blade().thickness_m;
-        let mut over_speed = Vec::new();
-        for speed in &speeds_rpm {
-            let found = pressed.deviation(force_n, *speed)?;
-            over_speed.push(found.filter(|found| found.largest_m <= thickness_m));
-        }
+        map.basis_error = map.compared(&lifting, &blade_of(scene, MORE_MODES)?)?;
         work.advance();
-        Ok(DeviationMap {
-            angle_rad,
-            rpm,
-            gap_factors: GAPS.to_vec(),
-            forces_n,
-            over_gap,
-            force_n,
-            speeds_rpm,
-            over_speed,
-        })
+        Ok(map)
+    }
+
+    /// The largest change of the deflections over gap and force in a larger basis.
+    fn compared(
+        &self,
+        blade: &PressedBlade,
+        finer: &PressedBlade,
+    ) -> Result<Option<BasisError>, GapError> {
+        let mut largest: Option<BasisError> = None;
+        for gap_factor in factors().step_by(ESTIMATED_EVERY) {
+            let [blade, finer] = [blade, finer].map(|blade| blade.with_gaps(gap_factor));
+            for force_n in self.forces_n.iter().copied().step_by(ESTIMATED_EVERY) {
+                let Some(share) = blade.change_with(&finer, (force_n, self.rpm))? else {
+                    continue;
+                };
+                if largest.is_none_or(|largest| share > largest.share) {
+                    largest = Some(BasisError {
+                        share,
+                        gap_factor,
+                        force_n,
+                        modes: [MODES, MORE_MODES],
+                    });
+                }
+            }
+        }
+        Ok(largest)
     }
 
     /// The largest side force at each gap that keeps the deflection at the cut within a limit, interpolated; `None` where the
     /// smallest force of the map exceeds it.
     pub fn force_within_n(&self, limit_m: f64) -> Vec<Option<f64>> {
-        let of_gap = |row: &Vec<Option<Deviation>>| {
-            let mut before: Option<(f64, f64)> = None;
-            for (force, found) in self.forces_n.iter().zip(row) {
-                let deviation_m = found
-                    .as_ref()
-                    .map_or(f64::INFINITY, |at| at.deviation_m.abs());
-                let at = (force.abs(), deviation_m);
-                if at.1 > limit_m {
-                    return before.map(|(force, deviation)| {
-                        force + (at.0 - force) * (limit_m - deviation) / (at.1 - deviation)
-                    });
-                }
-                before = Some(at);
-            }
-            before.map(|(force, _)| force)
-        };
-        self.over_gap.iter().map(of_gap).collect()
+        let forces: Vec<f64> = self.forces_n.iter().map(|force| force.abs()).collect();
+        let rows = self.over_gap.iter();
+        rows.map(|row| within(&forces, row, limit_m)).collect()
+    }
+
+    /// The largest speed at each gap up to which the deflection at the cut keeps within a limit, interpolated; `None`
+    /// where that at rest exceeds it.
+    pub fn speed_within_rpm(&self, limit_m: f64) -> Vec<Option<f64>> {
+        let rows = self.over_speed.iter();
+        rows.map(|row| within(&self.speeds_rpm, row, limit_m))
+            .collect()
     }
 }
 
-/// The scene with gaps multiplied by a factor; with linear guides if it is zero.
-fn with_gaps(scene: &Scene, factor: f64) -> Result<Scene, GapError> {
-    Ok(scene.edited(|file| {
-        let guides = file.guides.iter_mut();
-        for guide in guides.filter(|guide| guide.contact == ContactLaw::OneSided) {
-            if factor == 0.0 {
-                guide.contact = ContactLaw::Linear;
-                guide.side = Default::default();
-                guide.film_stiffness_n_per_m = 0.0;
-            }
-            if factor > 0.0 {
-                guide.gap_m = guide.gap_m.map(|gap_m| factor * gap_m);
-            }
+/// Where the deflections at ascending places first exceed a limit, interpolated; the place before if the deflection there
+/// is not known; the last place if none exceeds it.
+fn within(places: &[f64], row: &[Option<Deviation>], limit_m: f64) -> Option<f64> {
+    let mut before: Option<(f64, f64)> = None;
+    for (place, found) in places.iter().zip(row) {
+        let deviation_m = found
+            .as_ref()
+            .map_or(f64::INFINITY, |at| at.deviation_m.abs());
+        if deviation_m > limit_m {
+            return before.map(|(last, least)| {
+                last + (place - last) * (limit_m - least) / (deviation_m - least)
+            });
         }
-    })?)
-}
-
-/// A blade that is pressed at the rim at the cut.
-struct Pressed {
-    blade: StretchedBlade,
-    place: (f64, f64),
-}
-
-impl Pressed {
-    fn new(
-        scene: &Scene,
-        resolution: Resolution,
-        (to_rpm, angle_rad): (f64, f64),
-    ) -> Result<Self, GapError> {
-        let plate = Plate::new(scene, resolution);
-        let place = (plate.blade.outer_radius_m, angle_rad);
-        let modes = MODES.min(plate.degrees_of_freedom());
-        let blade = StretchedBlade::up_to(&plate, rad_per_s(to_rpm), place, modes)?;
-        Ok(Pressed { blade, place })
+        before = Some((*place, deviation_m));
     }
-
-    fn deviation(&self, force_n: f64, rpm: f64) -> Result<Option<Deviation>, GapError> {
-        Cancellation::current().check()?;
-        let blade = self.blade.clone().pressed(force_n, self.place)?;
-        let found = blade.settled(rad_per_s(rpm), &blade.flat())?;
-        if blade.largest_slope(&found) > LARGEST_SLOPE {
-            return Ok(None);
-        }
-        Ok(Some(Deviation {
-            deviation_m: blade.deflection_m(&found, self.place.0, self.place.1),
-            largest_m: blade.sites().largest_m(&found.coordinates),
-            pad_forces_n: blade.pad_forces_n(&found),
-        }))
-    }
+    before.map(|(place, _)| place)
 }

@@ -10,9 +10,13 @@
 
 mod amplitude;
 mod deviation;
+mod numbers;
+mod pressed;
 
 pub use amplitude::{AmplitudeChart, AtAmplitude, equivalent_share};
-pub use deviation::{Deviation, DeviationMap};
+pub use deviation::{BasisError, DeviationMap};
+pub(crate) use numbers::{GapCase, GapNumbers};
+pub use pressed::Deviation;
 
 use crate::deflect;
 use crate::scene::{RefusedValue, Scene, SceneError, rad_per_s, rpm, speed_rad_per_s};

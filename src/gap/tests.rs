@@ -76,6 +76,14 @@ fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
             }
         }
     }
+    // Both maps have the scene's speed and force.
+    let same = map.over_gap.iter().zip(&map.over_speed);
+    for (over_force, over_speed) in same {
+        let [one, other] = [&over_force[6], &over_speed[6]].map(|at| at.as_ref().unwrap());
+        assert!((one.deviation_m / other.deviation_m - 1.0).abs() < 1e-9);
+    }
+    let error = map.basis_error.unwrap();
+    assert!(error.share < 2e-3, "{error:?}");
     for gaps in map.over_gap[1..].windows(2) {
         let [narrow, wide] = [&gaps[0], &gaps[1]].map(|row| row[2].as_ref().unwrap().deviation_m);
         assert!(wide > narrow, "{narrow} {wide}");
@@ -102,12 +110,17 @@ fn limits_are_interpolated_between_forces() {
             vec![at(2e-4), None, None],
         ],
         force_n: 1.0,
-        speeds_rpm: Vec::new(),
-        over_speed: Vec::new(),
+        speeds_rpm: vec![0.0, 500.0, 1000.0],
+        over_speed: vec![vec![at(1e-5), at(1e-4), None]; 3],
+        basis_error: None,
     };
     let found = map.force_within_n(1.2e-4);
     assert_eq!((found[0], found[2]), (Some(4.0), None));
     assert!((found[1].unwrap() - 2.5).abs() < 1e-12, "{found:?}");
+    // Beyond the last speed at which the deflection is known nothing is interpolated.
+    assert_eq!(map.speed_within_rpm(1.2e-4), vec![Some(500.0); 3]);
+    let found = map.speed_within_rpm(5.5e-5)[0].unwrap();
+    assert!((found - 250.0).abs() < 1e-9, "{found}");
 }
 
 #[test]

@@ -140,6 +140,7 @@ impl Map {
             quantiles: vec![0.5],
             confidence: 0.95,
             bands: true,
+            gap: None,
         };
         Ok(Map {
             study: Study::new(scene, file)?,

@@ -1,5 +1,6 @@
 //! The goal of a placement, its limit, and the extent of the search.
 
+use crate::gap::{self, GapCase};
 use crate::plate::Resolution;
 use crate::scene::{Kind, Parameter, Quantity, RefusedValue, Scene, rad_per_s, speed_rad_per_s};
 use crate::text::shown;
@@ -35,6 +36,48 @@ pub struct Demands {
     pub goal: Goal,
     /// Lower limit of the first critical speed.
     pub min_critical_rad_per_s: Option<f64>,
+    /// What is demanded of guides with a gap.
+    pub gap: Option<GapDemands>,
+}
+
+/// What is demanded of guides with a gap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GapDemands {
+    pub(crate) case: GapCase,
+    /// Upper limit of the deflection at the cut.
+    pub(crate) max_deflection_m: Option<f64>,
+}
+
+impl GapDemands {
+    /// Bands and critical speeds with the mean stiffness of the guides over an oscillation of an amplitude, and a limit of
+    /// the deflection at the cut under a side force at the operating speed; `None` without either.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] if no guide is one-sided, a number is invalid, or a side force has no limit.
+    pub fn new(
+        scene: &Scene,
+        amplitude_mm: Option<f64>,
+        max_deviation_mm: Option<f64>,
+        force_n: Option<f64>,
+    ) -> Result<Option<Self>, RefusedValue> {
+        if let (Some(force_n), None) = (force_n, max_deviation_mm) {
+            let remedy =
+                "give max_deviation_mm, the largest deflection at the cut under this force";
+            return Err(RefusedValue::new("force_n", force_n, "left out", remedy));
+        }
+        if amplitude_mm.is_none() && max_deviation_mm.is_none() {
+            return Ok(None);
+        }
+        let options = gap::Options {
+            force_n,
+            rpm: None,
+            max_deviation_mm,
+        };
+        Ok(Some(GapDemands {
+            case: GapCase::new(scene, &options, amplitude_mm)?,
+            max_deflection_m: max_deviation_mm.map(|mm| 1e-3 * mm),
+        }))
+    }
 }
 
 impl Demands {
@@ -47,6 +90,7 @@ impl Demands {
         Ok(Demands {
             goal,
             min_critical_rad_per_s: limit.transpose()?,
+            gap: None,
         })
     }
 }
@@ -56,6 +100,7 @@ impl Default for Demands {
         Demands {
             goal: Goal::FlutterSpeed,
             min_critical_rad_per_s: None,
+            gap: None,
         }
     }
 }
@@ -85,7 +130,7 @@ pub struct Tolerances {
     pub radius_m: f64,
     /// Tolerance of an angle.
     pub angle_deg: f64,
-    /// Relative tolerance of the stiffness or damping of a guide.
+    /// Relative tolerance of the stiffness, damping or gap of a guide.
     pub guide_share: f64,
     /// Relative tolerance of other numbers.
     pub other_share: f64,
@@ -141,7 +186,7 @@ impl Tolerances {
         match Quantity::kind_of(parameter.path()) {
             Kind::GuideRadius | Kind::Radius => self.radius_m,
             Kind::Angle => self.angle_deg,
-            Kind::Stiffness | Kind::Damping => self.guide_share * value,
+            Kind::Stiffness | Kind::Damping | Kind::Gap => self.guide_share * value,
             Kind::Other => self.other_share * value.abs(),
         }
     }

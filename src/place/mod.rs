@@ -5,7 +5,7 @@
 //! The flutter speed is a discontinuous function: it jumps where the peak of a band passes the threshold. A
 //! saw next to such a jump is of little use, because production deviates from every number. A saw is
 //! therefore rated by the worst of its neighbours, whose numbers deviate by the tolerances of production,
-//! [`Tolerances`]: by default 2 mm of a radius, 1° of an angle, 10 % of a stiffness or damping, 1 % of other
+//! [`Tolerances`]: by default 2 mm of a radius, 1° of an angle, 10 % of a stiffness, damping or gap, 1 % of other
 //! numbers. The saw that is best without tolerances is reported in addition. Bands are searched without the
 //! forces of a cut. If all guides may turn, one angle is held fixed, because a common rotation changes
 //! nothing.
@@ -37,13 +37,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use crate::gap::GapError;
 use crate::plate::Resolution;
 use crate::scene::{Freed, Scene, SceneError, effective};
 use crate::spectrum::{Cancellation, SpectrumError};
 use crate::stability::AnalysisError;
 use crate::stability::ChosenBasis;
 
-pub use demands::{Demands, Goal, Options, Tolerances};
+pub use demands::{Demands, GapDemands, Goal, Options, Tolerances};
 use growing::Grower;
 #[cfg(feature = "page")]
 pub(crate) use growing::GrowingMap;
@@ -79,6 +80,9 @@ pub enum PlaceError {
     /// The saw could not be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
+    /// The deflection of a saw with guides with a gap was not found.
+    #[error(transparent)]
+    Gap(#[from] GapError),
 }
 
 /// A free number and its best value.
@@ -191,6 +195,7 @@ impl Placement {
         let mut question = Question {
             goal: demands.goal,
             min_critical_rad_per_s: demands.min_critical_rad_per_s,
+            gap: demands.gap,
             range: basis.range_rad_per_s,
             resolution: options.resolution.unwrap_or(basis.saw.plate.resolution),
             tolerances: options.tolerances,
@@ -355,13 +360,14 @@ fn moving(scene: &Scene, search: &Search<'_>) -> (Vec<Freed>, Vec<Freed>) {
             let first = outcome.bands.first();
             [
                 outcome.value_rad_per_s,
+                outcome.deflection_m.unwrap_or(0.0),
                 outcome.critical_rad_per_s.unwrap_or(0.0),
                 first.map_or(0.0, |band| band.from_rad_per_s),
             ]
         };
         Ok::<_, Infallible>(search.outcome(shares).map(of))
     };
-    let differ = |x: &[f64; 3], y: &[f64; 3]| {
+    let differ = |x: &[f64; 4], y: &[f64; 4]| {
         let mut pairs = x.iter().zip(y);
         pairs.any(|(x, y)| (x - y).abs() > IDLE * x.abs().max(y.abs()))
     };

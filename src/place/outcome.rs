@@ -1,12 +1,13 @@
 //! Result of a saw in a placement.
 
+use crate::gap::GapError;
 use crate::plate::Resolution;
 use crate::scene::Scene;
 use crate::stability::{
-    AnalysisError, Certificate, Evidence, Instability, flutter_onsets, resolved, search_bands,
+    Certificate, Evidence, Instability, flutter_onsets, resolved, search_bands,
 };
 
-use super::{Goal, Tolerances};
+use super::{GapDemands, Goal, Tolerances};
 
 /// The result of a saw.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,8 +21,10 @@ pub struct Outcome {
     /// Window without instability around the operating speed, if it is the goal; `None` if the operating
     /// speed lies in a band or within 5 % of a critical speed.
     pub window: Option<(f64, f64)>,
-    /// Amount by which the lowest critical speed is below its limit, in rad/s; zero if the limit is kept.
-    pub short_rad_per_s: f64,
+    /// Deflection at the cut, if it has a limit; `None` also where the model is not valid.
+    pub deflection_m: Option<f64>,
+    /// Sum of the shares by which limits are missed; zero if they are kept.
+    pub short: f64,
     /// All bands of the sweep.
     pub bands: Vec<Instability>,
     /// Certificate of this list of bands.
@@ -33,6 +36,8 @@ pub struct Outcome {
 pub struct Question {
     pub goal: Goal,
     pub min_critical_rad_per_s: Option<f64>,
+    /// What is demanded of guides with a gap.
+    pub gap: Option<GapDemands>,
     /// Range of speeds, the same for every saw.
     pub range: (f64, f64),
     /// The basis, or its lower limit if each saw chooses its own.
@@ -41,6 +46,8 @@ pub struct Question {
     pub tolerances: Tolerances,
 }
 
+/// Share by which the limit of the deflection is missed where the model is not valid: more than any valid deflection.
+const FAR_BEYOND: f64 = 1e6;
 /// Cost of a saw that cannot be analysed, larger than any other.
 pub const REFUSED: f64 = 1e12;
 
@@ -48,15 +55,30 @@ impl Question {
     /// Analyses a saw.
     ///
     /// # Errors
-    /// [`AnalysisError`] when an eigenproblem fails, or no basis represents the waves of the sweep.
-    pub fn ask(&self, scene: &Scene) -> Result<Outcome, AnalysisError> {
-        let (saw, critical) = resolved(scene, self.resolution, self.range.1)?;
+    /// [`GapError`] when an eigenproblem fails, no basis represents the waves of the sweep, or no deflection is found.
+    pub fn ask(&self, scene: &Scene) -> Result<Outcome, GapError> {
+        let charted = match &self.gap {
+            Some(gap) => &gap.case.at_amplitude(scene)?,
+            None => scene,
+        };
+        let (saw, critical) = resolved(charted, self.resolution, self.range.1)?;
         let critical_rad_per_s: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
         let lowest = critical_rad_per_s.first().copied();
         let short = match (self.min_critical_rad_per_s, lowest) {
-            (Some(asked), Some(found)) => (asked - found).max(0.0),
+            (Some(asked), Some(found)) => (1.0 - found / asked).max(0.0),
             // A blade without critical speed keeps every limit.
             _ => 0.0,
+        };
+        let limit = self
+            .gap
+            .and_then(|gap| Some((gap.case, gap.max_deflection_m?)));
+        let (deflection_m, beyond) = match limit {
+            None => (None, 0.0),
+            Some((case, limit_m)) => {
+                let found = case.deflection_m(scene, self.resolution)?;
+                let beyond = found.map_or(FAR_BEYOND, |m| (m / limit_m - 1.0).max(0.0));
+                (found, beyond)
+            }
         };
         let (bands, certificate) = search_bands(saw, critical, self.range)?;
         let threshold = scene.flutter_threshold_per_s();
@@ -82,7 +104,8 @@ impl Question {
             flutter_rad_per_s: flutter,
             critical_rad_per_s: lowest,
             window,
-            short_rad_per_s: short,
+            deflection_m,
+            short: short + beyond,
             bands,
             certificate,
         })
@@ -90,17 +113,17 @@ impl Question {
 }
 
 impl Outcome {
-    /// The cost to minimize: the amount by which the limit is missed, which is positive, or, if the limit is
-    /// kept, the negative goal.
+    /// The cost to minimize: the share by which limits are missed, which is positive, or, if they are kept, the
+    /// negative goal.
     pub(crate) fn cost(&self) -> f64 {
         match self.is_kept() {
             true => -self.value_rad_per_s,
-            false => self.short_rad_per_s,
+            false => self.short,
         }
     }
 
-    /// Whether the limit of the critical speed is kept.
+    /// Whether the limits of the critical speed and of the deflection are kept.
     pub fn is_kept(&self) -> bool {
-        self.short_rad_per_s == 0.0
+        self.short == 0.0
     }
 }

@@ -4,8 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
-use crate::gap::{AtAmplitude, Deviation, DeviationMap, GuideGaps};
+use crate::gap::{AtAmplitude, BasisError, Deviation, DeviationMap, GuideGaps};
 use crate::scene::{SceneFile, rpm};
+use crate::text::shown_to;
 
 /// `gap.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -81,14 +82,38 @@ pub struct DeviationEntry {
     /// Largest side force that keeps it, for each gap; null where the smallest force of the map exceeds it. Empty without a
     /// limit.
     pub force_within_n: Vec<Option<f64>>,
-    /// Side force of the series over the speed, with the gaps of the scene.
+    /// Side force of the map over gap and speed, and of the series over the speed with the gaps of the scene.
     pub force_n: f64,
-    /// Speeds of the series.
+    /// Speeds of this map and of the series.
     pub speeds_rpm: Vec<f64>,
-    /// Deflection at the cut at these speeds; null where the blade leans by more than its thickness.
+    /// Deflection at the cut over gap and speed, one row a gap; null where the blade leans by more than its thickness.
+    pub deflection_over_gap_and_speed_m: Vec<Vec<Option<f64>>>,
+    /// Largest speed up to which the deflection at the cut is allowed under this force, for each gap; null where that at rest
+    /// is not. Empty without a limit.
+    pub speed_within_rpm: Vec<Option<f64>>,
+    /// Deflection at the cut at these speeds, with the gaps of the scene; null where the blade leans by more than its
+    /// thickness.
     pub deflection_over_speed_m: Vec<Option<f64>>,
     /// Forces of the pads at these speeds, one row a pad; null where the blade leans.
     pub pad_forces_over_speed_n: Vec<Vec<Option<f64>>>,
+    /// Estimated error of the deflections over gap and force; null if none could be compared.
+    pub basis_error: Option<BasisErrorEntry>,
+}
+
+/// Largest relative change of the deflections at the cut over gap and force, every third of each, in a larger basis.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BasisErrorEntry {
+    /// The change.
+    pub share: f64,
+    /// Factor of the gaps at which it occurs.
+    pub gap_factor: f64,
+    /// Side force at which it occurs.
+    pub force_n: f64,
+    /// Number of modes at rest in the basis.
+    pub modes: usize,
+    /// Number of modes at rest in the larger basis.
+    pub more_modes: usize,
 }
 
 impl GapReport {
@@ -125,23 +150,14 @@ impl GapReport {
             linear: entry(&amplitude.linear),
             half_way_amplitude_m: amplitude.half_way_m,
             deviation: DeviationEntry::new(&found.deviation, found.max_deviation_m),
-            warnings: chart.warnings,
+            warnings: warnings(chart.warnings, &found.deviation),
         }
     }
 }
 
 impl DeviationEntry {
     fn new(map: &DeviationMap, limit_m: Option<f64>) -> Self {
-        let table = |of: fn(&Deviation) -> f64| -> Vec<Vec<Option<f64>>> {
-            let of_row = |row: &Vec<Option<Deviation>>| values(row, of);
-            map.over_gap.iter().map(of_row).collect()
-        };
-        let all = map
-            .over_gap
-            .iter()
-            .flatten()
-            .chain(&map.over_speed)
-            .flatten();
+        let all = map.over_gap.iter().flatten().flatten();
         let pads = 0..all
             .map(|at| at.pad_forces_n.len())
             .max()
@@ -151,22 +167,65 @@ impl DeviationEntry {
             row.iter().map(|at| at.as_ref().and_then(force)).collect()
         };
         let over_gap = |pad: usize| map.over_gap.iter().map(|row| of_pad(pad, row)).collect();
+        let own = map
+            .gap_factors
+            .iter()
+            .position(|factor| (factor - 1.0).abs() < 1e-9);
+        let over_speed = own.map_or(&[][..], |own| &map.over_speed[own]);
         DeviationEntry {
             angle_deg: map.angle_rad.to_degrees(),
             rpm: map.rpm,
             gap_factors: map.gap_factors.clone(),
             forces_n: map.forces_n.clone(),
-            deflection_m: table(|at| at.deviation_m),
-            largest_deflection_m: table(|at| at.largest_m),
+            deflection_m: table(&map.over_gap, |at| at.deviation_m),
+            largest_deflection_m: table(&map.over_gap, |at| at.largest_m),
             pad_forces_n: pads.clone().map(over_gap).collect(),
             max_deflection_m: limit_m,
             force_within_n: limit_m.map_or_else(Vec::new, |limit| map.force_within_n(limit)),
             force_n: map.force_n,
             speeds_rpm: map.speeds_rpm.clone(),
-            deflection_over_speed_m: values(&map.over_speed, |at| at.deviation_m),
-            pad_forces_over_speed_n: pads.map(|pad| of_pad(pad, &map.over_speed)).collect(),
+            deflection_over_gap_and_speed_m: table(&map.over_speed, |at| at.deviation_m),
+            speed_within_rpm: limit_m.map_or_else(Vec::new, |limit| map.speed_within_rpm(limit)),
+            deflection_over_speed_m: values(over_speed, |at| at.deviation_m),
+            pad_forces_over_speed_n: pads.map(|pad| of_pad(pad, over_speed)).collect(),
+            basis_error: map.basis_error.map(BasisErrorEntry::from),
         }
     }
+}
+
+impl From<BasisError> for BasisErrorEntry {
+    fn from(found: BasisError) -> Self {
+        BasisErrorEntry {
+            share: found.share,
+            gap_factor: found.gap_factor,
+            force_n: found.force_n,
+            modes: found.modes[0],
+            more_modes: found.modes[1],
+        }
+    }
+}
+
+/// Errors of deflections above this share are worth a warning.
+const LARGE_ERROR: f64 = 0.02;
+
+fn warnings(mut warnings: Vec<String>, map: &DeviationMap) -> Vec<String> {
+    if let Some(error) = map.basis_error
+        && error.share > LARGE_ERROR
+    {
+        warnings.push(format!(
+            "the deflections at the cut are not converged: with {} modes at rest in the place of {}, that at {} of the gap under {} N changes by {} %",
+            error.modes[1],
+            error.modes[0],
+            shown_to(3, error.gap_factor),
+            shown_to(3, error.force_n),
+            shown_to(2, 1e2 * error.share)
+        ));
+    }
+    warnings
+}
+
+fn table(rows: &[Vec<Option<Deviation>>], of: fn(&Deviation) -> f64) -> Vec<Vec<Option<f64>>> {
+    rows.iter().map(|row| values(row, of)).collect()
 }
 
 fn values(found: &[Option<Deviation>], of: fn(&Deviation) -> f64) -> Vec<Option<f64>> {

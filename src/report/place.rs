@@ -9,6 +9,7 @@ use crate::place::{
     Demands, FragileOptimum, Goal, Map, Neighbour, Neighbours, Outcome, PlacedParameter, Placement,
 };
 use crate::scene::{Kind, Quantity, Scene, SceneFile, rpm};
+use crate::text::shown_to;
 
 /// Report of a placement (`place.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -26,7 +27,16 @@ pub struct PlaceReport {
     pub goal: GoalEntry,
     /// Lower limit of the first critical speed, if there is one.
     pub min_critical_rpm: Option<f64>,
-    /// Whether the best saw keeps the limit in the worst case of its tolerances.
+    /// Amplitude at guides with a gap with whose mean stiffness bands and critical speeds were computed, if one was given.
+    #[serde(default)]
+    pub amplitude_m: Option<f64>,
+    /// Upper limit of the deflection at the cut, if there is one.
+    #[serde(default)]
+    pub max_deflection_m: Option<f64>,
+    /// Side force at the cut for this limit.
+    #[serde(default)]
+    pub force_n: Option<f64>,
+    /// Whether the best saw keeps the limits in the worst case of its tolerances.
     pub kept: bool,
     /// Whether the best saw is better than the original scene, both in the worst case of their tolerances. If
     /// no saw between the bounds is, `scene`, `best` and the numbers are those of the original scene, unless
@@ -125,7 +135,10 @@ pub struct OutcomeEntry {
     pub critical_rpm: Option<f64>,
     /// Window without instability around the operating speed, if it is the goal.
     pub window_rpm: Option<[f64; 2]>,
-    /// Whether the limit of the critical speed is kept.
+    /// Deflection at the cut, as an absolute value, if it has a limit.
+    #[serde(default)]
+    pub deflection_m: Option<f64>,
+    /// Whether the limits of the critical speed and of the deflection are kept.
     pub kept: bool,
 }
 
@@ -192,6 +205,11 @@ impl PlaceReport {
             unusual_numbers: found.scene.file().unusual_numbers(),
             goal: GoalEntry::from(demands.goal),
             min_critical_rpm: demands.min_critical_rad_per_s.map(rpm),
+            amplitude_m: demands.gap.and_then(|gap| gap.case.amplitude_m()),
+            max_deflection_m: demands.gap.and_then(|gap| gap.max_deflection_m),
+            force_n: demands
+                .gap
+                .and_then(|gap| gap.max_deflection_m.map(|_| gap.case.force_n())),
             kept: neighbours.keep_limit(),
             improved: found.improved,
             from_rpm: rpm(found.range.0),
@@ -269,6 +287,7 @@ impl From<&Outcome> for OutcomeEntry {
             flutter_rpm: outcome.flutter_rad_per_s.map(rpm),
             critical_rpm: outcome.critical_rad_per_s.map(rpm),
             window_rpm: outcome.window.map(|(from, to)| [rpm(from), rpm(to)]),
+            deflection_m: outcome.deflection_m,
             kept: outcome.is_kept(),
         }
     }
@@ -351,7 +370,7 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
         ));
     }
     if !found.neighbours.keep_limit() {
-        warnings.push(limit_missed(found));
+        warnings.push(limit_missed(demands, found));
     }
     if found.tally.failed > 0 {
         warnings.push(format!(
@@ -368,13 +387,31 @@ fn warnings(scene: &Scene, demands: &Demands, found: &Placement) -> Vec<String> 
     warnings
 }
 
-/// Message that no saw keeps the limit and that this one misses it by the smallest amount.
-fn limit_missed(found: &Placement) -> String {
+/// Message that no saw keeps the limits and that this one misses them by the smallest amount.
+fn limit_missed(demands: &Demands, found: &Placement) -> String {
     let worst = found.neighbours.worst.outcome.as_ref();
-    let short = worst.map_or(0.0, |worst| rpm(worst.short_rad_per_s));
-    format!(
-        "no saw tried keeps the limit of the critical speed in the worst case of its tolerances; this one misses it by the smallest amount, {short:.0} rpm"
-    )
+    let critical = worst.and_then(|worst| worst.critical_rad_per_s);
+    let short = demands.min_critical_rad_per_s.zip(critical);
+    let short = short.filter(|(asked, found)| found < asked);
+    let short = short.map(|(asked, found)| {
+        let rpm = rpm(asked - found);
+        format!(
+            "no saw tried keeps the limit of the critical speed in the worst case of its tolerances; this one misses it by the smallest amount, {rpm:.0} rpm"
+        )
+    });
+    let limit = demands.gap.and_then(|gap| gap.max_deflection_m);
+    let deflection = worst.and_then(|worst| worst.deflection_m);
+    let beyond = limit.filter(|limit| deflection.is_none_or(|found| found > *limit));
+    let beyond = beyond.map(|_| {
+        let found = deflection.map_or("more than the model is valid for".to_owned(), |m| {
+            format!("{} mm", shown_to(3, 1e3 * m))
+        });
+        format!(
+            "no saw tried keeps the limit of the deflection at the cut in the worst case of its tolerances; this one deflects there by {found}"
+        )
+    });
+    let both: Vec<String> = short.into_iter().chain(beyond).collect();
+    both.join("; ")
 }
 
 fn not_improved(found: &Placement) -> &'static str {

@@ -57,7 +57,7 @@ impl Freed {
     }
 
     /// Frees a number between usual bounds: a radius anywhere on the blade, a stiffness or damping within a
-    /// factor of thirty, an angle within 60°, other numbers within 20 %.
+    /// factor of thirty, a gap within one of four, an angle within 60°, other numbers within 20 %.
     ///
     /// # Errors
     /// As [`Freed::new`].
@@ -67,6 +67,7 @@ impl Freed {
             Kind::GuideRadius => (scene.blade.inner_radius_m, scene.blade.outer_radius_m),
             Kind::Stiffness | Kind::Damping => (value / 30.0, value * 30.0),
             Kind::Angle => (value - 60.0, value + 60.0),
+            Kind::Gap => (0.25 * value, 4.0 * value),
             Kind::Radius | Kind::Other => (value - 0.2 * value.abs(), value + 0.2 * value.abs()),
         };
         Freed::new(&scene.file, path, from, to)

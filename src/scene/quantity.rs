@@ -32,6 +32,8 @@ pub enum Kind {
     Stiffness,
     /// Damping of a contact, likewise.
     Damping,
+    /// A gap of a guide.
+    Gap,
     /// Any other number.
     Other,
 }
@@ -81,7 +83,7 @@ pub const QUANTITIES: [Quantity; 83] = [
     q("guides[].tangential_length_m", "tangential length of the guide", "m", 1e-4, 1.0),
     q("guides[].stiffness_n_per_m", "stiffness of the guide", "N/m", 2.5e4, 1e10).of_kind(Kind::Stiffness),
     q("guides[].damping_n_s_per_m", "damping of the guide", "N·s/m", 1e-2, 1e6).of_kind(Kind::Damping),
-    q("guides[].gap_m", "gap of the guide", "m", 1e-6, 5e-3),
+    q("guides[].gap_m", "gap of the guide", "m", 1e-6, 5e-3).of_kind(Kind::Gap),
     q("guides[].film_stiffness_n_per_m", "stiffness within the gap of the guide", "N/m", 10.0, 1e10),
     q("damping.material_retardation_time_s", "retardation time of the material", "s", 1e-10, 1e-2),
     q("damping.air_n_s_per_m3", "air damping", "N·s/m³", 1e-3, 1e5),

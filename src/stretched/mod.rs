@@ -149,6 +149,12 @@ impl StretchedBlade {
         Ok(self)
     }
 
+    /// The blade with the gaps of its pads multiplied by a factor; its basis does not depend on them.
+    pub fn with_gaps(mut self, factor: f64) -> Self {
+        self.gaps = self.gaps.map(|gaps| gaps.scaled(factor));
+        self
+    }
+
     /// The potential of stretching in the basis.
     pub(crate) fn stretching(&self) -> &ReducedStretching {
         &self.stretching

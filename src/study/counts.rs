@@ -5,7 +5,10 @@ use std::path::Path;
 
 use super::order::Values;
 use super::plan::Study;
-use super::report::{CriterionEntry, GridEntry, Group, Histogram, Passing, Quantile, SpeedEntry};
+use super::report::{
+    CriterionEntry, GapStatistics, GridEntry, Group, Histogram, NumberEntry, NumberQuantile,
+    Passing, Quantile, SpeedEntry,
+};
 use super::saw::{Outcome, Saw};
 use super::statistics::interval;
 use crate::scene::rpm;
@@ -25,6 +28,9 @@ pub(super) struct Counts<'a> {
     flutter: Values,
     passed: usize,
     kept: Vec<usize>,
+    /// Numbers of guides with a gap.
+    gap: Vec<Values>,
+    within: usize,
 }
 
 impl<'a> Counts<'a> {
@@ -41,6 +47,8 @@ impl<'a> Counts<'a> {
             flutter: Values::new(folder),
             passed: 0,
             kept: vec![0; study.criteria_of_nothing().len()],
+            gap: (study.gap_columns().iter().map(|_| Values::new(folder))).collect(),
+            within: 0,
         }
     }
 
@@ -62,6 +70,17 @@ impl<'a> Counts<'a> {
         for (count, kept) in self.kept.iter_mut().zip(&found.kept) {
             *count += usize::from(*kept);
         }
+        for (values, number) in self.gap.iter_mut().zip(&found.gap) {
+            if let Some(number) = number {
+                values.push(*number)?;
+            }
+        }
+        let deflection_m = found.gap.first().copied().flatten();
+        self.within += usize::from(
+            self.limit_m()
+                .zip(deflection_m)
+                .is_some_and(|(limit, found)| found <= limit),
+        );
         let speeds = [
             (&mut self.lowest_critical, found.lowest_critical_rpm),
             (&mut self.flutter, found.flutter_rpm),
@@ -83,6 +102,22 @@ impl<'a> Counts<'a> {
     pub fn report(mut self) -> io::Result<Group> {
         let (analysed, shares) = (self.analysed(), &self.study.file().quantiles);
         let passing = self.study.limits().map(|_| self.passing());
+        let saws_within = self.limit_m().map(|_| self.within);
+        let numbers = self.gap.iter_mut();
+        let numbers: Vec<NumberEntry> = numbers
+            .map(|values| number(values, analysed, shares))
+            .collect::<io::Result<_>>()?;
+        let mut numbers = numbers.into_iter();
+        let gap =
+            numbers
+                .next()
+                .zip(numbers.next())
+                .map(|(deflection_at_cut, largest_pad_force)| GapStatistics {
+                    deflection_at_cut,
+                    largest_pad_force,
+                    critical_at_amplitude: numbers.next(),
+                    saws_within,
+                });
         Ok(Group {
             grid: self.grid,
             saws: self.saws,
@@ -91,7 +126,14 @@ impl<'a> Counts<'a> {
             lowest_critical: speed(&mut self.lowest_critical, analysed, shares)?,
             flutter: speed(&mut self.flutter, analysed, shares)?,
             passing,
+            gap,
         })
+    }
+
+    /// Largest deflection at the cut that is allowed.
+    fn limit_m(&self) -> Option<f64> {
+        let asked = self.study.file().gap?;
+        asked.max_deviation_mm.map(|mm| 1e-3 * mm)
     }
 
     fn passing(&self) -> Passing {
@@ -115,6 +157,20 @@ impl<'a> Counts<'a> {
                 .collect(),
         }
     }
+}
+
+fn number(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<NumberEntry> {
+    let unknown = analysed - values.count();
+    let median = values.quantiles(unknown, &[0.5])?;
+    let found = values.quantiles(unknown, shares)?;
+    let quantiles = shares.iter().zip(found);
+    Ok(NumberEntry {
+        saws: values.count(),
+        median: median[0],
+        quantiles: quantiles
+            .map(|(&share, value)| NumberQuantile { share, value })
+            .collect(),
+    })
 }
 
 fn speed(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<SpeedEntry> {

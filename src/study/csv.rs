@@ -61,6 +61,7 @@ pub(super) fn columns(study: &Study) -> Vec<String> {
         .chain(paths)
         .chain(owned(&before))
         .chain(kept)
+        .chain(owned(study.gap_columns()))
         .chain(owned(&after))
         .chain(bands)
         .chain(["reason".to_owned()])
@@ -85,6 +86,8 @@ pub(super) fn record(study: &Study, saw: &Saw) -> Vec<String> {
     cells.push(text(found.and_then(Found::passed).map(|p| p.to_string())));
     let kept = 0..study.criteria_of_nothing().len();
     cells.extend(kept.map(|k| text(found.map(|f| f.kept[k].to_string()))));
+    let gap = 0..study.gap_columns().len();
+    cells.extend(gap.map(|k| number(found.and_then(|f| f.gap[k]))));
     cells.push(text(found.map(|f| f.functions.to_string())));
     cells.push(number(found.map(|f| f.estimated_relative_error)));
     cells.push(text(found.map(|f| f.krein_violations.to_string())));
@@ -110,7 +113,10 @@ pub(super) fn saw(study: &Study, cells: &mut dyn Iterator<Item = &str>) -> Optio
         1 => Outcome::Refused((*reason).to_owned()),
         _ => Outcome::Failed((*reason).to_owned()),
     };
-    let width = study.criteria_of_nothing().len() + 7 + usize::from(study.file().bands);
+    let width = study.criteria_of_nothing().len()
+        + study.gap_columns().len()
+        + 7
+        + usize::from(study.file().bands);
     (index < study.count() && speeds.len() == width).then_some(Saw {
         index,
         values,
@@ -132,7 +138,7 @@ fn found(study: &Study, cells: &[&str]) -> Option<Found> {
         flutter,
         merge,
         _passed,
-        kept @ ..,
+        limits_and_gap @ ..,
         functions,
         error,
         violations,
@@ -140,13 +146,16 @@ fn found(study: &Study, cells: &[&str]) -> Option<Found> {
     else {
         return None;
     };
+    let limits = study.criteria_of_nothing().len();
+    (limits_and_gap.len() == limits + study.gap_columns().len()).then_some(())?;
+    let (kept, gap) = limits_and_gap.split_at(limits);
     let kept: Vec<bool> = kept.iter().map(|k| k.parse().ok()).collect::<Option<_>>()?;
-    (kept.len() == study.criteria_of_nothing().len()).then_some(())?;
     Some(Found {
         lowest_critical_rpm: number(critical)?,
         flutter_rpm: number(flutter)?,
         first_merge_rpm: number(merge)?,
         kept,
+        gap: gap.iter().map(|cell| number(cell)).collect::<Option<_>>()?,
         functions: functions.parse().ok()?,
         estimated_relative_error: number(error)??,
         krein_violations: violations.parse().ok()?,

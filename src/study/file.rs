@@ -32,6 +32,9 @@ pub struct StudyFile {
     /// Limits of each saw, as for `sawflutter check`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limits: Option<LimitsFile>,
+    /// What is computed of guides with a gap; at least one guide of the scene is one-sided.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gap: Option<GapFile>,
     /// Shares of the saws for which quantiles of the speeds are reported.
     #[serde(default = "default_quantiles")]
     pub quantiles: Vec<f64>,
@@ -42,6 +45,23 @@ pub struct StudyFile {
     /// growth rate in 1/s, and the ranges of speed in which the band counts; bands are separated by semicolons.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub bands: bool,
+}
+
+/// The deflection at the cut of a saw with guides with a gap, as of `sawflutter gap`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GapFile {
+    /// Side force at the rim at the cut.
+    pub force_n: f64,
+    /// Speed; by default the operating speed of the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rpm: Option<f64>,
+    /// Largest deflection at the cut that is allowed: the saws that keep it are counted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_deviation_mm: Option<f64>,
+    /// Amplitude of an oscillation at the guides, with whose mean stiffness the first critical speed is computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub amplitude_mm: Option<f64>,
 }
 
 fn default_quantiles() -> Vec<f64> {

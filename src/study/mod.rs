@@ -47,7 +47,7 @@ mod tally;
 
 #[doc(hidden)]
 pub use csv::CsvTable;
-pub use file::{DistributionFile, ParameterFile, StudyError, StudyFile, json_schema};
+pub use file::{DistributionFile, GapFile, ParameterFile, StudyError, StudyFile, json_schema};
 #[doc(hidden)]
 pub use inputs::Inputs;
 #[doc(hidden)]
@@ -61,8 +61,8 @@ pub use plan::Study;
 #[doc(hidden)]
 pub use processor::processor;
 pub use report::{
-    CriterionEntry, GridEntry, Group, Histogram, Passing, Quantile, Refusal, Reliability,
-    ReliabilityPoint, SpeedEntry, StudyReport, WorstSaw,
+    CriterionEntry, GapStatistics, GridEntry, Group, Histogram, NumberEntry, NumberQuantile,
+    Passing, Quantile, Refusal, Reliability, ReliabilityPoint, SpeedEntry, StudyReport, WorstSaw,
 };
 #[doc(hidden)]
 pub use rows::Rows;

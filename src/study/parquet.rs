@@ -94,6 +94,8 @@ fn values(study: &Study, saws: &[Saw]) -> Vec<Column> {
     ]);
     let kept = 0..study.criteria_of_nothing().len();
     columns.extend(kept.map(|k| answers(&|found| Some(found.kept[k]))));
+    let gap = 0..study.gap_columns().len();
+    columns.extend(gap.map(|k| numbers(&|saw| saw.found().and_then(|found| found.gap[k]))));
     columns.extend([
         integers(&|saw| saw.found().map(|found| found.functions)),
         speeds(|found| Some(found.estimated_relative_error)),

@@ -9,9 +9,10 @@
 use std::sync::OnceLock;
 
 use super::distribution::Distribution;
-use super::file::{StudyError, StudyFile};
+use super::file::{GapFile, StudyError, StudyFile};
 use super::sequence::{DIMENSIONS, even};
 use crate::check::{Criterion, Limits, LimitsFile};
+use crate::gap::{self, GapCase};
 use crate::plate::Resolution;
 use crate::scene::{Given, Parameter, RefusedValue, Scene, SceneFile, SpeedRange, speed_rad_per_s};
 use crate::spectrum::SpectrumError;
@@ -23,12 +24,19 @@ const MAX_SAWS: usize = u32::MAX as usize;
 const MAX_QUANTILES: usize = 100;
 /// Range of the confidence: below it, an interval says nothing; above it, a study has too few saws.
 const CONFIDENCE: (f64, f64) = (0.5, 0.999_999);
+/// Columns of guides with a gap; the last needs an amplitude.
+const GAP_COLUMNS: [&str; 3] = [
+    "deflection_at_cut_m",
+    "largest_pad_force_n",
+    "critical_at_amplitude_rpm",
+];
 /// A scene, the numbers that vary, and the limits that each saw has to keep.
 #[derive(Debug, Clone)]
 pub struct Study {
     scene: Scene,
     file: StudyFile,
     limits: Option<Limits>,
+    gap: Option<GapCase>,
     to_rad_per_s: f64,
     /// The numbers that vary, with their distributions, in the order of the file.
     pub(super) varying: Vec<(Parameter, Distribution)>,
@@ -74,6 +82,7 @@ impl Study {
         let (drawn, count) = counts(&file, &varying)?;
         check_statistics(&file)?;
         let limits = file.limits.map(|l| limits(&l, &scene)).transpose()?;
+        let gap = file.gap.map(|asked| gap(&asked, &scene)).transpose()?;
         let end = match file.to_rpm {
             Some(rpm) => speed_rad_per_s("to_rpm", rpm)?,
             None => end_of_sweep(&scene)?,
@@ -83,6 +92,7 @@ impl Study {
             scene,
             file,
             limits,
+            gap,
             to_rad_per_s: end.max(reach),
             varying,
             drawn,
@@ -104,6 +114,20 @@ impl Study {
     /// The limits that each saw has to keep.
     pub fn limits(&self) -> Option<&Limits> {
         self.limits.as_ref()
+    }
+
+    /// What is computed of guides with a gap.
+    pub(super) fn gap(&self) -> Option<&GapCase> {
+        self.gap.as_ref()
+    }
+
+    /// Names of the columns of guides with a gap, in the order of [`Found::gap`](super::Found::gap).
+    pub(super) fn gap_columns(&self) -> &'static [&'static str] {
+        match &self.gap {
+            None => &[],
+            Some(case) if case.amplitude_m().is_some() => &GAP_COLUMNS,
+            Some(_) => &GAP_COLUMNS[..2],
+        }
     }
 
     /// Last speed of the sweep, the same for every saw.
@@ -304,6 +328,23 @@ fn limits(file: &LimitsFile, scene: &Scene) -> Result<Limits, StudyError> {
         ..refused
     };
     Ok(file.limits(scene).map_err(of_study)?)
+}
+
+/// Validates the block `gap` of the study.
+fn gap(file: &GapFile, scene: &Scene) -> Result<GapCase, StudyError> {
+    let options = gap::Options {
+        force_n: Some(file.force_n),
+        rpm: file.rpm,
+        max_deviation_mm: file.max_deviation_mm,
+    };
+    let of_study = |refused: RefusedValue| match refused.key.as_str() {
+        "force_n" | "rpm" | "max_deviation_mm" | "amplitude_mm" => RefusedValue {
+            key: format!("gap.{}", refused.key),
+            ..refused
+        },
+        _ => refused,
+    };
+    Ok(GapCase::new(scene, &options, file.amplitude_mm).map_err(of_study)?)
 }
 
 #[cfg(test)]

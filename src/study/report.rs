@@ -103,6 +103,45 @@ pub struct Group {
     pub flutter: SpeedEntry,
     /// Share of saws that keep the limits, if the study has any.
     pub passing: Option<Passing>,
+    /// Guides with a gap, if the study asks for them.
+    #[serde(default)]
+    pub gap: Option<GapStatistics>,
+}
+
+/// Deflections and pad forces of the analysed saws of a group.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GapStatistics {
+    /// Deflection of the rim at the cut, in m, as an absolute value.
+    pub deflection_at_cut: NumberEntry,
+    /// Largest force of a pad, in N, as an absolute value.
+    pub largest_pad_force: NumberEntry,
+    /// First critical speed at the amplitude of the study, in rpm; null without an amplitude.
+    pub critical_at_amplitude: Option<NumberEntry>,
+    /// Number of saws whose deflection is allowed; null without a limit.
+    pub saws_within: Option<usize>,
+}
+
+/// Distribution of a number of the analysed saws, in SI units or rpm.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NumberEntry {
+    /// Number of saws whose number is known. That of the others, where slopes of the blade exceed 0.1, counts as larger.
+    pub saws: usize,
+    /// Median; null if it is not known.
+    pub median: Option<f64>,
+    /// Numbers below which given shares of the saws lie.
+    pub quantiles: Vec<NumberQuantile>,
+}
+
+/// A number below which a share of the saws lies.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NumberQuantile {
+    /// The share.
+    pub share: f64,
+    /// The number; null if it is not known.
+    pub value: Option<f64>,
 }
 
 /// A number of a point of the grid.

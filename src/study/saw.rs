@@ -5,8 +5,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use serde::{Deserialize, Serialize};
 
 use super::plan::Study;
+use crate::gap::{GapError, GapNumbers};
 use crate::scene::{Scene, rpm};
-use crate::stability::{AnalysisError, Evidence, Instability, InstabilityKind, Onsets};
+use crate::stability::{Evidence, Instability, InstabilityKind, Onsets};
 
 /// A saw and its result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -41,6 +42,10 @@ pub struct Found {
     pub first_merge_rpm: Option<f64>,
     /// Whether each limit is kept, in the order of the limits; empty without limits.
     pub kept: Vec<bool>,
+    /// Numbers of guides with a gap: deflection at the cut in m, largest force of a pad in N, and with an amplitude the
+    /// critical speed there in rpm; empty if the study does not ask for them.
+    #[serde(default)]
+    pub gap: Vec<Option<f64>>,
     /// Number of basis functions.
     pub functions: usize,
     /// Estimated relative error of the critical speeds.
@@ -124,7 +129,7 @@ impl Study {
         }
     }
 
-    fn found(&self, scene: &Scene) -> Result<Found, AnalysisError> {
+    fn found(&self, scene: &Scene) -> Result<Found, GapError> {
         let onsets = match self.basis() {
             Some(basis) => Onsets::beside(scene, basis)?,
             None => Onsets::new(scene)?,
@@ -135,6 +140,20 @@ impl Study {
             threshold_per_s: scene.flutter_threshold_per_s(),
             range_rad_per_s: (0.0, self.to_rad_per_s()),
         };
+        let gap = match (self.gap(), self.basis()) {
+            (Some(case), Some(basis)) => {
+                let GapNumbers {
+                    deflection_m,
+                    largest_pad_force_n,
+                    critical_at_amplitude_rpm,
+                } = case.numbers(scene, basis)?;
+                let mut numbers =
+                    vec![deflection_m, largest_pad_force_n, critical_at_amplitude_rpm];
+                numbers.truncate(self.gap_columns().len());
+                numbers
+            }
+            _ => vec![None; self.gap_columns().len()],
+        };
         let criteria = self.limits().map(|limits| limits.criteria(&evidence));
         let listed = onsets.instabilities.iter().filter(|_| self.file().bands);
         let bands = listed.map(|band| FoundBand::new(band, scene.flutter_threshold_per_s()));
@@ -144,6 +163,7 @@ impl Study {
             flutter_rpm: onsets.flutter_speed_rad_per_s.map(rpm),
             first_merge_rpm: onsets.first_merge_rad_per_s.map(rpm),
             kept: criteria.iter().flatten().map(|c| c.passed).collect(),
+            gap,
             functions: onsets.functions,
             estimated_relative_error: onsets.estimated_relative_error,
             krein_violations: onsets.certificate.violations_rad_per_s.len()

@@ -41,6 +41,15 @@ fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
     }
     writeln!(text, "{}", row("linear", &report.linear))?;
     deviation(text, report)?;
+    if let Some(error) = &report.deviation.basis_error {
+        let told = format!(
+            "Estimated error of these deflections: {} % at most, from {} modes at rest in the place of {}",
+            shown_to(2, 1e2 * error.share),
+            error.more_modes,
+            error.modes
+        );
+        writeln!(text, "\n{}", wrapped(&told))?;
+    }
     writeln!(text, "\n{}", wrapped(MEANING))?;
     for warning in &report.warnings {
         writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
@@ -76,6 +85,14 @@ fn row(name: &str, at: &AtAmplitudeEntry) -> String {
     )
 }
 
+/// Every third force and gap is in the table; the report has all.
+const EVERY: usize = 3;
+
+/// Whether a gap is in the table: linear guides, which come first, and every third gap.
+fn is_shown(row: usize) -> bool {
+    row == 0 || (row - 1).is_multiple_of(EVERY)
+}
+
 fn deviation(text: &mut String, report: &GapReport) -> std::fmt::Result {
     let map = &report.deviation;
     writeln!(
@@ -83,17 +100,16 @@ fn deviation(text: &mut String, report: &GapReport) -> std::fmt::Result {
         "\nDeflection of the rim at the cut at {:.0} rpm [mm] under a side force of",
         map.rpm
     )?;
-    let heads = map
-        .forces_n
-        .iter()
-        .map(|force| format!("{:>9}", format!("{} N", shown_to(3, *force))));
+    let forces = map.forces_n.iter().step_by(EVERY);
+    let heads = forces.map(|force| format!("{:>9}", format!("{} N", shown_to(3, *force))));
     writeln!(text, "  gap [mm] {}", heads.collect::<String>())?;
-    for (factor, deflections) in map.gap_factors.iter().zip(&map.deflection_m) {
+    let rows = map.gap_factors.iter().zip(&map.deflection_m).enumerate();
+    for (_, (factor, deflections)) in rows.filter(|(row, _)| is_shown(*row)) {
         let gap = match *factor == 0.0 {
             true => "linear".to_owned(),
             false => shown_to(3, 1e3 * factor * report.smallest_gap_m),
         };
-        let cells = deflections.iter().map(|m| {
+        let cells = deflections.iter().step_by(EVERY).map(|m| {
             let shown = m.map_or_else(|| "-".to_owned(), |m| format!("{:.4}", 1e3 * m));
             format!("{shown:>9}")
         });
@@ -102,10 +118,14 @@ fn deviation(text: &mut String, report: &GapReport) -> std::fmt::Result {
     if let Some(limit) = map.max_deflection_m {
         writeln!(
             text,
-            "\nLargest side force within {} mm at the cut",
-            shown_to(3, 1e3 * limit)
+            "\nLargest side force within {} mm at the cut at {:.0} rpm, and speed under {} N",
+            shown_to(3, 1e3 * limit),
+            map.rpm,
+            shown_to(3, map.force_n)
         )?;
-        for (factor, force) in map.gap_factors.iter().zip(&map.force_within_n) {
+        let within = map.force_within_n.iter().zip(&map.speed_within_rpm);
+        let rows = map.gap_factors.iter().zip(within).enumerate();
+        for (_, (factor, (force, speed))) in rows.filter(|(row, _)| is_shown(*row)) {
             let gap = match *factor == 0.0 {
                 true => "linear guides".to_owned(),
                 false => format!(
@@ -113,13 +133,20 @@ fn deviation(text: &mut String, report: &GapReport) -> std::fmt::Result {
                     shown_to(3, 1e3 * factor * report.smallest_gap_m)
                 ),
             };
-            let last = map.forces_n.last().map_or(0.0, |force| force.abs());
+            let [first, last] = [map.forces_n.first(), map.forces_n.last()]
+                .map(|force| force.map_or(0.0, |force| force.abs()));
             let force = match force {
-                None => "less than the smallest of the map".to_owned(),
+                None => format!("less than {} N", shown_to(3, first)),
                 Some(force) if *force >= last => format!("{} N or more", shown_to(3, last)),
                 Some(force) => format!("{} N", shown_to(3, *force)),
             };
-            writeln!(text, "  {gap:<18} {force}")?;
+            let end = map.speeds_rpm.last().copied().unwrap_or_default();
+            let speed = match speed {
+                None => "at no speed".to_owned(),
+                Some(speed) if *speed >= end => format!("{end:.0} rpm or more"),
+                Some(speed) => format!("{speed:.0} rpm"),
+            };
+            writeln!(text, "  {gap:<18} {force:<18} {speed}")?;
         }
     }
     writeln!(

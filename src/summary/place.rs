@@ -25,6 +25,13 @@ fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
         GoalEntry::FlutterSpeed => "flutter speed",
         GoalEntry::StableWindow => "stable window",
     };
+    if let Some(amplitude) = report.amplitude_m {
+        let told = format!(
+            "Speeds with the mean stiffness of the guides over an oscillation of {} mm at them",
+            shown_to(3, 1e3 * amplitude)
+        );
+        writeln!(text, "{}", wrapped(&told))?;
+    }
     writeln!(text, "\n{:<30} {:>10} {:>10}", "", "before", "best")?;
     let number = |rpm: Option<f64>| rpm.map_or("none".to_owned(), |rpm| format!("{rpm:.0}"));
     let mut line = |name: &str, before: Option<f64>, best: Option<f64>| {
@@ -52,6 +59,18 @@ fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
         worst(Some(&report.worst_before)),
         worst(report.worst_neighbour.as_ref()),
     )?;
+    if report.max_deflection_m.is_some() {
+        let mm = |saw: &OutcomeEntry| {
+            let found = saw.deflection_m.map(|m| shown_to(4, 1e3 * m));
+            found.unwrap_or_else(|| "unknown".to_owned())
+        };
+        let (before, best) = (mm(&report.before), mm(&report.best));
+        writeln!(
+            text,
+            "{:<30} {before:>10} {best:>10}",
+            "deflection at the cut [mm]"
+        )?;
+    }
     for p in &report.parameters {
         let [before, best, from, to] = [p.start, p.value, p.bound_from, p.bound_to].map(short);
         let bound = if p.at_bound { ", at bound" } else { "" };

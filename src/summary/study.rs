@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::study::{Group, Passing, SpeedEntry, StudyReport};
+use crate::study::{GapStatistics, Group, NumberEntry, Passing, SpeedEntry, StudyReport};
 use crate::text::{shown, shown_to};
 
 use super::{WIDTH, shortened, unusual_numbers};
@@ -25,6 +25,17 @@ impl StudyReport {
 fn of_report(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     header(text, report)?;
     quantiles(text, report)?;
+    if let (Some(gap), Some(asked)) = (&report.all.gap, &report.study.gap)
+        && let (Some(within), Some(limit)) = (gap.saws_within, asked.max_deviation_mm)
+    {
+        writeln!(
+            text,
+            "\n{within} of {} saws deflect by at most {} mm at the cut under {} N",
+            report.all.saws,
+            shown_to(3, limit),
+            shown_to(3, asked.force_n)
+        )?;
+    }
     if let Some(passing) = &report.all.passing {
         limits(text, passing, report.all.saws)?;
     }
@@ -71,11 +82,34 @@ fn quantiles(text: &mut String, report: &StudyReport) -> std::fmt::Result {
             write!(text, "{cell:>8}")?;
         }
     }
+    if let Some(gap) = &all.gap {
+        numbers(text, gap)?;
+    }
     writeln!(text)?;
     let SpeedEntry { beyond, .. } = all.flutter;
     if beyond > 0 {
         let to = report.swept_to_rpm;
         writeln!(text, "  {beyond} saws do not flutter up to {to:.0} rpm")?;
+    }
+    Ok(())
+}
+
+/// Writes the quantiles of guides with a gap below those of the speeds.
+fn numbers(text: &mut String, gap: &GapStatistics) -> std::fmt::Result {
+    let mut row = |name: &str, factor: f64, entry: &NumberEntry| -> std::fmt::Result {
+        write!(text, "\n  {name:<21}")?;
+        for quantile in entry.quantiles.iter().take(COLUMNS) {
+            let cell = quantile
+                .value
+                .map_or("unknown".into(), |value| shown_to(4, factor * value));
+            write!(text, "{cell:>8}")?;
+        }
+        Ok(())
+    };
+    row("deflection [mm]", 1e3, &gap.deflection_at_cut)?;
+    row("largest pad force [N]", 1.0, &gap.largest_pad_force)?;
+    if let Some(critical) = &gap.critical_at_amplitude {
+        row("at amplitude [rpm]", 1.0, critical)?;
     }
     Ok(())
 }

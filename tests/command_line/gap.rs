@@ -31,7 +31,14 @@ fn text_files_and_json_agree() {
     let options = ["--force-n", "2", "--max-deviation-mm", "0.3"];
     let output = run(&[&["gap", &path], &options[..]].concat(), &folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    assert_eq!(names_in(&out(&folder)), ["gap.json", "gap.png", "gap.svg"]);
+    let names = [
+        "gap-map.png",
+        "gap-map.svg",
+        "gap.json",
+        "gap.png",
+        "gap.svg",
+    ];
+    assert_eq!(names_in(&out(&folder)), names);
     let summary = text(&output.stdout);
     for line in summary.lines() {
         assert!(
@@ -52,13 +59,13 @@ fn text_files_and_json_agree() {
     );
     let map = &report.deviation;
     assert!((map.rpm - 1000.0).abs() < 1e-9);
-    assert_eq!(map.forces_n[2], 2.0);
+    assert_eq!(map.forces_n[6], 2.0);
     let at_scene = map
         .gap_factors
         .iter()
         .position(|factor| *factor == 1.0)
         .unwrap();
-    let shown = 1e3 * map.deflection_m[at_scene][2].unwrap();
+    let shown = 1e3 * map.deflection_m[at_scene][6].unwrap();
     assert!(
         summary.contains(&format!("{shown:.4}")),
         "{shown} {summary}"

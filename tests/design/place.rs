@@ -4,10 +4,13 @@
 
 use crate::common::{assert_close, scene};
 use rayon::prelude::*;
-use sawflutter::place::{Demands, Goal, Options, Placement, Tolerances};
+use sawflutter::gap::{self, GuideGaps};
+use sawflutter::place::{Demands, GapDemands, Goal, Options, PlaceError, Placement, Tolerances};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::report::PlaceReport;
-use sawflutter::scene::{Accuracy, Freed, Parameter, Scene, SpeedRange, rad_per_s, rpm};
+use sawflutter::scene::{
+    Accuracy, ContactLaw, Freed, Parameter, Scene, SpeedRange, rad_per_s, rpm,
+};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Instability, InstabilityKind, Onsets, undamped_bands};
 
@@ -282,6 +285,47 @@ fn a_limit_on_the_critical_speed_is_active_and_kept() {
     assert!(limited.best.value_rad_per_s < unlimited.best.value_rad_per_s);
 }
 
+/// Guides with a gap that are too far from the blade come closer, until the deflection that `gap` finds keeps its limit.
+/// Without such demands the gap has no effect.
+#[test]
+fn the_gap_is_as_narrow_as_the_deflection_demands() {
+    let saw = swept("paper").edited(|saw| {
+        saw.operating_rpm = Some(1000.0);
+        let pad = &mut saw.guides[0];
+        (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(8e-5));
+    });
+    let saw = saw.unwrap();
+    let free = freed(&saw, &[("guides[0].gap_m", 2e-5, 1e-4)]);
+    let demands = Demands {
+        gap: GapDemands::new(&saw, Some(0.15), Some(0.3), Some(2.0)).unwrap(),
+        ..Demands::default()
+    };
+    let few = Options {
+        samples: 4,
+        refine: 4,
+        ..quick()
+    };
+    let found = place(&saw, &free, &demands, &few);
+    assert!(!found.before.is_kept() && found.best.is_kept() && found.improved);
+    let options = gap::Options {
+        force_n: Some(2.0),
+        ..gap::Options::default()
+    };
+    let map = GuideGaps::new(&found.scene, &options).unwrap().deviation;
+    let of = |own: &[f64], value: f64| {
+        let place = own.iter().position(|own| (own / value - 1.0).abs() < 1e-9);
+        place.unwrap()
+    };
+    let row = &map.over_gap[of(&map.gap_factors, 1.0)];
+    let at = row[of(&map.forces_n, 2.0)].as_ref().unwrap();
+    // This test's basis is a small one.
+    assert!(at.deviation_m < 1.02 * 3e-4, "{}", at.deviation_m);
+    let idle = Placement::new(&saw, &free, &Demands::default(), &quick(), &|_, _, _| ());
+    assert!(matches!(idle, Err(PlaceError::NothingFree)));
+    let alone = GapDemands::new(&saw, None, None, Some(2.0)).unwrap_err();
+    assert_eq!(alone.key, "force_n");
+}
+
 #[test]
 fn the_window_is_free_of_bands_and_wider_than_before() {
     let saw = swept("two-pads");
@@ -289,7 +333,7 @@ fn the_window_is_free_of_bands_and_wider_than_before() {
     let around_rad_per_s = rad_per_s(1900.0);
     let demands = Demands {
         goal: Goal::StableWindow { around_rad_per_s },
-        min_critical_rad_per_s: None,
+        ..Demands::default()
     };
     let free = freed(&saw, &[(RADIUS, 0.2, 0.3)]);
     let found = place(&saw, &free, &demands, &quick());

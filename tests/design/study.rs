@@ -6,7 +6,8 @@
 
 use crate::common::{assert_close, scene};
 use sawflutter::check::{Check, Limits};
-use sawflutter::scene::{Accuracy, Scene, rad_per_s, rpm};
+use sawflutter::gap::{GuideGaps, Options};
+use sawflutter::scene::{Accuracy, ContactLaw, Scene, rad_per_s, rpm};
 use sawflutter::stability::{Analysis, Onsets};
 use sawflutter::study::{Outcome, Saw, Study, StudyError, StudyFile, StudyReport};
 
@@ -310,4 +311,70 @@ fn an_invalid_study_is_refused_by_key() {
         let error = study(free_blade(), &json).unwrap_err().to_string();
         assert!(error.starts_with(expected), "{json}: {error}");
     }
+}
+
+/// Guides with a gap. Below the gap the critical speed is that of the blade without guides, far beyond it that of the
+/// linear chart; the pads carry the side force; deflections are those of the map of gaps.
+#[test]
+fn a_study_says_what_the_gap_does() {
+    let saw = scene("paper").edited(|saw| {
+        (saw.accuracy, saw.operating_rpm) = (Accuracy::Draft, Some(1000.0));
+        saw.sweep.as_mut().unwrap().to_rpm = 1700.0;
+        let pad = &mut saw.guides[0];
+        (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5));
+    });
+    let saw = saw.unwrap();
+    let asked = |amplitude_mm: f64| {
+        let json = format!(
+            r#"{{ "name": "gap", "to_rpm": 1700,
+                  "gap": {{ "force_n": 2, "max_deviation_mm": 0.25, "amplitude_mm": {amplitude_mm} }},
+                  "parameters": [{{ "path": "guides[0].gap_m",
+                                    "distribution": {{ "kind": "grid", "values": [2e-5, 4e-5, 8e-5] }} }}] }}"#
+        );
+        let study = study(saw.clone(), &json).unwrap();
+        let saws = all(&study);
+        let report = StudyReport::new(&study, &saws).unwrap();
+        let rows = saws.iter().map(|saw| saw.found().unwrap().gap.clone());
+        (rows.collect::<Vec<_>>(), report)
+    };
+    let (inside, report) = asked(0.02);
+    let gaps = GuideGaps::new(
+        &saw,
+        &Options {
+            force_n: Some(2.0),
+            ..Options::default()
+        },
+    );
+    let map = gaps.unwrap().deviation;
+    let of = |factor: f64| {
+        let row = map
+            .gap_factors
+            .iter()
+            .position(|own| (own - factor).abs() < 1e-9);
+        let column = map.forces_n.iter().position(|own| (own - 2.0).abs() < 1e-9);
+        map.over_gap[row.unwrap()][column.unwrap()].clone().unwrap()
+    };
+    for (numbers, factor) in inside.iter().zip([0.5, 1.0, 2.0]) {
+        let deflection_m = of(factor).deviation_m;
+        assert_close("deflection", numbers[0].unwrap(), deflection_m, 2e-3);
+        assert_close("pad force", numbers[1].unwrap(), 2.0, 1e-5);
+    }
+    let free = saw.edited(|saw| saw.guides.clear()).unwrap();
+    let free = rpm(Onsets::new(&free)
+        .unwrap()
+        .lowest_critical_rad_per_s
+        .unwrap());
+    assert_close("inside the gap", inside[2][2].unwrap(), free, 2e-3);
+    let (beyond, _) = asked(20.0);
+    let linear = rpm(Onsets::new(&saw)
+        .unwrap()
+        .lowest_critical_rad_per_s
+        .unwrap());
+    assert_close("beyond the gap", beyond[0][2].unwrap(), linear, 2e-3);
+    let gap = report.all.gap.unwrap();
+    let within = inside
+        .iter()
+        .filter(|numbers| numbers[0].unwrap() <= 2.5e-4);
+    assert_eq!(gap.saws_within, Some(within.count()));
+    assert_eq!(gap.deflection_at_cut.median, inside[1][0]);
 }

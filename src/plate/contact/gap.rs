@@ -119,6 +119,14 @@ impl GapPotential {
         })
     }
 
+    /// The potential of the same pads with their gaps multiplied by a factor.
+    pub fn scaled(mut self, factor: f64) -> Self {
+        for point in &mut self.points {
+            point.gap_m *= factor;
+        }
+        self
+    }
+
     /// Deflections at the points, in m.
     fn deflections(&self, coordinates: &Col<f64>) -> Col<f64> {
         self.shapes.transpose() * coordinates

@@ -1,0 +1,138 @@
+//! Numbers of one saw with guides with a gap, for studies and placements of many.
+
+use crate::plate::{Plate, Resolution};
+use crate::scene::{RefusedValue, Scene, rpm, speed_rad_per_s};
+use crate::spectrum::critical_speeds;
+use crate::system::GyroscopicSystem;
+
+use super::amplitude::at_amplitude;
+use super::deviation::MODES;
+use super::pressed::PressedBlade;
+use super::{GapError, Options};
+
+/// The force, the speed and the amplitude of [`GapNumbers`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct GapCase {
+    force_n: f64,
+    rpm: f64,
+    amplitude_m: Option<f64>,
+}
+
+/// A saw under a side force at the cut.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct GapNumbers {
+    /// Deflection of the rim at the cut, as an absolute value; `None` where the model is not valid.
+    pub deflection_m: Option<f64>,
+    /// Largest force of a pad, as an absolute value.
+    pub largest_pad_force_n: Option<f64>,
+    /// First critical speed with the mean stiffness of the guides over an oscillation of the amplitude.
+    pub critical_at_amplitude_rpm: Option<f64>,
+}
+
+/// An amplitude beyond any saw.
+const MAX_AMPLITUDE_MM: f64 = 1e3;
+
+impl GapCase {
+    /// The force of the options, their speed or the operating speed, and an amplitude at the guides.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] as [`Options::checked`], if there is no speed, and for an invalid amplitude.
+    pub fn new(
+        scene: &Scene,
+        options: &Options,
+        amplitude_mm: Option<f64>,
+    ) -> Result<Self, RefusedValue> {
+        options.checked(scene)?;
+        let typed = match options.rpm {
+            Some(typed) => typed,
+            None => rpm(speed_rad_per_s("rpm", scene.needed_operating_rpm(None)?)?),
+        };
+        if let Some(amplitude) = amplitude_mm
+            && !(amplitude > 0.0 && amplitude <= MAX_AMPLITUDE_MM)
+        {
+            let allowed = "above 0 and at most 1000";
+            let remedy =
+                "give the amplitude of an oscillation at the guides in millimetres, such as 0.1";
+            return Err(RefusedValue::new(
+                "amplitude_mm",
+                amplitude,
+                allowed,
+                remedy,
+            ));
+        }
+        Ok(GapCase {
+            force_n: options.force(scene)?,
+            rpm: typed,
+            amplitude_m: amplitude_mm.map(|mm| 1e-3 * mm),
+        })
+    }
+
+    /// The scene with guides of their mean stiffness over an oscillation of the amplitude; itself without one.
+    ///
+    /// # Errors
+    /// [`GapError::Scene`].
+    pub fn at_amplitude(&self, scene: &Scene) -> Result<Scene, GapError> {
+        match self.amplitude_m {
+            Some(amplitude_m) => Ok(at_amplitude(scene, amplitude_m)?.0),
+            None => Ok(scene.clone()),
+        }
+    }
+
+    /// The amplitude.
+    pub fn amplitude_m(&self) -> Option<f64> {
+        self.amplitude_m
+    }
+
+    /// The side force.
+    pub fn force_n(&self) -> f64 {
+        self.force_n
+    }
+
+    /// Deflection at the cut, as an absolute value; `None` where the model is not valid.
+    ///
+    /// # Errors
+    /// [`GapError`].
+    pub fn deflection_m(
+        &self,
+        scene: &Scene,
+        resolution: Resolution,
+    ) -> Result<Option<f64>, GapError> {
+        let pressed = PressedBlade::new(&scene.idling()?, resolution, self.rpm, MODES)?;
+        let found = pressed.deviation(self.force_n, self.rpm)?;
+        Ok(found.map(|found| found.deviation_m.abs()))
+    }
+
+    /// The numbers of a saw on a basis.
+    ///
+    /// # Errors
+    /// [`GapError`].
+    pub fn numbers(&self, scene: &Scene, resolution: Resolution) -> Result<GapNumbers, GapError> {
+        let scene = scene.idling()?;
+        let pressed = PressedBlade::new(&scene, resolution, self.rpm, MODES)?;
+        let found = pressed.deviation(self.force_n, self.rpm)?;
+        let critical_at_amplitude_rpm = match self.amplitude_m {
+            Some(amplitude_m) => first_critical(&scene, resolution, amplitude_m)?.map(rpm),
+            None => None,
+        };
+        Ok(GapNumbers {
+            deflection_m: found.as_ref().map(|found| found.deviation_m.abs()),
+            largest_pad_force_n: found.map(|found| found.largest_pad_force_n()),
+            critical_at_amplitude_rpm,
+        })
+    }
+}
+
+/// First critical speed, in rad/s, with the mean stiffness of the guides over an oscillation.
+///
+/// # Errors
+/// [`GapError`].
+pub(super) fn first_critical(
+    scene: &Scene,
+    resolution: Resolution,
+    amplitude_m: f64,
+) -> Result<Option<f64>, GapError> {
+    let (scene, _) = at_amplitude(scene, amplitude_m)?;
+    let system = GyroscopicSystem::of_plate(&Plate::new(&scene, resolution));
+    let critical = critical_speeds(&system)?;
+    Ok(critical.first().map(|c| c.speed_rad_per_s))
+}

@@ -1,0 +1,129 @@
+//! A blade that is pressed at the rim at the cut, at rest in space.
+
+use crate::plate::{Plate, Resolution};
+use crate::scene::{ContactLaw, Scene, rad_per_s};
+use crate::spectrum::Cancellation;
+use crate::stretched::{Equilibrium, LARGEST_SLOPE, Sites, StretchedBlade};
+
+use super::GapError;
+
+/// A stationary deflection.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Deviation {
+    /// Deflection of the rim at the cut.
+    pub deviation_m: f64,
+    /// Largest deflection of the blade, as an absolute value.
+    pub largest_m: f64,
+    /// Force of each one-sided pad on the blade beyond its gap; empty for linear guides.
+    pub pad_forces_n: Vec<f64>,
+}
+
+impl Deviation {
+    /// Largest force of a pad, as an absolute value.
+    pub fn largest_pad_force_n(&self) -> f64 {
+        let forces = self.pad_forces_n.iter();
+        forces.map(|force| force.abs()).fold(0.0, f64::max)
+    }
+}
+
+/// A blade that is pressed at the rim at the cut.
+pub(crate) struct PressedBlade {
+    blade: StretchedBlade,
+    place: (f64, f64),
+    sites: Sites,
+}
+
+/// Angle of the cut, or of the direction from which angles are counted.
+pub(super) fn angle_rad(scene: &Scene) -> f64 {
+    scene.cut().map_or(0.0, |cut| cut.angle_rad)
+}
+
+impl PressedBlade {
+    /// The blade of a scene for speeds up to one, in a basis of so many modes at rest.
+    ///
+    /// # Errors
+    /// [`GapError`].
+    pub fn new(
+        scene: &Scene,
+        resolution: Resolution,
+        to_rpm: f64,
+        modes: usize,
+    ) -> Result<Self, GapError> {
+        let plate = Plate::new(scene, resolution);
+        let place = (plate.blade.outer_radius_m, angle_rad(scene));
+        let modes = modes.min(plate.degrees_of_freedom());
+        let blade = StretchedBlade::up_to(&plate, rad_per_s(to_rpm), place, modes)?;
+        Ok(PressedBlade {
+            sites: blade.sites(),
+            blade,
+            place,
+        })
+    }
+
+    /// The blade with all gaps multiplied by a factor.
+    pub fn with_gaps(&self, factor: f64) -> Self {
+        PressedBlade {
+            blade: self.blade.clone().with_gaps(factor),
+            place: self.place,
+            sites: self.sites.clone(),
+        }
+    }
+
+    /// The deflection under a side force at a speed; `None` where slopes exceed 0.1 and the model is not valid.
+    ///
+    /// # Errors
+    /// [`GapError`].
+    pub fn deviation(&self, force_n: f64, rpm: f64) -> Result<Option<Deviation>, GapError> {
+        Cancellation::current().check()?;
+        let blade = self.blade.clone().pressed(force_n, self.place)?;
+        let found = blade.settled(rad_per_s(rpm), &blade.flat())?;
+        Ok(self.valid(&found))
+    }
+
+    /// Relative change of a deflection at the cut in a larger basis, in which the blade moves from the same deflection to
+    /// the nearest equilibrium; `None` where the model is not valid.
+    ///
+    /// # Errors
+    /// [`GapError`].
+    pub fn change_with(
+        &self,
+        finer: &PressedBlade,
+        (force_n, rpm): (f64, f64),
+    ) -> Result<Option<f64>, GapError> {
+        Cancellation::current().check()?;
+        let speed = rad_per_s(rpm);
+        let [coarse, fine] = [self, finer].map(|at| at.blade.clone().pressed(force_n, at.place));
+        let (coarse, fine) = (coarse?, fine?);
+        let found = coarse.settled(speed, &coarse.flat())?;
+        let from = fine.shapes().transpose() * (coarse.shapes() * &found.coordinates);
+        let other = fine.settled(speed, &from)?;
+        let pair = self.valid(&found).zip(finer.valid(&other));
+        Ok(pair.map(|(found, other)| (other.deviation_m / found.deviation_m - 1.0).abs()))
+    }
+
+    fn valid(&self, found: &Equilibrium) -> Option<Deviation> {
+        if self.blade.largest_slope(found) > LARGEST_SLOPE {
+            return None;
+        }
+        Some(Deviation {
+            deviation_m: self.blade.deflection_m(found, self.place.0, self.place.1),
+            largest_m: self.sites.largest_m(&found.coordinates),
+            pad_forces_n: self.blade.pad_forces_n(found),
+        })
+    }
+}
+
+/// The scene with linear guides in the place of one-sided ones.
+///
+/// # Errors
+/// [`GapError::Scene`].
+pub(super) fn with_linear_guides(scene: &Scene) -> Result<Scene, GapError> {
+    Ok(scene.edited(|file| {
+        let guides = file.guides.iter_mut();
+        for guide in guides.filter(|guide| guide.contact == ContactLaw::OneSided) {
+            guide.contact = ContactLaw::Linear;
+            guide.side = Default::default();
+            guide.film_stiffness_n_per_m = 0.0;
+        }
+    })?)
+}
