@@ -2,12 +2,13 @@
 
 use super::Criterion;
 use super::limits::Limits;
-use super::static_deflection::{StaticDeflection, point};
+use super::static_deflection::StaticDeflection;
 use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
 use crate::stability::{Analysis, Evidence, Instability, InstabilityKind, flutter_onsets};
 use crate::stretched::Saturation;
 use crate::text::{shown, shown_to};
+use crate::transient::at_point;
 
 impl Limits {
     /// Evaluates every limit on critical speeds and bands.
@@ -225,7 +226,7 @@ pub(super) fn of_gaps(
     with_gap
         .filter_map(|(index, guide, gap_m)| {
             let bending = bending?;
-            let place = point(plate, guide.radius_m, guide.angle_deg.to_radians());
+            let place = at_point(plate, guide.radius_m, guide.angle_deg.to_radians());
             bending.in_cut_m(&place, 0.0)?;
             let found = bending.fills_gap_at(&place, gap_m);
             Some(Criterion {

@@ -27,12 +27,13 @@ use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError};
 use crate::stretched::{Saturation, StretchedError};
 use crate::system::GyroscopicSystem;
+use crate::transient::at_point;
 
 use criteria::{of_gaps, without_stiffness};
 #[cfg(feature = "cli")]
 pub(crate) use limits::RIM_LIMIT_M_PER_S;
 pub use limits::{Limits, LimitsFile};
-use static_deflection::{StaticDeflection, point};
+use static_deflection::StaticDeflection;
 
 /// Reason for which a check failed to run.
 #[derive(Debug, thiserror::Error)]
@@ -208,7 +209,7 @@ pub(crate) fn rim_stiffness_at_rest_n_per_m(scene: &Scene) -> Option<f64> {
 /// 1/(φᵀ K(Ω)⁻¹ φ) with the basis functions φ at the rim: force over deflection at a point fixed in space
 /// while the saw turns. Zero if rigid motions are free.
 fn rim_stiffness_n_per_m(plate: &Plate, angle_rad: f64, speed_rad_per_s: f64) -> f64 {
-    let point = point(plate, plate.blade.outer_radius_m, angle_rad);
+    let point = at_point(plate, plate.blade.outer_radius_m, angle_rad);
     let system = GyroscopicSystem::of_plate(plate);
     if !system.free_rigid.is_empty() {
         return 0.0;

@@ -10,6 +10,7 @@ use crate::scene::Cut;
 use crate::spectrum::orthonormal;
 use crate::stability::{Look, bracketed};
 use crate::system::GyroscopicSystem;
+use crate::transient::at_point;
 
 /// Squared speeds, relative to that of the lowest critical speed, at which the response is solved on the full
 /// model. In between it is a rational function of the squared speed, which the projection on these responses
@@ -50,11 +51,11 @@ impl StaticDeflection {
             return None;
         }
         let rim_radius_m = plate.blade.outer_radius_m;
-        let rim = point(plate, rim_radius_m, angle_rad);
+        let rim = at_point(plate, rim_radius_m, angle_rad);
         let of_teeth = |(cut, lateral_n): (&Cut, f64)| {
             let mut load = Col::zeros(rim.nrows());
             for angle in cut.tooth_angles_rad() {
-                load += Scale(lateral_n) * point(plate, rim_radius_m, angle);
+                load += Scale(lateral_n) * at_point(plate, rim_radius_m, angle);
             }
             load
         };
@@ -126,10 +127,4 @@ impl StaticDeflection {
             Ok(look) => Some(look.at),
         }
     }
-}
-
-/// The basis functions at a point: the load of one newton there, and the reading of the deflection there.
-pub fn point(plate: &Plate, radius_m: f64, angle_rad: f64) -> Col<f64> {
-    let values = plate.functions_at(radius_m, angle_rad);
-    Col::from_fn(values.len(), |i| values[i])
 }

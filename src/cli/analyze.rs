@@ -71,7 +71,7 @@ pub struct Arguments {
     page: Page,
 }
 
-/// What part of the sweep the picture of the Campbell diagram shows; what is computed stays the same.
+/// Part of the sweep that the picture of the Campbell diagram shows. The report does not depend on it.
 #[derive(Args, Default)]
 struct Drawn {
     /// Draw the Campbell diagram from this speed on

@@ -21,7 +21,7 @@ pub struct Block<'a> {
     pub is_missing: bool,
     pub usual: fn(&SceneFile) -> Value,
     pub given: &'a [Given<'a>],
-    /// What wins over what: of these pairs of keys the second is not assumed where the first is given.
+    /// Pairs of keys, the second of which is not assumed if the first is given.
     pub wins: &'a [(&'static str, &'static str)],
 }
 

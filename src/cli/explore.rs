@@ -45,7 +45,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     };
     serve(&scene, &options, |address| {
         let mut stdout = std::io::stdout().lock();
-        // Whoever closed the output does not want to read the address.
+        // A failure means that the output was closed, so that the address has no reader.
         let _ = writeln!(
             stdout,
             "{address}\nOpen this address; the program ends with Ctrl-C or with the page."

@@ -6,17 +6,7 @@ use super::{WIDTH, shortened, wrapped};
 use crate::report::{CheckReport, CriterionEntry};
 use crate::text::shown_to;
 
-impl CheckReport {
-    /// The summary, 80 columns wide, with the verdict first.
-    pub fn summary(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string cannot fail.
-        let _ = of_report(&mut text, self);
-        text
-    }
-}
-
-fn of_report(text: &mut String, report: &CheckReport) -> std::fmt::Result {
+pub fn of_report(text: &mut String, report: &CheckReport) -> std::fmt::Result {
     writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
     writeln!(text, "{}", wrapped(&verdict(report)))?;
     for number in &report.unusual_numbers {

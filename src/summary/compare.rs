@@ -6,17 +6,7 @@ use super::answer::Answer;
 use super::{ROWS, WIDTH, shortened, wrapped};
 use crate::report::{CompareReport, ComparedEntry};
 
-impl CompareReport {
-    /// The summary, 80 columns wide: a line for each saw, with what it differs by from the first.
-    pub fn summary(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string cannot fail.
-        let _ = of_report(&mut text, self);
-        text
-    }
-}
-
-fn of_report(text: &mut String, report: &CompareReport) -> std::fmt::Result {
+pub fn of_report(text: &mut String, report: &CompareReport) -> std::fmt::Result {
     writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
     writeln!(
         text,

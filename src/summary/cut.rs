@@ -8,17 +8,7 @@ use crate::stretched::LARGEST_SLOPE;
 use crate::text::fixed;
 use crate::transient::LINEAR_THICKNESSES;
 
-impl CutReport {
-    /// The summary, 80 columns wide, with the verdict first.
-    pub fn summary(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string cannot fail.
-        let _ = of_report(&mut text, self);
-        text
-    }
-}
-
-fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
+pub fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
     writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
     unusual_numbers(text, &report.unusual_numbers)?;
     for run in &report.runs {

@@ -8,17 +8,7 @@ use crate::scene::ContactLaw;
 use crate::stretched::TurnKind;
 use crate::text::shown_to;
 
-impl DeflectReport {
-    /// The summary, 80 columns wide, with the verdict first.
-    pub fn summary(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string cannot fail.
-        let _ = of_report(&mut text, self);
-        text
-    }
-}
-
-fn of_report(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
+pub fn of_report(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
     writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
     unusual_numbers(text, &report.unusual_numbers)?;
     writeln!(text, "{}", wrapped(&verdict(report)))?;

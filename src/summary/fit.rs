@@ -6,17 +6,7 @@ use super::{unusual_numbers, wrapped};
 use crate::report::{FitReport, ParameterEntry};
 use crate::text::shown_to;
 
-impl FitReport {
-    /// The summary, 80 columns wide, with the verdict first.
-    pub fn summary(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string cannot fail.
-        let _ = table(&mut text, self);
-        text
-    }
-}
-
-fn table(text: &mut String, report: &FitReport) -> std::fmt::Result {
+pub fn of_report(text: &mut String, report: &FitReport) -> std::fmt::Result {
     writeln!(text, "{}", wrapped(&report.scene.name))?;
     unusual_numbers(text, &report.unusual_numbers)?;
     writeln!(

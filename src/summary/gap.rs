@@ -6,17 +6,7 @@ use super::{WIDTH, shortened, unusual_numbers, wrapped};
 use crate::report::{AtAmplitudeEntry, GapReport};
 use crate::text::shown_to;
 
-impl GapReport {
-    /// The report in words, 80 columns wide, the answer first.
-    pub fn summary(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string cannot fail.
-        let _ = of_report(&mut text, self);
-        text
-    }
-}
-
-fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
+pub fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
     writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
     unusual_numbers(text, &report.unusual_numbers)?;
     writeln!(text, "{}", wrapped(&half_way(report)))?;

@@ -9,17 +9,7 @@ use crate::text::{shown, shown_to};
 /// A speed of a saw.
 type Speed = fn(&MappedSawEntry) -> Option<f64>;
 
-impl MapReport {
-    /// The summary, 80 columns wide: how many saws are stable, the range of the flutter speed, and a table.
-    pub fn summary(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string cannot fail.
-        let _ = of_report(&mut text, self);
-        text
-    }
-}
-
-fn of_report(text: &mut String, report: &MapReport) -> std::fmt::Result {
+pub fn of_report(text: &mut String, report: &MapReport) -> std::fmt::Result {
     unusual_numbers(text, &report.unusual_numbers)?;
     verdict(text, report)?;
     speeds(text, report)?;

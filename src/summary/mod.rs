@@ -27,8 +27,41 @@ use std::fmt::Write;
 #[cfg(any(feature = "cli", feature = "page"))]
 pub use self::answer::Answer;
 pub use self::answer::answer;
-use crate::report::Report;
+use crate::report::{
+    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
+    PlaceReport, Report, RunUpReport, WashboardReport,
+};
+use crate::study::StudyReport;
 use textwrap::{Options, WordSeparator, WordSplitter};
+
+macro_rules! summaries {
+    ($($report:ty: $module:ident,)*) => {$(
+        impl $report {
+            /// The summary, 80 columns wide, with the answer first.
+            pub fn summary(&self) -> String {
+                let mut text = String::new();
+                // Writing to a string cannot fail.
+                let _ = $module::of_report(&mut text, self);
+                text
+            }
+        }
+    )*};
+}
+
+summaries! {
+    CheckReport: check,
+    CompareReport: compare,
+    CutReport: cut,
+    DeflectReport: deflect,
+    FitReport: fit,
+    GapReport: gap,
+    MapReport: map,
+    PlaceReport: place,
+    Report: report,
+    RunUpReport: runup,
+    StudyReport: study,
+    WashboardReport: washboard,
+}
 
 /// Largest number of lines of a table; the rest is only counted.
 const ROWS: usize = 12;

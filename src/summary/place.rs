@@ -8,17 +8,7 @@ use crate::report::{
 };
 use crate::text::shown_to;
 
-impl PlaceReport {
-    /// The summary, 80 columns wide, with the verdict first.
-    pub fn summary(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string cannot fail.
-        let _ = table(&mut text, self);
-        text
-    }
-}
-
-fn table(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
+pub fn of_report(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
     writeln!(text, "{}", wrapped(&report.scene.name))?;
     unusual_numbers(text, &report.unusual_numbers)?;
     let goal = match report.goal {

@@ -14,17 +14,7 @@ use crate::report::{Report, RestMode};
 use crate::scene::BladeFile;
 use crate::text::shown_to;
 
-impl Report {
-    /// The summary, 80 columns wide: the answer, followed by its reasons.
-    pub fn summary(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string cannot fail.
-        let _ = of_report(&mut text, self);
-        text
-    }
-}
-
-fn of_report(text: &mut String, report: &Report) -> std::fmt::Result {
+pub fn of_report(text: &mut String, report: &Report) -> std::fmt::Result {
     header(text, report)?;
     unusual_numbers(text, &report.unusual_numbers)?;
     writeln!(text)?;

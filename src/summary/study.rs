@@ -12,17 +12,7 @@ const ROWS: usize = 24;
 /// Number of quantiles in a line.
 const COLUMNS: usize = 7;
 
-impl StudyReport {
-    /// The summary, 80 columns wide: quantiles, the probability of passing, and failures.
-    pub fn summary(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string cannot fail.
-        let _ = of_report(&mut text, self);
-        text
-    }
-}
-
-fn of_report(text: &mut String, report: &StudyReport) -> std::fmt::Result {
+pub fn of_report(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     header(text, report)?;
     quantiles(text, report)?;
     if let (Some(gap), Some(asked)) = (&report.all.gap, &report.study.gap)

@@ -6,17 +6,7 @@ use super::{WIDTH, shortened, unusual_numbers, wrapped};
 use crate::report::{Verdict, WashboardModeEntry, WashboardReport};
 use crate::text::shown_to;
 
-impl WashboardReport {
-    /// The summary, 80 columns wide, with the verdict first.
-    pub fn summary(&self) -> String {
-        let mut text = String::new();
-        // Writing to a string cannot fail.
-        let _ = of_report(&mut text, self);
-        text
-    }
-}
-
-fn of_report(text: &mut String, report: &WashboardReport) -> std::fmt::Result {
+pub fn of_report(text: &mut String, report: &WashboardReport) -> std::fmt::Result {
     writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
     unusual_numbers(text, &report.unusual_numbers)?;
     writeln!(text, "{}", wrapped(&verdict(report)))?;

@@ -36,6 +36,7 @@ pub(crate) use motion::{Force, Integrator, State};
 pub(crate) use newmark::Newmark;
 pub(crate) use on_spline::{OnSpline, on_spline};
 pub(crate) use propagator::Propagator;
+pub(crate) use reduced::at_point;
 pub(crate) use response::ResponseMap;
 pub(crate) use response::response_map;
 pub(crate) use runup::RunUpHistory;
