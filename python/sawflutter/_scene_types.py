@@ -697,7 +697,7 @@ class StudyDict(_StudyDict, total=False):
     """Limits of each saw, as for `sawflutter check`."""
 
     gap: GapDict | None
-    """What is computed of guides with a gap; at least one guide of the scene is one-sided."""
+    """Computations for guides with a gap; at least one guide of the scene is one-sided."""
 
     quantiles: list[float]
     """Shares of the saws for which quantiles of the speeds are reported."""

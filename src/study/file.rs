@@ -32,7 +32,7 @@ pub struct StudyFile {
     /// Limits of each saw, as for `sawflutter check`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limits: Option<LimitsFile>,
-    /// What is computed of guides with a gap; at least one guide of the scene is one-sided.
+    /// Computations for guides with a gap; at least one guide of the scene is one-sided.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gap: Option<GapFile>,
     /// Shares of the saws for which quantiles of the speeds are reported.

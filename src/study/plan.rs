@@ -116,7 +116,7 @@ impl Study {
         self.limits.as_ref()
     }
 
-    /// What is computed of guides with a gap.
+    /// Computations for guides with a gap.
     pub(super) fn gap(&self) -> Option<&GapCase> {
         self.gap.as_ref()
     }
