@@ -53,6 +53,7 @@ pub mod map;
 pub mod place;
 pub mod plate;
 pub mod report;
+pub mod response;
 pub mod scene;
 pub mod spectrum;
 pub mod spline;

@@ -34,7 +34,7 @@ from .errors import (
 from .maps import MapResults
 from .matrices import Matrices
 from .modes import Modes
-from .motions import CutResults, DeflectResults, GapResults, RunUpResults, WashboardResults
+from .motions import CutResults, DeflectResults, GapResults, ResponseResults, RunUpResults, WashboardResults
 from .results import CampbellResults, load
 from .scene import Scene
 from .state_space import StateSpace
@@ -67,6 +67,7 @@ __all__ = [
     "PlaceResults",
     "RestMode",
     "Result",
+    "ResponseResults",
     "RunUpResults",
     "Scene",
     "SceneDict",

@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from typing import SupportsFloat, SupportsIndex, TypeAlias, final
 
 __all__ = [
+    "Map",
     "Study",
     "StudyLog",
     "analyze",
@@ -30,6 +31,7 @@ __all__ = [
     "program",
     "read_scene",
     "read_text",
+    "response",
     "runup",
     "scene",
     "schema",
@@ -83,6 +85,13 @@ def deflect(
     force_n: SupportsFloat | None = None,
     angle_deg: SupportsFloat | None = None,
     to_rpm: SupportsFloat | None = None,
+    progress: _Progress = None,
+) -> str: ...
+def response(
+    scene: str,
+    *,
+    rpm: SupportsFloat | None = None,
+    to_hz: SupportsFloat | None = None,
     progress: _Progress = None,
 ) -> str: ...
 def gap(

@@ -18,7 +18,7 @@ from ._scene_types import Accuracy
 from ._searches import Searches
 from .checks import CheckResults
 from .modes import Modes
-from .motions import CutResults, DeflectResults, GapResults, RunUpResults, WashboardResults
+from .motions import CutResults, DeflectResults, GapResults, ResponseResults, RunUpResults, WashboardResults
 from .results import CampbellResults
 
 
@@ -321,6 +321,50 @@ class Questions(Searches):
         """
         ask = partial(_native.deflect, force_n=force_n, angle_deg=angle_deg, to_rpm=to_rpm)
         return self._asked(DeflectResults, ask, "equilibria", accuracy, tolerance, progress)
+
+    def run_response(
+        self,
+        *,
+        rpm: Number = None,
+        to_hz: Number = None,
+        accuracy: Accuracy | None = None,
+        tolerance: Number = None,
+        progress: Progress = None,
+    ) -> ResponseResults:
+        """Computes the steady state over the speed for the excitation of the block ``response`` of
+        the scene, or for a side force of 1 N.
+
+        Parameters
+        ----------
+        rpm : float, optional
+            Speed of the frequency response from the side force to the probe; the operating speed
+            by default.
+        to_hz : float, optional
+            Largest frequency of that; by default that up to which the diagram is complete.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+
+        Returns
+        -------
+        ResponseResults
+
+        Raises
+        ------
+        ArgumentError
+            If a number is out of range, or the scene has a run-out that its blade cannot have.
+        AnalysisError
+            If the program cannot analyse the saw.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper().replace({"response": {"force_n": 2.0}, "runup": None})
+        >>> r = saw.run_response(accuracy="draft")
+        >>> [line.name for line in r.lines]
+        ['side force, static']
+        """
+        ask = partial(_native.response, rpm=rpm, to_hz=to_hz)
+        return self._asked(ResponseResults, ask, "speeds", accuracy, tolerance, progress)
 
     def run_gap(
         self,

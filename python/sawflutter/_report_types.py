@@ -34,6 +34,8 @@ Contoured: TypeAlias = Literal["flutter_speed", "lowest_critical_speed"]
 
 Goal: TypeAlias = Literal["flutter_speed", "stable_window"]
 
+Cause: TypeAlias = Literal["side_force", "run_out", "flatness", "imbalance", "tooth_passing"]
+
 Method: TypeAlias = Literal["reduced", "dense", "critical_speeds"]
 
 
@@ -2183,6 +2185,153 @@ class PlaceReport(Entry):
 
     radial_functions: int
     """Radial functions of each."""
+
+    warnings: tuple[str, ...]
+    """Remarks on the validity of the result."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Resonance(Entry):
+    """A resonance of a line."""
+
+    rpm: float
+    """Rotation speed."""
+
+    frequency_hz: float
+    """Frequency."""
+
+    amplitude_m: float | None
+    """Amplitude at the probe there; null where it grows without bound or beyond the linear
+    model, or the saw is unstable."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ResponseLine(Entry):
+    """Response to one cause with one order."""
+
+    cause: Cause
+    """The cause."""
+
+    order: int
+    """Ratio of the frequency to the rotation speed; 0 for a static deflection."""
+
+    name: str
+    """Name: "run-out, 1×"."""
+
+    amplitude_m: FloatArray
+    """Amplitude at the probe; null where the saw is unstable, and where the deflection exceeds
+    the linear model anywhere on the rim."""
+
+    phase_deg: FloatArray
+    """Phase at the probe, −180 to 180: positive if the deflection precedes the excitation. The
+    excitation is largest at the time at which its maximum passes the angle 0, or the force is
+    largest."""
+
+    at_cut_m: FloatArray
+    """Amplitude at the rim at the cut."""
+
+    resonances: tuple[Resonance, ...]
+    """Speeds at which a natural frequency equals that of the excitation, up to the frequency to
+    which the diagram is complete."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OperatingResponse(Entry):
+    """Deflections at the operating speed."""
+
+    rpm: float
+    """The computed speed next to the operating speed."""
+
+    amplitude_m: FloatArray
+    """Amplitude of each line at the probe."""
+
+    board_deviation_m: float | None
+    """Deviation of the board."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FrequencyResponse(Entry):
+    """Deflection at the probe for a harmonic force of one newton at the place of the side
+    force."""
+
+    rpm: float
+    """Rotation speed."""
+
+    force_radius_m: float
+    """Distance of the force from the axis."""
+
+    force_angle_deg: float
+    """Angle of the force."""
+
+    frequency_hz: FloatArray
+    """Frequencies, ascending."""
+
+    receptance_m_per_n: FloatArray
+    """Amplitude for one newton; null where it grows without bound, and everywhere if the saw is
+    unstable at the speed."""
+
+    phase_deg: FloatArray
+    """Phase, −180 to 180: negative if the deflection follows the force."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ResponseReport(Entry):
+    """response.json."""
+
+    sawflutter: str
+    """Version of the program that wrote the report."""
+
+    scene: SceneDict
+    """The scene, as typed."""
+
+    unusual_numbers: tuple[str, ...]
+    """Numbers that no saw has, each with its key, the usual range, and the remedy."""
+
+    degrees_of_freedom: int
+    """Size of the basis."""
+
+    from_rpm: float
+    """First speed."""
+
+    to_rpm: float
+    """Last speed."""
+
+    probe_radius_m: float
+    """Distance of the probe from the axis."""
+
+    probe_angle_deg: float
+    """Angle of the probe."""
+
+    cut_angle_deg: float
+    """Angle of the cut, at whose place on the rim the deviation of the board is read."""
+
+    damped: bool
+    """Whether any term of the equation of motion dissipates energy; without damping amplitudes
+    grow without bound at a resonance."""
+
+    linear_limit_m: float
+    """Largest amplitude that is reported: five times the smallest thickness."""
+
+    rpm: FloatArray
+    """Rotation speeds, ascending, the same for every line."""
+
+    lines: tuple[ResponseLine, ...]
+    """Responses, one for each cause and order of the rotation speed."""
+
+    board_deviation_m: FloatArray
+    """Largest distance of the cut surface from the middle plane of the blade at rest, at each
+    speed: the static deflection of the rim at the cut and all amplitudes there, as if their
+    maxima coincided; null where one of them is."""
+
+    operating: OperatingResponse | None
+    """Deviation of the board at the operating speed; null without such a speed."""
+
+    points: FrequencyResponse | None
+    """Frequency response between two points at one speed; null if neither the scene nor the
+    options have a speed."""
+
+    instabilities: tuple[Instability, ...]
+    """Bands of instability, in which no steady state exists."""
 
     warnings: tuple[str, ...]
     """Remarks on the validity of the result."""

@@ -471,6 +471,36 @@ class RunUpDict(_RunUpDict, total=False):
     the record ends where slopes exceed 0.1, and not at five thicknesses. It takes longer."""
 
 
+class ResponseDict(TypedDict, total=False):
+    """Excitation of the steady-state response, for `sawflutter response`. Causes that are 0 are
+    absent."""
+
+    force_n: float
+    """Constant lateral force, fixed in space."""
+
+    radius_m: float | None
+    """Distance of the force from the axis; the rim by default."""
+
+    angle_deg: float
+    """Angle of the force, positive in the direction of rotation."""
+
+    runout_m: float
+    """Run-out of the rim: amplitude of one wave around it, of the blade at rest without guides.
+    It turns with the blade and excites at the rotation frequency."""
+
+    flatness_m: float
+    """Lack of flatness at the rim: amplitude of two waves around it, of the blade at rest
+    without guides. It excites at twice the rotation frequency."""
+
+    imbalance_kg_m2: float
+    """Imbalance at the rim beside the middle plane: mass times rim radius times distance from
+    the middle plane. It excites at the rotation frequency and its double; an imbalance in the
+    middle plane does not bend the blade."""
+
+    tooth_force_n: float
+    """Amplitude of the lateral force at the rim at the cut with the tooth passing frequency."""
+
+
 class _ProbeDict(TypedDict):
     """Point at which the deflection is read."""
 
@@ -559,6 +589,9 @@ class SceneDict(_SceneDict, total=False):
 
     runup: RunUpDict | None
     """Run-up under a lateral force, for `sawflutter runup`."""
+
+    response: ResponseDict | None
+    """Excitation of the steady-state response, for `sawflutter response`."""
 
     probe: ProbeDict | None
     """Point at which the deflection is read; by default at the rim, 90° downstream of the

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ._report_types import CutReport, DeflectReport, GapReport, RunUpReport, WashboardReport
+from ._report_types import CutReport, DeflectReport, GapReport, ResponseReport, RunUpReport, WashboardReport
 from ._result import Result, pictures
 from ._table import frame
 
@@ -163,6 +163,44 @@ class DeflectResults(Result, DeflectReport):
     def _facts(self) -> str:
         jumps = f"{len(self.up.jumps)} ends of stable stretches while the speed rises"
         return f"{self.force_n:g} N across the rim, {jumps}, {len(self.down.jumps)} while it falls"
+
+
+class ResponseResults(Result, ResponseReport):
+    """Steady-state amplitude and phase over the speed, and over the frequency at one speed."""
+
+    command = "response"
+    figure_names = pictures("response", "frequency-response")
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Amplitudes at the probe in m, one row for each speed and one column for each line; needs
+        pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            If pandas is missing; the message says how to install it.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper().replace({"response": {"force_n": 2.0}})
+        >>> saw.run_response(accuracy="draft").to_dataframe().columns.tolist()
+        ['rpm', 'side force, static', 'board_deviation_m']
+        """
+        columns = {line.name: line.amplitude_m for line in self.lines}
+        table = {"rpm": self.rpm, **columns, "board_deviation_m": self.board_deviation_m}
+        return frame([dict(zip(table, row)) for row in zip(*table.values())])
+
+    def _facts(self) -> str:
+        causes = ", ".join(line.name for line in self.lines)
+        if self.operating is None or self.operating.board_deviation_m is None:
+            return causes
+        deviation = 1e3 * self.operating.board_deviation_m
+        return f"{causes}; board within {deviation:.3g} mm at {self.operating.rpm:.0f} rpm"
 
 
 class GapResults(Result, GapReport):

@@ -8,8 +8,10 @@ use sawflutter::gap::{GuideGaps, Options as GapOptions};
 use sawflutter::place::{Demands, GapDemands, Options as PlaceOptions, Placement, Tolerances};
 use sawflutter::report::{
     CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, FitReport, GapReport,
-    ModeEntry, PlaceReport, RunUpReport, SensitivityEntry, WashboardReport, over_common_speeds,
+    ModeEntry, PlaceReport, ResponseReport, RunUpReport, SensitivityEntry, WashboardReport,
+    over_common_speeds,
 };
+use sawflutter::response::{ForcedResponse, Options as ResponseOptions};
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
@@ -208,6 +210,26 @@ pub fn deflect(
     options.checked(&scene).map_err(Failure::from)?;
     compute(py, progress, move |_| {
         json(&DeflectReport::new(&Deflecting::new(&scene, &options)?))
+    })
+}
+
+/// `response.json` of a scene, with the frequency response at a speed.
+#[pyfunction]
+#[pyo3(signature = (scene, *, rpm=None, to_hz=None, progress=None))]
+pub fn response(
+    py: Python<'_>,
+    scene: &str,
+    rpm: Option<f64>,
+    to_hz: Option<f64>,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let scene = arguments::scene(scene)?;
+    let options = ResponseOptions { rpm, to_hz };
+    options.checked().map_err(Failure::from)?;
+    compute(py, progress, move |_| {
+        json(&ResponseReport::new(&ForcedResponse::new(
+            &scene, &options,
+        )?))
     })
 }
 

@@ -11,6 +11,7 @@ use sawflutter::figure::FigureError;
 use sawflutter::fit::FitError;
 use sawflutter::gap::GapError;
 use sawflutter::place::PlaceError;
+use sawflutter::response::ResponseError;
 use sawflutter::scene::{RefusedValue, SceneError};
 use sawflutter::spectrum::SpectrumError;
 use sawflutter::stability::{AnalysisError, SensitivityError};
@@ -188,6 +189,7 @@ passed_on! {
     PlaceError: Scene Analysis Spectrum Gap, refused;
     TransientError: Scene, failed;
     GapError: Refused Scene Analysis Spectrum Stretched;
+    ResponseError: Refused Scene Analysis Spectrum;
     DeflectError: Refused Scene Analysis, failed;
     CheckError: Scene Analysis Spectrum Stretched;
 }

@@ -6,7 +6,7 @@ use sawflutter::document;
 use sawflutter::figure::{self, Figures};
 use sawflutter::report::{
     CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
-    PlaceReport, Report, RunUpReport, WashboardReport,
+    PlaceReport, Report, ResponseReport, RunUpReport, WashboardReport,
 };
 use sawflutter::study::StudyReport;
 
@@ -24,6 +24,7 @@ macro_rules! read {
             "check" => of!(CheckReport),
             "compare" => of!(CompareReport),
             "cut" => of!(CutReport),
+            "response" => of!(ResponseReport),
             "runup" => of!(RunUpReport),
             "deflect" => of!(DeflectReport),
             "gap" => of!(GapReport),
@@ -84,6 +85,7 @@ pub fn page(command: &str, report: &str) -> PyResult<Option<String>> {
         "check" => of!(CheckReport),
         "compare" => of!(CompareReport),
         "cut" => of!(CutReport),
+        "response" => of!(ResponseReport),
         "runup" => of!(RunUpReport),
         "deflect" => of!(DeflectReport),
         "gap" => of!(GapReport),

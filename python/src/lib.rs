@@ -17,7 +17,8 @@ use sawflutter::text::{Kind, OtherEncodings, read_path};
 mod _native {
     #[pymodule_export]
     use super::commands::{
-        analyze, check, compare, cut, deflect, fit, gap, modes, place, runup, tradeoff, washboard,
+        analyze, check, compare, cut, deflect, fit, gap, modes, place, response, runup, tradeoff,
+        washboard,
     };
     #[pymodule_export]
     use super::figures::{campbell_csv, chart, page, palette, picture, summary, vtk_files};

@@ -77,6 +77,19 @@ def test_the_report_of_deflect(programs: list[str], scenes: Path, tmp_path: Path
     assert len(found.to_dataframe()) > 20
 
 
+def test_the_report_of_a_response(programs: list[str], scenes: Path, tmp_path: Path) -> None:
+    causes = {"force_n": 2.0, "flatness_m": 5e-5}
+    saw = sf.Scene.load(scenes / "paper.json").replace(
+        {"response": causes, "sweep.to_rpm": 1000, "runup": None}
+    )
+    path = tmp_path / "saw.json"
+    saw.save(path)
+    found = saw.run_response(rpm=900, to_hz=50, accuracy="draft")
+    for program in programs:
+        same_report(program, found, tmp_path, path, "--rpm", 900, "--to-hz", 50)
+    assert len(found.to_dataframe()) == len(found.rpm)
+
+
 def test_the_report_of_gap(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     pad = {"guides[0].contact": "one_sided", "guides[0].gap_m": 4e-5}
     saw = sf.Scene.load(scenes / "paper.json").replace({**pad, "sweep.to_rpm": 1700})

@@ -22,6 +22,7 @@ mod paste;
 mod pictures;
 mod place;
 mod progress;
+mod response;
 mod runup;
 mod scheduler;
 mod schema;
@@ -56,6 +57,9 @@ enum Command {
     /// Run up under a lateral force: deflection and response; runup.json and figures
     #[command(after_help = runup::EXAMPLES)]
     Runup(runup::Arguments),
+    /// Amplitude over speed: side force, a blade not flat or not balanced, teeth; response.json, figures
+    #[command(after_help = response::EXAMPLES)]
+    Response(response::Arguments),
     /// How far does the blade lean, and at which speeds does it jump? deflect.json and a figure
     #[command(after_help = deflect::EXAMPLES)]
     Deflect(deflect::Arguments),
@@ -166,6 +170,7 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
         Some(Command::Analyze(arguments)) => analyze::run(&arguments),
         Some(Command::Cut(arguments)) => cut::run(&arguments),
         Some(Command::Runup(arguments)) => runup::run(&arguments),
+        Some(Command::Response(arguments)) => response::run(&arguments),
         Some(Command::Deflect(arguments)) => deflect::run(&arguments),
         Some(Command::Gap(arguments)) => gap::run(&arguments),
         Some(Command::Washboard(arguments)) => washboard::run(&arguments),

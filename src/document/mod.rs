@@ -12,7 +12,7 @@ pub use layout::page;
 use crate::figure::Figures;
 use crate::report::{
     CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
-    PlaceReport, Report, RunUpReport, WashboardReport,
+    PlaceReport, Report, ResponseReport, RunUpReport, WashboardReport,
 };
 use crate::scene::SceneFile;
 
@@ -82,6 +82,7 @@ documented! {
     FitReport: "fit",
     MapReport: "map",
     PlaceReport: "place",
+    ResponseReport: "response",
     RunUpReport: "runup",
     WashboardReport: "washboard",
 }

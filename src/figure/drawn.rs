@@ -5,11 +5,12 @@ use super::canvas::Sheet;
 use super::chart_data::ChartData;
 use super::{
     FigureError, campbell, check, compare, cut, cut_map, deflect, fit, gap, gap_map, in_cut, map,
-    membrane, modes, place, render, response_map, root_loci, runup, spline_orbit, study, washboard,
+    membrane, modes, place, render, response, response_map, root_loci, runup, spline_orbit, study,
+    washboard,
 };
 use crate::report::{
     CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
-    PlaceReport, Report, RunUpReport, WashboardReport,
+    PlaceReport, Report, ResponseReport, RunUpReport, WashboardReport,
 };
 use crate::stability::Setting;
 use crate::study::StudyReport;
@@ -174,6 +175,18 @@ impl Figures for GapReport {
 
     fn figures(&self) -> Vec<Figure> {
         named(Self::NAMES, [Some(gap::sheet(self)), gap_map::sheet(self)])
+    }
+}
+
+impl Figures for ResponseReport {
+    const NAMES: &'static [[&'static str; 2]] = &[
+        ["response.png", "response.svg"],
+        ["frequency-response.png", "frequency-response.svg"],
+    ];
+
+    fn figures(&self) -> Vec<Figure> {
+        let sheets = [Some(response::sheet(self)), response::points_sheet(self)];
+        named(Self::NAMES, sheets)
     }
 }
 

@@ -47,6 +47,7 @@ mod palette;
 mod place;
 mod place_map;
 mod render;
+mod response;
 mod response_map;
 mod root_loci;
 mod runup;

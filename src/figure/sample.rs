@@ -35,6 +35,7 @@ pub fn empty_report(name: &str) -> Report {
         excitation: None,
         cut: None,
         runup: None,
+        response: None,
         probe: None,
         operating_rpm: None,
         sweep: None,

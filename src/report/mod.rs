@@ -26,6 +26,7 @@ mod membrane;
 mod mode;
 mod place;
 mod remarks;
+mod response;
 mod resting;
 mod runup;
 mod saturated;
@@ -64,6 +65,10 @@ pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
 pub use self::place::{
     FragileOptimumEntry, GoalEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceCertificateEntry,
     PlaceReport, PlacedEntry,
+};
+pub use self::response::{
+    CauseEntry, FrequencyResponseEntry, OperatingResponseEntry, ResonanceEntry, ResponseLineEntry,
+    ResponseReport,
 };
 pub use self::resting::{HarmonicEntry, RestMode, ShapeEntry};
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport, StretchingEntry};

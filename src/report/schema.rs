@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::{
     CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
-    ModeEntry, PlaceReport, Report, RunUpReport, WashboardReport,
+    ModeEntry, PlaceReport, Report, ResponseReport, RunUpReport, WashboardReport,
 };
 use crate::stability::Setting;
 use crate::study::StudyReport;
@@ -25,6 +25,7 @@ pub fn json_schema() -> Value {
         "map": of::<MapReport>(),
         "modes": of::<Vec<ModeEntry>>(),
         "place": of::<PlaceReport>(),
+        "response": of::<ResponseReport>(),
         "runup": of::<RunUpReport>(),
         "study": of::<StudyReport>(),
         "tradeoff": of::<Vec<Setting>>(),

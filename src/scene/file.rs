@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::cut_file::CutFile;
 use super::excitation::ExcitationFile;
 use super::membrane::MembraneFile;
+use super::response::ResponseFile;
 use super::runup::{ProbeFile, RunUpFile};
 use super::spline::SplineFile;
 use super::thickness::{RimFile, ThicknessRow};
@@ -62,6 +63,9 @@ pub struct SceneFile {
     /// Run-up under a lateral force, for `sawflutter runup`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub runup: Option<RunUpFile>,
+    /// Excitation of the steady-state response, for `sawflutter response`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub response: Option<ResponseFile>,
     /// Point at which the deflection is read; by default at the rim, 90° downstream of the cut.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub probe: Option<ProbeFile>,

@@ -64,7 +64,7 @@ impl Quantity {
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten
 /// carbide, guides from felt to steel.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 83] = [
+pub const QUANTITIES: [Quantity; 90] = [
     q("blade.outer_diameter_m", "outer diameter", "m", 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", 1e-4, 0.04),
@@ -144,6 +144,13 @@ pub const QUANTITIES: [Quantity; 83] = [
     q("runup.duration_s", "duration of the run-up", "s", 0.0, 3600.0),
     q("runup.force_n", "lateral force", "N", -1e5, 1e5),
     q("runup.angle_deg", "angle of the force", "°", -360.0, 360.0).of_kind(Kind::Angle),
+    q("response.force_n", "lateral force", "N", -1e5, 1e5),
+    q("response.radius_m", "radius of the force", "m", 0.005, 2.5).of_kind(Kind::Radius),
+    q("response.angle_deg", "angle of the force", "°", -360.0, 360.0).of_kind(Kind::Angle),
+    q("response.runout_m", "run-out of the rim", "m", 1e-6, 5e-3),
+    q("response.flatness_m", "lack of flatness at the rim", "m", 1e-6, 5e-3),
+    q("response.imbalance_kg_m2", "imbalance beside the middle plane", "kg·m²", 1e-9, 1.0),
+    q("response.tooth_force_n", "lateral force with tooth passing", "N", -1e4, 1e4),
     q("probe.radius_m", "radius of the probe", "m", 0.005, 2.5).of_kind(Kind::Radius),
     q("probe.angle_deg", "angle of the probe", "°", -360.0, 360.0).of_kind(Kind::Angle),
     q("measured.rows[].rpm", "rotation speed", "rpm", 0.0, 1e5),

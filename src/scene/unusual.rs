@@ -42,11 +42,12 @@ const RUNS: [&str; 3] = ["operating_rpm", "cut.chart_rpm", "cut.speeds[].rpm"];
 const ENDS: [&str; 3] = ["sweep.to_rpm", "runup.to_rpm", "measured.rows[].rpm"];
 
 /// Angles whose range includes every value, so that it does not reveal radians.
-const ANGLES: [&str; 5] = [
+const ANGLES: [&str; 6] = [
     "guides[].angle_deg",
     "cut.angle_deg",
     "probe.angle_deg",
     "runup.angle_deg",
+    "response.angle_deg",
     "spline.weight_angle_deg",
 ];
 /// Usual step between angles.

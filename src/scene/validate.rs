@@ -33,6 +33,9 @@ impl TryFrom<SceneFile> for Scene {
             .map(|(index, pad)| guide(index, pad, &blade))
             .collect::<Result<Vec<_>, _>>()?;
         check_measured(&file)?;
+        if let Some(response) = &file.response {
+            response.checked(&blade, file.blade.teeth)?;
+        }
         Ok(Scene {
             cut: file
                 .cut

@@ -17,6 +17,7 @@ mod influences;
 mod map;
 mod place;
 mod report;
+mod response;
 mod runup;
 mod study;
 mod washboard;
@@ -29,7 +30,7 @@ pub use self::answer::Answer;
 pub use self::answer::answer;
 use crate::report::{
     CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
-    PlaceReport, Report, RunUpReport, WashboardReport,
+    PlaceReport, Report, ResponseReport, RunUpReport, WashboardReport,
 };
 use crate::study::StudyReport;
 use textwrap::{Options, WordSeparator, WordSplitter};
@@ -58,6 +59,7 @@ summaries! {
     MapReport: map,
     PlaceReport: place,
     Report: report,
+    ResponseReport: response,
     RunUpReport: runup,
     StudyReport: study,
     WashboardReport: washboard,

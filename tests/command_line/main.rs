@@ -27,6 +27,7 @@ mod membrane;
 mod memory;
 mod program;
 mod refusals;
+mod response;
 mod scenes;
 mod study;
 mod summaries;

@@ -1,0 +1,53 @@
+//! `sawflutter response`.
+
+use crate::report::ResponseReport;
+use crate::response::{ForcedResponse, Options, ResponseError};
+use clap::Args;
+
+use super::common::{Common, number, of_option};
+use super::page::Page;
+use super::progress::watched;
+
+pub const EXAMPLES: &str = "\
+Examples:
+  sawflutter response my-saw.json              # what the scene's `response` has
+  sawflutter response my-saw.json --set response.force_n=5N \\
+    --set response.flatness_m=0.05mm           # a side force, a warped blade
+  sawflutter response my-saw.json --rpm 1200 --to-hz 300
+                             # from the force to the probe, over the frequency
+  sawflutter response my-saw.json --json | jq '.lines[].resonances'
+
+Causes are keys of the block `response`: force_n, runout_m, flatness_m,
+imbalance_kg_m2, tooth_force_n. Without any, the force is 1 N.";
+
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    /// Speed of the frequency response between force and probe; by default the operating speed
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    rpm: Option<f64>,
+    /// Largest frequency of that; by default that up to which the diagram is complete
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
+    to_hz: Option<f64>,
+    #[command(flatten)]
+    page: Page,
+}
+
+/// Computes the response, writes the files and prints the summary.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let scene = arguments.common.scene()?;
+    let options = Options {
+        rpm: arguments.rpm,
+        to_hz: arguments.to_hz,
+    };
+    options.checked().map_err(of_option)?;
+    arguments.page.tried()?;
+    let folder = arguments.common.folder()?;
+    let report = watched(|_| {
+        let found = ForcedResponse::new(&scene, &options)?;
+        Ok::<_, ResponseError>(ResponseReport::new(&found))
+    })??;
+    let (output, page) = (&arguments.common.output, &arguments.page);
+    output.report(&folder, page, &report, Vec::new(), "response.json")
+}

@@ -1,0 +1,344 @@
+//! Steady-state amplitude, phase and deviation of the board over the speed; amplitude and phase over the frequency.
+
+use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical, tick_label};
+use super::bands::places;
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::clip::clip;
+use super::heading;
+use super::key::Key;
+use super::style::{
+    ALARM, AXIS_SIZE, BACKWARD, BETWEEN_FACTS, CURVE, Colour, DIVERGENCE, DIVERGENCE_SHADE,
+    FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, GRID, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET,
+    STANDING,
+};
+use crate::report::{FrequencyResponseEntry, InstabilityKind, ResponseReport};
+use crate::text::shown_to;
+
+const WIDTH: u32 = 1100;
+const HEIGHT: u32 = 1040;
+const AMPLITUDE: Frame = Frame {
+    left: 104.0,
+    top: 100.0,
+    right: 1064.0,
+    bottom: 460.0,
+};
+const PHASE: Frame = Frame {
+    top: 510.0,
+    bottom: 650.0,
+    ..AMPLITUDE
+};
+const BOARD: Frame = Frame {
+    top: 700.0,
+    bottom: 900.0,
+    ..AMPLITUDE
+};
+const POINTS_HEIGHT: u32 = 760;
+/// Colours of the lines.
+const COLOURS: [Colour; 6] = [INK, FORWARD, BACKWARD, DIVERGENCE, FLUTTER, STANDING];
+/// The axis of amplitudes spans at most these decades below the largest.
+const DECADES: i32 = 6;
+const PHASES: [f64; 2] = [-180.0, 180.0];
+
+pub fn sheet(report: &ResponseReport) -> Sheet {
+    let mut sheet = Sheet::new(WIDTH, HEIGHT);
+    heading::draw(&mut sheet, &report.scene.name, &facts(report));
+    let ends = [report.from_rpm, report.to_rpm];
+    let speed = Axis::new(ends, [AMPLITUDE.left, AMPLITUDE.right], Spread::Linear);
+    for panel in [&AMPLITUDE, &PHASE, &BOARD] {
+        shade_bands(&mut sheet, report, &speed, panel);
+    }
+    draw_amplitudes(&mut sheet, report, &speed);
+    let phase = phase_axis(&mut sheet);
+    for (line, colour) in report.lines.iter().zip(COLOURS) {
+        let points = report.rpm.iter().zip(&line.phase_deg);
+        let stroke = Stroke::solid(colour, CURVE);
+        draw_phase(&mut sheet, points, (&speed, &phase), stroke, &PHASE);
+    }
+    draw_horizontal(&mut sheet, &speed, PHASE.bottom, false);
+    draw_board(&mut sheet, report, &speed);
+    draw_key(&mut sheet, report);
+    sheet
+}
+
+fn facts(report: &ResponseReport) -> String {
+    let probe = format!(
+        "probe at {} mm, {}°",
+        shown_to(4, 1e3 * report.probe_radius_m),
+        shown_to(4, report.probe_angle_deg)
+    );
+    let cut = format!("cut at {}°", shown_to(4, report.cut_angle_deg));
+    let damping = match report.damped {
+        true => "damped",
+        false => "without damping: no amplitude at a resonance",
+    };
+    [probe.as_str(), &cut, damping].join(BETWEEN_FACTS)
+}
+
+fn shade_bands(sheet: &mut Sheet, report: &ResponseReport, speed: &Axis, panel: &Frame) {
+    for band in &report.instabilities {
+        let colour = match band.kind {
+            InstabilityKind::Divergence => DIVERGENCE_SHADE,
+            InstabilityKind::Flutter => FLUTTER_SHADE,
+        };
+        for range in &band.counted_rpm {
+            if let Some([left, right]) = places(speed, *range) {
+                sheet.fill(
+                    Frame {
+                        left,
+                        right,
+                        ..*panel
+                    },
+                    colour,
+                );
+            }
+        }
+    }
+}
+
+/// A logarithmic axis of amplitudes, over at most a few decades.
+fn amplitudes(values: impl Iterator<Item = f64>, panel: &Frame) -> Axis {
+    let known = values.filter(|value| *value > 0.0);
+    let (low, high) = known.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
+        (low.min(value), high.max(value))
+    });
+    let ends = match high > 0.0 {
+        true => [
+            low.max(high * 10f64.powi(-DECADES)).min(0.1 * high) / 1.5,
+            1.5 * high,
+        ],
+        false => [1e-3, 1.0],
+    };
+    Axis::new(ends, [panel.bottom, panel.top], Spread::Logarithmic)
+}
+
+fn draw_amplitudes(sheet: &mut Sheet, report: &ResponseReport, speed: &Axis) {
+    let all = report.lines.iter().flat_map(|line| &line.amplitude_m);
+    let axis = amplitudes(all.flatten().map(|m| 1e3 * m), &AMPLITUDE);
+    draw_vertical(
+        sheet,
+        &axis,
+        &AMPLITUDE,
+        "amplitude at the probe\u{2003}[mm]",
+    );
+    for (line, colour) in report.lines.iter().zip(COLOURS) {
+        let points = report.rpm.iter().zip(&line.amplitude_m);
+        let stroke = Stroke::solid(colour, CURVE);
+        draw_curve(sheet, points, (speed, &axis, 1e3), stroke, &AMPLITUDE);
+        // Resonances without an amplitude.
+        let unknown = line.resonances.iter().filter(|r| r.amplitude_m.is_none());
+        for resonance in unknown {
+            let x = speed.at(resonance.rpm);
+            let ends = [[x, AMPLITUDE.top], [x, AMPLITUDE.top + 12.0]];
+            sheet.line(ends, Stroke::solid(colour, 2.0 * HAIRLINE));
+        }
+    }
+    draw_horizontal(sheet, speed, AMPLITUDE.bottom, false);
+}
+
+/// Draws the values of a series that are known.
+fn draw_curve<'a>(
+    sheet: &mut Sheet,
+    points: impl Iterator<Item = (&'a f64, &'a Option<f64>)>,
+    (x, y, factor): (&Axis, &Axis, f64),
+    stroke: Stroke,
+    panel: &Frame,
+) {
+    let mut run = Vec::new();
+    let mut runs = Vec::new();
+    for (at, value) in points {
+        match value {
+            Some(value) => run.push([x.at(*at), y.at(factor * value)]),
+            None => runs.push(std::mem::take(&mut run)),
+        }
+    }
+    runs.push(run);
+    for part in runs.iter().flat_map(|run| clip(run, panel)) {
+        sheet.line(part, stroke);
+    }
+}
+
+/// Draws the axis of phases, with ticks at quarters of a turn.
+fn phase_axis(sheet: &mut Sheet) -> Axis {
+    let axis = Axis::new(PHASES, [PHASE.bottom, PHASE.top], Spread::Linear);
+    let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::End);
+    for degrees in [-180.0, -90.0, 0.0, 90.0, 180.0] {
+        let y = axis.at(degrees);
+        let ends = [[PHASE.left, y], [PHASE.right, y]];
+        sheet.line(ends, Stroke::solid(GRID, HAIRLINE));
+        let at = [PHASE.left - 9.0, y + 0.36 * AXIS_SIZE];
+        sheet.text(at, letters, &tick_label(degrees));
+    }
+    let upright = Lettering {
+        upright: true,
+        ..Lettering::regular(AXIS_SIZE, INK, Anchor::Middle)
+    };
+    sheet.text(
+        [28.0, 0.5 * (PHASE.top + PHASE.bottom)],
+        upright,
+        "phase\u{2003}[°]",
+    );
+    axis
+}
+
+/// Draws phases; a line from one end of the axis to the other would be none.
+fn draw_phase<'a>(
+    sheet: &mut Sheet,
+    points: impl Iterator<Item = (&'a f64, &'a Option<f64>)>,
+    (x, y): (&Axis, &Axis),
+    stroke: Stroke,
+    panel: &Frame,
+) {
+    let points: Vec<(f64, Option<f64>)> = points.map(|(at, value)| (*at, *value)).collect();
+    for pair in points.windows(2) {
+        if let [(from, Some(a)), (to, Some(b))] = pair
+            && (a - b).abs() < 180.0
+        {
+            let ends = [[x.at(*from), y.at(*a)], [x.at(*to), y.at(*b)]];
+            for part in clip(&ends, panel) {
+                sheet.line(part, stroke);
+            }
+        }
+    }
+}
+
+fn draw_board(sheet: &mut Sheet, report: &ResponseReport, speed: &Axis) {
+    let known = report.board_deviation_m.iter().flatten().map(|m| 1e3 * m);
+    let axis = amplitudes(known, &BOARD);
+    draw_vertical(sheet, &axis, &BOARD, "board, sum\u{2003}[mm]");
+    let points = report.rpm.iter().zip(&report.board_deviation_m);
+    let stroke = Stroke::solid(INK, CURVE);
+    draw_curve(sheet, points, (speed, &axis, 1e3), stroke, &BOARD);
+    draw_named(sheet, speed, BOARD.bottom, "rotation speed Ω\u{2003}[rpm]");
+    if let Some(rpm) = report.scene.operating_rpm.filter(|rpm| speed.shows(*rpm)) {
+        let dashed = Stroke {
+            dash: Some(FINE_DASH),
+            ..Stroke::solid(ALARM, HAIRLINE)
+        };
+        let x = speed.at(rpm);
+        for panel in [&AMPLITUDE, &PHASE, &BOARD] {
+            sheet.line([[x, panel.top], [x, panel.bottom]], dashed);
+        }
+    }
+}
+
+fn draw_key(sheet: &mut Sheet, report: &ResponseReport) {
+    let baseline = f64::from(HEIGHT) - 50.0;
+    let mut key = Key::new(sheet, AMPLITUDE.left, baseline);
+    for (line, colour) in report.lines.iter().zip(COLOURS) {
+        key.mark(24.0, move |sheet, [x, y]| {
+            sheet.line([[x, y], [x + 24.0, y]], Stroke::solid(colour, CURVE));
+        })
+        .word(&line.name);
+    }
+    Key::new(sheet, AMPLITUDE.left, baseline + 26.0)
+        .mark(4.0, |sheet, [x, y]| {
+            let ends = [[x + 2.0, y - 6.0], [x + 2.0, y + 6.0]];
+            sheet.line(ends, Stroke::solid(QUIET, 2.0 * HAIRLINE));
+        })
+        .word("resonance without an amplitude")
+        .shade(DIVERGENCE_SHADE)
+        .word("divergence")
+        .shade(FLUTTER_SHADE)
+        .word("flutter: no steady state");
+}
+
+/// Amplitude and phase over the frequency at one speed.
+pub fn points_sheet(report: &ResponseReport) -> Option<Sheet> {
+    let points = report.points.as_ref()?;
+    let mut sheet = Sheet::new(WIDTH, POINTS_HEIGHT);
+    heading::draw(
+        &mut sheet,
+        &report.scene.name,
+        &points_facts(report, points),
+    );
+    let end = points.frequency_hz.last().copied().unwrap_or(1.0);
+    let frequency = Axis::new(
+        [0.0, end],
+        [AMPLITUDE.left, AMPLITUDE.right],
+        Spread::Linear,
+    );
+    let known = points.receptance_m_per_n.iter().flatten();
+    let axis = amplitudes(known.map(|m| 1e6 * m), &AMPLITUDE);
+    draw_vertical(
+        &mut sheet,
+        &axis,
+        &AMPLITUDE,
+        "deflection for 1 N\u{2003}[µm/N]",
+    );
+    let series = points.frequency_hz.iter().zip(&points.receptance_m_per_n);
+    let stroke = Stroke::solid(FORWARD, CURVE);
+    draw_curve(
+        &mut sheet,
+        series,
+        (&frequency, &axis, 1e6),
+        stroke,
+        &AMPLITUDE,
+    );
+    draw_horizontal(&mut sheet, &frequency, AMPLITUDE.bottom, false);
+    let phase = phase_axis(&mut sheet);
+    let series = points.frequency_hz.iter().zip(&points.phase_deg);
+    draw_phase(&mut sheet, series, (&frequency, &phase), stroke, &PHASE);
+    draw_named(
+        &mut sheet,
+        &frequency,
+        PHASE.bottom,
+        "frequency\u{2003}[Hz]",
+    );
+    if points.receptance_m_per_n.iter().all(Option::is_none) {
+        let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
+        let middle = 0.5 * (AMPLITUDE.left + AMPLITUDE.right);
+        let at = [middle, 0.5 * (AMPLITUDE.top + AMPLITUDE.bottom)];
+        let said = "the saw is unstable at this speed: no steady state";
+        sheet.fill(super::canvas::text_frame(at, &letters, said), PAPER);
+        sheet.text(at, letters, said);
+    }
+    Some(sheet)
+}
+
+fn points_facts(report: &ResponseReport, points: &FrequencyResponseEntry) -> String {
+    let place = |radius_m: f64, angle_deg: f64| {
+        format!(
+            "{} mm, {}°",
+            shown_to(4, 1e3 * radius_m),
+            shown_to(4, angle_deg)
+        )
+    };
+    format!(
+        "{} rpm{BETWEEN_FACTS}force at {}{BETWEEN_FACTS}probe at {}",
+        shown_to(6, points.rpm),
+        place(points.force_radius_m, points.force_angle_deg),
+        place(report.probe_radius_m, report.probe_angle_deg)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::tidy::assert_tidy;
+    use crate::report::ResponseReport;
+    use crate::response::{ForcedResponse, Options};
+    use crate::scene::{Accuracy, ResponseFile, Scene};
+
+    #[test]
+    fn nothing_is_cut_off() {
+        let scene = Scene::paper().edited(|saw| {
+            saw.accuracy = Accuracy::Draft;
+            saw.response = Some(ResponseFile {
+                force_n: 2.0,
+                flatness_m: 5e-5,
+                imbalance_kg_m2: 1e-6,
+                tooth_force_n: 1.0,
+                ..ResponseFile::default()
+            });
+        });
+        let options = Options {
+            rpm: Some(1000.0),
+            to_hz: None,
+        };
+        let found = ForcedResponse::new(&scene.unwrap(), &options).unwrap();
+        let report = ResponseReport::new(&found);
+        assert_tidy(&sheet(&report));
+        assert_tidy(&points_sheet(&report).unwrap());
+        assert!(!serde_json::to_string(&report).unwrap().contains("NaN"));
+    }
+}

@@ -1,0 +1,150 @@
+//! What excites the blade, as loads that turn with it or are fixed in space.
+//!
+//! A blade whose shape at rest without guides is q₀ bends elastically by q − q₀, and this shape turns with it, so that
+//! ∂t + Ω∂θ of q₀ is zero. In L(iω; Ω)(q − q₀) + … inertia, material damping and bending of q₀ therefore drop out, and the
+//! total deflection follows from L(iω; Ω) q = (K_b + K_m) q₀ with ω = nΩ: guides, pad damping, centrifugal tension and air act
+//! on the total deflection.
+//!
+//! A mass m at the radius r, h beside the middle plane, pulls with mrΩ², which does work on the rotation of the rim: the
+//! moment is mrhΩ², the load −mrhΩ² ∂φ/∂r.
+
+use faer::{Col, Side, c64};
+
+use crate::plate::Plate;
+use crate::scene::{ResponseFile, Scene};
+
+/// Cause of an excitation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cause {
+    /// Constant lateral force, fixed in space.
+    SideForce,
+    /// One wave around the rim.
+    RunOut,
+    /// Two waves around the rim.
+    Flatness,
+    /// Imbalance beside the middle plane.
+    Imbalance,
+    /// Lateral force at the cut with the tooth passing frequency.
+    ToothPassing,
+}
+
+/// A load f e^{ikΩt}.
+#[derive(Debug, Clone)]
+pub struct Load {
+    /// Its cause.
+    pub cause: Cause,
+    /// Ratio k of its frequency to the rotation speed.
+    pub order: u32,
+    /// f, or f/Ω² if it is that of an imbalance.
+    pub vector: Col<c64>,
+}
+
+impl Load {
+    /// Factor of the load at a speed.
+    pub fn factor(&self, speed_rad_per_s: f64) -> f64 {
+        match self.cause {
+            Cause::Imbalance => speed_rad_per_s.powi(2),
+            _ => 1.0,
+        }
+    }
+}
+
+/// Orders of an imbalance that are computed.
+const IMBALANCE_ORDERS: [usize; 2] = [1, 2];
+/// A stiffness below this share of the largest is that of a rigid motion.
+const RIGID: f64 = 1e-9;
+
+/// The loads of a scene; the number of waves of a shape that nothing in the blade holds, if one is asked for.
+pub fn loads(plate: &Plate, scene: &Scene, typed: &ResponseFile) -> Result<Vec<Load>, usize> {
+    let mut loads = Vec::new();
+    let at = |radius_m: f64, angle_rad: f64, force_n: f64| {
+        let values = plate.functions_at(radius_m, angle_rad);
+        Col::from_fn(values.len(), |i| c64::new(force_n * values[i], 0.0))
+    };
+    let rim = plate.blade.outer_radius_m;
+    if typed.force_n != 0.0 {
+        let (radius, angle) = force_place(scene, typed);
+        loads.push(Load {
+            cause: Cause::SideForce,
+            order: 0,
+            vector: at(radius, angle, typed.force_n),
+        });
+    }
+    let shapes = [
+        (Cause::RunOut, 1, typed.runout_m),
+        (Cause::Flatness, 2, typed.flatness_m),
+    ];
+    for (cause, n, amplitude_m) in shapes {
+        if amplitude_m != 0.0 {
+            loads.push(Load {
+                cause,
+                order: n as u32,
+                vector: shape_load(plate, n, amplitude_m).ok_or(n)?,
+            });
+        }
+    }
+    if typed.imbalance_kg_m2 != 0.0 {
+        loads.extend(IMBALANCE_ORDERS.map(|n| {
+            let slope = plate.basis.evaluate(n, rim).slope;
+            let norm = plate.angular_norm(n);
+            let radial = slope
+                .iter()
+                .map(|slope| -typed.imbalance_kg_m2 * slope / norm);
+            Load {
+                cause: Cause::Imbalance,
+                order: n as u32,
+                vector: turning(plate, n, &radial.collect::<Vec<_>>()),
+            }
+        }));
+    }
+    if let (true, Some(teeth)) = (typed.tooth_force_n != 0.0, scene.file().blade.teeth) {
+        loads.push(Load {
+            cause: Cause::ToothPassing,
+            order: teeth,
+            vector: at(rim, cut_angle_rad(scene), typed.tooth_force_n),
+        });
+    }
+    Ok(loads)
+}
+
+/// Radius and angle of the side force.
+pub fn force_place(scene: &Scene, typed: &ResponseFile) -> (f64, f64) {
+    let radius = typed.radius_m.unwrap_or(scene.blade().outer_radius_m);
+    (radius, typed.angle_deg.to_radians())
+}
+
+/// Angle of the cut; 0 without one.
+pub fn cut_angle_rad(scene: &Scene) -> f64 {
+    let cut = scene.file().cut.as_ref();
+    cut.map_or(0.0, |cut| cut.angle_deg.to_radians())
+}
+
+/// The vector of a wave with n nodal diameters that turns with the blade: Re (cos nθ − i sin nθ) e^{inΩt} = cos n(θ − Ωt).
+fn turning(plate: &Plate, n: usize, radial: &[f64]) -> Col<c64> {
+    let mut vector = Col::zeros(plate.degrees_of_freedom());
+    let (cosine, size) = (plate.offset(n), radial.len());
+    for (j, value) in radial.iter().enumerate() {
+        vector[cosine + j] = c64::new(*value, 0.0);
+        if n > 0 {
+            vector[cosine + size + j] = c64::new(0.0, -value);
+        }
+    }
+    vector
+}
+
+/// (K_b + K_m) q₀ of the softest shape with n nodal diameters, with an amplitude at the rim; `None` if that is a rigid motion.
+fn shape_load(plate: &Plate, n: usize, amplitude_m: f64) -> Option<Col<c64>> {
+    let stiffness = plate.harmonics.get(n)?.body_frame_stiffness(0.0);
+    let eigen = stiffness.self_adjoint_eigen(Side::Lower).ok()?;
+    let values = eigen.S();
+    let (softest, stiffest) = (values[0], values[values.dim() - 1]);
+    if softest <= RIGID * stiffest {
+        return None;
+    }
+    let rim = plate.basis.evaluate(n, plate.blade.outer_radius_m).value;
+    let shape = eigen.U().col(0);
+    let at_rim: f64 = rim.iter().zip(0..).map(|(r, j)| r * shape[j]).sum();
+    let scale = softest * amplitude_m * plate.angular_norm(n) / at_rim;
+    let radial: Vec<f64> = (0..shape.nrows()).map(|j| scale * shape[j]).collect();
+    Some(turning(plate, n, &radial))
+}

@@ -1,0 +1,71 @@
+//! Frequency response between two points at one speed.
+
+use faer::{Col, c64};
+
+use super::Solver;
+use super::family::{State, readings};
+use crate::campbell::even_speeds;
+use crate::spectrum::SpectrumError;
+use crate::stability::{Analysis, StabilityState};
+
+/// Deflection at the probe for a harmonic force of one newton at a point, over its frequency.
+#[derive(Debug, Clone)]
+pub struct FrequencyResponse {
+    /// Rotation speed.
+    pub speed_rad_per_s: f64,
+    /// Frequencies, ascending.
+    pub frequency_rad_per_s: Vec<f64>,
+    /// Complex deflection per newton; `None` where it grows without bound, and everywhere if the saw is unstable at the speed.
+    pub receptance_m_per_n: Vec<Option<c64>>,
+}
+
+/// Number of evenly spaced frequencies.
+const FREQUENCIES: usize = 401;
+/// Frequencies beside a natural frequency, as shares of it.
+const BESIDE: [f64; 9] = [1e-5, 1e-4, 3e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.5e-2, 3e-2];
+/// A deflection per newton above this share of the linear limit is that of an undamped resonance.
+const UNBOUNDED_N: f64 = 1e-2;
+
+impl FrequencyResponse {
+    pub(super) fn new(
+        analysis: &Analysis,
+        solver: &Solver,
+        (speed, to_hz): (f64, Option<f64>),
+        (radius_m, angle_rad): (f64, f64),
+    ) -> Result<Self, SpectrumError> {
+        let model = &analysis.model;
+        let end = to_hz.map_or(model.complete_to_rad_per_s, |hz| std::f64::consts::TAU * hz);
+        let mut frequencies = even_speeds((0.0, end), FREQUENCIES);
+        for mode in model.modes(speed)? {
+            let natural = mode.frequency_rad_per_s();
+            let beside = BESIDE.iter().flat_map(|off| [1.0 - off, 1.0 + off]);
+            frequencies.extend(beside.chain([1.0]).map(|share| share * natural));
+        }
+        frequencies.retain(|frequency| (0.0..=end).contains(frequency));
+        frequencies.sort_by(f64::total_cmp);
+        frequencies.dedup();
+        let is_stable = analysis.verdict(speed).state == StabilityState::Stable;
+        let values = model.plate.functions_at(radius_m, angle_rad);
+        let load = Col::from_fn(values.len(), |i| c64::new(values[i], 0.0));
+        let states: Vec<State> = frequencies
+            .iter()
+            .map(|frequency| State {
+                speed_rad_per_s: speed,
+                frequency_rad_per_s: *frequency,
+            })
+            .collect();
+        let beyond = solver.limit_m / UNBOUNDED_N;
+        let receptance = match is_stable {
+            true => readings(&solver.system, &load, &states, &solver.probes[..1], beyond)?
+                .into_iter()
+                .map(|read| Some(*read?.first()?).filter(|w| w.norm() <= beyond))
+                .collect(),
+            false => vec![None; states.len()],
+        };
+        Ok(FrequencyResponse {
+            speed_rad_per_s: speed,
+            frequency_rad_per_s: frequencies,
+            receptance_m_per_n: receptance,
+        })
+    }
+}

@@ -1,0 +1,220 @@
+use super::family::{reading, solution};
+use super::*;
+use crate::plate::Resolution;
+use crate::scene::{Accuracy, DampingFile, GuideFile, InPlane, Mount, SweepFile, rad_per_s};
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+
+/// The paper's saw, with another excitation.
+fn scene(response: ResponseFile, edit: impl FnOnce(&mut crate::scene::SceneFile)) -> Scene {
+    let scene = Scene::paper().edited(|saw| {
+        saw.accuracy = Accuracy::Draft;
+        saw.measured = None;
+        saw.response = Some(response);
+        edit(saw);
+    });
+    scene.unwrap()
+}
+
+fn clamped_free_blade(saw: &mut crate::scene::SceneFile) {
+    saw.guides.clear();
+    saw.cut = None;
+    saw.spline = None;
+    saw.mount = Mount::Collar {
+        diameter_m: 0.25,
+        in_plane: InPlane::Free,
+    };
+}
+
+/// Independent value: each state solved by itself on the full matrices, also beside resonances.
+#[test]
+fn states_on_few_solutions_are_those_of_the_full_matrices() {
+    let damping = |saw: &mut crate::scene::SceneFile| {
+        saw.damping = Some(DampingFile {
+            material_retardation_time_s: 2e-6,
+            air_n_s_per_m3: 3.0,
+            ..DampingFile::default()
+        });
+    };
+    let typed = ResponseFile {
+        force_n: 1.0,
+        flatness_m: 1e-4,
+        imbalance_kg_m2: 1e-6,
+        tooth_force_n: 1.0,
+        ..ResponseFile::default()
+    };
+    let scene = scene(typed, damping);
+    let plate = Plate::new(&scene, Resolution::of(Accuracy::Draft));
+    let system = GyroscopicSystem::of_plate(&plate);
+    let solver = Solver::new(&plate, &scene);
+    for load in loads(&plate, &scene, &typed).unwrap() {
+        let states: Vec<State> = even_speeds((1.0, rad_per_s(2900.0)), 97)
+            .into_iter()
+            .map(|speed| State {
+                speed_rad_per_s: speed,
+                frequency_rad_per_s: f64::from(load.order) * speed,
+            })
+            .collect();
+        let read = readings(&system, &load.vector, &states, &solver.probes, 1e9).unwrap();
+        for (state, read) in states.iter().zip(read) {
+            let exact = solution(&system, &load.vector, *state);
+            let exact: Vec<c64> = solver.probes.iter().map(|c| reading(c, &exact)).collect();
+            let largest = exact.iter().map(|w| w.norm()).fold(0.0, f64::max);
+            for (own, exact) in read.unwrap().iter().zip(exact) {
+                let error = (own - exact).norm() / largest;
+                assert!(error < 1e-5, "{:?} {state:?}: {error}", load.cause);
+            }
+        }
+    }
+}
+
+/// Independent value: statics of a rigid blade on three soft springs at 120°, which it compresses by heave and tilt,
+/// w = F/3k + F R²/(1.5 k r²) at the force.
+#[test]
+fn a_blade_on_soft_springs_deflects_as_a_rigid_body() {
+    let (k, r) = (30.0, 0.25);
+    let typed = ResponseFile {
+        force_n: 0.01,
+        angle_deg: 90.0,
+        ..ResponseFile::default()
+    };
+    let scene = scene(typed, |saw| {
+        saw.cut = None;
+        saw.runup = None;
+        saw.sweep = Some(SweepFile {
+            from_rpm: 0.0,
+            to_rpm: 600.0,
+        });
+        let pad = GuideFile {
+            radius_m: r,
+            stiffness_n_per_m: k,
+            damping_n_s_per_m: 0.0,
+            radial_length_m: 1e-3,
+            tangential_length_m: 1e-3,
+            ..saw.guides[0]
+        };
+        saw.guides = [20.0, 140.0, 260.0]
+            .map(|angle_deg| GuideFile { angle_deg, ..pad })
+            .into();
+    });
+    let found = ForcedResponse::new(&scene, &Options::default()).unwrap();
+    let rim = scene.blade().outer_radius_m;
+    let expected = 0.01 * (1.0 / (3.0 * k) + rim * rim / (1.5 * k * r * r));
+    let at_rest = found.lines[0].deflections[0].unwrap().at_probe;
+    assert!(
+        (at_rest.re / expected - 1.0).abs() < 2e-3 && at_rest.im.abs() < 1e-6 * expected,
+        "{at_rest} {expected}"
+    );
+}
+
+/// Independent value: one mode with viscous damping c per unit mass. At its frequency the deflection for a force lags by 90° with
+/// the amplitude φ²/(c ω), and the half-power width is c.
+#[test]
+fn a_resonance_of_one_mode_has_the_height_and_the_width_of_its_damping() {
+    let air_n_s_per_m3 = 40.0;
+    let typed = ResponseFile {
+        force_n: 1.0,
+        angle_deg: 90.0,
+        ..ResponseFile::default()
+    };
+    let scene = scene(typed, |saw| {
+        clamped_free_blade(saw);
+        saw.damping = Some(DampingFile {
+            air_n_s_per_m3,
+            ..DampingFile::default()
+        });
+    });
+    let options = Options {
+        rpm: Some(0.0),
+        to_hz: None,
+    };
+    let found = ForcedResponse::new(&scene, &options).unwrap();
+    let plate = &found.analysis.model.plate;
+    let c = air_n_s_per_m3 / plate.blade.mass_per_area_kg_per_m2();
+    // Two nodal diameters, whose frequency is apart from the others.
+    let eigen = plate.harmonics[2].body_frame_stiffness(0.0);
+    let eigen = eigen.self_adjoint_eigen(faer::Side::Lower).unwrap();
+    let natural = eigen.S()[0].sqrt();
+    let shape = eigen.U().col(0);
+    let rim = plate.basis.evaluate(2, plate.blade.outer_radius_m).value;
+    let at_rim: f64 = rim.iter().zip(0..).map(|(r, j)| r * shape[j]).sum();
+    let squared = (at_rim / plate.angular_norm(2)).powi(2);
+    let points = found.points.unwrap();
+    let near: Vec<(f64, c64)> = points
+        .frequency_rad_per_s
+        .iter()
+        .zip(&points.receptance_m_per_n)
+        .map(|(frequency, w)| (*frequency, w.unwrap()))
+        .filter(|(frequency, _)| (frequency / natural - 1.0).abs() < 0.05)
+        .collect();
+    let (peak, w) = near
+        .iter()
+        .max_by(|a, b| a.1.norm().total_cmp(&b.1.norm()))
+        .unwrap();
+    assert!((peak / natural - 1.0).abs() < 1e-3, "{peak} {natural}");
+    let height = squared / (c * natural);
+    assert!(
+        (w.norm() / height - 1.0).abs() < 0.02,
+        "{} {height}",
+        w.norm()
+    );
+    assert!((w.arg() + 0.5 * std::f64::consts::PI).abs() < 0.2, "{w}");
+}
+
+/// Independent value: in the frame of the blade a warped blade without guides is at rest, and centrifugal tension flattens it:
+/// (K_b + Ω²K_σ) z = K_b q₀.
+#[test]
+fn centrifugal_tension_flattens_a_warped_blade() {
+    let typed = ResponseFile {
+        flatness_m: 1e-4,
+        ..ResponseFile::default()
+    };
+    let scene = scene(typed, clamped_free_blade);
+    let found = ForcedResponse::new(&scene, &Options::default()).unwrap();
+    let plate = &found.analysis.model.plate;
+    let block = &plate.harmonics[2];
+    let rest = block.body_frame_stiffness(0.0);
+    let eigen = rest.self_adjoint_eigen(faer::Side::Lower).unwrap();
+    let rim = plate.basis.evaluate(2, plate.blade.outer_radius_m).value;
+    let at_rim = |q: &Col<f64>| -> f64 { rim.iter().zip(0..).map(|(r, j)| r * q[j]).sum() };
+    let shape = eigen.U().col(0).to_owned();
+    let warp: Col<f64> = faer::Scale(1e-4 / at_rim(&shape)) * shape;
+    let mut flattened = 0;
+    for (speed, found) in found
+        .speeds_rad_per_s
+        .iter()
+        .zip(&found.lines[0].deflections)
+    {
+        let turning: Mat<f64> = block.body_frame_stiffness(*speed);
+        let total = turning.partial_piv_lu().solve(&rest * &warp);
+        let expected = at_rim(&total);
+        let own = found.unwrap().at_probe.norm();
+        assert!((own / expected - 1.0).abs() < 1e-5, "{own} {expected}");
+        flattened += usize::from(expected < 0.8e-4);
+    }
+    assert!(flattened > 0);
+}
+
+/// Without damping nothing is reported at a critical speed, nor in a band; a blade that tilts freely has no run-out.
+#[test]
+fn no_number_is_given_where_there_is_no_steady_state() {
+    let typed = ResponseFile {
+        force_n: 1.0,
+        ..ResponseFile::default()
+    };
+    let found = ForcedResponse::new(&scene(typed, |_| ()), &Options::default()).unwrap();
+    let line = &found.lines[0];
+    assert!(!line.resonances_rad_per_s.is_empty());
+    for (speed, deflection) in found.speeds_rad_per_s.iter().zip(&line.deflections) {
+        let is_stable = found.analysis.verdict(*speed).state == StabilityState::Stable;
+        let critical = line.resonances_rad_per_s.contains(speed);
+        assert!((is_stable && !critical) || deflection.is_none(), "{speed}");
+    }
+    let tilting = ResponseFile {
+        runout_m: 1e-4,
+        ..ResponseFile::default()
+    };
+    let refused = ForcedResponse::new(&scene(tilting, |_| ()), &Options::default());
+    let said = refused.unwrap_err().to_string();
+    assert!(said.starts_with("response.runout_m is 0.0001"), "{said}");
+}

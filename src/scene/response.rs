@@ -1,0 +1,87 @@
+//! What excites the blade in a steady state.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::check::{refuse, within};
+use super::{Blade, SceneError};
+use crate::text::shown;
+
+/// Excitation of the steady-state response, for `sawflutter response`. Causes that are 0 are absent.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ResponseFile {
+    /// Constant lateral force, fixed in space.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub force_n: f64,
+    /// Distance of the force from the axis; the rim by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius_m: Option<f64>,
+    /// Angle of the force, positive in the direction of rotation.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub angle_deg: f64,
+    /// Run-out of the rim: amplitude of one wave around it, of the blade at rest without guides. It turns with the blade and
+    /// excites at the rotation frequency.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub runout_m: f64,
+    /// Lack of flatness at the rim: amplitude of two waves around it, of the blade at rest without guides. It excites at twice
+    /// the rotation frequency.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub flatness_m: f64,
+    /// Imbalance at the rim beside the middle plane: mass times rim radius times distance from the middle plane. It excites at
+    /// the rotation frequency and its double; an imbalance in the middle plane does not bend the blade.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub imbalance_kg_m2: f64,
+    /// Amplitude of the lateral force at the rim at the cut with the tooth passing frequency.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub tooth_force_n: f64,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+impl ResponseFile {
+    /// Whether anything excites the blade.
+    pub fn excites(&self) -> bool {
+        let causes = [
+            self.force_n,
+            self.runout_m,
+            self.flatness_m,
+            self.imbalance_kg_m2,
+            self.tooth_force_n,
+        ];
+        causes.iter().any(|cause| *cause != 0.0)
+    }
+
+    /// Checks the numbers of the block.
+    pub(super) fn checked(&self, blade: &Blade, teeth: Option<u32>) -> Result<(), SceneError> {
+        const FORCE_N: (f64, f64) = (-1e6, 1e6);
+        within("response.force_n", self.force_n, FORCE_N)?;
+        within("response.tooth_force_n", self.tooth_force_n, FORCE_N)?;
+        within("response.angle_deg", self.angle_deg, (-3600.0, 3600.0))?;
+        within("response.runout_m", self.runout_m, (0.0, 1.0))?;
+        within("response.flatness_m", self.flatness_m, (0.0, 1.0))?;
+        within("response.imbalance_kg_m2", self.imbalance_kg_m2, (0.0, 1e3))?;
+        let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
+        if let Some(radius_m) = self.radius_m
+            && !(inner..=outer).contains(&radius_m)
+        {
+            let allowed = format!("on the blade, from {} to {}", shown(inner), shown(outer));
+            let remedy = "put the force on the moving part of the blade";
+            return Err(refuse("response.radius_m", radius_m, allowed, remedy));
+        }
+        if self.tooth_force_n != 0.0 && teeth.is_none_or(|teeth| teeth == 0) {
+            let allowed = "0 in a scene without blade.teeth";
+            let remedy = "give the number of teeth in blade.teeth";
+            return Err(refuse(
+                "response.tooth_force_n",
+                self.tooth_force_n,
+                allowed,
+                remedy,
+            ));
+        }
+        Ok(())
+    }
+}
