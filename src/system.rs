@@ -8,7 +8,7 @@
 //!
 //! This is the equation ρh D²w/Dt² + … = 0 of the plate with the convective derivative D/Dt = ∂t + Ω∂θ: D²
 //! gives ∂t², the gyroscopic 2Ω ∂t∂θ and Ω² ∂θ², which is −N. Material damping η resists the strain rate of
-//! the turning blade, η K_b Dq/Dt, hence the part η K_b of C, and K_circ = η K_b G; air that turns with the
+//! the turning blade, C_i Dq/Dt with C_i = η K_b or the square root of K_b, hence the part C_i of C, and K_circ = C_i G; air that turns with the
 //! share s of the speed resists w_t + sΩw_θ.
 //!
 //! References: W. D. Iwan & T. L. Moeller, J. Appl. Mech. 43 (1976), 485–490; P. Lancaster, *Strongly stable
@@ -46,7 +46,7 @@ pub struct GyroscopicSystem {
     pub gyroscopic: Mat<f64>,
     /// C, in 1/s, symmetric: pads, air and material.
     pub damping: Option<Mat<f64>>,
-    /// K_circ = η K_b G + s C_a G, in 1/s: material damping turns with the blade, and air, with the part C_a
+    /// K_circ = C_i G + s C_a G, in 1/s: material damping C_i turns with the blade, and air, with the part C_a
     /// of C, with the share s of its speed.
     pub circulatory: Option<Mat<f64>>,
     /// K_n, in 1/s², of no symmetry: contact forces that have no potential.
@@ -118,20 +118,19 @@ impl GyroscopicSystem {
         system
     }
 
-    /// This is called before membrane stress, guides and edge loads are added to the stiffness, so K₀ is K_b
-    /// here.
     fn add_blade_damping(&mut self, plate: &Plate, range: std::ops::RangeInclusive<usize>) {
-        let Some(damping) = plate.damping else {
+        let Some(damping) = &plate.damping else {
             return;
         };
         let size = self.order();
         let mut total: Mat<f64> = Mat::zeros(size, size);
         // Resistance that turns with the blade, or with a share of its speed.
         let mut turning: Option<Mat<f64>> = None;
-        let retardation = damping.material_retardation_time_s;
-        if retardation > 0.0 {
-            total += Scale(retardation) * &self.stiffness;
-            turning = Some(Scale(retardation) * &self.stiffness);
+        let material = plate.harmonics.iter().map(|h| h.material_damping.as_ref());
+        if let Some(blocks) = material.collect::<Option<Vec<_>>>() {
+            let material = spread(plate, range.clone(), &blocks);
+            total += &material;
+            turning = Some(material);
         }
         let air = damping.air_n_s_per_m3 / plate.blade.mass_per_area_kg_per_m2();
         let area = air_area(plate, range);

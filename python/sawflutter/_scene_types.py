@@ -152,11 +152,30 @@ class GuideDict(_GuideDict, total=False):
     water. Zero by default."""
 
 
+class ModeRatioRowDict(TypedDict):
+    """Damping ratio of the modes with a number of nodal diameters."""
+
+    diameters: int
+    """Number of nodal diameters."""
+
+    damping_ratio: float
+    """Damping ratio, the share of critical damping: the logarithmic decrement over 2π."""
+
+
 class DampingDict(TypedDict, total=False):
-    """Damping of the blade. Each number belongs to one frame."""
+    """Damping of the blade. Each number belongs to one frame. The contributions add up."""
 
     material_retardation_time_s: float
     """Kelvin–Voigt retardation time η of the material, which turns with the blade."""
+
+    loss_factor: float
+    """Loss factor of the blade, twice the damping ratio of every mode of the blade at rest
+    without guides. It turns with the blade, as a viscous damping with this ratio at the
+    frequency of each of these modes."""
+
+    mode_ratios: list[ModeRatioRowDict]
+    """Measured damping ratios of modes of the blade at rest without guides, by their number of
+    nodal diameters, in place of half the loss factor."""
 
     air_n_s_per_m3: float
     """Viscous resistance per area of the surrounding air, which is at rest in space unless it

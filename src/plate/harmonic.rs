@@ -21,6 +21,8 @@ pub struct HarmonicBlock {
     pub spin: DMatrix<f64>,
     /// K_m, in 1/s², of a membrane stress that is independent of the speed.
     pub membrane: Option<DMatrix<f64>>,
+    /// C_i, in 1/s: material damping, which turns with the blade.
+    pub material_damping: Option<DMatrix<f64>>,
     /// ∫ RR r dr if it is not the identity: area relative to mass, for the damping of the air.
     pub area: Option<DMatrix<f64>>,
 }
@@ -76,6 +78,7 @@ impl HarmonicBlock {
             bending,
             spin,
             membrane: None,
+            material_damping: None,
             area,
         };
         block.free_rigid_motion(basis);
@@ -94,6 +97,26 @@ impl HarmonicBlock {
             let membrane = self.membrane.as_ref().map_or(0.0, |m| m[(j, k)]);
             self.bending[(j, k)] + membrane + speed2 * (self.spin[(j, k)] + inertia)
         })
+    }
+
+    /// Adds material damping: η K_b of a retardation time, and 2ζ(K_b + K_m)^½ of a damping ratio ζ, with which every mode of n
+    /// nodal diameters of the blade at rest without guides has this ratio at its own frequency.
+    pub(crate) fn add_material_damping(&mut self, retardation_s: f64, ratio: f64) {
+        let mut damping = retardation_s * &self.bending;
+        if ratio > 0.0 {
+            let stiffness = match &self.membrane {
+                Some(membrane) => &self.bending + membrane,
+                None => self.bending.clone(),
+            };
+            let eigen = stiffness.symmetric_eigen();
+            // A buckled shape does not oscillate, so that it has no damping ratio.
+            let twice = eigen
+                .eigenvalues
+                .map(|value| 2.0 * ratio * value.max(0.0).sqrt());
+            let vectors = &eigen.eigenvectors;
+            damping += vectors * DMatrix::from_diagonal(&twice) * vectors.transpose();
+        }
+        self.material_damping = Some(damping);
     }
 
     /// Heave and tilt do not bend the blade, and its rotation does not stiffen them: K_b and K_σ − N vanish

@@ -142,6 +142,13 @@ impl Plate {
                 harmonic.membrane = Some(block);
             }
         }
+        let damping = scene.damping();
+        if let Some(damping) = damping.as_ref().filter(|damping| damping.is_material()) {
+            for (n, block) in harmonics.iter_mut().enumerate() {
+                block
+                    .add_material_damping(damping.material_retardation_time_s, damping.ratio_of(n));
+            }
+        }
         let samples = [0, 1].map(|n| {
             sampled_radii(scene.blade())
                 .map(|r| basis.evaluate(n, r).value)
@@ -155,7 +162,7 @@ impl Plate {
             contact: ContactTerms::default(),
             lifting: None,
             edge_stiffness: None,
-            damping: scene.damping(),
+            damping,
             membrane,
             samples,
         };

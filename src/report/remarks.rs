@@ -72,7 +72,7 @@ pub fn terms(scene: &Scene, plate: &Plate) -> Vec<String> {
         damping.is_some_and(|d| d.air_n_s_per_m3 * d.air_rotation_share > 0.0),
         "turning air K_circ",
     );
-    let material = damping.is_some_and(|d| d.material_retardation_time_s > 0.0);
+    let material = damping.is_some_and(|d| d.is_material());
     add(material, "material damping C and K_circ");
     terms
 }

@@ -206,13 +206,21 @@ fn is_usual<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-/// Damping of the blade. Each number belongs to one frame.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// Damping of the blade. Each number belongs to one frame. The contributions add up.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DampingFile {
     /// Kelvin–Voigt retardation time η of the material, which turns with the blade.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub material_retardation_time_s: f64,
+    /// Loss factor of the blade, twice the damping ratio of every mode of the blade at rest without guides. It turns with the
+    /// blade, as a viscous damping with this ratio at the frequency of each of these modes.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub loss_factor: f64,
+    /// Measured damping ratios of modes of the blade at rest without guides, by their number of nodal diameters, in place of half
+    /// the loss factor.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub mode_ratios: Vec<ModeRatioRow>,
     /// Viscous resistance per area of the surrounding air, which is at rest in space unless it turns.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub air_n_s_per_m3: f64,
@@ -224,6 +232,16 @@ pub struct DampingFile {
 
 fn is_zero(value: &f64) -> bool {
     *value == 0.0
+}
+
+/// Damping ratio of the modes with a number of nodal diameters.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ModeRatioRow {
+    /// Number of nodal diameters.
+    pub diameters: u32,
+    /// Damping ratio, the share of critical damping: the logarithmic decrement over 2π.
+    pub damping_ratio: f64,
 }
 
 /// Range of rotation speeds.

@@ -42,7 +42,7 @@ pub(crate) use entries::in_words;
 pub use excitation::{ExcitationFile, ExcitationLine};
 pub use file::{
     Accuracy, BladeFile, ContactLaw, DampingFile, GuideFile, GuideSide, InPlane, Material,
-    Measured, MeasuredRow, Mount, SceneFile, SweepFile,
+    Measured, MeasuredRow, ModeRatioRow, Mount, SceneFile, SweepFile,
 };
 #[doc(hidden)]
 pub use freed::spread;

@@ -64,7 +64,7 @@ impl Quantity {
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten
 /// carbide, guides from felt to steel.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 90] = [
+pub const QUANTITIES: [Quantity; 93] = [
     q("blade.outer_diameter_m", "outer diameter", "m", 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", 1e-4, 0.04),
@@ -86,6 +86,9 @@ pub const QUANTITIES: [Quantity; 90] = [
     q("guides[].gap_m", "gap of the guide", "m", 1e-6, 5e-3).of_kind(Kind::Gap),
     q("guides[].film_stiffness_n_per_m", "stiffness within the gap of the guide", "N/m", 10.0, 1e10),
     q("damping.material_retardation_time_s", "retardation time of the material", "s", 1e-10, 1e-2),
+    q("damping.loss_factor", "loss factor of the blade", "", 1e-6, 0.3),
+    q("damping.mode_ratios[].diameters", "number of nodal diameters", "", 0.0, 60.0),
+    q("damping.mode_ratios[].damping_ratio", "damping ratio", "", 1e-6, 0.15),
     q("damping.air_n_s_per_m3", "air damping", "N·s/m³", 1e-3, 1e5),
     q("damping.air_rotation_share", "speed of the air over that of the blade", "", 0.0, 1.0),
     q("membrane.temperature.expansion_per_k", "thermal expansion", "1/K", 3e-6, 3e-5),

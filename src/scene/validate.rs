@@ -157,6 +157,8 @@ fn damping(typed: &DampingFile) -> Result<Option<Damping>, SceneError> {
             typed.material_retardation_time_s,
             (0.0, SPAN.1),
         )?,
+        ratio: 0.5 * within("damping.loss_factor", typed.loss_factor, (0.0, 1.0))?,
+        ratios: ratios(typed)?,
         air_n_s_per_m3: within(
             "damping.air_n_s_per_m3",
             typed.air_n_s_per_m3,
@@ -168,8 +170,23 @@ fn damping(typed: &DampingFile) -> Result<Option<Damping>, SceneError> {
             (0.0, 1.0),
         )?,
     };
-    let any = damping.material_retardation_time_s > 0.0 || damping.air_n_s_per_m3 > 0.0;
+    let any = damping.is_material() || damping.air_n_s_per_m3 > 0.0;
     Ok(any.then_some(damping))
+}
+
+fn ratios(typed: &DampingFile) -> Result<Vec<(usize, f64)>, SceneError> {
+    let mut ratios: Vec<(usize, f64)> = Vec::new();
+    for (k, row) in typed.mode_ratios.iter().enumerate() {
+        let n = row.diameters as usize;
+        if ratios.iter().any(|(other, _)| *other == n) {
+            let key = format!("damping.mode_ratios[{k}].diameters");
+            let remedy = "give one ratio for each number of nodal diameters";
+            return Err(refuse(&key, f64::from(row.diameters), "named once", remedy));
+        }
+        let key = format!("damping.mode_ratios[{k}].damping_ratio");
+        ratios.push((n, within(&key, row.damping_ratio, (0.0, 0.5))?));
+    }
+    Ok(ratios)
 }
 
 fn sweep(typed: &SweepFile) -> Result<SpeedRange, SceneError> {

@@ -59,14 +59,38 @@ pub enum Bore {
 }
 
 /// Damping of the blade.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Damping {
     /// Kelvin–Voigt retardation time η, in the body frame.
     pub material_retardation_time_s: f64,
+    /// Damping ratio of the modes at rest without guides whose number of nodal diameters is not listed.
+    pub ratio: f64,
+    /// Damping ratios by numbers of nodal diameters.
+    pub ratios: Vec<(usize, f64)>,
     /// Air resistance per area, in the frame of the air.
     pub air_n_s_per_m3: f64,
     /// Ratio of the rotation speed of the air to that of the blade.
     pub air_rotation_share: f64,
+}
+
+impl Damping {
+    /// Damping ratio of the modes at rest with n nodal diameters that loss factor and measured ratios give.
+    pub fn ratio_of(&self, n: usize) -> f64 {
+        let listed = self.ratios.iter().find(|(diameters, _)| *diameters == n);
+        listed.map_or(self.ratio, |(_, ratio)| *ratio)
+    }
+
+    /// The smallest of these ratios.
+    pub fn smallest_ratio(&self) -> f64 {
+        let listed = self.ratios.iter().map(|(_, ratio)| *ratio);
+        listed.fold(self.ratio, f64::min)
+    }
+
+    /// Whether the material of the blade dissipates energy.
+    pub fn is_material(&self) -> bool {
+        let ratios = self.ratios.iter().any(|(_, ratio)| *ratio > 0.0);
+        self.material_retardation_time_s > 0.0 || self.ratio > 0.0 || ratios
+    }
 }
 
 /// Range of rotation speeds.
@@ -136,7 +160,7 @@ impl Scene {
 
     /// Damping, if any coefficient is not zero.
     pub(crate) fn damping(&self) -> Option<Damping> {
-        self.damping
+        self.damping.clone()
     }
 
     /// Membrane stress from heat, roll tension or measurement.

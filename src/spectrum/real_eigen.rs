@@ -168,6 +168,7 @@ mod tests {
                 material_retardation_time_s: 1.2609351739477124e-6,
                 air_n_s_per_m3: 1.2154437772463647,
                 air_rotation_share: 0.8173495078965438,
+                ..DampingFile::default()
             });
         });
         let resolution = Resolution {

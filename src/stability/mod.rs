@@ -30,6 +30,8 @@ mod interpolation;
 mod ladder;
 mod listed;
 mod loci;
+#[cfg(test)]
+mod material_damping_tests;
 mod maximum;
 mod mode_counts;
 mod onsets;

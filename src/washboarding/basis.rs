@@ -128,11 +128,12 @@ impl Motions {
 /// The force feeds a mode of frequency ω and decay rate δ at a rate of at most kμ xᵀPx/2ω, so that it cannot
 /// grow below k = 2ωδ/(μ xᵀPx), which rises with the frequency.
 fn withstood_n_per_m(plate: &Plate, omega: f64, fed: f64) -> f64 {
-    let Some(damping) = plate.damping else {
+    let Some(damping) = &plate.damping else {
         return 0.0;
     };
     let air = damping.air_n_s_per_m3 / plate.blade.mass_per_area_kg_per_m2();
-    let decay = 0.5 * (air + damping.material_retardation_time_s * omega * omega);
+    let material = damping.material_retardation_time_s * omega * omega;
+    let decay = 0.5 * (air + material) + damping.smallest_ratio() * omega;
     match fed > 0.0 {
         true => 2.0 * omega * decay / fed,
         false => f64::INFINITY,

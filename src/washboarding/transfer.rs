@@ -161,6 +161,7 @@ mod tests {
                 material_retardation_time_s: 1e-6,
                 air_n_s_per_m3: 20.0,
                 air_rotation_share: 0.0,
+                ..DampingFile::default()
             });
         });
         let resolution = Resolution {

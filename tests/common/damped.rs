@@ -34,6 +34,7 @@ prop_compose! {
             air_n_s_per_m3: power(air),
             air_rotation_share: if pads.is_some() { 0.3 } else { 0.0 },
             material_retardation_time_s: power(material),
+            ..DampingFile::default()
         });
         if pads.is_none() && !is_damped {
             file.guides[0].damping_n_s_per_m = 20.0;

@@ -113,6 +113,7 @@ pub fn scene_file(bytes: &mut Bytes<'_>) -> SceneFile {
             material_retardation_time_s: bytes.near(1e-6),
             air_n_s_per_m3: bytes.near(1.0),
             air_rotation_share: 0.0,
+            ..DampingFile::default()
         });
     }
     file.sweep = bytes.one_in(3).then(|| SweepFile {

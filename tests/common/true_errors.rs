@@ -227,6 +227,7 @@ pub fn damped_saws() -> Vec<Scene> {
                 material_retardation_time_s: 10_f64.powf(-7.0 + 1.7 * spread(0.754_877)),
                 air_n_s_per_m3: spread(0.569_840),
                 air_rotation_share: 0.5,
+                ..DampingFile::default()
             });
             let pad = &mut saw.guides[0];
             pad.radius_m = 0.17 + 0.11 * spread(0.618_034);

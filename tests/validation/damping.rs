@@ -138,6 +138,7 @@ fn turning_air_delays_the_onset_as_its_closed_form_says() {
             air_n_s_per_m3: AIR,
             material_retardation_time_s: material,
             air_rotation_share: share,
+            ..DampingFile::default()
         }))
         .unwrap();
         let plate = &analysis.model.plate;
@@ -173,6 +174,7 @@ fn the_undamped_limit_is_continuous() {
                 material_retardation_time_s: 1e-6 * share,
                 air_n_s_per_m3: 5.0 * share,
                 air_rotation_share: 0.4,
+                ..DampingFile::default()
             });
         });
         let plate = Plate::new(&scene.unwrap(), Resolution::of(Accuracy::Draft));
@@ -350,6 +352,7 @@ fn damping_does_not_change_the_branch_of_a_divergence() {
         material_retardation_time_s: 1e-6,
         air_n_s_per_m3: 0.5,
         air_rotation_share: 0.5,
+        ..DampingFile::default()
     };
     let undamped = branches(None);
     assert!(undamped.len() >= 3, "{undamped:?}");

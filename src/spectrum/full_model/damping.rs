@@ -13,10 +13,8 @@ use crate::plate::Plate;
 /// Inertia, gyroscopic forces and damping; without damping the coefficients of the latter are zero.
 #[derive(Debug)]
 pub struct Damping {
-    /// K_b and the area on which air acts, for every harmonic; empty without damping of the blade.
+    /// C_i of the material and the area on which air acts, for every harmonic; empty without damping of the blade.
     blade: Vec<[DMatrix<f64>; 2]>,
-    /// η.
-    retardation_s: f64,
     /// c over the mass per area.
     air_per_s: f64,
     /// s.
@@ -45,13 +43,14 @@ impl Damping {
         let blade = blocks.map(|block| {
             let area = block.area.clone();
             let area = area.unwrap_or_else(|| unit(block.bending.nrows()));
-            [block.bending.clone(), area]
+            let size = block.bending.nrows();
+            let material = block.material_damping.clone();
+            [material.unwrap_or_else(|| DMatrix::zeros(size, size)), area]
         });
         let mass = plate.blade.mass_per_area_kg_per_m2();
         let of_blade = plate.damping.as_ref();
         Some(Damping {
             blade: blade.collect(),
-            retardation_s: of_blade.map_or(0.0, |d| d.material_retardation_time_s),
             air_per_s: of_blade.map_or(0.0, |d| d.air_n_s_per_m3 / mass),
             air_rotation_share: of_blade.map_or(0.0, |d| d.air_rotation_share),
             guide_retardation_s: retardation.unwrap_or(0.0),
@@ -59,7 +58,7 @@ impl Damping {
         })
     }
 
-    /// The block of a wave, B_n + μ² + ηK_b μ + c(λ + insΩ), μ = λ + inΩ, from B_n; n is negative for the wave c + is.
+    /// The block of a wave, B_n + μ² + C_i μ + c(λ + insΩ), μ = λ + inΩ, from B_n; n is negative for the wave c + is.
     pub fn dynamic(
         &self,
         harmonic: usize,
@@ -71,9 +70,9 @@ impl Damping {
         let turned = lambda + c64::new(0.0, n * speed_rad_per_s);
         let mut block = stiffness.map(|x| c64::new(x, 0.0));
         (0..block.nrows()).for_each(|i| block[(i, i)] += turned * turned);
-        if let Some([bending, area]) = self.blade.get(harmonic) {
+        if let Some([material, area]) = self.blade.get(harmonic) {
             let air_turns = c64::new(0.0, n * speed_rad_per_s * self.air_rotation_share);
-            add_scaled(&mut block, turned * self.retardation_s, bending);
+            add_scaled(&mut block, turned, material);
             add_scaled(&mut block, (lambda + air_turns) * self.air_per_s, area);
         }
         block

@@ -74,6 +74,7 @@ mod tests {
                 material_retardation_time_s: 1e-6,
                 air_n_s_per_m3: 0.5,
                 air_rotation_share: 0.3,
+                ..DampingFile::default()
             });
         });
         let resolution = Resolution {
