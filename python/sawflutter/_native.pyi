@@ -100,6 +100,10 @@ def gap(
     force_n: SupportsFloat | None = None,
     rpm: SupportsFloat | None = None,
     max_deviation_mm: SupportsFloat | None = None,
+    friction: SupportsFloat | None = None,
+    heat_share: SupportsFloat = 1.0,
+    convection_w_per_m2_k: SupportsFloat = 60.0,
+    conductivity_w_per_m_k: SupportsFloat = 45.0,
     progress: _Progress = None,
 ) -> str: ...
 def cut(scene: str, rpm: Sequence[float], *, progress: _Progress = None) -> str: ...

@@ -372,6 +372,10 @@ class Questions(Searches):
         force_n: Number = None,
         rpm: Number = None,
         max_deviation_mm: Number = None,
+        friction: Number = None,
+        heat_share: SupportsFloat = 1.0,
+        convection_w_per_m2_k: SupportsFloat = 60.0,
+        conductivity_w_per_m_k: SupportsFloat = 45.0,
         accuracy: Accuracy | None = None,
         tolerance: Number = None,
         progress: Progress = None,
@@ -388,6 +392,12 @@ class Questions(Searches):
             first critical speed.
         max_deviation_mm : float, optional
             Largest deflection at the cut that is allowed.
+        friction : float, optional
+            Coefficient of friction of the pads. With it the heat of the pads is computed, and the
+            deflection of the blade that it heats.
+        heat_share, convection_w_per_m2_k, conductivity_w_per_m_k : float
+            Share of this heat that enters the blade, heat transfer coefficient of each face, and
+            conductivity of the blade.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
@@ -411,7 +421,16 @@ class Questions(Searches):
         >>> bool(r.free.critical_rpm[0] < r.linear.critical_rpm[0])
         True
         """
-        ask = partial(_native.gap, force_n=force_n, rpm=rpm, max_deviation_mm=max_deviation_mm)
+        ask = partial(
+            _native.gap,
+            force_n=force_n,
+            rpm=rpm,
+            max_deviation_mm=max_deviation_mm,
+            friction=friction,
+            heat_share=heat_share,
+            convection_w_per_m2_k=convection_w_per_m2_k,
+            conductivity_w_per_m_k=conductivity_w_per_m_k,
+        )
         return self._asked(GapResults, ask, "amplitudes", accuracy, tolerance, progress)
 
     def run_washboard(

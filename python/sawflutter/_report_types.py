@@ -1763,6 +1763,61 @@ class Deviation(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class Friction(Entry):
+    """The heat of friction at the pads, at the speed and under the side force of the map."""
+
+    coefficient: float
+    """Coefficient of friction."""
+
+    heat_share: float
+    """Share of the power that enters the blade."""
+
+    convection_w_per_m2_k: float
+    """Heat transfer coefficient of each face of the blade."""
+
+    conductivity_w_per_m_k: float
+    """Heat conductivity of the blade."""
+
+    expansion_per_k: float
+    """Coefficient of linear thermal expansion: that of the scene's temperature, or that of
+    steel."""
+
+    power_w: float
+    """Power of friction at all pads."""
+
+    radii_m: FloatArray
+    """Radii of the temperatures."""
+
+    rise_k: FloatArray
+    """Temperature rise at these radii by friction alone, to be added to that of the scene."""
+
+    cold_deflection_m: float | None
+    """Deflection at the cut without this heat; null where the model is not valid."""
+
+    deflection_m: float | None
+    """Deflection at the cut with this heat."""
+
+    pad_forces_n: FloatArray
+    """Force of each one-sided pad on the blade beyond its gap, with this heat."""
+
+    cold_critical_rpm: float | None
+    """First critical speed of the linear chart without this heat."""
+
+    critical_rpm: float | None
+    """First critical speed of the linear chart with this heat."""
+
+    settled: bool
+    """Whether the temperature has settled; otherwise the numbers are those of the last
+    repetition."""
+
+    change: float
+    """Last change of the temperature, relative to its largest value."""
+
+    repetitions: int
+    """Number of repetitions of the loop of temperature and deflection."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class GapReport(Entry):
     """gap.json."""
 
@@ -1804,6 +1859,10 @@ class GapReport(Entry):
 
     deviation: Deviation
     """The deflection at the cut."""
+
+    friction: Friction | None
+    """The heat of friction at the pads with the gaps of the scene; null without a coefficient
+    of friction."""
 
     warnings: tuple[str, ...]
     """Remarks on the validity of the result."""

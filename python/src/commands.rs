@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use sawflutter::check::{Check, Limits, LimitsFile};
 use sawflutter::deflect::{Deflecting, Options as DeflectOptions};
 use sawflutter::fit::{Fit, Measurement, Options as FitOptions};
-use sawflutter::gap::{GuideGaps, Options as GapOptions};
+use sawflutter::gap::{Friction, GuideGaps, Options as GapOptions};
 use sawflutter::place::{Demands, GapDemands, Options as PlaceOptions, Placement, Tolerances};
 use sawflutter::report::{
     CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, FitReport, GapReport,
@@ -235,13 +235,19 @@ pub fn response(
 
 /// `gap.json` of a scene, under a side force at the cut, at a speed.
 #[pyfunction]
-#[pyo3(signature = (scene, *, force_n=None, rpm=None, max_deviation_mm=None, progress=None))]
+#[pyo3(signature = (scene, *, force_n=None, rpm=None, max_deviation_mm=None, friction=None, heat_share=1.0,
+                    convection_w_per_m2_k=60.0, conductivity_w_per_m_k=45.0, progress=None))]
+#[allow(clippy::too_many_arguments, reason = "they are Python's")]
 pub fn gap(
     py: Python<'_>,
     scene: &str,
     force_n: Option<f64>,
     rpm: Option<f64>,
     max_deviation_mm: Option<f64>,
+    friction: Option<f64>,
+    heat_share: f64,
+    convection_w_per_m2_k: f64,
+    conductivity_w_per_m_k: f64,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let scene = arguments::scene(scene)?;
@@ -249,6 +255,12 @@ pub fn gap(
         force_n,
         rpm,
         max_deviation_mm,
+        friction: friction.map(|coefficient| Friction {
+            coefficient,
+            heat_share,
+            convection_w_per_m2_k,
+            conductivity_w_per_m_k,
+        }),
     };
     options.checked(&scene).map_err(Failure::from)?;
     compute(py, progress, move |_| {

@@ -12,6 +12,7 @@
 //! | tilt of a blade under single forces in its plane | [`tilt`] |
 //! | stress of an annulus that rotates, is heated, pulled at its rim or twisted; its tilt | [`annulus`] |
 //! | stress of a disk between two forces | [`pressed_disk`] |
+//! | temperature of a disk that is heated along a ring | [`ring_source`] |
 //! | critical speeds and eigenvalues of a blade on equal, evenly spaced point springs | [`point_springs`] |
 //! | which waves such springs couple, and how fast they then grow | [`wave_coupling`] |
 //! | one degree of freedom in time | [`oscillator`] |
@@ -29,6 +30,7 @@ pub mod oscillator;
 pub mod point_springs;
 pub mod pressed_disk;
 pub mod regenerative;
+pub mod ring_source;
 pub mod spinning_membrane;
 pub mod tilt;
 pub mod wave_coupling;

@@ -1,6 +1,6 @@
 //! `sawflutter gap`.
 
-use crate::gap::{GapError, GuideGaps, Options};
+use crate::gap::{Friction, GapError, GuideGaps, Options};
 use crate::report::GapReport;
 use clap::Args;
 
@@ -13,6 +13,7 @@ Examples:
   sawflutter gap my-saw.json                         # guides with a gap
   sawflutter gap my-saw.json --force-n 10 --rpm 2400 # another force and speed
   sawflutter gap my-saw.json --max-deviation-mm 0.1  # with a tolerance
+  sawflutter gap my-saw.json --friction 0.2          # with the heat of the pads
   sawflutter gap my-saw.json --json | jq .half_way_amplitude_m
 
 At least one guide needs `contact` one_sided and a `gap_m`. The deflection is
@@ -31,9 +32,24 @@ pub struct Arguments {
     /// Largest deflection at the cut that is allowed
     #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
     max_deviation_mm: Option<f64>,
+    /// Coefficient of friction of the pads: their heat, and the deflection with it
+    #[arg(long, value_name = "MU", allow_negative_numbers = true, value_parser = number)]
+    friction: Option<f64>,
+    /// Share of the heat of friction that enters the blade
+    #[arg(long, value_name = "SHARE", default_value_t = FRICTION.heat_share, requires = "friction", allow_negative_numbers = true, value_parser = number)]
+    heat_share: f64,
+    /// Heat transfer coefficient of each face of the blade
+    #[arg(long, value_name = "VALUE", default_value_t = FRICTION.convection_w_per_m2_k, requires = "friction", allow_negative_numbers = true, value_parser = number)]
+    convection_w_per_m2_k: f64,
+    /// Heat conductivity of the blade
+    #[arg(long, value_name = "VALUE", default_value_t = FRICTION.conductivity_w_per_m_k, requires = "friction", allow_negative_numbers = true, value_parser = number)]
+    conductivity_w_per_m_k: f64,
     #[command(flatten)]
     page: Page,
 }
+
+/// The numbers that are usual.
+const FRICTION: Friction = Friction::of(0.0);
 
 /// Evaluates the gaps, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
@@ -42,6 +58,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         force_n: arguments.force_n,
         rpm: arguments.rpm,
         max_deviation_mm: arguments.max_deviation_mm,
+        friction: arguments.friction.map(|coefficient| Friction {
+            coefficient,
+            heat_share: arguments.heat_share,
+            convection_w_per_m2_k: arguments.convection_w_per_m2_k,
+            conductivity_w_per_m_k: arguments.conductivity_w_per_m_k,
+        }),
     };
     let refused = |refused: crate::scene::RefusedValue| match refused.key.starts_with("guides") {
         true => refused.into(),

@@ -7,14 +7,18 @@
 //!   over an oscillation of a given amplitude.
 //! * [`DeviationMap`]: the stationary deflection at the cut, and the forces of the pads, over gap, side force and speed,
 //!   from the equilibria of [`stretched`](crate::stretched).
+//! * [`FrictionHeat`], only with a coefficient of friction: the heat of the pads, and the blade that it deforms.
 
 mod amplitude;
 mod deviation;
+mod friction;
+mod heated_disk;
 mod numbers;
 mod pressed;
 
 pub use amplitude::{AmplitudeChart, AtAmplitude, equivalent_share};
 pub use deviation::{BasisError, DeviationMap};
+pub use friction::{Friction, FrictionHeat};
 pub(crate) use numbers::{GapCase, GapNumbers};
 pub use pressed::Deviation;
 
@@ -53,6 +57,8 @@ pub struct Options {
     pub rpm: Option<f64>,
     /// Largest deflection at the cut that is allowed.
     pub max_deviation_mm: Option<f64>,
+    /// Friction at the pads; without it no heat is computed.
+    pub friction: Option<Friction>,
 }
 
 /// Guides with a gap.
@@ -66,6 +72,8 @@ pub struct GuideGaps {
     pub amplitude: AmplitudeChart,
     /// The deflection at the cut.
     pub deviation: DeviationMap,
+    /// The heat of friction, if a coefficient was given.
+    pub friction: Option<FrictionHeat>,
     /// Largest deflection at the cut that is allowed.
     pub max_deviation_m: Option<f64>,
 }
@@ -94,6 +102,9 @@ impl Options {
                 allowed,
                 remedy,
             ));
+        }
+        if let Some(friction) = self.friction {
+            friction.checked()?;
         }
         let force_n = self.force(scene)?;
         if force_n == 0.0 {
@@ -135,12 +146,16 @@ impl GuideGaps {
             .or(scene.operating_rad_per_s())
             .or(first.map(|critical| 0.5 * critical.speed_rad_per_s))
             .unwrap_or(analysis.range_rad_per_s.1);
-        let deviation = DeviationMap::new(&analysis, rpm(speed), options.force(scene)?)?;
+        let case = (options.force(scene)?, rpm(speed));
+        let deviation = DeviationMap::new(&analysis, case.1, case.0)?;
+        let friction = options.friction;
+        let friction = friction.map(|friction| FrictionHeat::new(&analysis, friction, case));
         Ok(GuideGaps {
             scene: scene.clone(),
             analysis,
             amplitude,
             deviation,
+            friction: friction.transpose()?,
             max_deviation_m: options.max_deviation_mm.map(|mm| 1e-3 * mm),
         })
     }

@@ -122,6 +122,19 @@ impl GapCase {
     }
 }
 
+/// First critical speed, in rad/s, with guides of their full stiffness.
+///
+/// # Errors
+/// [`GapError`].
+pub(super) fn first_critical_of_linear(
+    scene: &Scene,
+    resolution: Resolution,
+) -> Result<Option<f64>, GapError> {
+    let system = GyroscopicSystem::of_plate(&Plate::new(scene, resolution));
+    let critical = critical_speeds(&system)?;
+    Ok(critical.first().map(|c| c.speed_rad_per_s))
+}
+
 /// First critical speed, in rad/s, with the mean stiffness of the guides over an oscillation.
 ///
 /// # Errors
@@ -132,7 +145,5 @@ pub(super) fn first_critical(
     amplitude_m: f64,
 ) -> Result<Option<f64>, GapError> {
     let (scene, _) = at_amplitude(scene, amplitude_m)?;
-    let system = GyroscopicSystem::of_plate(&Plate::new(&scene, resolution));
-    let critical = critical_speeds(&system)?;
-    Ok(critical.first().map(|c| c.speed_rad_per_s))
+    first_critical_of_linear(&scene, resolution)
 }

@@ -80,6 +80,21 @@ impl PressedBlade {
         Ok(self.valid(&found))
     }
 
+    /// As [`PressedBlade::deviation`], with radius and size of the force at each point of contact.
+    ///
+    /// # Errors
+    /// [`GapError`].
+    pub fn with_contacts(
+        &self,
+        force_n: f64,
+        rpm: f64,
+    ) -> Result<(Option<Deviation>, Vec<(f64, f64)>), GapError> {
+        Cancellation::current().check()?;
+        let blade = self.blade.clone().pressed(force_n, self.place)?;
+        let found = blade.settled(rad_per_s(rpm), &blade.flat())?;
+        Ok((self.valid(&found), blade.contacts(&found)))
+    }
+
     /// Relative change of a deflection at the cut in a larger basis, in which the blade moves from the same deflection to
     /// the nearest equilibrium; `None` where the model is not valid.
     ///

@@ -151,7 +151,73 @@ fn what_cannot_be_answered_is_refused() {
             },
             "max_deviation_mm",
         ),
+        (
+            Options {
+                friction: Some(Friction::of(-0.1)),
+                ..options
+            },
+            "friction",
+        ),
     ] {
         assert_eq!(options.checked(&scene).unwrap_err().key, key);
     }
+}
+
+/// One pad carries the whole side force whatever the temperature: the power is that of a rigid pad, and the temperature
+/// follows in one step. Heat beside the rim lowers the deflection that the pad allows no more than it softens the blade.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn the_heat_of_one_pad_is_that_of_the_side_force() {
+    let scene = lifting(4e-5).edited(|file| {
+        // A point pad has one radius.
+        let pad = &mut file.guides[0];
+        (pad.radial_length_m, pad.tangential_length_m) = (0.0, 0.0);
+    });
+    let analysis = Analysis::new(&scene.unwrap()).unwrap();
+    let friction = Friction::of(0.2);
+    let heat = FrictionHeat::new(&analysis, friction, (2.0, 1000.0)).unwrap();
+    assert!(heat.has_settled(), "{heat:?}");
+    let blade = analysis.scene.blade();
+    let radius_m = analysis.scene.guides()[0].radius_m;
+    let power_w = 0.2 * 2.0 * rad_per_s(1000.0) * radius_m;
+    assert!(
+        (heat.power_w / power_w - 1.0).abs() < 1e-4,
+        "{}",
+        heat.power_w
+    );
+    let disk = crate::analytical::ring_source::CooledDisk {
+        inner_radius_m: blade.inner_radius_m,
+        outer_radius_m: blade.outer_radius_m,
+        thickness_m: blade.thickness_m,
+        conductivity_w_per_m_k: friction.conductivity_w_per_m_k,
+        convection_w_per_m2_k: friction.convection_w_per_m2_k,
+    };
+    for (r, found) in heat.radii_m.iter().zip(&heat.rise_k) {
+        let exact = disk.rise_k(*r, power_w, radius_m);
+        assert!((found / exact - 1.0).abs() < 2e-2, "{r}: {found} {exact}");
+    }
+    // The deflection of the heated scene is that of a scene with this temperature.
+    let warm = analysis.scene.edited(|file| {
+        let rows = heat.radii_m.iter().zip(&heat.rise_k);
+        let table = rows.map(|(radius_m, rise_k)| crate::scene::TemperatureRow {
+            radius_m: *radius_m,
+            rise_k: *rise_k,
+        });
+        file.membrane = Some(crate::scene::MembraneFile {
+            temperature: Some(crate::scene::TemperatureFile {
+                expansion_per_k: heat.expansion_per_k,
+                rim_rise_k: None,
+                from_radius_m: None,
+                exponent: None,
+                table: table.collect(),
+            }),
+            roll_tension: Vec::new(),
+            residual_stress: Vec::new(),
+        });
+    });
+    let warm = Analysis::new(&warm.unwrap()).unwrap();
+    let first = warm.model.critical[0].speed_rad_per_s;
+    let [cold, hot] = heat.critical_rad_per_s.map(Option::unwrap);
+    assert!((hot / first - 1.0).abs() < 2e-3, "{hot} {first}");
+    assert!((hot / cold - 1.0).abs() > 1e-3, "{hot} {cold}");
 }

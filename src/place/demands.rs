@@ -72,6 +72,7 @@ impl GapDemands {
             force_n,
             rpm: None,
             max_deviation_mm,
+            friction: None,
         };
         Ok(Some(GapDemands {
             case: GapCase::new(scene, &options, amplitude_mm)?,

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
-use crate::gap::{AtAmplitude, BasisError, Deviation, DeviationMap, GuideGaps};
+use crate::gap::{AtAmplitude, BasisError, Deviation, DeviationMap, FrictionHeat, GuideGaps};
 use crate::scene::{SceneFile, rpm};
 use crate::text::shown_to;
 
@@ -39,8 +39,49 @@ pub struct GapReport {
     pub half_way_amplitude_m: Option<f64>,
     /// The deflection at the cut.
     pub deviation: DeviationEntry,
+    /// The heat of friction at the pads with the gaps of the scene; null without a coefficient of friction.
+    #[serde(default)]
+    pub friction: Option<FrictionEntry>,
     /// Remarks on the validity of the result.
     pub warnings: Vec<String>,
+}
+
+/// The heat of friction at the pads, at the speed and under the side force of the map.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FrictionEntry {
+    /// Coefficient of friction.
+    pub coefficient: f64,
+    /// Share of the power that enters the blade.
+    pub heat_share: f64,
+    /// Heat transfer coefficient of each face of the blade.
+    pub convection_w_per_m2_k: f64,
+    /// Heat conductivity of the blade.
+    pub conductivity_w_per_m_k: f64,
+    /// Coefficient of linear thermal expansion: that of the scene's temperature, or that of steel.
+    pub expansion_per_k: f64,
+    /// Power of friction at all pads.
+    pub power_w: f64,
+    /// Radii of the temperatures.
+    pub radii_m: Vec<f64>,
+    /// Temperature rise at these radii by friction alone, to be added to that of the scene.
+    pub rise_k: Vec<f64>,
+    /// Deflection at the cut without this heat; null where the model is not valid.
+    pub cold_deflection_m: Option<f64>,
+    /// Deflection at the cut with this heat.
+    pub deflection_m: Option<f64>,
+    /// Force of each one-sided pad on the blade beyond its gap, with this heat.
+    pub pad_forces_n: Vec<f64>,
+    /// First critical speed of the linear chart without this heat.
+    pub cold_critical_rpm: Option<f64>,
+    /// First critical speed of the linear chart with this heat.
+    pub critical_rpm: Option<f64>,
+    /// Whether the temperature has settled; otherwise the numbers are those of the last repetition.
+    pub settled: bool,
+    /// Last change of the temperature, relative to its largest value.
+    pub change: f64,
+    /// Number of repetitions of the loop of temperature and deflection.
+    pub repetitions: usize,
 }
 
 /// A saw whose blade oscillates at its guides with one amplitude.
@@ -150,7 +191,35 @@ impl GapReport {
             linear: entry(&amplitude.linear),
             half_way_amplitude_m: amplitude.half_way_m,
             deviation: DeviationEntry::new(&found.deviation, found.max_deviation_m),
-            warnings: warnings(chart.warnings, &found.deviation),
+            friction: found.friction.as_ref().map(FrictionEntry::new),
+            warnings: warnings(chart.warnings, found),
+        }
+    }
+}
+
+impl FrictionEntry {
+    fn new(found: &FrictionHeat) -> Self {
+        let friction = &found.friction;
+        let [cold_critical_rpm, critical_rpm] =
+            found.critical_rad_per_s.map(|speed| speed.map(rpm));
+        let hot = found.hot.as_ref();
+        FrictionEntry {
+            coefficient: friction.coefficient,
+            heat_share: friction.heat_share,
+            convection_w_per_m2_k: friction.convection_w_per_m2_k,
+            conductivity_w_per_m_k: friction.conductivity_w_per_m_k,
+            expansion_per_k: found.expansion_per_k,
+            power_w: found.power_w,
+            radii_m: found.radii_m.clone(),
+            rise_k: found.rise_k.clone(),
+            cold_deflection_m: found.cold.as_ref().map(|at| at.deviation_m),
+            deflection_m: hot.map(|at| at.deviation_m),
+            pad_forces_n: hot.map_or_else(Vec::new, |at| at.pad_forces_n.clone()),
+            cold_critical_rpm,
+            critical_rpm,
+            settled: found.has_settled(),
+            change: found.change,
+            repetitions: found.repetitions,
         }
     }
 }
@@ -208,8 +277,17 @@ impl From<BasisError> for BasisErrorEntry {
 /// Errors of deflections above this share are worth a warning.
 const LARGE_ERROR: f64 = 0.02;
 
-fn warnings(mut warnings: Vec<String>, map: &DeviationMap) -> Vec<String> {
-    if let Some(error) = map.basis_error
+fn warnings(mut warnings: Vec<String>, found: &GuideGaps) -> Vec<String> {
+    if found
+        .friction
+        .as_ref()
+        .is_some_and(|heat| !heat.has_settled())
+    {
+        warnings.push(
+            "the temperature of friction does not settle: heat, deflection and pad forces raise each other, and the numbers of friction are those of the last repetition".to_owned(),
+        );
+    }
+    if let Some(error) = found.deviation.basis_error
         && error.share > LARGE_ERROR
     {
         warnings.push(format!(

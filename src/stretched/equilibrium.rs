@@ -36,6 +36,12 @@ impl StretchedBlade {
         gaps.map_or_else(Vec::new, |gaps| gaps.forces_n(&equilibrium.coordinates))
     }
 
+    /// Radius and size of the force at each point at which a pad that lifts off touches the blade.
+    pub(crate) fn contacts(&self, equilibrium: &Equilibrium) -> Vec<(f64, f64)> {
+        let gaps = self.gaps.as_ref();
+        gaps.map_or_else(Vec::new, |gaps| gaps.contacts(&equilibrium.coordinates))
+    }
+
     /// Largest slope |∇w| of an equilibrium. The potential of stretching is valid up to about 0.1.
     pub fn largest_slope(&self, equilibrium: &Equilibrium) -> f64 {
         let q = &self.shapes * &equilibrium.coordinates;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::{WIDTH, shortened, unusual_numbers, wrapped};
-use crate::report::{AtAmplitudeEntry, GapReport};
+use crate::report::{AtAmplitudeEntry, FrictionEntry, GapReport};
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
@@ -31,6 +31,9 @@ pub fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
     }
     writeln!(text, "{}", row("linear", &report.linear))?;
     deviation(text, report)?;
+    if let Some(friction) = &report.friction {
+        heat(text, report, friction)?;
+    }
     if let Some(error) = &report.deviation.basis_error {
         let told = format!(
             "Estimated error of these deflections: {} % at most, from {} modes at rest in the place of {}",
@@ -49,6 +52,71 @@ pub fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
 
 const MEANING: &str = "The chart over the amplitude is the linear one with the mean stiffness of the guides over a sinusoidal oscillation \
      of the same amplitude at all of them; it is an approximation. Deflections are stationary ones; oscillations about them are not part of them.";
+
+fn heat(text: &mut String, report: &GapReport, friction: &FrictionEntry) -> std::fmt::Result {
+    let map = &report.deviation;
+    writeln!(
+        text,
+        "\nHeat of friction at {:.0} rpm under {} N, coefficient {}",
+        map.rpm,
+        shown_to(3, map.force_n),
+        shown_to(3, friction.coefficient)
+    )?;
+    let rises = friction.radii_m.iter().zip(&friction.rise_k);
+    let hottest = rises.fold((0.0, 0.0), |most: (f64, f64), (radius_m, rise_k)| {
+        if *rise_k > most.1 {
+            (*radius_m, *rise_k)
+        } else {
+            most
+        }
+    });
+    let mm = |m: Option<f64>| m.map_or_else(|| "unknown".to_owned(), |m| format!("{:.4}", 1e3 * m));
+    let speed = |rpm: Option<f64>| rpm.map_or_else(|| "none".to_owned(), |rpm| format!("{rpm:.1}"));
+    let forces = friction
+        .pad_forces_n
+        .iter()
+        .map(|force| shown_to(3, *force));
+    let forces = forces.collect::<Vec<_>>().join("  ");
+    let rows = [
+        (
+            "power",
+            format!(
+                "{} W, of which {} W heat the blade",
+                shown_to(3, friction.power_w),
+                shown_to(3, friction.heat_share * friction.power_w)
+            ),
+        ),
+        (
+            "largest rise",
+            format!(
+                "{} K at a radius of {} m",
+                shown_to(3, hottest.1),
+                shown_to(3, hottest.0)
+            ),
+        ),
+        (
+            "deflection",
+            format!(
+                "{} mm, without friction {} mm",
+                mm(friction.deflection_m),
+                mm(friction.cold_deflection_m)
+            ),
+        ),
+        ("pad forces", format!("{forces} N")),
+        (
+            "first critical speed",
+            format!(
+                "{} rpm, without friction {} rpm (linear chart)",
+                speed(friction.critical_rpm),
+                speed(friction.cold_critical_rpm)
+            ),
+        ),
+    ];
+    for (name, said) in rows {
+        writeln!(text, "  {name:<22}{said}")?;
+    }
+    Ok(())
+}
 
 fn half_way(report: &GapReport) -> String {
     let gap = shown_to(3, 1e3 * report.smallest_gap_m);

@@ -72,6 +72,7 @@ pub struct GapPotential {
 struct Point {
     /// Index of its pad among those that lift off.
     pad: usize,
+    radius_m: f64,
     /// Its share of k − k_f.
     stiffness_n_per_m: f64,
     gap_m: f64,
@@ -104,6 +105,7 @@ impl GapPotential {
             for (place, share) in places(plate, guide, radial, angular) {
                 points.push(Point {
                     pad,
+                    radius_m: place.0,
                     stiffness_n_per_m: share * stiffness,
                     gap_m: law.gap_m,
                     side: law.side,
@@ -179,6 +181,16 @@ impl GapPotential {
             forces[point.pad] -= point.pressure_n(w[k]);
         }
         forces
+    }
+
+    /// Radius and size of the force at each point in contact.
+    pub fn contacts(&self, coordinates: &Col<f64>) -> Vec<(f64, f64)> {
+        let w = self.deflections(coordinates);
+        let points = self.points.iter().enumerate();
+        points
+            .map(|(k, point)| (point.radius_m, point.pressure_n(w[k]).abs()))
+            .filter(|(_, force_n)| *force_n > 0.0)
+            .collect()
     }
 
     /// Σ sₖ φₖφₖᵀ over the points in contact.

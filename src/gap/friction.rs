@@ -1,0 +1,232 @@
+//! Heat of friction at the pads, and what it does to the blade that causes it.
+//!
+//! A pad that presses with N on the blade at a radius r, with a coefficient of friction μ, has the power μ N Ω r. A share of
+//! it enters the blade, and heats it along a circle. The temperature over the radius changes the stress in the plane, thus the
+//! deflection under the side force and the forces of the pads: the loop is repeated until the temperature no longer changes.
+//! The friction itself has no effect on the motion, as its moment in the plane is small.
+
+use crate::plate::Resolution;
+use crate::scene::{MembraneFile, RefusedValue, Scene, TemperatureFile, TemperatureRow, rad_per_s};
+use crate::spectrum::Work;
+use crate::stability::Analysis;
+use crate::text::shown;
+
+use super::GapError;
+use super::deviation::MODES;
+use super::heated_disk::{Cooling, radii_m, rises_k};
+use super::numbers::first_critical_of_linear;
+use super::pressed::{Deviation, PressedBlade};
+
+/// Friction of the pads, and the cooling of the blade.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    /// Coefficient of friction of dry contact.
+    pub coefficient: f64,
+    /// Share of the power that enters the blade.
+    pub heat_share: f64,
+    /// Heat transfer coefficient of each face.
+    pub convection_w_per_m2_k: f64,
+    /// Conductivity of the blade.
+    pub conductivity_w_per_m_k: f64,
+}
+
+impl Friction {
+    /// Friction with a coefficient; all heat enters a blade of steel, of whose faces each square metre gives off 60 W for each
+    /// kelvin.
+    pub const fn of(coefficient: f64) -> Self {
+        Friction {
+            coefficient,
+            heat_share: 1.0,
+            convection_w_per_m2_k: 60.0,
+            conductivity_w_per_m_k: 45.0,
+        }
+    }
+
+    /// Refuses invalid numbers.
+    ///
+    /// # Errors
+    /// [`RefusedValue`].
+    pub fn checked(self) -> Result<Self, RefusedValue> {
+        let all = [
+            (
+                "friction",
+                self.coefficient,
+                (0.0, 2.0),
+                "dry steel on a pad has 0.1 to 0.4",
+            ),
+            (
+                "heat_share",
+                self.heat_share,
+                (0.0, 1.0),
+                "1 is on the safe side",
+            ),
+            (
+                "convection_w_per_m2_k",
+                self.convection_w_per_m2_k,
+                (1.0, 1e5),
+                "air along a saw has 30 to 150, water some 1000",
+            ),
+            (
+                "conductivity_w_per_m_k",
+                self.conductivity_w_per_m_k,
+                (0.1, 1e3),
+                "steel has 45",
+            ),
+        ];
+        for (key, value, (least, most), remedy) in all {
+            if !(least..=most).contains(&value) {
+                let allowed = format!("from {} to {}", shown(least), shown(most));
+                return Err(RefusedValue::new(key, value, allowed, remedy));
+            }
+        }
+        Ok(self)
+    }
+}
+
+/// The heat of friction at one speed under one side force, with the gaps of the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrictionHeat {
+    /// Friction and cooling.
+    pub friction: Friction,
+    /// Coefficient of linear thermal expansion: that of the scene's temperature, or that of steel.
+    pub expansion_per_k: f64,
+    /// Power of friction at all pads.
+    pub power_w: f64,
+    /// Radii of the temperatures.
+    pub radii_m: Vec<f64>,
+    /// Temperature rise at these radii by friction alone.
+    pub rise_k: Vec<f64>,
+    /// Deflection and pad forces without friction; `None` where the model is not valid.
+    pub cold: Option<Deviation>,
+    /// Deflection and pad forces with it.
+    pub hot: Option<Deviation>,
+    /// First critical speed of the linear chart without and with this heat.
+    pub critical_rad_per_s: [Option<f64>; 2],
+    /// Last change of the temperature, relative to its largest value.
+    pub change: f64,
+    /// Number of repetitions of the loop.
+    pub repetitions: usize,
+}
+
+/// Thermal expansion of steel.
+const STEEL_EXPANSION_PER_K: f64 = 1.2e-5;
+/// The loop ends at this relative change of the temperature.
+const CONVERGED: f64 = 1e-4;
+/// The loop ends without convergence after this number of repetitions.
+const MOST: usize = 25;
+/// No blade survives a larger rise; the loop ends there.
+const RUNAWAY_K: f64 = 1000.0;
+
+impl FrictionHeat {
+    /// Whether the temperature has settled.
+    pub fn has_settled(&self) -> bool {
+        self.change <= CONVERGED
+    }
+
+    /// Repeats the loop of friction and deflection.
+    ///
+    /// # Errors
+    /// [`GapError`].
+    pub(super) fn new(
+        analysis: &Analysis,
+        friction: Friction,
+        (force_n, rpm): (f64, f64),
+    ) -> Result<Self, GapError> {
+        let scene = &analysis.scene;
+        let resolution = analysis.model.plate.resolution;
+        let radii_m = radii_m(scene.blade());
+        let own = scene
+            .membrane()
+            .and_then(|membrane| membrane.temperature.as_ref());
+        let expansion_per_k = own.map_or(STEEL_EXPANSION_PER_K, |own| own.expansion_per_k);
+        let own_k = |r: f64| own.map_or(0.0, |own| own.rise_k(scene.blade(), r));
+        let cooling = Cooling {
+            conductivity_w_per_m_k: friction.conductivity_w_per_m_k,
+            convection_w_per_m2_k: friction.convection_w_per_m2_k,
+        };
+        let mut found = FrictionHeat {
+            friction,
+            expansion_per_k,
+            power_w: 0.0,
+            rise_k: vec![0.0; radii_m.len()],
+            cold: None,
+            hot: None,
+            critical_rad_per_s: [first_critical_of_linear(scene, resolution)?, None],
+            change: f64::INFINITY,
+            repetitions: 0,
+            radii_m,
+        };
+        let work = Work::of("friction", MOST);
+        let mut warm = scene.clone();
+        while !found.has_settled() && found.repetitions < MOST {
+            let (deviation, contacts) = pressed(&warm, resolution, (force_n, rpm))?;
+            if found.repetitions == 0 {
+                found.cold.clone_from(&deviation);
+            }
+            found.hot = deviation;
+            let powers = contacts.into_iter().map(|(radius_m, force_n)| {
+                (
+                    radius_m,
+                    friction.coefficient * force_n * rad_per_s(rpm) * radius_m,
+                )
+            });
+            let powers: Vec<(f64, f64)> = powers.collect();
+            found.power_w = powers.iter().map(|(_, power_w)| power_w).sum();
+            let into_blade = powers
+                .iter()
+                .map(|(r, power_w)| (*r, friction.heat_share * power_w));
+            let rise_k = rises_k(scene.blade(), &cooling, &into_blade.collect::<Vec<_>>());
+            let pairs = rise_k.iter().zip(&found.rise_k);
+            let change_k = pairs
+                .map(|(new, old)| (new - old).abs())
+                .fold(0.0, f64::max);
+            let peak_k = rise_k.iter().copied().fold(0.0, f64::max);
+            found.change = if peak_k > 0.0 { change_k / peak_k } else { 0.0 };
+            found.rise_k = rise_k;
+            found.repetitions += 1;
+            work.advance();
+            if found.hot.is_none() || peak_k > RUNAWAY_K {
+                break;
+            }
+            let rows = found.radii_m.iter().zip(&found.rise_k);
+            let table = rows.map(|(radius_m, rise_k)| TemperatureRow {
+                radius_m: *radius_m,
+                rise_k: rise_k + own_k(*radius_m),
+            });
+            warm = heated(scene, expansion_per_k, table.collect())?;
+        }
+        found.critical_rad_per_s[1] = first_critical_of_linear(&warm, resolution)?;
+        Ok(found)
+    }
+}
+
+/// Deflection of a scene, and radius and size of the force at each point of contact.
+fn pressed(
+    scene: &Scene,
+    resolution: Resolution,
+    (force_n, rpm): (f64, f64),
+) -> Result<(Option<Deviation>, Vec<(f64, f64)>), GapError> {
+    PressedBlade::new(scene, resolution, rpm, MODES)?.with_contacts(force_n, rpm)
+}
+
+/// The scene with another temperature.
+fn heated(
+    scene: &Scene,
+    expansion_per_k: f64,
+    table: Vec<TemperatureRow>,
+) -> Result<Scene, GapError> {
+    Ok(scene.edited(|file| {
+        let membrane = file.membrane.get_or_insert_with(|| MembraneFile {
+            temperature: None,
+            roll_tension: Vec::new(),
+            residual_stress: Vec::new(),
+        });
+        membrane.temperature = Some(TemperatureFile {
+            expansion_per_k,
+            rim_rise_k: None,
+            from_radius_m: None,
+            exponent: None,
+            table,
+        });
+    })?)
+}
