@@ -192,6 +192,7 @@ class SceneData(Mapping[str, Any]):
         contact: ContactLaw | None = None,
         side: GuideSide | None = None,
         film_stiffness_n_per_m: Number = None,
+        offset_m: Number = None,
     ) -> Self:
         """Returns the scene with one more guide at the end of :attr:`guides`. Arguments that are
         not given are copied from the last guide.
@@ -200,7 +201,7 @@ class SceneData(Mapping[str, Any]):
         ----------
         radius_m, angle_deg, radial_length_m, tangential_length_m : float, optional
             Position and size, as in a scene file.
-        stiffness_n_per_m, damping_n_s_per_m, gap_m, film_stiffness_n_per_m : float, optional
+        stiffness_n_per_m, damping_n_s_per_m, gap_m, film_stiffness_n_per_m, offset_m : float, optional
             Other numbers, as in a scene file.
         contact : {"linear", "one_sided"}, optional
             Whether it holds the blade at any deflection or touches it only beyond the gap.

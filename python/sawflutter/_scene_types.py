@@ -151,6 +151,11 @@ class GuideDict(_GuideDict, total=False):
     """Lateral stiffness of the whole one-sided pad inside the gap, such as that of a film of
     water. Zero by default."""
 
+    offset_m: float
+    """Lateral offset of the middle between the faces of a one-sided pad from the plane of the
+    flat blade, positive in the direction of positive deflection. Zero by default; a pad off its
+    line leans the blade."""
+
 
 class ModeRatioRowDict(TypedDict):
     """Damping ratio of the modes with a number of nodal diameters."""

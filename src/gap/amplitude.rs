@@ -61,20 +61,31 @@ pub fn equivalent_share(amplitude_over_gap: f64) -> f64 {
     if amplitude_over_gap <= 1.0 {
         return 0.0;
     }
-    let inverse = 1.0 / amplitude_over_gap;
-    1.0 - 2.0 / PI * (inverse.asin() + inverse * (1.0 - inverse * inverse).sqrt())
+    share_beyond(1.0 / amplitude_over_gap)
+}
+
+/// The same over the gap in amplitudes; a pad that presses on the flat blade has a negative one, and twice the stiffness, that
+/// of a contact on both sides that is never lost.
+fn share_beyond(gap_over_amplitude: f64) -> f64 {
+    let gap = gap_over_amplitude.clamp(-1.0, 1.0);
+    1.0 - 2.0 / PI * (gap.asin() + gap * (1.0 - gap * gap).sqrt())
 }
 
 /// The mean stiffness of a guide over an oscillation.
-fn equivalent_stiffness(guide: &GuideFile, amplitude_m: f64) -> f64 {
+pub(super) fn equivalent_stiffness(guide: &GuideFile, amplitude_m: f64) -> f64 {
     let gap_m = guide.gap_m.unwrap_or_default();
-    let sides = if guide.side == GuideSide::Both {
-        1.0
-    } else {
-        0.5
+    let share = |side: f64| 0.5 * share_beyond((gap_m + side * guide.offset_m) / amplitude_m);
+    let [left, right] = [1.0, -1.0].map(|side| match amplitude_m > 0.0 {
+        true => share(side),
+        false => f64::from(gap_m + side * guide.offset_m < 0.0),
+    });
+    let shares = match guide.side {
+        GuideSide::Both => left + right,
+        GuideSide::Left => left,
+        GuideSide::Right => right,
     };
     let (stiffness, film) = (guide.stiffness_n_per_m, guide.film_stiffness_n_per_m);
-    film + sides * equivalent_share(amplitude_m / gap_m) * (stiffness - film)
+    film + shares * (stiffness - film)
 }
 
 /// The scene with one-sided guides replaced by linear ones of their mean stiffness.
@@ -90,6 +101,7 @@ pub(super) fn at_amplitude(scene: &Scene, amplitude_m: f64) -> Result<(Scene, Ve
                 contact: ContactLaw::Linear,
                 side: GuideSide::Both,
                 film_stiffness_n_per_m: 0.0,
+                offset_m: 0.0,
                 ..*guide
             };
         }

@@ -5,7 +5,6 @@
 //! deflection under the side force and the forces of the pads: the loop is repeated until the temperature no longer changes.
 //! The friction itself has no effect on the motion, as its moment in the plane is small.
 
-use crate::plate::Resolution;
 use crate::scene::{MembraneFile, RefusedValue, Scene, TemperatureFile, TemperatureRow, rad_per_s};
 use crate::spectrum::Work;
 use crate::stability::Analysis;
@@ -159,7 +158,8 @@ impl FrictionHeat {
         let work = Work::of("friction", MOST);
         let mut warm = scene.clone();
         while !found.has_settled() && found.repetitions < MOST {
-            let (deviation, contacts) = pressed(&warm, resolution, (force_n, rpm))?;
+            let blade = PressedBlade::new(&warm, resolution, rpm, MODES)?;
+            let (deviation, contacts) = blade.with_contacts(force_n, rpm)?;
             if found.repetitions == 0 {
                 found.cold.clone_from(&deviation);
             }
@@ -198,15 +198,6 @@ impl FrictionHeat {
         found.critical_rad_per_s[1] = first_critical_of_linear(&warm, resolution)?;
         Ok(found)
     }
-}
-
-/// Deflection of a scene, and radius and size of the force at each point of contact.
-fn pressed(
-    scene: &Scene,
-    resolution: Resolution,
-    (force_n, rpm): (f64, f64),
-) -> Result<(Option<Deviation>, Vec<(f64, f64)>), GapError> {
-    PressedBlade::new(scene, resolution, rpm, MODES)?.with_contacts(force_n, rpm)
 }
 
 /// The scene with another temperature.

@@ -26,6 +26,9 @@ impl Deviation {
     }
 }
 
+/// Radius and size of the force at each point of contact.
+pub(super) type Contacts = Vec<(f64, f64)>;
+
 /// A blade that is pressed at the rim at the cut.
 pub(crate) struct PressedBlade {
     blade: StretchedBlade,
@@ -84,11 +87,11 @@ impl PressedBlade {
     ///
     /// # Errors
     /// [`GapError`].
-    pub fn with_contacts(
+    pub(super) fn with_contacts(
         &self,
         force_n: f64,
         rpm: f64,
-    ) -> Result<(Option<Deviation>, Vec<(f64, f64)>), GapError> {
+    ) -> Result<(Option<Deviation>, Contacts), GapError> {
         Cancellation::current().check()?;
         let blade = self.blade.clone().pressed(force_n, self.place)?;
         let found = blade.settled(rad_per_s(rpm), &blade.flat())?;
@@ -139,6 +142,7 @@ pub(super) fn with_linear_guides(scene: &Scene) -> Result<Scene, GapError> {
             guide.contact = ContactLaw::Linear;
             guide.side = Default::default();
             guide.film_stiffness_n_per_m = 0.0;
+            guide.offset_m = 0.0;
         }
     })?)
 }

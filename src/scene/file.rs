@@ -173,6 +173,10 @@ pub struct GuideFile {
     /// default.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub film_stiffness_n_per_m: f64,
+    /// Lateral offset of the middle between the faces of a one-sided pad from the plane of the flat blade, positive in the
+    /// direction of positive deflection. Zero by default; a pad off its line leans the blade.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub offset_m: f64,
 }
 
 /// Contact law of a guide pad.

@@ -34,6 +34,8 @@ pub(crate) struct Lifting {
     pub film_stiffness_n_per_m: f64,
     /// Sides on which the pad is.
     pub side: GuideSide,
+    /// Deflection at the middle of the gap.
+    pub offset_m: f64,
 }
 
 impl Guide {
@@ -101,6 +103,9 @@ pub fn guide(index: usize, typed: &GuideFile, blade: &Blade) -> Result<Guide, Sc
     Ok(pad)
 }
 
+/// A larger offset is that of another blade.
+const OFFSET_M: (f64, f64) = (-0.1, 0.1);
+
 /// Validates the gap of a pad that lifts off; `None` for a linear pad.
 fn lifting(of: &impl Fn(&str) -> String, typed: &GuideFile) -> Result<Option<Lifting>, SceneError> {
     if typed.contact == ContactLaw::Linear {
@@ -122,6 +127,14 @@ fn lifting(of: &impl Fn(&str) -> String, typed: &GuideFile) -> Result<Option<Lif
                 "a linear pad has one stiffness; give contact as \"one_sided\"",
             ));
         }
+        if typed.offset_m != 0.0 {
+            return Err(refuse(
+                &of("offset_m"),
+                typed.offset_m,
+                "0 where the contact is linear",
+                "a linear pad is at rest on the flat blade; give contact as \"one_sided\"",
+            ));
+        }
         return Ok(None);
     }
     let Some(gap_m) = typed.gap_m else {
@@ -140,6 +153,7 @@ fn lifting(of: &impl Fn(&str) -> String, typed: &GuideFile) -> Result<Option<Lif
         ));
     }
     Ok(Some(Lifting {
+        offset_m: within(&of("offset_m"), typed.offset_m, OFFSET_M)?,
         gap_m,
         film_stiffness_n_per_m: film,
         side: typed.side,
@@ -166,11 +180,13 @@ mod tests {
         let scene = with(|pad| {
             pad.side = GuideSide::Left;
             pad.film_stiffness_n_per_m = 1e5;
+            pad.offset_m = -1e-5;
         });
         let expected = Lifting {
             gap_m: 4e-5,
             film_stiffness_n_per_m: 1e5,
             side: GuideSide::Left,
+            offset_m: -1e-5,
         };
         assert_eq!(scene.unwrap().guides()[0].lifting, Some(expected));
         assert_eq!(Scene::paper().guides()[0].lifting, None);
@@ -179,7 +195,12 @@ mod tests {
     #[test]
     fn what_does_not_fit_together_is_refused_by_its_key() {
         type Change = fn(&mut GuideFile);
-        let cases: [(&str, Change); 7] = [
+        let cases: [(&str, Change); 9] = [
+            ("offset_m", |pad| pad.offset_m = f64::NAN),
+            ("offset_m", |pad| {
+                pad.contact = ContactLaw::Linear;
+                pad.offset_m = 1e-5;
+            }),
             ("gap_m", |pad| pad.gap_m = None),
             ("gap_m", |pad| pad.gap_m = Some(0.0)),
             ("stiffness_n_per_m", |pad| pad.stiffness_n_per_m = 0.0),

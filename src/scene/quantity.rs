@@ -64,7 +64,7 @@ impl Quantity {
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten
 /// carbide, guides from felt to steel.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 93] = [
+pub const QUANTITIES: [Quantity; 94] = [
     q("blade.outer_diameter_m", "outer diameter", "m", 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", 1e-4, 0.04),
@@ -85,6 +85,7 @@ pub const QUANTITIES: [Quantity; 93] = [
     q("guides[].damping_n_s_per_m", "damping of the guide", "N·s/m", 1e-2, 1e6).of_kind(Kind::Damping),
     q("guides[].gap_m", "gap of the guide", "m", 1e-6, 5e-3).of_kind(Kind::Gap),
     q("guides[].film_stiffness_n_per_m", "stiffness within the gap of the guide", "N/m", 10.0, 1e10),
+    q("guides[].offset_m", "offset of the guide", "m", -5e-3, 5e-3),
     q("damping.material_retardation_time_s", "retardation time of the material", "s", 1e-10, 1e-2),
     q("damping.loss_factor", "loss factor of the blade", "", 1e-6, 0.3),
     q("damping.mode_ratios[].diameters", "number of nodal diameters", "", 0.0, 60.0),

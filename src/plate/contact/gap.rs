@@ -6,13 +6,14 @@
 //! V = (k − k_f)/A ∫ Ψ(w − g) + Ψ(−w − g) dA, Ψ(x) = ½x² for x > 0 and 0 for x < 0,
 //!
 //! over its area A; a pad on one side has only one of the two terms. V is convex; ∂V/∂w rises from 0 to the
-//! force of a spring. Within ±g/100 of the gap the second derivative of Ψ rises linearly, as Newton's method
+//! force of a spring. An offset o of the pad puts w − o in the place of w, and the film then has the potential −k_f o w/A, too.
+//! Within ±g/100 of the gap the second derivative of Ψ rises linearly, as Newton's method
 //! requires. The integral is a sum over Gauss points of the pad, each of which is a point of contact.
 //!
 //! A [`Plate`] with shapes gives V in J, its gradient in N/√kg, its second derivatives in 1/s², and the force
 //! of each pad in N.
 
-use faer::{Col, Mat, MatRef};
+use faer::{Col, Mat, MatRef, Scale};
 
 use crate::scene::{Guide, GuideSide, Lifting};
 
@@ -63,6 +64,8 @@ pub struct GapPotential {
     points: Vec<Point>,
     /// The shapes at the points, r × P, in 1/√kg.
     shapes: Mat<f64>,
+    /// Force of the films of pads with an offset on the flat blade, in N/√kg.
+    film: Col<f64>,
     /// Number of pads.
     pads: usize,
 }
@@ -77,6 +80,7 @@ struct Point {
     stiffness_n_per_m: f64,
     gap_m: f64,
     side: GuideSide,
+    offset_m: f64,
 }
 
 /// Number of points of a pad over each smooth interval of the radius, and over the angle. For the built-in
@@ -100,6 +104,7 @@ impl GapPotential {
         let lifting = plate.lifting.as_ref()?;
         let mut points = Vec::new();
         let mut values = Vec::new();
+        let mut film = Col::zeros(basis.ncols());
         for (pad, (guide, law)) in lifting.pads.iter().enumerate() {
             let stiffness = guide.stiffness_n_per_m - law.film_stiffness_n_per_m;
             for (place, share) in places(plate, guide, radial, angular) {
@@ -109,14 +114,18 @@ impl GapPotential {
                     stiffness_n_per_m: share * stiffness,
                     gap_m: law.gap_m,
                     side: law.side,
+                    offset_m: law.offset_m,
                 });
                 let functions = plate.functions_at(place.0, place.1);
-                values.push(basis.transpose() * Col::from_fn(functions.len(), |i| functions[i]));
+                let shapes = basis.transpose() * Col::from_fn(functions.len(), |i| functions[i]);
+                film += Scale(share * law.film_stiffness_n_per_m * law.offset_m) * &shapes;
+                values.push(shapes);
             }
         }
         Some(GapPotential {
             shapes: Mat::from_fn(basis.ncols(), values.len(), |i, k| values[k][i]),
             pads: lifting.pads.len(),
+            film,
             points,
         })
     }
@@ -129,22 +138,25 @@ impl GapPotential {
         self
     }
 
-    /// Deflections at the points, in m.
+    /// Deflections at the points from the middle of the gap, in m.
     fn deflections(&self, coordinates: &Col<f64>) -> Col<f64> {
-        self.shapes.transpose() * coordinates
+        let w = self.shapes.transpose() * coordinates;
+        Col::from_fn(w.nrows(), |k| w[k] - self.points[k].offset_m)
     }
 
     /// V, in J.
     pub fn energy_j(&self, coordinates: &Col<f64>) -> f64 {
         let w = self.deflections(coordinates);
         let points = self.points.iter().enumerate();
-        points.map(|(k, point)| point.energy_j(w[k])).sum()
+        let pressed: f64 = points.map(|(k, point)| point.energy_j(w[k])).sum();
+        pressed - self.film.transpose() * coordinates
     }
 
     /// ∂V/∂p, in N/√kg.
     pub fn gradient(&self, coordinates: &Col<f64>) -> Col<f64> {
         let w = self.deflections(coordinates);
         &self.shapes * Col::from_fn(self.points.len(), |k| self.points[k].pressure_n(w[k]))
+            - &self.film
     }
 
     /// ∂²V/∂p², in 1/s², symmetric.
@@ -156,17 +168,17 @@ impl GapPotential {
     /// The mean of ∂V/∂p on the straight line from one deflection to another; its product with the change is
     /// exactly the change of V.
     pub fn mean_gradient(&self, from: &Col<f64>, change: &Col<f64>) -> Col<f64> {
-        let (w, d) = (self.deflections(from), self.deflections(change));
+        let (w, d) = (self.deflections(from), self.shapes.transpose() * change);
         let mean = |k: usize| {
             let point = self.points[k];
             point.mean(w[k], d[k], |_, at| point.pressure_n(at))
         };
-        &self.shapes * Col::from_fn(self.points.len(), mean)
+        &self.shapes * Col::from_fn(self.points.len(), mean) - &self.film
     }
 
     /// The derivative of this mean by the change.
     pub fn mean_stiffness(&self, from: &Col<f64>, change: &Col<f64>) -> Mat<f64> {
-        let (w, d) = (self.deflections(from), self.deflections(change));
+        let (w, d) = (self.deflections(from), self.shapes.transpose() * change);
         self.stiffness(|k| {
             let point = self.points[k];
             point.mean(w[k], d[k], |share, at| share * point.tangent_n_per_m(at))

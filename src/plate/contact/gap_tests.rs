@@ -38,7 +38,10 @@ fn bent(plate: &Plate, size: f64) -> Col<f64> {
 /// References: central differences of V and of its gradient.
 #[test]
 fn force_and_stiffness_are_derivatives_of_the_potential() {
-    let plate = lifting(|_| ());
+    let plate = lifting(|pad| {
+        pad.film_stiffness_n_per_m = 2e6;
+        pad.offset_m = 1.5e-5;
+    });
     let gaps = potential(&plate);
     let q = bent(&plate, 4e-4);
     let (gradient, hessian) = (gaps.gradient(&q), gaps.hessian(&q));
@@ -63,7 +66,10 @@ fn force_and_stiffness_are_derivatives_of_the_potential() {
 /// The pairs of deflections are random, far from each other and near.
 #[test]
 fn the_mean_force_does_the_work_of_the_potential() {
-    let plate = lifting(|_| ());
+    let plate = lifting(|pad| {
+        pad.film_stiffness_n_per_m = 2e6;
+        pad.offset_m = 1.5e-5;
+    });
     let gaps = potential(&plate);
     for size in [1e-9, 1e-5, 1e-3] {
         let from = bent(&plate, 3e-4);
@@ -123,6 +129,36 @@ fn a_blade_that_heaves_is_pressed_by_the_whole_pad() {
             );
         }
     }
+}
+
+/// A blade that heaves by the offset of its pad is in the middle of the gap: the pad does not press, and pulls no film.
+#[test]
+fn an_offset_moves_the_middle_of_the_gap() {
+    let film = 2e6;
+    let of = |offset_m: f64| {
+        lifting(|pad| {
+            pad.offset_m = offset_m;
+            pad.film_stiffness_n_per_m = film;
+        })
+    };
+    let (plate, moved) = (of(0.0), of(7e-5));
+    let (gaps, beside) = (potential(&plate), potential(&moved));
+    let heave = |deflection: f64| {
+        let mut heave = Col::zeros(plate.degrees_of_freedom());
+        heave[0] = deflection / plate.functions_at(0.2, 0.0)[0];
+        heave
+    };
+    for deflection in [-9e-5, 1e-5, 9e-5] {
+        let pair = [
+            gaps.forces_n(&heave(deflection))[0],
+            beside.forces_n(&heave(deflection + 7e-5))[0],
+        ];
+        assert!((pair[0] - pair[1]).abs() < 1e-9 * 2e7, "{pair:?}");
+    }
+    let pulled = moved.released().unwrap().contact.stiffness().unwrap() * heave(7e-5);
+    let rest = pulled + beside.gradient(&heave(7e-5));
+    let force = film * 7e-5 * plate.functions_at(0.2, 0.0)[0].abs();
+    assert!(rest[0].abs() < 1e-6 * force, "{} {force}", rest[0]);
 }
 
 /// A pad with a nearly closed gap approaches the linear pad, whose integral is exact; with a film as stiff as
