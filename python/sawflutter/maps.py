@@ -12,6 +12,7 @@ import numpy as np
 
 from . import _native
 from ._entry import FloatArray, array
+from ._grids import of_map
 from ._progress import Progress
 from ._report_types import MapReport
 from ._result import Result, pictures
@@ -21,6 +22,7 @@ from .errors import ModelWarning
 from .study import Study
 
 if TYPE_CHECKING:
+    import xarray as xr
     from distributed import Client
 
     from .scene import Scene
@@ -76,6 +78,29 @@ class MapResults(Result, MapReport):
         False
         """
         return self._speeds([saw.flutter_speed_rpm for saw in self.saws])
+
+    def to_xarray(self) -> xr.Dataset:
+        """The map as labelled arrays over its numbers; needs xarray.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``lowest_critical_rpm``, ``flutter_rpm`` and ``state`` over the paths of the axes.
+
+        Raises
+        ------
+        ImportError
+            If xarray is missing; the message says how to install it.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> found = free.run_map(("blade.thickness_m", 0.0025, 0.003), points=3).to_xarray()
+        >>> found.lowest_critical_rpm.dims
+        ('blade.thickness_m',)
+        """
+        return of_map(self)
 
     def _speeds(self, speeds: list[float | None]) -> FloatArray:
         return np.reshape(array(speeds), self.shape)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 from . import _native
 from ._entry import FloatArray, array
+from ._grids import of_chart
 from ._methods import know_bands
 from ._report_types import Branch, CampbellReport, Instability, Mode
 from ._result import Result, pictures
@@ -18,6 +19,7 @@ from .errors import InputError
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray as xr
 
     from .plot.chart import Chart
 
@@ -169,6 +171,29 @@ class CampbellResults(Result, CampbellReport):
             raise ValueError("the chart has no shapes; run_campbell(shapes=True) computes them")
         for name, text in files:
             (Path(folder) / name).write_text(text, encoding="utf-8", newline="\n")
+
+    def to_xarray(self) -> xr.Dataset:
+        """Branches over the speed as labelled arrays; needs xarray.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``frequency_hz``, ``body_frequency_hz``, ``growth_per_s`` and ``krein_sign`` over
+            ``branch`` and ``rpm``; NaN where a branch has no point at a speed.
+
+        Raises
+        ------
+        ImportError
+            If xarray is missing; the message says how to install it.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> chart = sf.Scene.paper().run_campbell(accuracy="draft").to_xarray()
+        >>> chart.frequency_hz.dims
+        ('branch', 'rpm')
+        """
+        return of_chart(self)
 
     def to_dataframe(self, of: Table = "branches") -> pd.DataFrame:
         """Part of the results as a table; needs pandas.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -191,3 +192,21 @@ def test_accuracy_and_tolerance_are_chosen(draft: sf.Scene) -> None:
         draft.run_campbell(tolerance=7.0)
     with pytest.raises(sf.SceneError):
         draft.run_campbell(accuracy="perfect")  # type: ignore[arg-type]
+
+
+def test_branches_are_labelled_arrays(report: sf.CampbellResults) -> None:
+    chart = report.to_xarray()
+    assert chart.sizes["branch"] == len(report.branches)
+    for branch in report.branches:
+        row = chart.sel(branch=branch.branch)
+        own = row.sel(rpm=branch.rpm)
+        assert (own.frequency_hz.values == branch.frequency_hz).all()
+        assert int(row.frequency_hz.notnull().sum()) == len(branch.rpm)
+
+
+def test_a_missing_package_is_named_with_its_extra(
+    report: sf.CampbellResults, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(ImportError, match=r"sawflutter\[xarray\]"):
+        report.to_xarray()
