@@ -44,11 +44,12 @@ pub struct Field {
 }
 
 /// Unit of a quantity, ending of its key, unit of the field, and the factor to it.
-const UNITS: [(&str, &str, &str, f64); 20] = [
+const UNITS: [(&str, &str, &str, f64); 21] = [
     ("m", "_m", "mm", 1e3),
     ("kg", "_kg", "kg", 1.0),
     ("Pa", "_pa", "MPa", 1e-6),
     ("kg/m³", "_kg_per_m3", "kg/m³", 1.0),
+    ("kg·m²", "_kg_m2", "kg·m²", 1.0),
     ("°", "_deg", "°", 1.0),
     ("N/m", "_n_per_m", "MN/m", 1e-6),
     ("N·s/m", "_n_s_per_m", "N·s/m", 1.0),
@@ -73,7 +74,13 @@ const NAMED: [(&str, &str, &str, f64); 2] = [
 ];
 const INCH_M: f64 = 0.0254;
 /// Keys of whole numbers.
-const COUNTS: [&str; 4] = ["teeth", "orders", "tooth_passing", "teeth_in_cut"];
+const COUNTS: [&str; 5] = [
+    "teeth",
+    "orders",
+    "tooth_passing",
+    "teeth_in_cut",
+    "diameters",
+];
 /// What is typed returns as typed, in any unit.
 const DIGITS: u32 = 12;
 /// A metric length has no last digit in inches.

@@ -4,9 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::refusal::Refusal;
 use crate::scene::{
-    CutFile, CutSpeedFile, DampingFile, ExcitationFile, GuideFile, InPlane, Mount, ProbeFile,
-    ResidualStressRow, RimFile, RollBandFile, RunUpFile, Scene, SceneFile, SplineFile, SweepFile,
-    TemperatureFile, TemperatureRow, ThicknessRow, WashboardingFile, WoodFile,
+    CutFile, CutSpeedFile, DampingFile, ExcitationFile, GuideFile, InPlane, ModeRatioRow, Mount,
+    ProbeFile, ResidualStressRow, ResponseFile, RimFile, RollBandFile, RunUpFile, Scene, SceneFile,
+    SplineFile, SweepFile, TemperatureFile, TemperatureRow, ThicknessRow, WashboardingFile,
+    WoodFile,
 };
 use crate::text::shown_to;
 
@@ -125,6 +126,20 @@ fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
             });
         }
         "runup" => scene.runup = Some(runup(scene)),
+        "response" => {
+            scene.response = Some(ResponseFile {
+                force_n: 1.0,
+                ..ResponseFile::default()
+            });
+        }
+        "damping.mode_ratios[]" => {
+            let rows = &mut scene.damping.get_or_insert_default().mode_ratios;
+            let next = rows.iter().map(|row| row.diameters + 1).max();
+            rows.push(ModeRatioRow {
+                diameters: next.unwrap_or(0),
+                damping_ratio: 1e-3,
+            });
+        }
         _ => match path.split_once('.').unwrap_or((path, "")) {
             ("blade", part) => add_to_blade(scene, part)?,
             ("cut", part) => add_to_cut(scene, part)?,
@@ -410,7 +425,9 @@ mod tests {
     use super::*;
     use crate::explore::examples::examples;
 
-    const PARTS: [&str; 20] = [
+    const PARTS: [&str; 22] = [
+        "response",
+        "damping.mode_ratios[]",
         "guides[]",
         "damping",
         "excitation",
