@@ -222,13 +222,12 @@ fn fit(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
     )
 }
 
-const NO_SPEED: &str = "A window is sought around the operating speed: the form has none yet";
 const NO_LIMIT: &str = "The lower limit of the first critical speed must be above 0 rpm";
 
 fn place(scene: &Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     let goal = match asked.window {
         false => Goal::FlutterSpeed,
-        true => Goal::window_of(scene).map_err(|_| Refusal::with_message(NO_SPEED))?,
+        true => Goal::window_of(scene)?,
     };
     let limit = asked.min_critical_rpm.as_ref().map(Typed::number);
     let demands = Demands::new(goal, limit.transpose()?);
