@@ -3,11 +3,12 @@
 //! Each steady state q e^{iωt} solves L(iω; Ω) q = f. Neighbouring solutions differ little, so that a few solutions of the full
 //! model span the others. The residual of the full model tells where another one is needed, so that no mode is truncated.
 
-use faer::linalg::solvers::Solve;
-use faer::{Col, Mat, Scale, c64};
+use faer::linalg::solvers::{Llt, Solve};
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Col, Mat, Par, Scale, Side, c64};
 use rayon::prelude::*;
 
-use crate::spectrum::{Cancellation, SpectrumError, orthonormal, split};
+use crate::spectrum::{Cancellation, SpectrumError};
 use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
 /// A speed and a frequency, in rad/s.
@@ -19,13 +20,22 @@ pub struct State {
     pub frequency_rad_per_s: f64,
 }
 
-/// Number of solutions of the full model at first, and in each further round.
+/// Number of solutions of the full model at first.
 const FIRST: usize = 9;
+/// In a further round, one of so many states left is solved on the full model: that takes about as long as the others on the
+/// basis, which it saves another round.
+const SHARE: usize = 16;
+/// Least number of solutions of the full model in a further round.
 const MORE: usize = 6;
 /// Number of states with which the search for directions begins.
 const COARSE: usize = 96;
-/// Largest residual relative to the load.
-const RESIDUAL: f64 = 1e-8;
+/// Largest residual r relative to the load f, each by the energy rᵀK₀⁻¹r of its static deflection: functions of high frequency,
+/// in which the load of a point has its largest parts, hardly deflect.
+const RESIDUAL: f64 = 1e-7;
+/// Stiffness that a free rigid motion gets for this energy, as a share of the largest.
+const LEAST_STIFFNESS: f64 = 1e-9;
+/// Number of states whose residuals are products of matrices.
+const TOGETHER: usize = 32;
 /// Largest residual of a state whose deflection is beyond the linear model, of which only that is reported.
 const RESIDUAL_BEYOND: f64 = 1e-2;
 /// Directions closer to the span of the others are omitted.
@@ -35,7 +45,7 @@ const INDEPENDENT: f64 = 1e-9;
 /// absolute value exceeds `beyond` are rough.
 ///
 /// # Errors
-/// [`SpectrumError::Cancelled`].
+/// [`SpectrumError::Cancelled`], or [`SpectrumError::UnstableAtRest`].
 pub fn readings(
     system: &GyroscopicSystem,
     load: &Col<c64>,
@@ -44,15 +54,19 @@ pub fn readings(
     beyond: f64,
 ) -> Result<Vec<Option<Vec<c64>>>, SpectrumError> {
     let cancellation = Cancellation::current();
+    let factor = factor_at_rest(system)?;
     let mut found: Vec<Option<Vec<c64>>> = vec![None; states.len()];
-    let mut vectors: Vec<Col<f64>> = Vec::new();
+    let mut vectors: Vec<Col<c64>> = Vec::new();
     // Few states find nearly all directions that the others need.
     let stride = states.len().div_ceil(COARSE).max(1);
     let (coarse, others): (Vec<usize>, Vec<usize>) =
         (0..states.len()).partition(|k| k.is_multiple_of(stride));
     for mut left in [coarse, others] {
         let mut asked = match vectors.is_empty() {
-            true => spread(left.len()).into_iter().map(|k| left[k]).collect(),
+            true => {
+                let first = spread(left.len(), FIRST).into_iter();
+                first.map(|k| left[k]).collect()
+            }
             false => Vec::new(),
         };
         while !left.is_empty() {
@@ -65,22 +79,21 @@ pub fn readings(
                 let norm = q.norm_l2();
                 if norm > 0.0 && norm.is_finite() {
                     found[*k] = Some(probes.iter().map(|c| reading(c, q)).collect());
-                    let (re, im) = split(&(Scale(c64::new(1.0 / norm, 0.0)) * q));
-                    vectors.extend([re, im]);
+                    vectors.push(Scale(c64::new(1.0 / norm, 0.0)) * q);
                 }
             }
             left.retain(|k| !asked.contains(k));
-            let basis = orthonormal(system.order(), &vectors, INDEPENDENT);
-            let reduced = Reduced::new(system, load, probes, &basis);
-            let tried: Vec<(usize, f64, Vec<c64>)> = left
-                .par_iter()
-                .map(|k| {
-                    let (residual, read) = reduced.at(states[*k]);
-                    (*k, residual, read)
+            let basis = orthonormal(system.order(), &vectors);
+            let reduced = Reduced::new(system, load, probes, &basis, &factor);
+            let tried: Vec<(f64, Vec<c64>)> = left
+                .par_chunks(TOGETHER)
+                .flat_map_iter(|some| {
+                    let states: Vec<State> = some.iter().map(|k| states[*k]).collect();
+                    reduced.at(&states, |state| factors(system, state))
                 })
                 .collect();
             let mut worst: Vec<(usize, f64)> = Vec::new();
-            for (k, residual, read) in tried {
+            for (&k, (residual, read)) in left.iter().zip(tried) {
                 let is_beyond = read.iter().any(|value| value.norm() > beyond);
                 let allowed = if is_beyond { RESIDUAL_BEYOND } else { RESIDUAL };
                 match residual <= allowed {
@@ -90,9 +103,8 @@ pub fn readings(
             }
             left = worst.iter().map(|(k, _)| *k).collect();
             // Far apart, because neighbours need the same directions.
-            asked = spread(worst.len())
+            asked = spread(worst.len(), MORE.max(worst.len() / SHARE))
                 .into_iter()
-                .take(MORE)
                 .map(|place| worst[place].0)
                 .chain(most(&worst))
                 .collect();
@@ -109,9 +121,9 @@ fn most(worst: &[(usize, f64)]) -> Option<usize> {
     largest.map(|(k, _)| *k)
 }
 
-/// Places evenly spread over a list, with its ends.
-fn spread(count: usize) -> Vec<usize> {
-    let places = FIRST.min(count);
+/// So many places evenly spread over a list, with its ends.
+fn spread(count: usize, places: usize) -> Vec<usize> {
+    let places = places.min(count);
     let last = count.saturating_sub(1);
     (0..places)
         .map(|k| k * last / places.saturating_sub(1).max(1))
@@ -134,56 +146,168 @@ pub fn reading(probe: &Col<f64>, q: &Col<c64>) -> c64 {
 }
 
 /// The system on a basis V, and its products with V for the residual.
-struct Reduced<'a> {
-    small: GyroscopicSystem,
-    tall: GyroscopicSystem,
-    basis: &'a Mat<f64>,
-    load: &'a Col<c64>,
+///
+/// V is complex: a wave that turns with the load does not bring the wave that turns against it into the basis, which the load
+/// does not excite but whose resonance would amplify rounding.
+struct Reduced {
+    /// VᴴT V of every term T of L.
+    small: Vec<Mat<c64>>,
+    /// Vᴴf.
     small_load: Col<c64>,
-    probes: Vec<Col<f64>>,
+    /// Vᵀc.
+    probes: Vec<Col<c64>>,
+    /// C⁻¹T V of the terms side by side, with CCᵀ = K₀.
+    tall: Mat<c64>,
+    /// C⁻¹f.
+    load: Col<c64>,
 }
 
-impl<'a> Reduced<'a> {
+impl Reduced {
     fn new(
         system: &GyroscopicSystem,
-        load: &'a Col<c64>,
+        load: &Col<c64>,
         probes: &[Col<f64>],
-        basis: &'a Mat<f64>,
+        basis: &Mat<c64>,
+        factor: &Llt<f64>,
     ) -> Self {
-        let tall = system.times(basis.as_ref());
+        let divided = |mut halves: Mat<f64>| {
+            solve_lower_triangular_in_place(factor.L(), halves.as_mut(), Par::Seq);
+            joined(&halves)
+        };
+        let own = halves(basis);
+        let products: Vec<Mat<f64>> = terms(system)
+            .into_iter()
+            .map(|term| term.map_or_else(|| own.clone(), |term| term * &own))
+            .collect();
+        let width = basis.ncols();
+        let mut tall = Mat::zeros(system.order(), products.len() * width);
+        for (k, product) in products.iter().enumerate() {
+            let mut place = tall.subcols_mut(k * width, width);
+            place.copy_from(divided(product.clone()));
+        }
+        let load_alone = Mat::from_fn(load.nrows(), 1, |i, _| load[i]);
         Reduced {
-            small: system.project(basis.as_ref()),
+            small: products
+                .iter()
+                .map(|product| basis.adjoint() * joined(product))
+                .collect(),
+            small_load: basis.adjoint() * load,
+            probes: probes
+                .iter()
+                .map(|c| {
+                    Col::from_fn(width, |k| {
+                        (0..c.nrows()).map(|i| basis[(i, k)] * c[i]).sum()
+                    })
+                })
+                .collect(),
             tall,
-            small_load: Col::from_fn(basis.ncols(), |k| {
-                (0..basis.nrows()).map(|i| load[i] * basis[(i, k)]).sum()
-            }),
-            probes: probes.iter().map(|c| basis.transpose() * c).collect(),
-            basis,
-            load,
+            load: divided(halves(&load_alone)).col(0).to_owned(),
         }
     }
 
-    /// Residual relative to the load, and readings.
-    fn at(&self, state: State) -> (f64, Vec<c64>) {
-        let y = solution(&self.small, &self.small_load, state);
-        let speed = state.speed_rad_per_s;
-        let s = c64::new(0.0, state.frequency_rad_per_s);
-        let (stiffness, velocity) = (self.tall.stiffness_at(speed), self.tall.velocity_at(speed));
-        let residual = Col::from_fn(self.load.nrows(), |i| {
-            let row = (0..y.nrows()).map(|k| {
-                (stiffness[(i, k)] + s * velocity[(i, k)] + s * s * self.basis[(i, k)]) * y[k]
+    /// Residual relative to the load, and readings, at each state.
+    fn at(&self, states: &[State], factors: impl Fn(State) -> Vec<c64>) -> Vec<(f64, Vec<c64>)> {
+        let width = self.small_load.nrows();
+        let mut shares = Mat::zeros(self.tall.ncols(), states.len());
+        let mut read = Vec::with_capacity(states.len());
+        for (place, state) in states.iter().enumerate() {
+            let factors = factors(*state);
+            let dynamic = Mat::from_fn(width, width, |i, k| {
+                let parts = self.small.iter().zip(&factors);
+                parts
+                    .map(|(term, factor)| term[(i, k)] * factor)
+                    .sum::<c64>()
             });
-            self.load[i] - row.sum::<c64>()
-        });
-        let share = residual.norm_l2() / self.load.norm_l2();
-        let read = self.probes.iter().map(|c| reading(c, &y)).collect();
-        (
+            let y: Col<c64> = dynamic.partial_piv_lu().solve(&self.small_load);
+            for (part, factor) in factors.iter().enumerate() {
+                for i in 0..width {
+                    shares[(part * width + i, place)] = factor * y[i];
+                }
+            }
+            let reading = |c: &Col<c64>| -> c64 { (0..width).map(|i| c[i] * y[i]).sum() };
+            read.push(self.probes.iter().map(reading).collect());
+        }
+        let carried = &self.tall * shares;
+        let size = self.load.norm_l2();
+        let residual = |place: usize| {
+            let left =
+                (0..carried.nrows()).map(|i| (self.load[i] - carried[(i, place)]).norm_sqr());
+            let share = left.sum::<f64>().sqrt() / size;
             if share.is_finite() {
                 share
             } else {
                 f64::INFINITY
-            },
-            read,
-        )
+            }
+        };
+        let read = read.into_iter().enumerate();
+        read.map(|(place, read)| (residual(place), read)).collect()
     }
+}
+
+/// An orthonormal basis of the span of some vectors of unit length.
+fn orthonormal(rows: usize, vectors: &[Col<c64>]) -> Mat<c64> {
+    let matrix = Mat::from_fn(rows, vectors.len(), |i, k| vectors[k][i]);
+    let qr = matrix.col_piv_qr();
+    let size = |k: usize| qr.thin_R()[(k, k)].norm();
+    let rank = (0..rows.min(vectors.len()))
+        .take_while(|&k| size(k) > INDEPENDENT)
+        .count();
+    qr.compute_thin_Q().subcols(0, rank).to_owned()
+}
+
+/// Real and imaginary parts of the columns, first all real ones.
+fn halves(columns: &Mat<c64>) -> Mat<f64> {
+    let count = columns.ncols();
+    Mat::from_fn(columns.nrows(), 2 * count, |i, k| {
+        match k.checked_sub(count) {
+            None => columns[(i, k)].re,
+            Some(k) => columns[(i, k)].im,
+        }
+    })
+}
+
+fn joined(halves: &Mat<f64>) -> Mat<c64> {
+    let count = halves.ncols() / 2;
+    Mat::from_fn(halves.nrows(), count, |i, k| {
+        c64::new(halves[(i, k)], halves[(i, count + k)])
+    })
+}
+
+/// Cholesky's factor C of K₀ = CCᵀ.
+fn factor_at_rest(system: &GyroscopicSystem) -> Result<Llt<f64>, SpectrumError> {
+    let mut stiffness = system.stiffness.clone();
+    let order = system.order();
+    let largest = (0..order).map(|i| stiffness[(i, i)]).fold(0.0, f64::max);
+    (0..order).for_each(|i| stiffness[(i, i)] += LEAST_STIFFNESS * largest);
+    let factor = stiffness.llt(Side::Lower);
+    factor.map_err(|_| SpectrumError::UnstableAtRest { order })
+}
+
+/// The matrices of L(iω; Ω) that a system has; `None` is the unit matrix of the inertia.
+fn terms(system: &GyroscopicSystem) -> Vec<Option<&Mat<f64>>> {
+    let absent = [
+        &system.circulatory,
+        &system.nonconservative,
+        &system.damping,
+    ];
+    let present = absent.into_iter().filter_map(Option::as_ref);
+    let always = [&system.stiffness, &system.spin, &system.gyroscopic];
+    let matrices = always.into_iter().chain(present).map(Some);
+    matrices.chain([None]).collect()
+}
+
+/// The factors of these matrices.
+fn factors(system: &GyroscopicSystem, state: State) -> Vec<c64> {
+    let speed = state.speed_rad_per_s;
+    let s = c64::new(0.0, state.frequency_rad_per_s);
+    let one = c64::new(1.0, 0.0);
+    let absent = [
+        (&system.circulatory, one * speed),
+        (&system.nonconservative, one),
+        (&system.damping, s),
+    ];
+    let present = absent.into_iter().filter(|(term, _)| term.is_some());
+    let always = [one, one * speed.powi(2), s * (2.0 * speed)];
+    let factors = always.into_iter().chain(present.map(|(_, factor)| factor));
+    factors.chain([s * s]).collect()
 }
