@@ -110,7 +110,7 @@ impl Check {
     /// [`CheckError`] when the saw cannot be analysed that far.
     pub fn new(scene: &Scene, limits: &Limits) -> Result<Self, CheckError> {
         let analysis = analysed(scene, limits.reach_rad_per_s())?;
-        let angle = scene.cut().map_or(0.0, |cut| cut.angle_rad);
+        let angle = scene.cut_angle_rad();
         let plate = &Plate::new(scene, POINT_LOAD_BASIS);
         let lowest_critical = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
         let operating = limits.operating_rad_per_s;
@@ -201,7 +201,7 @@ impl std::fmt::Display for Criterion {
 
 /// Lateral stiffness of a point of the rim at the middle of the cut, at rest; `None` if nothing holds the blade.
 pub(crate) fn rim_stiffness_at_rest_n_per_m(scene: &Scene) -> Option<f64> {
-    let angle = scene.cut().map_or(0.0, |cut| cut.angle_rad);
+    let angle = scene.cut_angle_rad();
     let plate = Plate::new(scene, POINT_LOAD_BASIS);
     Some(rim_stiffness_n_per_m(&plate, angle, 0.0)).filter(|stiffness| *stiffness != 0.0)
 }

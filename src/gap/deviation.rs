@@ -5,7 +5,7 @@ use crate::spectrum::Work;
 use crate::stability::Analysis;
 
 use super::GapError;
-use super::pressed::{Deviation, PressedBlade, angle_rad, with_linear_guides};
+use super::pressed::{Deviation, PressedBlade, with_linear_guides};
 
 /// Deflections at the cut under a side force there.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,7 +74,7 @@ impl DeviationMap {
         let thickness_m = scene.blade().thickness_m;
         let last = (SPEEDS - 1) as f64;
         let mut map = DeviationMap {
-            angle_rad: angle_rad(scene),
+            angle_rad: scene.cut_angle_rad(),
             rpm,
             gap_factors: [0.0].into_iter().chain(factors()).collect(),
             forces_n: factors().map(|factor| factor * force_n).collect(),

@@ -5,7 +5,7 @@
 //! deflection under the side force and the forces of the pads: the loop is repeated until the temperature no longer changes.
 //! The friction itself has no effect on the motion, as its moment in the plane is small.
 
-use crate::scene::{MembraneFile, RefusedValue, Scene, TemperatureFile, TemperatureRow, rad_per_s};
+use crate::scene::{RefusedValue, Scene, TemperatureFile, TemperatureRow, rad_per_s};
 use crate::spectrum::Work;
 use crate::stability::Analysis;
 use crate::text::shown;
@@ -207,11 +207,7 @@ fn heated(
     table: Vec<TemperatureRow>,
 ) -> Result<Scene, GapError> {
     Ok(scene.edited(|file| {
-        let membrane = file.membrane.get_or_insert_with(|| MembraneFile {
-            temperature: None,
-            roll_tension: Vec::new(),
-            residual_stress: Vec::new(),
-        });
+        let membrane = file.membrane.get_or_insert_default();
         membrane.temperature = Some(TemperatureFile {
             expansion_per_k,
             rim_rise_k: None,

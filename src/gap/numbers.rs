@@ -2,12 +2,11 @@
 
 use crate::plate::{Plate, Resolution};
 use crate::scene::{RefusedValue, Scene, rpm, speed_rad_per_s};
-use crate::spectrum::critical_speeds;
-use crate::system::GyroscopicSystem;
+use crate::spectrum::Assembled;
 
 use super::amplitude::at_amplitude;
 use super::deviation::MODES;
-use super::pressed::PressedBlade;
+use super::pressed::{Deviation, PressedBlade};
 use super::{GapError, Options};
 
 /// The force, the speed and the amplitude of [`GapNumbers`].
@@ -97,9 +96,17 @@ impl GapCase {
         scene: &Scene,
         resolution: Resolution,
     ) -> Result<Option<f64>, GapError> {
-        let pressed = PressedBlade::new(&scene.idling()?, resolution, self.rpm, MODES)?;
-        let found = pressed.deviation(self.force_n, self.rpm)?;
+        let found = self.deviation(&scene.idling()?, resolution)?;
         Ok(found.map(|found| found.deviation_m.abs()))
+    }
+
+    fn deviation(
+        &self,
+        scene: &Scene,
+        resolution: Resolution,
+    ) -> Result<Option<Deviation>, GapError> {
+        let pressed = PressedBlade::new(scene, resolution, self.rpm, MODES)?;
+        pressed.deviation(self.force_n, self.rpm)
     }
 
     /// The numbers of a saw on a basis.
@@ -108,8 +115,7 @@ impl GapCase {
     /// [`GapError`].
     pub fn numbers(&self, scene: &Scene, resolution: Resolution) -> Result<GapNumbers, GapError> {
         let scene = scene.idling()?;
-        let pressed = PressedBlade::new(&scene, resolution, self.rpm, MODES)?;
-        let found = pressed.deviation(self.force_n, self.rpm)?;
+        let found = self.deviation(&scene, resolution)?;
         let critical_at_amplitude_rpm = match self.amplitude_m {
             Some(amplitude_m) => first_critical(&scene, resolution, amplitude_m)?.map(rpm),
             None => None,
@@ -130,8 +136,9 @@ pub(super) fn first_critical_of_linear(
     scene: &Scene,
     resolution: Resolution,
 ) -> Result<Option<f64>, GapError> {
-    let system = GyroscopicSystem::of_plate(&Plate::new(scene, resolution));
-    let critical = critical_speeds(&system)?;
+    let saw = Assembled::from(Plate::new(scene, resolution));
+    // With a limit of zero the search ends at the lowest one.
+    let critical = saw.critical_speeds(Some(&|_| 0.0))?;
     Ok(critical.first().map(|c| c.speed_rad_per_s))
 }
 

@@ -36,11 +36,6 @@ pub(crate) struct PressedBlade {
     sites: Sites,
 }
 
-/// Angle of the cut, or of the direction from which angles are counted.
-pub(super) fn angle_rad(scene: &Scene) -> f64 {
-    scene.cut().map_or(0.0, |cut| cut.angle_rad)
-}
-
 impl PressedBlade {
     /// The blade of a scene for speeds up to one, in a basis of so many modes at rest.
     ///
@@ -53,7 +48,7 @@ impl PressedBlade {
         modes: usize,
     ) -> Result<Self, GapError> {
         let plate = Plate::new(scene, resolution);
-        let place = (plate.blade.outer_radius_m, angle_rad(scene));
+        let place = (plate.blade.outer_radius_m, scene.cut_angle_rad());
         let modes = modes.min(plate.degrees_of_freedom());
         let blade = StretchedBlade::up_to(&plate, rad_per_s(to_rpm), place, modes)?;
         Ok(PressedBlade {
@@ -77,9 +72,7 @@ impl PressedBlade {
     /// # Errors
     /// [`GapError`].
     pub fn deviation(&self, force_n: f64, rpm: f64) -> Result<Option<Deviation>, GapError> {
-        Cancellation::current().check()?;
-        let blade = self.blade.clone().pressed(force_n, self.place)?;
-        let found = blade.settled(rad_per_s(rpm), &blade.flat())?;
+        let (_, found) = self.settled(force_n, rpm)?;
         Ok(self.valid(&found))
     }
 
@@ -92,9 +85,7 @@ impl PressedBlade {
         force_n: f64,
         rpm: f64,
     ) -> Result<(Option<Deviation>, Contacts), GapError> {
-        Cancellation::current().check()?;
-        let blade = self.blade.clone().pressed(force_n, self.place)?;
-        let found = blade.settled(rad_per_s(rpm), &blade.flat())?;
+        let (blade, found) = self.settled(force_n, rpm)?;
         Ok((self.valid(&found), blade.contacts(&found)))
     }
 
@@ -108,15 +99,20 @@ impl PressedBlade {
         finer: &PressedBlade,
         (force_n, rpm): (f64, f64),
     ) -> Result<Option<f64>, GapError> {
-        Cancellation::current().check()?;
-        let speed = rad_per_s(rpm);
-        let [coarse, fine] = [self, finer].map(|at| at.blade.clone().pressed(force_n, at.place));
-        let (coarse, fine) = (coarse?, fine?);
-        let found = coarse.settled(speed, &coarse.flat())?;
+        let (coarse, found) = self.settled(force_n, rpm)?;
+        let fine = finer.blade.clone().pressed(force_n, finer.place)?;
         let from = fine.shapes().transpose() * (coarse.shapes() * &found.coordinates);
-        let other = fine.settled(speed, &from)?;
+        let other = fine.settled(rad_per_s(rpm), &from)?;
         let pair = self.valid(&found).zip(finer.valid(&other));
         Ok(pair.map(|(found, other)| (other.deviation_m / found.deviation_m - 1.0).abs()))
+    }
+
+    /// The blade under a side force, and the equilibrium to which it moves from the flat shape.
+    fn settled(&self, force_n: f64, rpm: f64) -> Result<(StretchedBlade, Equilibrium), GapError> {
+        Cancellation::current().check()?;
+        let blade = self.blade.clone().pressed(force_n, self.place)?;
+        let found = blade.settled(rad_per_s(rpm), &blade.flat())?;
+        Ok((blade, found))
     }
 
     fn valid(&self, found: &Equilibrium) -> Option<Deviation> {

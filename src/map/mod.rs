@@ -236,13 +236,7 @@ pub fn state_at(bands: &[FoundBand], rpm: f64) -> StabilityState {
     let counted = bands
         .iter()
         .filter(|band| band.counted_rpm.iter().any(around));
-    let kinds = counted.map(|band| band.kind);
-    kinds.fold(StabilityState::Stable, |state, kind| match (state, kind) {
-        (StabilityState::Divergence, _) | (_, crate::stability::InstabilityKind::Divergence) => {
-            StabilityState::Divergence
-        }
-        _ => StabilityState::Flutter,
-    })
+    StabilityState::within(counted.map(|band| band.kind))
 }
 
 #[cfg(test)]

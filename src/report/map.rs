@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::map::{Along, Contour, Map, contours, state_at};
 use crate::scene::{Quantity, SceneFile, rpm};
-use crate::stability::{InstabilityKind, StabilityState};
-use crate::study::{Found, LogError, Outcome, Rows, Saw};
+use crate::stability::StabilityState;
+use crate::study::{Found, FoundBand, LogError, Outcome, Rows, Saw};
 
 /// `map.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -70,27 +70,11 @@ pub struct MappedSawEntry {
     /// Flutter speed; null if no flutter counts within the sweep.
     pub flutter_speed_rpm: Option<f64>,
     /// Bands of instability within the sweep, by onset.
-    pub instabilities: Vec<MappedBandEntry>,
+    pub instabilities: Vec<FoundBand>,
     /// Whether the saw is stable at the speed at which the saws are judged; null without such a speed.
     pub state: Option<StabilityState>,
     /// Why the saw was not analysed; null if it was.
     pub not_analysed: Option<String>,
-}
-
-/// A band of instability of a saw of a map.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MappedBandEntry {
-    /// Divergence or flutter.
-    pub kind: InstabilityKind,
-    /// Onset.
-    pub from_rpm: f64,
-    /// End, or the end of the sweep.
-    pub to_rpm: f64,
-    /// Largest growth rate.
-    pub peak_growth_per_s: f64,
-    /// Ranges of speed in which the band counts; empty for flutter below the threshold.
-    pub counted_rpm: Vec<[f64; 2]>,
 }
 
 /// A quantity of which a map over two numbers has contours.
@@ -179,19 +163,12 @@ fn saw_entry(map: &Map, saw: &Saw) -> MappedSawEntry {
         Outcome::Refused(reason) | Outcome::Failed(reason) => (&none, Some(reason.clone())),
     };
     let state = map.rpm().filter(|_| reason.is_none());
-    let bands = found.bands.iter().map(|band| MappedBandEntry {
-        kind: band.kind,
-        from_rpm: band.from_rpm,
-        to_rpm: band.to_rpm,
-        peak_growth_per_s: band.peak_growth_per_s,
-        counted_rpm: band.counted_rpm.clone(),
-    });
     MappedSawEntry {
         x: map.x().values[saw.index % columns],
         y: map.y().map(|y| y.values[saw.index / columns]),
         lowest_critical_rpm: found.lowest_critical_rpm,
         flutter_speed_rpm: found.flutter_rpm,
-        instabilities: bands.collect(),
+        instabilities: found.bands.clone(),
         state: state.map(|rpm| state_at(&found.bands, rpm)),
         not_analysed: reason,
     }

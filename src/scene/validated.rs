@@ -209,6 +209,11 @@ impl Scene {
         self.cut.as_ref()
     }
 
+    /// Angle of the middle of the cut; without a cut, that of the direction from which angles are counted.
+    pub fn cut_angle_rad(&self) -> f64 {
+        self.cut.as_ref().map_or(0.0, |cut| cut.angle_rad)
+    }
+
     /// Run-up under a lateral force.
     pub fn runup(&self) -> Option<&RunUp> {
         self.runup.as_ref()

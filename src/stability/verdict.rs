@@ -36,6 +36,20 @@ pub enum StabilityState {
     OutsideSweep,
 }
 
+impl StabilityState {
+    /// The state at a speed of the sweep at which bands of these kinds count: divergence takes precedence over flutter.
+    pub(crate) fn within(kinds: impl IntoIterator<Item = InstabilityKind>) -> Self {
+        let states = kinds.into_iter().map(|kind| match kind {
+            InstabilityKind::Divergence => StabilityState::Divergence,
+            InstabilityKind::Flutter => StabilityState::Flutter,
+        });
+        let diverges = |state: &StabilityState| *state == StabilityState::Divergence;
+        states
+            .max_by_key(diverges)
+            .unwrap_or(StabilityState::Stable)
+    }
+}
+
 /// Whether a saw is stable at one speed, and which band decides it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Verdict {
@@ -79,10 +93,7 @@ impl Evidence<'_> {
             x.0.cmp(&y.0).then(x.1.total_cmp(&y.1))
         });
         let state = match worst {
-            Some((_, band, _)) => match band.kind {
-                InstabilityKind::Divergence => StabilityState::Divergence,
-                InstabilityKind::Flutter => StabilityState::Flutter,
-            },
+            Some((_, band, _)) => StabilityState::within([band.kind]),
             None if around(&self.range_rad_per_s) => StabilityState::Stable,
             None => StabilityState::OutsideSweep,
         };

@@ -2,6 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::plan::Study;
@@ -57,8 +58,10 @@ pub struct Found {
     pub bands: Vec<FoundBand>,
 }
 
-/// A band of instability of a saw.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// A band of instability of a saw of a map.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "MappedBandEntry")]
 pub struct FoundBand {
     /// Divergence or flutter.
     pub kind: InstabilityKind,

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::study::accuracy_of_saws;
 use super::{ROWS, WIDTH, shortened, unusual_numbers, wrapped};
 use crate::report::{MapAxisEntry, MapReport, MappedSawEntry, StabilityState};
 use crate::text::{shown, shown_to};
@@ -156,18 +157,11 @@ fn table(text: &mut String, report: &MapReport) -> std::fmt::Result {
 }
 
 fn remarks(text: &mut String, report: &MapReport) -> std::fmt::Result {
-    writeln!(
-        text,
-        "\nEstimated error of critical speeds: {} % at most",
-        shown_to(2, 100.0 * report.largest_estimated_relative_error)
-    )?;
-    if report.saws_with_krein_violations > 0 {
-        writeln!(
-            text,
-            "The Krein index does not match in {} saws",
-            report.saws_with_krein_violations
-        )?;
-    }
+    let (error, wrong) = (
+        report.largest_estimated_relative_error,
+        report.saws_with_krein_violations,
+    );
+    accuracy_of_saws(text, error, wrong, "")?;
     for warning in &report.warnings {
         writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
     }

@@ -209,20 +209,34 @@ fn groups(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     Ok(())
 }
 
-fn remarks(text: &mut String, report: &StudyReport) -> std::fmt::Result {
-    let all = &report.all;
+/// The accuracy of many saws: the largest estimated error, and the number of those whose Krein index is wrong.
+pub(super) fn accuracy_of_saws(
+    text: &mut String,
+    largest_error: f64,
+    wrong: usize,
+    which: &str,
+) -> std::fmt::Result {
     writeln!(
         text,
         "\nEstimated error of critical speeds: {} % at most",
-        shown_to(2, 100.0 * report.largest_estimated_relative_error)
+        shown_to(2, 100.0 * largest_error)
     )?;
-    if report.saws_with_krein_violations > 0 {
-        writeln!(
+    match wrong {
+        0 => Ok(()),
+        wrong => writeln!(
             text,
-            "The Krein index does not match in {} saws: column krein_violations of study.csv",
-            report.saws_with_krein_violations
-        )?;
+            "The Krein index does not match in {wrong} saws{which}"
+        ),
     }
+}
+
+fn remarks(text: &mut String, report: &StudyReport) -> std::fmt::Result {
+    let all = &report.all;
+    let (error, wrong) = (
+        report.largest_estimated_relative_error,
+        report.saws_with_krein_violations,
+    );
+    accuracy_of_saws(text, error, wrong, ": column krein_violations of study.csv")?;
     if !report.processors.is_empty() {
         writeln!(
             text,
