@@ -15,6 +15,7 @@ mod influence;
 #[cfg(feature = "explore")]
 mod job;
 mod mode;
+mod needs;
 #[cfg(feature = "explore")]
 mod opened;
 #[cfg(feature = "explore")]
@@ -31,6 +32,7 @@ mod task;
 mod told;
 mod tolerances;
 mod under_way;
+mod usual;
 mod wording;
 
 pub use backend::{Answer, Backend, Clock, Question};

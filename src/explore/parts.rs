@@ -1,15 +1,17 @@
 //! Parts of a scene that the page adds, with values that compute and that a designer would begin with.
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use super::refusal::Refusal;
-use crate::scene::{
-    CutFile, CutSpeedFile, DampingFile, ExcitationFile, GuideFile, InPlane, ModeRatioRow, Mount,
-    ProbeFile, ResidualStressRow, ResponseFile, RimFile, RollBandFile, RunUpFile, Scene, SceneFile,
-    SplineFile, SweepFile, TemperatureFile, TemperatureRow, ThicknessRow, WashboardingFile,
-    WoodFile,
+use super::usual::{
+    OPERATING_RPM, SPLINE, between, guide, inner, mount, next_row, operating, rim, round, runup,
+    usual_teeth,
 };
-use crate::text::shown_to;
+use crate::scene::{
+    CutFile, CutSpeedFile, DampingFile, ExcitationFile, ModeRatioRow, ProbeFile, ResidualStressRow,
+    ResponseFile, RimFile, RollBandFile, Scene, SceneFile, SweepFile, TemperatureFile,
+    TemperatureRow, ThicknessRow, WashboardingFile, WoodFile,
+};
 
 /// A request.
 #[derive(Deserialize)]
@@ -22,72 +24,6 @@ struct Asked {
     #[serde(default)]
     kind: String,
 }
-
-/// A condition for a part or a task.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct Need {
-    /// Path of the part, or name of the task.
-    of: &'static str,
-    /// Of these values of the scene it needs one.
-    any: &'static [Condition],
-    /// Message otherwise.
-    otherwise: &'static str,
-}
-
-#[derive(Debug, Clone, Copy, Serialize)]
-struct Condition {
-    path: &'static str,
-    /// The value; null if any is sufficient.
-    is: Option<&'static str>,
-}
-
-const GUIDES: Condition = Condition {
-    path: "guides",
-    is: None,
-};
-const HELD: &[Condition] = &[
-    GUIDES,
-    Condition {
-        path: "mount.kind",
-        is: Some("collar"),
-    },
-];
-const NOT_HELD: &str = "This needs a guide or a collar that holds the blade.";
-
-/// Conditions that a scene of the page may lack.
-pub const NEEDS: &[Need] = &[
-    Need {
-        of: "spline",
-        any: &[Condition {
-            path: "mount.kind",
-            is: Some("spline"),
-        }],
-        otherwise: "A spline needs the mount of that name.",
-    },
-    Need {
-        of: "runup",
-        any: HELD,
-        otherwise: NOT_HELD,
-    },
-    Need {
-        of: "cut.washboarding",
-        any: HELD,
-        otherwise: NOT_HELD,
-    },
-    Need {
-        of: "fit",
-        any: &[Condition {
-            path: "measured",
-            is: None,
-        }],
-        otherwise: "The scene has no measured frequencies yet.",
-    },
-    Need {
-        of: "place",
-        any: &[GUIDES],
-        otherwise: "The scene has no guide to place yet.",
-    },
-];
 
 /// The scene of a request with one more part.
 ///
@@ -267,163 +203,11 @@ fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
     Some(())
 }
 
-/// Speed of a saw that has none.
-const OPERATING_RPM: f64 = 1800.0;
-/// Usual pitch of teeth.
-const PITCH_M: f64 = 0.03;
-const LEAST_TEETH: f64 = 12.0;
-/// The paper's arbor.
-const SPLINE: SplineFile = SplineFile {
-    teeth: 20,
-    pressure_angle_deg: 30.0,
-    contact_stiffness_n_per_m_3_2: 7e9,
-    contact_damping_n_s_3_2_per_m_3_2: 4700.0,
-    clearance_m: 0.25e-3,
-    pitch_radius_m: None,
-    weight_angle_deg: None,
-};
-
-fn operating(scene: &SceneFile) -> f64 {
-    scene.operating_rpm.unwrap_or(OPERATING_RPM)
-}
-
-fn rim(scene: &SceneFile) -> f64 {
-    0.5 * scene.blade.outer_diameter_m
-}
-
-/// Radius from which on the blade moves.
-fn inner(scene: &SceneFile) -> f64 {
-    0.5 * match scene.mount {
-        Mount::Collar { diameter_m, .. } => diameter_m,
-        Mount::Spline {} => scene.blade.inner_diameter_m,
-    }
-}
-
-/// Radius at a share of the way from the collar or bore to the rim.
-fn between(scene: &SceneFile, share: f64) -> f64 {
-    round(inner(scene) + share * (rim(scene) - inner(scene)), 3)
-}
-
-fn round(value: f64, digits: usize) -> f64 {
-    shown_to(digits, value).parse().unwrap_or(value)
-}
-
-fn usual_teeth(scene: &SceneFile) -> u32 {
-    let count = (std::f64::consts::TAU * rim(scene) / PITCH_M).round();
-    count.max(LEAST_TEETH) as u32
-}
-
-fn mount(scene: &SceneFile, kind: &str) -> Option<Mount> {
-    Some(match kind {
-        "spline" => Mount::Spline {},
-        "collar" => Mount::Collar {
-            diameter_m: collar_diameter(scene),
-            in_plane: InPlane::Fixed,
-        },
-        _ => return None,
-    })
-}
-
-/// A third of the blade, between the bore and the guides.
-fn collar_diameter(scene: &SceneFile) -> f64 {
-    let (bore, outer) = (scene.blade.inner_diameter_m, scene.blade.outer_diameter_m);
-    let usual = match 0.35 * outer > bore {
-        true => 0.35 * outer,
-        false => bore + 0.2 * (outer - bore),
-    };
-    let edges = scene.guides.iter();
-    let edges = edges.map(|pad| 2.0 * pad.radius_m - pad.radial_length_m);
-    let widest = edges.fold(outer, f64::min);
-    round(usual.min(0.9 * widest), 2).max(bore)
-}
-
-/// A guide like the last one, at the angle farthest from those that exist.
-fn guide(scene: &SceneFile) -> GuideFile {
-    let length = round(0.3 * (rim(scene) - inner(scene)), 2);
-    let first = GuideFile {
-        radius_m: between(scene, 0.6),
-        radial_length_m: length,
-        tangential_length_m: length,
-        stiffness_n_per_m: 1e7,
-        ..GuideFile::default()
-    };
-    GuideFile {
-        angle_deg: free_angle(&scene.guides),
-        ..scene.guides.last().copied().unwrap_or(first)
-    }
-}
-
-fn free_angle(guides: &[GuideFile]) -> f64 {
-    match guides {
-        [] => -55.0,
-        [only] if only.angle_deg > 0.0 => only.angle_deg - 180.0,
-        [only] => only.angle_deg + 180.0,
-        _ => {
-            let apart = |x: f64, y: f64| ((x - y + 540.0).rem_euclid(360.0) - 180.0).abs();
-            let distance = |angle: f64| {
-                let others = guides.iter().map(|other| apart(angle, other.angle_deg));
-                others.fold(f64::INFINITY, f64::min)
-            };
-            let all = (0..72).map(|k| 5.0 * f64::from(k) - 175.0);
-            all.fold(-175.0, |best, angle| {
-                if distance(angle) > distance(best) {
-                    angle
-                } else {
-                    best
-                }
-            })
-        }
-    }
-}
-
-/// Radius and value of another row of a table over the radius, with the values of its neighbours: between the last
-/// row and the rim, or where rows are farthest apart.
-fn next_row(scene: &SceneFile, rows: &[(f64, f64)], value: f64) -> (f64, f64) {
-    let rim = rim(scene);
-    let end = |k: usize| rows.get(k + 1).map_or(rim, |next| next.0);
-    let gap = |k: &usize| end(*k) - rows[*k].0;
-    let Some(last) = rows.len().checked_sub(1) else {
-        return (round(inner(scene), 3), value);
-    };
-    let widest = || (0..=last).max_by(|x, y| gap(x).total_cmp(&gap(y)));
-    let at = match gap(&last) > 1e-3 * rim {
-        true => last,
-        false => widest().unwrap_or(last),
-    };
-    let next = rows.get(at + 1).unwrap_or(&rows[at]);
-    (
-        round(0.5 * (rows[at].0 + end(at)), 4),
-        0.5 * (rows[at].1 + next.1),
-    )
-}
-
-fn runup(scene: &SceneFile) -> RunUpFile {
-    RunUpFile {
-        from_rpm: 0.0,
-        to_rpm: round(1.5 * operating(scene), 2),
-        duration_s: 60.0,
-        force_n: side_force(scene),
-        angle_deg: 0.0,
-        stretching: false,
-    }
-}
-
-/// A force to which soft guides yield by less than the thickness of the blade, because the model is linear.
-fn side_force(scene: &SceneFile) -> f64 {
-    if matches!(scene.mount, Mount::Collar { .. }) {
-        return 5.0;
-    }
-    let stiffness: f64 = scene.guides.iter().map(|pad| pad.stiffness_n_per_m).sum();
-    round(
-        (0.01 * scene.blade.thickness_m * stiffness).clamp(1e-3, 5.0),
-        1,
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::explore::examples::examples;
+    use crate::explore::needs::NEEDS;
 
     const PARTS: [&str; 22] = [
         "response",

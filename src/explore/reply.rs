@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::examples::examples;
 use super::fields::Field;
-use super::parts::{NEEDS, Need};
+use super::needs::{NEEDS, Need};
 use super::refusal::Refusal;
 use super::tolerances::{USUAL, UsualTolerance};
 use crate::figure::{self, FigureError};
