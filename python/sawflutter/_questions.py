@@ -337,8 +337,8 @@ class Questions(Searches):
         Parameters
         ----------
         rpm : float, optional
-            Speed of the frequency response from the side force to the probe; the operating speed
-            by default.
+            Speed of the frequency response from the side force to the probe, within the sweep; the
+            operating speed by default.
         to_hz : float, optional
             Largest frequency of that; by default that up to which the diagram is complete.
         accuracy, tolerance, progress

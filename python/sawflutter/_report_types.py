@@ -2299,7 +2299,7 @@ class OperatingResponse(Entry):
     """Deflections at the operating speed."""
 
     rpm: float
-    """The computed speed next to the operating speed."""
+    """The operating speed."""
 
     amplitude_m: FloatArray
     """Amplitude of each line at the probe."""
@@ -2383,7 +2383,7 @@ class ResponseReport(Entry):
     maxima coincided; null where one of them is."""
 
     operating: OperatingResponse | None
-    """Deviation of the board at the operating speed; null without such a speed."""
+    """Deflections at the operating speed; null if it is not within the sweep."""
 
     points: FrequencyResponse | None
     """Frequency response between two points at one speed; null if neither the scene nor the

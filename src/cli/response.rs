@@ -24,7 +24,8 @@ imbalance_kg_m2, tooth_force_n. Without any, the force is 1 N.";
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// Speed of the frequency response between force and probe; by default the operating speed
+    /// Speed of the frequency response between force and probe, within the sweep; by default the
+    /// operating speed
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     rpm: Option<f64>,
     /// Largest frequency of that; by default that up to which the diagram is complete
@@ -47,7 +48,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let report = watched(|_| {
         let found = ForcedResponse::new(&scene, &options)?;
         Ok::<_, ResponseError>(ResponseReport::new(&found))
-    })??;
+    })?;
+    let report = report.map_err(|error| match error {
+        // Keys of the scene have a block.
+        ResponseError::Refused(refused) if !refused.key.contains('.') => of_option(refused),
+        other => other.into(),
+    })?;
     let (output, page) = (&arguments.common.output, &arguments.page);
     output.report(&folder, page, &report, Vec::new(), "response.json")
 }

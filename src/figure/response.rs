@@ -230,16 +230,31 @@ fn draw_key(sheet: &mut Sheet, report: &ResponseReport) {
         })
         .word(&line.name);
     }
-    Key::new(sheet, AMPLITUDE.left, baseline + 26.0)
-        .mark(4.0, |sheet, [x, y]| {
+    let mut key = Key::new(sheet, AMPLITUDE.left, baseline + 26.0);
+    let mut resonances = report.lines.iter().flat_map(|line| &line.resonances);
+    if resonances.any(|resonance| resonance.amplitude_m.is_none()) {
+        key.mark(4.0, |sheet, [x, y]| {
             let ends = [[x + 2.0, y - 6.0], [x + 2.0, y + 6.0]];
             sheet.line(ends, Stroke::solid(QUIET, 2.0 * HAIRLINE));
         })
-        .word("resonance without an amplitude")
-        .shade(DIVERGENCE_SHADE)
-        .word("divergence")
-        .shade(FLUTTER_SHADE)
-        .word("flutter: no steady state");
+        .word("resonance without an amplitude");
+    }
+    for (kind, shade, word) in [
+        (
+            InstabilityKind::Divergence,
+            DIVERGENCE_SHADE,
+            "divergence: no steady state",
+        ),
+        (
+            InstabilityKind::Flutter,
+            FLUTTER_SHADE,
+            "flutter: no steady state",
+        ),
+    ] {
+        if report.instabilities.iter().any(|band| band.kind == kind) {
+            key.shade(shade).word(word);
+        }
+    }
 }
 
 /// Amplitude and phase over the frequency at one speed.

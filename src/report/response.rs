@@ -46,7 +46,7 @@ pub struct ResponseReport {
     /// Largest distance of the cut surface from the middle plane of the blade at rest, at each speed: the static deflection of
     /// the rim at the cut and all amplitudes there, as if their maxima coincided; null where one of them is.
     pub board_deviation_m: Vec<Option<f64>>,
-    /// Deviation of the board at the operating speed; null without such a speed.
+    /// Deflections at the operating speed; null if it is not within the sweep.
     pub operating: Option<OperatingResponseEntry>,
     /// Frequency response between two points at one speed; null if neither the scene nor the options have a speed.
     pub points: Option<FrequencyResponseEntry>,
@@ -110,7 +110,7 @@ pub struct ResonanceEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OperatingResponseEntry {
-    /// The computed speed next to the operating speed.
+    /// The operating speed.
     pub rpm: f64,
     /// Amplitude of each line at the probe.
     pub amplitude_m: Vec<Option<f64>>,
@@ -149,12 +149,13 @@ impl ResponseReport {
             .collect();
         let board = found.board_deviation_m();
         let operating = scene.file().operating_rpm.and_then(|asked| {
-            let off = |k: &usize| (rpm_of[*k] - asked).abs();
-            let nearest = (0..rpm_of.len()).min_by(|a, b| off(a).total_cmp(&off(b)))?;
+            // Speeds are converted to rad/s and back.
+            let is_same = |rpm: &f64| (rpm / asked - 1.0).abs() < 1e-9;
+            let place = rpm_of.iter().position(is_same)?;
             Some(OperatingResponseEntry {
-                rpm: rpm_of[nearest],
-                amplitude_m: lines.iter().map(|line| line.amplitude_m[nearest]).collect(),
-                board_deviation_m: board[nearest],
+                rpm: asked,
+                amplitude_m: lines.iter().map(|line| line.amplitude_m[place]).collect(),
+                board_deviation_m: board[place],
             })
         });
         let (radius_m, angle_rad) = found.force_place();

@@ -101,7 +101,7 @@ pub fn loads(plate: &Plate, scene: &Scene, typed: &ResponseFile) -> Result<Vec<L
         loads.push(Load {
             cause: Cause::ToothPassing,
             order: teeth,
-            vector: at(rim, cut_angle_rad(scene), typed.tooth_force_n),
+            vector: at(rim, scene.cut_angle_rad(), typed.tooth_force_n),
         });
     }
     Ok(loads)
@@ -111,12 +111,6 @@ pub fn loads(plate: &Plate, scene: &Scene, typed: &ResponseFile) -> Result<Vec<L
 pub fn force_place(scene: &Scene, typed: &ResponseFile) -> (f64, f64) {
     let radius = typed.radius_m.unwrap_or(scene.blade().outer_radius_m);
     (radius, typed.angle_deg.to_radians())
-}
-
-/// Angle of the cut; 0 without one.
-pub fn cut_angle_rad(scene: &Scene) -> f64 {
-    let cut = scene.file().cut.as_ref();
-    cut.map_or(0.0, |cut| cut.angle_deg.to_radians())
 }
 
 /// The vector of a wave with n nodal diameters that turns with the blade: Re (cos nθ − i sin nθ) e^{inΩt} = cos n(θ − Ωt).

@@ -20,14 +20,15 @@ use faer::{Col, c64};
 use crate::campbell::even_speeds;
 use crate::plate::Plate;
 use crate::scene::{
-    ExcitationLine, RefusedValue, ResponseFile, Scene, SceneError, speed_rad_per_s,
+    ExcitationLine, RefusedValue, ResponseFile, Scene, SceneError, rad_per_s, rpm, speed_rad_per_s,
 };
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError, StabilityState, crossings};
 use crate::system::GyroscopicSystem;
+use crate::text::shown;
 use crate::transient::linear_limit_m;
 use family::{State, readings};
-use load::{Load, cut_angle_rad, force_place, loads};
+use load::{Load, force_place, loads};
 
 /// Why the response of a saw could not be computed.
 #[derive(Debug, thiserror::Error)]
@@ -49,7 +50,7 @@ pub enum ResponseError {
 /// Options of [`ForcedResponse::new`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Options {
-    /// Speed of the frequency response; by default the operating speed, or none.
+    /// Speed of the frequency response; by default the operating speed if it is within the sweep, or none.
     pub rpm: Option<f64>,
     /// Largest frequency of the frequency response; by default that up to which the chart is complete.
     pub to_hz: Option<f64>,
@@ -132,6 +133,26 @@ impl Options {
     }
 }
 
+impl Options {
+    /// The speed of the frequency response, which must be one of the sweep: beyond it the saw was not analysed.
+    fn speed_rad_per_s(&self, (from, to): (f64, f64)) -> Result<Option<f64>, RefusedValue> {
+        let Some(asked) = self.rpm else {
+            return Ok(None);
+        };
+        let speed = rad_per_s(asked);
+        if !(from..=to).contains(&speed) {
+            let allowed = format!(
+                "a speed of the sweep, {} to {} rpm",
+                shown(rpm(from)),
+                shown(rpm(to))
+            );
+            let remedy = "change sweep.from_rpm or sweep.to_rpm";
+            return Err(RefusedValue::new("rpm", asked, allowed, remedy));
+        }
+        Ok(Some(speed))
+    }
+}
+
 impl ForcedResponse {
     /// Computes the response of the idling saw.
     ///
@@ -148,7 +169,11 @@ impl ForcedResponse {
             .map(|load| resonances(&analysis, load.order))
             .collect::<Result<_, _>>()?;
         let range = analysis.range_rad_per_s;
-        let speeds = speeds(range, resonances.iter().flatten().copied());
+        let within = |speed: &f64| (range.0..=range.1).contains(speed);
+        let operating = scene.operating_rad_per_s().filter(within);
+        let asked = options.speed_rad_per_s(range)?;
+        let events = resonances.iter().flatten().copied();
+        let speeds = speeds(range, events, operating);
         let solver = Solver::new(plate, scene);
         let lines = loads.iter().zip(resonances).map(|(load, resonances)| {
             Ok(ResponseLine {
@@ -159,9 +184,7 @@ impl ForcedResponse {
             })
         });
         let lines = lines.collect::<Result<_, SpectrumError>>()?;
-        let asked = options.rpm.map(crate::scene::rad_per_s);
-        let speed = asked.or(scene.operating_rad_per_s());
-        let points = speed.map(|speed| {
+        let points = asked.or(operating).map(|speed| {
             let place = force_place(scene, &excitation);
             FrequencyResponse::new(&analysis, &solver, (speed, options.to_hz), place)
         });
@@ -248,8 +271,12 @@ fn resonances(analysis: &Analysis, order: u32) -> Result<Vec<f64>, SpectrumError
     Ok(speeds)
 }
 
-/// Evenly spaced speeds, and others near the resonances.
-fn speeds(range: (f64, f64), resonances: impl Iterator<Item = f64>) -> Vec<f64> {
+/// Evenly spaced speeds, others near the resonances, and the operating speed.
+fn speeds(
+    range: (f64, f64),
+    resonances: impl Iterator<Item = f64>,
+    operating: Option<f64>,
+) -> Vec<f64> {
     let from = range.0.max(LEAST * range.1);
     let ratio = (NEAR.1 / NEAR.0).powf(1.0 / (BESIDE - 1) as f64);
     let offsets = (0..BESIDE).map(move |k| NEAR.0 * ratio.powi(k as i32));
@@ -259,7 +286,8 @@ fn speeds(range: (f64, f64), resonances: impl Iterator<Item = f64>) -> Vec<f64> 
         beside.chain([speed])
     });
     let mut speeds = even_speeds((from, range.1), SPEEDS);
-    speeds.extend(near.filter(|speed| (from..=range.1).contains(speed)));
+    let added = near.chain(operating);
+    speeds.extend(added.filter(|speed| (from..=range.1).contains(speed)));
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();
     speeds
@@ -283,7 +311,7 @@ impl Solver {
         let angle = |k: usize| std::f64::consts::TAU * k as f64 / AROUND as f64;
         let mut probes = vec![
             at(probe.radius_m, probe.angle_rad),
-            at(rim, cut_angle_rad(scene)),
+            at(rim, scene.cut_angle_rad()),
         ];
         probes.extend((0..AROUND).map(|k| at(rim, angle(k))));
         Solver {

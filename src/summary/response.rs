@@ -80,7 +80,7 @@ fn verdict(report: &ResponseReport) -> String {
             let known = known.filter_map(|(rpm, m)| Some(((*m)?, *rpm)));
             match known.max_by(|a, b| a.0.total_cmp(&b.0)) {
                 Some((m, rpm)) => format!(
-                    "The board deviates by at most {} mm, at {rpm:.0} rpm (the scene has no operating_rpm)",
+                    "The board deviates by at most {} mm, at {rpm:.0} rpm (the sweep contains no operating_rpm)",
                     shown_to(3, 1e3 * m)
                 ),
                 None => "No steady state is known at any speed of the sweep".to_owned(),

@@ -52,7 +52,8 @@ fn the_deflection_at_rest_is_the_force_over_the_stiffness_of_the_rim() {
     let check: CheckReport = serde_json::from_slice(&check.stdout).unwrap();
     let expected = 2.0 / check.rim_stiffness_at_rest_n_per_m;
     let at_rest = report.lines[0].amplitude_m[0].unwrap();
-    // The two commands choose bases of their own, each within the tolerance.
+    // The basis of the draft lacks the waves of many diameters in which a point force deflects its own place; `check` has
+    // a larger one.
     assert!(
         (at_rest / expected - 1.0).abs() < Accuracy::Draft.tolerance(),
         "{at_rest} {expected}"
@@ -63,7 +64,7 @@ fn the_deflection_at_rest_is_the_force_over_the_stiffness_of_the_rim() {
     let at_speed = report.operating.unwrap().amplitude_m[0].unwrap();
     let receptance = points.receptance_m_per_n[0].unwrap();
     assert!(
-        (2.0 * receptance / at_speed - 1.0).abs() < 0.02,
+        (2.0 * receptance / at_speed - 1.0).abs() < 1e-6,
         "{receptance} {at_speed}"
     );
 }
@@ -97,6 +98,10 @@ fn causes_are_set_by_their_keys_and_refused_by_them() {
             text(&output.stderr)
         );
     }
+    // Beyond the sweep the saw was not analysed.
+    let output = run(&["response", &path, "--rpm", "9000"], &folder);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("--rpm is 9000"));
     let output = run(&["response", &path, "--to-hz", "0"], &folder);
     assert!(text(&output.stderr).contains("--to-hz is 0"));
 }
