@@ -34,7 +34,7 @@ pub struct Arguments {
     /// Without any: radius, angle and stiffness of the first guide
     #[arg(long, value_name = "PATH[=FROM..TO]")]
     free: Vec<String>,
-    /// The quantity to make large
+    /// The quantity to maximize
     #[arg(long, value_name = "NAME", default_value = "flutter")]
     goal: GoalName,
     /// Lower limit of the lowest critical speed

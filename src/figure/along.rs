@@ -2,9 +2,7 @@
 
 use super::axis::{Axis, Spread};
 use super::written;
-
-/// From this ratio of the last value to the first on, the axis is logarithmic.
-const DECADE: f64 = 10.0;
+use crate::scene::is_logarithmic;
 
 /// The axis of a number of the scene, in the unit in which it is written, logarithmic if its ends are decades apart.
 pub struct Along {
@@ -39,7 +37,7 @@ impl Along {
         let first = values.first().copied().unwrap_or(0.0);
         let last = values.last().copied().unwrap_or(1.0);
         let share = by_cells / values.len().saturating_sub(1).max(1) as f64;
-        let (spread, ends) = if first > 0.0 && last >= DECADE * first {
+        let (spread, ends) = if is_logarithmic(first, last) {
             let beside = (last / first).powf(share);
             (Spread::Logarithmic, [first / beside, last * beside])
         } else {

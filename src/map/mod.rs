@@ -25,7 +25,7 @@ mod contour;
 
 pub use contour::{Contour, contours};
 
-use crate::scene::{Freed, RefusedValue, Scene, rpm, speed_rad_per_s};
+use crate::scene::{Freed, RefusedValue, Scene, is_logarithmic, rpm, speed_rad_per_s};
 use crate::stability::{StabilityState, end_of_sweep};
 use crate::study::{DistributionFile, FoundBand, ParameterFile, Study, StudyError, StudyFile};
 use crate::text::shown;
@@ -210,7 +210,7 @@ impl Along {
 
     fn is_logarithmic(&self) -> bool {
         let (first, last) = (self.values[0], self.values[self.values.len() - 1]);
-        first > 0.0 && last >= 10.0 * first
+        is_logarithmic(first, last)
     }
 
     fn grid(&self) -> ParameterFile {

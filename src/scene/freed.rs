@@ -25,6 +25,11 @@ const MAX_FREED: usize = 12;
 /// From this ratio of the bounds on, the scale is logarithmic.
 const DECADE: f64 = 10.0;
 
+/// Whether the scale from one number to another is logarithmic: of a search, of the points of a map and of an axis.
+pub fn is_logarithmic(from: f64, to: f64) -> bool {
+    from > 0.0 && to >= DECADE * from
+}
+
 impl Freed {
     /// Frees a number between two bounds, each of which must be a valid value.
     ///
@@ -136,7 +141,7 @@ impl Freed {
 
     /// Whether the scale is logarithmic.
     pub fn is_logarithmic(&self) -> bool {
-        self.from > 0.0 && self.to >= DECADE * self.from
+        is_logarithmic(self.from, self.to)
     }
 
     /// The value at a share.

@@ -47,7 +47,7 @@ pub use file::{
 #[doc(hidden)]
 pub use freed::spread;
 pub use freed::{Freed, NamedBounds};
-pub(crate) use freed::{effective, scene_at};
+pub(crate) use freed::{effective, is_logarithmic, scene_at};
 pub(crate) use guide::{Guide, Lifting};
 pub(crate) use membrane::Membrane;
 pub(crate) use membrane::RollBand;
