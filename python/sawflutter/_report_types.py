@@ -680,6 +680,24 @@ class RootLoci(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class RollBand(Entry):
+    """A rolled band, by its strain and by its groove."""
+
+    radius_m: float
+    """Radius of its middle."""
+
+    width_m: float
+    """Width along the radius."""
+
+    eigenstrain: float
+    """In-plane strain that it would have if it were free."""
+
+    groove_depth_m: float
+    """Depth, on each face, of the groove whose displaced volume gives this strain; negative for
+    a strain below zero."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class HeatLimit(Entry):
     """A temperature rise at which the blade buckles, or its lowest critical speed equals the
     operating speed."""
@@ -763,6 +781,9 @@ class Membrane(Entry):
 
     hoop_pa: FloatArray
     """σ_θθ at these radii."""
+
+    roll_bands: tuple[RollBand, ...]
+    """Rolled bands of the scene."""
 
     heat: Heat | None
     """Limits of temperature, if the scene has a temperature."""

@@ -226,7 +226,7 @@ class TemperatureDict(_TemperatureDict, total=False):
     """Rises at ascending radii, linear between the rows and constant beyond them."""
 
 
-class RollBandDict(TypedDict):
+class _RollBandDict(TypedDict):
     """A rolled band. Rolling reduces its thickness, so that it would expand in its plane; the
     surrounding metal restrains it and is stretched along the rim."""
 
@@ -236,9 +236,19 @@ class RollBandDict(TypedDict):
     width_m: float
     """Width along the radius."""
 
-    eigenstrain: float
+
+class RollBandDict(_RollBandDict, total=False):
+    """A rolled band. Rolling reduces its thickness, so that it would expand in its plane; the
+    surrounding metal restrains it and is stretched along the rim."""
+
+    eigenstrain: float | None
     """In-plane strain that the band would have if it were free, isotropic; positive for
-    rolling."""
+    rolling. Either this or `groove_depth_m`."""
+
+    groove_depth_m: float | None
+    """Depth of the groove on each face, in place of `eigenstrain`, which is then this depth
+    over the thickness of the blade at this radius: the displaced volume remains in the band, in
+    equal parts along and across the groove."""
 
 
 class _ResidualStressRowDict(TypedDict):

@@ -183,7 +183,8 @@ fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
         "roll_tension[]" => membrane.roll_tension.push(RollBandFile {
             radius_m: between(scene, 0.5),
             width_m: round(0.1 * (rim(scene) - inner(scene)), 2),
-            eigenstrain: 1e-4,
+            eigenstrain: Some(1e-4),
+            groove_depth_m: None,
         }),
         "residual_stress[]" => {
             let rows = membrane.residual_stress.iter();

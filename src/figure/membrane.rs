@@ -270,6 +270,7 @@ mod tests {
             frequency_hz: None,
         });
         report.membrane = Some(MembraneEntry {
+            roll_bands: Vec::new(),
             radial_pa: radius_m.iter().map(|r| -3e8 * (0.38 - r).abs()).collect(),
             hoop_pa: radius_m.iter().map(|r| 3e8 * (0.2 - r)).collect(),
             heat: Some(HeatEntry {

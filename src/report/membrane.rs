@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::plate::MembraneStress;
-use crate::scene::{Scene, rpm};
+use crate::scene::{Blade, Groove, RollBand, Scene, rpm};
 use crate::stability::{Analysis, HeatLimit, HeatLimits};
 
 /// Stress of heat, roll tension and manufacture over the radius.
@@ -17,8 +17,36 @@ pub struct MembraneEntry {
     pub radial_pa: Vec<f64>,
     /// σ_θθ at these radii.
     pub hoop_pa: Vec<f64>,
+    /// Rolled bands of the scene.
+    pub roll_bands: Vec<RollBandEntry>,
     /// Limits of temperature, if the scene has a temperature.
     pub heat: Option<HeatEntry>,
+}
+
+/// A rolled band, by its strain and by its groove.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RollBandEntry {
+    /// Radius of its middle.
+    pub radius_m: f64,
+    /// Width along the radius.
+    pub width_m: f64,
+    /// In-plane strain that it would have if it were free.
+    pub eigenstrain: f64,
+    /// Depth, on each face, of the groove whose displaced volume gives this strain; negative for a strain below zero.
+    pub groove_depth_m: f64,
+}
+
+impl RollBandEntry {
+    fn new(blade: &Blade, band: &RollBand) -> Self {
+        let radius_m = band.middle_m();
+        RollBandEntry {
+            radius_m,
+            width_m: band.to_radius_m - band.from_radius_m,
+            eigenstrain: band.eigenstrain,
+            groove_depth_m: Groove::at(blade, radius_m).depth_m(band.eigenstrain),
+        }
+    }
 }
 
 /// The temperature profile of the scene, scaled to other peaks.
@@ -114,7 +142,11 @@ impl MembraneEntry {
                 buckles_first: limits.buckles_first,
                 critical_speeds: curves(limits),
             });
+        let bands = scene.membrane().into_iter().flat_map(|m| &m.roll_tension);
         Some(MembraneEntry {
+            roll_bands: bands
+                .map(|band| RollBandEntry::new(&plate.blade, band))
+                .collect(),
             radial_pa: radius_m.iter().map(|r| at(r).radial_pa).collect(),
             hoop_pa: radius_m.iter().map(|r| at(r).hoop_pa).collect(),
             radius_m,

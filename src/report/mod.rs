@@ -58,7 +58,7 @@ pub use self::gap::{AtAmplitudeEntry, BasisErrorEntry, DeviationEntry, FrictionE
 pub(crate) use self::growing::GrowingMapEntry;
 pub use self::in_cut::{IdlingEntry, InCutEntry};
 pub use self::map::{ContourEntry, ContouredEntry, MapAxisEntry, MapReport, MappedSawEntry};
-pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry};
+pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry, RollBandEntry};
 pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
 pub use self::place::{
     FragileOptimumEntry, GoalEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceCertificateEntry,

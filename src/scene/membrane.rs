@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::check::{ascending, few, positive, refuse, within};
+use super::groove::Groove;
 use super::profile::Profile;
 use super::residual::{ResidualStress, ResidualStressRow};
 use super::{Blade, SceneError};
@@ -64,8 +65,13 @@ pub struct RollBandFile {
     pub radius_m: f64,
     /// Width along the radius.
     pub width_m: f64,
-    /// In-plane strain that the band would have if it were free, isotropic; positive for rolling.
-    pub eigenstrain: f64,
+    /// In-plane strain that the band would have if it were free, isotropic; positive for rolling. Either this or `groove_depth_m`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub eigenstrain: Option<f64>,
+    /// Depth of the groove on each face, in place of `eigenstrain`, which is then this depth over the thickness of the blade at
+    /// this radius: the displaced volume remains in the band, in equal parts along and across the groove.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub groove_depth_m: Option<f64>,
 }
 
 /// Validated membrane stress.
@@ -258,11 +264,38 @@ impl RollBand {
             let remedy = "roll the moving part of the blade; is width_m the whole width?";
             return Err(refuse(&key("radius_m"), radius, allowed, remedy));
         }
+        let groove = Groove::at(blade, radius);
+        let eigenstrain = match (typed.eigenstrain, typed.groove_depth_m) {
+            (Some(eigenstrain), None) => within(&key("eigenstrain"), eigenstrain, EIGENSTRAIN)?,
+            (None, Some(depth)) => {
+                let deepest = groove.depth_m(EIGENSTRAIN.1);
+                if !(0.0..=deepest).contains(&depth) {
+                    let allowed = format!(
+                        "between 0 and {}, a twentieth of the thickness of the blade",
+                        shown(deepest)
+                    );
+                    let remedy = "give the depth of the groove on one face, in m";
+                    return Err(refuse(&key("groove_depth_m"), depth, allowed, remedy));
+                }
+                groove.eigenstrain(depth)
+            }
+            (eigenstrain, _) => {
+                let given = if eigenstrain.is_some() { 2.0 } else { 0.0 };
+                let remedy = "give eigenstrain or groove_depth_m, and null for the other";
+                let key = format!("membrane.roll_tension[{index}]");
+                return Err(refuse(&key, given, "exactly one description", remedy));
+            }
+        };
         Ok(RollBand {
             from_radius_m,
             to_radius_m,
-            eigenstrain: within(&key("eigenstrain"), typed.eigenstrain, EIGENSTRAIN)?,
+            eigenstrain,
         })
+    }
+
+    /// Radius of the middle.
+    pub fn middle_m(&self) -> f64 {
+        0.5 * (self.from_radius_m + self.to_radius_m)
     }
 }
 
@@ -342,6 +375,23 @@ mod tests {
             (
                 r#"{"roll_tension": [{"radius_m": 0.2, "width_m": 0.01, "eigenstrain": 1}]}"#,
                 "membrane.roll_tension[0].eigenstrain",
+            ),
+            (
+                r#"{"roll_tension": [{"radius_m": 0.2, "width_m": 0.01, "groove_depth_m": 1e-3}]}"#,
+                "membrane.roll_tension[0].groove_depth_m",
+            ),
+            (
+                r#"{"roll_tension": [{"radius_m": 0.2, "width_m": 0.01, "groove_depth_m": -1e-6}]}"#,
+                "membrane.roll_tension[0].groove_depth_m",
+            ),
+            (
+                r#"{"roll_tension": [{"radius_m": 0.2, "width_m": 0.01}]}"#,
+                "membrane.roll_tension[0]",
+            ),
+            (
+                r#"{"roll_tension": [{"radius_m": 0.2, "width_m": 0.01, "eigenstrain": 1e-4,
+                    "groove_depth_m": 1e-6}]}"#,
+                "membrane.roll_tension[0]",
             ),
             (
                 r#"{"roll_tension": [{"radius_m": 0.2, "width_m": 0, "eigenstrain": 1e-4}]}"#,

@@ -12,6 +12,7 @@ mod entries;
 mod excitation;
 mod file;
 mod freed;
+mod groove;
 mod guide;
 mod membrane;
 mod needed;
@@ -48,6 +49,7 @@ pub use file::{
 pub use freed::spread;
 pub use freed::{Freed, NamedBounds};
 pub(crate) use freed::{effective, is_logarithmic, scene_at};
+pub(crate) use groove::Groove;
 pub(crate) use guide::{Guide, Lifting};
 pub(crate) use membrane::Membrane;
 pub(crate) use membrane::RollBand;

@@ -64,7 +64,7 @@ impl Quantity {
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten
 /// carbide, guides from felt to steel.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 94] = [
+pub const QUANTITIES: [Quantity; 95] = [
     q("blade.outer_diameter_m", "outer diameter", "m", 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", 1e-4, 0.04),
@@ -101,6 +101,7 @@ pub const QUANTITIES: [Quantity; 94] = [
     q("membrane.roll_tension[].radius_m", "radius of the rolled band", "m", 1e-3, 2.5).of_kind(Kind::Radius),
     q("membrane.roll_tension[].width_m", "width of the rolled band", "m", 1e-4, 1.0),
     q("membrane.roll_tension[].eigenstrain", "rolling strain", "", -0.02, 0.02),
+    q("membrane.roll_tension[].groove_depth_m", "depth of the rolled groove", "m", 1e-7, 5e-4),
     q("membrane.residual_stress[].radius_m", "radius", "m", 1e-3, 2.5).of_kind(Kind::Radius),
     q("membrane.residual_stress[].hoop_pa", "hoop stress", "Pa", -3e9, 3e9),
     q("membrane.residual_stress[].radial_pa", "radial stress", "Pa", -3e9, 3e9),

@@ -174,7 +174,7 @@ impl Variation {
         add("membrane.temperature.expansion_per_k".into());
         add("membrane.temperature.rim_rise_k".into());
         for index in 0..membrane.map_or(0, |m| m.roll_tension.len()) {
-            for name in ["radius_m", "eigenstrain"] {
+            for name in ["radius_m", "eigenstrain", "groove_depth_m"] {
                 add(format!("membrane.roll_tension[{index}].{name}"));
             }
         }

@@ -3,6 +3,22 @@
 use std::fmt::{Result, Write};
 
 use crate::report::{HeatLimitEntry, InstabilityEntry, Report};
+use crate::text::shown_to;
+
+/// Writes the rolled bands, by strain and by groove.
+pub fn rolled(text: &mut String, report: &Report) -> Result {
+    for band in report.membrane.iter().flat_map(|m| &m.roll_bands) {
+        writeln!(
+            text,
+            "Rolled band at {} mm, {} mm wide: eigenstrain {},\n  as a groove {} µm deep on each face",
+            shown_to(4, 1e3 * band.radius_m),
+            shown_to(3, 1e3 * band.width_m),
+            shown_to(3, band.eigenstrain),
+            shown_to(3, 1e6 * band.groove_depth_m)
+        )?;
+    }
+    Ok(())
+}
 
 /// Writes the limits of temperature, for the scene's temperature profile.
 pub fn heat(text: &mut String, report: &Report) -> Result {

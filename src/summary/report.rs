@@ -7,7 +7,7 @@ use super::answer::{answer, trust};
 use super::bands::bands;
 use super::excitation::crossings;
 use super::in_cut::in_cut;
-use super::influences::{heat, sensitivity};
+use super::influences::{heat, rolled, sensitivity};
 use super::whirl::whirl;
 use super::{ROWS, WIDTH, is_damped, more, numbered, shortened, unusual_numbers};
 use crate::report::{Report, RestMode};
@@ -27,6 +27,7 @@ pub fn of_report(text: &mut String, report: &Report) -> std::fmt::Result {
     bands(text, report)?;
     amplitudes(text, report)?;
     crossings(text, report)?;
+    rolled(text, report)?;
     heat(text, report)?;
     sensitivity(text, report)?;
     whirl(text, report)?;

@@ -91,6 +91,29 @@ fn without_its_tension_the_hot_saw_is_past_its_critical_speed() {
     assert!(limit.rise_k < 20.0);
 }
 
+/// The blade is 2.2 mm thick, and displaced metal spreads equally along and across the groove.
+#[test]
+fn a_groove_is_the_same_band_as_its_strain() {
+    let mut scene = tensioned();
+    scene["membrane"]["roll_tension"][0]["eigenstrain"] = serde_json::Value::Null;
+    scene["membrane"]["roll_tension"][0]["groove_depth_m"] = (7e-4 * 2.2e-3).into();
+    let run = |scene: &serde_json::Value| -> Report {
+        let (_folder, assert) = analyze(scene, &["--json"]);
+        serde_json::from_str(text(&assert.success().get_output().stdout)).unwrap()
+    };
+    let (by_groove, by_strain) = (run(&scene), run(&tensioned()));
+    for report in [&by_groove, &by_strain] {
+        let band = &report.membrane.as_ref().unwrap().roll_bands[0];
+        assert!((band.eigenstrain / 7e-4 - 1.0).abs() < 1e-12, "{band:?}");
+        assert!(
+            (band.groove_depth_m / 1.54e-6 - 1.0).abs() < 1e-12,
+            "{band:?}"
+        );
+    }
+    let [groove, strain] = [by_groove, by_strain].map(|r| r.critical_speeds[0].rpm);
+    assert!((groove / strain - 1.0).abs() < 1e-9, "{groove} {strain}");
+}
+
 #[test]
 fn a_blade_that_buckles_is_refused_with_the_share_it_tolerates() {
     let mut scene = tensioned();
@@ -128,6 +151,15 @@ fn refusals_name_key_value_and_remedy() {
             serde_json::json!({ "roll_tension": [{ "radius_m": 0.195, "width_m": 0.02,
                 "eigenstrain": 1e-4 }] }),
             "membrane.roll_tension[0].radius_m is 0.195",
+        ),
+        (
+            serde_json::json!({ "roll_tension": [{ "radius_m": 0.1, "width_m": 0.02,
+                "groove_depth_m": 1e-3 }] }),
+            "membrane.roll_tension[0].groove_depth_m is 0.001, but must be between 0 and 0.00011",
+        ),
+        (
+            serde_json::json!({ "roll_tension": [{ "radius_m": 0.1, "width_m": 0.02 }] }),
+            "membrane.roll_tension[0] is 0, but must be exactly one description",
         ),
         (
             serde_json::json!({ "residual_stress": [row(0.1, 1e6), row(0.1, 2e6)] }),

@@ -16,7 +16,7 @@ const ELSEWHERE = { cut: "cut", "cut.washboarding": "washboard", runup: "runup",
 
 // Numbers that speeds are known to move with: they keep room for it from the beginning.
 const WEIGHED = new RegExp("^(blade[.](thickness_m|profile[[].*thickness_m|rim[.]mass_per_tooth_kg|material[.](youngs_modulus_pa|density_kg_per_m3))"
-  + "|guides[[].*[.](radius_m|angle_deg|stiffness_n_per_m)|membrane[.].*(expansion_per_k|rim_rise_k|eigenstrain)|membrane[.]roll_tension.*radius_m)$");
+  + "|guides[[].*[.](radius_m|angle_deg|stiffness_n_per_m)|membrane[.].*(expansion_per_k|rim_rise_k|eigenstrain|groove_depth_m)|membrane[.]roll_tension.*radius_m)$");
 
 export class Form {
   // `say(words)` is for what no field can say.

@@ -3,7 +3,7 @@
 use super::*;
 use crate::analytical::annulus::Annulus;
 use crate::plate::{Plate, Resolution};
-use crate::scene::{Mount, Profile, RollBand, Scene};
+use crate::scene::{Groove, Mount, Profile, RollBand, Scene};
 
 const BORES: [Bore; 3] = [
     Bore::Free,
@@ -46,6 +46,50 @@ const MEASURED: &str = r#"{"residual_stress": [
     {"radius_m": 0.1, "hoop_pa": -30e6}, {"radius_m": 0.2, "hoop_pa": -42e6},
     {"radius_m": 0.3, "hoop_pa": 35e6}, {"radius_m": 0.355, "hoop_pa": 100e6}]}"#;
 const PROFILES: [&str; 6] = [LINEAR, ROOT, STEEP, TABLE, ROLLED, MEASURED];
+
+/// Balance of a blade with free edges that gets the volume V = 2d · 2πRw of a groove of depth d on each face: the hoop stress of
+/// its rim is E V/(2πh (b² − a²)).
+#[test]
+fn a_groove_stretches_the_rim_by_the_volume_that_it_displaces() {
+    let (depth_m, radius_m, width_m) = (2.1e-6, 0.23, 0.004);
+    let stress = stress_of(
+        r#"{"roll_tension": [{"radius_m": 0.23, "width_m": 0.004, "groove_depth_m": 2.1e-6}]}"#,
+        Bore::Free,
+    );
+    let Blade {
+        inner_radius_m: a,
+        outer_radius_m: b,
+        thickness_m: h,
+        material,
+        ..
+    } = stress.blade;
+    let displaced_m3 = 2.0 * depth_m * 2.0 * std::f64::consts::PI * radius_m * width_m;
+    let expected = material.youngs_modulus_pa * displaced_m3
+        / (2.0 * std::f64::consts::PI * h * (b * b - a * a));
+    assert!((stress.at(b).hoop_pa / expected - 1.0).abs() < 1e-12);
+}
+
+/// The groove of a band in the tapered part has the thickness at its own radius.
+#[test]
+fn a_groove_in_a_taper_has_the_thickness_of_its_radius() {
+    let scene = Scene::paper().edited(|file| {
+        file.blade.profile = serde_json::from_str(
+            r#"[{"radius_m": 0.2, "thickness_m": 0.004}, {"radius_m": 0.3, "thickness_m": 0.002}]"#,
+        )
+        .unwrap();
+        file.membrane = Some(
+            serde_json::from_str(
+                r#"{"roll_tension": [{"radius_m": 0.25, "width_m": 0.01, "groove_depth_m": 3e-6}]}"#,
+            )
+            .unwrap(),
+        );
+    });
+    let scene = scene.unwrap();
+    let band = scene.membrane().unwrap().roll_tension[0];
+    assert!((band.eigenstrain - 1e-3).abs() < 1e-15);
+    let depth_m = Groove::at(scene.blade(), band.middle_m()).depth_m(band.eigenstrain);
+    assert!((depth_m - 3e-6).abs() < 1e-18);
+}
 
 /// d(r σ_rr)/dr = σ_θθ holds in integral form between any two radii, across every kink, jump and band; the
 /// edges satisfy the condition of the bore.
