@@ -1784,6 +1784,24 @@ class Deviation(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class FrictionPad(Entry):
+    """A one-sided pad beside the heated blade."""
+
+    guide: int
+    """Index among the guides of the scene."""
+
+    from_radius_m: float
+    """Smallest distance from the axis at which the pad lies on the blade."""
+
+    to_radius_m: float
+    """Largest such distance."""
+
+    gap_left_m: float | None
+    """Smallest distance left between the blade and the faces of the pad with this heat;
+    negative where a face is pressed in, null where the model is not valid."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Friction(Entry):
     """The heat of friction at the pads, at the speed and under the side force of the map."""
 
@@ -1820,6 +1838,9 @@ class Friction(Entry):
 
     pad_forces_n: FloatArray
     """Force of each one-sided pad on the blade beyond its gap, with this heat."""
+
+    pads: tuple[FrictionPad, ...]
+    """Each one-sided pad, in the order of the scene."""
 
     cold_critical_rpm: float | None
     """First critical speed of the linear chart without this heat."""

@@ -4,9 +4,9 @@ use super::campbell::CampbellView;
 use super::canvas::Sheet;
 use super::chart_data::ChartData;
 use super::{
-    FigureError, campbell, check, compare, cut, cut_map, deflect, fit, gap, gap_map, in_cut, map,
-    membrane, modes, place, render, response, response_map, root_loci, runup, spline_orbit, study,
-    washboard,
+    FigureError, campbell, check, compare, cut, cut_map, deflect, fit, gap, gap_friction, gap_map,
+    in_cut, map, membrane, modes, place, render, response, response_map, root_loci, runup,
+    spline_orbit, study, washboard,
 };
 use crate::report::{
     CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
@@ -170,11 +170,19 @@ impl Figures for RunUpReport {
 }
 
 impl Figures for GapReport {
-    const NAMES: &'static [[&'static str; 2]] =
-        &[["gap.png", "gap.svg"], ["gap-map.png", "gap-map.svg"]];
+    const NAMES: &'static [[&'static str; 2]] = &[
+        ["gap.png", "gap.svg"],
+        ["gap-map.png", "gap-map.svg"],
+        ["gap-friction.png", "gap-friction.svg"],
+    ];
 
     fn figures(&self) -> Vec<Figure> {
-        named(Self::NAMES, [Some(gap::sheet(self)), gap_map::sheet(self)])
+        let sheets = [
+            Some(gap::sheet(self)),
+            gap_map::sheet(self),
+            gap_friction::sheet(self),
+        ];
+        named(Self::NAMES, sheets)
     }
 }
 

@@ -30,6 +30,7 @@ mod drawn_tests;
 mod draws;
 mod fit;
 mod gap;
+mod gap_friction;
 mod gap_map;
 #[cfg(feature = "page")]
 mod growing_map;

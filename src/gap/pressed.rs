@@ -16,6 +16,9 @@ pub struct Deviation {
     pub largest_m: f64,
     /// Force of each one-sided pad on the blade beyond its gap; empty for linear guides.
     pub pad_forces_n: Vec<f64>,
+    /// Smallest distance left between the blade and the faces of each one-sided pad, negative where a face is pressed in;
+    /// empty for linear guides.
+    pub distances_left_m: Vec<f64>,
 }
 
 impl Deviation {
@@ -123,6 +126,7 @@ impl PressedBlade {
             deviation_m: self.blade.deflection_m(found, self.place.0, self.place.1),
             largest_m: self.sites.largest_m(&found.coordinates),
             pad_forces_n: self.blade.pad_forces_n(found),
+            distances_left_m: self.blade.distances_left_m(found),
         })
     }
 }

@@ -97,6 +97,7 @@ fn limits_are_interpolated_between_forces() {
             deviation_m,
             largest_m: deviation_m,
             pad_forces_n: Vec::new(),
+            distances_left_m: Vec::new(),
         })
     };
     let map = DeviationMap {
@@ -186,7 +187,11 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
     let friction = Friction::of(0.2);
     let heat = FrictionHeat::new(&analysis, friction, (30.0, 2000.0)).unwrap();
     assert!(heat.has_settled() && heat.repetitions > 1, "{heat:?}");
-    let force_n = heat.hot.as_ref().unwrap().largest_pad_force_n();
+    let hot = heat.hot.as_ref().unwrap();
+    let force_n = hot.largest_pad_force_n();
+    // The spring of the pad is pressed in by its force.
+    let left_m = hot.distances_left_m[0];
+    assert!((left_m / (-force_n / 1e6) - 1.0).abs() < 1e-9, "{left_m}");
     let power_w = 0.2 * force_n * rad_per_s(2000.0) * 0.17;
     assert!(
         (heat.power_w / power_w - 1.0).abs() < 1e-9,

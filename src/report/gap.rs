@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
 use crate::gap::{AtAmplitude, BasisError, Deviation, DeviationMap, FrictionHeat, GuideGaps};
-use crate::scene::{SceneFile, rpm};
+use crate::scene::{Guide, Scene, SceneFile, rpm};
 use crate::text::shown_to;
 
 /// `gap.json`.
@@ -72,6 +72,8 @@ pub struct FrictionEntry {
     pub deflection_m: Option<f64>,
     /// Force of each one-sided pad on the blade beyond its gap, with this heat.
     pub pad_forces_n: Vec<f64>,
+    /// Each one-sided pad, in the order of the scene.
+    pub pads: Vec<FrictionPadEntry>,
     /// First critical speed of the linear chart without this heat.
     pub cold_critical_rpm: Option<f64>,
     /// First critical speed of the linear chart with this heat.
@@ -82,6 +84,21 @@ pub struct FrictionEntry {
     pub change: f64,
     /// Number of repetitions of the loop of temperature and deflection.
     pub repetitions: usize,
+}
+
+/// A one-sided pad beside the heated blade.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FrictionPadEntry {
+    /// Index among the guides of the scene.
+    pub guide: usize,
+    /// Smallest distance from the axis at which the pad lies on the blade.
+    pub from_radius_m: f64,
+    /// Largest such distance.
+    pub to_radius_m: f64,
+    /// Smallest distance left between the blade and the faces of the pad with this heat; negative where a face is pressed in,
+    /// null where the model is not valid.
+    pub gap_left_m: Option<f64>,
 }
 
 /// A saw whose blade oscillates at its guides with one amplitude.
@@ -191,14 +208,17 @@ impl GapReport {
             linear: entry(&amplitude.linear),
             half_way_amplitude_m: amplitude.half_way_m,
             deviation: DeviationEntry::new(&found.deviation, found.max_deviation_m),
-            friction: found.friction.as_ref().map(FrictionEntry::new),
+            friction: found
+                .friction
+                .as_ref()
+                .map(|heat| FrictionEntry::new(heat, &found.scene)),
             warnings: warnings(chart.warnings, found),
         }
     }
 }
 
 impl FrictionEntry {
-    fn new(found: &FrictionHeat) -> Self {
+    fn new(found: &FrictionHeat, scene: &Scene) -> Self {
         let friction = &found.friction;
         let [cold_critical_rpm, critical_rpm] =
             found.critical_rad_per_s.map(|speed| speed.map(rpm));
@@ -215,6 +235,7 @@ impl FrictionEntry {
             cold_deflection_m: found.cold.as_ref().map(|at| at.deviation_m),
             deflection_m: hot.map(|at| at.deviation_m),
             pad_forces_n: hot.map_or_else(Vec::new, |at| at.pad_forces_n.clone()),
+            pads: pads(scene, hot),
             cold_critical_rpm,
             critical_rpm,
             settled: found.has_settled(),
@@ -222,6 +243,21 @@ impl FrictionEntry {
             repetitions: found.repetitions,
         }
     }
+}
+
+fn pads(scene: &Scene, hot: Option<&Deviation>) -> Vec<FrictionPadEntry> {
+    let blade = scene.blade();
+    let lifting = scene.guides().iter().filter(|pad| pad.lifting.is_some());
+    let entry = |(place, pad): (usize, &Guide)| {
+        let (from_m, to_m) = pad.reach_m();
+        FrictionPadEntry {
+            guide: pad.index,
+            from_radius_m: from_m.max(blade.inner_radius_m),
+            to_radius_m: to_m.min(blade.outer_radius_m),
+            gap_left_m: hot.and_then(|at| at.distances_left_m.get(place).copied()),
+        }
+    };
+    lifting.enumerate().map(entry).collect()
 }
 
 impl DeviationEntry {

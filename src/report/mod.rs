@@ -53,7 +53,9 @@ pub use self::deflect::{
 pub use self::event_shape::{EventShapeEntry, ShapeOccasion};
 pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
 pub use self::fit::{FitReport, ParameterEntry, ResidualEntry};
-pub use self::gap::{AtAmplitudeEntry, BasisErrorEntry, DeviationEntry, FrictionEntry, GapReport};
+pub use self::gap::{
+    AtAmplitudeEntry, BasisErrorEntry, DeviationEntry, FrictionEntry, FrictionPadEntry, GapReport,
+};
 #[cfg(feature = "page")]
 pub(crate) use self::growing::GrowingMapEntry;
 pub use self::in_cut::{IdlingEntry, InCutEntry};

@@ -44,8 +44,8 @@ impl Guide {
         self.radial_length_m == 0.0
     }
 
-    /// Smallest and largest distance of the pad from the axis.
-    fn reach_m(&self) -> (f64, f64) {
+    /// Smallest and largest distance of the pad from the axis, the part beside the blade included.
+    pub fn reach_m(&self) -> (f64, f64) {
         let half = [0.5 * self.radial_length_m, 0.5 * self.tangential_length_m];
         let nearest = (self.radius_m - half[0]).max(0.0);
         (nearest, (self.radius_m + half[0]).hypot(half[1]))

@@ -36,6 +36,14 @@ impl StretchedBlade {
         gaps.map_or_else(Vec::new, |gaps| gaps.forces_n(&equilibrium.coordinates))
     }
 
+    /// Smallest distance left between the blade and the faces of each pad that lifts off, negative where one is pressed in.
+    pub(crate) fn distances_left_m(&self, equilibrium: &Equilibrium) -> Vec<f64> {
+        let gaps = self.gaps.as_ref();
+        gaps.map_or_else(Vec::new, |gaps| {
+            gaps.distances_left_m(&equilibrium.coordinates)
+        })
+    }
+
     /// Radius and size of the force at each point at which a pad that lifts off touches the blade.
     pub(crate) fn contacts(&self, equilibrium: &Equilibrium) -> Vec<(f64, f64)> {
         let gaps = self.gaps.as_ref();

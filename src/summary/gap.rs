@@ -115,6 +115,21 @@ fn heat(text: &mut String, report: &GapReport, friction: &FrictionEntry) -> std:
     for (name, said) in rows {
         writeln!(text, "  {name:<22}{said}")?;
     }
+    let mm = |m: f64| shown_to(4, 1e3 * m);
+    for pad in &friction.pads {
+        let left = match pad.gap_left_m {
+            None => "unknown".to_owned(),
+            Some(m) if m < 0.0 => format!("none, pressed in by {} mm", mm(-m)),
+            Some(m) => format!("{} mm", mm(m)),
+        };
+        let name = format!("guides[{}], gap left", pad.guide);
+        let ends = [pad.from_radius_m, pad.to_radius_m].map(|m| shown_to(3, 1e3 * m));
+        let place = match ends[0] == ends[1] {
+            true => format!("{} mm", ends[0]),
+            false => format!("{} to {} mm", ends[0], ends[1]),
+        };
+        writeln!(text, "  {name:<22}{left} (radius {place})")?;
+    }
     Ok(())
 }
 

@@ -28,10 +28,19 @@ fn saw(folder: &TempDir) -> String {
 fn text_files_and_json_agree() {
     let folder = TempDir::new().unwrap();
     let path = saw(&folder);
-    let options = ["--force-n", "2", "--max-deviation-mm", "0.3"];
+    let options = [
+        "--force-n",
+        "2",
+        "--max-deviation-mm",
+        "0.3",
+        "--friction",
+        "0.2",
+    ];
     let output = run(&[&["gap", &path], &options[..]].concat(), &folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let names = [
+        "gap-friction.png",
+        "gap-friction.svg",
         "gap-map.png",
         "gap-map.svg",
         "gap.json",
@@ -69,6 +78,12 @@ fn text_files_and_json_agree() {
     assert!(
         summary.contains(&format!("{shown:.4}")),
         "{shown} {summary}"
+    );
+    let heat = report.friction.unwrap();
+    assert!(heat.pads[0].gap_left_m.unwrap() < 0.0);
+    assert!(
+        summary.contains("gap left   none, pressed in by"),
+        "{summary}"
     );
     assert_eq!(map.force_within_n.len(), map.gap_factors.len());
     assert!(

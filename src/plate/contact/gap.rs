@@ -195,6 +195,18 @@ impl GapPotential {
         forces
     }
 
+    /// Smallest distance left between the blade and the faces of each of these pads; negative where a face is pressed in.
+    pub fn distances_left_m(&self, coordinates: &Col<f64>) -> Vec<f64> {
+        let w = self.deflections(coordinates);
+        let mut left = vec![f64::INFINITY; self.pads];
+        for (k, point) in self.points.iter().enumerate() {
+            for side in point.sides() {
+                left[point.pad] = left[point.pad].min(point.gap_m - side * w[k]);
+            }
+        }
+        left
+    }
+
     /// Radius and size of the force at each point in contact.
     pub fn contacts(&self, coordinates: &Col<f64>) -> Vec<(f64, f64)> {
         let w = self.deflections(coordinates);

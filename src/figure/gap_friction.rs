@@ -1,0 +1,232 @@
+//! Temperature of a blade that its pads heat, over the radius.
+
+use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label, two_digits};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use super::declutter::{Wish, push_apart};
+use super::heading;
+use super::style::{
+    BACKWARD, BETWEEN_FACTS, CURVE, FORWARD, INK, LABEL_SIZE, PAPER, QUIET, Weight, shorten,
+    text_width, tint,
+};
+use crate::report::{FrictionEntry, FrictionPadEntry, GapReport};
+use crate::text::shown_to;
+
+const WIDTH: u32 = 820;
+/// Height without the list of pads.
+const HEIGHT: u32 = 500;
+const PANEL: Frame = Frame {
+    left: 92.0,
+    top: 116.0,
+    right: 780.0,
+    bottom: 430.0,
+};
+/// Line height of the list of pads, and the most of them that it names.
+const LINE: f64 = 19.0;
+const PADS: usize = 8;
+/// Space between the names of pads.
+const BETWEEN: f64 = 12.0;
+/// A point pad is as wide as this on the sheet.
+const POINT: f64 = 3.0;
+
+/// `None` without friction.
+pub fn sheet(report: &GapReport) -> Option<Sheet> {
+    let heat = report.friction.as_ref()?;
+    let lines = heat.pads.len().min(PADS + 1);
+    let mut sheet = Sheet::new(WIDTH, HEIGHT + (LINE * lines as f64) as u32 + 12);
+    heading::draw(
+        &mut sheet,
+        "Temperature rise by friction at the guides",
+        &facts(report, heat).join(BETWEEN_FACTS),
+    );
+    let mm: Vec<f64> = heat.radii_m.iter().map(|r| 1e3 * r).collect();
+    let ends = [mm.first(), mm.last()].map(|end| end.copied().unwrap_or_default());
+    let radius = Axis::new(ends, [PANEL.left, PANEL.right], Spread::Linear);
+    let hottest = heat.rise_k.iter().copied().fold(0.0, f64::max);
+    let top = if hottest > 0.0 { 1.15 * hottest } else { 1.0 };
+    let rise = Axis::new([0.0, top], [PANEL.bottom, PANEL.top], Spread::Linear);
+    draw_pads(&mut sheet, heat, &radius);
+    draw_vertical(&mut sheet, &rise, &PANEL, "temperature rise\u{2003}[K]");
+    draw_named(&mut sheet, &radius, PANEL.bottom, "radius\u{2003}[mm]");
+    let curve = mm.iter().zip(&heat.rise_k);
+    let curve = curve.map(|(mm, k)| [radius.at(*mm), rise.at(*k)]);
+    sheet.line(
+        curve.collect::<Vec<_>>(),
+        Stroke::solid(BACKWARD, 1.4 * CURVE),
+    );
+    let peak = mm.iter().zip(&heat.rise_k).find(|(_, k)| **k == hottest);
+    if let (Some((mm, k)), true) = (peak, hottest > 0.0) {
+        label_peak(&mut sheet, [radius.at(*mm), rise.at(*k)], *k);
+    }
+    list_pads(&mut sheet, heat);
+    Some(sheet)
+}
+
+fn facts(report: &GapReport, heat: &FrictionEntry) -> Vec<String> {
+    let map = &report.deviation;
+    let settled = (!heat.settled).then(|| "not settled".to_owned());
+    let all = [
+        Some(report.scene.name.clone()),
+        Some(format!("{:.0} rpm", map.rpm)),
+        Some(format!("{} N at the cut", shown_to(3, map.force_n))),
+        Some(format!("coefficient {}", shown_to(3, heat.coefficient))),
+        Some(format!("{} W", shown_to(3, heat.power_w))),
+        settled,
+    ];
+    all.into_iter().flatten().collect()
+}
+
+/// Pads with the same extent.
+struct Extent {
+    ends_m: [f64; 2],
+    guides: Vec<usize>,
+}
+
+fn extents(pads: &[FrictionPadEntry]) -> Vec<Extent> {
+    let mut all: Vec<Extent> = Vec::new();
+    for pad in pads {
+        let ends_m = [pad.from_radius_m, pad.to_radius_m];
+        match all.iter_mut().find(|extent| extent.ends_m == ends_m) {
+            Some(extent) => extent.guides.push(pad.guide),
+            None => all.push(Extent {
+                ends_m,
+                guides: vec![pad.guide],
+            }),
+        }
+    }
+    all
+}
+
+/// Shades the radii of the pads, and names them above.
+fn draw_pads(sheet: &mut Sheet, heat: &FrictionEntry, radius: &Axis) {
+    let all = extents(&heat.pads);
+    for extent in &all {
+        let [left, right] = extent.ends_m.map(|m| radius.at(1e3 * m));
+        let half = (0.5 * (right - left)).max(0.5 * POINT);
+        let middle = 0.5 * (left + right);
+        let frame = Frame {
+            left: middle - half,
+            right: middle + half,
+            ..PANEL
+        };
+        sheet.fill(frame, tint(FORWARD, 0.13));
+    }
+    let name = |extent: &Extent| {
+        let numbers: Vec<String> = extent.guides.iter().map(usize::to_string).collect();
+        let room = 0.6 * (PANEL.right - PANEL.left);
+        let name = format!("guides[{}]", numbers.join(", "));
+        shorten(&name, LABEL_SIZE, Weight::Regular, room)
+    };
+    let names: Vec<String> = all.iter().map(name).collect();
+    let wishes = all.iter().zip(&names).map(|(extent, name)| Wish {
+        centre: extent
+            .ends_m
+            .map(|m| radius.at(1e3 * m))
+            .iter()
+            .sum::<f64>()
+            / 2.0,
+        length: text_width(name, LABEL_SIZE, Weight::Regular) + BETWEEN,
+    });
+    let wishes: Vec<Wish> = wishes.collect();
+    let letters = Lettering::regular(LABEL_SIZE, FORWARD, Anchor::Middle);
+    for (name, x) in names
+        .iter()
+        .zip(push_apart(&wishes, PANEL.left, PANEL.right))
+    {
+        if let Some(x) = x {
+            sheet.text([x, PANEL.top - 10.0], letters, name);
+        }
+    }
+}
+
+fn label_peak(sheet: &mut Sheet, [x, y]: [f64; 2], rise_k: f64) {
+    sheet.disc([x, y], 3.6, BACKWARD);
+    // The label is on that side of the hottest radius on which there is room for it.
+    let is_right = x > 0.5 * (PANEL.left + PANEL.right);
+    let anchor = if is_right { Anchor::End } else { Anchor::Start };
+    let at = [x + if is_right { -10.0 } else { 10.0 }, y - 6.0];
+    let letters = Lettering::regular(LABEL_SIZE, INK, anchor);
+    let said = format!("{} K", two_digits(rise_k));
+    sheet.fill(text_frame(at, &letters, &said), PAPER);
+    sheet.text(at, letters, &said);
+}
+
+/// Below the diagram, for each pad its place, what is left of its gap, and its force.
+fn list_pads(sheet: &mut Sheet, heat: &FrictionEntry) {
+    let mut y = f64::from(HEIGHT) + 4.0;
+    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
+    let columns = [0.0, 90.0, 230.0, 470.0].map(|x| PANEL.left + x);
+    for (pad, force_n) in heat.pads.iter().zip(&heat.pad_forces_n).take(PADS) {
+        let ends =
+            [pad.from_radius_m, pad.to_radius_m].map(|m| tick_label((1e4 * m).round() / 10.0));
+        let place = match ends[0] == ends[1] {
+            true => format!("at {} mm", ends[0]),
+            false => format!("{} to {} mm", ends[0], ends[1]),
+        };
+        let left = match pad.gap_left_m {
+            None => "gap left unknown".to_owned(),
+            Some(m) if m < 0.0 => {
+                format!("no gap left, pressed in by {} mm", shown_to(3, -1e3 * m))
+            }
+            Some(m) => format!("gap left {} mm", shown_to(3, 1e3 * m)),
+        };
+        let force =
+            format!("force on the blade {} N", shown_to(3, *force_n)).replace('-', "\u{2212}");
+        let cells = [format!("guides[{}]", pad.guide), place, left, force];
+        for (x, cell) in columns.iter().zip(&cells) {
+            sheet.text([*x, y], letters, cell);
+        }
+        y += LINE;
+    }
+    let rest = heat.pads.len().saturating_sub(PADS);
+    if rest > 0 {
+        let said = format!("… and {rest} more in gap.json");
+        sheet.text([columns[0], y], letters, &said);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::tidy::{assert_tidy, texts};
+    use crate::gap::{Friction, GuideGaps, Options};
+    use crate::scene::{Accuracy, ContactLaw, Scene, SweepFile};
+
+    #[test]
+    #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+    fn every_pad_is_named_and_no_label_lies_on_another() {
+        let scene = Scene::paper().edited(|file| {
+            (file.accuracy, file.operating_rpm) = (Accuracy::Draft, Some(1000.0));
+            file.sweep = Some(SweepFile {
+                from_rpm: 0.0,
+                to_rpm: 1500.0,
+            });
+            let pad = &mut file.guides[0];
+            (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5));
+            let mut others = [*pad; 2];
+            (others[0].angle_deg, others[1].angle_deg) = (60.0, 180.0);
+            (others[1].radius_m, others[1].radial_length_m) = (0.3, 0.0);
+            others[1].tangential_length_m = 0.0;
+            file.guides.extend(others);
+        });
+        let options = Options {
+            force_n: Some(4.0),
+            friction: Some(Friction::of(0.1)),
+            ..Options::default()
+        };
+        let found = GuideGaps::new(&scene.unwrap(), &options).unwrap();
+        let mut report = GapReport::new(&found);
+        let drawn = sheet(&report).unwrap();
+        assert_tidy(&drawn);
+        let written = texts(&drawn);
+        for said in ["guides[0, 1]", "guides[2]", "at 300 mm"] {
+            assert!(written.iter().any(|(_, text)| *text == said), "{said}");
+        }
+        let heat = report.friction.as_mut().unwrap();
+        let (pad, force_n) = (heat.pads[0], heat.pad_forces_n[0]);
+        heat.pads.resize(12, pad);
+        heat.pad_forces_n.resize(12, force_n);
+        assert_tidy(&sheet(&report).unwrap());
+        report.friction = None;
+        assert!(sheet(&report).is_none());
+    }
+}
