@@ -16,7 +16,7 @@ import subprocess
 from pathlib import Path
 from typing import Any
 
-from key_tables import tables
+from key_tables import tables, typical
 from report_tables import report_tables
 
 HERE = Path(__file__).parent
@@ -64,6 +64,7 @@ def generate() -> list[str]:
         "command-line.md": command_line(),
         "scene.md": tables(json.loads(said("schema")), ranges=True),
         "study.md": tables(json.loads(said("schema", "--study")), ranges=False),
+        "typical-values.md": typical(),
     }
     OUT.mkdir(exist_ok=True)
     stale = []

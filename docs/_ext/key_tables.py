@@ -36,6 +36,22 @@ def usual() -> dict[str, tuple[str, float, float]]:
     return {path: (unit, float(low), float(high)) for path, unit, low, high in rows}
 
 
+def typical() -> str:
+    """The library's own table of typical values, with their ranges and sources."""
+    line = re.compile(r't\("([^"]+)", ([^,]+), "([^"]*)", ([^,]+), ([^,]+), "([^"]+)"\)')
+    source = (ROOT / "src/scene/typical.rs").read_text(encoding="utf-8")
+    rows = line.findall(source)
+    assert len(rows) == source.count(": Typical = t("), "the table of typical values has moved"
+    units = usual()
+    lines = []
+    for path, value, of, low, high, basis in rows:
+        measure = of or units[path][0]
+        number, least, largest = (f"{float(text):g}" for text in (value, low, high))
+        lines.append(f"| `{path}` | {number} {measure} | {least} to {largest} | {basis} |".replace("  ", " "))
+    head = "| key | typical value | common range | source |\n|---|---|---|---|\n"
+    return head + "\n".join(lines) + "\n"
+
+
 Schema = dict[str, Any]
 
 

@@ -78,8 +78,9 @@ class BladeDict(_BladeDict, total=False):
     thickness is uniform."""
 
     teeth: int | None
-    """Number of teeth. They have no stiffness in the model, and no mass unless `rim` gives
-    it."""
+    """Number of teeth. They have no stiffness in the model, and no mass unless `rim` gives it.
+    Typically 0.03 m of pitch, from 0.01 to 0.06 (assumption of this program; the paper's saw
+    has 0.053 m)."""
 
     rim: RimDict | None
     """Mass of teeth or carbide tips. None by default."""
@@ -126,7 +127,9 @@ class _GuideDict(TypedDict):
     """Length across the radius."""
 
     stiffness_n_per_m: float
-    """Lateral stiffness of the whole pad, both faces together."""
+    """Lateral stiffness of the whole pad, both faces together. Typically 1e7, from 1e6 to 2e8
+    (2e7 was calibrated on the paper's Table 5 for a pad of 0.15 m by 0.15 m with 0.05 mm
+    clearance; upper end computed from a pressurized film)."""
 
 
 class GuideDict(_GuideDict, total=False):
@@ -164,14 +167,18 @@ class ModeRatioRowDict(TypedDict):
     """Number of nodal diameters."""
 
     damping_ratio: float
-    """Damping ratio, the share of critical damping: the logarithmic decrement over 2π."""
+    """Damping ratio, the share of critical damping: the logarithmic decrement over 2π.
+    Typically 0.001, from 0.0003 to 0.01 (assumption of this program; measure it by the decay of
+    a struck blade)."""
 
 
 class DampingDict(TypedDict, total=False):
     """Damping of the blade. Each number belongs to one frame. The contributions add up."""
 
     material_retardation_time_s: float
-    """Kelvin–Voigt retardation time η of the material, which turns with the blade."""
+    """Kelvin–Voigt retardation time η of the material, which turns with the blade. Typically
+    1e-6, from 1e-7 to 1e-5 (assumption of this program; computed from damping ratios of 3e-5 to
+    3e-3 at 100 Hz)."""
 
     loss_factor: float
     """Loss factor of the blade, twice the damping ratio of every mode of the blade at rest
@@ -206,7 +213,8 @@ class _TemperatureDict(TypedDict):
     collar, that of the collar): either a rise at the rim with its shape, or a table."""
 
     expansion_per_k: float
-    """Coefficient of linear thermal expansion; steel: 1.2e-5."""
+    """Coefficient of linear thermal expansion; steel: 1.2e-5. Typically 1.2e-5, from 1e-5 to
+    1.3e-5 (carbon steel; property tables of materials)."""
 
 
 class TemperatureDict(_TemperatureDict, total=False):
@@ -243,7 +251,8 @@ class RollBandDict(_RollBandDict, total=False):
 
     eigenstrain: float | None
     """In-plane strain that the band would have if it were free, isotropic; positive for
-    rolling. Either this or `groove_depth_m`."""
+    rolling. Either this or `groove_depth_m`. Typically 0.0001, from 0.0001 to 0.005 (computed
+    from grooves of 1 to 10 µm by d/h; the small end suits wide bands)."""
 
     groove_depth_m: float | None
     """Depth of the groove on each face, in place of `eigenstrain`, which is then this depth
@@ -377,7 +386,9 @@ class _WashboardingDict(TypedDict):
 
     stiffness_n_per_m: float
     """Lateral cutting stiffness k of all teeth in the cut together: lateral force per metre of
-    lateral distance between the teeth and the surface left by the preceding ones."""
+    lateral distance between the teeth and the surface left by the preceding ones. Typically
+    20000, from 5000 to 100000 (no published value known; computed from the cutting force and
+    the bite)."""
 
 
 class WashboardingDict(_WashboardingDict, total=False):
@@ -386,7 +397,8 @@ class WashboardingDict(_WashboardingDict, total=False):
     earlier."""
 
     overlap: float
-    """Share μ of a tooth's cut that lies on the surface left by the preceding tooth, 0 to 1."""
+    """Share μ of a tooth's cut that lies on the surface left by the preceding tooth, 0 to 1.
+    Typically 1, from 0 to 1 (largest, and least stable, share)."""
 
     arc_deg: float | None
     """Arc of the rim on which the force acts; by default that of the teeth in the cut."""
@@ -430,8 +442,9 @@ class CutDict(TypedDict, total=False):
     """Angle of the middle of the cut, positive in the direction of rotation."""
 
     depth_m: float | None
-    """Depth of cut; divided by the pitch of the teeth it gives the number of teeth in the
-    cut."""
+    """Depth of cut; divided by the pitch of the teeth it gives the number of teeth in the cut.
+    Typically 0.25 of the outer diameter, from 0.05 to 0.35 (the paper's saw cuts 0.28 of its
+    diameter)."""
 
     teeth_in_cut: int | None
     """Number of teeth that cut at the same time; it has precedence over the depth."""
@@ -440,23 +453,29 @@ class CutDict(TypedDict, total=False):
     """Force on each tooth against the rotation; it has precedence over the power."""
 
     radial_n_per_tooth: float | None
-    """Force towards the axis on each tooth."""
+    """Force towards the axis on each tooth. Typically 20, from 0 to 90 (assumption of this
+    program; the paper's Table 3 has 75 and 88 in Douglas fir, at bites of 1.6 mm)."""
 
     lateral_n_per_tooth: float | None
-    """Force across the blade on each tooth."""
+    """Force across the blade on each tooth. Typically 1, from 0 to 5 (assumption of this
+    program; the paper's Table 3 has 3 and 4.5 in Douglas fir)."""
 
     power_w: float | None
-    """Power of the cut."""
+    """Power of the cut. Typically 200000 W per metre of depth, from 50000 to 300000 (the
+    paper's Table 2: 2.2e5 and 3.0e5 in Douglas fir, at bites of 1.6 mm)."""
 
     feed_m_per_s: float | None
     """Feed speed of the wood; with the length of the board it determines the duration of the
-    cut."""
+    cut. Typically 1, from 0.1 to 3 (assumption of this program; the paper's saw is fed at 2.0
+    and 3.0)."""
 
     board_length_m: float | None
-    """Length of the board. Without it, or without the feed, the cut takes one second."""
+    """Length of the board. Without it, or without the feed, the cut takes one second. Typically
+    2, from 1 to 6 (assumption of this program; the paper gives none)."""
 
     idle_s: float
-    """Time shown before and after the cut."""
+    """Time shown before and after the cut. Typically 0.5, from 0 to 2 (assumption of this
+    program, to see the blade before and after the cut)."""
 
     chart_rpm: float | None
     """Speed of the cut whose forces act on the saw in `analyze`, `check`, `fit`, `place` and
@@ -482,13 +501,15 @@ class _RunUpDict(TypedDict):
     """Run-up at a constant rate, under a constant lateral force fixed in space."""
 
     to_rpm: float
-    """Last speed."""
+    """Last speed. Typically 1.5 times the operating speed, from 1.2 to 2 (assumption of this
+    program)."""
 
     duration_s: float
-    """Duration."""
+    """Duration. Typically 60, from 5 to 120 (assumption of this program)."""
 
     force_n: float
-    """Lateral force at the rim."""
+    """Lateral force at the rim. Typically 1, from 0.1 to 10 (assumption of this program: small
+    deflections of a linear model)."""
 
 
 class RunUpDict(_RunUpDict, total=False):
@@ -510,7 +531,8 @@ class ResponseDict(TypedDict, total=False):
     absent."""
 
     force_n: float
-    """Constant lateral force, fixed in space."""
+    """Constant lateral force, fixed in space. Typically 1, from 0.1 to 10 (assumption of this
+    program: a response is proportional to it)."""
 
     radius_m: float | None
     """Distance of the force from the axis; the rim by default."""
@@ -601,7 +623,8 @@ class SceneDict(_SceneDict, total=False):
     """Contact between bore and splined arbor. Not simulated by default."""
 
     operating_rpm: float | None
-    """Operating speed, to which the 85 % rule applies."""
+    """Operating speed, to which the 85 % rule applies. Typically 60 m/s at the rim, from 40 to
+    100 (the paper's saw runs at 67 m/s; makers of carbide-tipped blades allow 100)."""
 
     excitation: ExcitationDict | None
     """Lines of the Campbell diagram at multiples of the rotation speed. None by default."""
@@ -616,7 +639,9 @@ class SceneDict(_SceneDict, total=False):
     """Relative error allowed for critical speeds and onsets, in place of a named accuracy."""
 
     flutter_threshold_per_s: float
-    """Growth rate from which on an oscillatory band counts as flutter."""
+    """Growth rate from which on an oscillatory band counts as flutter. Typically 0.25, from 0.1
+    to 1 (assumption of this program; computed as the decay rate of 40 Hz at a damping ratio of
+    1e-3)."""
 
     cut: CutDict | None
     """Forces of the wood on the teeth, for `sawflutter cut`."""

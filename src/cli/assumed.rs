@@ -60,7 +60,7 @@ impl Block<'_> {
                 .map(|(key, value)| format!("{} = {value}", path(key)));
             let assumed = assumed.collect::<Vec<_>>().join(", ");
             eprintln!(
-                "The scene has no {}; assumed beside {options}: {assumed}.",
+                "The scene has no {}; assumed beside {options}: {assumed}. These are typical values, whose sources `sawflutter schema` states.",
                 self.name
             );
         }

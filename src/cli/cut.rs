@@ -1,14 +1,14 @@
 //! `sawflutter cut`.
 
 use crate::report::CutReport;
-use crate::scene::Scene;
+use crate::scene::{Scene, typical};
 use crate::transient::Cutting;
 use clap::Args;
 
 use super::assumed::{Block, Given};
 use super::common::{Common, number};
 use super::page::Page;
-use super::paste::{pasted, usual_cut};
+use super::paste::pasted;
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
@@ -87,7 +87,7 @@ impl Forces {
         let block = Block {
             name: "cut",
             is_missing: scene.file().cut.is_none(),
-            usual: usual_cut,
+            usual: typical::cut,
             given: &given,
             wins: &[
                 ("tangential_n_per_tooth", "power_w"),

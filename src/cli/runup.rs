@@ -1,14 +1,14 @@
 //! `sawflutter runup`.
 
 use crate::report::RunUpReport;
-use crate::scene::Scene;
+use crate::scene::{Scene, typical};
 use crate::transient::RunningUp;
 use clap::Args;
 
 use super::assumed::{Block, Given};
 use super::common::Common;
 use super::page::Page;
-use super::paste::{pasted, usual_runup};
+use super::paste::pasted;
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
@@ -69,7 +69,7 @@ impl Course {
         let block = Block {
             name: "runup",
             is_missing: scene.file().runup.is_none(),
-            usual: usual_runup,
+            usual: typical::runup,
             given: &given,
             wins: &[],
         };

@@ -4,13 +4,12 @@ use serde::Deserialize;
 
 use super::refusal::Refusal;
 use super::usual::{
-    OPERATING_RPM, SPLINE, between, guide, inner, mount, next_row, operating, rim, round, runup,
-    usual_teeth,
+    SPLINE, between, guide, inner, mount, next_row, rim, round, runup, usual_teeth,
 };
 use crate::scene::{
     CutFile, CutSpeedFile, DampingFile, ExcitationFile, ModeRatioRow, ProbeFile, ResidualStressRow,
     ResponseFile, RimFile, RollBandFile, Scene, SceneFile, SweepFile, TemperatureFile,
-    TemperatureRow, ThicknessRow, WashboardingFile, WoodFile,
+    TemperatureRow, ThicknessRow, WoodFile, typical,
 };
 
 /// A request.
@@ -58,13 +57,13 @@ fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
         "sweep" => {
             scene.sweep = Some(SweepFile {
                 from_rpm: 0.0,
-                to_rpm: round(2.0 * operating(scene), 2),
+                to_rpm: round(2.0 * typical::operating_rpm(scene), 2),
             });
         }
         "runup" => scene.runup = Some(runup(scene)),
         "response" => {
             scene.response = Some(ResponseFile {
-                force_n: 1.0,
+                force_n: typical::RESPONSE_FORCE.value,
                 ..ResponseFile::default()
             });
         }
@@ -73,7 +72,7 @@ fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
             let next = rows.iter().map(|row| row.diameters + 1).max();
             rows.push(ModeRatioRow {
                 diameters: next.unwrap_or(0),
-                damping_ratio: 1e-3,
+                damping_ratio: typical::MODE_DAMPING.value,
             });
         }
         _ => match path.split_once('.').unwrap_or((path, "")) {
@@ -116,19 +115,14 @@ fn add_to_blade(scene: &mut SceneFile, part: &str) -> Option<()> {
 
 fn add_to_cut(scene: &mut SceneFile, part: &str) -> Option<()> {
     let speed = CutSpeedFile {
-        rpm: operating(scene),
+        rpm: typical::operating_rpm(scene),
         ..CutSpeedFile::default()
     };
     if scene.cut.is_none() {
         scene.blade.teeth.get_or_insert(usual_teeth(scene));
         scene.cut = Some(CutFile {
-            depth_m: Some(round(0.25 * rim(scene), 2)),
-            tangential_n_per_tooth: Some(100.0),
-            radial_n_per_tooth: Some(10.0),
-            lateral_n_per_tooth: Some(1.0),
-            idle_s: 0.5,
             speeds: vec![speed.clone()],
-            ..CutFile::default()
+            ..serde_json::from_value(typical::cut(scene)).ok()?
         });
     }
     let cut = scene.cut.as_mut()?;
@@ -137,16 +131,11 @@ fn add_to_cut(scene: &mut SceneFile, part: &str) -> Option<()> {
         "speeds[]" => cut.speeds.push(speed),
         "wood" => cut.wood = Some(WoodFile::default()),
         "washboarding" => {
-            cut.washboarding = Some(WashboardingFile {
-                stiffness_n_per_m: 2e4,
-                overlap: 1.0,
-                arc_deg: None,
-                pitches_deg: Vec::new(),
-            });
-            scene.operating_rpm.get_or_insert(OPERATING_RPM);
+            cut.washboarding = serde_json::from_value(typical::washboarding()).ok()?;
+            scene.operating_rpm = Some(typical::operating_rpm(scene));
             // Without damping the smallest delayed force makes some mode grow.
             scene.damping.get_or_insert(DampingFile {
-                material_retardation_time_s: 1e-6,
+                material_retardation_time_s: typical::RETARDATION.value,
                 ..DampingFile::default()
             });
         }
@@ -158,7 +147,7 @@ fn add_to_cut(scene: &mut SceneFile, part: &str) -> Option<()> {
 fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
     let mut membrane = scene.membrane.clone().unwrap_or_default();
     let heat = || TemperatureFile {
-        expansion_per_k: 1.2e-5,
+        expansion_per_k: typical::EXPANSION.value,
         rim_rise_k: Some(0.0),
         from_radius_m: None,
         exponent: None,
@@ -183,7 +172,7 @@ fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
         "roll_tension[]" => membrane.roll_tension.push(RollBandFile {
             radius_m: between(scene, 0.5),
             width_m: round(0.1 * (rim(scene) - inner(scene)), 2),
-            eigenstrain: Some(1e-4),
+            eigenstrain: Some(typical::EIGENSTRAIN.value),
             groove_depth_m: None,
         }),
         "residual_stress[]" => {

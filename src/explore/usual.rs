@@ -1,12 +1,8 @@
 //! Values with which a designer would begin, for a blade of any size.
 
-use crate::scene::{GuideFile, InPlane, Mount, RunUpFile, SceneFile, SplineFile};
+use crate::scene::{GuideFile, InPlane, Mount, RunUpFile, SceneFile, SplineFile, typical};
 use crate::text::shown_to;
 
-/// Speed of a saw that has none.
-pub const OPERATING_RPM: f64 = 1800.0;
-/// Usual pitch of teeth.
-const PITCH_M: f64 = 0.03;
 const LEAST_TEETH: f64 = 12.0;
 /// The paper's arbor.
 pub const SPLINE: SplineFile = SplineFile {
@@ -18,10 +14,6 @@ pub const SPLINE: SplineFile = SplineFile {
     pitch_radius_m: None,
     weight_angle_deg: None,
 };
-
-pub fn operating(scene: &SceneFile) -> f64 {
-    scene.operating_rpm.unwrap_or(OPERATING_RPM)
-}
 
 pub fn rim(scene: &SceneFile) -> f64 {
     0.5 * scene.blade.outer_diameter_m
@@ -45,7 +37,7 @@ pub fn round(value: f64, digits: usize) -> f64 {
 }
 
 pub fn usual_teeth(scene: &SceneFile) -> u32 {
-    let count = (std::f64::consts::TAU * rim(scene) / PITCH_M).round();
+    let count = (std::f64::consts::TAU * rim(scene) / typical::TOOTH_PITCH.value).round();
     count.max(LEAST_TEETH) as u32
 }
 
@@ -80,7 +72,7 @@ pub fn guide(scene: &SceneFile) -> GuideFile {
         radius_m: between(scene, 0.6),
         radial_length_m: length,
         tangential_length_m: length,
-        stiffness_n_per_m: 1e7,
+        stiffness_n_per_m: typical::GUIDE_STIFFNESS.value,
         ..GuideFile::default()
     };
     GuideFile {
@@ -136,8 +128,8 @@ pub fn next_row(scene: &SceneFile, rows: &[(f64, f64)], value: f64) -> (f64, f64
 pub fn runup(scene: &SceneFile) -> RunUpFile {
     RunUpFile {
         from_rpm: 0.0,
-        to_rpm: round(1.5 * operating(scene), 2),
-        duration_s: 60.0,
+        to_rpm: round(typical::RUNUP_END.value * typical::operating_rpm(scene), 2),
+        duration_s: typical::RUNUP_TIME.value,
         force_n: side_force(scene),
         angle_deg: 0.0,
         stretching: false,
@@ -147,11 +139,11 @@ pub fn runup(scene: &SceneFile) -> RunUpFile {
 /// A force to which soft guides yield by less than the thickness of the blade, because the model is linear.
 fn side_force(scene: &SceneFile) -> f64 {
     if matches!(scene.mount, Mount::Collar { .. }) {
-        return 5.0;
+        return typical::RUNUP_FORCE.value;
     }
     let stiffness: f64 = scene.guides.iter().map(|pad| pad.stiffness_n_per_m).sum();
     round(
-        (0.01 * scene.blade.thickness_m * stiffness).clamp(1e-3, 5.0),
+        (0.01 * scene.blade.thickness_m * stiffness).clamp(1e-3, typical::RUNUP_FORCE.value),
         1,
     )
 }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::response::{Cause, Deflection, ForcedResponse, FrequencyResponse, ResponseLine};
+use crate::scene::typical::RESPONSE_FORCE;
 use crate::scene::{SceneFile, rpm};
 use crate::stability::StabilityState;
 use crate::text::shown;
@@ -245,10 +246,10 @@ fn warnings(
 ) -> Vec<String> {
     let mut warnings = of_chart;
     if found.is_assumed {
-        warnings.push(
-            "the scene has no excitation; a constant side force of 1 N was assumed, set response.force_n, response.runout_m or others"
-                .to_owned(),
-        );
+        warnings.push(format!(
+            "the scene has no excitation; a constant side force of {} N was assumed, set response.force_n, response.runout_m or others",
+            shown(RESPONSE_FORCE.value)
+        ));
     }
     let thickness = found.scene.blade().thickness_m;
     let all = lines.iter().flat_map(|line| &line.amplitude_m).flatten();

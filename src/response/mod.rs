@@ -19,6 +19,7 @@ use faer::{Col, c64};
 
 use crate::campbell::even_speeds;
 use crate::plate::Plate;
+use crate::scene::typical::RESPONSE_FORCE;
 use crate::scene::{
     ExcitationLine, RefusedValue, ResponseFile, Scene, SceneError, rad_per_s, rpm, speed_rad_per_s,
 };
@@ -232,7 +233,7 @@ fn excitation(scene: &Scene) -> (ResponseFile, bool) {
     match typed.excites() {
         true => (typed, false),
         false => {
-            let force_n = 1.0;
+            let force_n = RESPONSE_FORCE.value;
             (ResponseFile { force_n, ..typed }, true)
         }
     }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::runup::is_false;
+use super::typical::IDLE;
 use super::washboarding::WashboardingFile;
 use super::wood::WoodFile;
 
@@ -64,7 +65,7 @@ pub struct CutFile {
 }
 
 fn default_idle_s() -> f64 {
-    0.5
+    IDLE.value
 }
 
 /// A speed of the cut. Missing values are those of the cut.

@@ -13,6 +13,7 @@ use super::response::ResponseFile;
 use super::runup::{ProbeFile, RunUpFile};
 use super::spline::SplineFile;
 use super::thickness::{RimFile, ThicknessRow};
+use super::typical::FLUTTER_THRESHOLD;
 
 /// A saw and the analysis, as written in a scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -74,9 +75,9 @@ pub struct SceneFile {
     pub measured: Option<Measured>,
 }
 
-/// About the decay rate of a lightly damped steel blade; damping suppresses slower growth.
+/// Damping suppresses slower growth.
 fn default_flutter_threshold_per_s() -> f64 {
-    0.25
+    FLUTTER_THRESHOLD.value
 }
 
 /// An annular blade.

@@ -28,6 +28,7 @@ mod setting;
 mod spline;
 mod teeth_in_cut;
 mod thickness;
+pub(crate) mod typical;
 mod unit;
 mod unusual;
 mod validate;

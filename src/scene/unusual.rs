@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use super::SceneFile;
 use super::quantity::Quantity;
+use super::typical::Typical;
 use crate::text::{shown, shown_to};
 
 /// Units that are used by mistake, each with its value in the unit of the quantity.
@@ -132,7 +133,15 @@ impl Usual {
                 from,
                 to,
                 typical: (from * to).abs().sqrt(),
-                words: format!("saws have {} to {}", shown(from), shown(to)),
+                words: match Typical::of(quantity.path) {
+                    Some(value) => format!(
+                        "saws have {} to {}, typically {}",
+                        shown(from),
+                        shown(to),
+                        shown(value)
+                    ),
+                    None => format!("saws have {} to {}", shown(from), shown(to)),
+                },
             };
         }
         let rpm = |rim_m_per_s: f64| 60.0 * rim_m_per_s / (PI * diameter_m);

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::check::{MAX_GUIDES, refuse, within};
 use super::teeth_in_cut::TeethInCut;
+use super::typical::OVERLAP;
 use super::wood::Wood;
 use super::{RefusedValue, SceneError};
 use crate::text::shown;
@@ -31,7 +32,7 @@ pub struct WashboardingFile {
 }
 
 fn full_overlap() -> f64 {
-    1.0
+    OVERLAP.value
 }
 
 /// Validated washboarding.

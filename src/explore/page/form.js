@@ -291,7 +291,9 @@ export class Form {
     const usual = fieldOf(path)?.usual;
     const fallback = schema.default ?? undefined;
     const input = node("input", { id: path, type: "text", inputMode: "decimal", autocomplete: "off" });
-    if (!required) input.placeholder = typeof fallback === "number" ? shown(fallback * scale) : "none";
+    const typical = schema.examples?.[0];
+    const none = typeof typical === "number" ? `none, typically ${shown(typical * scale)}` : "none";
+    if (!required) input.placeholder = typeof fallback === "number" ? shown(fallback * scale) : none;
     const slider = node("input", { type: "range", min: 0, max: Range.NOTCHES, step: 1 });
     const fullName = inWords(path, name);
     input.setAttribute("aria-label", unit ? `${fullName}, ${unit}` : fullName);
