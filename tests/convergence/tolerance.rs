@@ -1,6 +1,6 @@
 //! Goal: a tolerance is a promise, and so is the estimate that it is checked with.
 //!
-//! `tests/trials/accuracy.rs` takes ninety saws and a reference basis of 4030 functions.
+//! `tests/trials/accuracy.rs` takes ninety saws and a reference basis of 3999 functions.
 
 use crate::common::Worst;
 use crate::promises::{Kept, drawn_saws, promises, saws};

@@ -50,10 +50,10 @@ pub const FILE: &str = "docs/extremes.md";
 pub const HEAD: &str = "\
 # Extremes
 
-Where users may push the numbers, and the largest relative error found there against an
-independent answer. Made by `WRITE_EXTREMES=1 cargo test --release --test extremes`; the same
-test without the variable fails where an error exceeds what is asked, or this page does not
-tell what was found.
+This table lists extreme values of the input, and the largest relative error of the results there, by
+comparison with an independent answer. `WRITE_EXTREMES=1 cargo test --release --test extremes` writes
+it; without the variable the test fails if an error exceeds the allowed one (\"asked\"), or three times
+the error on this page (\"reached\").
 
 | what | range | independent answer | asked | reached |
 |---|---|---|---|---|

@@ -12,7 +12,7 @@ fn at_least(count: usize) -> usize {
     if is_whole() { count } else { 0 }
 }
 
-/// The reference basis of 4030 functions, usually more than twice as many as the program takes for 1e-4.
+/// The reference basis of 3999 functions, usually more than twice as many as the program takes for 1e-4.
 const TRUTH_OF_CRITICAL_SPEEDS: Resolution = Resolution {
     max_diameters: 64,
     radial_functions: 31,
