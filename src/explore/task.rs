@@ -9,12 +9,10 @@ use super::answers::{TaskAnswer, of_cut, of_fit, of_place, of_runup, of_washboar
 use super::backend::Clock;
 use super::refusal::Refusal;
 use super::tolerances::{Tolerance, Typed, study as study_of};
-use crate::figure::{Figure, Figures, growing_map};
+use crate::figure::{Figure, Figures};
 use crate::fit::{self, Fit, FitError, Measurement};
-use crate::place::{self, Demands, Goal, GrowingMap, PlaceError, Placement};
-use crate::report::{
-    CutReport, FitReport, GrowingMapEntry, PlaceReport, RunUpReport, WashboardReport,
-};
+use crate::place::{self, Demands, Goal, PlaceError, Placement};
+use crate::report::{CutReport, FitReport, PlaceReport, RunUpReport, WashboardReport};
 use crate::scene::{Freed, Scene, SceneFile};
 use crate::study::{Saw, Study, StudyReport};
 use crate::transient::{Cutting, RunningUp, TransientError};
@@ -235,10 +233,7 @@ fn place(scene: &Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refu
     let freed = Freed::to_place(scene, &[])?;
     let progress = |what: &'static str, done, of| meter.show(what, done, of);
     let options = place::Options::default();
-    let watch = |growing: &GrowingMap| {
-        meter.draw(|| Some(growing_map(&GrowingMapEntry::new(goal, growing))));
-    };
-    let found = Placement::watched(scene, &freed, &demands, &options, &progress, &watch);
+    let found = Placement::new(scene, &freed, &demands, &options, &progress);
     let found = found.map_err(|error: PlaceError| Refusal::of(&error))?;
     let report = PlaceReport::new(&demands, &found);
     answer(

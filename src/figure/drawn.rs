@@ -227,15 +227,6 @@ single! {
     StudyReport: "study", study::sheet;
 }
 
-/// The map of a placement in progress; that of a finished one is a figure of its report with the same name.
-#[cfg(feature = "page")]
-pub(crate) fn growing_map(growing: &crate::report::GrowingMapEntry) -> Figure {
-    Figure {
-        names: PlaceReport::NAMES[0],
-        sheet: super::growing_map::sheet(growing),
-    }
-}
-
 /// The figure of a comparison of run time and accuracy, from [`tradeoff`](crate::stability::tradeoff): true
 /// error over time, both on logarithmic scales.
 pub fn tradeoff(scene: &str, settings: &[Setting]) -> Figure {

@@ -32,8 +32,6 @@ mod fit;
 mod gap;
 mod gap_friction;
 mod gap_map;
-#[cfg(feature = "page")]
-mod growing_map;
 mod heading;
 mod heat;
 mod in_cut;
@@ -66,8 +64,6 @@ mod written;
 pub use axis::Spread;
 pub use campbell::CampbellView;
 pub use chart_data::{AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright};
-#[cfg(feature = "page")]
-pub(crate) use drawn::growing_map;
 pub use drawn::{Figure, Figures, tradeoff};
 pub use palette::Hue;
 #[doc(hidden)]

@@ -14,10 +14,8 @@ pub fn sheet(report: &PlaceReport) -> Option<Sheet> {
     let map = report.map.as_ref()?;
     let mut sheet = empty();
     heading::draw(&mut sheet, title(report.goal), &facts(report));
-    let shades = Shades::of(goals(map, |_, _| true));
-    let (x, y) = draw_panel(&mut sheet, map, &shades, |column, row| {
-        shades.cell(map, column, row)
-    });
+    let shades = Shades::of(goals(map));
+    let (x, y) = draw_panel(&mut sheet, map, &shades);
     draw_marks(&mut sheet, report, map, &x, &y);
     draw_key(&mut sheet, report, map);
     Some(sheet)

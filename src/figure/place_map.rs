@@ -39,11 +39,11 @@ pub fn title(goal: GoalEntry) -> &'static str {
     }
 }
 
-/// Goals of the computed cells that keep the limit.
-pub fn goals(map: &MapEntry, is_known: impl Fn(usize, usize) -> bool) -> impl Iterator<Item = f64> {
+/// Goals of the cells that keep the limit.
+pub fn goals(map: &MapEntry) -> impl Iterator<Item = f64> {
     let cells = (0..map.x.len() * map.y.len()).map(|k| (k % map.x.len(), k / map.x.len()));
     cells
-        .filter(move |&(column, row)| is_known(column, row) && map.kept[row][column])
+        .filter(|&(column, row)| map.kept[row][column])
         .filter_map(|(column, row)| map.goal_rpm[row][column])
 }
 
@@ -70,7 +70,7 @@ impl Shades {
         ramp(&LOW_TO_HIGH, (rpm - self.low) / (self.high - self.low))
     }
 
-    pub fn cell(&self, map: &MapEntry, column: usize, row: usize) -> Colour {
+    fn cell(&self, map: &MapEntry, column: usize, row: usize) -> Colour {
         match map.goal_rpm[row][column] {
             Some(rpm) if map.kept[row][column] => self.colour(rpm),
             _ => BROKEN,
@@ -79,12 +79,7 @@ impl Shades {
 }
 
 /// Draws axes, cells and colour bar; returns the axes.
-pub fn draw_panel(
-    sheet: &mut Sheet,
-    map: &MapEntry,
-    shades: &Shades,
-    colour: impl Fn(usize, usize) -> Colour,
-) -> (Along, Along) {
+pub fn draw_panel(sheet: &mut Sheet, map: &MapEntry, shades: &Shades) -> (Along, Along) {
     let x = Along::of_cells(&map.x_path, &map.x, [PANEL.left, PANEL.right]);
     let y_path = map.y_path.as_deref();
     let y = Along::of_cells(
@@ -95,7 +90,12 @@ pub fn draw_panel(
     if y_path.is_some() {
         draw_vertical(sheet, &y.axis, &PANEL, &y.name);
     }
-    draw_grid(sheet, (&x.axis, &x.values), (&y.axis, &y.values), colour);
+    draw_grid(
+        sheet,
+        (&x.axis, &x.values),
+        (&y.axis, &y.values),
+        |column, row| shades.cell(map, column, row),
+    );
     draw_named(sheet, &x.axis, PANEL.bottom, &x.name);
     let label = |rpm: f64| Some(tick_label(rpm));
     let shade = |rpm: f64| shades.colour(rpm);

@@ -3,6 +3,7 @@
 use crate::campbell::even_speeds;
 use crate::scene::Quantity;
 
+use super::Progress;
 use super::outcome::Outcome;
 use super::search::{Search, Tried};
 
@@ -42,8 +43,14 @@ fn next(paths: &[&str], order: &[usize]) -> Option<usize> {
 }
 
 impl Map {
-    /// A map without results.
-    pub(super) fn unknown(search: &Search<'_>, points: usize) -> Self {
+    /// Computes the map with so many points along each axis; numbers off the axes have the shares of another
+    /// saw.
+    pub(super) fn through(
+        search: &Search<'_>,
+        at: &[f64],
+        points: usize,
+        progress: Progress<'_>,
+    ) -> Self {
         let paths: Vec<&str> = search.freed.iter().map(|f| f.parameter.path()).collect();
         let (x, y) = axes(&paths);
         let even = even_speeds((0.0, 1.0), points);
@@ -54,28 +61,26 @@ impl Map {
         let values = |k: usize, shares: &[f64]| -> Vec<f64> {
             shares.iter().map(|s| search.freed[k].value(*s)).collect()
         };
-        Map {
+        let mut map = Map {
             x_path: paths[x].to_owned(),
             x: values(x, &even),
             y_path: y.map(|y| paths[y].to_owned()),
             y: y.map_or(vec![0.0], |y| values(y, &y_shares)),
-            outcomes: vec![vec![None; even.len()]; y_shares.len()],
+            outcomes: Vec::new(),
             shares: [even, y_shares],
             axes: (x, y),
-            at: Vec::new(),
-        }
-    }
-
-    /// The map through another saw, whose shares the numbers off the axes take.
-    pub(super) fn through(self, at: &[f64]) -> Self {
-        Map {
             at: at.to_vec(),
-            ..self
-        }
+        };
+        let (columns, total) = (map.x.len(), map.x.len() * map.y.len());
+        let shares_of = |index| map.shares_of(index);
+        let see = |done| progress("map", done, total);
+        let flat = search.outcomes(total, shares_of, &see, |_, outcome| outcome);
+        map.outcomes = flat.chunks(columns).map(<[_]>::to_vec).collect();
+        map
     }
 
     /// Shares of the cell `index`, counted row by row.
-    pub(super) fn shares_of(&self, index: usize) -> Vec<f64> {
+    fn shares_of(&self, index: usize) -> Vec<f64> {
         let ((x, y), [x_shares, y_shares]) = (self.axes, &self.shares);
         let mut shares = self.at.clone();
         shares[x] = x_shares[index % x_shares.len()];
@@ -83,12 +88,6 @@ impl Map {
             shares[y] = y_shares[index / x_shares.len()];
         }
         shares
-    }
-
-    /// Values on the axes that belong to these shares.
-    pub(super) fn place_of(&self, search: &Search<'_>, shares: &[f64]) -> [f64; 2] {
-        let value = |k: usize| search.freed[k].value(shares[k]);
-        [value(self.axes.0), self.axes.1.map_or(0.0, value)]
     }
 
     /// The computed saws of the map, best first.

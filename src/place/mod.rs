@@ -25,7 +25,6 @@
 //! ```
 
 mod demands;
-mod growing;
 mod map;
 mod neighbours;
 mod outcome;
@@ -45,10 +44,6 @@ use crate::stability::AnalysisError;
 use crate::stability::ChosenBasis;
 
 pub use demands::{Demands, GapDemands, Goal, Options, Tolerances};
-use growing::Grower;
-#[cfg(feature = "page")]
-pub(crate) use growing::GrowingMap;
-pub(crate) use growing::Watch;
 pub(crate) use map::Map;
 pub(crate) use neighbours::Neighbour;
 pub(crate) use neighbours::Neighbours;
@@ -176,21 +171,6 @@ impl Placement {
         options: &Options,
         progress: Progress<'_>,
     ) -> Result<Self, PlaceError> {
-        Self::watched(scene, freed, demands, options, progress, &|_| ())
-    }
-
-    /// As [`Placement::new`]; the map is shown while it is computed.
-    ///
-    /// # Errors
-    /// Those of [`Placement::new`].
-    pub(crate) fn watched(
-        scene: &Scene,
-        freed: &[Freed],
-        demands: &Demands,
-        options: &Options,
-        progress: Progress<'_>,
-        watch: Watch<'_>,
-    ) -> Result<Self, PlaceError> {
         let basis = ChosenBasis::new(scene, scene.tolerance().max(COARSE_TOLERANCE))?;
         let mut question = Question {
             goal: demands.goal,
@@ -207,7 +187,7 @@ impl Placement {
         }
         let own: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
         let coarse = Search::new(scene.file(), &freed, question.clone());
-        let (candidates, map) = look_everywhere(&coarse, &own, options, (progress, watch))?;
+        let (candidates, map) = look_everywhere(&coarse, &own, options, progress)?;
         if options.resolution.is_none() {
             question.resolution = basis_of_all(scene, &freed, &candidates, question.range)?;
         }
@@ -308,14 +288,10 @@ fn look_everywhere(
     search: &Search<'_>,
     own: &[f64],
     options: &Options,
-    (progress, watch): (Progress<'_>, Watch<'_>),
+    progress: Progress<'_>,
 ) -> Result<(Vec<Tried>, Option<Map>), PlaceError> {
     let samples = options.samples.max(1);
-    let grower = Grower::new(search, options.map, watch);
-    let tried = search.sample(own, samples, &|seen| {
-        progress("samples", seen.done, samples);
-        grower.sampled(search, &seen);
-    });
+    let tried = search.sample(own, samples, &|done| progress("samples", done, samples));
     Cancellation::current().check()?;
     if tried.first().is_none_or(|best| best.cost >= REFUSED) {
         return Err(PlaceError::NoSaw { tried: samples });
@@ -330,10 +306,7 @@ fn look_everywhere(
     let refined = |start: &Tried| search.refine(start, COARSE_STEPS, options.refine, &see);
     let mut candidates: Vec<Tried> = starts.par_iter().map(refined).collect();
     let best = cheapest(&candidates).ok_or(PlaceError::NoSaw { tried: samples })?;
-    let map = (options.map > 1).then(|| {
-        let through_best = Map::unknown(search, options.map).through(&best.shares);
-        grower.drawn(through_best, search, progress)
-    });
+    let map = (options.map > 1).then(|| Map::through(search, &best.shares, options.map, progress));
     let cells = map.as_ref().map_or(Vec::new(), Map::cells);
     let of_map = search.most_robust(&cells, 1, 0.0).pop();
     let better = of_map.filter(|cell| cell.cost < best.cost);

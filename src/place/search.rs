@@ -43,18 +43,8 @@ pub struct Tried {
     pub cost: f64,
 }
 
-/// A saw of a batch that has just been computed.
-pub struct Seen<'a> {
-    /// Number of finished saws, this one included.
-    pub done: usize,
-    /// Index in the batch.
-    pub index: usize,
-    pub shares: &'a [f64],
-    pub outcome: Option<&'a Outcome>,
-}
-
-/// Called for every saw of a batch, on the thread that has computed it.
-pub type See<'a> = &'a (dyn Fn(Seen<'_>) + Sync);
+/// Called with the number of finished saws of a batch after each of them, on the thread that has computed it.
+pub type See<'a> = &'a (dyn Fn(usize) + Sync);
 
 /// Number of saws computed, number of failures, and the message of one failure.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -170,12 +160,7 @@ impl<'a> Search<'a> {
         let one = |index: usize| {
             let shares = shares_of(index);
             let outcome = self.outcome(&shares);
-            see(Seen {
-                done: done.fetch_add(1, Relaxed) + 1,
-                index,
-                shares: &shares,
-                outcome: outcome.as_ref(),
-            });
+            see(done.fetch_add(1, Relaxed) + 1);
             kept(shares, outcome)
         };
         (0..count).into_par_iter().map(one).collect()

@@ -19,7 +19,6 @@ mod excitation;
 mod fit;
 mod gap;
 #[cfg(feature = "page")]
-mod growing;
 mod in_cut;
 mod map;
 mod membrane;
@@ -56,8 +55,6 @@ pub use self::fit::{FitReport, ParameterEntry, ResidualEntry};
 pub use self::gap::{
     AtAmplitudeEntry, BasisErrorEntry, DeviationEntry, FrictionEntry, FrictionPadEntry, GapReport,
 };
-#[cfg(feature = "page")]
-pub(crate) use self::growing::GrowingMapEntry;
 pub use self::in_cut::{IdlingEntry, InCutEntry};
 pub use self::map::{ContourEntry, ContouredEntry, MapAxisEntry, MapReport, MappedSawEntry};
 pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry, RollBandEntry};

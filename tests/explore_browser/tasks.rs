@@ -116,7 +116,7 @@ fn a_task_reports_its_progress_and_can_be_stopped() {
 /// A saw whose sweep ends soon after its first flutter is placed within seconds.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
-fn a_map_is_drawn_cell_by_cell_and_ends_as_the_figure_of_the_command_line() {
+fn a_placement_tells_its_steps_and_ends_with_the_figure_of_the_command_line() {
     run(async {
         let folder = tempfile::tempdir().unwrap();
         let mut scene: Value =
@@ -131,32 +131,9 @@ fn a_map_is_drawn_cell_by_cell_and_ends_as_the_figure_of_the_command_line() {
         let start = page.find("#panel-place .start button").await;
         start.click().await.unwrap();
         let told = "document.querySelector('#panel-place .start .remark').textContent";
-        let picture = "document.querySelector('#panel-place .so-far img')";
-        page.wait(&format!("{told}.startsWith('samples')")).await;
-        page.wait(&format!("({picture}?.naturalWidth ?? 0) > 0"))
+        page.wait(&format!("{told}.startsWith('map')")).await;
+        page.wait("!!document.querySelector('#panel-place pre')")
             .await;
-        // Cells that are not computed yet are white: their share of the figure decreases.
-        let white = format!(
-            "(() => {{ const picture = {picture}; if (!picture?.naturalWidth || !{told}.startsWith('map')) return null; \
-             const context = new OffscreenCanvas(220, 152).getContext('2d'); context.drawImage(picture, 0, 0, 220, 152); \
-             const {{ data }} = context.getImageData(21, 19, 168, 110); let count = 0; \
-             for (let k = 0; k < data.length; k += 4) count += Math.min(...data.slice(k, k + 4)) > 250; return count; }})()"
-        );
-        let mut seen: Vec<u64> = Vec::new();
-        while page
-            .value("!!document.querySelector('#panel-place pre')")
-            .await
-            == json!(false)
-        {
-            seen.extend(page.value(&white).await.as_u64());
-        }
-        seen.dedup();
-        assert!(seen.len() > 3, "{seen:?}");
-        assert!(
-            seen.is_sorted_by(|earlier, later| earlier >= later),
-            "{seen:?}"
-        );
-        assert!(seen.last().unwrap() * 10 < seen[0], "{seen:?}");
         page.screenshot("1280-place.png").await;
         page.script(
             "[...document.querySelectorAll('#panel-place figure button')].find((b) => b.textContent === 'Save place.svg').click()",
