@@ -57,7 +57,7 @@ fn end_in_words(largest_end_rpm: Option<f64>) -> String {
 /// Modes at one speed.
 #[derive(Debug, Clone)]
 pub struct SpeedSample {
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
     /// Modes up to the model's `complete_to`, ordered by frequency.
     pub modes: Vec<DescribedMode>,

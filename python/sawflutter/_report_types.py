@@ -44,7 +44,7 @@ class Harmonic(Entry):
     """Share of n nodal diameters in a mode."""
 
     nodal_diameters: int
-    """n."""
+    """Number n of nodal diameters."""
 
     share: float
     """Share, between 0 and 1."""
@@ -55,10 +55,10 @@ class Shape(Entry):
     """w(r, θ) = Σ_n cosine_n(r) cos nθ + sine_n(r) sin nθ at a few radii."""
 
     nodal_diameters: int
-    """n."""
+    """Number n of nodal diameters."""
 
     radius_m: FloatArray
-    """Radii."""
+    """Radii of the shape."""
 
     cosine: FloatArray
     """Coefficient of cos nθ at these radii."""
@@ -139,7 +139,7 @@ class Instability(Entry):
     """Divergence or flutter."""
 
     from_rpm: float
-    """Onset."""
+    """Speed at which the band begins."""
 
     to_rpm: float
     """End, or the end of the sweep."""
@@ -322,7 +322,7 @@ class WhirlMode(Entry):
     """Direction of the dominant harmonic, seen from space."""
 
     name: str
-    """Name."""
+    """Name of the mode."""
 
     growth_per_s: float
     """Re λ."""
@@ -370,7 +370,7 @@ class Wave(Entry):
     """The part of a mode with n nodal diameters."""
 
     nodal_diameters: int
-    """n."""
+    """Number n of nodal diameters."""
 
     share: float
     """Share between 0 and 1: of the kinetic energy of a mode, or of the squared deflection of
@@ -389,7 +389,7 @@ class EventShape(ModeMethods):
     e^{λt}. The largest deflection of all points is 1, at t = 0."""
 
     occasion: ShapeOccasion
-    """Occasion."""
+    """Reason for which the shape is drawn."""
 
     name: str
     """Waves of the shape, named as the event is."""
@@ -1435,7 +1435,7 @@ class Turn(Entry):
     """A fold or a bifurcation."""
 
     kind: TurnKind
-    """Kind."""
+    """Kind of the turning point."""
 
     rpm: float
     """Rotation speed."""
@@ -1594,7 +1594,7 @@ class Curves(Entry):
     """Lowest frequencies, ascending, one row for each speed."""
 
     rpm: FloatArray
-    """Speeds."""
+    """Speeds of the curves."""
 
     before_hz: FloatArray
     """Frequencies before the fit."""
@@ -1918,7 +1918,7 @@ class MapAxis(Entry):
     """JSON path in the scene."""
 
     name: str
-    """Name."""
+    """Name of the number."""
 
     unit: str
     """Unit of the values; empty for a dimensionless number."""
@@ -1938,7 +1938,7 @@ class MappedBand(Entry):
     """Divergence or flutter."""
 
     from_rpm: float
-    """Onset."""
+    """Speed at which the band begins."""
 
     to_rpm: float
     """End, or the end of the sweep."""
@@ -2299,7 +2299,7 @@ class Resonance(Entry):
     """Rotation speed."""
 
     frequency_hz: float
-    """Frequency."""
+    """Frequency of the force."""
 
     amplitude_m: float | None
     """Amplitude at the probe there; null where it grows without bound or beyond the linear
@@ -2736,7 +2736,7 @@ class Refusal(Entry):
     """Its number in the study."""
 
     reason: str
-    """Reason."""
+    """Reason of the failure."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2838,13 +2838,13 @@ class Setting(Entry):
     """One method with one size of the basis: its run time and its error."""
 
     method: Method
-    """Method."""
+    """Method of the computation."""
 
     max_diameters: int
-    """n_max."""
+    """Largest number n_max of nodal diameters."""
 
     radial_functions: int
-    """J."""
+    """Number J of radial functions."""
 
     functions: int
     """Number of basis functions."""

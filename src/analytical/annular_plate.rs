@@ -30,9 +30,9 @@ const LARGEST: f64 = 1000.0;
 pub struct AnnularPlate {
     /// Boundary condition at the bore.
     pub bore: Bore,
-    /// a/b.
+    /// Ratio a/b of the inner to the outer radius.
     pub radius_ratio: f64,
-    /// ν.
+    /// Poisson's ratio ν.
     pub poisson_ratio: f64,
 }
 

@@ -8,9 +8,9 @@ use std::f64::consts::{PI, TAU};
 /// A flat annulus, a < r < b.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Annulus {
-    /// a.
+    /// Radius a of the bore.
     pub bore_radius_m: f64,
-    /// b.
+    /// Radius b of the rim.
     pub rim_radius_m: f64,
 }
 

@@ -13,7 +13,7 @@
 /// A wave of one shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreeWave {
-    /// n.
+    /// Number n of nodal diameters.
     pub nodal_diameters: usize,
     /// ω₀, its frequency at rest.
     pub rest_frequency_rad_per_s: f64,

@@ -17,7 +17,7 @@ use super::bisected;
 /// A free mode of the turning blade, as seen on the blade.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyWave {
-    /// n.
+    /// Number n of nodal diameters.
     pub nodal_diameters: usize,
     /// ω on the blade at the speed in question, in rad/s.
     pub frequency_rad_per_s: f64,
@@ -36,7 +36,7 @@ impl BodyWave {
 /// S equal springs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EvenSprings {
-    /// S.
+    /// Number S of springs.
     pub count: usize,
     /// k of each, in N/m.
     pub stiffness_n_per_m: f64,

@@ -12,9 +12,9 @@ use std::f64::consts::PI;
 /// A mode of unit mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OneMode {
-    /// ω₀.
+    /// Undamped angular frequency ω₀.
     pub frequency_rad_per_s: f64,
-    /// ζ.
+    /// Damping ratio ζ.
     pub damping_ratio: f64,
 }
 
@@ -23,7 +23,7 @@ pub struct OneMode {
 pub struct LobePoint {
     /// k, in N/m per kg.
     pub stiffness: f64,
-    /// τ.
+    /// Delay τ between two cuts.
     pub delay_s: f64,
 }
 

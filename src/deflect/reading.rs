@@ -11,7 +11,7 @@ use crate::stretched::{
 /// Results for an equilibrium.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
     /// Deflection at the scene's probe.
     pub deflection_m: f64,
@@ -32,7 +32,7 @@ pub struct Reading {
 pub struct Jump {
     /// Whether the equilibrium ends or another one crosses it.
     pub kind: TurnKind,
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
     /// Deflection at the probe before and after the jump.
     pub deflection_m: [f64; 2],

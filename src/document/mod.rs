@@ -29,7 +29,7 @@ pub struct Document<'a> {
     pub answer: Vec<String>,
     /// Implausible numbers of the scene, and remarks on the validity of the result.
     pub warnings: Vec<String>,
-    /// Tables.
+    /// Tables of the page.
     pub tables: Vec<Table>,
     /// Checks of the result.
     pub certificate: Vec<String>,
@@ -40,11 +40,11 @@ pub struct Document<'a> {
 /// A table with a title.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// Title.
+    /// Title of the table.
     pub title: String,
     /// Names of its columns, with units.
     pub columns: Vec<&'static str>,
-    /// Rows.
+    /// Rows of the table.
     pub rows: Vec<Vec<String>>,
 }
 

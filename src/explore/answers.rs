@@ -56,7 +56,7 @@ pub fn of_runup(report: &RunUpReport) -> Vec<TaskAnswer> {
     ]
 }
 
-/// Smallest cutting stiffness at which a motion grows.
+/// The smallest cutting stiffness at which a motion grows, and the frequency of this motion.
 pub fn of_washboard(report: &WashboardReport) -> Vec<TaskAnswer> {
     let stiffness = report.critical_stiffness_n_per_m;
     vec![

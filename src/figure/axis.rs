@@ -58,7 +58,7 @@ impl Axis {
         self.places
     }
 
-    /// Scale.
+    /// Scale of the axis.
     pub fn spread(&self) -> Spread {
         self.spread
     }

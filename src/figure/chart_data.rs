@@ -12,7 +12,7 @@ use super::style::CURVE;
 /// Panels one above the other.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ChartData {
-    /// Title.
+    /// Title of the panel.
     pub title: String,
     /// Lines below the title.
     pub facts: Vec<String>,
@@ -64,7 +64,7 @@ pub struct AxisData {
     pub unit: String,
     /// First and last value; `None` if the contents determine them.
     pub range: Option<[f64; 2]>,
-    /// Scale.
+    /// Scale of the axis.
     pub spread: Spread,
     /// Names of the positions 1, 2, 3 … that replace numbers.
     pub names: Vec<String>,
@@ -165,7 +165,7 @@ pub enum Role {
 pub struct Upright {
     /// Position.
     pub x: f64,
-    /// Meaning.
+    /// Meaning of the item.
     pub role: Role,
     /// Colour.
     pub colour: Hue,

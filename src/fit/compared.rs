@@ -15,7 +15,7 @@ use crate::spectrum::{LowestModes, SpectrumError};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Curves {
-    /// Speeds.
+    /// Speeds of the curves.
     pub rpm: Vec<f64>,
     /// Frequencies before the fit.
     pub before_hz: Vec<Vec<f64>>,

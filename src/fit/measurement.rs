@@ -45,7 +45,7 @@ impl Row {
         }
     }
 
-    /// Ω.
+    /// Rotation speed Ω.
     pub fn speed_rad_per_s(&self) -> f64 {
         rad_per_s(self.rpm)
     }

@@ -63,11 +63,11 @@ pub struct InPlaneField {
 /// Factors of cos mθ, cos mθ and sin mθ.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct InPlaneStress {
-    /// σ_rr.
+    /// Radial stress σ_rr.
     pub radial_pa: f64,
-    /// σ_θθ.
+    /// Hoop stress σ_θθ.
     pub hoop_pa: f64,
-    /// σ_rθ.
+    /// Shear stress σ_rθ.
     pub shear_pa: f64,
 }
 

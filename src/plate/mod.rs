@@ -243,7 +243,7 @@ impl Plate {
         }
     }
 
-    /// n_max.
+    /// Largest number n_max of nodal diameters.
     pub fn max_diameters(&self) -> usize {
         self.resolution.max_diameters
     }

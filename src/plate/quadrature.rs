@@ -5,9 +5,9 @@ use std::num::NonZeroUsize;
 /// Points and weights of a one-dimensional rule.
 #[derive(Debug, Clone, Default)]
 pub struct Rule {
-    /// Abscissae.
+    /// Abscissae of the rule.
     pub points: Vec<f64>,
-    /// Weights.
+    /// Weights of the rule.
     pub weights: Vec<f64>,
 }
 

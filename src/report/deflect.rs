@@ -131,7 +131,7 @@ pub struct EquilibriumCurveEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TurnEntry {
-    /// Kind.
+    /// Kind of the turning point.
     pub kind: TurnKind,
     /// Rotation speed.
     pub rpm: f64,

@@ -34,7 +34,7 @@ pub enum ShapeOccasion {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EventShapeEntry {
-    /// Occasion.
+    /// Reason for which the shape is drawn.
     pub occasion: ShapeOccasion,
     /// Waves of the shape, named as the event is.
     pub name: String,

@@ -47,7 +47,7 @@ pub struct MapReport {
 pub struct MapAxisEntry {
     /// JSON path in the scene.
     pub path: String,
-    /// Name.
+    /// Name of the number.
     pub name: String,
     /// Unit of the values; empty for a dimensionless number.
     pub unit: String,

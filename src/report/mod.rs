@@ -174,7 +174,7 @@ pub struct CriticalSpeedEntry {
 pub struct InstabilityEntry {
     /// Divergence or flutter.
     pub kind: InstabilityKind,
-    /// Onset.
+    /// Speed at which the band begins.
     pub from_rpm: f64,
     /// End, or the end of the sweep.
     pub to_rpm: f64,

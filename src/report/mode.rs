@@ -38,7 +38,7 @@ pub struct ModeEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WaveEntry {
-    /// n.
+    /// Number n of nodal diameters.
     pub nodal_diameters: usize,
     /// Share between 0 and 1: of the kinetic energy of a mode, or of the squared deflection of the shape at an
     /// event.

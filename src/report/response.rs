@@ -101,7 +101,7 @@ pub struct ResponseLineEntry {
 pub struct ResonanceEntry {
     /// Rotation speed.
     pub rpm: f64,
-    /// Frequency.
+    /// Frequency of the force.
     pub frequency_hz: f64,
     /// Amplitude at the probe there; null where it grows without bound or beyond the linear model, or the saw is unstable.
     pub amplitude_m: Option<f64>,

@@ -36,7 +36,7 @@ pub struct RestMode {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HarmonicEntry {
-    /// n.
+    /// Number n of nodal diameters.
     pub nodal_diameters: usize,
     /// Share, between 0 and 1.
     pub share: f64,
@@ -46,9 +46,9 @@ pub struct HarmonicEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ShapeEntry {
-    /// n.
+    /// Number n of nodal diameters.
     pub nodal_diameters: usize,
-    /// Radii.
+    /// Radii of the shape.
     pub radius_m: Vec<f64>,
     /// Coefficient of cos nθ at these radii.
     pub cosine: Vec<f64>,

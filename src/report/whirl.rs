@@ -36,7 +36,7 @@ pub struct WhirlMode {
     pub nodal_circles: usize,
     /// Direction of the dominant harmonic, seen from space.
     pub direction: Direction,
-    /// Name.
+    /// Name of the mode.
     pub name: String,
     /// Re λ.
     pub growth_per_s: f64,

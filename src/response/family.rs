@@ -14,9 +14,9 @@ use crate::system::{GyroscopicSystem, dynamic_stiffness};
 /// A speed and a frequency, in rad/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct State {
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
-    /// ω.
+    /// Angular frequency ω.
     pub frequency_rad_per_s: f64,
 }
 

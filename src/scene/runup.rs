@@ -16,7 +16,7 @@ pub struct RunUpFile {
     pub from_rpm: f64,
     /// Last speed.
     pub to_rpm: f64,
-    /// Duration.
+    /// Duration of the run-up.
     pub duration_s: f64,
     /// Lateral force at the rim.
     pub force_n: f64,
@@ -50,7 +50,7 @@ pub struct ProbeFile {
 pub struct RunUp {
     /// Range of speeds.
     pub speeds: SpeedRange,
-    /// Duration.
+    /// Duration of the run-up.
     pub duration_s: f64,
     /// Lateral force at the rim.
     pub force_n: f64,
@@ -65,7 +65,7 @@ pub struct RunUp {
 pub(crate) struct Probe {
     /// Distance from the axis.
     pub radius_m: f64,
-    /// Angle.
+    /// Angle of the force.
     pub angle_rad: f64,
 }
 

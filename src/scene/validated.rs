@@ -43,7 +43,7 @@ pub struct Blade {
     pub(crate) profile: Option<ThicknessProfile>,
     /// Mass of teeth and tips.
     pub(crate) rim: Option<RimMass>,
-    /// Material.
+    /// Material of the blade.
     pub material: Material,
     /// Boundary condition at r = a.
     pub bore: Bore,

@@ -10,7 +10,7 @@ use crate::system::GyroscopicSystem;
 /// A natural frequency at rest.
 #[derive(Debug, Clone)]
 pub struct RestingMode {
-    /// ω.
+    /// Angular frequency ω.
     pub frequency_rad_per_s: f64,
     /// Index of the component that it belongs to.
     pub component: usize,

@@ -13,7 +13,7 @@ use super::generalized::singular_multiples;
 /// A speed at which K(Ω) is singular: a wave stands still in space.
 #[derive(Debug, Clone)]
 pub struct CriticalSpeed {
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
     /// The standing wave, ‖x‖ = 1.
     pub shape: Col<f64>,
@@ -42,7 +42,7 @@ pub fn critical_speeds(system: &GyroscopicSystem) -> Result<Vec<CriticalSpeed>, 
 /// A standing wave at its critical speed.
 #[derive(Debug, Clone)]
 pub struct NamedCriticalSpeed {
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
     /// Waves of its shape.
     pub name: EventName,

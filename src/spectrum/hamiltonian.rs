@@ -23,7 +23,7 @@ use super::vectors::{Eigenpair, by_magnitude, joined, orthonormal, split, unit};
 pub struct State {
     /// λ, in 1/s.
     pub lambda: c64,
-    /// Deflection.
+    /// Deflection q.
     pub q: Col<c64>,
     /// Momentum, in 1/s.
     pub p: Col<c64>,

@@ -49,7 +49,7 @@ pub fn krein_index(modes: &[Mode]) -> usize {
 pub struct Mode {
     /// λ, in 1/s.
     pub lambda: c64,
-    /// Kind.
+    /// Kind of the mode.
     pub kind: ModeKind,
     /// dω/dΩ of an oscillation on the imaginary axis, zero otherwise.
     pub frequency_slope: f64,

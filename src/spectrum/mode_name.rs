@@ -37,7 +37,7 @@ impl Direction {
 /// Share of n nodal diameters of the kinetic energy of a mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HarmonicShare {
-    /// n.
+    /// Number n of nodal diameters.
     pub diameters: usize,
     /// Nodal circles of its radial profile; 0 if its share is below a thousandth.
     pub circles: usize,

@@ -22,7 +22,7 @@ pub struct Pencil<'a> {
     pub system: &'a GyroscopicSystem,
     /// The structure of these matrices.
     pub structure: &'a StructuredStiffness,
-    /// B.
+    /// Matrix B of the softening.
     pub softening: Softening,
 }
 

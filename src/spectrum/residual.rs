@@ -7,9 +7,9 @@ use crate::system::GyroscopicSystem;
 /// A mode of a projection in the unknowns of its component.
 #[derive(Debug)]
 pub struct Lifted {
-    /// Vq.
+    /// Deflection Vq.
     pub shape: Col<c64>,
-    /// L(λ)Vq.
+    /// Residual L(λ)Vq.
     pub residual: Col<c64>,
 }
 

@@ -17,7 +17,7 @@ const CIRCLE: f64 = 0.03;
 /// which a rigid tilt would dominate.
 pub struct Wave {
     pub diameters: usize,
-    /// nΩ.
+    /// Frequency nΩ by which rotation carries the wave.
     pub carried: f64,
     pub forward: Vec<c64>,
     pub backward: Vec<c64>,

@@ -25,7 +25,7 @@ pub enum InstabilityKind {
 pub struct Instability {
     /// Divergence or flutter.
     pub kind: InstabilityKind,
-    /// Onset.
+    /// Speed at which the band begins.
     pub from_rad_per_s: f64,
     /// End, or the end of the range.
     pub to_rad_per_s: f64,
@@ -66,11 +66,11 @@ impl fmt::Display for Instability {
 /// An eigenvalue at one speed of a band.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurvePoint {
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
     /// λ, Im λ ≥ 0.
     pub lambda: c64,
-    /// dλ/dΩ.
+    /// Derivative dλ/dΩ.
     pub slope: c64,
 }
 

@@ -43,7 +43,7 @@ impl Certificate {
 /// Contradiction between the list of bands and the eigenvalues at one speed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Mismatch {
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
     /// Kind of the band.
     pub kind: InstabilityKind,

@@ -17,7 +17,7 @@ use crate::spectrum::{SpectralModel, SpectrumError};
 pub struct Crossing {
     /// Excitation line.
     pub line: ExcitationLine,
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
     /// Point of the chart before it: speed and mode.
     pub point: (usize, usize),

@@ -9,7 +9,7 @@ use crate::tuned::Tuned;
 pub struct Sample {
     /// Speed, in rad/s.
     pub at: f64,
-    /// f.
+    /// Value f of the function there.
     pub value: f64,
     /// df/dΩ; not finite if unknown.
     pub slope: f64,

@@ -25,7 +25,7 @@ pub struct ModeCounts<'a> {
 /// A missing or surplus mode in the spectrum of a speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Miscount {
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
     /// Lower frequency, in rad/s.
     pub from_rad_per_s: f64,
@@ -162,7 +162,7 @@ impl<'a> ModeCounts<'a> {
         self.basis.is_dense()
     }
 
-    /// n₋(K(Ω)).
+    /// Number n₋ of negative eigenvalues of K(Ω).
     pub fn negative_stiffness(&self, speed_rad_per_s: f64) -> usize {
         self.model.negative_stiffness_directions(speed_rad_per_s)
     }

@@ -40,7 +40,7 @@ pub enum Coalescence {
 /// Begin or end of a quadruple.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge {
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
     /// Kind of coalescence.
     pub coalescence: Coalescence,

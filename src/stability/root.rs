@@ -5,9 +5,9 @@ use std::convert::Infallible;
 /// Evaluation of the function: position, value, and anything else that the caller needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look<P> {
-    /// Place.
+    /// Place of the root.
     pub at: f64,
-    /// f.
+    /// Value f of the function there.
     pub value: f64,
     /// Further result there.
     pub point: P,

@@ -31,7 +31,7 @@ pub struct SignedMode {
 /// Modes at one speed up to the last that can take part in a band.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Signature {
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
     /// Waves of both signs by frequency, up to the first + mode above the last − mode: higher ones have no
     /// partner to coalesce with.

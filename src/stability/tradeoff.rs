@@ -31,11 +31,11 @@ pub enum Method {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Setting {
-    /// Method.
+    /// Method of the computation.
     pub method: Method,
-    /// n_max.
+    /// Largest number n_max of nodal diameters.
     pub max_diameters: usize,
-    /// J.
+    /// Number J of radial functions.
     pub radial_functions: usize,
     /// Number of basis functions.
     pub functions: usize,

@@ -11,7 +11,7 @@ use super::{ROUNDING, StretchedBlade, StretchedError, angles, finite};
 /// An equilibrium of the blade.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Equilibrium {
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
     /// p, r coordinates of the shapes, in √kg·m.
     pub coordinates: Col<f64>,

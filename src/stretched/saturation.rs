@@ -23,11 +23,11 @@ use super::{StretchedBlade, StretchedError, finite};
 /// Largest amplitude of undamped flutter that begins small.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Saturation {
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
-    /// σ.
+    /// Growth rate σ.
     pub growth_per_s: f64,
-    /// ω.
+    /// Angular frequency ω.
     pub frequency_rad_per_s: f64,
     /// Largest deflection of any point of the blade.
     pub amplitude_m: f64,

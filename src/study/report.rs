@@ -230,6 +230,6 @@ pub struct CriterionEntry {
 pub struct Refusal {
     /// Its number in the study.
     pub saw: usize,
-    /// Reason.
+    /// Reason of the failure.
     pub reason: String,
 }

@@ -17,7 +17,7 @@ pub struct Saw {
     pub index: usize,
     /// Values of the varying numbers, in the order of the study.
     pub values: Vec<f64>,
-    /// Result.
+    /// Result of the saw.
     pub outcome: Outcome,
 }
 
@@ -65,7 +65,7 @@ pub struct Found {
 pub struct FoundBand {
     /// Divergence or flutter.
     pub kind: InstabilityKind,
-    /// Onset.
+    /// Speed at which the band begins.
     pub from_rpm: f64,
     /// End, or the end of the sweep.
     pub to_rpm: f64,

@@ -15,7 +15,7 @@ use crate::system::GyroscopicSystem;
 pub struct Snapshot<'a> {
     /// The full model.
     pub system: &'a GyroscopicSystem,
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
 }
 
@@ -157,7 +157,7 @@ impl ReducedBlade {
         self.basis.transpose() * full * &self.basis
     }
 
-    /// Vᵀb.
+    /// Projection Vᵀb of a vector.
     pub fn vector(&self, full: &Col<f64>) -> Col<f64> {
         self.basis.transpose() * full
     }

@@ -34,7 +34,7 @@ pub(crate) struct StretchedRunUp {
 pub(crate) struct Spectrum {
     /// Speed in the middle of each window.
     pub speed_rad_per_s: Vec<f64>,
-    /// Frequencies.
+    /// Frequencies of the response.
     pub frequency_rad_per_s: Vec<f64>,
     /// Amplitudes, one row for each speed.
     pub amplitude_m: Vec<Vec<f64>>,

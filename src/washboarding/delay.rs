@@ -22,13 +22,13 @@ impl Delay {
         }
     }
 
-    /// h(λ).
+    /// Transfer function h(λ) of the delay.
     pub fn at(&self, lambda: c64) -> c64 {
         let left = self.delays_s.iter().map(|delay| (-lambda * *delay).exp());
         c64::new(1.0, 0.0) - left.sum::<c64>() * self.weight()
     }
 
-    /// dh/dλ.
+    /// Derivative dh/dλ.
     pub fn slope(&self, lambda: c64) -> c64 {
         let slopes = self
             .delays_s

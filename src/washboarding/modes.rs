@@ -18,7 +18,7 @@ pub(crate) struct WashboardMode {
     pub lambda: c64,
     /// λ without the delayed force; `None` for a mode that exists only because of the delay.
     pub without: Option<c64>,
-    /// Name.
+    /// Name of the mode.
     pub name: ModeName,
     /// Pattern left on the board; `None` for unevenly spaced teeth.
     pub pattern: Option<Pattern>,

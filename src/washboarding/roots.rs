@@ -11,7 +11,7 @@ use super::delayed::DelayedSaw;
 /// An eigenvalue with the delayed force, Im λ ≥ 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Root {
-    /// λ.
+    /// Eigenvalue λ.
     pub lambda: c64,
     /// Eigenvalue without the force from which the search started; `None` for one that exists only because of
     /// the delay.

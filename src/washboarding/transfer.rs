@@ -70,7 +70,7 @@ impl Transfer {
         })
     }
 
-    /// G(λ).
+    /// Transfer matrix G(λ).
     pub fn at(&self, lambda: c64) -> DMatrix<c64> {
         self.sum(|pole| (lambda - pole).inv()) + &self.flexibility
     }

@@ -28,7 +28,7 @@ impl Wave {
         }
     }
 
-    /// ∂/∂θ.
+    /// Derivative ∂/∂θ of the function.
     pub fn derivative(self) -> Self {
         let n = self.order as f64;
         let (phase, factor) = match self.phase {

@@ -42,9 +42,9 @@ pub struct BoreForce {
 /// Factors of [cos mθ, sin mθ] of the stresses at an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HarmonicTraction {
-    /// σ_rr.
+    /// Radial stress σ_rr.
     pub radial_pa: [f64; 2],
-    /// σ_rθ.
+    /// Shear stress σ_rθ.
     pub shear_pa: [f64; 2],
 }
 

@@ -7,11 +7,11 @@ use crate::scene::Blade;
 /// σ_rr = R(r) cos mθ, σ_θθ = H(r) cos mθ, σ_rθ = T(r) sin mθ: R, H and T at a radius.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ProfileStress {
-    /// R.
+    /// Coefficient R of the radial stress.
     pub radial_pa: f64,
-    /// H.
+    /// Coefficient H of the hoop stress.
     pub hoop_pa: f64,
-    /// T.
+    /// Coefficient T of the shear stress.
     pub shear_pa: f64,
 }
 

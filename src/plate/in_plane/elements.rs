@@ -24,7 +24,7 @@ pub struct Elements {
 /// Strains [ε_rr, ε_θθ, γ_rθ] for unit displacements u and v of each node of an element, and the shape
 /// functions.
 pub struct UnitStrains {
-    /// N_k(r).
+    /// Shape functions N_k(r).
     pub values: [f64; DEGREE + 1],
     /// Strains for u.
     pub radial: [[f64; 3]; DEGREE + 1],
@@ -73,7 +73,7 @@ impl Elements {
         DEGREE * self.edges_m.partition_point(|edge| *edge < radius_m)
     }
 
-    /// m.
+    /// Circumferential order m.
     pub fn order(&self) -> f64 {
         self.order
     }

@@ -54,7 +54,7 @@ impl Eigenstrain {
         }
     }
 
-    /// ε(r).
+    /// Eigenstrain ε at radius r.
     pub fn at(&self, r: f64) -> f64 {
         match self {
             Eigenstrain::Power {

@@ -13,7 +13,7 @@ pub struct Slopes {
 }
 
 impl Slopes {
-    /// Zero.
+    /// Zero slopes.
     pub fn none(max_diameters: usize, nodes: usize) -> Self {
         Slopes {
             waves: vec![None; max_diameters + 1],
@@ -62,7 +62,7 @@ pub struct Strain {
 }
 
 impl Strain {
-    /// Zero.
+    /// Zero slopes.
     pub fn none(max_order: usize, nodes: usize) -> Self {
         Strain {
             harmonics: vec![[0, 1].map(|_| vec![0.0; 3 * nodes]); max_order + 1],

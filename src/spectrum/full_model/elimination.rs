@@ -153,7 +153,7 @@ impl<T: Shift> Elimination<T> {
         })
     }
 
-    /// N.
+    /// Order N of the matrix.
     pub fn order(&self) -> usize {
         self.columns.nrows()
     }

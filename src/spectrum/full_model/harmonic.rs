@@ -7,13 +7,13 @@ use crate::plate::HarmonicBlock;
 /// One harmonic in the body frame.
 #[derive(Debug)]
 pub struct Harmonic {
-    /// n.
+    /// Number n of nodal diameters.
     pub diameters: usize,
     /// Index of its first unknown in the basis of the plate.
     pub first: usize,
     /// K_b + K_m.
     pub rest: DMatrix<f64>,
-    /// K_σ.
+    /// Membrane stiffness K_σ.
     pub tension: DMatrix<f64>,
     /// Largest negative eigenvalue of K_σ in magnitude, which is rounding.
     pub shortfall: f64,
@@ -21,7 +21,7 @@ pub struct Harmonic {
     /// T = B(0) + σ, which is positive, and more for waves so stiff that a large share of their stiffness
     /// has no effect.
     pub weights: Vec<f64>,
-    /// σ.
+    /// Shift σ.
     pub shift: f64,
     /// The waves at rest, of K_b + K_m, which approximate those at every speed.
     pub resting: SymmetricEigen<f64, Dyn>,
@@ -71,7 +71,7 @@ impl Harmonic {
         &self.rest + &self.tension * speed_rad_per_s.powi(2)
     }
 
-    /// J.
+    /// Number J of radial functions.
     pub fn radial(&self) -> usize {
         self.rest.nrows()
     }

@@ -22,16 +22,16 @@ const SAME: f64 = 1e-5;
 /// An eigenvalue with Im λ ≥ 0.
 #[derive(Debug, Clone, Copy)]
 pub struct Eigenvalue {
-    /// λ.
+    /// Eigenvalue λ.
     pub lambda: c64,
-    /// dλ/dΩ.
+    /// Derivative dλ/dΩ.
     pub slope: c64,
 }
 
 /// Eigenvalues at one speed.
 #[derive(Debug, Clone)]
 pub struct Spectrum {
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed: f64,
     /// Eigenvalues in no particular order.
     pub values: Vec<Eigenvalue>,

@@ -2,7 +2,7 @@
 
 /// σ² and ω² of a pair at a speed.
 pub struct Looked {
-    /// Ω.
+    /// Rotation speed Ω.
     pub speed: f64,
     /// σ² and ω², in 1/s².
     pub squares: [f64; 2],
