@@ -29,7 +29,7 @@ mod _native {
     #[pymodule_export]
     use super::study::{Study, StudyLog, processor};
     #[pymodule_export]
-    use super::{number, panic, paper, program, read_scene, read_text, scene, schema};
+    use super::{number, outlines, panic, paper, program, read_scene, read_text, scene, schema};
 }
 
 /// The scene of a JSON text, validated, as JSON.
@@ -37,6 +37,14 @@ mod _native {
 fn scene(text: &str) -> PyResult<String> {
     let scene = arguments::scene(text)?;
     Ok(serde_json::to_string(scene.file()).map_err(failure::Failure::from)?)
+}
+
+/// Corners of the guides of a scene in metres, each as x and y.
+#[pyfunction]
+fn outlines(text: &str) -> PyResult<Vec<Vec<[f64; 2]>>> {
+    let scene = arguments::scene(text)?;
+    let guides = scene.file().guides.iter();
+    Ok(guides.map(|guide| guide.outline_m()).collect())
 }
 
 /// The number of a text like `2.6mm` in the unit of a path of a scene; none if the path is not that of a number.

@@ -38,6 +38,20 @@ pub(crate) struct Lifting {
     pub offset_m: f64,
 }
 
+impl GuideFile {
+    /// Corners of the pad on the blade, with x from the axis at θ = 0 and y at θ = 90°.
+    pub fn outline_m(&self) -> Vec<[f64; 2]> {
+        let (sin, cos) = self.angle_deg.to_radians().sin_cos();
+        let half = [self.radial_length_m, self.tangential_length_m].map(|side| 0.5 * side);
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        let corners = corners.map(|(along, across)| {
+            let (x, y) = (self.radius_m + along * half[0], across * half[1]);
+            [x * cos - y * sin, x * sin + y * cos]
+        });
+        corners.to_vec()
+    }
+}
+
 impl Guide {
     /// Whether the pad has no extent and acts at a point.
     pub fn is_point(&self) -> bool {

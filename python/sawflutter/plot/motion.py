@@ -91,7 +91,7 @@ def _plotly(
             x=px, y=py, z=np.zeros(len(px)), mode="lines", name="guide",
             line={"color": colours()["ink"], "width": 4}, hoverinfo="name",
         )
-        for px, py in pads(saw.guides)
+        for px, py in pads(saw)
     ]  # fmt: skip
     play: dict[str, Any] = {
         "frame": {"duration": INTERVAL_MS},
@@ -130,7 +130,7 @@ def _matplotlib(
     scale = LinearSegmentedColormap.from_list("deflection", _scale())
     x, y = radius * np.cos(theta), radius * np.sin(theta)
     mesh = ax.pcolormesh(x, y, pictures[0], cmap=scale, vmin=-1.0, vmax=1.0, shading="gouraud")
-    for px, py in pads(saw.guides):
+    for px, py in pads(saw):
         ax.plot(px, py, color=colours()["ink"], linewidth=1.5)
     ax.set_aspect("equal")
     ax.set_axis_off()

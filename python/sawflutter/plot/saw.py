@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .. import _native
 from .._entry import FloatArray
 from .chart import Chart, Item, Line, Panel, Points, colours
 
@@ -27,7 +28,7 @@ def saw(scene: Scene) -> Chart:
     mount = scene.get("mount") or {}
     if "diameter_m" in mount:
         items.append(_arc(mount["diameter_m"] / 2.0, 0.0, 360.0, quiet, "collar"))
-    for place, (x, y) in enumerate(pads(scene.guides)):
+    for place, (x, y) in enumerate(pads(scene)):
         guide = scene.guides[place]
         said = (
             f"guides[{place}]<br>{1e3 * guide['radius_m']:.4g} mm, {guide['angle_deg']:g}°"
@@ -55,18 +56,11 @@ def saw(scene: Scene) -> Chart:
     return Chart(scene.name, facts, (panel,))
 
 
-def pads(guides: Iterable[Mapping[str, Any]]) -> list[tuple[FloatArray, FloatArray]]:
-    """Outlines of the guides."""
-    outlines = []
-    for guide in guides:
-        along, across = guide["radial_length_m"] / 2.0, guide["tangential_length_m"] / 2.0
-        angle = np.radians(guide["angle_deg"])
-        u = guide["radius_m"] + along * np.array([-1.0, 1.0, 1.0, -1.0, -1.0])
-        v = across * np.array([-1.0, -1.0, 1.0, 1.0, -1.0])
-        outlines.append(
-            (u * np.cos(angle) - v * np.sin(angle), u * np.sin(angle) + v * np.cos(angle))
-        )
-    return outlines
+def pads(scene: Scene) -> list[tuple[FloatArray, FloatArray]]:
+    """Closed outlines of the guides."""
+    corners = [np.array(outline) for outline in _native.outlines(scene.to_json())]
+    closed = [np.vstack([outline, outline[:1]]) for outline in corners]
+    return [(outline[:, 0], outline[:, 1]) for outline in closed]
 
 
 def _points(radius_m: Any, angle_deg: Any) -> tuple[FloatArray, FloatArray]:

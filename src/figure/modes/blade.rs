@@ -150,20 +150,15 @@ fn crossings(tile: &[Corner; 4]) -> Vec<[f64; 2]> {
 
 /// Draws the outline of a pad, or a point.
 fn draw_guide(sheet: &mut Sheet, guide: &GuideFile, scale: f64, centre: [f64; 2]) {
-    let (sin, cos) = guide.angle_deg.to_radians().sin_cos();
-    let at = |along: f64, across: f64| {
-        let (x, y) = (guide.radius_m + along, across);
-        [
-            centre[0] + scale * (x * cos - y * sin),
-            centre[1] - scale * (x * sin + y * cos),
-        ]
-    };
-    let [a, b] = [guide.radial_length_m, guide.tangential_length_m].map(|side| 0.5 * side);
-    if 2.0 * scale * a.max(b) < SMALL {
-        sheet.ring(at(0.0, 0.0), 3.5, Stroke::solid(INK, GUIDE_WIDTH), PAPER);
+    let at = |[x, y]: [f64; 2]| [centre[0] + scale * x, centre[1] - scale * y];
+    let stroke = Stroke::solid(INK, GUIDE_WIDTH);
+    if scale * guide.radial_length_m.max(guide.tangential_length_m) < SMALL {
+        let (sin, cos) = guide.angle_deg.to_radians().sin_cos();
+        let middle = [guide.radius_m * cos, guide.radius_m * sin];
+        sheet.ring(at(middle), 3.5, stroke, PAPER);
         return;
     }
-    let corners = [(-a, -b), (a, -b), (a, b), (-a, b), (-a, -b), (a, -b)];
-    let outline = corners.map(|(along, across)| at(along, across));
-    sheet.line(outline, Stroke::solid(INK, GUIDE_WIDTH));
+    let outline: Vec<_> = guide.outline_m().into_iter().map(at).collect();
+    // The first side is drawn twice, so that the last corner is joined like the others.
+    sheet.line(outline.iter().chain(&outline[..2]).copied(), stroke);
 }
