@@ -13,6 +13,7 @@ from ._scene_types import (
     ContactLaw,
     CutDict,
     GuideDict,
+    GuideShape,
     GuideSide,
     MountDict,
     SceneDict,
@@ -186,6 +187,7 @@ class SceneData(Mapping[str, Any]):
         angle_deg: Number = None,
         radial_length_m: Number = None,
         tangential_length_m: Number = None,
+        shape: GuideShape | None = None,
         stiffness_n_per_m: Number = None,
         damping_n_s_per_m: Number = None,
         gap_m: Number = None,
@@ -203,6 +205,8 @@ class SceneData(Mapping[str, Any]):
             Position and size, as in a scene file.
         stiffness_n_per_m, damping_n_s_per_m, gap_m, film_stiffness_n_per_m, offset_m : float, optional
             Other numbers, as in a scene file.
+        shape : {"rectangle", "round"}, optional
+            Shape of the guide with these two lengths.
         contact : {"linear", "one_sided"}, optional
             Whether it holds the blade at any deflection or touches it only beyond the gap.
         side : {"both", "left", "right"}, optional

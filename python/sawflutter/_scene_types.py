@@ -9,6 +9,8 @@ from typing import Literal, TypeAlias, TypedDict
 
 InPlane: TypeAlias = Literal["fixed", "free"]
 
+GuideShape: TypeAlias = Literal["rectangle", "round"]
+
 ContactLaw: TypeAlias = Literal["linear", "one_sided"]
 
 GuideSide: TypeAlias = Literal["both", "left", "right"]
@@ -110,8 +112,8 @@ MountDict: TypeAlias = MountSplineDict | MountCollarDict
 
 
 class _GuideDict(TypedDict):
-    """A rectangular guide pad with sides along and across the radius at its centre. With zero
-    size it is a point spring."""
+    """A guide pad with one length along and one across the radius at its centre. With zero size
+    it is a point spring."""
 
     radius_m: float
     """Distance of the pad's centre from the axis."""
@@ -133,8 +135,11 @@ class _GuideDict(TypedDict):
 
 
 class GuideDict(_GuideDict, total=False):
-    """A rectangular guide pad with sides along and across the radius at its centre. With zero
-    size it is a point spring."""
+    """A guide pad with one length along and one across the radius at its centre. With zero size
+    it is a point spring."""
+
+    shape: GuideShape
+    """Shape of the pad; a rectangle by default."""
 
     damping_n_s_per_m: float
     """Lateral viscous damping of the whole pad, fixed in space."""
@@ -505,7 +510,7 @@ class _RunUpDict(TypedDict):
     program)."""
 
     duration_s: float
-    """Duration. Typically 60, from 5 to 120 (assumption of this program)."""
+    """Duration of the run-up. Typically 60, from 5 to 120 (assumption of this program)."""
 
     force_n: float
     """Lateral force at the rim. Typically 1, from 0.1 to 10 (assumption of this program: small

@@ -311,7 +311,7 @@ impl Plate {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::GuideFile;
+    use crate::scene::{GuideFile, GuideShape};
 
     fn plate_with(guides: &[GuideFile]) -> Plate {
         let scene = Scene::paper().edited(|saw| saw.guides = guides.to_vec());
@@ -359,6 +359,45 @@ mod tests {
         let distance = relative_distance(plate.contact.stiffness().unwrap(), &sum);
         // The rim crosses cells, so the midpoint sum is accurate to about one cell in 400².
         assert!(distance < 2e-4, "{distance}");
+    }
+
+    /// The integral over an ellipse on the blade, by the midpoint rule over ellipses of the same centre.
+    #[test]
+    fn a_round_pad_equals_its_midpoint_sum() {
+        // The farthest points of the last pad from the axis lie beside its centre line.
+        let pads = [(0.2, 0.10, 0.10), (0.2, 0.20, 0.08), (0.25, 0.06, 0.30)];
+        for (radius_m, along, across) in pads {
+            let pad = GuideFile {
+                radius_m,
+                angle_deg: -52.0,
+                radial_length_m: along,
+                tangential_length_m: across,
+                shape: GuideShape::Round,
+                stiffness_n_per_m: 2.0e7,
+                ..GuideFile::default()
+            };
+            let plate = plate_with(&[pad]);
+            let size = plate.degrees_of_freedom();
+            let mut sum: Mat<f64> = Mat::zeros(size, size);
+            let (rings, turns) = (400, 100);
+            for ring in 0..rings {
+                let share = (f64::from(ring) + 0.5) / f64::from(rings);
+                let weight = 2.0 * share / f64::from(rings * turns);
+                for turn in 0..turns {
+                    let (sin, cos) =
+                        (std::f64::consts::TAU * f64::from(turn) / f64::from(turns)).sin_cos();
+                    let (x, y) = (
+                        radius_m + 0.5 * along * share * cos,
+                        0.5 * across * share * sin,
+                    );
+                    let f = plate.functions_at(x.hypot(y), y.atan2(x) + pad.angle_deg.to_radians());
+                    let f = faer::Col::from_fn(f.len(), |i| f[i]);
+                    sum += faer::Scale(2.0e7 * weight) * &f * f.transpose();
+                }
+            }
+            let distance = relative_distance(plate.contact.stiffness().unwrap(), &sum);
+            assert!(distance < 2e-5, "{along} m by {across} m: {distance}");
+        }
     }
 
     #[test]

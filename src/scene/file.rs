@@ -142,7 +142,7 @@ pub enum InPlane {
     Free,
 }
 
-/// A rectangular guide pad with sides along and across the radius at its centre. With zero size it is a point
+/// A guide pad with one length along and one across the radius at its centre. With zero size it is a point
 /// spring.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -155,6 +155,9 @@ pub struct GuideFile {
     pub radial_length_m: f64,
     /// Length across the radius.
     pub tangential_length_m: f64,
+    /// Shape of the pad; a rectangle by default.
+    #[serde(default, skip_serializing_if = "is_usual")]
+    pub shape: GuideShape,
     /// Lateral stiffness of the whole pad, both faces together.
     pub stiffness_n_per_m: f64,
     /// Lateral viscous damping of the whole pad, fixed in space.
@@ -178,6 +181,17 @@ pub struct GuideFile {
     /// direction of positive deflection. Zero by default; a pad off its line leans the blade.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub offset_m: f64,
+}
+
+/// Shape of a guide pad.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum GuideShape {
+    /// A rectangle with sides along and across the radius.
+    #[default]
+    Rectangle,
+    /// An ellipse whose axes are the lengths along and across the radius: a circle if they are equal.
+    Round,
 }
 
 /// Contact law of a guide pad.

@@ -1,8 +1,9 @@
 //! Validated guide pads, angles in radians.
 
 use super::check::{MAX_GUIDE, SPAN, positive, refuse, within};
-use super::{Blade, ContactLaw, GuideFile, GuideSide, RefusedValue, SceneError};
+use super::{Blade, ContactLaw, GuideFile, GuideShape, GuideSide, RefusedValue, SceneError};
 use crate::text::shown;
+use std::f64::consts::{PI, TAU};
 
 /// Validated guide pad.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,6 +18,8 @@ pub(crate) struct Guide {
     pub radial_length_m: f64,
     /// Length across the radius; zero for a point spring.
     pub tangential_length_m: f64,
+    /// Shape of a pad that is not a point spring.
+    pub shape: GuideShape,
     /// Stiffness of the whole pad.
     pub stiffness_n_per_m: f64,
     /// Damping of the whole pad.
@@ -38,17 +41,26 @@ pub(crate) struct Lifting {
     pub offset_m: f64,
 }
 
+/// The outline of an ellipse of 100 mm deviates from this polygon by 0.03 mm.
+const ELLIPSE_CORNERS: u32 = 64;
+
 impl GuideFile {
-    /// Corners of the pad on the blade, with x from the axis at θ = 0 and y at θ = 90°.
+    /// Corners of the pad on the blade, or points of an ellipse, with x from the axis at θ = 0 and y at θ = 90°.
     pub fn outline_m(&self) -> Vec<[f64; 2]> {
         let (sin, cos) = self.angle_deg.to_radians().sin_cos();
         let half = [self.radial_length_m, self.tangential_length_m].map(|side| 0.5 * side);
-        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-        let corners = corners.map(|(along, across)| {
+        let corners: Vec<(f64, f64)> = match self.shape {
+            GuideShape::Rectangle => vec![(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)],
+            GuideShape::Round => {
+                let turns = (0..ELLIPSE_CORNERS).map(|k| f64::from(k) / f64::from(ELLIPSE_CORNERS));
+                turns.map(|turn| (TAU * turn).sin_cos()).collect()
+            }
+        };
+        let corners = corners.iter().map(|(along, across)| {
             let (x, y) = (self.radius_m + along * half[0], across * half[1]);
             [x * cos - y * sin, x * sin + y * cos]
         });
-        corners.to_vec()
+        corners.collect()
     }
 }
 
@@ -58,11 +70,46 @@ impl Guide {
         self.radial_length_m == 0.0
     }
 
+    /// Half the lengths along and across the radius.
+    pub fn half_lengths_m(&self) -> (f64, f64) {
+        (0.5 * self.radial_length_m, 0.5 * self.tangential_length_m)
+    }
+
+    /// Area of the pad.
+    pub fn area_m2(&self) -> f64 {
+        let rectangle = self.radial_length_m * self.tangential_length_m;
+        match self.shape {
+            GuideShape::Rectangle => rectangle,
+            GuideShape::Round => 0.25 * PI * rectangle,
+        }
+    }
+
+    /// Radii of circles about the axis that touch a side of the pad or pass a corner.
+    pub fn touching_radii_m(&self) -> Vec<f64> {
+        let (a, b) = self.half_lengths_m();
+        let c = self.radius_m;
+        let (near, far) = (c - a, c + a);
+        let mut radii = vec![near.abs(), far.abs()];
+        match self.shape {
+            GuideShape::Rectangle => radii.extend([b, near.hypot(b), far.hypot(b)]),
+            GuideShape::Round => {
+                // The distance of the point (c + a cos t, b sin t) is stationary at cos t = u off the centre line.
+                let u = c * a / (b * b - a * a);
+                if u.abs() < 1.0 {
+                    radii.push((c * c + b * b + c * a * u).sqrt());
+                }
+            }
+        }
+        radii
+    }
+
     /// Smallest and largest distance of the pad from the axis, the part beside the blade included.
     pub fn reach_m(&self) -> (f64, f64) {
-        let half = [0.5 * self.radial_length_m, 0.5 * self.tangential_length_m];
-        let nearest = (self.radius_m - half[0]).max(0.0);
-        (nearest, (self.radius_m + half[0]).hypot(half[1]))
+        let nearest = (self.radius_m - self.half_lengths_m().0).max(0.0);
+        (
+            nearest,
+            self.touching_radii_m().into_iter().fold(0.0, f64::max),
+        )
     }
 }
 
@@ -77,6 +124,7 @@ pub fn guide(index: usize, typed: &GuideFile, blade: &Blade) -> Result<Guide, Sc
         angle_rad: within(&of("angle_deg"), typed.angle_deg, (-3600.0, 3600.0))?.to_radians(),
         radial_length_m: within(&of("radial_length_m"), typed.radial_length_m, size)?,
         tangential_length_m: within(&of("tangential_length_m"), typed.tangential_length_m, size)?,
+        shape: typed.shape,
         stiffness_n_per_m: within(
             &of("stiffness_n_per_m"),
             typed.stiffness_n_per_m,

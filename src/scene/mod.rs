@@ -43,8 +43,8 @@ pub use cut_file::{CutFile, CutSpeedFile};
 pub(crate) use entries::in_words;
 pub use excitation::{ExcitationFile, ExcitationLine};
 pub use file::{
-    Accuracy, BladeFile, ContactLaw, DampingFile, GuideFile, GuideSide, InPlane, Material,
-    Measured, MeasuredRow, ModeRatioRow, Mount, SceneFile, SweepFile,
+    Accuracy, BladeFile, ContactLaw, DampingFile, GuideFile, GuideShape, GuideSide, InPlane,
+    Material, Measured, MeasuredRow, ModeRatioRow, Mount, SceneFile, SweepFile,
 };
 #[doc(hidden)]
 pub use freed::spread;

@@ -147,7 +147,7 @@ export class Blade {
     const [long, wide] = point ? [12 * px, 12 * px] : [pad.radial_length_m, pad.tangential_length_m];
     group.setAttribute("transform", `translate(${x} ${y}) rotate(${-pad.angle_deg})`);
     const [h, v] = [long / 2, wide / 2];
-    group.querySelector(".body").setAttribute("d", point ? circle(h) : `M${-h} ${-v}H${h}V${v}H${-h}Z`);
+    group.querySelector(".body").setAttribute("d", point ? circle(h) : pad.shape === "round" ? ellipse(h, v) : `M${-h} ${-v}H${h}V${v}H${-h}Z`);
     const handle = group.querySelector(".handle");
     // Seldom more than the corner of a small pad.
     const size = Math.max(Math.min(11 * px, 0.45 * Math.min(long, wide)), 6 * px);
@@ -296,7 +296,11 @@ function polar(r, angle_deg) {
 }
 
 function circle(r) {
-  return `M${-r} 0A${r} ${r} 0 1 0 ${r} 0A${r} ${r} 0 1 0 ${-r} 0Z`;
+  return ellipse(r, r);
+}
+
+function ellipse(a, b) {
+  return `M${-a} 0A${a} ${b} 0 1 0 ${a} 0A${a} ${b} 0 1 0 ${-a} 0Z`;
 }
 
 // The rim, with teeth for the eye: the model has none.

@@ -1,10 +1,12 @@
-//! Guide pads: the coupling of harmonics by a rectangle fixed in space.
+//! Guide pads: the coupling of harmonics by a rectangle or an ellipse fixed in space.
 //!
 //! The integral over a pad of any size, clipped to the blade, is exact to rounding.
 
+use std::f64::consts::PI;
+
 use faer::Scale;
 
-use crate::scene::{Blade, Guide};
+use crate::scene::{Blade, Guide, GuideShape};
 
 use super::super::Plate;
 use super::super::quadrature;
@@ -36,42 +38,23 @@ pub(super) fn circles(plate: &Plate, pad: &Guide, points: usize) -> Vec<Circle> 
             arcs: None,
         }];
     }
-    let area = pad.radial_length_m * pad.tangential_length_m;
     let mut circles = Vec::new();
     for (low, high) in smooth_radii(&plate.blade, pad) {
         let rule = quadrature::root_ended(low, high, points);
         circles.extend(rule.iter().map(|(r, w)| Circle {
             radius_m: r,
-            weight: w * r / area,
+            weight: w * r / pad.area_m2(),
             arcs: Some(arcs(pad, r)),
         }));
     }
     circles
 }
 
-/// Sides of the pad in its own frame: x from the axis along the radius of its
-/// centre, y across; (x_near, x_far, y_half).
-fn sides(pad: &Guide) -> (f64, f64, f64) {
-    let half = 0.5 * pad.radial_length_m;
-    (
-        pad.radius_m - half,
-        pad.radius_m + half,
-        0.5 * pad.tangential_length_m,
-    )
-}
-
 /// Intervals of r, clipped to the blade, on which the arcs are smooth inside:
 /// they are cut where a circle touches a side or passes a corner.
 fn smooth_radii(blade: &Blade, pad: &Guide) -> Vec<(f64, f64)> {
-    let (near, far, half) = sides(pad);
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
-    let mut cuts = vec![
-        near.abs(),
-        far.abs(),
-        half,
-        near.hypot(half),
-        far.hypot(half),
-    ];
+    let mut cuts = pad.touching_radii_m();
     cuts.extend(blade.edges_m());
     cuts.retain(|r| (a..=b).contains(r));
     cuts.sort_by(f64::total_cmp);
@@ -84,8 +67,15 @@ fn smooth_radii(blade: &Blade, pad: &Guide) -> Vec<(f64, f64)> {
 
 /// Arcs 0 ≤ |ψ| ≤ π of the circle of radius r inside the pad, upper half only.
 fn arcs(pad: &Guide, r: f64) -> Vec<(f64, f64)> {
-    use std::f64::consts::PI;
-    let (near, far, half) = sides(pad);
+    match pad.shape {
+        GuideShape::Rectangle => arcs_in_rectangle(pad, r),
+        GuideShape::Round => arcs_in_ellipse(pad, r),
+    }
+}
+
+fn arcs_in_rectangle(pad: &Guide, r: f64) -> Vec<(f64, f64)> {
+    let (along, half) = pad.half_lengths_m();
+    let (near, far) = (pad.radius_m - along, pad.radius_m + along);
     if near >= r || far <= -r {
         return Vec::new();
     }
@@ -96,5 +86,24 @@ fn arcs(pad: &Guide, r: f64) -> Vec<(f64, f64)> {
         .into_iter()
         .map(|(low, high)| (low.max(from), high.min(to)))
         .filter(|(low, high)| high > low)
+        .collect()
+}
+
+/// With u = cos ψ, the point at ψ is inside where (r u − c)²/a² + r² (1 − u²)/b² ≤ 1, a quadratic in u.
+fn arcs_in_ellipse(pad: &Guide, r: f64) -> Vec<(f64, f64)> {
+    let (a, b) = pad.half_lengths_m();
+    let c = pad.radius_m;
+    let square = (r / a).powi(2) - (r / b).powi(2);
+    let linear = -2.0 * r * c / (a * a);
+    let constant = (c / a).powi(2) + (r / b).powi(2) - 1.0;
+    let value = |u: f64| (square * u + linear) * u + constant;
+    // In this form the roots have no cancellation; for a circle the first one is infinite.
+    let large = -0.5 * (linear - (linear * linear - 4.0 * square * constant).max(0.0).sqrt());
+    let mut ends = vec![-1.0, large / square, constant / large, 1.0];
+    ends.retain(|u| (-1.0..=1.0).contains(u));
+    ends.sort_by(f64::total_cmp);
+    ends.windows(2)
+        .filter(|pair| pair[1] > pair[0] && value(0.5 * (pair[0] + pair[1])) < 0.0)
+        .map(|pair| (pair[1].acos(), pair[0].acos()))
         .collect()
 }
