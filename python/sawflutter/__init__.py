@@ -35,12 +35,16 @@ from .maps import MapResults
 from .matrices import Matrices
 from .modes import Modes
 from .motions import CutResults, DeflectResults, GapResults, ResponseResults, RunUpResults, WashboardResults
+from .peaks import Peaks
+from .records import Record, read_record
 from .results import CampbellResults, load
 from .scene import Scene
+from .spectra import Spectrum, read_frf
 from .state_space import StateSpace
 from .stiffness import StiffnessMap
 from .studies import StudyResults
 from .study import Study
+from .waterfalls import Waterfall
 
 __version__ = _version("sawflutter")
 
@@ -64,7 +68,9 @@ __all__ = [
     "ModelWarning",
     "Modes",
     "PathError",
+    "Peaks",
     "PlaceResults",
+    "Record",
     "RestMode",
     "Result",
     "ResponseResults",
@@ -72,6 +78,7 @@ __all__ = [
     "Scene",
     "SceneDict",
     "SceneError",
+    "Spectrum",
     "StateSpace",
     "StiffnessMap",
     "Study",
@@ -80,6 +87,9 @@ __all__ = [
     "StudyResults",
     "TradeoffResults",
     "WashboardResults",
+    "Waterfall",
     "compare",
     "load",
+    "read_frf",
+    "read_record",
 ]

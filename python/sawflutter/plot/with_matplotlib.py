@@ -139,6 +139,9 @@ def _heat(ax: Axes, item: Heat) -> None:
 
     low, high = item.range or (None, None)
     scale = LinearSegmentedColormap.from_list(item.name, list(item.scale))
-    mesh = ax.pcolormesh(item.x, item.y, item.z, cmap=scale, vmin=low, vmax=high, shading="nearest")
+    # A vector file would have a path for each cell.
+    mesh = ax.pcolormesh(
+        item.x, item.y, item.z, cmap=scale, vmin=low, vmax=high, shading="nearest", rasterized=True
+    )
     bar = ax.figure.colorbar(mesh, ax=ax, label=item.name)
     bar.outline.set_visible(False)

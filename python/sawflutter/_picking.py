@@ -1,0 +1,55 @@
+"""Peaks of a spectrum."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ._entry import FloatArray
+from ._extras import extra
+
+# Weaker peaks than the largest one by so many decibels are not reported: they may be leakage.
+_RANGE_DB = 60.0
+# Peaks so near to a multiple of the speed, in widths of a peak, are shifted by its line.
+_NEAR = 2.0
+# The floor is the median over so many widths of a peak, or over this share of the spectrum.
+_FLOOR_WIDTHS, _FLOOR_SHARE = 20.0, 0.1
+
+
+def lowest_hz(resolution_hz: float) -> float:
+    """The frequency below which the static deflection covers the spectrum."""
+    return 2.0 * resolution_hz
+
+
+def order_of(frequency_hz: float, rpm: float, orders: FloatArray, resolution_hz: float) -> float:
+    """The multiple of the rotation speed that is so near that it is, or shifts, the peak; NaN if
+    none is."""
+    near = np.abs(orders * rpm / 60.0 - frequency_hz) <= _NEAR * resolution_hz
+    return float(orders[near][0]) if near.any() else np.nan
+
+
+def picked(
+    frequency_hz: FloatArray, amplitude: FloatArray, resolution_hz: float, above_db: float
+) -> tuple[FloatArray, FloatArray]:
+    """Frequencies and amplitudes of the peaks that exceed the median of their surroundings by so
+    many decibels. A parabola through three levels gives the frequency between the lines."""
+    with extra("records"):
+        from scipy.ndimage import median_filter
+        from scipy.signal import find_peaks
+
+    clear = frequency_hz >= lowest_hz(resolution_hz)
+    largest = float(amplitude[clear].max(initial=0.0))
+    if largest == 0.0:
+        return np.empty(0), np.empty(0)
+    levels = 20.0 * np.log10(np.maximum(amplitude / largest, 1e-15))
+    step = float(frequency_hz[1] - frequency_hz[0])
+    width = max(_FLOOR_WIDTHS * resolution_hz, _FLOOR_SHARE * float(np.ptp(frequency_hz)))
+    floor = median_filter(levels, size=max(3, round(width / step)), mode="nearest")
+    least = np.maximum(floor + above_db, -_RANGE_DB)
+    places, _ = find_peaks(levels, height=least, prominence=0.5 * above_db)
+    left, middle, right = (levels[places + off] for off in (-1, 0, 1))
+    bend = left - 2.0 * middle + right
+    shift = np.where(bend < 0.0, 0.5 * (left - right) / np.where(bend < 0.0, bend, -1.0), 0.0)
+    top = middle - 0.25 * (left - right) * shift
+    found = frequency_hz[places] + shift * step
+    clear = found >= lowest_hz(resolution_hz)
+    return found[clear], (largest * 10.0 ** (top / 20.0))[clear]

@@ -1,0 +1,256 @@
+"""Frequencies that were picked from spectra, as data for a fit."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, SupportsFloat
+
+import numpy as np
+
+from ._channels import refused
+from ._entry import Entry, FloatArray, IntArray, array
+from ._extras import extra
+from ._table import frame
+from .errors import ArgumentError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from .scene import Scene
+
+# The windows of rows for a fit do not overlap within so many standard deviations of each other's
+# middle, so that their errors are independent.
+_APART = 4.0
+# Largest number of frequencies in a row of a fit.
+_MOST_FREQUENCIES = 24
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Peaks(Entry):
+    """Peaks of spectra, by ascending speed and frequency. :meth:`Waterfall.peaks` and
+    :meth:`Spectrum.peaks` pick them."""
+
+    rpm: FloatArray
+    """Speed of each peak."""
+
+    frequency_hz: FloatArray
+    """Frequency in space."""
+
+    amplitude: FloatArray
+    """Amplitude."""
+
+    order: FloatArray
+    """Multiple of the rotation speed at which the peak is; NaN at none."""
+
+    spectrum: IntArray
+    """Number of the spectrum of each peak, from 0."""
+
+    resolution_hz: float
+    """Width of the peak of a steady sine."""
+
+    hop: float
+    """Distance of neighbouring spectra, in standard deviations of a window."""
+
+    unit: str
+    """Unit of the amplitudes."""
+
+    name: str
+    """Name of the record."""
+
+    @classmethod
+    def of(
+        cls,
+        rows: Sequence[tuple[float, float, float, float, int]],
+        resolution_hz: float,
+        hop: float,
+        unit: str,
+        name: str,
+    ) -> Peaks:
+        """Peaks from rows.
+
+        Parameters
+        ----------
+        rows : list
+            Speed, frequency, amplitude, order and number of the spectrum of each peak.
+        resolution_hz : float
+            Width of the peak of a steady sine.
+        hop : float
+            Distance of neighbouring spectra, in standard deviations of a window.
+        unit, name : str
+            Unit and name of the record.
+
+        Returns
+        -------
+        Peaks
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> sf.Peaks.of([(0.0, 25.0, 1.0, float("nan"), 0)], 0.5, 4.0, "mm", "taps")
+        <Peaks 'taps': 1 at 1 speeds, 0 of them of an order>
+        """
+        numbers = np.array(rows, float).reshape(-1, 5)
+        rpm, frequency_hz, amplitude, order = (array(column) for column in numbers[:, :4].T)
+        spectrum = array(numbers[:, 4], np.int64)
+        return cls(rpm, frequency_hz, amplitude, order, spectrum, resolution_hz, hop, unit, name)
+
+    def rows(
+        self,
+        saw: Scene,
+        *,
+        lowest: int = 6,
+        within_hz: SupportsFloat = 5.0,
+        speeds: int = 20,
+    ) -> list[tuple[float, list[float]]]:
+        """The peaks as rows for :meth:`sawflutter.Scene.fit`: a speed and the lowest frequencies in
+        ascending order, NaN if no peak was found. A spectrum does not show which modes the probe
+        does not see, so that a saw near the measured one is needed: its computed frequencies are
+        assigned to the peaks with the smallest sum of differences. Peaks of an order are left out.
+
+        Parameters
+        ----------
+        saw : Scene
+            The saw before the fit, or a fitted one for a second assignment.
+        lowest : int
+            Number of lowest computed frequencies, at most 24.
+        within_hz : float
+            Largest difference between a peak and its computed frequency.
+        speeds : int
+            Largest number of rows, spread evenly. Their windows do not overlap by much.
+
+        Returns
+        -------
+        list of (float, list of float)
+
+        Raises
+        ------
+        ArgumentError
+            If an argument is out of range, if a speed is beyond the sweep of the saw, or if no peak
+            is within the distance of a computed frequency.
+        ImportError
+            If SciPy is missing; the message says how to install it.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import sawflutter as sf
+        >>> peaks = sf.Peaks.of([(0.0, 8.0, 1.0, np.nan, 0), (0.0, 26.0, 1.0, np.nan, 0)], 0.5, 4.0, "mm", "taps")
+        >>> peaks.rows(sf.Scene.paper().with_accuracy("draft"), lowest=3)
+        [(0.0, [8.0, nan, 26.0])]
+        """
+        limit = float(within_hz)
+        if not 1 <= lowest <= _MOST_FREQUENCIES:
+            raise refused("lowest", lowest, f"from 1 to {_MOST_FREQUENCIES}", "6 is usual")
+        if not limit > 0.0:
+            raise refused("within_hz", limit, "above 0", "give a few Hz")
+        if speeds < 1:
+            raise refused("speeds", speeds, "at least 1", "20 is usual")
+        spectra, rpm = self._chosen(speeds)
+        modes = saw.modes(rpm.tolist()).frequency_hz[:, :lowest] if len(rpm) else np.empty((0, lowest))
+        free = np.isnan(self.order)
+        rows = list[tuple[float, list[float]]]()
+        for spectrum, speed, computed in zip(spectra, rpm, modes):
+            seen = self.frequency_hz[free & (self.spectrum == spectrum)]
+            row = _assigned(seen, computed[~np.isnan(computed)], limit)
+            if not all(np.isnan(row)):
+                rows.append((float(speed), row))
+        if not rows:
+            message = (
+                f"none of {int(free.sum())} peaks of {self.name} is within {limit:g} Hz of the {lowest} lowest "
+                f"computed frequencies; change the scene towards the measured saw, or raise within_hz"
+            )
+            raise ArgumentError(message, "within_hz", f"{limit:g}", "more", "raise within_hz")
+        return rows
+
+    def to_csv(self, path: str | os.PathLike[str], rows: Sequence[tuple[float, Sequence[float]]]) -> None:
+        """Writes rows as a table for ``sawflutter fit``, with blanks for NaN.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.
+        rows : list of (float, list of float)
+            The result of :meth:`rows`, or several such lists in one.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written.
+
+        Examples
+        --------
+        >>> import pathlib, tempfile
+        >>> import sawflutter as sf
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "measured.csv"
+        >>> sf.Peaks.of([], 0.5, 4.0, "mm", "taps").to_csv(path, [(0.0, [7.9, float("nan"), 25.9])])
+        >>> path.read_text()
+        'rpm,f1,f2,f3\\n0.0,7.9,,25.9\\n'
+        """
+        most = max((len(hz) for _, hz in rows), default=0)
+        lines = [",".join(["rpm", *(f"f{place}" for place in range(1, most + 1))])]
+        for rpm, frequencies in rows:
+            cells = ["" if np.isnan(hz) else f"{hz!r}" for hz in map(float, frequencies)]
+            lines.append(",".join([f"{float(rpm)!r}", *cells]))
+        text = "".join(f"{line}\n" for line in lines)
+        Path(path).write_text(text, encoding="utf-8", newline="\n")
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """The peaks as a table; needs pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            If pandas is missing; the message says how to install it.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> list(sf.Peaks.of([], 0.5, 4.0, "mm", "taps").to_dataframe())
+        ['rpm', 'frequency_hz', 'amplitude', 'order']
+        """
+        names = ("rpm", "frequency_hz", "amplitude", "order")
+        return frame({name: getattr(self, name) for name in names})
+
+    def _chosen(self, speeds: int) -> tuple[IntArray, FloatArray]:
+        """Numbers and speeds of spectra with peaks of no order, so far apart that their windows do
+        not overlap by much."""
+        numbers, first = np.unique(self.spectrum[np.isnan(self.order)], return_index=True)
+        rpm = self.rpm[np.isnan(self.order)][first]
+        least = max(1, int(np.ceil(_APART / self.hop)))
+        last = int(numbers[-1] - numbers[0]) if len(numbers) else 0
+        count = min(speeds, 1 + last // least)
+        wanted = np.linspace(numbers[0], numbers[-1], count) if len(numbers) else np.empty(0)
+        chosen = sorted({int(np.abs(numbers - number).argmin()) for number in wanted})
+        return numbers[chosen], rpm[chosen]
+
+    def __repr__(self) -> str:
+        of_order = int((~np.isnan(self.order)).sum())
+        counts = f"{len(self.rpm)} at {len(np.unique(self.spectrum))} speeds, {of_order} of them of an order"
+        return f"<Peaks {self.name!r}: {counts}>"
+
+
+def _assigned(seen: FloatArray, computed: FloatArray, within_hz: float) -> list[float]:
+    """The peak of each computed frequency, or NaN: as many as possible within the distance, with the
+    smallest sum of differences."""
+    with extra("records"):
+        from scipy.optimize import linear_sum_assignment
+
+    differences = np.abs(computed[:, None] - seen[None, :])
+    # A pair beyond the distance costs more than all others together.
+    beyond = within_hz * (1.0 + min(differences.shape, default=0))
+    costs = np.where(differences <= within_hz, differences, beyond)
+    places, peaks = linear_sum_assignment(costs)
+    row = np.full(len(computed), np.nan)
+    near = differences[places, peaks] <= within_hz
+    row[places[near]] = seen[peaks[near]]
+    # Equal sums permit crossed pairs, but frequencies of a row ascend.
+    found = ~np.isnan(row)
+    row[found] = np.sort(row[found])
+    return [float(hz) for hz in row]

@@ -1,0 +1,409 @@
+"""Records of a saw by a displacement probe or a microphone."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import SupportsFloat
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _channels
+from ._channels import Channel, Channels, refused
+from ._entry import Entry, FloatArray, array
+from ._tacho import speed_of_pulses
+from .errors import ArgumentError, InputError
+from .motions import RunUpResults
+from .spectra import Spectrum, after_tap
+from .waterfalls import Waterfall, sliding_spectra
+
+# Largest speed, as in scenes.
+_MOST_RPM = 1e6
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Record(Entry):
+    """Samples of a probe or a microphone, with the rotation speed at each. :func:`read_record` reads
+    one from a file, :meth:`of` makes one from arrays."""
+
+    samples: FloatArray
+    """Samples, in the unit of the record."""
+
+    rate_hz: float
+    """Sample rate."""
+
+    rpm: FloatArray
+    """Rotation speed at each sample."""
+
+    unit: str = ""
+    """Unit of the samples."""
+
+    name: str = "record"
+    """Name of the record, such as that of its file."""
+
+    @classmethod
+    def of(
+        cls,
+        samples: npt.ArrayLike,
+        rate_hz: SupportsFloat,
+        rpm: npt.ArrayLike = 0.0,
+        *,
+        unit: str = "",
+        name: str = "record",
+    ) -> Record:
+        """A record from arrays.
+
+        Parameters
+        ----------
+        samples : array_like
+            Samples at even time steps.
+        rate_hz : float
+            Sample rate.
+        rpm : float, (float, float) or array_like
+            Constant speed; first and last speed of a run-up at a constant rate; pairs (time in s,
+            speed), between which the speed is interpolated; or the speed at each sample. By default
+            the saw is at rest.
+        unit : str
+            Unit of the samples.
+        name : str
+            Name of the record.
+
+        Returns
+        -------
+        Record
+
+        Raises
+        ------
+        ArgumentError
+            If samples, rate or speeds are not finite numbers of these shapes.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import sawflutter as sf
+        >>> sf.Record.of(np.zeros(1000), 100, rpm=(0, 1500)).rpm[-1]
+        np.float64(1500.0)
+        """
+        numbers, rate = np.asarray(samples, float), float(rate_hz)
+        if numbers.ndim != 1 or len(numbers) < 2 or not np.isfinite(numbers).all():
+            remedy = "give the samples of one channel, without gaps"
+            raise refused("samples", f"of shape {numbers.shape}", "at least 2 finite numbers in a row", remedy)
+        if not (np.isfinite(rate) and rate > 0.0):
+            raise refused("rate_hz", rate, "above 0", "give the number of samples per second")
+        return cls(array(numbers), rate, array(_speeds(rpm, len(numbers), rate)), unit, name)
+
+    @classmethod
+    def of_run_up(cls, up: RunUpResults) -> Record:
+        """The computed record of a run-up, to compare it with a measured one.
+
+        Parameters
+        ----------
+        up : RunUpResults
+            The run-up.
+
+        Returns
+        -------
+        Record
+            The deflection at the probe in m.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> short = {"runup.to_rpm": 500, "runup.duration_s": 5}
+        >>> up = sf.Scene.paper().replace(short).run_up(accuracy="draft")
+        >>> sf.Record.of_run_up(up)
+        <Record 'run-up of Guided spline arbor saw': 5.0 s at 1678 Hz, 0 to 500 rpm>
+        """
+        # The last step of a run-up may be shorter than the others.
+        rpm, samples = up.rpm[:-1], up.deflection_m[:-1]
+        rate = up.rate_rpm_per_s * (len(rpm) - 1) / (rpm[-1] - rpm[0])
+        name = f"run-up of {up.scene['name']}"
+        return cls.of(samples, rate, rpm, unit="m", name=name)
+
+    @property
+    def time_s(self) -> FloatArray:
+        """Time of each sample from the begin of the record.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> sf.Record.of([0.0, 1.0, 0.0], 10).time_s.tolist()
+        [0.0, 0.1, 0.2]
+        """
+        return array(np.arange(len(self.samples)) / self.rate_hz)
+
+    def between(self, from_s: SupportsFloat, to_s: SupportsFloat) -> Record:
+        """Part of the record, such as its run-up, or the time after one of several taps.
+
+        Parameters
+        ----------
+        from_s, to_s : float
+            Begin and end.
+
+        Returns
+        -------
+        Record
+
+        Raises
+        ------
+        ArgumentError
+            If the record has no two samples between these times.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> sf.Record.of(range(100), 10).between(2, 4).samples[0]
+        np.float64(20.0)
+        """
+        begin, end = float(from_s), float(to_s)
+        within = np.flatnonzero((self.time_s >= begin) & (self.time_s <= end))
+        if len(within) < 2:
+            allowed = f"times from 0 to {self.time_s[-1]:g} s, the second one later"
+            raise refused("from_s, to_s", (begin, end), allowed, "give a part of the record")
+        part = slice(within[0], within[-1] + 1)
+        return Record.of(
+            self.samples[part], self.rate_hz, self.rpm[part], unit=self.unit, name=self.name
+        )
+
+    def waterfall(
+        self, *, resolution_hz: SupportsFloat | None = None, to_hz: SupportsFloat | None = None
+    ) -> Waterfall:
+        """Spectra of the record over the rotation speed, by a short-time Fourier transform with a
+        Gaussian window.
+
+        Parameters
+        ----------
+        resolution_hz : float, optional
+            Width of the peak of a steady sine at half its amplitude; the standard deviation of the
+            window is 0.375 s divided by it. By default the window for which a wave of two nodal
+            diameters, whose frequency changes with the speed, gives the narrowest peak.
+        to_hz : float, optional
+            Highest frequency; by default 500 Hz, or 40 % of the sample rate if that is less.
+
+        Returns
+        -------
+        Waterfall
+
+        Raises
+        ------
+        ArgumentError
+            If the speed does not change, or if the window is longer than half of the record.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import sawflutter as sf
+        >>> tone = np.sin(2 * np.pi * 40 * np.arange(0, 30, 1e-3))
+        >>> w = sf.Record.of(tone, 1000, rpm=(0, 1500), unit="mm").waterfall(to_hz=100)
+        >>> w.frequency_hz[w.amplitude[0].argmax()].round(), w.amplitude.max().round(3)
+        (np.float64(40.0), np.float64(1.0))
+        """
+        return sliding_spectra(
+            (self.samples, self.rate_hz, self.rpm),
+            None if resolution_hz is None else float(resolution_hz),
+            self._highest(to_hz),
+            (self.unit, self.name),
+        )
+
+    def spectrum(self, *, to_hz: SupportsFloat | None = None) -> Spectrum:
+        """Spectrum of a free decay at a constant speed, such as that of a tap test at rest: of the
+        record from its largest deflection on, with an exponential window that ends at 1 %. The
+        window widens each peak to 2.5 Hz divided by the remaining duration in seconds.
+
+        Parameters
+        ----------
+        to_hz : float, optional
+            As in :meth:`waterfall`.
+
+        Returns
+        -------
+        Spectrum
+
+        Raises
+        ------
+        ArgumentError
+            If the speed changes by more than 1 % of its mean and by more than 5 rpm, or if the
+            largest deflection is at the end.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import sawflutter as sf
+        >>> time = np.arange(0, 4, 1e-3)
+        >>> tap = sf.Record.of(np.exp(-time) * np.cos(2 * np.pi * 25 * time), 1000)
+        >>> tap.spectrum().peaks().frequency_hz.round(1).tolist()
+        [25.0]
+        """
+        mean, spread = float(self.rpm.mean()), float(np.ptp(self.rpm))
+        if spread > max(5.0, 0.01 * mean):
+            ends = f"{self.rpm.min():.0f} to {self.rpm.max():.0f} rpm"
+            raise refused("rpm", ends, "constant", "use waterfall(), or a part by between()")
+        named = (self.unit, self.name)
+        return after_tap(self.samples, self.rate_hz, self._highest(to_hz), mean, named)
+
+    def _highest(self, to_hz: SupportsFloat | None) -> float:
+        highest = 0.4 * self.rate_hz
+        if to_hz is None:
+            return min(500.0, highest)
+        asked = float(to_hz)
+        if not 0.0 < asked <= 0.5 * self.rate_hz:
+            allowed = f"above 0 and at most {0.5 * self.rate_hz:g}, half of the sample rate"
+            raise refused("to_hz", asked, allowed, "give a frequency that the record contains")
+        return asked
+
+    def __repr__(self) -> str:
+        duration, first, last = self.time_s[-1], self.rpm[0], self.rpm[-1]
+        speeds = f"{first:.0f} rpm" if np.ptp(self.rpm) == 0.0 else f"{first:.0f} to {last:.0f} rpm"
+        return f"<Record {self.name!r}: {duration:.1f} s at {self.rate_hz:.0f} Hz, {speeds}>"
+
+
+def read_record(
+    path: str | os.PathLike[str],
+    *,
+    signal: str | int | None = None,
+    rpm: npt.ArrayLike | None = None,
+    speed: str | int | None = None,
+    tacho: str | int | None = None,
+    pulses_per_turn: int = 1,
+    rate_hz: SupportsFloat | None = None,
+    unit: str | None = None,
+    scale: SupportsFloat = 1.0,
+) -> Record:
+    """Reads a record of a saw from a WAV file, a table (CSV), or a universal file with data sets 58.
+
+    A table has one row for each sample, and names of its columns with units, such as ``time_s``,
+    ``probe [mm]``, ``rpm``. Separators and decimal mark are determined from it. Universal files are
+    read by pyuff, WAV files by SciPy.
+
+    Parameters
+    ----------
+    path : str or path
+        The file: .wav, .csv (.txt, .tsv, .dat), .uff (.unv, .uf).
+    signal : str or int, optional
+        Name or number, from 0, of the channel of the probe or microphone; columns of time are not
+        counted. By default the first channel that is neither the speed nor the tachometer.
+    rpm : float, (float, float) or array_like, optional
+        The speed, as in :meth:`Record.of`.
+    speed : str or int, optional
+        Channel of the speed in rpm; by default the one with this unit, or named rpm or speed.
+    tacho : str or int, optional
+        Channel of the pulses of a tachometer.
+    pulses_per_turn : int
+        Number of its pulses in one rotation.
+    rate_hz : float, optional
+        Sample rate of a table without a column of time.
+    unit : str, optional
+        Unit of the signal; by default that of the file.
+    scale : float
+        Factor from the numbers of the file to the unit, such as that of the probe. The numbers of a
+        WAV file of integers are shares of full scale.
+
+    Returns
+    -------
+    Record
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, with its name and, for a table, the line.
+    ArgumentError
+        If a channel is not in the file, or if the speed or the rate is missing or given twice.
+    ImportError
+        If SciPy or pyuff is missing; the message says how to install it.
+    OSError
+        If the file cannot be opened.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> import sawflutter as sf
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "probe.csv"
+    >>> _ = path.write_text("time_s;probe_mm;rpm\\n0,0;0,1;0\\n0,5;0,2;10\\n1,0;0,1;20\\n")
+    >>> record = sf.read_record(path)
+    >>> record.unit, record.rate_hz, record.rpm.tolist()
+    ('mm', 2.0, [0.0, 10.0, 20.0])
+    """
+    found = _channels.read(path)
+    given = [name for name, of in (("rpm", rpm), ("speed", speed), ("tacho", tacho)) if of is not None]
+    if len(given) > 1:
+        raise ArgumentError(f"{' and '.join(given)} are given, but the speed has one source; keep one")
+    turning = _turning(found, given, speed, tacho)
+    chosen = _signal(found, signal, turning)
+    rate = _rate(found, rate_hz)
+    if rpm is not None:
+        speeds: npt.ArrayLike = rpm
+    elif turning is None:
+        speeds = _without_speed(found)
+    elif tacho is None:
+        speeds = turning.samples
+    else:
+        speeds = speed_of_pulses(turning.samples, rate, pulses_per_turn)
+    samples = float(scale) * chosen.samples
+    return Record.of(
+        samples, rate, speeds, unit=chosen.unit if unit is None else unit, name=Path(path).name
+    )
+
+
+def _turning(
+    found: Channels, given: list[str], speed: str | int | None, tacho: str | int | None
+) -> Channel | None:
+    """The channel of the speed or the tachometer; None if the speed is given, or missing."""
+    if tacho is not None:
+        return found.named("tacho", tacho)
+    if speed is not None:
+        channel = found.named("speed", speed)
+        if channel.unit and not channel.is_speed():
+            remedy = "convert it, and give it as rpm, one value for each sample"
+            raise refused("speed", f"{channel.name} [{channel.unit}]", "in rpm", remedy)
+        return channel
+    speeds = [channel for channel in found.channels if channel.is_speed()]
+    if not given and len(speeds) > 1:
+        names = ", ".join(channel.name for channel in speeds)
+        raise ArgumentError(f"speed is missing, but {found.file} has several speeds ({names}); choose one")
+    return speeds[0] if speeds and not given else None
+
+
+def _signal(found: Channels, signal: str | int | None, turning: Channel | None) -> Channel:
+    if signal is not None:
+        return found.named("signal", signal)
+    others = (of for of in found.channels if of is not turning and not of.is_speed())
+    first = next(others, None)
+    if first is None:
+        raise InputError(f"{found.file} has no channel beside time and speed; export the probe as well")
+    return first
+
+
+def _rate(found: Channels, rate_hz: SupportsFloat | None) -> float:
+    if found.rate_hz is None and rate_hz is None:
+        remedy = f"give the samples per second, because {found.file} has no column of time"
+        raise refused("rate_hz", None, "above 0", remedy)
+    if found.rate_hz is not None and rate_hz is not None:
+        remedy = f"leave it out, because {found.file} has a rate of {found.rate_hz:g} Hz"
+        raise refused("rate_hz", float(rate_hz), "left out", remedy)
+    return float(rate_hz) if rate_hz is not None else float(found.rate_hz or 0.0)
+
+
+def _without_speed(found: Channels) -> npt.ArrayLike:
+    remedy = "give rpm=0 for a tap test, rpm=(from, to) for a run-up at a constant rate, or a channel as speed or tacho"
+    raise refused("rpm", None, f"given, because {found.file} has no channel of a speed", remedy)
+
+
+def _speeds(rpm: npt.ArrayLike, size: int, rate_hz: float) -> FloatArray:
+    """The speed at each sample."""
+    numbers = np.asarray(rpm, float)
+    if not (np.isfinite(numbers).all() and ((numbers[..., 1:] if numbers.ndim == 2 else numbers) >= 0.0).all()):
+        raise refused("rpm", "negative or not finite", f"from 0 to {_MOST_RPM:g}", "give speeds in rpm")
+    if numbers.max(initial=0.0) > _MOST_RPM:
+        raise refused("rpm", float(numbers.max()), f"from 0 to {_MOST_RPM:g}", "give speeds in rpm")
+    if numbers.ndim == 0:
+        return np.full(size, float(numbers))
+    if numbers.shape == (size,):
+        return numbers
+    if numbers.shape == (2,):
+        return np.linspace(numbers[0], numbers[1], size)
+    if numbers.ndim == 2 and numbers.shape[1] == 2 and (np.diff(numbers[:, 0]) > 0.0).all():
+        return np.asarray(np.interp(np.arange(size) / rate_hz, numbers[:, 0], numbers[:, 1]))
+    allowed = f"one speed, the first and the last one, pairs (time in s, speed) by time, or {size} speeds"
+    raise refused("rpm", f"of shape {numbers.shape}", allowed, "give one of these")

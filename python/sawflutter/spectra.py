@@ -1,0 +1,219 @@
+"""Spectra at one speed: of a tap test, or a frequency response."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, SupportsFloat
+
+import numpy as np
+
+from . import _channels
+from ._channels import refused
+from ._drawn import Drawn
+from ._entry import ComplexArray, Entry, FloatArray, array
+from ._extras import extra
+from ._picking import order_of, picked
+from .errors import InputError
+from .peaks import Peaks
+
+if TYPE_CHECKING:
+    from .plot.chart import Chart
+    from .scene import Scene
+
+# The exponential window falls to this value at its end.
+_END = 0.01
+# Fewest samples of a decay, and fewest lines of a frequency response.
+_FEWEST = 16
+# One spectrum is independent of all others.
+_APART = 4.0
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Spectrum(Drawn, Entry):
+    """Amplitude over frequency at one speed. :meth:`Record.spectrum` makes one of a tap test,
+    :func:`read_frf` reads a frequency response."""
+
+    frequency_hz: FloatArray
+    """Frequencies in space, ascending."""
+
+    response: ComplexArray
+    """Complex amplitudes."""
+
+    rpm: float
+    """Rotation speed."""
+
+    resolution_hz: float
+    """Distance below which two peaks are one."""
+
+    unit: str
+    """Unit of the response."""
+
+    name: str
+    """Name of the record or of the frequency response."""
+
+    def peaks(
+        self, *, orders: Iterable[SupportsFloat] = (1, 2, 3, 4), above_db: SupportsFloat = 12.0
+    ) -> Peaks:
+        """Peaks of the magnitude, as frequencies of modes. Two modes with a distance below their
+        half-power width, or below the resolution, give one peak, and a mode that the probe or the
+        tap does not excite gives none. Damping shifts the peak of a deflection by the square of the
+        damping ratio, which is neglected.
+
+        Parameters
+        ----------
+        orders : iterable of float
+            Multiples of the rotation speed; peaks near them are marked as in
+            :meth:`Waterfall.peaks`. A saw at rest has none.
+        above_db : float
+            Height above the median level around the peak.
+
+        Returns
+        -------
+        Peaks
+            With at least a thousandth of the largest amplitude.
+
+        Raises
+        ------
+        ImportError
+            If SciPy is missing; the message says how to install it.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import sawflutter as sf
+        >>> time = np.arange(0, 4, 1e-3)
+        >>> tap = sf.Record.of(np.exp(-time) * np.cos(2 * np.pi * 25 * time), 1000)
+        >>> tap.spectrum().peaks().rpm.tolist()
+        [0.0]
+        """
+        found = picked(self.frequency_hz, np.abs(self.response), self.resolution_hz, float(above_db))
+        multiples = np.array([float(order) for order in orders if self.rpm > 0.0])
+        rows = [
+            (self.rpm, float(hz), float(size), order_of(hz, self.rpm, multiples, self.resolution_hz), 0)
+            for hz, size in zip(*found)
+        ]
+        return Peaks.of(rows, self.resolution_hz, _APART, self.unit, self.name)
+
+    def chart(self, saw: Scene | None = None, peaks: Peaks | None = None) -> Chart:
+        """Level over frequency, with the computed frequencies of a saw and the picked peaks.
+
+        Parameters
+        ----------
+        saw : Scene, optional
+            A saw whose frequencies at this speed are drawn as vertical lines.
+        peaks : Peaks, optional
+            Picked peaks, as rings.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+            Its ``plot()`` and ``plot_matplotlib()`` draw it.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import sawflutter as sf
+        >>> time = np.arange(0, 4, 1e-3)
+        >>> tap = sf.Record.of(np.exp(-time) * np.cos(2 * np.pi * 25 * time), 1000)
+        >>> tap.spectrum().chart().panels[0].y_name
+        'level [dB]'
+        """
+        from .plot.measured import spectrum
+
+        return spectrum(self, saw, peaks)
+
+    def __repr__(self) -> str:
+        lines = f"{len(self.frequency_hz)} lines up to {self.frequency_hz[-1]:.0f} Hz"
+        return f"<Spectrum {self.name!r}: {lines}, at {self.rpm:.0f} rpm>"
+
+
+def read_frf(
+    path: str | os.PathLike[str], *, rpm: SupportsFloat | None = None, number: int = 0
+) -> Spectrum:
+    """Reads a frequency response from a table or from a universal file with a data set 58 of type 4.
+
+    A table has the columns frequency in Hz, real part, imaginary part; or frequency and magnitude.
+    Universal files are read by pyuff.
+
+    Parameters
+    ----------
+    path : str or path
+        The file: .csv (.txt, .tsv, .dat), .uff (.unv, .uf).
+    rpm : float, optional
+        Rotation speed; by default that on the z axis of the data set, or 0, at rest.
+    number : int
+        Number of the frequency response in the file, from 0.
+
+    Returns
+    -------
+    Spectrum
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, with its name and, for a table, the line; or if its frequencies
+        are not evenly spaced.
+    ArgumentError
+        If the file has no frequency response of this number, or if the speed is negative.
+    ImportError
+        If pyuff is missing; the message says how to install it.
+    OSError
+        If the file cannot be opened.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> import numpy as np
+    >>> import sawflutter as sf
+    >>> f = np.arange(0, 100, 0.1)
+    >>> h = 1 / (40**2 - f**2 + 2j * 0.005 * 40 * f)
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "frf.csv"
+    >>> np.savetxt(path, np.column_stack([f, h.real, h.imag]), delimiter=",", header="f_hz,re,im", comments="")
+    >>> sf.read_frf(path).peaks().frequency_hz.round(2).tolist()
+    [40.0]
+    """
+    found = _channels.read_responses(path)
+    if not 0 <= number < len(found):
+        names = ", ".join(f"{place} ({of.name})" for place, of in enumerate(found))
+        raise refused("number", number, f"a frequency response of {path}", f"it has {names}")
+    of = found[number]
+    speed = float(rpm) if rpm is not None else of.rpm or 0.0
+    if not speed >= 0.0:
+        raise refused("rpm", speed, "0 or more", "give the rotation speed in rpm")
+    steps = np.diff(of.frequency_hz)
+    if len(steps) < _FEWEST or not steps.min() > 0.0 or steps.max() > 1.01 * steps.min():
+        raise InputError(
+            f"{path} has {len(of.frequency_hz)} frequencies with steps from {steps.min(initial=np.inf):g} to "
+            f"{steps.max(initial=0.0):g} Hz, but must have more than {_FEWEST} at even steps; resample it"
+        )
+    response = array(of.response, np.complex128)
+    width = 2.0 * float(steps.mean())
+    return Spectrum(array(of.frequency_hz), response, speed, width, of.unit, of.name)
+
+
+def after_tap(
+    samples: FloatArray, rate_hz: float, to_hz: float, rpm: float, named: tuple[str, str]
+) -> Spectrum:
+    """The spectrum of a record from its largest deflection on."""
+    with extra("records"):
+        from scipy.fft import next_fast_len, rfft
+
+    from_mean = samples - np.median(samples)
+    begin = int(np.abs(from_mean).argmax())
+    decay = from_mean[begin:]
+    if len(decay) < _FEWEST:
+        remedy = "give the time after the tap as well, or a part by between()"
+        allowed = f"followed by at least {_FEWEST} samples"
+        raise refused("samples", f"largest at {begin / rate_hz:g} s", allowed, remedy)
+    window = _END ** np.linspace(0.0, 1.0, len(decay))
+    size = next_fast_len(2 * len(decay), real=True)
+    frequency_hz = np.fft.rfftfreq(size, 1.0 / rate_hz)
+    kept = int(np.searchsorted(frequency_hz, to_hz, side="right"))
+    response = 2.0 / window.sum() * rfft(window * decay, size)[:kept]
+    # A decay by σ has a peak of the width √3 σ/π at half its height.
+    width = np.sqrt(3.0) / np.pi * -np.log(_END) * rate_hz / len(decay)
+    return Spectrum(
+        array(frequency_hz[:kept]), array(response, np.complex128), rpm, float(width), *named
+    )

@@ -1,0 +1,212 @@
+"""Spectra of a record over the rotation speed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import pi, sqrt
+from typing import TYPE_CHECKING, SupportsFloat
+
+import numpy as np
+
+from ._channels import refused
+from ._drawn import Drawn
+from ._entry import Entry, FloatArray, array
+from ._extras import extra
+from ._picking import order_of, picked
+from .peaks import Peaks
+
+if TYPE_CHECKING:
+    from .plot.chart import Chart
+    from .results import CampbellResults
+
+# Standard deviations in a window: at its ends a Gaussian is 0.03 % of its middle.
+_DEVIATIONS = 8
+# Width of the spectrum of a Gaussian window at half its height, times the standard deviation.
+WIDTH = sqrt(2.0 * np.log(2.0)) / pi
+# Nodal diameters of the wave for which the window is chosen.
+_WAVES = 2
+# The window takes at most this share of the record.
+_LONGEST = 0.5
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Waterfall(Drawn, Entry):
+    """Spectra of a record over the rotation speed, ascending: each is that of a window, at the
+    speed in its middle. :meth:`Record.waterfall` makes one."""
+
+    rpm: FloatArray
+    """Speed of each spectrum, ascending."""
+
+    frequency_hz: FloatArray
+    """Frequencies in space, as the probe sees them."""
+
+    amplitude: FloatArray
+    """Amplitudes, of the shape (speeds, frequencies). A steady sine has its own amplitude."""
+
+    resolution_hz: float
+    """Width of the peak of a steady sine at half its amplitude."""
+
+    hop: float
+    """Distance of the windows, in standard deviations of one."""
+
+    unit: str
+    """Unit of the amplitudes."""
+
+    name: str
+    """Name of the record."""
+
+    def peaks(
+        self, *, orders: Iterable[SupportsFloat] = (1, 2, 3, 4), above_db: SupportsFloat = 20.0
+    ) -> Peaks:
+        """Peaks of each spectrum. A peak within twice the resolution of a multiple of the rotation
+        speed is marked as one of its order, and is not used for a fit.
+
+        Parameters
+        ----------
+        orders : iterable of float
+            Multiples of the rotation speed; the number of teeth is one.
+        above_db : float
+            Height above the median level around the peak.
+
+        Returns
+        -------
+        Peaks
+            With frequencies above twice the resolution, and with at least a thousandth of the
+            largest amplitude at their speed.
+
+        Raises
+        ------
+        ImportError
+            If SciPy is missing; the message says how to install it.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import sawflutter as sf
+        >>> tone = np.sin(2 * np.pi * 40 * np.arange(0, 30, 1e-3))
+        >>> w = sf.Record.of(tone, 1000, rpm=(0, 1500)).waterfall(to_hz=100)
+        >>> np.abs(w.peaks().frequency_hz - 40.0).max() < 0.01
+        np.True_
+        """
+        multiples = np.array([float(order) for order in orders])
+        rows = list[tuple[float, float, float, float, int]]()
+        for number, (rpm, amplitude) in enumerate(zip(self.rpm, self.amplitude)):
+            found = picked(self.frequency_hz, amplitude, self.resolution_hz, float(above_db))
+            for hz, size in zip(*found):
+                order = order_of(hz, rpm, multiples, self.resolution_hz)
+                rows.append((float(rpm), float(hz), float(size), order, number))
+        return Peaks.of(rows, self.resolution_hz, self.hop, self.unit, self.name)
+
+    def chart(
+        self,
+        computed: CampbellResults | None = None,
+        peaks: Peaks | None = None,
+        *,
+        orders: Iterable[SupportsFloat] = (1, 2),
+        range_db: SupportsFloat = 60.0,
+    ) -> Chart:
+        """Amplitudes over speed and frequency, under the computed branches and the picked peaks.
+
+        Parameters
+        ----------
+        computed : CampbellResults, optional
+            The chart whose branches are drawn.
+        peaks : Peaks, optional
+            Picked peaks, as rings at no more than 40 speeds; those of an order are smaller and
+            grey.
+        orders : iterable of float
+            Multiples of the rotation speed that are drawn as lines.
+        range_db : float
+            Range of the colours, below the largest amplitude.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+            Its ``plot()`` and ``plot_matplotlib()`` draw it.
+
+        Raises
+        ------
+        ArgumentError
+            If the range is not positive.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import sawflutter as sf
+        >>> tone = np.sin(2 * np.pi * 40 * np.arange(0, 30, 1e-3))
+        >>> w = sf.Record.of(tone, 1000, rpm=(0, 1500)).waterfall(to_hz=100)
+        >>> w.chart().panels[0].y_name
+        'frequency in space [Hz]'
+        """
+        from .plot.measured import waterfall
+
+        if not float(range_db) > 0.0:
+            raise refused("range_db", range_db, "above 0", "60 is usual")
+        return waterfall(self, computed, peaks, [float(order) for order in orders], float(range_db))
+
+    def __repr__(self) -> str:
+        speeds = f"{len(self.rpm)} spectra from {self.rpm[0]:.0f} to {self.rpm[-1]:.0f} rpm"
+        return f"<Waterfall {self.name!r}: {speeds}, up to {self.frequency_hz[-1]:.0f} Hz, {self.resolution_hz:.2g} Hz wide>"
+
+
+def sliding_spectra(
+    record: tuple[FloatArray, float, FloatArray],
+    resolution_hz: float | None,
+    to_hz: float,
+    named: tuple[str, str],
+) -> Waterfall:
+    """Spectra of a Gaussian window that moves by one standard deviation. They are computed one by
+    one, because only the frequencies up to a limit are kept."""
+    with extra("records"):
+        from scipy.fft import next_fast_len, rfft
+        from scipy.signal import detrend
+
+    samples, rate_hz, rpm = record
+    deviation_s = _deviation_s(record, resolution_hz)
+    half = round(0.5 * _DEVIATIONS * deviation_s * rate_hz)
+    places = np.arange(-half, half + 1)
+    if len(places) < 8:
+        remedy = "give a smaller number, or a record with a higher sample rate"
+        raise refused("resolution_hz", f"{WIDTH / deviation_s:g}", f"below {rate_hz:g}", remedy)
+    window = np.exp(-0.5 * (places / (deviation_s * rate_hz)) ** 2)
+    hop = max(1, round(deviation_s * rate_hz))
+    middles = np.arange(half, len(samples) - half, hop)
+    size = next_fast_len(2 * len(window), real=True)
+    frequency_hz = np.fft.rfftfreq(size, 1.0 / rate_hz)
+    kept = int(np.searchsorted(frequency_hz, to_hz, side="right"))
+    factor = 2.0 / window.sum()
+    spectra = [
+        factor * np.abs(rfft(window * detrend(samples[at - half : at + half + 1]), size)[:kept])
+        for at in middles
+    ]
+    ascending = np.argsort(rpm[middles], kind="stable")
+    return Waterfall(
+        array(rpm[middles][ascending]),
+        array(frequency_hz[:kept]),
+        array(np.array(spectra)[ascending]),
+        WIDTH / deviation_s,
+        hop / (deviation_s * rate_hz),
+        *named,
+    )
+
+
+def _deviation_s(record: tuple[FloatArray, float, FloatArray], resolution_hz: float | None) -> float:
+    """Standard deviation of the window."""
+    samples, rate_hz, rpm = record
+    duration_s = len(samples) / rate_hz
+    rises, total = float(rpm[-1] - rpm[0]), float(np.abs(np.diff(rpm)).sum())
+    if np.ptp(rpm) < 1.0 or abs(rises) < 0.5 * total:
+        speeds = f"from {rpm[0]:.0f} to {rpm[-1]:.0f} rpm, between {rpm.min():.0f} and {rpm.max():.0f} rpm"
+        remedy = "take a part by between(), or, for a constant speed, spectrum()"
+        raise refused("rpm", speeds, "rising or falling throughout", remedy)
+    longest_s = _LONGEST * duration_s / _DEVIATIONS
+    if resolution_hz is None:
+        # A wave of n diameters that rotates with the blade changes by n/60 Hz for each rpm. Its peak
+        # has the standard deviation (1/(2πσ))² + (aσ)², with the rate a of its frequency.
+        rate = _WAVES / 60.0 * abs(rises) / duration_s
+        return min(sqrt(1.0 / (2.0 * pi * rate)), longest_s)
+    if not (np.isfinite(resolution_hz) and resolution_hz > 0.0 and WIDTH / resolution_hz <= longest_s):
+        allowed = f"at least {WIDTH / longest_s:.3g}, for which the window takes half of the record"
+        raise refused("resolution_hz", resolution_hz, allowed, "give a larger number")
+    return WIDTH / resolution_hz
