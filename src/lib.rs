@@ -21,12 +21,13 @@
 //! # }
 //! ```
 //!
-//! The modules are in the order in which a scene passes through them, and each imports only from those before
-//! it: [`scene`] → [`plate`] → [`system`] → [`spectrum`] → [`campbell`] → [`stability`] → [`transient`] →
-//! [`report`] → [`figure`]. [`check`], [`fit`] and [`place`] follow [`stability`], [`study`] follows
-//! [`check`], and [`map`] follows [`study`]. [`spline`] is on the level of [`system`] and imports [`scene`] and [`plate`] alone;
-//! [`stretched`] is on the level of [`campbell`]. [`analytical`] imports nothing; it contains closed forms
-//! with their sources, with which tests compare the other modules.
+//! The modules are listed in the order in which a scene passes through them, and each imports only from those
+//! before it; modules separated by commas are on one level: [`scene`] → [`plate`] → [`system`] → [`spectrum`] →
+//! [`campbell`] → [`stability`] → [`transient`] → [`washboarding`], [`response`], [`fit`], [`deflect`] →
+//! [`check`], [`gap`] → [`place`], [`study`] → [`map`] → [`report`] → [`figure`] → [`document`]. [`spline`] is on
+//! the level of [`system`] and imports [`scene`] and [`plate`] alone; [`stretched`] is on the level of
+//! [`campbell`]. [`analytical`] imports nothing; it contains closed forms with their sources, with which tests
+//! compare the other modules.
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]

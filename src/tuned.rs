@@ -1,6 +1,6 @@
 //! Constants without a theoretical value, chosen by trials that are stated beside them.
 //!
-//! `cargo test --release --lib constants -- --ignored --nocapture` analyses saws with each constant at half
+//! `cargo test --release --lib -- --ignored --nocapture tuned::` analyses saws with each constant at half
 //! and at double its value, and prints the changes of the results and of the computing time.
 
 /// A constant that was chosen by trial.

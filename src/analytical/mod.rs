@@ -16,7 +16,7 @@
 //! | critical speeds and eigenvalues of a blade on equal, evenly spaced point springs | [`point_springs`] |
 //! | which waves such springs couple, and how fast they then grow | [`wave_coupling`] |
 //! | one degree of freedom in time | [`oscillator`] |
-//! | one mode under a force that depends on the surface left by the tooth before | [`regenerative`] |
+//! | one mode under a force that depends on the surface left by the preceding tooth | [`regenerative`] |
 //!
 //! Signs and symbols are those of the whole crate: a bore radius, b rim radius, r radius, θ angle in the
 //! direction of rotation, n nodal diameters, ν Poisson's ratio, ρ density, Ω rotation speed. Tension is

@@ -138,7 +138,7 @@ impl Carrier {
         }
     }
 
-    /// The same motion written as (−ω, q̄).
+    /// This motion, written as (−ω, q̄).
     fn mirrored(&self) -> Self {
         Carrier {
             frequency: -self.frequency,

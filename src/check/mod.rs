@@ -82,8 +82,8 @@ pub struct Check {
     pub rim_stiffness_over_speed: Vec<(f64, f64)>,
     /// Lateral stiffness of this point of the rim at rest, in N/m.
     pub rim_stiffness_at_rest_n_per_m: f64,
-    /// This stiffness at the operating speed; `None` from the first critical speed on: K(Ω) is not positive
-    /// definite there, and the ratio of force to deflection may have any value and sign.
+    /// Lateral stiffness of this point at the operating speed; `None` from the first critical speed on, because
+    /// K(Ω) is not positive definite there and the ratio of force to deflection may have any value and sign.
     pub rim_stiffness_n_per_m: Option<f64>,
     /// Amplitude to which the flutter of each band rises; empty if it has no limit.
     pub saturations: Vec<Option<Saturation>>,

@@ -10,7 +10,7 @@ use super::common::of_option;
 /// A number of a block that an option may give.
 pub struct Given<'a> {
     pub option: &'static str,
-    /// Its key in the block.
+    /// Key of the number in the block.
     pub key: &'static str,
     pub text: Option<&'a String>,
 }

@@ -201,7 +201,7 @@ impl Output {
         OutputFolder::open(&self.path())
     }
 
-    /// Where the folder is.
+    /// Path of the folder.
     pub fn path(&self) -> PathBuf {
         self.out.clone().unwrap_or_else(|| "sawflutter-out".into())
     }
@@ -238,7 +238,7 @@ impl Output {
         self.print_written(folder, writing, optional, json, summary)
     }
 
-    /// The same, of files that are on the disk.
+    /// As [`Output::print`], for files that are staged on the disk already.
     pub fn print_written(
         &self,
         folder: &OutputFolder,

@@ -1,4 +1,4 @@
-//! A folder that whole files appear in, or none.
+//! The output folder: the files of a run appear in it together and complete, or not at all.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

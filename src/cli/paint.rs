@@ -53,7 +53,7 @@ fn painted(line: &str) -> String {
     format!("{before}\u{1b}[1;{colour}m{words}\u{1b}[0m{after}")
 }
 
-/// Where in a line the words are that say whether all is well, and how well.
+/// Start, end and tone of the words of a line that state whether a result is good.
 fn telling(line: &str) -> Option<(usize, usize, Tone)> {
     let firsts = [
         ("Warning:", Tone::Doubtful),

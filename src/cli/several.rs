@@ -16,12 +16,12 @@ use crate::summary::{Answer, shortened, wrapped};
 /// Files beside the folders of the scenes.
 pub const FILES: [&str; 2] = ["scenes.csv", "scenes.json"];
 
-/// A scene in the table. What is missing was not reached within the sweep.
+/// A scene in the table. A speed is `None` if it is not reached within the sweep.
 #[derive(Serialize)]
 struct Row {
-    /// Where its files are, below the folder of all.
+    /// Folder of the scene's files, below the common folder.
     folder: String,
-    /// Of the scene, where it could be read.
+    /// Name of the scene; `None` if it could not be read.
     name: Option<String>,
     lowest_critical_rpm: Option<f64>,
     flutter_speed_rpm: Option<f64>,
@@ -32,7 +32,7 @@ struct Row {
     verdict: Option<&'static str>,
     instabilities: usize,
     warnings: usize,
-    /// Why there is nothing, where the scene could not be charted.
+    /// Reason why the scene could not be charted.
     error: Option<String>,
 }
 

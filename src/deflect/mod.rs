@@ -204,7 +204,8 @@ fn curves(
         add_curve(blade, &mut curves, (&start, &[true, false]), range)?;
     }
     if blade.lifts_off() {
-        // Within the gaps the blade is another one than that of the critical speeds.
+        // The matrices of the blade contain only the films of pads that lift off, so that their pitchforks are
+        // not those of the blade in contact with these pads.
         return Ok(curves);
     }
     let unforced = blade.clone().unforced();

@@ -9,7 +9,7 @@ use crate::stretched::{StretchedBlade, StretchedError};
 pub struct Options {
     /// Lateral force at the rim, fixed in space; by default that of the scene's run-up, or 1 N.
     pub force_n: Option<f64>,
-    /// Its angle; by default that of the scene's run-up, or 0.
+    /// Angle of the force; by default that of the scene's run-up, or 0.
     pub angle_deg: Option<f64>,
     /// Last speed; by default the end of the scene's sweep.
     pub to_rpm: Option<f64>,

@@ -53,7 +53,7 @@ impl Axis {
         self.values
     }
 
-    /// First and last position.
+    /// Positions of the first and of the last value on the sheet.
     pub fn places(&self) -> [f64; 2] {
         self.places
     }
@@ -192,7 +192,7 @@ pub fn tick_label(value: f64) -> String {
     format!("{rounded}").replace('-', "\u{2212}")
 }
 
-/// A number to two digits.
+/// A number as text, rounded to two significant digits.
 pub fn two_digits(value: f64) -> String {
     let magnitude = value.abs().max(1e-6).log10().floor();
     let decimals = (1.0 - magnitude).clamp(0.0, 8.0) as usize;

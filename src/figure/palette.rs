@@ -68,7 +68,7 @@ impl Hue {
         }
     }
 
-    /// Its value.
+    /// The colour of the hue.
     pub(super) fn colour(self) -> Colour {
         match self {
             Hue::Ink => style::INK,

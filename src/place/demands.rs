@@ -36,11 +36,11 @@ pub struct Demands {
     pub goal: Goal,
     /// Lower limit of the first critical speed.
     pub min_critical_rad_per_s: Option<f64>,
-    /// What is demanded of guides with a gap.
+    /// Limit of the deflection, and amplitude, for guides with a gap.
     pub gap: Option<GapDemands>,
 }
 
-/// What is demanded of guides with a gap.
+/// Limit of the deflection of a saw whose guides have a gap, and the amplitude for their mean stiffness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GapDemands {
     pub(crate) case: GapCase,

@@ -132,7 +132,7 @@ pub struct Placement {
 pub(crate) struct FragileOptimum {
     /// The saw at its nominal numbers.
     pub saw: Neighbour,
-    /// Its worst neighbour within the tolerances.
+    /// Worst neighbour of this saw within the tolerances.
     pub worst: Neighbour,
 }
 

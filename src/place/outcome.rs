@@ -36,7 +36,7 @@ pub struct Outcome {
 pub struct Question {
     pub goal: Goal,
     pub min_critical_rad_per_s: Option<f64>,
-    /// What is demanded of guides with a gap.
+    /// Limit of the deflection, and amplitude, for guides with a gap.
     pub gap: Option<GapDemands>,
     /// Range of speeds, the same for every saw.
     pub range: (f64, f64),

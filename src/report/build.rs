@@ -98,7 +98,7 @@ fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLociEnt
         .instabilities
         .iter()
         .find(|b| b.from_rad_per_s == onset)?;
-    // In the name reflected waves come first; of the paths theirs come last.
+    // The name of an event lists reflected waves first, but the path of the reflected mode is the second one.
     let waves = branches
         .event(band)
         .into_iter()

@@ -1,4 +1,4 @@
-//! What excites the blade in a steady state.
+//! Excitation of the steady-state response.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -60,7 +60,7 @@ pub fn of_all_with_speed(
         let k = column;
         column += width(*lambda);
         if lambda.im > 0.0 {
-            // Of the rows a and b of X⁻¹ the left vector of re + i·im is (a − ib)/2.
+            // With the rows a and b of X⁻¹ the left vector of re + i·im is (a − ib)/2.
             let re = slopes[(k, k)] + slopes[(k + 1, k + 1)];
             c64::new(re, slopes[(k, k + 1)] - slopes[(k + 1, k)]) * 0.5
         } else {
@@ -83,7 +83,8 @@ pub fn next_to(
         system.velocity_at(speed_rad_per_s),
     );
     let transposed = velocity.transpose().to_owned();
-    // No vector of a blade is orthogonal to this start.
+    // The iteration finds a vector only if the start is not orthogonal to it; these numbers are orthogonal to no
+    // mode of a blade.
     let start = Col::from_fn(system.order(), |i| c64::new((1.0 + i as f64).cos(), 0.0));
     let (mut lambda, mut x, mut y) = (expected, start.clone(), start);
     for step in 0..NEWTON_STEPS {

@@ -111,7 +111,7 @@ impl EventName {
         self.first().map_or(0, |wave| wave.diameters)
     }
 
-    /// Its nodal circles.
+    /// Nodal circles of the first wave.
     pub fn circles(&self) -> usize {
         self.first().map_or(0, |wave| wave.circles)
     }

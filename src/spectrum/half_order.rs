@@ -143,7 +143,7 @@ fn isotropic(square: &Mat<f64>) -> Option<(Mat<f64>, Mat<f64>)> {
     let cancellation = Cancellation::current();
     let order = square.nrows();
     let half = order / 2;
-    // v₁, Jv₁, v₂, Jv₂, …
+    // The columns are v₁, Jv₁, v₂, Jv₂, …, to all of which a new vector is made orthogonal.
     let mut span = Mat::<f64>::zeros(order, 2 * half);
     let mut compressed = Mat::<f64>::zeros(half, half);
     let mut next = scattered(order, 0);

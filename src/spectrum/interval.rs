@@ -66,8 +66,8 @@ pub(super) type StandingWave<'a> = (f64, &'a Col<f64>);
 pub struct Interval {
     pub(super) to_rad_per_s: f64,
     pub(super) projection: Arc<Projection>,
-    /// This model on the states of the modes at both ends, if these represent the modes in between: for the
-    /// diagram, and for instabilities.
+    /// The projected system on the states of the modes at both ends, if these represent the modes in between:
+    /// one for the diagram, one for the search for instabilities.
     pub(super) drawn: Option<HamiltonianReduction>,
     pub(super) searched: Option<HamiltonianReduction>,
 }
@@ -234,7 +234,8 @@ impl<'a> SearchModel<'a> {
         }
     }
 
-    /// Its modes at a speed. Those above the height only show what follows, and are inaccurate.
+    /// Its modes at a speed. Modes above [`SearchModel::height_rad_per_s`] are inaccurate; they are included to show
+    /// that modes follow.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -266,7 +267,7 @@ impl<'a> SearchModel<'a> {
         ((found - expected).norm() <= SAME_GROWTH * expected_per_s).then_some(found.re)
     }
 
-    /// These modes in the coordinates of the component, which are common to all speeds.
+    /// The modes of [`SearchModel::modes`] in the coordinates of the component, which are common to all speeds.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -285,7 +286,7 @@ impl<'a> SearchModel<'a> {
         modes.iter().all(|mode| mode.coordinates.nrows() == order)
     }
 
-    /// Two of these modes, refined on the projection.
+    /// Two modes in the coordinates of the projection, refined on it.
     pub fn pair_of(&self, speed_rad_per_s: f64, modes: &[Mode; 2]) -> Option<ModePair> {
         let pairs = modes
             .each_ref()

@@ -26,7 +26,7 @@ const MORE: usize = 4;
 const SMALL: usize = 40;
 
 impl LowestModes {
-    /// Of a plate.
+    /// Prepares a plate.
     pub fn new(plate: &Plate) -> Self {
         LowestModes {
             components: Component::of(plate),
@@ -34,8 +34,8 @@ impl LowestModes {
         }
     }
 
-    /// The `count` modes of lowest |Im λ| at a speed, ascending, without rigid motions and without decay
-    /// without oscillation; fewer if the basis has fewer.
+    /// The `count` modes of lowest |Im λ| at a speed, ascending, without rigid motions and overdamped
+    /// modes; fewer if the basis has fewer.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.

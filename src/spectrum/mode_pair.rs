@@ -50,7 +50,7 @@ impl ModePair {
         Self::iterated(projection, speed_rad_per_s, scale, start, lambdas)
     }
 
-    /// This pair at another speed, on the projection that is valid there.
+    /// The pair at another speed, on the projection that is valid there.
     pub(super) fn moved(
         &self,
         projection: &Arc<Projection>,

@@ -49,7 +49,7 @@ pub struct DescribedMode {
     pub mode: Mode,
     /// q in the basis of the plate.
     pub shape: Col<c64>,
-    /// Its name.
+    /// Name of the mode.
     pub name: ModeName,
     /// ‖L(λ)q‖ / ((|λ|² + |λ|‖D‖ + ‖K‖)‖q‖) of the full model.
     pub backward_error: f64,
@@ -226,8 +226,8 @@ impl SpectralModel {
         Ok(modes)
     }
 
-    /// These modes for a diagram: for an undamped guided blade from few states, accurate to 1e-5 of the
-    /// height.
+    /// The modes of [`SpectralModel::modes`] for a diagram: for an undamped guided blade they are computed from few
+    /// states, and frequencies are accurate to 1e-5 of `complete_to`.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.

@@ -37,7 +37,7 @@ pub fn halves<'a>(rows: usize, vectors: impl ExactSizeIterator<Item = &'a Col<c6
     halves
 }
 
-/// Vector k of such halves.
+/// Vector k of the columns that [`halves`] makes.
 pub fn joined(halves: &Mat<f64>, k: usize) -> Col<c64> {
     Col::from_fn(halves.nrows(), |i| {
         c64::new(halves[(i, 2 * k)], halves[(i, 2 * k + 1)])

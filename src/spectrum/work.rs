@@ -19,7 +19,7 @@ pub struct WorkCounters {
     pub refined_pairs: AtomicUsize,
     /// Eigenproblems of the full model: shifted Krylov iterations, or dense ones.
     pub full_solves: AtomicUsize,
-    /// Those of `full_solves` that used blocks and columns.
+    /// Number of `full_solves` that used blocks and columns.
     pub structured_solves: AtomicUsize,
     /// Symmetric eigenproblems of the full model at other temperatures.
     pub heat_solves: AtomicUsize,
@@ -93,7 +93,7 @@ impl Cancellation {
         self.pool_with(&Progress::current(), threads)
     }
 
-    /// The same with another progress callback.
+    /// Threads that read this flag and report to a progress callback.
     fn pool_with(
         &self,
         progress: &Progress,

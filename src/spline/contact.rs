@@ -29,7 +29,7 @@ pub struct Touch {
     pub approach_m: f64,
     /// Normal force F.
     pub force_n: f64,
-    /// Its elastic part K x^{3/2}.
+    /// Elastic part of the force, K x^{3/2}.
     pub elastic_n: f64,
     /// Direction of the force on the blade in the frame of the arbor.
     pub normal: Vector3<f64>,

@@ -31,11 +31,11 @@ const SKETCH_SPEEDS: usize = 25;
 /// Options of an analysis.
 #[derive(Clone, Copy)]
 pub struct AnalysisOptions<'a> {
-    /// How closely the chart is drawn.
+    /// Detail of the chart.
     pub detail: Detail,
     /// Progress callback: number of speeds done and number of speeds in total.
     pub progress: Progress<'a>,
-    /// Called before anything else with the expected work of a long sweep.
+    /// Callback that receives the expected work of a long sweep before the analysis begins; none by default.
     pub expected: Option<&'a (dyn Fn(ExpectedWork) + Sync)>,
 }
 

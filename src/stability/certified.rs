@@ -30,7 +30,7 @@ const GROWTH_TOLERANCE: f64 = 0.05;
 const GROWTH_NOISE: f64 = 1e-7;
 /// Number of even speeds at which modes are counted on the full model.
 const ANCHORS: usize = 12;
-/// The same, drawn at random from a fixed seed: speeds that no rule of the search prefers.
+/// Number of such speeds that are drawn at random from a fixed seed, so that no rule of the search prefers them.
 const DRAWN: u64 = 8;
 /// Number for dense factorizations, which cost a hundred times as much as counts by blocks.
 const DENSE_ANCHORS: usize = 3;

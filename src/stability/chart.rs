@@ -21,7 +21,7 @@ pub struct StabilityChart {
     pub campbell: Campbell,
     /// Bands by onset.
     pub instabilities: Vec<Instability>,
-    /// Krein index against spectrum.
+    /// Checks of the bands.
     pub certificate: Certificate,
 }
 

@@ -19,7 +19,7 @@ pub struct Crossing {
     pub line: ExcitationLine,
     /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
-    /// Point of the chart before it: speed and mode.
+    /// Last point of the branch before the crossing: index of the speed, and of the mode at this speed.
     pub point: (usize, usize),
 }
 

@@ -28,7 +28,7 @@ const CERTAIN_END: f64 = 0.01;
 pub(super) struct Quadruple {
     begin: End,
     end: End,
-    /// Its modes at ascending speeds.
+    /// Coalesced modes at ascending speeds.
     points: Vec<(f64, SignedMode)>,
 }
 
@@ -221,7 +221,7 @@ impl Quadruple {
         }))
     }
 
-    /// Its ends that are coalescences of two real eigenvalues.
+    /// Ends of the quadruple that are coalescences of two real eigenvalues.
     pub fn real_ends(&self) -> impl Iterator<Item = f64> {
         let ends = [self.begin, self.end].into_iter();
         ends.filter_map(|end| match end {

@@ -8,7 +8,7 @@ use crate::spectrum::SpectrumError;
 #[derive(Debug, Clone)]
 pub(super) struct Found {
     pub whole: Instability,
-    /// Its part within the requested range, if any.
+    /// Part of the band within the requested range, if any.
     pub within: Option<Instability>,
 }
 

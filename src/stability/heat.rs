@@ -32,7 +32,7 @@ pub struct HeatLimit {
 /// Critical speed of one wave as a function of temperature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatCurve {
-    /// Waves that stand still, at the last peak.
+    /// Waves that stand still at the largest rise of the curve.
     pub name: EventName,
     /// Peaks of the temperature profile.
     pub rise_k: Vec<f64>,

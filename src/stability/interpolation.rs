@@ -12,7 +12,7 @@ pub struct Cubic {
 }
 
 impl Cubic {
-    /// Its value.
+    /// Value of the cubic.
     pub fn at(&self, t: f64) -> f64 {
         let ([f0, f1], [d0, d1]) = (self.values, self.slopes);
         let u = 1.0 - t;

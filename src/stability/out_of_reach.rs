@@ -61,7 +61,7 @@ impl OutOfReach {
     }
 }
 
-/// The same saw with fewer functions.
+/// A saw in a smaller basis than the chosen one.
 struct Smaller {
     plate: Plate,
     finer: Plate,

@@ -5,11 +5,11 @@ use std::convert::Infallible;
 /// Evaluation of the function: position, value, and anything else that the caller needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look<P> {
-    /// Place of the root.
+    /// Position of the evaluation.
     pub at: f64,
     /// Value f of the function there.
     pub value: f64,
-    /// Further result there.
+    /// Further result of the evaluation.
     pub point: P,
 }
 

@@ -17,7 +17,7 @@ use super::band::{CurvePoint, Instability, InstabilityKind};
 use super::interpolation::Cubic;
 use super::root::share_of_zero;
 
-/// A saw closer than this share to a critical speed runs at it. A side force fixed in space deflects the wave
+/// A saw within this relative distance of a critical speed is considered to run at it. A side force fixed in space deflects the wave
 /// of the critical speed Ω_c, by K(Ω) = K₀ − Ω²B, by 1/|1 − (Ω/Ω_c)²| times its deflection at rest: ten times
 /// at this margin. The 85 % rule allows 3.6 times.
 pub const CRITICAL_MARGIN: f64 = 0.05;
@@ -59,7 +59,7 @@ pub struct Verdict {
     pub band: Option<usize>,
     /// The stretch around the speed in which that band counts, in rad/s.
     pub stretch: Option<(f64, f64)>,
-    /// Place of the critical speed that the saw runs at, nearer than 5 %; the nearest of several.
+    /// Index of the critical speed within 5 % of the speed; the nearest if there are several.
     pub critical: Option<usize>,
 }
 

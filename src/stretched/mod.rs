@@ -91,7 +91,7 @@ pub enum StretchedError {
     Value {
         /// Name of the value.
         what: &'static str,
-        /// Its value.
+        /// The given value.
         value: f64,
         /// Allowed values.
         allowed: &'static str,

@@ -18,12 +18,12 @@ pub struct State {
 }
 
 impl State {
-    /// At rest, undeflected.
+    /// The undeflected blade at rest.
     pub fn rest(order: usize) -> Self {
         State::still(Col::zeros(order))
     }
 
-    /// At rest, with a deflection.
+    /// A deflected blade at rest.
     pub fn still(displacement: Col<f64>) -> Self {
         State {
             velocity: Col::zeros(displacement.nrows()),

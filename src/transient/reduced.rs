@@ -29,7 +29,7 @@ pub struct ReducedBlade {
 const INDEPENDENT: f64 = 1e-7;
 
 impl ReducedBlade {
-    /// Contains the `modes` lowest modes of each snapshot and the responses (K + σD + σ²)⁻¹ b to the loads,
+    /// A basis that contains the `modes` lowest modes of each snapshot and the responses (K + σD + σ²)⁻¹ b to the loads,
     /// which are static except for free rigid motions.
     pub fn new(
         plate: &Plate,

@@ -97,7 +97,7 @@ pub fn run_up(
 
 /// A blade under a constant load, with forces that depend on its deflection.
 pub(super) struct Moving<'a> {
-    /// Its matrices.
+    /// Matrices of the blade.
     pub system: &'a GyroscopicSystem,
     /// Load in N/√kg.
     pub load: Col<f64>,

@@ -22,7 +22,7 @@ impl Delay {
         }
     }
 
-    /// Transfer function h(λ) of the delay.
+    /// h(λ), the factor of the cutting stiffness for a motion e^(λt).
     pub fn at(&self, lambda: c64) -> c64 {
         let left = self.delays_s.iter().map(|delay| (-lambda * *delay).exp());
         c64::new(1.0, 0.0) - left.sum::<c64>() * self.weight()
@@ -37,7 +37,7 @@ impl Delay {
         slopes.sum::<c64>() * self.weight()
     }
 
-    /// |h(λ)| is no more than this where Re λ ≥ 0.
+    /// Upper bound of |h(λ)| for Re λ ≥ 0.
     pub fn bound(&self) -> f64 {
         1.0 + self.overlap
     }

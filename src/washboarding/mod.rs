@@ -108,13 +108,13 @@ pub struct Washboard {
     /// Number of eigenvalues in the right half plane, by the argument principle; `None` if one lies on the
     /// imaginary axis.
     pub growing: Option<usize>,
-    /// This number without the delayed force.
+    /// Number of eigenvalues in the right half plane without the delayed force.
     pub growing_without: usize,
     /// Modes at the speed of the cut, in descending order of growth.
     pub(crate) modes: Vec<WashboardMode>,
     /// Smallest cutting stiffness at which a motion grows, at the speed of the cut.
     pub(crate) boundary: Option<Boundary>,
-    /// This boundary over the speed.
+    /// Smallest cutting stiffness at which a motion grows, over the speed.
     pub(crate) lobes: Vec<LobePoint>,
     /// Largest cutting stiffness of the search.
     pub ceiling_n_per_m: f64,

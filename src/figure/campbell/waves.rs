@@ -17,7 +17,7 @@ const LONGEST_LABEL: f64 = 150.0;
 const LINE_HEIGHT: f64 = 15.0;
 /// A label further from its branch would seem to belong to another, even with a leader.
 const FARTHEST_LABEL: f64 = 72.0;
-/// This limit for the labels above the panel, which have no leader.
+/// Largest distance of a label above the panel, which has no leader, from its branch.
 const FARTHEST_EXIT_LABEL: f64 = 36.0;
 
 /// Direction of a branch at one of its speeds.

@@ -76,7 +76,7 @@ struct Point {
     /// Index of its pad among those that lift off.
     pad: usize,
     radius_m: f64,
-    /// Its share of k − k_f.
+    /// Share of the point in k − k_f of its pad.
     stiffness_n_per_m: f64,
     gap_m: f64,
     side: GuideSide,
@@ -176,7 +176,7 @@ impl GapPotential {
         &self.shapes * Col::from_fn(self.points.len(), mean) - &self.film
     }
 
-    /// The derivative of this mean by the change.
+    /// The derivative of [`GapPotential::mean_gradient`] with respect to the change.
     pub fn mean_stiffness(&self, from: &Col<f64>, change: &Col<f64>) -> Mat<f64> {
         let (w, d) = (self.deflections(from), self.shapes.transpose() * change);
         self.stiffness(|k| {

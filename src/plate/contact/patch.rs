@@ -10,7 +10,7 @@ use super::super::radial::RadialBasis;
 
 /// Intersection of a patch with a circle.
 pub struct Circle {
-    /// Its radius.
+    /// Radius of the circle.
     pub radius_m: f64,
     /// Weight of the circle, for each radian of its arcs.
     pub weight: f64,

@@ -96,7 +96,7 @@ impl Strain {
                     im_rr[j] += ar * ci + ai * cr;
                     re_tt[j] += br * dr - bi * di;
                     im_tt[j] += br * di + bi * dr;
-                    // i (a d + b c).
+                    // The third strain is i (a d + b c), because it is stored with the factor i.
                     re_rt[j] -= ar * di + ai * dr + br * ci + bi * cr;
                     im_rt[j] += ar * dr - ai * di + br * cr - bi * ci;
                 }
@@ -140,8 +140,8 @@ impl Strain {
     ) {
         let nodes = self.nodes;
         let [re, im] = &self.harmonics[m.unsigned_abs()];
-        // Stresses of −m are complex conjugates, and the sign of iτ changes too. Each pair of harmonics
-        // counts half for ±m.
+        // The stresses of −m are the complex conjugates of those of m, except that iτ also changes its sign. Since m
+        // and −m are added separately, each has half the weight of m = 0.
         let share = if m == 0 { 2.0 } else { 1.0 };
         let (side, wave_side) = (conjugation(m), -conjugation(k));
         for j in 0..nodes {
@@ -149,7 +149,7 @@ impl Strain {
             let (dr, di) = (share * wt[j], share * wave_side * wti[j]);
             let (rr, rri) = (re[j], side * im[j]);
             let (tt, tti) = (re[nodes + j], side * im[nodes + j]);
-            // −i times iτ.
+            // τ is −i times the stored iτ.
             let (rt, rti) = (im[2 * nodes + j], -re[2 * nodes + j]);
             let (rt, rti) = (rt, side * rti);
             fr[j] += cr * rr - ci * rri + dr * rt - di * rti;

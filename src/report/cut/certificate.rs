@@ -51,7 +51,7 @@ impl CutCertificateEntry {
         }
     }
 
-    /// Whether no check disagrees.
+    /// Whether every check agrees.
     pub fn is_clean(&self) -> bool {
         self.krein_violations == 0 && self.miscounted_modes.is_empty()
     }

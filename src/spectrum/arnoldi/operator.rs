@@ -13,7 +13,7 @@ use crate::system::GyroscopicSystem;
 /// Number of steps, beyond the number of requested eigenvalues, before the first check, which costs as much
 /// as all steps before it: most saws need no second one.
 const STEPS_BEYOND: usize = 44;
-/// This number for the operator with two solves per step.
+/// [`STEPS_BEYOND`] for the operator with two solves per step.
 const SQUARED_STEPS_BEYOND: usize = 20;
 
 /// The operator of Arnoldi's iteration, in units of σ, and the relation of its eigenvalues to those of A.
@@ -82,7 +82,7 @@ impl Inverse {
 
 /// A matrix, sparse if possible.
 enum Velocity {
-    /// Its non-zero entries: (row, column, value). Without dampers there are at most two in a row.
+    /// Non-zero entries of the matrix: (row, column, value). Without dampers there are at most two in a row.
     Sparse(Vec<(usize, usize, f64)>),
     /// A damper under the blade couples all unknowns.
     Dense(Mat<f64>),

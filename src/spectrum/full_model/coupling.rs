@@ -32,9 +32,9 @@ pub struct Columns {
 /// Extent of the search for columns of K_g.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kept {
-    /// Until only rounding remains.
+    /// The search ends when only rounding remains.
     All,
-    /// Until the remainder is negligible for solves.
+    /// The search ends when the remainder is negligible for solves.
     Few,
 }
 

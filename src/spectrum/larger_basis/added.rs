@@ -92,7 +92,7 @@ impl AddedFunctions {
         }
     }
 
-    /// This value for one part of K_nc, given on the larger basis, and one column. `None` for a saw without
+    /// The value of [`AddedFunctions::softened`] for one part of K_nc, given on the larger basis, and one column. `None` for a saw without
     /// the structure of a guided blade.
     pub fn softening_by(&self, part: &Mat<f64>, shape: &Mat<f64>) -> Option<f64> {
         let AddedFunctions::Structured { larger, kept } = self else {

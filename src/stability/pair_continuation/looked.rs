@@ -6,7 +6,7 @@ pub struct Looked {
     pub speed: f64,
     /// σ² and ω², in 1/s².
     pub squares: [f64; 2],
-    /// Their slopes, in 1/s.
+    /// Slopes of both squares over the speed, in 1/s.
     pub slopes: [f64; 2],
 }
 

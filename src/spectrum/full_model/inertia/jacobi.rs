@@ -5,7 +5,7 @@
 
 use nalgebra::DMatrix;
 
-/// Of a symmetric matrix A, VᵀAV = diag(values) + R with |Rᵢⱼ| ≤ [`LEFT`] √|valuesᵢ valuesⱼ|.
+/// Eigenvalues and eigenvectors of a symmetric matrix A: VᵀAV = diag(values) + R with |Rᵢⱼ| ≤ [`LEFT`] √|valuesᵢ valuesⱼ|.
 #[derive(Debug)]
 pub struct Eigenvectors {
     pub values: Vec<f64>,
