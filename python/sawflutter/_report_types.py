@@ -125,7 +125,7 @@ class CriticalSpeed(Entry):
     """Nodal diameters of that wave, or of the one with the largest share."""
 
     nodal_circles: int
-    """Its nodal circles."""
+    """Nodal circles of that wave."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the speed."""
@@ -165,7 +165,7 @@ class Instability(Entry):
     """Numbers of the branches that become unstable; empty without a diagram."""
 
     modes: tuple[str, ...]
-    """These waves one by one, reflected ones first: "4 diameters, reflected"."""
+    """Waves of the band one by one, reflected ones first: "4 diameters, reflected"."""
 
     counted_rpm: FloatArray
     """Intervals [from, to] in which the band counts as an instability: divergence as a whole;
@@ -450,7 +450,7 @@ class AccuracyEntry(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Work(Entry):
-    """Numbers of eigenproblems solved, the largest first."""
+    """Numbers of eigenproblems solved, by kind."""
 
     full_solves: int
     """Eigenproblems of the full model: Krylov iterations with a factorization each, or dense
@@ -535,7 +535,7 @@ class Certificate(Entry):
     expected."""
 
     violating_rpm: FloatArray
-    """These speeds."""
+    """Speeds at which the comparison failed."""
 
     full_basis_counts: int
     """Number of counts of eigenvalues on the full model, independent of the reduced model, with
@@ -606,7 +606,7 @@ class Branch(BranchMethods):
     """Nodal circles of that harmonic."""
 
     direction: tuple[Direction, ...]
-    """Direction of the wave on the blade at each speed; never `Reflected`."""
+    """Direction of the wave on the blade at each speed, where no wave is `reflected`."""
 
     rpm: FloatArray
     """Rotation speeds, ascending."""
@@ -713,7 +713,7 @@ class HeatLimit(Entry):
     """Nodal diameters of that wave, or of the one with the largest share."""
 
     nodal_circles: int
-    """Its nodal circles."""
+    """Nodal circles of that wave."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -727,7 +727,7 @@ class HeatCurve(Entry):
     """Nodal diameters of that wave, or of the one with the largest share."""
 
     nodal_circles: int
-    """Its nodal circles."""
+    """Nodal circles of that wave."""
 
     rise_k: FloatArray
     """Peaks of the profile."""
@@ -984,11 +984,11 @@ class CheckReport(Entry):
     """Lateral stiffness of a point of the rim at the middle of the cut, at rest."""
 
     rim_stiffness_n_per_m: float | None
-    """This stiffness at the operating speed; null above the first critical speed, where it is
-    not defined."""
+    """Lateral stiffness of this point at the operating speed; null above the first critical
+    speed, where it is not defined."""
 
     rim_stiffness: RimStiffness
-    """This stiffness over the speed."""
+    """Lateral stiffness of this point over the speed."""
 
     rim_speed_m_per_s: float
     """Rim speed at the operating speed."""
@@ -1014,7 +1014,7 @@ class Compared(Entry):
     """Label of the saw: the name of its file, or the change of its scene."""
 
     scene: SceneDict
-    """Its scene."""
+    """Scene of the saw."""
 
     critical_speeds: tuple[CriticalSpeed, ...]
     """Critical speeds up to the end of its sweep, ascending."""
@@ -1036,7 +1036,7 @@ class Compared(Entry):
     """Estimated relative error of its critical speeds."""
 
     campbell: Campbell
-    """Its branches over speed."""
+    """Branches of the saw over speed."""
 
     warnings: tuple[str, ...]
     """Numbers that no saw has, and remarks on the validity of its result."""
@@ -1656,13 +1656,13 @@ class FitReport(Entry):
     """Root mean square of computed minus measured frequencies."""
 
     rms_before_hz: float
-    """This value for the scene before the fit."""
+    """Root mean square of computed minus measured frequencies before the fit."""
 
     residuals: tuple[Residual, ...]
     """Measured and computed frequencies in pairs."""
 
     curves: Curves
-    """Lowest frequencies over speed, before and after."""
+    """Lowest frequencies over speed, before and after the fit."""
 
     starts: tuple[Start, ...]
     """All starts and their results, on a coarser basis."""
@@ -2040,7 +2040,7 @@ class Mode(ModeMethods):
     """w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ) e^{λt}."""
 
     name: str
-    """Its harmonics, with shares if none dominates."""
+    """Harmonics of the mode, with shares if none dominates."""
 
     direction: Direction
     """Direction of the wave, seen from space."""
@@ -2102,7 +2102,7 @@ class Placed(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Outcome(Entry):
-    """Goal of one saw, and the speeds that determine it."""
+    """Value of the goal for one saw, and the speeds that determine it."""
 
     goal_rpm: float
     """Value of the goal: the flutter speed, or the end of the sweep if there is none, or the
@@ -2263,7 +2263,7 @@ class PlaceReport(Entry):
     maximizes its goal."""
 
     worst_neighbour_share: float
-    """Its goal divided by that of the best saw."""
+    """Goal of this neighbour divided by that of the best saw."""
 
     fragile_optimum: FragileOptimum | None
     """The saw with the best nominal goal, if it is better than the best saw and worse within
@@ -2642,7 +2642,7 @@ class Passing(Entry):
     """Number of saws that keep every limit."""
 
     probability: float
-    """Their share of all."""
+    """Share of these saws among all."""
 
     confidence: float
     """Confidence of the interval."""
@@ -2733,7 +2733,7 @@ class Refusal(Entry):
     """A saw that was not analysed."""
 
     saw: int
-    """Its number in the study."""
+    """Number of the saw in the study."""
 
     reason: str
     """Reason of the failure."""
@@ -2773,10 +2773,10 @@ class WorstSaw(Entry):
     """A saw with a low speed."""
 
     saw: int
-    """Its number in the study."""
+    """Number of the saw in the study."""
 
     rpm: float
-    """Its lowest speed."""
+    """Lowest speed of the saw."""
 
     values: FloatArray
     """Values of the varying numbers, in the order of the study."""
@@ -2868,7 +2868,7 @@ class WashboardMode(Entry):
     """A mode with the delayed force."""
 
     name: str
-    """Its harmonics, with shares if none dominates."""
+    """Harmonics of the mode, with shares if none dominates."""
 
     direction: Direction
     """Direction of the wave, seen from space."""
@@ -2966,7 +2966,7 @@ class WashboardReport(Entry):
     oscillation; null if one lies on the imaginary axis."""
 
     growing_eigenvalues_without: int
-    """This number without the delayed force."""
+    """Number of growing eigenvalues without the delayed force."""
 
     modes: tuple[WashboardMode, ...]
     """Modes at that speed, in descending order of growth."""

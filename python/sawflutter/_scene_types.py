@@ -658,8 +658,7 @@ class SceneDict(_SceneDict, total=False):
     """Excitation of the steady-state response, for `sawflutter response`."""
 
     probe: ProbeDict | None
-    """Point at which the deflection is read; by default at the rim, 90° downstream of the
-    cut."""
+    """Point at which the deflection is read; by default at the rim at θ = 90°."""
 
     measured: MeasuredDict | None
     """Measured or published frequencies to show beside the computed ones."""
@@ -720,7 +719,7 @@ class ParameterDict(TypedDict):
     """A number of the scene that varies."""
 
     path: str
-    """Its JSON path in the scene, like `guides[0].radius_m`."""
+    """JSON path of the number in the scene, like `guides[0].radius_m`."""
 
     distribution: DistributionDict
     """Distribution, in the unit of the number."""

@@ -21,7 +21,7 @@ pub struct CertificateEntry {
     pub speeds_checked: usize,
     /// Number of speeds at which the comparison failed, also on the full model; 0 is expected.
     pub krein_violations: usize,
-    /// These speeds.
+    /// Speeds at which the comparison failed.
     pub violating_rpm: Vec<f64>,
     /// Number of counts of eigenvalues on the full model, independent of the reduced model, with which the
     /// modes were compared.

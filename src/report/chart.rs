@@ -35,7 +35,7 @@ pub struct BranchEntry {
     pub nodal_diameters: usize,
     /// Nodal circles of that harmonic.
     pub nodal_circles: usize,
-    /// Direction of the wave on the blade at each speed; never `Reflected`.
+    /// Direction of the wave on the blade at each speed, where no wave is `reflected`.
     pub direction: Vec<Direction>,
     /// Rotation speeds, ascending.
     pub rpm: Vec<f64>,

@@ -43,9 +43,10 @@ pub struct CheckReport {
     pub flutter_threshold_per_s: f64,
     /// Lateral stiffness of a point of the rim at the middle of the cut, at rest.
     pub rim_stiffness_at_rest_n_per_m: f64,
-    /// This stiffness at the operating speed; null above the first critical speed, where it is not defined.
+    /// Lateral stiffness of this point at the operating speed; null above the first critical speed, where it is
+    /// not defined.
     pub rim_stiffness_n_per_m: Option<f64>,
-    /// This stiffness over the speed.
+    /// Lateral stiffness of this point over the speed.
     pub rim_stiffness: RimStiffnessEntry,
     /// Rim speed at the operating speed.
     pub rim_speed_m_per_s: f64,

@@ -28,7 +28,7 @@ pub struct CompareReport {
 pub struct ComparedEntry {
     /// Label of the saw: the name of its file, or the change of its scene.
     pub label: String,
-    /// Its scene.
+    /// Scene of the saw.
     pub scene: SceneFile,
     /// Critical speeds up to the end of its sweep, ascending.
     pub critical_speeds: Vec<CriticalSpeedEntry>,
@@ -43,7 +43,7 @@ pub struct ComparedEntry {
     pub rim_stiffness_at_rest_n_per_m: Option<f64>,
     /// Estimated relative error of its critical speeds.
     pub estimated_relative_error: Option<f64>,
-    /// Its branches over speed.
+    /// Branches of the saw over speed.
     pub campbell: CampbellEntry,
     /// Numbers that no saw has, and remarks on the validity of its result.
     pub warnings: Vec<String>,

@@ -34,11 +34,11 @@ pub struct FitReport {
     pub degrees_of_freedom: usize,
     /// Root mean square of computed minus measured frequencies.
     pub rms_hz: f64,
-    /// This value for the scene before the fit.
+    /// Root mean square of computed minus measured frequencies before the fit.
     pub rms_before_hz: f64,
     /// Measured and computed frequencies in pairs.
     pub residuals: Vec<ResidualEntry>,
-    /// Lowest frequencies over speed, before and after.
+    /// Lowest frequencies over speed, before and after the fit.
     pub curves: Curves,
     /// All starts and their results, on a coarser basis.
     pub starts: Vec<Start>,

@@ -85,7 +85,7 @@ pub struct HeatLimitEntry {
     pub name: String,
     /// Nodal diameters of that wave, or of the one with the largest share.
     pub nodal_diameters: usize,
-    /// Its nodal circles.
+    /// Nodal circles of that wave.
     pub nodal_circles: usize,
 }
 
@@ -98,7 +98,7 @@ pub struct HeatCurveEntry {
     pub name: String,
     /// Nodal diameters of that wave, or of the one with the largest share.
     pub nodal_diameters: usize,
-    /// Its nodal circles.
+    /// Nodal circles of that wave.
     pub nodal_circles: usize,
     /// Peaks of the profile.
     pub rise_k: Vec<f64>,

@@ -161,7 +161,7 @@ pub struct CriticalSpeedEntry {
     pub name: String,
     /// Nodal diameters of that wave, or of the one with the largest share.
     pub nodal_diameters: usize,
-    /// Its nodal circles.
+    /// Nodal circles of that wave.
     pub nodal_circles: usize,
     /// Estimated relative error of the speed.
     #[serde(default)]
@@ -192,7 +192,7 @@ pub struct InstabilityEntry {
     pub name: Option<String>,
     /// Numbers of the branches that become unstable; empty without a diagram.
     pub branches: Vec<usize>,
-    /// These waves one by one, reflected ones first: "4 diameters, reflected".
+    /// Waves of the band one by one, reflected ones first: "4 diameters, reflected".
     pub modes: Vec<String>,
     /// Intervals [from, to] in which the band counts as an instability: divergence as a whole; flutter of an
     /// undamped blade as a whole if its largest growth reaches the threshold, of a damped one where its
@@ -269,7 +269,7 @@ pub struct AccuracyEntry {
     pub estimated_drawn_error: Option<f64>,
 }
 
-/// Numbers of eigenproblems solved, the largest first.
+/// Numbers of eigenproblems solved, by kind.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorkEntry {

@@ -14,7 +14,7 @@ use crate::spectrum::{DescribedMode, Direction};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModeEntry {
-    /// Its harmonics, with shares if none dominates.
+    /// Harmonics of the mode, with shares if none dominates.
     pub name: String,
     /// Direction of the wave, seen from space.
     pub direction: Direction,

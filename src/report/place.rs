@@ -66,7 +66,7 @@ pub struct PlaceReport {
     pub fragile: bool,
     /// Worst neighbour of the best saw within its tolerances, itself included; the search maximizes its goal.
     pub worst_neighbour: Option<NeighbourEntry>,
-    /// Its goal divided by that of the best saw.
+    /// Goal of this neighbour divided by that of the best saw.
     pub worst_neighbour_share: f64,
     /// The saw with the best nominal goal, if it is better than the best saw and worse within its tolerances;
     /// null otherwise.
@@ -122,7 +122,7 @@ pub struct PlacedEntry {
     pub more_rpm: Option<f64>,
 }
 
-/// Goal of one saw, and the speeds that determine it.
+/// Value of the goal for one saw, and the speeds that determine it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutcomeEntry {

@@ -48,7 +48,7 @@ pub struct WashboardReport {
     /// Number of eigenvalues in the right half plane by the argument principle, two for each oscillation;
     /// null if one lies on the imaginary axis.
     pub growing_eigenvalues: Option<usize>,
-    /// This number without the delayed force.
+    /// Number of growing eigenvalues without the delayed force.
     pub growing_eigenvalues_without: usize,
     /// Modes at that speed, in descending order of growth.
     pub modes: Vec<WashboardModeEntry>,
@@ -72,7 +72,7 @@ pub struct WashboardReport {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WashboardModeEntry {
-    /// Its harmonics, with shares if none dominates.
+    /// Harmonics of the mode, with shares if none dominates.
     pub name: String,
     /// Direction of the wave, seen from space.
     pub direction: Direction,

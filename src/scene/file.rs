@@ -67,7 +67,7 @@ pub struct SceneFile {
     /// Excitation of the steady-state response, for `sawflutter response`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub response: Option<ResponseFile>,
-    /// Point at which the deflection is read; by default at the rim, 90° downstream of the cut.
+    /// Point at which the deflection is read; by default at the rim at θ = 90°.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub probe: Option<ProbeFile>,
     /// Measured or published frequencies to show beside the computed ones.

@@ -76,7 +76,7 @@ fn default_confidence() -> f64 {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ParameterFile {
-    /// Its JSON path in the scene, like `guides[0].radius_m`.
+    /// JSON path of the number in the scene, like `guides[0].radius_m`.
     pub path: String,
     /// Distribution, in the unit of the number.
     pub distribution: DistributionFile,

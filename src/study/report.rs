@@ -77,9 +77,9 @@ pub struct ReliabilityPoint {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorstSaw {
-    /// Its number in the study.
+    /// Number of the saw in the study.
     pub saw: usize,
-    /// Its lowest speed.
+    /// Lowest speed of the saw.
     pub rpm: f64,
     /// Values of the varying numbers, in the order of the study.
     pub values: Vec<f64>,
@@ -198,7 +198,7 @@ pub struct Histogram {
 pub struct Passing {
     /// Number of saws that keep every limit.
     pub passed: usize,
-    /// Their share of all.
+    /// Share of these saws among all.
     pub probability: f64,
     /// Confidence of the interval.
     pub confidence: f64,
@@ -228,7 +228,7 @@ pub struct CriterionEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Refusal {
-    /// Its number in the study.
+    /// Number of the saw in the study.
     pub saw: usize,
     /// Reason of the failure.
     pub reason: String,
