@@ -27,7 +27,7 @@ pub fn cheapest(costs: &[Vec<f64>]) -> Vec<usize> {
                 }
             }
             if next == column {
-                // Costs are not numbers: the remaining rows stay unpaired.
+                // If costs are not finite, the remaining rows stay unpaired.
                 break;
             }
             for k in 0..=size {

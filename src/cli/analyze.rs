@@ -129,7 +129,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
             let scenes = paths.iter().map(read);
             let scenes: Vec<anyhow::Result<Scene>> = match arguments.keep_going {
                 true => scenes.collect(),
-                // Nothing is computed where one is refused.
+                // If one scene is refused, none is computed.
                 false => scenes
                     .map(|scene| scene.map(Ok))
                     .collect::<anyhow::Result<_>>()?,
@@ -166,7 +166,7 @@ fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
     let report = report(arguments, scene)?;
     let (files, json) = files(arguments, &report)?;
     arguments.page.write(&report)?;
-    // The table of several scenes is not this run's.
+    // A table of several scenes belongs to an earlier run, and is removed.
     let optional = [&optional_names()[..], &several::FILES].concat();
     let words = || report.summary();
     arguments

@@ -118,17 +118,17 @@ Examples:
 
 Exit code: 0 done, 1 a check failed, 2 the input was refused or the run failed.";
 
-/// Runs the command that arguments ask for, the first being the program's name. The exit code:
+/// Runs the command given by the arguments, the first of which is the name of the program. Returns the exit code:
 /// 0 done, 1 a check failed, 2 refused or failed.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let arguments = match Arguments::try_parse_from(with_command(arguments)) {
         Ok(arguments) => arguments,
-        // Its words are the user's.
+        // The message repeats the user's words, so that control characters are made visible.
         Err(refusal) if refusal.use_stderr() => {
             eprint!("{}", printable(&refusal.render().to_string()));
             return 2;
         }
-        // Help and version are printed too, and are no failure.
+        // Help and version are no failure.
         Err(help) => {
             let _ = help.print();
             return 0;

@@ -112,11 +112,11 @@ impl OutputFolder {
     }
 }
 
-/// A run that was refused or failed leaves no folder behind that was not there before.
+/// A run that was refused or failed removes the empty folders that it has made.
 impl Drop for OutputFolder {
     fn drop(&mut self) {
         for folder in &self.made {
-            // One with files in it is no empty one, and stays.
+            // The system refuses to remove a folder with files in it, which stays.
             if std::fs::remove_dir(folder).is_err() {
                 break;
             }

@@ -13,7 +13,7 @@ pub fn pasted<T>(scene: &Scene, needed: Result<T, RefusedValue>) -> anyhow::Resu
             "cut.washboarding" => (washboarding_block(), "its block \"cut\""),
             _ => return refused.into(),
         };
-        // By itself, for the words of an error are one line.
+        // The block is printed separately, because an error is one line.
         eprintln!(
             "{block}\n\nPaste this behind the first brace of {place}, with your own numbers.\n"
         );
@@ -37,7 +37,7 @@ fn washboarding_block() -> String {
 
 /// `"key": { … },` indented like a key of a scene.
 fn block(key: &str, value: &Value) -> String {
-    // A JSON value made here has no keys but texts, which is all that could fail.
+    // Only keys that are not texts could fail, and a JSON value has none.
     let text = serde_json::to_string_pretty(value).unwrap_or_default();
     let text = text.replace('\n', "\n  ");
     format!("  \"{key}\": {text},")

@@ -50,7 +50,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         Ok::<_, ResponseError>(ResponseReport::new(&found))
     })?;
     let report = report.map_err(|error| match error {
-        // Keys of the scene have a block.
+        // The key of a scene contains its block and a dot; the name of an option does not.
         ResponseError::Refused(refused) if !refused.key.contains('.') => of_option(refused),
         other => other.into(),
     })?;

@@ -43,10 +43,10 @@ pub fn compute(study: &Study, folder: &Path, address: &str) -> anyhow::Result<()
         .with_context(|| format!("cannot start {name}"))?;
     let inputs = serde_json::to_string(&Inputs::of(study))?;
     if let Some(mut input) = child.stdin.take() {
-        // A child that ends before it has read says why on its output.
+        // A child that ends before it has read the inputs writes the reason to its output.
         let _ = input.write_all(inputs.as_bytes());
     }
-    // Progress goes to the terminal, and what has gone wrong comes back here.
+    // The child shows its progress on the terminal, and writes errors to this output.
     let mut said = String::new();
     if let Some(mut output) = child.stdout.take() {
         output.read_to_string(&mut said)?;

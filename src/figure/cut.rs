@@ -88,7 +88,7 @@ fn draw_run(sheet: &mut Sheet, (panel, name): (&Frame, &str), run: &CutRunEntry,
     sheet.line(side, Stroke::solid(QUIET, HAIRLINE));
     draw_named(sheet, &time, panel.bottom, "time\u{2003}[s]");
     let place = |t: f64, w: f64| [time.at(t), deflection.at(scale.per_metre * w)];
-    // With stretching the growth ends.
+    // Stretching limits the growth, so that an envelope of constant growth would be wrong.
     if run.stretching.is_none() {
         draw_envelope(sheet, panel, run, place);
     }

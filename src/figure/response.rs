@@ -124,7 +124,7 @@ fn draw_amplitudes(sheet: &mut Sheet, report: &ResponseReport, speed: &Axis) {
         let points = report.rpm.iter().zip(&line.amplitude_m);
         let stroke = Stroke::solid(colour, CURVE);
         draw_curve(sheet, points, (speed, &axis, 1e3), stroke, &AMPLITUDE);
-        // Resonances without an amplitude.
+        // A resonance of unknown amplitude gets a mark at the upper edge.
         let unknown = line.resonances.iter().filter(|r| r.amplitude_m.is_none());
         for resonance in unknown {
             let x = speed.at(resonance.rpm);

@@ -327,7 +327,7 @@ fn knot_powers(blade: &Blade) -> Vec<(f64, i32)> {
     for radius in blade.knots_m() {
         knots.push((radius, &AT_STEP));
     }
-    // Of two close knots the step is kept.
+    // If a step and the circle of the teeth are close to each other, only the knot of the step is kept.
     if let Some(rim) = blade.rim {
         knots.push((rim.radius_m, &AT_MASS));
     }

@@ -38,7 +38,7 @@ impl CentrifugalStress {
         };
         let circle: Vec<(f64, f64)> = blade.rim.map(of_rim).into_iter().collect();
         let load = InPlaneLoad {
-            // Normalized to ρΩ² = 1.
+            // The load is normalized to ρΩ² = 1.
             body_n_per_m3: &|r| r,
             circle_n: &circle,
             bore_is_held: blade.bore == Bore::Clamped(InPlane::Fixed),

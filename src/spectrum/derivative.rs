@@ -83,8 +83,8 @@ pub fn next_to(
         system.velocity_at(speed_rad_per_s),
     );
     let transposed = velocity.transpose().to_owned();
-    // The iteration finds a vector only if the start is not orthogonal to it; these numbers are orthogonal to no
-    // mode of a blade.
+    // The iteration must not start orthogonal to the vector that it has to find. No mode of a blade is orthogonal
+    // to these numbers.
     let start = Col::from_fn(system.order(), |i| c64::new((1.0 + i as f64).cos(), 0.0));
     let (mut lambda, mut x, mut y) = (expected, start.clone(), start);
     for step in 0..NEWTON_STEPS {

@@ -50,7 +50,8 @@ pub fn eigenpairs(
         }
     }
     if rigid == 1 && n == 1 {
-        // The tilt is fixed in space, a free motion added below, or has twice the rotation frequency.
+        // In space a tilt is either at rest, which is a free motion that is added below, or has twice the rotation
+        // frequency.
         let tilt = Col::from_fn(radial, |i| f64::from(u8::from(i == 0)));
         add(2.0 * speed_rad_per_s, forward, &tilt);
     }

@@ -194,7 +194,7 @@ fn edge(critical: &[f64], coalescences: &[f64], stable: Option<f64>, unstable: f
     let Some(stable) = stable else {
         return (unstable, Edge::Range);
     };
-    // Among several coalescences, takes the one nearest to the divergence. The coalescence may lie slightly
+    // Among several coalescences the one nearest to the divergence is taken. The coalescence may lie slightly
     // beyond a stable speed, by the error of the states that gave it.
     let coalescence = |to: f64| {
         let beyond = stable + (stable - to).signum() * VICINITY * stable;

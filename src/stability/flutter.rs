@@ -187,7 +187,7 @@ impl Quadruple {
         if let Some(edge) = from_inside.filter(is_certain) {
             return Ok(End::Edge(edge));
         }
-        // The nearest speed may be nearer to the end than the accuracy of the states that gave it.
+        // The nearest speed may be closer to the end than the error of the states that gave it.
         if let (None, Some((speed, mode))) = (from_inside, inwards.get(1)) {
             from_inside = followed(*speed, mode)?;
         }
@@ -306,7 +306,7 @@ impl Quadruple {
             }
         }
         let (speed, mode) = nearest(&known, at);
-        // Accurate to rounding, where the search uses coarser models.
+        // This pair is accurate to rounding, whereas the search uses coarser models.
         let sharp = PairContinuation::of_quadruple(evaluator, speed, &mode)?;
         let sharp = sharp.and_then(|pair| pair.growth_and_frequency());
         Ok((speed, sharp.unwrap_or((mode.lambda.re, mode.lambda.im))))

@@ -85,7 +85,7 @@ fn cubic(ends: &[Sample]) -> Cubic {
 /// Position and value of the maximum of the cubic between two samples.
 fn promise(ends: &[Sample]) -> (f64, f64) {
     let (share, value) = cubic(ends).highest();
-    // Next to an end the cubic adds nothing to the sample there.
+    // A maximum so close to an end is no improvement on the sample there.
     if (1e-6..=1.0 - 1e-6).contains(&share) {
         (share, value)
     } else {

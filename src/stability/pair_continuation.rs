@@ -175,7 +175,7 @@ impl<'a> PairContinuation<'a> {
         root: impl Fn(&Looked, Option<&Looked>) -> Option<Edge>,
     ) -> Option<Edge> {
         let (start, direction) = (self.speed, (end - self.speed).signum());
-        // The last speed known to be inside and the first known to be outside. Next to an end, a coarser
+        // These are the last speed known to be inside and the first known to be outside. Next to an end, a coarser
         // model may have placed the edge on the other side.
         let margin = direction * VICINITY * start;
         let (mut inside, mut outside) = (start - margin, end + margin);

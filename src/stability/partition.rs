@@ -226,7 +226,7 @@ impl Side<'_> {
             }
         }
         for first in 0..count {
-            // No cut lies between two that may coalesce.
+            // No boundary of groups lies between two numbers that may coalesce.
             let last = (first + 1..count)
                 .rev()
                 .find(|&k| self.meet(order[first], order[k]));

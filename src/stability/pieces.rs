@@ -260,7 +260,7 @@ impl Search<'_> {
         let ends = at_ends.each_ref().map(|numbers| by_growth(numbers));
         let (growth_predicted, growth_found) = (by_growth(predicted), by_growth(found));
         let all = [&ends[0], &ends[1], &growth_predicted, &growth_found];
-        // Relative to each number, so that slow growth is predicted as well as fast growth beside it.
+        // The error is relative to each number, so that slow growth is predicted as well as fast growth beside it.
         let allowed = |rank: usize| {
             let fastest = all.iter().map(|growth| growth[rank]).fold(0.0, f64::max);
             (self.growth_tolerance * fastest).max(self.noise_per_s)

@@ -28,7 +28,7 @@ pub(super) fn charted(
     let even = campbell::even_speeds(drawn, count);
     let speeds = match detail {
         Detail::Full => with_critical_speeds(model, drawn, even),
-        // A curve that is followed through zero needs no speeds beside it.
+        // A sketch follows curves through zero and needs no speeds beside critical ones.
         Detail::Sketch if !model.plate.is_axisymmetric() => away_from_critical(model, even),
         Detail::Sketch => with_critical_speeds(model, drawn, even),
     };

@@ -152,7 +152,7 @@ impl StretchedBlade {
             growing[i] * *lambda * 2.0 + gyroscopic * (2.0 * speed_rad_per_s)
         });
         let product: c64 = (0..order).map(|i| decaying[i].conj() * turned[i]).sum();
-        // Both get the same length, so that points are evenly distributed along the loop.
+        // Both vectors get the same length, so that points are evenly distributed along the loop.
         let factor = (c64::new(0.0, 1.0) / product).conj();
         let length = factor.norm().sqrt();
         Ok(Some(Pair {

@@ -86,7 +86,7 @@ fn draw_contours(sheet: &mut Sheet, contours: &[ContourEntry], x: &Along, y: &Al
             }
         };
         let long = places.len() >= 3;
-        // From the middle of the line to its ends.
+        // Places of the label are tried from the middle of the line to its ends.
         let middle = places.len() / 2;
         let tried = (0..middle).flat_map(|off| [middle + off, middle - off]);
         let free = tried

@@ -148,8 +148,8 @@ impl Builder<'_> {
     ) -> Result<Vec<Interval>, SpectrumError> {
         let [from, to] = ends.map(|end| end.speed_rad_per_s);
         let middle = 0.5 * (from + to);
-        // The flag says whether they are accurate enough. If their eigenproblem fails, that of the projection
-        // replaces it.
+        // The flag states whether the states are accurate enough. They are not if their eigenproblem fails; that of
+        // the projection then replaces it.
         let states_up_to = |height: f64| {
             let states = states_between(projection, ends, &self.standing, height)?;
             let pairs = states_at(&states, middle, self.counters);

@@ -99,7 +99,7 @@ fn point(speed_rad_per_s: f64, (lambda, slope): Sloped) -> CurvePoint {
     CurvePoint {
         speed_rad_per_s,
         lambda,
-        // At the coalescence of two eigenvalues.
+        // At the coalescence of two eigenvalues the slope is not finite.
         slope: if is_finite { slope } else { c64::new(0.0, 0.0) },
     }
 }

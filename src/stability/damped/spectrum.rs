@@ -127,7 +127,7 @@ impl<'a> Solver<'a> {
             .filter(|(mode, _)| mode.kind != ModeKind::Rigid)
             .map(|(mode, slope)| Eigenvalue {
                 lambda: mode.lambda,
-                // At the coalescence of two eigenvalues.
+                // At the coalescence of two eigenvalues the slope is not finite.
                 slope: if is_finite(slope) {
                     slope
                 } else {
