@@ -31,7 +31,7 @@ impl ReducedStretching {
             .map(|&(a, b)| stretching.relaxed(&Strain::of(&slopes[a], &slopes[b])))
             .collect();
         let height = columns.first().map_or(0, Vec::len);
-        // The strain of p_a p_b counts once for a = b and twice for a < b; U₄ = |Z e|².
+        // The strain of p_a p_b counts once for a = b and twice for a > b, which includes p_b p_a; U₄ = |Z e|².
         let relaxed = Mat::from_fn(height, pairs.len(), |i, k| {
             let times = if pairs[k].0 == pairs[k].1 { 1.0 } else { 2.0 };
             times * columns[k][i]
