@@ -115,6 +115,8 @@ def _wav(path: str | os.PathLike[str]) -> Channels:
             rate, numbers = wavfile.read(path)
     except (ValueError, EOFError) as error:
         raise InputError(f"{path} is no WAV file that can be read ({error}); export PCM or float") from None
+    if not len(numbers):
+        raise InputError(f"{path} has no samples; record again, or give another file")
     samples = np.asarray(numbers, float).reshape(len(numbers), -1)
     if numbers.dtype.kind in "iu":
         info = np.iinfo(numbers.dtype)

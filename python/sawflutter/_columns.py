@@ -38,6 +38,9 @@ def read(path: str | os.PathLike[str]) -> list[Column]:
         if line.strip() and not line.lstrip().startswith("#")
     ]
     mark, comma = _written([line for _, line in lines[:_LOOKED_AT]])
+    if mark and all(line.rstrip().endswith(mark) for _, line in lines):
+        # Some instruments end each line with a separator.
+        lines = [(number, line.rstrip()[:-1]) for number, line in lines]
     names = list[str]()
     while lines and len(names) < 2 and not any(map(_is_number, _cells(lines[0][1], mark, comma))):
         names.append(lines.pop(0)[1])

@@ -392,7 +392,11 @@ def _without_speed(found: Channels) -> npt.ArrayLike:
 
 def _speeds(rpm: npt.ArrayLike, size: int, rate_hz: float) -> FloatArray:
     """The speed at each sample."""
-    numbers = np.asarray(rpm, float)
+    try:
+        numbers = np.asarray(rpm, float)
+    except (TypeError, ValueError):
+        remedy = "a channel is named by speed or tacho"
+        raise refused("rpm", rpm, "a number, or numbers", remedy) from None
     if not (np.isfinite(numbers).all() and ((numbers[..., 1:] if numbers.ndim == 2 else numbers) >= 0.0).all()):
         raise refused("rpm", "negative or not finite", f"from 0 to {_MOST_RPM:g}", "give speeds in rpm")
     if numbers.max(initial=0.0) > _MOST_RPM:

@@ -105,12 +105,15 @@ def test_files_of_all_kinds_give_the_same_record(tmp_path: Path, ramp: Array) ->
     wavfile.write(tmp_path / "float.wav", int(RATE), signal.astype(np.float32))
     both = np.column_stack([signal / 2.0, np.zeros_like(signal)])
     wavfile.write(tmp_path / "whole.wav", int(RATE), np.round(32767 * both).astype(np.int16))
+    ended = [f"{x:.9f};" for x in signal]
+    (tmp_path / "ended.dat").write_text("\n".join(["x;", *ended]))
     universal(tmp_path / "text.uff", [("probe", "mm", signal), ("speed", "rpm", ramp)])
     universal(tmp_path / "binary.uff", [("probe", "mm", signal), ("speed", "rpm", ramp)], 1)
     records = {
         "german.csv": sf.read_record(tmp_path / "german.csv"),
         "plain.csv": sf.read_record(tmp_path / "plain.csv"),
         "bare.txt": sf.read_record(tmp_path / "bare.txt", rpm=(0, 600), rate_hz=RATE, unit="mm"),
+        "ended.dat": sf.read_record(tmp_path / "ended.dat", rpm=(0, 600), rate_hz=RATE, unit="mm"),
         "float.wav": sf.read_record(tmp_path / "float.wav", rpm=(0, 600), unit="mm"),
         "whole.wav": sf.read_record(tmp_path / "whole.wav", signal=0, rpm=ramp, scale=2.0, unit="mm"),
         "text.uff": sf.read_record(tmp_path / "text.uff"),
@@ -242,9 +245,11 @@ def test_the_chart_shows_spectra_branches_orders_and_peaks(report: sf.CampbellRe
         ("a.csv", "t,x\n0,1\n1,2\n", {}, "no channel of a speed; give rpm=0"),
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": -5}, "from 0 to"),
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": [1, 2, 3]}, "pairs"),
+        ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": "n"}, "named by speed or tacho"),
+        ("a.csv", "t,y,x\n0,1,0\n1,2,1\n", {"tacho": "x", "pulses_per_turn": 0}, "at least 1"),
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": 0, "signal": "y"}, r"it has 0 \(x\)"),
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": 0, "speed": 0}, "one source"),
-        ("a.csv", "t,x,k\n0,1,0\n1,2,1\n", {"tacho": "k"}, "tacho has 1 pulses"),
+        ("a.csv", "t,x,k\n0,1,0\n1,2,1\n", {"tacho": "k"}, "tacho is '1 pulses'"),
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": 0, "rate_hz": 9}, "leave it out"),
         ("a.csv", "t,x,speed [1/s]\n0,1,0\n1,2,1\n", {"speed": 1}, "must be in rpm; convert"),
         ("a.csv", "t,x,speed [mm/s]\n0,1,0\n1,2,1\n", {}, "no channel of a speed"),

@@ -123,7 +123,8 @@ def _add(figure: Figure, item: Item, panel: Panel, at: dict[str, int]) -> None:
         figure.add_trace(
             go.Heatmap(
                 x=item.x, y=item.y, z=item.z, zmin=low, zmax=high, colorscale=scale,
-                colorbar={"title": item.name}, name=item.name,
+                # Labels at the ends of lines are between the axes and the bar.
+                colorbar={"title": item.name, "xpad": 70 if end_labels(panel, 0.0) else 10}, name=item.name,
             ),
             **at,
         )  # fmt: skip
