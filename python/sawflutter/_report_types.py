@@ -1966,12 +1966,18 @@ class MappedSaw(Entry):
     flutter_speed_rpm: float | None
     """Flutter speed; null if no flutter counts within the sweep."""
 
+    critical_rpm: FloatArray
+    """Critical speeds within the sweep, ascending."""
+
     instabilities: tuple[MappedBand, ...]
     """Bands of instability within the sweep, by onset."""
 
     state: StabilityState | None
     """Whether the saw is stable at the speed at which the saws are judged; null without such a
     speed."""
+
+    at_critical_rpm: float | None
+    """Critical speed within 5 % of that speed; null if there is none."""
 
     not_analysed: str | None
     """Why the saw was not analysed; null if it was."""

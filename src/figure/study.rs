@@ -226,6 +226,7 @@ mod tests {
                 functions: 85,
                 estimated_relative_error: 1e-3,
                 krein_violations: 0,
+                critical_rpm: Vec::new(),
                 bands: Vec::new(),
             };
             Saw {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::map::{Along, Contour, Map, contours, state_at};
 use crate::scene::{Quantity, SceneFile, rpm};
-use crate::stability::StabilityState;
+use crate::stability::{StabilityState, critical_at};
 use crate::study::{Found, FoundBand, LogError, Outcome, Rows, Saw};
 
 /// `map.json`.
@@ -69,10 +69,14 @@ pub struct MappedSawEntry {
     pub lowest_critical_rpm: Option<f64>,
     /// Flutter speed; null if no flutter counts within the sweep.
     pub flutter_speed_rpm: Option<f64>,
+    /// Critical speeds within the sweep, ascending.
+    pub critical_rpm: Vec<f64>,
     /// Bands of instability within the sweep, by onset.
     pub instabilities: Vec<FoundBand>,
     /// Whether the saw is stable at the speed at which the saws are judged; null without such a speed.
     pub state: Option<StabilityState>,
+    /// Critical speed within 5 % of that speed; null if there is none.
+    pub at_critical_rpm: Option<f64>,
     /// Why the saw was not analysed; null if it was.
     pub not_analysed: Option<String>,
 }
@@ -168,6 +172,10 @@ fn saw_entry(map: &Map, saw: &Saw) -> MappedSawEntry {
         y: map.y().map(|y| y.values[saw.index / columns]),
         lowest_critical_rpm: found.lowest_critical_rpm,
         flutter_speed_rpm: found.flutter_rpm,
+        at_critical_rpm: state
+            .and_then(|rpm| critical_at(&found.critical_rpm, rpm))
+            .map(|place| found.critical_rpm[place]),
+        critical_rpm: found.critical_rpm.clone(),
         instabilities: found.bands.clone(),
         state: state.map(|rpm| state_at(&found.bands, rpm)),
         not_analysed: reason,

@@ -82,5 +82,5 @@ pub(crate) use tradeoff::recommended;
 pub use tradeoff::{Method, Setting, tradeoff};
 #[doc(hidden)]
 pub use undamped::undamped_bands;
-pub(crate) use verdict::{CRITICAL_MARGIN, flutter_onsets};
+pub(crate) use verdict::{CRITICAL_MARGIN, critical_at, flutter_onsets};
 pub use verdict::{Evidence, StabilityState, Verdict};

@@ -76,6 +76,13 @@ pub struct Evidence<'a> {
     pub range_rad_per_s: (f64, f64),
 }
 
+/// Place of the critical speed that a saw runs at, nearer than 5 %; the nearest of several. All speeds have one unit.
+pub(crate) fn critical_at(critical: &[f64], speed: f64) -> Option<usize> {
+    let off = |place: usize| (speed / critical[place] - 1.0).abs();
+    let near = (0..critical.len()).filter(|place| off(*place) <= CRITICAL_MARGIN);
+    near.min_by(|x, y| off(*x).total_cmp(&off(*y)))
+}
+
 impl Evidence<'_> {
     /// Verdict at a speed.
     pub fn verdict(&self, speed_rad_per_s: f64) -> Verdict {
@@ -101,15 +108,8 @@ impl Evidence<'_> {
             state,
             band: worst.map(|(index, _, _)| index),
             stretch: worst.map(|(_, _, stretch)| stretch),
-            critical: self.critical_at(speed_rad_per_s),
+            critical: critical_at(self.critical_rad_per_s, speed_rad_per_s),
         }
-    }
-
-    fn critical_at(&self, speed_rad_per_s: f64) -> Option<usize> {
-        let critical = self.critical_rad_per_s;
-        let off = |place: usize| (speed_rad_per_s / critical[place] - 1.0).abs();
-        let near = (0..critical.len()).filter(|place| off(*place) <= CRITICAL_MARGIN);
-        near.min_by(|x, y| off(*x).total_cmp(&off(*y)))
     }
 
     /// Range of speeds around a speed without an instability that counts, in rad/s, within the sweep and at

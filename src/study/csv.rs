@@ -55,7 +55,10 @@ pub(super) fn columns(study: &Study) -> Vec<String> {
         "passed",
     ];
     let after = ["functions", "estimated_relative_error", "krein_violations"];
-    let bands = study.file().bands.then(|| "bands".to_owned());
+    let listed: &[&str] = match study.file().bands {
+        true => &["critical_rpm", "bands"],
+        false => &[],
+    };
     let owned = |names: &[&str]| names.iter().map(|n| (*n).to_owned()).collect::<Vec<_>>();
     std::iter::once("saw".to_owned())
         .chain(paths)
@@ -63,7 +66,7 @@ pub(super) fn columns(study: &Study) -> Vec<String> {
         .chain(kept)
         .chain(owned(study.gap_columns()))
         .chain(owned(&after))
-        .chain(bands)
+        .chain(owned(listed))
         .chain(["reason".to_owned()])
         .collect()
 }
@@ -92,6 +95,7 @@ pub(super) fn record(study: &Study, saw: &Saw) -> Vec<String> {
     cells.push(number(found.map(|f| f.estimated_relative_error)));
     cells.push(text(found.map(|f| f.krein_violations.to_string())));
     if study.file().bands {
+        cells.push(text(found.map(|f| numbers_in_words(&f.critical_rpm))));
         cells.push(text(found.map(|f| bands_in_words(&f.bands))));
     }
     cells.push(reason.to_owned());
@@ -116,7 +120,7 @@ pub(super) fn saw(study: &Study, cells: &mut dyn Iterator<Item = &str>) -> Optio
     let width = study.criteria_of_nothing().len()
         + study.gap_columns().len()
         + 7
-        + usize::from(study.file().bands);
+        + 2 * usize::from(study.file().bands);
     (index < study.count() && speeds.len() == width).then_some(Saw {
         index,
         values,
@@ -129,9 +133,9 @@ fn found(study: &Study, cells: &[&str]) -> Option<Found> {
         "" => Some(None),
         digits => digits.parse::<f64>().ok().map(Some),
     };
-    let (bands, cells) = match (study.file().bands, cells.split_last()) {
-        (true, Some((bands, cells))) => (bands_of(bands)?, cells),
-        _ => (Vec::new(), cells),
+    let (critical_rpm, bands, cells) = match (study.file().bands, cells) {
+        (true, [cells @ .., critical, bands]) => (numbers_of(critical)?, bands_of(bands)?, cells),
+        _ => (Vec::new(), Vec::new(), cells),
     };
     let [
         critical,
@@ -159,8 +163,19 @@ fn found(study: &Study, cells: &[&str]) -> Option<Found> {
         functions: functions.parse().ok()?,
         estimated_relative_error: number(error)??,
         krein_violations: violations.parse().ok()?,
+        critical_rpm,
         bands,
     })
+}
+
+pub(super) fn numbers_in_words(numbers: &[f64]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
+    numbers.join(" ")
+}
+
+fn numbers_of(text: &str) -> Option<Vec<f64>> {
+    let numbers = text.split_whitespace();
+    numbers.map(|number| number.parse().ok()).collect()
 }
 
 /// Bands as text: "divergence 1500 1560 0.4 1500 1560;flutter 2255.9 2266.1 0.1".
@@ -185,8 +200,7 @@ fn bands_of(text: &str) -> Option<Vec<FoundBand>> {
             "flutter" => InstabilityKind::Flutter,
             _ => return None,
         };
-        let numbers = numbers.split(' ').map(|number| number.parse().ok());
-        let numbers: Vec<f64> = numbers.collect::<Option<_>>()?;
+        let numbers = numbers_of(numbers)?;
         let (&[from_rpm, to_rpm, peak_growth_per_s], counted) = numbers.split_first_chunk()?;
         Some(FoundBand {
             kind,

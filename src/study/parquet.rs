@@ -11,7 +11,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{Type, TypePtr};
 
-use super::csv::{STATUS, bands_in_words, columns};
+use super::csv::{STATUS, bands_in_words, columns, numbers_in_words};
 use super::inputs::Inputs;
 use super::plan::Study;
 use super::saw::{Found, Outcome, Saw};
@@ -102,6 +102,10 @@ fn values(study: &Study, saws: &[Saw]) -> Vec<Column> {
         integers(&|saw| saw.found().map(|found| found.krein_violations)),
     ]);
     if study.file().bands {
+        columns.push(texts(|saw| {
+            saw.found()
+                .map(|found| numbers_in_words(&found.critical_rpm))
+        }));
         columns.push(texts(|saw| {
             saw.found().map(|found| bands_in_words(&found.bands))
         }));

@@ -53,6 +53,9 @@ pub struct Found {
     pub estimated_relative_error: f64,
     /// Number of speeds at which the Krein index disagrees; 0 is expected.
     pub krein_violations: usize,
+    /// Critical speeds within the speeds of the study, ascending; empty in a study that does not list bands.
+    #[serde(default)]
+    pub critical_rpm: Vec<f64>,
     /// Bands of instability by onset; empty in a study that does not list them.
     #[serde(default)]
     pub bands: Vec<FoundBand>,
@@ -158,10 +161,16 @@ impl Study {
             _ => vec![None; self.gap_columns().len()],
         };
         let criteria = self.limits().map(|limits| limits.criteria(&evidence));
-        let listed = onsets.instabilities.iter().filter(|_| self.file().bands);
-        let bands = listed.map(|band| FoundBand::new(band, scene.flutter_threshold_per_s()));
+        let (mut bands, mut critical_rpm) = (Vec::new(), Vec::new());
+        if self.file().bands {
+            let threshold = scene.flutter_threshold_per_s();
+            let listed = onsets.instabilities.iter();
+            bands.extend(listed.map(|band| FoundBand::new(band, threshold)));
+            critical_rpm.extend(onsets.critical_rad_per_s.iter().map(|speed| rpm(*speed)));
+        }
         Ok(Found {
-            bands: bands.collect(),
+            critical_rpm,
+            bands,
             lowest_critical_rpm: onsets.lowest_critical_rad_per_s.map(rpm),
             flutter_rpm: onsets.flutter_speed_rad_per_s.map(rpm),
             first_merge_rpm: onsets.first_merge_rad_per_s.map(rpm),

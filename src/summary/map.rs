@@ -5,6 +5,7 @@ use std::fmt::Write;
 use super::study::accuracy_of_saws;
 use super::{ROWS, WIDTH, shortened, unusual_numbers, wrapped};
 use crate::report::{MapAxisEntry, MapReport, MappedSawEntry, StabilityState};
+use crate::stability::CRITICAL_MARGIN;
 use crate::text::{shown, shown_to};
 
 /// A speed of a saw.
@@ -55,6 +56,17 @@ fn verdict(text: &mut String, report: &MapReport) -> std::fmt::Result {
         saws.filter(|saw| saw.state == Some(state)).count()
     };
     let judged = report.saws.iter().filter(|saw| saw.state.is_some()).count();
+    let critical = report
+        .saws
+        .iter()
+        .filter(|saw| saw.state == Some(StabilityState::Stable) && saw.at_critical_rpm.is_some());
+    let critical = match critical.count() {
+        0 => String::new(),
+        count => format!(
+            " ({count} of them within {:.0} % of a critical speed)",
+            100.0 * CRITICAL_MARGIN
+        ),
+    };
     let [stable, divergence, flutter] = [
         StabilityState::Stable,
         StabilityState::Divergence,
@@ -65,7 +77,7 @@ fn verdict(text: &mut String, report: &MapReport) -> std::fmt::Result {
         text,
         "{}",
         wrapped(&format!(
-            "At {rpm:.0} rpm {stable} of {judged} saws are stable, {divergence} diverge, {flutter} flutter"
+            "At {rpm:.0} rpm {stable} of {judged} saws are stable{critical}, {divergence} diverge, {flutter} flutter"
         ))
     )
 }
@@ -136,6 +148,7 @@ fn table(text: &mut String, report: &MapReport) -> std::fmt::Result {
         let state = match saw.state {
             _ if saw.not_analysed.is_some() => "not analysed",
             None => "–",
+            Some(StabilityState::Stable) if saw.at_critical_rpm.is_some() => "at critical",
             Some(StabilityState::Stable) => "stable",
             Some(StabilityState::Divergence) => "divergence",
             Some(StabilityState::Flutter) => "flutter",

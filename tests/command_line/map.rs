@@ -71,11 +71,16 @@ fn a_map_over_the_speed_holds_what_each_saw_is_alone() {
             assert!(near(own.from_rpm, band.from_rpm) && near(own.to_rpm, band.to_rpm));
             assert_eq!(own.counted_rpm.len(), band.counted_rpm.len());
         }
-        assert_eq!(
-            saw.state,
-            report.operating.map(|operating| operating.verdict)
-        );
+        assert_eq!(saw.critical_rpm.len(), report.critical_speeds.len());
+        let operating = report.operating.unwrap();
+        assert_eq!(saw.state, Some(operating.verdict));
+        // The nearest critical speed to the operating speed is the same, and it is within 5 % for at least one saw.
+        match (saw.at_critical_rpm, operating.at_critical_rpm) {
+            (Some(own), Some(other)) => assert!(near(own, other), "{own} {other}"),
+            (own, other) => assert_eq!(own, other),
+        }
     }
+    assert!(map.saws.iter().any(|saw| saw.at_critical_rpm.is_some()));
     assert_eq!(map.saws[1].state, Some(StabilityState::Flutter));
     let flutters = map
         .saws

@@ -12,8 +12,10 @@ use crate::figure::style::{
     PAPER, tint,
 };
 use crate::report::{ContourEntry, ContouredEntry, MapAxisEntry, MapReport, MappedSawEntry};
-use crate::stability::StabilityState;
+use crate::stability::{CRITICAL_MARGIN, StabilityState};
 
+/// Colour of stable saws at a critical speed.
+const AT_CRITICAL: Colour = plotters::style::RGBColor(196, 216, 232);
 /// Colour of stable saws, lighter than those of instability in grey prints too.
 const STABLE: Colour = plotters::style::RGBColor(228, 240, 228);
 
@@ -47,6 +49,7 @@ fn colour(saw: &MappedSawEntry) -> Colour {
     match saw.state {
         _ if saw.not_analysed.is_some() => BLANK,
         None | Some(StabilityState::OutsideSweep) => PAPER,
+        Some(StabilityState::Stable) if saw.at_critical_rpm.is_some() => AT_CRITICAL,
         Some(StabilityState::Stable) => STABLE,
         Some(StabilityState::Divergence) => tint(DIVERGENCE_STREAK, 0.6),
         Some(StabilityState::Flutter) => tint(FLUTTER_STREAK, 0.6),
@@ -114,6 +117,11 @@ fn draw_key(sheet: &mut Sheet, report: &MapReport) {
     if report.rpm.is_some() {
         key.shade(STABLE)
             .word("stable")
+            .shade(AT_CRITICAL)
+            .word(&format!(
+                "within {:.0} % of a critical speed",
+                100.0 * CRITICAL_MARGIN
+            ))
             .shade(tint(DIVERGENCE_STREAK, 0.6))
             .word("divergence")
             .shade(tint(FLUTTER_STREAK, 0.6))

@@ -32,6 +32,7 @@ fn report(with_y: bool) -> MapReport {
         let found = Found {
             lowest_critical_rpm: Some(0.7 * flutter),
             flutter_rpm: Some(flutter),
+            critical_rpm: vec![0.7 * flutter, 0.9 * flutter],
             bands: vec![
                 band(InstabilityKind::Divergence, 0.7 * flutter, 40.0, true),
                 band(InstabilityKind::Flutter, 0.9 * flutter, 3.0, false),
