@@ -41,7 +41,7 @@ pub struct Arguments {
     changes: Changes,
     #[command(flatten)]
     output: Output,
-    /// Of several scenes chart those that can be, where one is refused
+    /// Analyse the other scenes if one of several is refused
     #[arg(long)]
     keep_going: bool,
     /// Also say how critical speeds and onsets move with thickness, density, modulus and

@@ -7,7 +7,7 @@ use super::check::{ascending, few, positive, refuse, within};
 use super::groove::Groove;
 use super::profile::Profile;
 use super::residual::{ResidualStress, ResidualStressRow};
-use super::{Blade, SceneError};
+use super::{Blade, RefusedValue, SceneError};
 use crate::text::shown;
 
 /// Axisymmetric stress in the plane of the blade. Missing parts are zero.
@@ -159,10 +159,13 @@ impl Temperature {
         )?;
         let has_table = !typed.table.is_empty();
         if typed.rim_rise_k.is_some() == has_table {
-            let given = if has_table { 2.0 } else { 0.0 };
+            let given = match has_table {
+                true => "given by rim_rise_k and by table",
+                false => "without rim_rise_k and table",
+            };
             let remedy = "give rim_rise_k (with from_radius_m and exponent) or a table";
-            let allowed = "exactly one description";
-            return Err(refuse("membrane.temperature", given, allowed, remedy));
+            let allowed = "given by one of the two";
+            return Err(RefusedValue::new("membrane.temperature", given, allowed, remedy).into());
         }
         let (peak_rise_k, shape) = match typed.rim_rise_k {
             Some(rise) => (
@@ -280,10 +283,14 @@ impl RollBand {
                 groove.eigenstrain(depth)
             }
             (eigenstrain, _) => {
-                let given = if eigenstrain.is_some() { 2.0 } else { 0.0 };
+                let given = match eigenstrain {
+                    Some(_) => "given by eigenstrain and by groove_depth_m",
+                    None => "without eigenstrain and groove_depth_m",
+                };
                 let remedy = "give eigenstrain or groove_depth_m, and null for the other";
                 let key = format!("membrane.roll_tension[{index}]");
-                return Err(refuse(&key, given, "exactly one description", remedy));
+                let allowed = "given by one of the two";
+                return Err(RefusedValue::new(key, given, allowed, remedy).into());
             }
         };
         Ok(RollBand {

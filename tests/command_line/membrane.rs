@@ -159,7 +159,7 @@ fn refusals_name_key_value_and_remedy() {
         ),
         (
             serde_json::json!({ "roll_tension": [{ "radius_m": 0.1, "width_m": 0.02 }] }),
-            "membrane.roll_tension[0] is 0, but must be exactly one description",
+            "membrane.roll_tension[0] is without eigenstrain and groove_depth_m, but must be given by one of the two",
         ),
         (
             serde_json::json!({ "residual_stress": [row(0.1, 1e6), row(0.1, 2e6)] }),
