@@ -41,6 +41,18 @@ class Block(dict[str, Any]):
 _UNCHANGED = "a scene cannot be changed; replace({path: value}) makes another one"
 
 
+def _numbers(path: str, value: Any) -> Any:
+    """A value in which texts with a unit are numbers, in blocks and lists too."""
+    if isinstance(value, str):
+        number = _native.number(path, value)
+        return value if number is None else number
+    if isinstance(value, Mapping):
+        return {key: _numbers(f"{path}.{key}", inner) for key, inner in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_numbers(f"{path}[{place}]", inner) for place, inner in enumerate(value)]
+    return value
+
+
 class SceneData(Mapping[str, Any]):
     """Data of a scene, without its computations."""
 
@@ -149,8 +161,8 @@ class SceneData(Mapping[str, Any]):
         ----------
         changes : dict
             New values by path, such as ``"guides[0].radius_m"``: numbers, NumPy numbers, pint
-            quantities, or texts with a unit such as ``"2.6 mm"``. None removes a key. A missing
-            block, such as ``damping`` in ``"damping.air_n_s_per_m3"``, is created.
+            quantities, or texts with a unit such as ``"2.6 mm"``, in blocks and lists too. None
+            removes a key. A missing block, such as ``damping`` in ``"damping.air_n_s_per_m3"``, is created.
 
         Returns
         -------
@@ -174,9 +186,8 @@ class SceneData(Mapping[str, Any]):
         """
         data = json.loads(self._text)
         for path, value in changes.items():
-            if isinstance(value, str) and isinstance(path, str):
-                number = _native.number(path, value)
-                value = value if number is None else number
+            if isinstance(path, str):
+                value = _numbers(path, value)
             _paths.put(data, path, _values.plain(value, path.rpartition(".")[2]))
         return type(self)(data)
 

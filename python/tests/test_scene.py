@@ -202,6 +202,10 @@ def test_texts_with_a_unit_are_numbers() -> None:
     saw = sf.Scene.paper()
     paths = ("blade.thickness_m", "guides[0].stiffness_n_per_m", "operating_rpm")
     typed = saw.replace(dict(zip(paths, ("2.6 mm", "20 kN/mm", "20 rev/s"))))
+    guide = {**saw.guides[0], "stiffness_n_per_m": "20 kN/mm", "radius_m": "20 cm"}
+    stiff = saw.replace({"guides[0].stiffness_n_per_m": 2e7})
+    assert saw.replace({"guides": [guide]}) == stiff
+    assert saw.replace({"probe": {"radius_m": "30 cm", "angle_deg": 0}})["probe.radius_m"] == 0.3
     assert typed == saw.replace(dict(zip(paths, (0.0026, 2e7, 1200))))
     with pytest.raises(sf.SceneError, match="must be a number in m") as refused:
         saw.replace({"blade.thickness_m": "2.6 N"})
