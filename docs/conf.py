@@ -7,6 +7,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 os.environ.setdefault("SAWFLUTTER_PROGRAM", str(Path(sys.prefix) / "bin" / "sawflutter"))
+# A backend that the environment names would keep the figures of matplotlib out of the notebooks.
+os.environ.pop("MPLBACKEND", None)
 # Notebooks are run outside of the checkout and find its scenes and reference values by these.
 os.environ["SAWFLUTTER_SCENES"] = str(Path(__file__).parents[1] / "scenes")
 os.environ["SAWFLUTTER_REFERENCE"] = str(Path(__file__).parents[1] / "tests" / "reference")
