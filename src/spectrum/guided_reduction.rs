@@ -14,7 +14,7 @@ use super::error::SpectrumError;
 use super::full_model::FullModel;
 use super::interval::{Interval, StandingWave};
 use super::mode::{ModeKind, classify, is_seen};
-use super::model::{CHART_MODES, chart_height};
+use super::model::{CHART_MODES, Strategy, chart_height};
 use super::vectors::Eigenpair;
 use super::work::WorkCounters;
 use crate::system::GyroscopicSystem;
@@ -62,15 +62,16 @@ pub struct Guided<'a> {
 pub fn of_guided(
     guided: Guided<'_>,
     range: (f64, f64),
-    are_bands_enough: bool,
+    strategy: Strategy,
     counters: &WorkCounters,
 ) -> Result<Reduction, SpectrumError> {
     let mut builder = Builder::new(guided, range, counters);
+    builder.is_sketch = strategy == Strategy::Sketch;
     let reflected = || builder.reflected_height(range.1);
     let chart = || builder.chart_height(range.0);
-    let ((reflected, last), chart) = match are_bands_enough {
-        true => (reflected()?, None),
-        false => {
+    let ((reflected, last), chart) = match strategy {
+        Strategy::Bands => (reflected()?, None),
+        _ => {
             let (reflected, chart) = rayon::join(reflected, chart);
             (reflected?, Some(chart?))
         }
@@ -117,6 +118,8 @@ struct Builder<'a> {
     reflected: f64,
     snapshots: Vec<Snapshot>,
     unsettled_rad_per_s: f64,
+    /// Whether the errors may be those of a preview.
+    is_sketch: bool,
 }
 
 impl<'a> Builder<'a> {
@@ -131,6 +134,7 @@ impl<'a> Builder<'a> {
             reflected: 0.0,
             snapshots: Vec::new(),
             unsettled_rad_per_s: 0.0,
+            is_sketch: false,
         }
     }
 

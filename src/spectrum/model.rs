@@ -36,6 +36,8 @@ pub enum Strategy {
     /// Projection on the low modes at a few speeds.
     #[default]
     Reduced,
+    /// The same projection with larger errors, for a preview.
+    Sketch,
     /// Projection on those modes alone that can form bands; no diagram is possible.
     Bands,
     /// Every eigenvalue of the full model at every speed: slow, a reference for tests.
@@ -179,8 +181,7 @@ impl SpectralModel {
                 scale,
                 critical,
             };
-            let are_bands_enough = strategy == Strategy::Bands;
-            let found = of_guided(guided, range, are_bands_enough, counters)?;
+            let found = of_guided(guided, range, strategy, counters)?;
             component.solution = Solution::Projected(found.intervals);
             self.complete_to_rad_per_s = found.complete_to_rad_per_s;
             self.reflected_to_rad_per_s = found.reflected_to_rad_per_s;

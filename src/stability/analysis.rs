@@ -187,7 +187,11 @@ impl Analysis {
             estimated_resting_error,
             larger,
         } = chosen;
-        let model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
+        let strategy = match detail {
+            Detail::Full => Strategy::Reduced,
+            Detail::Sketch => Strategy::Sketch,
+        };
+        let model = SpectralModel::with_critical(saw, critical, range, strategy)?;
         let mut chart = charted(&model, range, options)?;
         let (overdamped, modes_at_rest): (Vec<_>, Vec<_>) = modes_at_rest(&model, &chart)?
             .into_iter()

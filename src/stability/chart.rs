@@ -76,7 +76,7 @@ pub(super) fn drawn(
 ) -> Result<StabilityChart, AnalysisError> {
     let (samples, instabilities, certificate) = match model.is_conservative() {
         true => undamped::charted(model, range, count, detail, progress)?,
-        false => damped::charted(model, range, count, progress)?,
+        false => damped::charted(model, range, count, detail, progress)?,
     };
     Ok(StabilityChart {
         campbell: Campbell::track(samples, model.complete_to_rad_per_s),

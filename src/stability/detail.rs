@@ -1,11 +1,58 @@
 //! Detail of a chart.
 
-/// Detail of a chart. Critical speeds and bands do not depend on it.
+/// Detail of a chart. Critical speeds do not depend on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Detail {
     /// Detail of the figures.
     #[default]
     Full,
-    /// Fewer speeds and no root loci: for a quick preview.
+    /// Fewer speeds, neither proof nor root loci, and bands with errors that no figure shows: for a quick preview.
     Sketch,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Accuracy, Scene, rpm};
+    use crate::stability::{Analysis, AnalysisOptions};
+
+    /// A sketch has the critical speeds of the full chart, and its bands to 0.5 rpm and 3 % of their growth,
+    /// also with damping and in the cut; none of its checks fails.
+    #[test]
+    fn a_sketch_has_the_bands_of_the_full_chart() {
+        for scene in [
+            "paper",
+            "gallery/damped-pad",
+            "gallery/in-cut",
+            "gallery/weak-pad",
+        ] {
+            let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
+            let text = std::fs::read_to_string(format!("{folder}/{scene}.json")).unwrap();
+            let saw = Scene::from_json(&text).unwrap();
+            let saw = saw.edited(|file| file.accuracy = Accuracy::Draft).unwrap();
+            let [sketch, full] = [Detail::Sketch, Detail::Full].map(|detail| {
+                let options = AnalysisOptions {
+                    detail,
+                    ..AnalysisOptions::default()
+                };
+                Analysis::with_options(&saw, options).unwrap()
+            });
+            assert_eq!(sketch.critical_rad_per_s(), full.critical_rad_per_s());
+            assert!(sketch.chart.certificate.is_clean(), "{scene}");
+            assert_eq!(sketch.bands().len(), full.bands().len(), "{scene}");
+            for (drafted, band) in sketch.bands().iter().zip(full.bands()) {
+                assert_eq!(drafted.kind, band.kind);
+                let ends = [
+                    (drafted.from_rad_per_s, band.from_rad_per_s),
+                    (drafted.to_rad_per_s, band.to_rad_per_s),
+                ];
+                for (found, expected) in ends {
+                    let off = rpm((found - expected).abs());
+                    assert!(off < 0.5, "{scene}: {off} rpm at {:.1}", rpm(expected));
+                }
+                let growth = drafted.peak_growth_per_s / band.peak_growth_per_s;
+                assert!((growth - 1.0).abs() < 0.03, "{scene}: {growth}");
+            }
+        }
+    }
 }

@@ -14,6 +14,7 @@ use rayon::prelude::*;
 
 use super::band::Instability;
 use super::certificate::Certificate;
+use super::detail::Detail;
 use super::error::AnalysisError;
 use super::partition::Plane;
 use super::pieces::{Piece, Search};
@@ -37,13 +38,17 @@ pub(super) fn charted(
     model: &SpectralModel,
     range: (f64, f64),
     count: usize,
+    detail: Detail,
     progress: Progress<'_>,
 ) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
     let drawn = clear_range(&model.critical, range);
     let speeds = with_critical_speeds(model, drawn, campbell::even_speeds(drawn, count));
     let mut samples = campbell::sample(model, &speeds, progress)?;
-    let (instabilities, certificate) = bands(model, range)?;
-    let mut drawn: Vec<f64> = instabilities.iter().flat_map(drawn_speeds).collect();
+    let closeness = Closeness::of(detail);
+    let (instabilities, certificate) = bands(model, range, closeness)?;
+    let drawn = instabilities.iter();
+    let drawn = drawn.flat_map(|band| drawn_speeds(band, closeness.drawn));
+    let mut drawn: Vec<f64> = drawn.collect();
     drawn.sort_by(f64::total_cmp);
     drawn.dedup();
     drawn.retain(|s| samples.iter().all(|sample| sample.speed_rad_per_s != *s));
@@ -54,19 +59,52 @@ pub(super) fn charted(
 /// Number of even speeds at the start of the search.
 const SEARCH_SPEEDS: usize = 9;
 /// Relative error allowed for an eigenvalue between two speeds of the search, and for a growth rate.
-const EIGENVALUE_TOLERANCE: f64 = 1e-3;
-const GROWTH_TOLERANCE: f64 = 1e-3;
+const SEARCH_TOLERANCE: f64 = 1e-3;
+/// The same for a preview, which takes half the time and changes the bands of the saws of the gallery by less
+/// than 0.1 rpm.
+const SKETCH_TOLERANCE: f64 = 1e-2;
+/// Factor for the distance of straight lines from a drawn curve in a preview.
+const SKETCH_LINES: f64 = 3.0;
+
+/// Accuracy of search and drawing.
+#[derive(Clone, Copy)]
+struct Closeness {
+    /// Of the search.
+    tolerance: f64,
+    /// Of straight lines between drawn speeds.
+    drawn: f64,
+    /// Whether the bands are compared with counts on the full model.
+    is_counted: bool,
+}
+
+impl Closeness {
+    fn of(detail: Detail) -> Self {
+        match detail {
+            Detail::Full => Closeness {
+                tolerance: SEARCH_TOLERANCE,
+                drawn: DRAWN.get(),
+                is_counted: true,
+            },
+            Detail::Sketch => Closeness {
+                tolerance: SKETCH_TOLERANCE,
+                drawn: SKETCH_LINES * DRAWN.get(),
+                is_counted: false,
+            },
+        }
+    }
+}
 
 /// Every band within a range of speeds, by onset.
 fn bands(
     model: &SpectralModel,
     range: (f64, f64),
+    closeness: Closeness,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let solver = Solver::new(model);
     let speeds = campbell::even_speeds(range, SEARCH_SPEEDS);
     let searched: Vec<(Vec<Piece>, Vec<Instability>)> = (0..model.components.len())
         .into_par_iter()
-        .map(|component| searched(&solver, component, &speeds))
+        .map(|component| searched(&solver, component, &speeds, closeness.tolerance))
         .collect::<Result<_, _>>()?;
     let mut instabilities = Vec::new();
     let mut spectra: Vec<Spectrum> = Vec::new();
@@ -82,7 +120,10 @@ fn bands(
         spectra = all.collect::<Result<_, _>>()?;
     }
     instabilities.sort_by(|x, y| x.from_rad_per_s.total_cmp(&y.from_rad_per_s));
-    let counts = Counts::new(model, &solver, &instabilities, range)?;
+    let counts = match closeness.is_counted {
+        true => Counts::new(model, &solver, &instabilities, range)?,
+        false => Counts::default(),
+    };
     let mut violations = mismatches(&solver, &spectra, &instabilities);
     violations.extend(mismatches(&solver, &counts.spectra, &instabilities));
     let certificate = Certificate {
@@ -102,13 +143,14 @@ fn searched(
     solver: &Solver<'_>,
     component: usize,
     speeds: &[f64],
+    tolerance: f64,
 ) -> Result<(Vec<Piece>, Vec<Instability>), SpectrumError> {
     let solve = |speed: f64| solver.sample(speed, component);
     let search = Search {
         plane: Plane::Eigenvalues,
         top_rad_per_s: solver.highest(),
-        tolerance: EIGENVALUE_TOLERANCE,
-        growth_tolerance: GROWTH_TOLERANCE,
+        tolerance,
+        growth_tolerance: tolerance,
         noise_per_s: solver.noise(),
         solve: &solve,
     };
@@ -168,8 +210,8 @@ fn mismatches(solver: &Solver<'_>, spectra: &[Spectrum], bands: &[Instability]) 
 
 /// Speeds at which the growth in a band is drawn: ends, peak, and as many between as straight lines need to
 /// follow the curve.
-fn drawn_speeds(band: &Instability) -> Vec<f64> {
-    let tolerance = DRAWN.get() * band.peak_growth_per_s.sqrt();
+fn drawn_speeds(band: &Instability, share: f64) -> Vec<f64> {
+    let tolerance = share * band.peak_growth_per_s.sqrt();
     let mut points: Vec<(f64, f64)> = Vec::new();
     for pair in band.curve.windows(2) {
         let [from, to] = [0, 1].map(|k| pair[k].speed_rad_per_s);
