@@ -3,6 +3,8 @@
 // Tasks take minutes, and depend on no chart: charts do not wait for them.
 const CHARTS = "charts";
 const TASKS = "tasks";
+// Critical speeds come before the chart that is being computed.
+const CRITICAL = "critical";
 // What takes no time waits for neither.
 const QUICK = "quick";
 const IS_QUICK = /^(start|read|measured|part)$/;
@@ -94,10 +96,11 @@ class Queue {
   }
 }
 
-const queues = { [CHARTS]: new Queue(), [TASKS]: new Queue(), [QUICK]: new Queue() };
+const queues = { [CHARTS]: new Queue(), [TASKS]: new Queue(), [CRITICAL]: new Queue(), [QUICK]: new Queue() };
 
 function queueOf(path) {
   if (path.startsWith("task/")) return queues[TASKS];
+  if (path === CRITICAL) return queues[CRITICAL];
   return queues[IS_QUICK.test(path) ? QUICK : CHARTS];
 }
 

@@ -9,7 +9,7 @@ use super::refusal::Refusal;
 use super::reply::FileNote;
 use super::reply::{SavedFile, Start};
 use super::task::{Meter, Task};
-use super::{mode, parts};
+use super::{critical, mode, parts};
 use crate::fit::Measurement;
 use crate::scene::Scene;
 use crate::spectrum::Stage;
@@ -21,7 +21,7 @@ pub type Clock = fn() -> f64;
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Question {
-    /// What is asked for: `start`, `chart/draft`, `chart/scene`, `mode`, `influence`, `save/NAME`, `task/NAME`,
+    /// What is asked for: `start`, `chart/draft`, `chart/scene`, `critical`, `mode`, `influence`, `save/NAME`, `task/NAME`,
     /// `read`, `measured` or `part`.
     pub path: String,
     /// Name of the page.
@@ -156,6 +156,7 @@ impl Backend {
                 },
                 None => Answer::empty(BAD_REQUEST),
             },
+            "critical" => Answer::json(&critical::answer(body)?),
             "mode" => Answer::json(&mode::answer(&self.charts, body)?),
             "influence" => Answer::json(&self.charts.influence(body)?),
             "save" => match SavedFile::named(name) {

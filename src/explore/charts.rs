@@ -13,7 +13,7 @@ use super::told::Told;
 use super::under_way::UnderWay;
 use crate::figure::ChartData;
 use crate::report::{Report, SensitivityEntry};
-use crate::scene::{Accuracy, Scene};
+use crate::scene::{Accuracy, Scene, SceneError};
 use crate::stability::{Analysis, AnalysisOptions, Detail};
 
 /// Accuracy with which a diagram is requested.
@@ -40,6 +40,16 @@ impl Fidelity {
 /// Tolerance of critical speeds and frequencies at rest: errors are smaller than the width of the lines, and
 /// half of it would take twice the time.
 const DRAFT_TOLERANCE: f64 = 2e-2;
+
+/// A scene with the accuracy of a draft.
+///
+/// # Errors
+/// [`SceneError`] if the scene is refused.
+pub fn drafted(scene: &Scene) -> Result<Scene, SceneError> {
+    scene.edited(|file| {
+        (file.accuracy, file.tolerance) = (Accuracy::Draft, Some(DRAFT_TOLERANCE));
+    })
+}
 
 #[derive(Serialize)]
 struct Chart<'a> {
@@ -105,9 +115,7 @@ impl Charts {
         let mut scene = Scene::from_json(scene)?;
         let detail = match fidelity {
             Fidelity::Draft => {
-                scene = scene.edited(|file| {
-                    (file.accuracy, file.tolerance) = (Accuracy::Draft, Some(DRAFT_TOLERANCE));
-                })?;
+                scene = drafted(&scene)?;
                 Detail::Sketch
             }
             Fidelity::Scene => Detail::Full,

@@ -7,6 +7,7 @@
 mod answers;
 mod backend;
 mod charts;
+mod critical;
 mod examples;
 mod fields;
 #[cfg(feature = "explore")]

@@ -69,6 +69,8 @@ struct Server {
     /// Queue of influences, which take about as long as a diagram. They do not wait for tasks, because
     /// waiting requests would occupy connections that diagrams need.
     influences: Jobs,
+    /// Queue of critical speeds, which are shown before a diagram that is being computed.
+    criticals: Jobs,
     pages: Arc<Pages>,
     file: Option<Arc<OpenedFile>>,
 }
@@ -101,6 +103,7 @@ pub fn serve(
             jobs: Jobs::default(),
             tasks: Jobs::default(),
             influences: Jobs::default(),
+            criticals: Jobs::default(),
             pages: Arc::default(),
             file: file.map(Arc::new),
         };
@@ -127,6 +130,7 @@ fn router(server: Server, hosts: OwnHosts) -> Router {
     let at_once = waiting_in(Queue::None);
     let drawn = waiting_in(Queue::Charts);
     let weighed = waiting_in(Queue::Influences);
+    let ahead = waiting_in(Queue::Criticals);
     Router::new()
         .route("/", get(|| async { page::file("index.html") }))
         .route(
@@ -139,6 +143,7 @@ fn router(server: Server, hosts: OwnHosts) -> Router {
         .route("/part", post(at_once))
         .route("/mode", post(at_once))
         .route("/chart/{fidelity}", post(drawn))
+        .route("/critical", post(ahead))
         .route("/save/{name}", post(drawn))
         .route("/influence", post(weighed))
         .route("/task/{task}", post(task))
@@ -185,6 +190,7 @@ enum Queue {
     /// Diagrams and files.
     Charts,
     Influences,
+    Criticals,
     /// What takes no time.
     None,
 }
@@ -203,6 +209,7 @@ async fn asked(
     let answer = match queue {
         Queue::Charts => server.jobs.run(work).await,
         Queue::Influences => server.influences.run(work).await,
+        Queue::Criticals => server.criticals.run(work).await,
         Queue::None => Some(work()),
     };
     answer.map_or_else(|| StatusCode::SERVICE_UNAVAILABLE.into_response(), sent)

@@ -19,8 +19,8 @@ pub struct Told {
 }
 
 /// A number by which a change is judged.
-#[derive(Serialize)]
-struct Fact {
+#[derive(Debug, Serialize)]
+pub struct Fact {
     name: &'static str,
     words: String,
     unit: &'static str,
@@ -39,22 +39,33 @@ impl Told {
     }
 }
 
-fn facts(report: &Report) -> Vec<Fact> {
-    let speed = |name, rpm: Option<f64>| Fact {
+fn speed(name: &'static str, rpm: Option<f64>) -> Fact {
+    Fact {
         name,
         words: rpm.map_or("none".to_owned(), |rpm| match rpm < 100.0 {
             true => format!("{rpm:.1}"),
             false => format!("{rpm:.0}"),
         }),
         unit: if rpm.is_some() { "rpm" } else { "" },
-    };
+    }
+}
+
+/// First critical speed of the sweep, and ratio of the operating speed to the lowest one.
+pub fn of_critical(first_rpm: Option<f64>, share: Option<f64>) -> [Fact; 2] {
+    let percent = share.map(|share| format!("{:.1}", 100.0 * share));
+    [
+        speed("First critical", first_rpm),
+        known("Of critical", percent, "%"),
+    ]
+}
+
+fn facts(report: &Report) -> Vec<Fact> {
     let peaks = report.instabilities.iter().map(|b| b.peak_growth_per_s);
     let share = report.operating.as_ref().and_then(|o| o.of_lowest_critical);
+    let critical = report.critical_speeds.first().map(|critical| critical.rpm);
+    let [first_critical, share] = of_critical(critical, share);
     let mut facts = vec![
-        speed(
-            "First critical",
-            report.critical_speeds.first().map(|critical| critical.rpm),
-        ),
+        first_critical,
         speed("Flutter speed", report.flutter_speed_rpm),
         speed("First merging", report.first_merge_rpm),
         Fact {
@@ -62,11 +73,7 @@ fn facts(report: &Report) -> Vec<Fact> {
             words: shown_to(3, peaks.fold(0.0, f64::max)),
             unit: "1/s",
         },
-        known(
-            "Of critical",
-            share.map(|share| format!("{:.1}", 100.0 * share)),
-            "%",
-        ),
+        share,
     ];
     let heat = report.membrane.as_ref().and_then(|m| m.heat.as_ref());
     facts.extend(heat.map(|heat| {

@@ -177,6 +177,20 @@ pub struct Upright {
     pub name: String,
 }
 
+impl Upright {
+    /// The line of a critical speed.
+    pub(crate) fn critical(rpm: f64, wave: &str) -> Self {
+        Upright {
+            x: rpm,
+            role: Role::Critical,
+            colour: Hue::Quiet,
+            dashed: true,
+            label: format!("{rpm:.0}"),
+            name: format!("critical speed {rpm:.0} rpm: {wave}"),
+        }
+    }
+}
+
 /// A curve; a NaN interrupts it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Line {

@@ -96,10 +96,14 @@ fn answers_come_during_a_drag_and_none_is_computed_in_vain() {
             .value("sawflutter.computed.filter(([kind]) => kind === 'draft').map(([, ms]) => ms)")
             .await;
         let released = page.value("sawflutter.latencies.release").await;
+        let critical = page.value("sawflutter.latencies.critical").await;
+        assert!(!critical.as_array().unwrap().is_empty());
         println!(
-            "pointer move to painted chart at draft: median {:.0} ms, 95th percentile {:.0} ms \
+            "pointer move to painted critical speeds: median {:.0} ms, 95th percentile {:.0} ms; to painted chart at draft: median {:.0} ms, 95th percentile {:.0} ms \
              ({} moves, {} charts of {:.0} ms median); release to painted chart at design \
              accuracy: median {:.0} ms of {}; parts of a move, median / 95th percentile: {}; load {}",
+            percentile(&critical, 0.5),
+            percentile(&critical, 0.95),
             percentile(&times, 0.5),
             percentile(&times, 0.95),
             times.as_array().unwrap().len(),

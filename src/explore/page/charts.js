@@ -23,6 +23,8 @@ export class Charts {
   // The point that is looked at, on the chart as it is now: a branch and the number of a speed.
   pointed = null;
   #zoom = null;
+  // The lines of the critical speeds of a saw whose chart is still being computed.
+  #ahead = null;
   // The axes while a hand moves something.
   #held = null;
 
@@ -77,8 +79,20 @@ export class Charts {
   show(chart, others) {
     this.#chart = chart;
     this.#others = others;
+    this.#ahead = null;
     this.pointed &&= samePoint(this.report, this.pointed);
     this.redraw();
+  }
+
+  // Moves the lines of the critical speeds before the chart is known.
+  moveCritical(uprights) {
+    this.#ahead = uprights.map((upright) => ({ ...upright, item: "upright" }));
+    this.redraw();
+  }
+
+  #items(number) {
+    const { items } = this.#chart.figure.panels[number];
+    return this.#ahead ? [...items.filter(({ role }) => role !== "critical"), ...this.#ahead] : items;
   }
 
   get report() {
@@ -202,7 +216,7 @@ export class Charts {
 
   #drawCampbell(u, narrow) {
     if (!this.#chart) return;
-    const [painter, { items }] = [this.#painter(u), this.#chart.figure.panels[0]];
+    const [painter, items] = [this.#painter(u), this.#items(0)];
     painter.within(() => {
       painter.bands(items);
       painter.uprights(items, this.#alarms);
@@ -222,7 +236,7 @@ export class Charts {
 
   #drawGrowth(u) {
     if (!this.#chart) return;
-    const [painter, { items, note }] = [this.#painter(u, this.#height), this.#chart.figure.panels[1]];
+    const [painter, items, { note }] = [this.#painter(u, this.#height), this.#items(1), this.#chart.figure.panels[1]];
     painter.within(() => {
       painter.bands(items);
       painter.uprights(items, this.#alarms);

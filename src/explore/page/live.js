@@ -1,8 +1,9 @@
 // Charts of a scene that keeps changing. The server computes one at a time: sketches that were
 // passed while it computed are never asked for; a final chart, and any change after one was asked
-// for, aborts what runs, and the server stops computing it.
+// for, aborts what runs, and the server stops computing it. Critical speeds are known long before a
+// sketch: those of the newest scene are asked for beside it.
 
-import { chart } from "./talk.js";
+import { chart, criticalSpeeds } from "./talk.js";
 
 // A hand that rests so long while it holds something is shown the chart at its own accuracy: after
 // the release nothing is left to compute.
@@ -15,9 +16,13 @@ export class Live {
   // The newest that was shown.
   #shown = null;
   #rest = 0;
+  // The newest sketch whose critical speeds were not asked for yet.
+  #ahead = null;
+  #isAhead = false;
 
-  constructor({ onChart, onRefused, onBusy }) {
+  constructor({ onChart, onCritical, onRefused, onBusy }) {
     this.onChart = onChart;
+    this.onCritical = onCritical;
     this.onRefused = onRefused;
     this.onBusy = onBusy;
   }
@@ -35,7 +40,7 @@ export class Live {
   // Nothing is computed until it is asked for again.
   stop() {
     clearTimeout(this.#rest);
-    this.#next = null;
+    this.#next = this.#ahead = null;
     const running = this.#computing;
     if (!running) return;
     running.abort.abort();
@@ -51,6 +56,7 @@ export class Live {
     if (stamp !== undefined) stamps.push(stamp);
     if (!draft && this.#adopted(text, stamps, released)) return;
     this.#next = { text, draft, stamps, released, number: ++this.#count };
+    this.#ahead = draft ? { text, number: this.#count, stamps: [...(this.#ahead?.stamps ?? []), ...(stamp === undefined ? [] : [stamp])] } : null;
     const running = this.#computing;
     if (running && (!draft || !running.draft)) {
       stamps.unshift(...running.stamps);
@@ -58,6 +64,22 @@ export class Live {
       this.#computing = null;
     }
     if (!this.#computing) this.#run(this.#next);
+    this.#lookAhead();
+  }
+
+  // One request at a time, each for the newest scene.
+  async #lookAhead() {
+    if (this.#isAhead) return;
+    this.#isAhead = true;
+    while (this.#ahead) {
+      const asked = this.#ahead;
+      this.#ahead = null;
+      // What is refused, the chart says.
+      const found = await criticalSpeeds(asked.text).catch(() => null);
+      const isPassed = asked.number <= (this.#shown?.request.number ?? 0);
+      if (found) this.onCritical(found, { ...asked, isPassed });
+    }
+    this.#isAhead = false;
   }
 
   // Asks for the final chart anew, also where it is shown.

@@ -35,7 +35,7 @@ const kept = new Kept(begun.scene);
 // For the test in a browser: times from a move, or from the release, to its painted chart, the parts of
 // those of drafts, and what is shown.
 /** @type {any} */
-const seen = (/** @type {any} */ (window).sawflutter = { latencies: { draft: [], scene: [], release: [] }, computed: [], parts: [], painted: null, newest: null });
+const seen = (/** @type {any} */ (window).sawflutter = { latencies: { critical: [], draft: [], scene: [], release: [] }, computed: [], parts: [], painted: null, newest: null });
 
 const state = new SceneState(begun.scene, (scene, { draft, structure, stamp, released }) => {
   live.ask(scene, { draft, stamp, released });
@@ -71,7 +71,7 @@ const tasks = new Tasks(by("tabs"), by("panels"), by("panel-chart"), state, begu
   inWords: (refusal) => form.inWords(refusal),
   nameOf: (file) => files.nameOf(file),
 });
-const live = new Live({ onChart, onRefused, onBusy });
+const live = new Live({ onChart, onCritical, onRefused, onBusy });
 const waiting = new Waiting(by("waiting"), { onStop, onAgain: () => live.again(state.scene), ask: progress });
 seen.state = state;
 // Whether the chart that is painted is that of the scene, at its own accuracy.
@@ -166,6 +166,20 @@ function onChart(chart, request) {
     seen.computed.push([kind, chart.milliseconds]);
     seen.painted = request.draft ? null : request.text;
     seen.newest = request.text;
+  });
+}
+
+// The critical speeds of the saw as it is, before its chart: their lines, and the numbers that follow from them.
+function onCritical({ uprights, facts: ahead }, { stamps, isPassed }) {
+  if (!latest) return;
+  if (!isPassed) {
+    charts.moveCritical(uprights);
+    const now = latest.told.facts.map((fact) => ({ ...(ahead.find(({ name }) => name === fact.name) ?? fact), isAhead: ahead.some(({ name }) => name === fact.name) }));
+    facts(by("facts"), now, pinned.facts);
+  }
+  painted(() => {
+    const now = performance.now();
+    seen.latencies.critical.push(...stamps.map((stamp) => now - stamp));
   });
 }
 

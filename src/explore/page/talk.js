@@ -38,6 +38,12 @@ export async function mode(shown, rpm, frequency_hz, signal) {
 // there as soon as the server has computed it, its body a little later.
 export const chart = (text, draft, signal) => post(draft ? "chart/draft" : "chart/scene", text, signal);
 
+// The lines of the critical speeds of a scene, and the numbers that follow from them, before its chart.
+export async function criticalSpeeds(text) {
+  const answer = await post("critical", text);
+  return answer.json();
+}
+
 // What the chart is at that is being computed; null where none is.
 export async function progress() {
   const answer = await ask("progress", { headers: { "sawflutter-page": page } });

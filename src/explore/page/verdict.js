@@ -19,7 +19,8 @@ export function facts(place, now, before) {
     const other = before.find(({ name }) => name === fact.name);
     const changed = other !== undefined && told(other) !== told(fact);
     const text = changed ? `${other.words} → ${told(fact)}` : told(fact);
-    return node("div", { className: changed ? "fact changed" : "fact" }, node("dt", { textContent: fact.name }), node("dd", { textContent: text }));
+    const className = ["fact", changed && "changed", fact.isAhead && "ahead"].filter(Boolean).join(" ");
+    return node("div", { className }, node("dt", { textContent: fact.name }), node("dd", { textContent: text }));
   }));
 }
 

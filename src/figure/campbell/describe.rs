@@ -64,14 +64,8 @@ fn names_of_lines(report: &Report) -> Option<String> {
 }
 
 fn uprights(report: &Report) -> impl Iterator<Item = Item> {
-    let critical = report.critical_speeds.iter().map(|entry| Upright {
-        x: entry.rpm,
-        role: Role::Critical,
-        colour: Hue::Quiet,
-        dashed: true,
-        label: format!("{:.0}", entry.rpm),
-        name: format!("critical speed {:.0} rpm: {}", entry.rpm, entry.name),
-    });
+    let critical = report.critical_speeds.iter();
+    let critical = critical.map(|entry| Upright::critical(entry.rpm, &entry.name));
     let operating = report.scene.operating_rpm.map(|rpm| Upright {
         x: rpm,
         role: Role::Operating,
