@@ -3,7 +3,10 @@
 use serde::Serialize;
 
 use crate::figure::number_name;
-use crate::report::{CutReport, FitReport, PlaceReport, RunUpReport, WashboardReport};
+use crate::report::{
+    AtAmplitudeEntry, CutReport, FitReport, GapReport, PlaceReport, ResponseReport, RunUpReport,
+    WashboardReport,
+};
 use crate::scene::Quantity;
 
 /// A number of an answer.
@@ -62,6 +65,42 @@ pub fn of_washboard(report: &WashboardReport) -> Vec<TaskAnswer> {
     vec![
         answer("A motion grows from a stiffness of", STIFFNESS, stiffness),
         answer("at", FREQUENCY, report.critical_frequency_hz),
+    ]
+}
+
+/// Largest amplitude of each cause at the probe, and the deviation of the board at the operating speed.
+pub fn of_response(report: &ResponseReport) -> Vec<TaskAnswer> {
+    let largest = report.lines.iter().map(|line| {
+        let known = line.amplitude_m.iter().flatten().copied();
+        let name = format!("Largest at the probe, {}", line.name);
+        answer(name, LENGTH, known.reduce(f64::max))
+    });
+    let board = report.operating.as_ref().map(|operating| {
+        let name = format!("Deviation of the board at {:.0} rpm", operating.rpm);
+        answer(name, LENGTH, operating.board_deviation_m)
+    });
+    largest.chain(board).collect()
+}
+
+/// Amplitude from which guides with a gap act, and the first critical speeds on both sides.
+pub fn of_gap(report: &GapReport) -> Vec<TaskAnswer> {
+    let critical = |at: &AtAmplitudeEntry| at.critical_rpm.first().copied();
+    vec![
+        answer(
+            "Guides act half from an amplitude of",
+            LENGTH,
+            report.half_way_amplitude_m,
+        ),
+        answer(
+            "First critical speed inside the gaps",
+            SPEED,
+            critical(&report.free),
+        ),
+        answer(
+            "First critical speed at large amplitudes",
+            SPEED,
+            critical(&report.linear),
+        ),
     ]
 }
 

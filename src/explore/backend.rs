@@ -4,11 +4,12 @@ use serde::{Deserialize, Serialize};
 
 use super::charts::{Charts, Fidelity};
 use super::fields::Units;
+use super::meter::Meter;
 use super::refusal::Refusal;
 #[cfg(feature = "explore")]
 use super::reply::FileNote;
 use super::reply::{SavedFile, Start};
-use super::task::{Meter, Task};
+use super::task::Task;
 use super::{critical, mode, parts};
 use crate::fit::Measurement;
 use crate::scene::Scene;

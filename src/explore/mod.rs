@@ -15,6 +15,7 @@ mod guard;
 mod influence;
 #[cfg(feature = "explore")]
 mod job;
+mod meter;
 mod mode;
 mod needs;
 #[cfg(feature = "explore")]

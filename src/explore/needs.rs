@@ -62,6 +62,14 @@ pub const NEEDS: &[Need] = &[
         otherwise: "The scene has no measured frequencies yet.",
     },
     Need {
+        of: "gap",
+        any: &[Condition {
+            path: "guides[].contact",
+            is: Some("one_sided"),
+        }],
+        otherwise: "The scene has no guide with a gap: give a guide the contact one_sided and its gap.",
+    },
+    Need {
         of: "place",
         any: &[GUIDES],
         otherwise: "The scene has no guide to place yet.",

@@ -5,15 +5,23 @@ use std::sync::Mutex;
 
 use serde::{Deserialize, Serialize};
 
-use super::answers::{TaskAnswer, of_cut, of_fit, of_place, of_runup, of_washboard};
-use super::backend::Clock;
+use super::answers::{
+    TaskAnswer, of_cut, of_fit, of_gap, of_place, of_response, of_runup, of_washboard,
+};
+use super::meter::Meter;
 use super::refusal::Refusal;
 use super::tolerances::{Tolerance, Typed, study as study_of};
 use crate::figure::{Figure, Figures};
 use crate::fit::{self, Fit, FitError, Measurement};
+use crate::gap::{self, GapError, GuideGaps};
+use crate::map::{self, Map, Range};
 use crate::place::{self, Demands, Goal, PlaceError, Placement};
-use crate::report::{CutReport, FitReport, PlaceReport, RunUpReport, WashboardReport};
-use crate::scene::{Freed, Scene, SceneFile};
+use crate::report::{
+    CutReport, FitReport, GapReport, MapReport, PlaceReport, ResponseReport, RunUpReport,
+    WashboardReport,
+};
+use crate::response::{self, ForcedResponse, ResponseError};
+use crate::scene::{Freed, Scene, SceneError, SceneFile};
 use crate::study::{Saw, Study, StudyReport};
 use crate::transient::{Cutting, RunningUp, TransientError};
 use crate::washboarding::{Washboard, WashboardError};
@@ -33,6 +41,12 @@ pub enum Task {
     Place,
     /// `sawflutter study` with tolerances.
     Study,
+    /// `sawflutter response`.
+    Response,
+    /// `sawflutter map` within the usual bounds of one or two numbers.
+    Map,
+    /// `sawflutter gap`.
+    Gap,
 }
 
 /// A request.
@@ -49,64 +63,9 @@ pub struct Asked {
     /// For a study: the tolerances.
     #[serde(default)]
     tolerances: Vec<Tolerance>,
-}
-
-/// Interval between progress messages.
-const PAUSE_MS: f64 = 100.0;
-/// Interval between intermediate figures, each of which is drawn anew.
-const FIGURE_PAUSE_MS: f64 = 400.0;
-
-/// Sends the progress of a task.
-pub struct Meter<'a> {
-    tell: &'a (dyn Fn(String) + Send + Sync),
-    clock: Clock,
-    told: Mutex<Option<f64>>,
-    drawn: Mutex<Option<f64>>,
-}
-
-impl<'a> Meter<'a> {
-    /// Sends progress line by line.
-    pub fn new(tell: &'a (dyn Fn(String) + Send + Sync), clock: Clock) -> Self {
-        Meter {
-            tell,
-            clock,
-            told: Mutex::default(),
-            drawn: Mutex::default(),
-        }
-    }
-
-    /// Whether the interval has passed; if so, it starts again.
-    fn is_due(&self, last: &Mutex<Option<f64>>, pause_ms: f64) -> bool {
-        let mut last = last.lock().unwrap_or_else(|e| e.into_inner());
-        let now = (self.clock)();
-        let is_due = last.is_none_or(|last| now - last >= pause_ms);
-        if is_due {
-            *last = Some(now);
-        }
-        is_due
-    }
-
-    fn show(&self, what: &str, done: usize, of: usize) {
-        if self.is_due(&self.told, PAUSE_MS) {
-            self.send(serde_json::json!({ "what": what, "done": done, "of": of }));
-        }
-    }
-
-    /// Sends an intermediate figure, unless it cannot be drawn yet.
-    fn draw(&self, figure: impl FnOnce() -> Option<Figure>) {
-        if !self.is_due(&self.drawn, FIGURE_PAUSE_MS) {
-            return;
-        }
-        let Some(figure) = figure() else { return };
-        let [_, name] = figure.names();
-        if let Ok(svg) = figure.svg() {
-            self.send(serde_json::json!({ "so_far": [[name, svg]] }));
-        }
-    }
-
-    fn send(&self, line: serde_json::Value) {
-        (self.tell)(line.to_string());
-    }
+    /// For a map: paths of the numbers along its axes. Without the second, that axis is the speed.
+    #[serde(default)]
+    axes: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -132,6 +91,9 @@ impl Task {
             "fit" => Task::Fit,
             "place" => Task::Place,
             "study" => Task::Study,
+            "response" => Task::Response,
+            "map" => Task::Map,
+            "gap" => Task::Gap,
             _ => return None,
         })
     }
@@ -150,6 +112,9 @@ impl Task {
             Task::Fit => fit(&scene, meter),
             Task::Place => place(&scene, &asked, meter),
             Task::Study => study(scene, &asked, meter),
+            Task::Response => response(&scene),
+            Task::Map => map(scene, &asked, meter),
+            Task::Gap => gap(&scene),
         }
     }
 }
@@ -247,21 +212,75 @@ fn place(scene: &Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refu
 fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     let file = study_of(scene.file(), &asked.tolerances)?;
     let study = Study::new(scene, file).map_err(|error| Refusal::of(&error))?;
-    // Saws are sorted by number, in whatever order they were finished.
+    let so_far = |saws: &[Saw]| {
+        let so_far = StudyReport::new(&study, saws).ok()?;
+        so_far.figures().into_iter().next()
+    };
+    let saws = analysed(&study, meter, &so_far);
+    let report = StudyReport::new(&study, &saws).map_err(|error| Refusal::of(&error))?;
+    answer(&report, report.summary(), Vec::new(), None)
+}
+
+/// The saws of a study by number, in whatever order they are finished, with a figure of those so far.
+fn analysed(
+    study: &Study,
+    meter: &Meter<'_>,
+    so_far: &(dyn Fn(&[Saw]) -> Option<Figure> + Sync),
+) -> Vec<Saw> {
     let saws = Mutex::new(Vec::<Saw>::new());
     let done = |saw: Saw| {
         let mut saws = saws.lock().unwrap_or_else(|e| e.into_inner());
         let place = saws.partition_point(|other| other.index < saw.index);
         saws.insert(place, saw);
         meter.show("saws", saws.len(), study.count());
-        meter.draw(|| {
-            let so_far = StudyReport::new(&study, &saws).ok()?;
-            so_far.figures().into_iter().next()
-        });
+        meter.draw(|| so_far(&saws));
         Ok::<_, std::convert::Infallible>(())
     };
     let Ok(()) = study.run(None, 0..study.count(), &done);
-    let saws = saws.into_inner().unwrap_or_else(|e| e.into_inner());
-    let report = StudyReport::new(&study, &saws).map_err(|error| Refusal::of(&error))?;
+    saws.into_inner().unwrap_or_else(|e| e.into_inner())
+}
+
+fn response(scene: &Scene) -> Result<String, Refusal> {
+    let found = ForcedResponse::new(scene, &response::Options::default());
+    let report = ResponseReport::new(&found.map_err(|error| match error {
+        ResponseError::Refused(refused) => refused.into(),
+        other => Refusal::of(&other),
+    })?);
+    answer(&report, report.summary(), of_response(&report), None)
+}
+
+const NO_AXIS: &str = "A map needs one or two numbers of the scene";
+
+fn map(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
+    let axes = asked.axes.iter().map(|path| {
+        let freed = Freed::with_usual_bounds(&scene, path)?;
+        Ok(Range {
+            path: path.clone(),
+            from: freed.from,
+            to: freed.to,
+        })
+    });
+    let mut axes = axes
+        .collect::<Result<Vec<Range>, SceneError>>()?
+        .into_iter();
+    let (Some(x), y, None) = (axes.next(), axes.next(), axes.next()) else {
+        return Err(Refusal::with_message(NO_AXIS));
+    };
+    let options = map::Options {
+        y,
+        ..map::Options::over(x)
+    };
+    let map = Map::new(scene, &options).map_err(|error| Refusal::of(&error))?;
+    let saws = analysed(map.study(), meter, &|_| None);
+    let report = MapReport::new(&map, &saws);
     answer(&report, report.summary(), Vec::new(), None)
+}
+
+fn gap(scene: &Scene) -> Result<String, Refusal> {
+    let found = GuideGaps::new(scene, &gap::Options::default());
+    let report = GapReport::new(&found.map_err(|error| match error {
+        GapError::Refused(refused) => refused.into(),
+        other => Refusal::of(&other),
+    })?);
+    answer(&report, report.summary(), of_gap(&report), None)
 }

@@ -79,6 +79,48 @@ fn a_fit_is_taken_over_and_a_missing_part_is_added() {
     });
 }
 
+/// The numbers of a map are chosen in its tab, within usual bounds.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_response_a_gap_and_a_map_are_those_of_the_command_line() {
+    run(async {
+        let folder = tempfile::tempdir().unwrap();
+        let mut scene: Value =
+            serde_json::from_str(include_str!("../../scenes/paper.json")).unwrap();
+        scene["accuracy"] = json!("draft");
+        scene["sweep"] = json!({ "from_rpm": 0, "to_rpm": 1800 });
+        scene["operating_rpm"] = json!(1200);
+        let path = folder.path().join("short-sweep.json");
+        std::fs::write(&path, scene.to_string()).unwrap();
+        let page = Page::open(&[path.to_str().unwrap()]).await;
+        page.settle().await;
+        page.find("#tab-gap").await.click().await.unwrap();
+        let disabled = "document.querySelector('#panel-gap .start button').disabled";
+        assert_eq!(page.value(disabled).await, json!(true));
+        page.script(
+            "const guides = structuredClone(sawflutter.state.scene.guides); \
+             Object.assign(guides[0], { contact: 'one_sided', gap_m: 5e-5 }); \
+             sawflutter.state.set('guides', guides, { structure: true })",
+        )
+        .await;
+        page.settle().await;
+        let map = ["map", "--x", "blade.thickness_m=2.24mm..3.36mm"];
+        for command in [&["response"], &["gap"], map.as_slice()] {
+            let tab = command[0];
+            page.compute(tab).await;
+            page.screenshot(&format!("1280-{tab}.png")).await;
+            let shown = page.text(&format!("#panel-{tab} pre")).await;
+            let (_, printed) = page.command(command).await;
+            assert!(printed.starts_with(shown.trim_end()), "{shown}\n{printed}");
+            let pictures = format!(
+                "[...document.querySelectorAll('#panel-{tab} .answer img')].filter((i) => i.naturalWidth > 0).length"
+            );
+            assert!(page.value(&pictures).await.as_u64().unwrap() >= 1, "{tab}");
+        }
+        page.close().await;
+    });
+}
+
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn a_task_reports_its_progress_and_can_be_stopped() {

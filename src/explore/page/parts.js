@@ -26,11 +26,17 @@ export async function putIn(state, path, { kind = "", before = (/** @type {any} 
   }
 }
 
+// The value at a path; with [] in it, those of every entry of the list.
+function valuesAt(scene, path) {
+  const [list, key] = path.split("[].");
+  return key === undefined ? [get(scene, path)] : (get(scene, list) ?? []).map((entry) => get(entry, key));
+}
+
 const isThere = (value) => (Array.isArray(value) ? value.length > 0 : value !== undefined && value !== null);
 
 // Why a part cannot be put into this scene, or a task cannot be computed for it; nothing where it can.
 export function lacks(needs, name, scene) {
   const need = needs.find((one) => one.of === name);
-  const has = ({ path, is }) => (is === null ? isThere(get(scene, path)) : get(scene, path) === is);
+  const has = ({ path, is }) => valuesAt(scene, path).some((value) => (is === null ? isThere(value) : value === is));
   return need && !need.any.some(has) ? need.otherwise : "";
 }

@@ -18,13 +18,27 @@ function usualTolerances(tolerances, scene) {
   });
 }
 
+// The numbers that every saw of this kind has, in words: the axes of a map.
+function axesOf(tolerances, scene) {
+  return usualTolerances(tolerances, scene).map(([path]) => ({ value: path, textContent: placeOf(path) }));
+}
+
+// A number with the guide that it belongs to.
+function placeOf(path) {
+  const { name } = unitOf(path);
+  return path.startsWith("guides") ? `guide ${Number(/\d+/.exec(path)[0]) + 1}: ${name}` : name;
+}
+
 const TASKS = [
   { name: "cut", title: "Cut", part: "cut", what: "The blade before, during and after the cut: history at the probe, verdicts over speed and force." },
   { name: "runup", title: "Run-up", part: "runup", what: "The blade run up under a lateral force: deflection at the probe, and what each band of instability adds." },
   { name: "washboard", title: "Washboard", part: "cut.washboarding", what: "Whether a motion grows from tooth to tooth on the surface that the one before has left, over speed and cutting stiffness." },
+  { name: "response", title: "Response", what: "Amplitude over the speed at the probe, for the causes of the scene's response: a side force, run-out, flatness, imbalance, the teeth. Without any, a side force of 1 N." },
+  { name: "gap", title: "Gap", what: "Guides with a gap: critical speeds and flutter over the amplitude, and the deflection at the cut over gap and side force." },
   { name: "fit", title: "Fit", what: "Radius and stiffness of every guide from the measured frequencies of the scene; drop a table (rpm, then frequencies in Hz) on the page.", took: "Take the fitted saw" },
   { name: "place", title: "Place", what: "Radius, angle and stiffness of the first guide for the largest flutter speed.", took: "Take the best saw" },
   { name: "study", title: "Tolerances", what: "Random saws within tolerances: how their critical and flutter speeds spread." },
+  { name: "map", title: "Map", what: "Stable and unstable areas over one number and the speed, or over two numbers at the operating speed, within usual bounds: a radius anywhere on the blade, a stiffness within a factor of thirty, an angle within 60°, other numbers within 20 %." },
 ];
 
 export class Tasks {
@@ -97,6 +111,8 @@ class Task {
   #scene = null;
   // Of a study: the fields of its tolerances, each with the unit that it is typed in.
   tolerances = [];
+  // Of a map: the numbers along its axes.
+  axes = [];
 
   constructor(panel, entry, state, { needs, tolerances }, { onScene, inWords, nameOf }) {
     this.panel = panel;
@@ -148,6 +164,7 @@ class Task {
     this.answer.classList.toggle("earlier", !this.old.hidden);
     this.#tellNumbers();
     if (this.entry.name === "study") this.#offerTolerances(scene);
+    if (this.entry.name === "map") this.#offerAxes(scene);
     if (this.entry.name === "place" && !this.inputs.hasChildNodes()) this.#offerGoals();
   }
 
@@ -159,19 +176,31 @@ class Task {
       node("div", { className: "field" }, node("label", { htmlFor: "place-least", textContent: "Lower limit of the first critical speed, rpm" }), this.least));
   }
 
+  // The numbers along the axes of a map; what was chosen stays as long as the scene has it.
+  #offerAxes(scene) {
+    const numbers = axesOf(this.usual, scene);
+    const isSame = this.axes[0]?.options.length === numbers.length && numbers.every(({ value }, k) => value === this.axes[0].options[k].value);
+    if (isSame) return;
+    const chosen = this.axes.map((axis) => axis.value);
+    const choices = [numbers, [{ value: "", textContent: "rotation speed" }, ...numbers]];
+    this.axes = choices.map((all, k) => node("select", { id: `map-axis-${k}` }, ...all.map((one) => node("option", one))));
+    this.axes.forEach((axis, k) => (axis.value = choices[k].some(({ value }) => value === chosen[k]) ? chosen[k] : choices[k][0].value));
+    this.inputs.replaceChildren(...this.axes.map((axis, k) =>
+      node("div", { className: "field" }, node("label", { htmlFor: axis.id, textContent: ["Horizontal axis", "Vertical axis"][k] }), axis)));
+  }
+
   // A field for each number that has a usual tolerance; what was typed stays, in the unit that is shown now.
   #offerTolerances(scene) {
     const usual = usualTolerances(this.usual, scene).map(([path, width]) => ({ path, width, ...unitOf(path) }));
     const same = (one, k) => one.path === this.tolerances[k]?.path && one.unit === this.tolerances[k].unit;
     if (this.tolerances.length === usual.length && usual.every(same)) return;
     const typed = new Map(this.tolerances.map(({ path, scale, input }) => [path, { text: input.value, scale }]));
-    this.tolerances = usual.map(({ path, width, unit, scale, name }) => {
+    this.tolerances = usual.map(({ path, width, unit, scale }) => {
       const before = typed.get(path);
       const typedNow = before ? numberOf(before.text) : width * scale;
       const value = before && typedNow === null ? before.text : shown(tidy(before ? (typedNow / before.scale) * scale : typedNow));
-      const where = path.startsWith("guides") ? `guide ${Number(/\d+/.exec(path)[0]) + 1}: ${name}` : name;
       const input = node("input", { id: `study:${path}`, type: "text", inputMode: "decimal", value });
-      const label = node("label", { htmlFor: input.id, textContent: `± ${where}, ${unit}` });
+      const label = node("label", { htmlFor: input.id, textContent: `± ${placeOf(path)}, ${unit}` });
       return { path, unit, scale, input, field: node("div", { className: "field" }, label, input) };
     });
     this.inputs.replaceChildren(...this.tolerances.map(({ field }) => field));
@@ -183,6 +212,7 @@ class Task {
       const min_critical_rpm = this.least.value.trim() === "" ? null : asTyped(this.least.value, 1);
       return { scene, window: this.goal.value === "window", min_critical_rpm };
     }
+    if (this.entry.name === "map") return { scene, axes: this.axes.map((axis) => axis.value).filter((path) => path !== "") };
     if (this.entry.name !== "study") return { scene };
     return { scene, tolerances: this.tolerances.map(({ path, scale, input }) => ({ path, plus_minus: asTyped(input.value, scale) })) };
   }
