@@ -7,11 +7,15 @@ use sawflutter::check::{Check, Limits};
 use sawflutter::deflect::{Deflecting, Options};
 use sawflutter::figure::Figures;
 use sawflutter::fit::{Fit, Measurement};
+use sawflutter::gap::{self, GuideGaps};
+use sawflutter::map::{self, Map, Range};
 use sawflutter::place::{Demands, Placement};
 use sawflutter::report::{
-    CheckReport, CutReport, DeflectReport, FitReport, PlaceReport, RunUpReport,
+    CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, FitReport, GapReport,
+    MapReport, PlaceReport, ResponseReport, RunUpReport,
 };
-use sawflutter::scene::{Accuracy, Freed, Scene, rad_per_s};
+use sawflutter::response::{self, ForcedResponse};
+use sawflutter::scene::{Accuracy, ContactLaw, Freed, Scene, SceneFile, rad_per_s};
 use sawflutter::stability::Analysis;
 use sawflutter::study::StudyReport;
 use sawflutter::transient::{Cutting, RunningUp};
@@ -33,8 +37,12 @@ fn main() -> anyhow::Result<()> {
         }
         println!("{}", name.display());
     }
-    // A thousand saws take minutes: docs/tutorials/thousand-saws.md describes how the report was made.
     let figures = root.join("figures");
+    for (name, content) in further(root)? {
+        std::fs::write(figures.join(format!("paper-{name}")), content)?;
+    }
+    println!("paper, further commands");
+    // A thousand saws take minutes: docs/tutorials/thousand-saws.md describes how the report was made.
     let report = std::fs::read_to_string(figures.join("paper-study.json"))?;
     let report: StudyReport = serde_json::from_str(&report)?;
     for (name, png) in pngs(&report)? {
@@ -104,6 +112,63 @@ fn stretched(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
         .collect())
 }
 
+/// `sawflutter analyze --shapes --set sweep.to_rpm=2000`, `compare` with two pads, `response`, `gap` and `map` of the
+/// paper's saw, at `draft`. Shapes have so many areas that they are smaller as PNG.
+fn further(root: &Path) -> anyhow::Result<Vec<Figure>> {
+    let draft = |name: &str, change: &dyn Fn(&mut SceneFile)| {
+        let scene = Scene::from_path(root.join(format!("scenes/{name}.json")))?;
+        scene.edited(|saw| {
+            saw.accuracy = Accuracy::Draft;
+            change(saw);
+        })
+    };
+    let short = draft("paper", &|saw| {
+        saw.sweep.iter_mut().for_each(|sweep| sweep.to_rpm = 2000.0);
+    })?;
+    let analysis = Analysis::new(&short)?;
+    let mut report = analysis.report();
+    report.add_shapes(&analysis, &[])?;
+    let mut figures = pngs(&report)?;
+    figures.retain(|(name, _)| *name == "modes.png");
+
+    let saws = ["paper", "two-pads"].map(|name| {
+        let analysis = Analysis::new(&draft(name, &|_| ())?)?;
+        Ok::<_, anyhow::Error>(ComparedEntry::of_analysis(name.to_owned(), &analysis))
+    });
+    let saws = saws.into_iter().collect::<Result<Vec<_>, _>>()?;
+    figures.extend(svgs(&CompareReport::new(saws).context("two saws")?)?);
+
+    let excited = draft("paper", &|saw| {
+        let response = saw.response.get_or_insert_default();
+        (response.force_n, response.flatness_m) = (5.0, 5e-5);
+    })?;
+    let found = ForcedResponse::new(&excited, &response::Options::default())?;
+    figures.extend(svgs(&ResponseReport::new(&found))?.into_iter().take(1));
+
+    let gapped = draft("paper", &|saw| {
+        saw.guides[0].contact = ContactLaw::OneSided;
+        saw.guides[0].gap_m = Some(5e-5);
+    })?;
+    let options = gap::Options {
+        rpm: Some(1200.0),
+        ..Default::default()
+    };
+    let found = GuideGaps::new(&gapped, &options)?;
+    figures.extend(svgs(&GapReport::new(&found))?.into_iter().take(1));
+
+    let thickness = Range {
+        path: "blade.thickness_m".to_owned(),
+        from: 2.4e-3,
+        to: 3.2e-3,
+    };
+    let map = Map::new(draft("paper", &|_| ())?, &map::Options::over(thickness))?;
+    let saws: Vec<_> = (0..map.study().count())
+        .map(|index| map.study().saw(index))
+        .collect();
+    figures.extend(svgs(&MapReport::new(&map, &saws))?);
+    Ok(figures)
+}
+
 /// `sawflutter cut`.
 fn cut(scene: &Scene) -> anyhow::Result<CutReport> {
     let cut = scene.cut().context("it has a cut")?;
@@ -115,6 +180,13 @@ fn pngs(report: &impl Figures) -> anyhow::Result<Vec<Figure>> {
     let figures = report.figures().into_iter();
     figures
         .map(|figure| Ok((figure.names()[0], figure.png()?)))
+        .collect()
+}
+
+fn svgs(report: &impl Figures) -> anyhow::Result<Vec<Figure>> {
+    let figures = report.figures().into_iter();
+    figures
+        .map(|figure| Ok((figure.names()[1], figure.svg()?.into_bytes())))
         .collect()
 }
 
