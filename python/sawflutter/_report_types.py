@@ -698,6 +698,58 @@ class RollBand(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class MeasuredGap(Entry):
+    """Roll tension that follows from a measured light gap."""
+
+    gap_m: float
+    """The light gap."""
+
+    factor: float
+    """Ratio of its roll tension to that of the scene."""
+
+    sag_m: float
+    """Depth of the middle below the points."""
+
+    roll_bands: tuple[RollBand, ...]
+    """The bands with this roll tension."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class StraightEdge(Entry):
+    """Light gap under a straight edge across the blade off its machine, which lies level on two
+    points under its own weight."""
+
+    length_m: float
+    """Distance of the ends of the straight edge, which touch the blade."""
+
+    support_radius_m: float
+    """Distance of the two points from the axis."""
+
+    read_radius_m: float
+    """Distance from the axis at which the gap is read: the edge of the bore."""
+
+    gap_m: float | None
+    """Light gap in the middle; negative if the blade touches there and light is under the ends.
+    Null if the blade buckles off its machine."""
+
+    sag_m: float | None
+    """Depth of the middle below the points; null likewise."""
+
+    gap_without_rolling_m: float
+    """Light gap of the blade without its roll tension."""
+
+    sag_without_rolling_m: float
+    """Sag of the blade without its roll tension."""
+
+    buckling_factor: float | None
+    """Factor of the roll tension at which the blade buckles off its machine; null without roll
+    tension."""
+
+    measured: MeasuredGap | None
+    """Roll tension that has the measured gap."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class HeatLimit(Entry):
     """A temperature rise at which the blade buckles, or its lowest critical speed equals the
     operating speed."""
@@ -784,6 +836,9 @@ class Membrane(Entry):
 
     roll_bands: tuple[RollBand, ...]
     """Rolled bands of the scene."""
+
+    straight_edge: StraightEdge | None
+    """Light gap under the straight edge, if the scene has one."""
 
     heat: Heat | None
     """Limits of temperature, if the scene has a temperature."""

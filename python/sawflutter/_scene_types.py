@@ -283,6 +283,25 @@ class ResidualStressRowDict(_ResidualStressRowDict, total=False):
     """Stress along the radius, if measured too; refused if it contradicts the hoop stress."""
 
 
+class StraightEdgeDict(TypedDict, total=False):
+    """Straight edge across the blade off its machine. The blade lies level on two opposite
+    points and sags under its own weight; the straight edge touches it with both ends, on the
+    diameter at right angles to that of the points. The light gap is read in its middle, at the
+    edge of the bore. Where roll tension makes the middle sag more than the ends, the gap is
+    positive; a blade that is not rolled touches in the middle, and its gap is negative: that
+    under the ends."""
+
+    length_m: float | None
+    """Length of the straight edge; by default the outer diameter of the blade."""
+
+    support_radius_m: float | None
+    """Distance of the two points from the axis; by default the radius of the rim."""
+
+    measured_gap_m: float | None
+    """Light gap that was measured. The report answers with the eigenstrain of the rolled bands
+    that has this gap, all bands in proportion."""
+
+
 class MembraneDict(TypedDict, total=False):
     """Axisymmetric stress in the plane of the blade. Missing parts are zero."""
 
@@ -295,6 +314,10 @@ class MembraneDict(TypedDict, total=False):
     residual_stress: list[ResidualStressRowDict]
     """Measured residual stress at ascending radii: linear between the rows, constant beyond
     them."""
+
+    straight_edge: StraightEdgeDict | None
+    """Straight edge across the blade off its machine, under which the rolled bands cause a
+    light gap. None by default."""
 
 
 class _SplineDict(TypedDict):
@@ -403,7 +426,7 @@ class WashboardingDict(_WashboardingDict, total=False):
 
     overlap: float
     """Share μ of a tooth's cut that lies on the surface left by the preceding tooth, 0 to 1.
-    Typically 1, from 0 to 1 (largest, and least stable, share)."""
+    Typically 1, from 0 to 1 (all teeth in one groove, with the largest delayed force)."""
 
     arc_deg: float | None
     """Arc of the rim on which the force acts; by default that of the teeth in the cut."""

@@ -11,6 +11,7 @@
 //! | waves of an unguided blade: seen from space, critical speed, onset under damping | [`free_wave`] |
 //! | tilt of a blade under single forces in its plane | [`tilt`] |
 //! | stress of an annulus that rotates, is heated, pulled at its rim or twisted; its tilt | [`annulus`] |
+//! | deflection of a plate that lies on two points of its rim | [`two_points`] |
 //! | stress of a disk between two forces | [`pressed_disk`] |
 //! | temperature of a disk that is heated along a ring | [`ring_source`] |
 //! | critical speeds and eigenvalues of a blade on equal, evenly spaced point springs | [`point_springs`] |
@@ -33,6 +34,7 @@ pub mod regenerative;
 pub mod ring_source;
 pub mod spinning_membrane;
 pub mod tilt;
+pub mod two_points;
 pub mod wave_coupling;
 
 /// The root of a function that is negative near `low` and positive near `high`, by bisection to machine

@@ -8,8 +8,8 @@ use super::usual::{
 };
 use crate::scene::{
     CutFile, CutSpeedFile, DampingFile, ExcitationFile, ModeRatioRow, ProbeFile, ResidualStressRow,
-    ResponseFile, RimFile, RollBandFile, Scene, SceneFile, SweepFile, TemperatureFile,
-    TemperatureRow, ThicknessRow, WoodFile, typical,
+    ResponseFile, RimFile, RollBandFile, Scene, SceneFile, StraightEdgeFile, SweepFile,
+    TemperatureFile, TemperatureRow, ThicknessRow, WoodFile, typical,
 };
 
 /// A request.
@@ -175,6 +175,7 @@ fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
             eigenstrain: Some(typical::EIGENSTRAIN.value),
             groove_depth_m: None,
         }),
+        "straight_edge" => membrane.straight_edge = Some(StraightEdgeFile::default()),
         "residual_stress[]" => {
             let rows = membrane.residual_stress.iter();
             let rows: Vec<_> = rows.map(|row| (row.radius_m, row.hoop_pa)).collect();
@@ -199,7 +200,7 @@ mod tests {
     use crate::explore::examples::examples;
     use crate::explore::needs::NEEDS;
 
-    const PARTS: [&str; 22] = [
+    const PARTS: [&str; 23] = [
         "response",
         "damping.mode_ratios[]",
         "guides[]",
@@ -220,6 +221,7 @@ mod tests {
         "membrane.temperature.table[]",
         "membrane.roll_tension[]",
         "membrane.residual_stress[]",
+        "membrane.straight_edge",
         "mount collar",
         "mount spline",
     ];

@@ -33,6 +33,10 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     let membrane = report.membrane.as_ref()?;
     let heat = membrane.heat.as_ref();
     let heat = heat.filter(|heat| !heat.critical_speeds.is_empty());
+    // A scene may ask for the light gap of a blade without stress.
+    if heat.is_none() && membrane.hoop_pa.iter().all(|stress_pa| *stress_pa == 0.0) {
+        return None;
+    }
     let mut sheet = Sheet::new(WIDTHS[usize::from(heat.is_none())], HEIGHT);
     let title = match heat {
         Some(_) => "Membrane stress, and what heat does to the critical speeds",
@@ -271,6 +275,7 @@ mod tests {
         });
         report.membrane = Some(MembraneEntry {
             roll_bands: Vec::new(),
+            straight_edge: None,
             radial_pa: radius_m.iter().map(|r| -3e8 * (0.38 - r).abs()).collect(),
             hoop_pa: radius_m.iter().map(|r| 3e8 * (0.2 - r)).collect(),
             heat: Some(HeatEntry {

@@ -18,6 +18,7 @@ mod contact;
 mod edge_load;
 mod harmonic;
 mod in_plane;
+mod light_gap;
 mod membrane;
 mod quadrature;
 mod radial;
@@ -31,6 +32,7 @@ pub use contact::{Contact, ContactTerms};
 pub use edge_load::{BoreForce, EdgeStress, RimForce, edge_stiffness};
 #[doc(hidden)]
 pub use harmonic::HarmonicBlock;
+pub use light_gap::{LightGap, StraightEdgeReading};
 pub(crate) use membrane::{MembraneSource, MembraneStress, membrane_stiffness};
 pub(crate) use radial::RadialBasis;
 pub use stretching::{ReducedStretching, Stretching, StretchingError};

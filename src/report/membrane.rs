@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::plate::MembraneStress;
+use crate::plate::{MembraneStress, StraightEdgeReading};
 use crate::scene::{Blade, Groove, RollBand, Scene, rpm};
 use crate::stability::{Analysis, HeatLimit, HeatLimits};
 
@@ -19,6 +19,8 @@ pub struct MembraneEntry {
     pub hoop_pa: Vec<f64>,
     /// Rolled bands of the scene.
     pub roll_bands: Vec<RollBandEntry>,
+    /// Light gap under the straight edge, if the scene has one.
+    pub straight_edge: Option<StraightEdgeEntry>,
     /// Limits of temperature, if the scene has a temperature.
     pub heat: Option<HeatEntry>,
 }
@@ -47,6 +49,45 @@ impl RollBandEntry {
             groove_depth_m: Groove::at(blade, radius_m).depth_m(band.eigenstrain),
         }
     }
+}
+
+/// Light gap under a straight edge across the blade off its machine, which lies level on two points under its own weight.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StraightEdgeEntry {
+    /// Distance of the ends of the straight edge, which touch the blade.
+    pub length_m: f64,
+    /// Distance of the two points from the axis.
+    pub support_radius_m: f64,
+    /// Distance from the axis at which the gap is read: the edge of the bore.
+    pub read_radius_m: f64,
+    /// Light gap in the middle; negative if the blade touches there and light is under the ends. Null if the blade buckles off its
+    /// machine.
+    pub gap_m: Option<f64>,
+    /// Depth of the middle below the points; null likewise.
+    pub sag_m: Option<f64>,
+    /// Light gap of the blade without its roll tension.
+    pub gap_without_rolling_m: f64,
+    /// Sag of the blade without its roll tension.
+    pub sag_without_rolling_m: f64,
+    /// Factor of the roll tension at which the blade buckles off its machine; null without roll tension.
+    pub buckling_factor: Option<f64>,
+    /// Roll tension that has the measured gap.
+    pub measured: Option<MeasuredGapEntry>,
+}
+
+/// Roll tension that follows from a measured light gap.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MeasuredGapEntry {
+    /// The light gap.
+    pub gap_m: f64,
+    /// Ratio of its roll tension to that of the scene.
+    pub factor: f64,
+    /// Depth of the middle below the points.
+    pub sag_m: f64,
+    /// The bands with this roll tension.
+    pub roll_bands: Vec<RollBandEntry>,
 }
 
 /// The temperature profile of the scene, scaled to other peaks.
@@ -116,7 +157,8 @@ impl MembraneEntry {
     pub(super) fn new(scene: &Scene, analysis: &Analysis) -> Option<Self> {
         let plate = &analysis.model.plate;
         let heat = analysis.heat.as_ref();
-        if plate.membrane.is_none() && heat.is_none() {
+        let straight_edge = analysis.straight_edge.as_ref();
+        if plate.membrane.is_none() && heat.is_none() && straight_edge.is_none() {
             return None;
         }
         let stress = plate.membrane.as_ref();
@@ -144,6 +186,7 @@ impl MembraneEntry {
             });
         let bands = scene.membrane().into_iter().flat_map(|m| &m.roll_tension);
         Some(MembraneEntry {
+            straight_edge: straight_edge.and_then(|reading| StraightEdgeEntry::new(scene, reading)),
             roll_bands: bands
                 .map(|band| RollBandEntry::new(&plate.blade, band))
                 .collect(),
@@ -151,6 +194,39 @@ impl MembraneEntry {
             hoop_pa: radius_m.iter().map(|r| at(r).hoop_pa).collect(),
             radius_m,
             heat,
+        })
+    }
+}
+
+impl StraightEdgeEntry {
+    fn new(scene: &Scene, reading: &StraightEdgeReading) -> Option<Self> {
+        let membrane = scene.membrane()?;
+        let edge = membrane.straight_edge.as_ref()?;
+        let bands = |factor: f64| {
+            let scaled = move |band: &RollBand| RollBand {
+                eigenstrain: factor * band.eigenstrain,
+                ..*band
+            };
+            let bands = membrane.roll_tension.iter().map(scaled);
+            bands
+                .map(|band| RollBandEntry::new(&edge.blade, &band))
+                .collect()
+        };
+        Some(StraightEdgeEntry {
+            length_m: 2.0 * edge.end_radius_m,
+            support_radius_m: edge.support_radius_m,
+            read_radius_m: edge.blade.inner_radius_m,
+            gap_m: reading.rolled.map(|found| found.gap_m),
+            sag_m: reading.rolled.map(|found| found.sag_m),
+            gap_without_rolling_m: reading.plain.gap_m,
+            sag_without_rolling_m: reading.plain.sag_m,
+            buckling_factor: reading.buckling_factor,
+            measured: reading.measured.map(|(factor, found)| MeasuredGapEntry {
+                gap_m: found.gap_m,
+                factor,
+                sag_m: found.sag_m,
+                roll_bands: bands(factor),
+            }),
         })
     }
 }

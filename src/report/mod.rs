@@ -57,7 +57,10 @@ pub use self::gap::{
 };
 pub use self::in_cut::{IdlingEntry, InCutEntry};
 pub use self::map::{ContourEntry, ContouredEntry, MapAxisEntry, MapReport, MappedSawEntry};
-pub use self::membrane::{HeatCurveEntry, HeatEntry, HeatLimitEntry, MembraneEntry, RollBandEntry};
+pub use self::membrane::{
+    HeatCurveEntry, HeatEntry, HeatLimitEntry, MeasuredGapEntry, MembraneEntry, RollBandEntry,
+    StraightEdgeEntry,
+};
 pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
 pub use self::place::{
     FragileOptimumEntry, GoalEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceCertificateEntry,

@@ -95,6 +95,8 @@ pub fn warnings(
         left_free(analysis),
         ended_early(scene, analysis),
         lifting_off(scene),
+        sagging(analysis),
+        rolled_alone(scene),
     ];
     found.into_iter().flatten().collect()
 }
@@ -186,6 +188,32 @@ fn unsettled(analysis: &Analysis) -> Option<String> {
             "the reduced model would need modes at more speeds than allowed: its frequencies may be wrong by {} Hz; a shorter sweep avoids this",
             shown_to(2, error_hz)
         )
+    })
+}
+
+/// Warning that the deflection under the straight edge is no longer small.
+fn sagging(analysis: &Analysis) -> Option<String> {
+    let reading = analysis.straight_edge.as_ref()?;
+    let measured = reading.measured.map(|(_, found)| found);
+    let found = measured.or(reading.rolled).unwrap_or(reading.plain);
+    let sag_m = found.sag_m.abs().max((found.sag_m - found.gap_m).abs());
+    let thickness_m = analysis.model.plate.blade.thickness_range_m().0;
+    (sag_m > thickness_m).then(|| {
+        format!(
+            "on the two points of membrane.straight_edge the blade sags by {} mm, {} times its thickness: the light gap is that of small deflections",
+            shown_to(2, 1e3 * sag_m),
+            shown_to(2, sag_m / thickness_m)
+        )
+    })
+}
+
+/// Warning that the light gap leaves out a measured stress, which is known for the mounted blade only.
+fn rolled_alone(scene: &Scene) -> Option<String> {
+    let membrane = scene.membrane()?;
+    let left_out = membrane.straight_edge.is_some() && membrane.residual_stress.is_some();
+    left_out.then(|| {
+        "the light gap of membrane.straight_edge is that of the rolled bands alone, without residual_stress"
+            .to_owned()
     })
 }
 

@@ -3,10 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{ascending, few, positive, refuse, within};
-use super::groove::Groove;
+use super::check::{ascending, few, refuse, within};
 use super::profile::Profile;
 use super::residual::{ResidualStress, ResidualStressRow};
+use super::roll_band::{RollBand, RollBandFile};
+use super::straight_edge::{StraightEdge, StraightEdgeFile};
 use super::{Blade, RefusedValue, SceneError};
 use crate::text::shown;
 
@@ -23,6 +24,9 @@ pub struct MembraneFile {
     /// Measured residual stress at ascending radii: linear between the rows, constant beyond them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub residual_stress: Vec<ResidualStressRow>,
+    /// Straight edge across the blade off its machine, under which the rolled bands cause a light gap. None by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub straight_edge: Option<StraightEdgeFile>,
 }
 
 /// Temperature over the radius, relative to that of the unstressed blade (for a fixed collar, that of the
@@ -56,24 +60,6 @@ pub struct TemperatureRow {
     pub rise_k: f64,
 }
 
-/// A rolled band. Rolling reduces its thickness, so that it would expand in its plane; the surrounding metal
-/// restrains it and is stretched along the rim.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RollBandFile {
-    /// Radius of its middle.
-    pub radius_m: f64,
-    /// Width along the radius.
-    pub width_m: f64,
-    /// In-plane strain that the band would have if it were free, isotropic; positive for rolling. Either this or `groove_depth_m`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub eigenstrain: Option<f64>,
-    /// Depth of the groove on each face, in place of `eigenstrain`, which is then this depth over the thickness of the blade at
-    /// this radius: the displaced volume remains in the band, in equal parts along and across the groove.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub groove_depth_m: Option<f64>,
-}
-
 /// Validated membrane stress.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Membrane {
@@ -83,6 +69,8 @@ pub(crate) struct Membrane {
     pub roll_tension: Vec<RollBand>,
     /// Measured residual stress.
     pub residual_stress: Option<ResidualStress>,
+    /// Straight edge across the blade.
+    pub straight_edge: Option<StraightEdge>,
 }
 
 /// Validated temperature, T(r) = peak · shape(r).
@@ -110,41 +98,39 @@ pub(crate) enum TemperatureShape {
     Table(Profile),
 }
 
-/// Validated rolled band, from its inner to its outer edge.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct RollBand {
-    /// Inner edge.
-    pub from_radius_m: f64,
-    /// Outer edge.
-    pub to_radius_m: f64,
-    /// In-plane eigenstrain, isotropic.
-    pub eigenstrain: f64,
-}
-
 /// No blade survives a larger rise.
 const RISE_K: (f64, f64) = (-2e3, 2e3);
 /// No thermometer resolves a smaller rise.
 const LEAST_RISE_K: f64 = 1e-9;
 /// Polymers expand by 2e-4.
 const EXPANSION_PER_K: (f64, f64) = (0.0, 1e-2);
-/// Rolling produces strains of 1e-4 to 1e-3.
-const EIGENSTRAIN: (f64, f64) = (-0.05, 0.05);
 /// A steeper rise is nearly a step, which a table describes as well.
 const EXPONENT: (f64, f64) = (0.0, 20.0);
 impl Membrane {
-    pub(super) fn new(typed: &MembraneFile, blade: &Blade) -> Result<Self, SceneError> {
+    pub(super) fn new(
+        typed: &MembraneFile,
+        blade: &Blade,
+        bore_radius_m: f64,
+    ) -> Result<Self, SceneError> {
         let bands = typed.roll_tension.iter().enumerate();
         few("membrane.roll_tension", typed.roll_tension.len())?;
+        let roll_tension = bands
+            .map(|(index, band)| RollBand::new(index, band, blade))
+            .collect::<Result<Vec<_>, _>>()?;
+        let straight_edge = typed
+            .straight_edge
+            .as_ref()
+            .map(|edge| StraightEdge::new(edge, blade, bore_radius_m, &roll_tension));
+        let straight_edge = straight_edge.transpose()?;
         Ok(Membrane {
             temperature: typed
                 .temperature
                 .as_ref()
                 .map(|temperature| Temperature::new(temperature, blade))
                 .transpose()?,
-            roll_tension: bands
-                .map(|(index, band)| RollBand::new(index, band, blade))
-                .collect::<Result<_, _>>()?,
+            roll_tension,
             residual_stress: ResidualStress::new(&typed.residual_stress, blade)?,
+            straight_edge,
         })
     }
 }
@@ -249,61 +235,6 @@ fn table(typed: &TemperatureFile, blade: &Blade) -> Result<(f64, TemperatureShap
     rows.iter_mut().for_each(|(_, rise)| *rise *= share);
     let profile = Profile::new(&rows).expect("a table that is not empty has rows");
     Ok((peak, TemperatureShape::Table(profile)))
-}
-
-impl RollBand {
-    fn new(index: usize, typed: &RollBandFile, blade: &Blade) -> Result<Self, SceneError> {
-        let key = |name: &str| format!("membrane.roll_tension[{index}].{name}");
-        let radius = positive(&key("radius_m"), typed.radius_m)?;
-        let width = positive(&key("width_m"), typed.width_m)?;
-        let (from_radius_m, to_radius_m) = (radius - 0.5 * width, radius + 0.5 * width);
-        let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
-        if from_radius_m < inner || to_radius_m > outer {
-            let allowed = format!(
-                "such that its band lies on the blade, from {} to {}",
-                shown(inner),
-                shown(outer)
-            );
-            let remedy = "roll the moving part of the blade; is width_m the whole width?";
-            return Err(refuse(&key("radius_m"), radius, allowed, remedy));
-        }
-        let groove = Groove::at(blade, radius);
-        let eigenstrain = match (typed.eigenstrain, typed.groove_depth_m) {
-            (Some(eigenstrain), None) => within(&key("eigenstrain"), eigenstrain, EIGENSTRAIN)?,
-            (None, Some(depth)) => {
-                let deepest = groove.depth_m(EIGENSTRAIN.1);
-                if !(0.0..=deepest).contains(&depth) {
-                    let allowed = format!(
-                        "between 0 and {}, a twentieth of the thickness of the blade",
-                        shown(deepest)
-                    );
-                    let remedy = "give the depth of the groove on one face, in m";
-                    return Err(refuse(&key("groove_depth_m"), depth, allowed, remedy));
-                }
-                groove.eigenstrain(depth)
-            }
-            (eigenstrain, _) => {
-                let given = match eigenstrain {
-                    Some(_) => "given by eigenstrain and by groove_depth_m",
-                    None => "without eigenstrain and groove_depth_m",
-                };
-                let remedy = "give eigenstrain or groove_depth_m, and null for the other";
-                let key = format!("membrane.roll_tension[{index}]");
-                let allowed = "given by one of the two";
-                return Err(RefusedValue::new(key, given, allowed, remedy).into());
-            }
-        };
-        Ok(RollBand {
-            from_radius_m,
-            to_radius_m,
-            eigenstrain,
-        })
-    }
-
-    /// Radius of the middle.
-    pub fn middle_m(&self) -> f64 {
-        0.5 * (self.from_radius_m + self.to_radius_m)
-    }
 }
 
 #[cfg(test)]

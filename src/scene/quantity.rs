@@ -64,7 +64,7 @@ impl Quantity {
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten
 /// carbide, guides from felt to steel.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 95] = [
+pub const QUANTITIES: [Quantity; 98] = [
     q("blade.outer_diameter_m", "outer diameter", "m", 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", 1e-4, 0.04),
@@ -105,6 +105,9 @@ pub const QUANTITIES: [Quantity; 95] = [
     q("membrane.residual_stress[].radius_m", "radius", "m", 1e-3, 2.5).of_kind(Kind::Radius),
     q("membrane.residual_stress[].hoop_pa", "hoop stress", "Pa", -3e9, 3e9),
     q("membrane.residual_stress[].radial_pa", "radial stress", "Pa", -3e9, 3e9),
+    q("membrane.straight_edge.length_m", "length of the straight edge", "m", 0.02, 5.0),
+    q("membrane.straight_edge.support_radius_m", "radius of the supports", "m", 0.01, 2.5).of_kind(Kind::Radius),
+    q("membrane.straight_edge.measured_gap_m", "light gap", "m", -0.02, 0.02),
     q("spline.teeth", "number of spline teeth", "", 1.0, 200.0),
     q("spline.pressure_angle_deg", "pressure angle", "°", 5.0, 60.0),
     q("spline.contact_stiffness_n_per_m_3_2", "contact stiffness", "N/m^(3/2)", 1e3, 1e14),

@@ -59,7 +59,7 @@ mod table {
     pub const BOARD: Typical = t("cut.board_length_m", 2.0, "", 1.0, 6.0, "assumption of this program; the paper gives none");
     pub const IDLE: Typical = t("cut.idle_s", 0.5, "", 0.0, 2.0, "assumption of this program, to see the blade before and after the cut");
     pub const CUTTING_STIFFNESS: Typical = t("cut.washboarding.stiffness_n_per_m", 2e4, "", 5e3, 1e5, "no published value known; computed from the cutting force and the bite");
-    pub const OVERLAP: Typical = t("cut.washboarding.overlap", 1.0, "", 0.0, 1.0, "largest, and least stable, share");
+    pub const OVERLAP: Typical = t("cut.washboarding.overlap", 1.0, "", 0.0, 1.0, "all teeth in one groove, with the largest delayed force");
     pub const RUNUP_END: Typical = t("runup.to_rpm", 1.5, "times the operating speed", 1.2, 2.0, "assumption of this program");
     pub const RUNUP_TIME: Typical = t("runup.duration_s", 60.0, "", 5.0, 120.0, "assumption of this program");
     pub const RUNUP_FORCE: Typical = t("runup.force_n", 1.0, "", 0.1, 10.0, "assumption of this program: small deflections of a linear model");

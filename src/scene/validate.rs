@@ -47,7 +47,7 @@ impl TryFrom<SceneFile> for Scene {
             membrane: file
                 .membrane
                 .as_ref()
-                .map(|membrane| Membrane::new(membrane, &blade))
+                .map(|membrane| Membrane::new(membrane, &blade, 0.5 * file.blade.inner_diameter_m))
                 .transpose()?,
             blade,
             guides: guides

@@ -17,7 +17,8 @@ use super::onsets::Onsets;
 use super::out_of_reach::OutOfReach;
 use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
 use crate::campbell::{CampbellError, Progress};
-use crate::scene::{Accuracy, Scene, rad_per_s, rpm};
+use crate::plate::StraightEdgeReading;
+use crate::scene::{Accuracy, Scene, SceneError, rad_per_s, rpm};
 use crate::spectrum::{DescribedMode, SpectralModel, SpectrumError, Strategy};
 
 /// Saw makers run a saw at no more than this share of its lowest critical speed.
@@ -126,10 +127,22 @@ pub struct Analysis {
     pub listed_backward_error: Option<f64>,
     /// Temperature limits of the blade, for a scene with temperature.
     pub heat: Option<HeatLimits>,
+    /// Light gap under the straight edge, for a scene with one.
+    pub straight_edge: Option<StraightEdgeReading>,
     /// Results for the same saw without cutting forces, if the chart includes them.
     pub idling: Option<Onsets>,
     /// Crossings of the excitation lines with branches, by line and speed.
     pub crossings: Vec<Crossing>,
+}
+
+/// The light gap of a scene with a straight edge.
+fn straight_edge(scene: &Scene) -> Result<Option<StraightEdgeReading>, AnalysisError> {
+    let membrane = scene.membrane();
+    let reading = membrane.and_then(|membrane| {
+        let edge = membrane.straight_edge.as_ref()?;
+        Some(StraightEdgeReading::new(edge, &membrane.roll_tension))
+    });
+    Ok(reading.transpose().map_err(SceneError::Value)?)
 }
 
 impl Analysis {
@@ -179,6 +192,7 @@ impl Analysis {
         options: AnalysisOptions<'_>,
     ) -> Result<Self, AnalysisError> {
         let detail = options.detail;
+        let straight_edge = straight_edge(scene)?;
         let ChosenBasis {
             saw,
             critical,
@@ -216,6 +230,7 @@ impl Analysis {
             _ => None,
         };
         let analysis = Analysis {
+            straight_edge,
             scene: scene.clone(),
             estimated_relative_error: Some(estimated_relative_error),
             estimates: Some(estimates),

@@ -20,6 +20,52 @@ pub fn rolled(text: &mut String, report: &Report) -> Result {
     Ok(())
 }
 
+/// Writes the light gap under the straight edge, and the roll tension of a measured one.
+pub fn straight_edge(text: &mut String, report: &Report) -> Result {
+    let membrane = report.membrane.as_ref();
+    let Some(edge) = membrane.and_then(|m| m.straight_edge.as_ref()) else {
+        return Ok(());
+    };
+    let mm = |length_m: f64| shown_to(3, 1e3 * length_m);
+    writeln!(
+        text,
+        "Straight edge of {} mm, blade level on two points at {} mm:",
+        shown_to(4, 1e3 * edge.length_m),
+        shown_to(4, 1e3 * edge.support_radius_m)
+    )?;
+    match edge.gap_m {
+        Some(gap_m) => writeln!(text, "  light gap {} mm at the bore", mm(gap_m))?,
+        None => writeln!(text, "  the blade buckles, so that it has no light gap")?,
+    }
+    if let Some(factor) = edge.buckling_factor {
+        writeln!(
+            text,
+            "  without rolling {} mm; {} times the rolling buckles the blade",
+            mm(edge.gap_without_rolling_m),
+            shown_to(3, factor)
+        )?;
+    }
+    let Some(measured) = &edge.measured else {
+        return Ok(());
+    };
+    writeln!(
+        text,
+        "  measured {} mm: {} times the rolling,",
+        mm(measured.gap_m),
+        shown_to(3, measured.factor)
+    )?;
+    for band in &measured.roll_bands {
+        writeln!(
+            text,
+            "    eigenstrain {} at {} mm, as a groove {} µm deep on each face",
+            shown_to(3, band.eigenstrain),
+            shown_to(4, 1e3 * band.radius_m),
+            shown_to(3, 1e6 * band.groove_depth_m)
+        )?;
+    }
+    Ok(())
+}
+
 /// Writes the limits of temperature, for the scene's temperature profile.
 pub fn heat(text: &mut String, report: &Report) -> Result {
     let heat = report.membrane.as_ref().and_then(|m| m.heat.as_ref());

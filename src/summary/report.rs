@@ -7,7 +7,7 @@ use super::answer::{answer, trust};
 use super::bands::bands;
 use super::excitation::crossings;
 use super::in_cut::in_cut;
-use super::influences::{heat, rolled, sensitivity};
+use super::influences::{heat, rolled, sensitivity, straight_edge};
 use super::whirl::whirl;
 use super::{ROWS, WIDTH, is_damped, more, numbered, shortened, unusual_numbers};
 use crate::report::{Report, RestMode};
@@ -28,6 +28,7 @@ pub fn of_report(text: &mut String, report: &Report) -> std::fmt::Result {
     amplitudes(text, report)?;
     crossings(text, report)?;
     rolled(text, report)?;
+    straight_edge(text, report)?;
     heat(text, report)?;
     sensitivity(text, report)?;
     whirl(text, report)?;

@@ -115,6 +115,37 @@ fn a_groove_is_the_same_band_as_its_strain() {
 }
 
 #[test]
+fn a_light_gap_reaches_report_and_summary_and_gives_back_its_strain() {
+    let with = |edge: serde_json::Value| {
+        let mut scene = tensioned();
+        scene["membrane"]["straight_edge"] = edge;
+        scene
+    };
+    let (_folder, assert) = analyze(&with(serde_json::json!({})), &["--json"]);
+    let report: Report = serde_json::from_str(text(&assert.success().get_output().stdout)).unwrap();
+    let edge = report.membrane.unwrap().straight_edge.unwrap();
+    let gap_m = edge.gap_m.unwrap();
+    assert!(gap_m > edge.gap_without_rolling_m && edge.measured.is_none());
+    let given = with(serde_json::json!({ "measured_gap_m": gap_m }));
+    let (folder, assert) = analyze(&given, &[]);
+    let printed = text(&assert.success().get_output().stdout).to_owned();
+    for words in [
+        "Straight edge of 400 mm, blade level on two points at 200 mm:",
+        "times the rolling,\n    eigenstrain 0.0007 at 100 mm",
+    ] {
+        assert!(printed.contains(words), "{words}: {printed}");
+    }
+    let lines = printed.lines();
+    for line in lines.take_while(|line| !line.starts_with("Written")) {
+        assert!(line.chars().count() <= 80, "{line}");
+    }
+    let report = std::fs::read_to_string(folder.path().join("out/report.json")).unwrap();
+    let report: Report = serde_json::from_str(&report).unwrap();
+    let measured = report.membrane.unwrap().straight_edge.unwrap().measured;
+    assert!((measured.unwrap().factor - 1.0).abs() < 1e-9);
+}
+
+#[test]
 fn a_blade_that_buckles_is_refused_with_the_share_it_tolerates() {
     let mut scene = tensioned();
     scene["membrane"]["temperature"]["rim_rise_k"] = 400.into();
@@ -160,6 +191,19 @@ fn refusals_name_key_value_and_remedy() {
         (
             serde_json::json!({ "roll_tension": [{ "radius_m": 0.1, "width_m": 0.02 }] }),
             "membrane.roll_tension[0] is without eigenstrain and groove_depth_m, but must be given by one of the two",
+        ),
+        (
+            serde_json::json!({ "straight_edge": { "measured_gap_m": 1e-4 } }),
+            "membrane.straight_edge.measured_gap_m is 0.0001, but must be given beside a rolled band",
+        ),
+        (
+            serde_json::json!({ "straight_edge": { "length_m": 0.5 } }),
+            "membrane.straight_edge.length_m is 0.5, but must be above 0.03 and at most 0.4",
+        ),
+        (
+            serde_json::json!({ "roll_tension": [{ "radius_m": 0.1, "width_m": 0.02,
+                "eigenstrain": 1e-4 }], "straight_edge": { "measured_gap_m": 0.5 } }),
+            "membrane.straight_edge.measured_gap_m is 0.5, but must be between ",
         ),
         (
             serde_json::json!({ "residual_stress": [row(0.1, 1e6), row(0.1, 2e6)] }),

@@ -15,6 +15,7 @@ mod floquet;
 mod follower;
 mod heat_limits;
 mod in_cut;
+mod light_gap;
 mod membrane;
 mod paper;
 mod paper_free_blade;

@@ -78,6 +78,7 @@ pub fn dense_analysis(
         overdamped_at_rest: 0,
         fastest_operating: None,
         listed_backward_error: None,
+        straight_edge: None,
         heat: None,
         crossings: Vec::new(),
         idling: None,

@@ -283,6 +283,7 @@ fn bands_side_by_side_become_a_temperature() {
             temperature: None,
             roll_tension: (0..count).map(band).collect(),
             residual_stress: None,
+            straight_edge: None,
         };
         let stairs = MembraneStress::new(&blade, &stairs).unwrap();
         let basis = RadialBasis::new(&blade, 6);

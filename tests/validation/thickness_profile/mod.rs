@@ -158,6 +158,7 @@ fn heat_stresses_a_stepped_blade_as_it_does_finite_elements() {
                 }),
                 roll_tension: Vec::new(),
                 residual_stress: Vec::new(),
+                straight_edge: None,
             });
         });
         compare("hot", &hot, stepped, 1e-4);
