@@ -372,6 +372,8 @@ class Questions(Searches):
         force_n: Number = None,
         rpm: Number = None,
         max_deviation_mm: Number = None,
+        oscillating_force_n: Number = None,
+        oscillating_order: int = 1,
         friction: Number = None,
         heat_share: SupportsFloat = 1.0,
         convection_w_per_m2_k: SupportsFloat = 60.0,
@@ -392,6 +394,12 @@ class Questions(Searches):
             first critical speed.
         max_deviation_mm : float, optional
             Largest deflection at the cut that is allowed.
+        oscillating_force_n : float, optional
+            Amplitude of a side force at the rim at the cut that oscillates. With it, or with
+            ``runout_m``, ``flatness_m`` or ``imbalance_kg_m2`` in the scene's ``response``, the
+            oscillation of the blade about its deflection is computed.
+        oscillating_order : int
+            Ratio of the frequency of this force to that of rotation.
         friction : float, optional
             Coefficient of friction of the pads. With it the heat of the pads is computed, and the
             deflection of the blade that it heats.
@@ -426,6 +434,8 @@ class Questions(Searches):
             force_n=force_n,
             rpm=rpm,
             max_deviation_mm=max_deviation_mm,
+            oscillating_force_n=oscillating_force_n,
+            oscillating_order=oscillating_order,
             friction=friction,
             heat_share=heat_share,
             convection_w_per_m2_k=convection_w_per_m2_k,

@@ -1839,6 +1839,145 @@ class Deviation(Entry):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class OscillationLine(Entry):
+    """A part of the motion, with a multiple of the rotation frequency."""
+
+    order: int
+    """Ratio of its frequency to that of rotation."""
+
+    name: str
+    """Its causes, such as "run-out" or "flatness"; "contact" if only the contact of the pads
+    has this order."""
+
+    probe_m: FloatArray
+    """Amplitude at the probe at the speeds of the series."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OscillationPlace(Entry):
+    """A periodic deflection at a point."""
+
+    mean_m: float
+    """Mean."""
+
+    amplitude_m: float
+    """Half of the difference between the largest and the smallest deflection."""
+
+    largest_m: float
+    """Largest deflection, as an absolute value."""
+
+    lines_m: FloatArray
+    """Amplitude of each part of the motion, in the order of `lines`."""
+
+    phase_deg: FloatArray
+    """Phase of each part, −180 to 180: the angle by which it precedes the time at which the
+    oscillating force, or the wave of a shape at the angle 0, is largest, in angles of this
+    part."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OscillationPad(Entry):
+    """A pad over a period."""
+
+    guide: int
+    """Index among the guides of the scene."""
+
+    mean_force_n: float
+    """Mean force on the blade beyond the gap."""
+
+    largest_force_n: float
+    """Largest force, as an absolute value."""
+
+    contact_share: float
+    """Share of the period in which the pad touches the blade."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OscillationAt(Entry):
+    """The motion at one speed."""
+
+    rpm: float
+    """Rotation speed."""
+
+    frequency_hz: float
+    """Frequency of the motion."""
+
+    cut: OscillationPlace
+    """Deflection of the rim at the cut."""
+
+    probe: OscillationPlace
+    """Deflection at the probe."""
+
+    pads: tuple[OscillationPad, ...]
+    """One-sided pads, in the order of the scene."""
+
+    largest_deflection_m: float
+    """Largest deflection of the blade, as an absolute value."""
+
+    growth_per_s: float | None
+    """Growth rate of the fastest small motion about this one, negative if all decay; null if it
+    was not found."""
+
+    growth_frequency_hz: float | None
+    """Frequency of that motion, at most half of the frequency above: half of it is a motion of
+    twice the period."""
+
+    stable: bool
+    """Whether no such motion grows faster than the threshold of the scene."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Oscillation(Entry):
+    """Periodic motion of the blade under the steady side force of the map, with the gaps of the
+    scene. Its causes are an oscillating side force at the cut and response.runout_m, flatness_m
+    and imbalance_kg_m2 of the scene."""
+
+    force_n: float
+    """Steady side force at the rim at the cut."""
+
+    oscillating_force_n: float
+    """Amplitude of the oscillating side force at the rim at the cut; 0 without one."""
+
+    oscillating_order: int
+    """Ratio of its frequency to that of rotation; 0 without one."""
+
+    lines: tuple[OscillationLine, ...]
+    """The parts of the motion, by their order of the rotation speed."""
+
+    at: OscillationAt | None
+    """The motion at the speed of the map; null if no periodic motion was found."""
+
+    still_deflection_m: float
+    """Deflection of the rim at the cut at this speed without oscillation."""
+
+    harmonics_error_share: float | None
+    """Relative change of the amplitude at the cut at this speed with ten harmonics in the place
+    of six; null if no motion was found."""
+
+    basis_error_share: float | None
+    """Relative change of this amplitude with 24 modes at rest in the place of 16; null if no
+    motion was found."""
+
+    rpm: FloatArray
+    """Rotation speeds of the series below, ascending."""
+
+    probe_mean_m: FloatArray
+    """Mean deflection at the probe, whose sign is the side to which the blade leans; null where
+    no stable periodic motion was found, and where the blade deflects by more than its
+    thickness."""
+
+    probe_amplitude_m: FloatArray
+    """Half of the difference between the largest and the smallest deflection at the probe."""
+
+    cut_mean_m: FloatArray
+    """Mean deflection of the rim at the cut."""
+
+    cut_amplitude_m: FloatArray
+    """Half of the difference between the largest and the smallest deflection of the rim at the
+    cut."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class FrictionPad(Entry):
     """A one-sided pad beside the heated blade."""
 
@@ -1956,6 +2095,9 @@ class GapReport(Entry):
 
     deviation: Deviation
     """The deflection at the cut."""
+
+    oscillation: Oscillation | None
+    """The oscillation of the blade; null without a cause of one."""
 
     friction: Friction | None
     """The heat of friction at the pads with the gaps of the scene; null without a coefficient

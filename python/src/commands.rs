@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use sawflutter::check::{Check, Limits, LimitsFile};
 use sawflutter::deflect::{Deflecting, Options as DeflectOptions};
 use sawflutter::fit::{Fit, Measurement, Options as FitOptions};
-use sawflutter::gap::{Friction, GuideGaps, Options as GapOptions};
+use sawflutter::gap::{Friction, GuideGaps, Options as GapOptions, OscillatingForce};
 use sawflutter::place::{Demands, GapDemands, Options as PlaceOptions, Placement, Tolerances};
 use sawflutter::report::{
     CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, FitReport, GapReport,
@@ -235,8 +235,9 @@ pub fn response(
 
 /// `gap.json` of a scene, under a side force at the cut, at a speed.
 #[pyfunction]
-#[pyo3(signature = (scene, *, force_n=None, rpm=None, max_deviation_mm=None, friction=None, heat_share=1.0,
-                    convection_w_per_m2_k=60.0, conductivity_w_per_m_k=45.0, progress=None))]
+#[pyo3(signature = (scene, *, force_n=None, rpm=None, max_deviation_mm=None, oscillating_force_n=None,
+                    oscillating_order=1, friction=None, heat_share=1.0, convection_w_per_m2_k=60.0,
+                    conductivity_w_per_m_k=45.0, progress=None))]
 #[allow(clippy::too_many_arguments, reason = "they are Python's")]
 pub fn gap(
     py: Python<'_>,
@@ -244,6 +245,8 @@ pub fn gap(
     force_n: Option<f64>,
     rpm: Option<f64>,
     max_deviation_mm: Option<f64>,
+    oscillating_force_n: Option<f64>,
+    oscillating_order: u32,
     friction: Option<f64>,
     heat_share: f64,
     convection_w_per_m2_k: f64,
@@ -255,6 +258,10 @@ pub fn gap(
         force_n,
         rpm,
         max_deviation_mm,
+        oscillating: oscillating_force_n.map(|amplitude_n| OscillatingForce {
+            amplitude_n,
+            order: oscillating_order,
+        }),
         friction: friction.map(|coefficient| Friction {
             coefficient,
             heat_share,

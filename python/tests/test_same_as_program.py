@@ -99,6 +99,7 @@ def test_the_report_of_gap(programs: list[str], scenes: Path, tmp_path: Path) ->
     options = ["--force-n", 2, "--rpm", 1000, "--max-deviation-mm", 0.3]
     for program in programs:
         same_report(program, found, tmp_path, path, *options)
+    assert found.oscillation is None and found.friction is None
     rows = found.deviation.deflection_m
     assert len(found.to_dataframe()) == sum(len(row) for row in rows)
 

@@ -1,6 +1,6 @@
 //! `sawflutter gap`.
 
-use crate::gap::{Friction, GapError, GuideGaps, Options};
+use crate::gap::{Friction, GapError, GuideGaps, Options, OscillatingForce};
 use crate::report::GapReport;
 use clap::Args;
 
@@ -13,6 +13,7 @@ Examples:
   sawflutter gap my-saw.json                         # guides with a gap
   sawflutter gap my-saw.json --force-n 10 --rpm 2400 # another force and speed
   sawflutter gap my-saw.json --max-deviation-mm 0.1  # with a tolerance
+  sawflutter gap my-saw.json --oscillating-force-n 2 # with an oscillation
   sawflutter gap my-saw.json --friction 0.2          # with the heat of the pads
   sawflutter gap my-saw.json --json | jq .half_way_amplitude_m
 
@@ -32,6 +33,18 @@ pub struct Arguments {
     /// Largest deflection at the cut that is allowed
     #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
     max_deviation_mm: Option<f64>,
+    /// Amplitude of a side force at the rim at the cut that oscillates: the oscillation of the blade beside its deflection.
+    /// Run-out, flatness and imbalance of the scene's `response` make it oscillate, too
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
+    oscillating_force_n: Option<f64>,
+    /// Ratio of the frequency of this force to that of rotation
+    #[arg(
+        long,
+        value_name = "K",
+        default_value_t = 1,
+        requires = "oscillating_force_n"
+    )]
+    oscillating_order: u32,
     /// Coefficient of friction of the pads: their heat, and the deflection with it
     #[arg(long, value_name = "MU", allow_negative_numbers = true, value_parser = number)]
     friction: Option<f64>,
@@ -58,6 +71,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         force_n: arguments.force_n,
         rpm: arguments.rpm,
         max_deviation_mm: arguments.max_deviation_mm,
+        oscillating: arguments
+            .oscillating_force_n
+            .map(|amplitude_n| OscillatingForce {
+                amplitude_n,
+                order: arguments.oscillating_order,
+            }),
         friction: arguments.friction.map(|coefficient| Friction {
             coefficient,
             heat_share: arguments.heat_share,
@@ -65,7 +84,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
             conductivity_w_per_m_k: arguments.conductivity_w_per_m_k,
         }),
     };
-    let refused = |refused: crate::scene::RefusedValue| match refused.key.starts_with("guides") {
+    let refused = |refused: crate::scene::RefusedValue| match refused.key.contains('.') {
         true => refused.into(),
         false => of_option(refused),
     };

@@ -5,8 +5,8 @@ use super::canvas::Sheet;
 use super::chart_data::ChartData;
 use super::{
     FigureError, campbell, check, compare, cut, cut_map, deflect, fit, gap, gap_friction, gap_map,
-    in_cut, map, membrane, modes, place, render, response, response_map, root_loci, runup,
-    spline_orbit, study, washboard,
+    gap_oscillation, in_cut, map, membrane, modes, place, render, response, response_map,
+    root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
     CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
@@ -173,6 +173,7 @@ impl Figures for GapReport {
     const NAMES: &'static [[&'static str; 2]] = &[
         ["gap.png", "gap.svg"],
         ["gap-map.png", "gap-map.svg"],
+        ["gap-oscillation.png", "gap-oscillation.svg"],
         ["gap-friction.png", "gap-friction.svg"],
     ];
 
@@ -180,6 +181,7 @@ impl Figures for GapReport {
         let sheets = [
             Some(gap::sheet(self)),
             gap_map::sheet(self),
+            gap_oscillation::sheet(self),
             gap_friction::sheet(self),
         ];
         named(Self::NAMES, sheets)

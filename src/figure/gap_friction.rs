@@ -187,8 +187,9 @@ fn list_pads(sheet: &mut Sheet, heat: &FrictionEntry) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figure::gap_oscillation;
     use crate::figure::tidy::{assert_tidy, texts};
-    use crate::gap::{Friction, GuideGaps, Options};
+    use crate::gap::{Friction, GuideGaps, Options, OscillatingForce};
     use crate::scene::{Accuracy, ContactLaw, Scene, SweepFile};
 
     #[test]
@@ -211,10 +212,16 @@ mod tests {
         let options = Options {
             force_n: Some(4.0),
             friction: Some(Friction::of(0.1)),
+            oscillating: Some(OscillatingForce {
+                amplitude_n: 0.5,
+                order: 1,
+            }),
+            max_deviation_mm: Some(0.2),
             ..Options::default()
         };
         let found = GuideGaps::new(&scene.unwrap(), &options).unwrap();
         let mut report = GapReport::new(&found);
+        assert_tidy(&gap_oscillation::sheet(&report).unwrap());
         let drawn = sheet(&report).unwrap();
         assert_tidy(&drawn);
         let written = texts(&drawn);

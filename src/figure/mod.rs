@@ -32,6 +32,7 @@ mod fit;
 mod gap;
 mod gap_friction;
 mod gap_map;
+mod gap_oscillation;
 mod heading;
 mod heat;
 mod in_cut;

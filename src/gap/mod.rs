@@ -7,19 +7,27 @@
 //!   over an oscillation of a given amplitude.
 //! * [`DeviationMap`]: the stationary deflection at the cut, and the forces of the pads, over gap, side force and speed,
 //!   from the equilibria of [`stretched`](crate::stretched).
+//! * [`Oscillation`], only if something makes the blade oscillate: its periodic motion, at a speed and over the speed.
 //! * [`FrictionHeat`], only with a coefficient of friction: the heat of the pads, and the blade that it deforms.
 
 mod amplitude;
+mod balance;
 mod deviation;
 mod friction;
 mod heated_disk;
 mod numbers;
+mod oscillating_blade;
+mod oscillation;
+mod oscillators;
 mod pressed;
 
 pub use amplitude::{AmplitudeChart, AtAmplitude, equivalent_share};
 pub use deviation::{BasisError, DeviationMap};
 pub use friction::{Friction, FrictionHeat};
 pub(crate) use numbers::{GapCase, GapNumbers};
+pub use oscillating_blade::{AtSpeed, Motion, PadMotion};
+pub use oscillation::Oscillation;
+pub use oscillators::{OscillatingForce, Oscillators};
 pub use pressed::Deviation;
 
 use crate::deflect;
@@ -57,6 +65,9 @@ pub struct Options {
     pub rpm: Option<f64>,
     /// Largest deflection at the cut that is allowed.
     pub max_deviation_mm: Option<f64>,
+    /// Side force at the rim at the cut that oscillates. Shape and imbalance of the scene's `response` are added to it;
+    /// without any of them no oscillation is computed.
+    pub oscillating: Option<OscillatingForce>,
     /// Friction at the pads; without it no heat is computed.
     pub friction: Option<Friction>,
 }
@@ -72,6 +83,8 @@ pub struct GuideGaps {
     pub amplitude: AmplitudeChart,
     /// The deflection at the cut.
     pub deviation: DeviationMap,
+    /// Oscillations, if something causes them.
+    pub oscillation: Option<Oscillation>,
     /// The heat of friction, if a coefficient was given.
     pub friction: Option<FrictionHeat>,
     /// Largest deflection at the cut that is allowed.
@@ -105,6 +118,9 @@ impl Options {
         }
         if let Some(friction) = self.friction {
             friction.checked()?;
+        }
+        if let Some(oscillators) = Oscillators::of(scene, self.oscillating) {
+            oscillators.checked()?;
         }
         let force_n = self.force(scene)?;
         if force_n == 0.0 {
@@ -148,6 +164,8 @@ impl GuideGaps {
             .unwrap_or(analysis.range_rad_per_s.1);
         let case = (options.force(scene)?, rpm(speed));
         let deviation = DeviationMap::new(&analysis, case.1, case.0)?;
+        let oscillators = Oscillators::of(scene, options.oscillating);
+        let oscillation = oscillators.map(|all| Oscillation::new(&analysis, all, case.0, speed));
         let friction = options.friction;
         let friction = friction.map(|friction| FrictionHeat::new(&analysis, friction, case));
         Ok(GuideGaps {
@@ -155,6 +173,7 @@ impl GuideGaps {
             analysis,
             amplitude,
             deviation,
+            oscillation: oscillation.transpose()?,
             friction: friction.transpose()?,
             max_deviation_m: options.max_deviation_mm.map(|mm| 1e-3 * mm),
         })

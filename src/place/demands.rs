@@ -72,7 +72,7 @@ impl GapDemands {
             force_n,
             rpm: None,
             max_deviation_mm,
-            friction: None,
+            ..gap::Options::default()
         };
         Ok(Some(GapDemands {
             case: GapCase::new(scene, &options, amplitude_mm)?,

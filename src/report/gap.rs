@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
+use super::gap_oscillation::{self, OscillationEntry};
 use crate::gap::{AtAmplitude, BasisError, Deviation, DeviationMap, FrictionHeat, GuideGaps};
 use crate::scene::{Guide, Scene, SceneFile, rpm};
 use crate::text::shown_to;
@@ -39,6 +40,9 @@ pub struct GapReport {
     pub half_way_amplitude_m: Option<f64>,
     /// The deflection at the cut.
     pub deviation: DeviationEntry,
+    /// The oscillation of the blade; null without a cause of one.
+    #[serde(default)]
+    pub oscillation: Option<OscillationEntry>,
     /// The heat of friction at the pads with the gaps of the scene; null without a coefficient of friction.
     #[serde(default)]
     pub friction: Option<FrictionEntry>,
@@ -208,6 +212,10 @@ impl GapReport {
             linear: entry(&amplitude.linear),
             half_way_amplitude_m: amplitude.half_way_m,
             deviation: DeviationEntry::new(&found.deviation, found.max_deviation_m),
+            oscillation: found
+                .oscillation
+                .as_ref()
+                .map(|found_at| OscillationEntry::new(found_at, found.deviation.force_n)),
             friction: found
                 .friction
                 .as_ref()
@@ -322,6 +330,9 @@ fn warnings(mut warnings: Vec<String>, found: &GuideGaps) -> Vec<String> {
         warnings.push(
             "the temperature of friction does not settle: heat, deflection and pad forces raise each other, and the numbers of friction are those of the last repetition".to_owned(),
         );
+    }
+    if let Some(oscillation) = &found.oscillation {
+        warnings.extend(gap_oscillation::warnings(oscillation));
     }
     if let Some(error) = found.deviation.basis_error
         && error.share > LARGE_ERROR

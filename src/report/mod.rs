@@ -18,6 +18,7 @@ mod event_shape;
 mod excitation;
 mod fit;
 mod gap;
+mod gap_oscillation;
 #[cfg(feature = "page")]
 mod in_cut;
 mod map;
@@ -54,6 +55,10 @@ pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
 pub use self::fit::{FitReport, ParameterEntry, ResidualEntry};
 pub use self::gap::{
     AtAmplitudeEntry, BasisErrorEntry, DeviationEntry, FrictionEntry, FrictionPadEntry, GapReport,
+};
+pub use self::gap_oscillation::{
+    OscillationAtEntry, OscillationEntry, OscillationLineEntry, OscillationPadEntry,
+    OscillationPlaceEntry,
 };
 pub use self::in_cut::{IdlingEntry, InCutEntry};
 pub use self::map::{ContourEntry, ContouredEntry, MapAxisEntry, MapReport, MappedSawEntry};

@@ -16,7 +16,7 @@ use crate::scene::{ResponseFile, Scene};
 /// Cause of an excitation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cause {
-    /// Constant lateral force, fixed in space.
+    /// Lateral force at a place fixed in space: constant, or oscillating if its order is not zero.
     SideForce,
     /// One wave around the rim.
     RunOut,
@@ -40,6 +40,16 @@ pub struct Load {
 }
 
 impl Load {
+    /// A force at the rim at an angle that oscillates with a multiple of the rotation frequency.
+    pub fn at_rim(plate: &Plate, angle_rad: f64, amplitude_n: f64, order: u32) -> Self {
+        let values = plate.functions_at(plate.blade.outer_radius_m, angle_rad);
+        Load {
+            cause: Cause::SideForce,
+            order,
+            vector: Col::from_fn(values.len(), |i| c64::new(amplitude_n * values[i], 0.0)),
+        }
+    }
+
     /// Factor of the load at a speed.
     pub fn factor(&self, speed_rad_per_s: f64) -> f64 {
         match self.cause {

@@ -28,8 +28,11 @@ use crate::stability::{Analysis, AnalysisError, StabilityState, crossings};
 use crate::system::GyroscopicSystem;
 use crate::text::shown;
 use crate::transient::linear_limit_m;
-use family::{State, readings};
-use load::{Load, force_place, loads};
+use family::readings;
+use load::force_place;
+
+pub(crate) use family::{State, solution};
+pub(crate) use load::{Load, loads};
 
 /// Why the response of a saw could not be computed.
 #[derive(Debug, thiserror::Error)]
@@ -240,7 +243,7 @@ fn excitation(scene: &Scene) -> (ResponseFile, bool) {
 }
 
 /// Refuses a shape that the blade has without bending.
-fn rigid(waves: usize, excitation: &ResponseFile) -> ResponseError {
+pub(crate) fn rigid(waves: usize, excitation: &ResponseFile) -> RefusedValue {
     let (key, value) = match waves {
         1 => ("response.runout_m", excitation.runout_m),
         _ => ("response.flatness_m", excitation.flatness_m),
@@ -248,7 +251,7 @@ fn rigid(waves: usize, excitation: &ResponseFile) -> ResponseError {
     let allowed = "0 for a blade that tilts freely on its arbor";
     let remedy =
         "such a blade has no run-out of its own; give flatness_m, or a mount with a collar";
-    RefusedValue::new(key, value, allowed, remedy).into()
+    RefusedValue::new(key, value, allowed, remedy)
 }
 
 /// Speeds within the sweep at which a natural frequency equals the order times the speed.

@@ -63,8 +63,18 @@ impl StretchedBlade {
     pub fn up_to(
         plate: &Plate,
         to_rad_per_s: f64,
-        (radius_m, angle_rad): (f64, f64),
+        place: (f64, f64),
         modes: usize,
+    ) -> Result<Self, StretchedError> {
+        Self::up_to_with(plate, to_rad_per_s, place, (modes, &[]))
+    }
+
+    /// As [`StretchedBlade::up_to`], with further shapes of unit length in the basis.
+    pub(crate) fn up_to_with(
+        plate: &Plate,
+        to_rad_per_s: f64,
+        (radius_m, angle_rad): (f64, f64),
+        (modes, further): (usize, &[Col<f64>]),
     ) -> Result<Self, StretchedError> {
         finite("the speed in rad/s", to_rad_per_s)?;
         let plate = plate.conservative();
@@ -79,6 +89,7 @@ impl StretchedBlade {
         let bent = rest.U() * Col::from_fn(order, |k| force[k] / rest.S()[k]);
         shapes.push(Scale(1.0 / bent.norm_l2()) * bent);
         shapes.extend((0..modes).map(|k| rest.U().col(k).to_owned()));
+        shapes.extend_from_slice(further);
         let basis = orthonormal(order, &shapes, INDEPENDENT);
         Self::on(plate, &full, basis)
     }

@@ -187,7 +187,7 @@ impl StretchedBlade {
     }
 
     /// The shapes at a point of the blade, in 1/√kg.
-    fn shapes_at(&self, (radius_m, angle_rad): (f64, f64)) -> Col<f64> {
+    pub(crate) fn shapes_at(&self, (radius_m, angle_rad): (f64, f64)) -> Col<f64> {
         let values = self.plate.functions_at(radius_m, angle_rad);
         self.shapes.transpose() * Col::from_fn(values.len(), |i| values[i])
     }

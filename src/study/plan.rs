@@ -336,7 +336,7 @@ fn gap(file: &GapFile, scene: &Scene) -> Result<GapCase, StudyError> {
         force_n: Some(file.force_n),
         rpm: file.rpm,
         max_deviation_mm: file.max_deviation_mm,
-        friction: None,
+        ..gap::Options::default()
     };
     let of_study = |refused: RefusedValue| match refused.key.as_str() {
         "force_n" | "rpm" | "max_deviation_mm" | "amplitude_mm" => RefusedValue {

@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use super::{WIDTH, shortened, unusual_numbers, wrapped};
-use crate::report::{AtAmplitudeEntry, FrictionEntry, GapReport};
+use crate::report::{
+    AtAmplitudeEntry, FrictionEntry, GapReport, OscillationAtEntry, OscillationEntry,
+};
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
@@ -31,6 +33,9 @@ pub fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
     }
     writeln!(text, "{}", row("linear", &report.linear))?;
     deviation(text, report)?;
+    if let Some(found) = &report.oscillation {
+        oscillation(text, report, found)?;
+    }
     if let Some(friction) = &report.friction {
         heat(text, report, friction)?;
     }
@@ -51,7 +56,94 @@ pub fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
 }
 
 const MEANING: &str = "The chart over the amplitude is the linear one with the mean stiffness of the guides over a sinusoidal oscillation \
-     of the same amplitude at all of them; it is an approximation. Deflections are stationary ones; oscillations about them are not part of them.";
+     of the same amplitude at all of them; it is an approximation. Deflections are stationary ones, unless an oscillation is named.";
+
+fn oscillation(
+    text: &mut String,
+    report: &GapReport,
+    found: &OscillationEntry,
+) -> std::fmt::Result {
+    let mm = |m: f64| format!("{:.4}", 1e3 * m);
+    writeln!(
+        text,
+        "\nOscillation at {:.0} rpm under {} N, with the gap of the scene",
+        report.deviation.rpm,
+        shown_to(3, found.force_n)
+    )?;
+    let Some(at) = &found.at else {
+        return writeln!(text, "  no periodic motion was found");
+    };
+    let moved = format!(
+        "{} mm, amplitude {} mm, at most {} mm",
+        mm(at.cut.mean_m),
+        mm(at.cut.amplitude_m),
+        mm(at.cut.largest_m)
+    );
+    let probe = format!(
+        "{} mm, amplitude {} mm",
+        mm(at.probe.mean_m),
+        mm(at.probe.amplitude_m)
+    );
+    let rows = [
+        ("rim at the cut, mean", moved),
+        (
+            "without oscillation",
+            format!("{} mm", mm(found.still_deflection_m)),
+        ),
+        ("probe, mean", probe),
+        ("small motions", decay(at)),
+    ];
+    for (name, said) in rows {
+        writeln!(text, "  {name:<22}{said}")?;
+    }
+    for pad in &at.pads {
+        let name = format!("guides[{}], mean force", pad.guide);
+        writeln!(
+            text,
+            "  {name:<22}{} N, at most {} N, touches {:.0} % of the time",
+            shown_to(3, pad.mean_force_n),
+            shown_to(3, pad.largest_force_n),
+            1e2 * pad.contact_share
+        )?;
+    }
+    writeln!(
+        text,
+        "\n  order   frequency   at the cut     at probe   cause"
+    )?;
+    writeln!(text, "               [Hz]         [mm]         [mm]")?;
+    let sizes = at.cut.lines_m.iter().zip(&at.probe.lines_m);
+    for (line, (cut, probe)) in found.lines.iter().zip(sizes) {
+        let row = format!(
+            "  {:>5} {:>11} {:>12} {:>12}   {}",
+            format!("{}×", line.order),
+            shown_to(4, f64::from(line.order) * at.rpm / 60.0),
+            shown_to(3, 1e3 * cut),
+            shown_to(3, 1e3 * probe),
+            line.name
+        );
+        writeln!(text, "{}", shortened(&row, WIDTH))?;
+    }
+    let error = |share: Option<f64>| {
+        share.map_or_else(
+            || "unknown".to_owned(),
+            |share| format!("{} %", shown_to(2, 1e2 * share)),
+        )
+    };
+    let told = format!(
+        "Estimated error of this amplitude at the cut: {} with more harmonics, {} with more modes at rest",
+        error(found.harmonics_error_share),
+        error(found.basis_error_share)
+    );
+    writeln!(text, "{}", wrapped(&told))
+}
+
+fn decay(at: &OscillationAtEntry) -> String {
+    match at.growth_per_s {
+        None => "unknown".to_owned(),
+        Some(growth) if at.stable => format!("stable, growth {} 1/s at most", shown_to(2, growth)),
+        Some(growth) => format!("unstable, growth {} 1/s", shown_to(2, growth)),
+    }
+}
 
 fn heat(text: &mut String, report: &GapReport, friction: &FrictionEntry) -> std::fmt::Result {
     let map = &report.deviation;

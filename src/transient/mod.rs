@@ -48,6 +48,7 @@ pub use sinusoids::FitError;
 pub use stretched_cut::CutStretching;
 pub(crate) use stretched_cut::stretched_cut;
 pub(crate) use stretched_runup::{StretchedRunUp, stretched_run_up};
+pub(crate) use stretching::system as reduced_system;
 pub(crate) use teeth::{ToothPassing, tooth_passing};
 pub(crate) use verdict_map::VerdictMap;
 pub(crate) use verdict_map::verdict_map;

@@ -18,7 +18,7 @@ pub(super) fn forces(blade: &StretchedBlade) -> Vec<&dyn Force> {
 
 /// The linear terms of a plate on the shapes of the blade, including damping, without the stiffness of pads
 /// beyond their gaps.
-pub(super) fn system(plate: &Plate, blade: &StretchedBlade) -> GyroscopicSystem {
+pub(crate) fn system(plate: &Plate, blade: &StretchedBlade) -> GyroscopicSystem {
     let released = GyroscopicSystem::of_released(plate);
     let system = released.unwrap_or_else(|| GyroscopicSystem::of_plate(plate));
     system.project(blade.shapes())

@@ -33,6 +33,8 @@ fn text_files_and_json_agree() {
         "2",
         "--max-deviation-mm",
         "0.3",
+        "--oscillating-force-n",
+        "0.5",
         "--friction",
         "0.2",
     ];
@@ -43,6 +45,8 @@ fn text_files_and_json_agree() {
         "gap-friction.svg",
         "gap-map.png",
         "gap-map.svg",
+        "gap-oscillation.png",
+        "gap-oscillation.svg",
         "gap.json",
         "gap.png",
         "gap.svg",
@@ -79,6 +83,13 @@ fn text_files_and_json_agree() {
         summary.contains(&format!("{shown:.4}")),
         "{shown} {summary}"
     );
+    let oscillation = report.oscillation.unwrap();
+    assert_eq!(oscillation.lines[0].name, "oscillating side force");
+    let said = match &oscillation.at {
+        Some(at) => format!("amplitude {:.4} mm, at most", 1e3 * at.cut.amplitude_m),
+        None => "no periodic motion was found".to_owned(),
+    };
+    assert!(summary.contains(&said), "{said} {summary}");
     let heat = report.friction.unwrap();
     assert!(heat.pads[0].gap_left_m.unwrap() < 0.0);
     assert!(
@@ -105,6 +116,25 @@ fn a_saw_without_a_gap_and_invalid_numbers_are_refused() {
         (
             &["gap", &path, "--max-deviation-mm", "0"],
             "--max-deviation-mm",
+        ),
+        (
+            &["gap", &path, "--oscillating-force-n", "0"],
+            "--oscillating-force-n",
+        ),
+        (
+            &[
+                "gap",
+                &path,
+                "--oscillating-force-n",
+                "1",
+                "--oscillating-order",
+                "0",
+            ],
+            "--oscillating-order",
+        ),
+        (
+            &["gap", &path, "--oscillating-order", "2"],
+            "--oscillating-force-n",
         ),
     ] {
         let output = run(words, &folder);

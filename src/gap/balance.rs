@@ -1,0 +1,378 @@
+//! Periodic motions of a blade under periodic loads, by the balance of harmonics.
+//!
+//! q(t) = a₀ + Σ (aₖ cos kωt + bₖ sin kωt), k = 1 … H, in a frame fixed in space. The coefficients balance those of the loads,
+//! of the linear terms and of the forces f(q): the latter are evaluated at many times of a period and expanded in the same
+//! functions (alternating frequency/time method). The equations are solved by Newton's method; corrections are shortened
+//! until the next simplified one is smaller, a test that does not depend on the scaling of the equations.
+//!
+//! The exponents of small motions about a periodic one are those of its monodromy matrix.
+//!
+//! References: T. M. Cameron & J. H. Griffin, J. Appl. Mech. 56 (1989), 149–154; P. Deuflhard, *Newton Methods for Nonlinear
+//! Problems*, 2004, chapter 3.
+
+use std::f64::consts::TAU;
+
+use faer::linalg::solvers::Solve;
+use faer::{Col, Mat, Scale, c64};
+
+use crate::system::GyroscopicSystem;
+use crate::transient::Force;
+
+/// A force that depends on the displacement.
+#[derive(Clone, Copy)]
+pub(super) struct Term<'a> {
+    /// The force.
+    pub force: &'a dyn Force,
+    /// Whether it changes so little over a period that its derivative at the mean deflection is good enough for Newton's
+    /// method, and a few times of the period for its harmonics.
+    pub is_smooth: bool,
+}
+
+/// The balance of a system at one speed.
+pub(super) struct Balance<'a> {
+    stiffness: Mat<f64>,
+    velocity: Mat<f64>,
+    frequency_rad_per_s: f64,
+    harmonics: usize,
+    terms: &'a [Term<'a>],
+    /// Norm of small coordinates.
+    size: f64,
+}
+
+/// A periodic motion: columns a₀, a₁, b₁, a₂, b₂, …
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Periodic(Mat<f64>);
+
+/// Fastest growth of a small motion about a periodic one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Growth {
+    /// Re of its exponent.
+    pub per_s: f64,
+    /// Smallest frequency of this motion, at most half of that of the periodic one.
+    pub frequency_rad_per_s: f64,
+}
+
+/// Times of a period for each coefficient: contact begins and ends within two of them.
+const TIMES: usize = 16;
+/// Smallest number of these times.
+const LEAST_TIMES: usize = 192;
+/// The same for smooth forces, whose third power has no more than three times the harmonics.
+const TIMES_OF_SMOOTH: usize = 2;
+/// Largest number of iterations.
+const ITERATIONS: usize = 30;
+/// Relative size of the last correction.
+const LAST: f64 = 1e-8;
+/// Smallest share of a correction, which is taken in any case: where a pad begins to touch the test may fail in all directions.
+const SHORTEST: f64 = 1.0 / 16.0;
+/// If Newton's method fails, contact is at first softer by this factor, and then stiffer by at most the next and at least the last
+/// one from step to step.
+const SOFTEST: f64 = 1.0 / 4096.0;
+const STIFFER: f64 = 4.0;
+const LEAST_STIFFER: f64 = 1.05;
+/// Steps of a period of the monodromy matrix.
+const STEPS: usize = 256;
+
+impl<'a> Balance<'a> {
+    /// The balance at a speed, for motions of a frequency and some multiples of it.
+    pub fn new(
+        system: &GyroscopicSystem,
+        speed_rad_per_s: f64,
+        (frequency_rad_per_s, harmonics): (f64, usize),
+        terms: &'a [Term<'a>],
+        size: f64,
+    ) -> Self {
+        Balance {
+            stiffness: system.stiffness_at(speed_rad_per_s),
+            velocity: system.velocity_at(speed_rad_per_s),
+            frequency_rad_per_s,
+            harmonics,
+            terms,
+            size,
+        }
+    }
+
+    fn order(&self) -> usize {
+        self.stiffness.nrows()
+    }
+
+    /// Number of coefficients of a coordinate.
+    fn width(&self) -> usize {
+        1 + 2 * self.harmonics
+    }
+
+    /// Loads without any force: an order × width matrix of zeros.
+    pub fn no_load(&self) -> Mat<f64> {
+        Mat::zeros(self.order(), self.width())
+    }
+
+    /// Motion under constant and alternating loads, from a deflection at rest or, if none is found, from that between soft pads
+    /// that become stiffer in steps. `None` if none is found.
+    pub fn motion(&self, rest: &Col<f64>, load: &Mat<f64>) -> Option<Periodic> {
+        let mut still = self.no_load();
+        still.col_mut(0).copy_from(rest);
+        if let Some(found) = self.solved(&still, load, 1.0) {
+            return Some(Periodic(found));
+        }
+        let mut motion = self.solved(&still, load, SOFTEST)?;
+        let (mut share, mut factor) = (SOFTEST, STIFFER);
+        while share < 1.0 {
+            let next = (share * factor).min(1.0);
+            match self.solved(&motion, load, next) {
+                Some(found) => {
+                    (motion, share) = (found, next);
+                    factor = (factor * factor).min(STIFFER);
+                }
+                None => factor = factor.sqrt(),
+            }
+            if factor < LEAST_STIFFER {
+                return None;
+            }
+        }
+        Some(Periodic(motion))
+    }
+
+    /// The motion from one that is close, also with another number of harmonics.
+    pub fn refined(&self, near: &Periodic, load: &Mat<f64>) -> Option<Periodic> {
+        let mut motion = self.no_load();
+        let known = near.0.ncols().min(self.width());
+        motion
+            .subcols_mut(0, known)
+            .copy_from(near.0.subcols(0, known));
+        self.solved(&motion, load, 1.0).map(Periodic)
+    }
+
+    /// The motion with contact that has a share of its stiffness.
+    fn solved(&self, from: &Mat<f64>, load: &Mat<f64>, share: f64) -> Option<Mat<f64>> {
+        let mut motion = from.clone();
+        let mut rest = self.residual(&motion, load, share);
+        for _ in 0..ITERATIONS {
+            let factors = self.jacobian(&motion, share).partial_piv_lu();
+            let correction = factors.solve(&flat(&rest));
+            let length = correction.norm_l2();
+            if !length.is_finite() {
+                return None;
+            }
+            let shaped = self.shaped(&correction);
+            if length <= LAST * motion.norm_l2().max(self.size) {
+                return Some(motion - shaped);
+            }
+            let mut part = 1.0;
+            (motion, rest) = loop {
+                let next = &motion - Scale(part) * &shaped;
+                let rest = self.residual(&next, load, share);
+                let simplified = factors.solve(&flat(&rest)).norm_l2();
+                if simplified <= (1.0 - 0.25 * part) * length || part <= SHORTEST {
+                    break (next, rest);
+                }
+                part *= 0.5;
+            };
+        }
+        None
+    }
+
+    fn shaped(&self, vector: &Col<f64>) -> Mat<f64> {
+        let order = self.order();
+        Mat::from_fn(order, self.width(), |i, k| vector[k * order + i])
+    }
+
+    /// Elastic, viscous, inertial and given forces of each coefficient.
+    fn residual(&self, motion: &Mat<f64>, load: &Mat<f64>, share: f64) -> Mat<f64> {
+        let elastic = &self.stiffness * motion;
+        let viscous = &self.velocity * motion;
+        let mut rest = elastic - load;
+        for k in 1..=self.harmonics {
+            let frequency = k as f64 * self.frequency_rad_per_s;
+            let (cos, sin) = (2 * k - 1, 2 * k);
+            for i in 0..self.order() {
+                let inertia = frequency * frequency;
+                rest[(i, cos)] += frequency * viscous[(i, sin)] - inertia * motion[(i, cos)];
+                rest[(i, sin)] -= frequency * viscous[(i, cos)] + inertia * motion[(i, sin)];
+            }
+        }
+        for term in self.terms {
+            let (at, back) = self.times(term.is_smooth);
+            let deflections = motion * &at;
+            let mut forces = Mat::zeros(self.order(), at.ncols());
+            for time in 0..at.ncols() {
+                let mut force = Col::zeros(self.order());
+                let deflection = deflections.col(time).to_owned();
+                term.force.add_to(&deflection, &mut force);
+                forces.col_mut(time).copy_from(&force);
+            }
+            let share = if term.is_smooth { 1.0 } else { share };
+            rest -= Scale(share) * (forces * back);
+        }
+        rest
+    }
+
+    /// The functions of time at the times of a period, and their weights in the sums of the coefficients.
+    fn times(&self, is_smooth: bool) -> (Mat<f64>, Mat<f64>) {
+        let width = self.width();
+        let count = match is_smooth {
+            true => width * TIMES_OF_SMOOTH,
+            false => (width * TIMES).max(LEAST_TIMES),
+        };
+        let at = Mat::from_fn(width, count, |k, time| {
+            function(k, TAU * time as f64 / count as f64)
+        });
+        let back = Mat::from_fn(count, width, |time, k| {
+            let norm = if k == 0 { 1.0 } else { 2.0 };
+            norm / count as f64 * at[(k, time)]
+        });
+        (at, back)
+    }
+
+    /// Stiffness of the linear terms and of smooth forces at the mean deflection.
+    fn elastic(&self, motion: &Mat<f64>) -> Mat<f64> {
+        let mean = motion.col(0).to_owned();
+        let mut elastic = self.stiffness.clone();
+        for term in self.terms.iter().filter(|term| term.is_smooth) {
+            term.force.add_stiffness(&mean, &mut elastic);
+        }
+        elastic
+    }
+
+    fn jacobian(&self, motion: &Mat<f64>, share: f64) -> Mat<f64> {
+        let (order, width) = (self.order(), self.width());
+        let elastic = self.elastic(motion);
+        let mut jacobian = Mat::zeros(order * width, order * width);
+        for k in 0..width {
+            let frequency = k.div_ceil(2) as f64 * self.frequency_rad_per_s;
+            for i in 0..order {
+                for j in 0..order {
+                    jacobian[(k * order + i, k * order + j)] = elastic[(i, j)];
+                }
+                jacobian[(k * order + i, k * order + i)] -= frequency * frequency;
+            }
+            if k % 2 == 1 {
+                let (cos, sin) = (k * order, (k + 1) * order);
+                for i in 0..order {
+                    for j in 0..order {
+                        jacobian[(cos + i, sin + j)] += frequency * self.velocity[(i, j)];
+                        jacobian[(sin + i, cos + j)] -= frequency * self.velocity[(i, j)];
+                    }
+                }
+            }
+        }
+        for term in self.terms.iter().filter(|term| !term.is_smooth) {
+            self.add_contact((term.force, share), motion, &mut jacobian);
+        }
+        jacobian
+    }
+
+    /// Adds the derivatives of the coefficients of a force that is not smooth.
+    fn add_contact(
+        &self,
+        (force, share): (&dyn Force, f64),
+        motion: &Mat<f64>,
+        jacobian: &mut Mat<f64>,
+    ) {
+        let (order, width) = (self.order(), self.width());
+        let (at, back) = self.times(false);
+        let deflections = motion * &at;
+        let count = at.ncols();
+        let mut stiffnesses: Mat<f64> = Mat::zeros(order * order, count);
+        for time in 0..count {
+            let mut own = Mat::zeros(order, order);
+            force.add_stiffness(&deflections.col(time).to_owned(), &mut own);
+            for j in 0..order {
+                for i in 0..order {
+                    stiffnesses[(j * order + i, time)] = own[(i, j)];
+                }
+            }
+        }
+        let products = Mat::from_fn(count, width * width, |time, pair| {
+            share * back[(time, pair % width)] * at[(pair / width, time)]
+        });
+        let blocks = stiffnesses * products;
+        for pair in 0..width * width {
+            let (row, column) = (order * (pair % width), order * (pair / width));
+            for j in 0..order {
+                for i in 0..order {
+                    jacobian[(row + i, column + j)] += blocks[(j * order + i, pair)];
+                }
+            }
+        }
+    }
+
+    /// The fastest growth of small motions about a periodic one; `None` if the eigenvalues are not found. The monodromy matrix
+    /// is that of the implicit midpoint rule, which keeps the energy of an undamped blade at constant stiffness.
+    pub fn growth(&self, motion: &Periodic) -> Option<Growth> {
+        let order = self.order();
+        let period_s = TAU / self.frequency_rad_per_s;
+        let step_s = period_s / STEPS as f64;
+        let mut state = Mat::<f64>::identity(2 * order, 2 * order);
+        let elastic = self.elastic(&motion.0);
+        for step in 0..STEPS {
+            let phase = TAU * (step as f64 + 0.5) / STEPS as f64;
+            let at = motion.at(phase);
+            let mut stiffness = elastic.clone();
+            for term in self.terms.iter().filter(|term| !term.is_smooth) {
+                term.force.add_stiffness(&at, &mut stiffness);
+            }
+            // (2/Δ + D + K Δ/2) v̄ = 2v₀/Δ − K q₀, q₁ = q₀ + Δ v̄, v₁ = 2v̄ − v₀.
+            let mut left = &self.velocity + Scale(0.5 * step_s) * &stiffness;
+            (0..order).for_each(|i| left[(i, i)] += 2.0 / step_s);
+            let (q, v) = (state.subrows(0, order), state.subrows(order, order));
+            let mean = left
+                .partial_piv_lu()
+                .solve(Scale(2.0 / step_s) * v - &stiffness * q);
+            let next_q = q + Scale(step_s) * &mean;
+            let next_v = Scale(2.0) * &mean - v;
+            state.subrows_mut(0, order).copy_from(&next_q);
+            state.subrows_mut(order, order).copy_from(&next_v);
+        }
+        let multipliers: Vec<c64> = state.eigenvalues().ok()?;
+        let largest = multipliers
+            .into_iter()
+            .max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+        let growth = Growth {
+            per_s: largest.norm().ln() / period_s,
+            frequency_rad_per_s: largest.arg().abs() / period_s,
+        };
+        growth.per_s.is_finite().then_some(growth)
+    }
+}
+
+/// 1, cos, sin, cos 2, sin 2, … of a phase.
+fn function(k: usize, phase: f64) -> f64 {
+    let (sin, cos) = (k.div_ceil(2) as f64 * phase).sin_cos();
+    match k {
+        0 => 1.0,
+        _ if k % 2 == 1 => cos,
+        _ => sin,
+    }
+}
+
+/// The columns below each other.
+fn flat(matrix: &Mat<f64>) -> Col<f64> {
+    let rows = matrix.nrows();
+    Col::from_fn(rows * matrix.ncols(), |i| matrix[(i % rows, i / rows)])
+}
+
+impl Periodic {
+    /// q at a phase ωt.
+    pub fn at(&self, phase: f64) -> Col<f64> {
+        &self.0 * Col::from_fn(self.0.ncols(), |k| function(k, phase))
+    }
+
+    /// Mean of cᵀq.
+    pub fn mean(&self, probe: &Col<f64>) -> f64 {
+        probe.transpose() * self.0.col(0)
+    }
+
+    /// W of the part Re W e^{ikωt} of cᵀq.
+    pub fn harmonic(&self, k: usize, probe: &Col<f64>) -> c64 {
+        let [cos, sin] = [2 * k - 1, 2 * k].map(|k| probe.transpose() * self.0.col(k));
+        c64::new(cos, -sin)
+    }
+
+    /// Number of harmonics.
+    pub fn harmonics(&self) -> usize {
+        self.0.ncols() / 2
+    }
+}
+
+#[cfg(test)]
+#[path = "balance_tests.rs"]
+mod tests;

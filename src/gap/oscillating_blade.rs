@@ -1,0 +1,331 @@
+//! A blade between guides with a gap in a basis for its oscillations, and its periodic motion at a speed.
+
+use std::f64::consts::TAU;
+
+use faer::{Col, Mat, c64};
+
+use crate::plate::{Plate, Resolution};
+use crate::response::{Load, State, loads, rigid, solution};
+use crate::scene::{Scene, rpm};
+use crate::spectrum::Cancellation;
+use crate::stretched::{Sites, StretchedBlade};
+use crate::system::GyroscopicSystem;
+use crate::transient::reduced_system;
+
+use super::GapError;
+use super::balance::{Balance, Growth, Periodic, Term};
+use super::oscillators::Oscillators;
+
+/// A periodic deflection at a point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// Mean.
+    pub mean_m: f64,
+    /// Half of the difference between the largest and the smallest value.
+    pub amplitude_m: f64,
+    /// Largest absolute value.
+    pub largest_m: f64,
+    /// W of each part Re W e^{ikωt}, k = 1, 2, …
+    pub harmonics_m: Vec<c64>,
+}
+
+/// A pad over a period.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PadMotion {
+    /// Index among the guides of the scene.
+    pub guide: usize,
+    /// Mean of its force on the blade beyond its gap.
+    pub mean_n: f64,
+    /// Largest absolute value of this force.
+    pub largest_n: f64,
+    /// Share of the period in which it touches the blade.
+    pub contact_share: f64,
+}
+
+/// A periodic motion at one speed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AtSpeed {
+    /// Rotation speed.
+    pub speed_rad_per_s: f64,
+    /// Deflection at the probe.
+    pub probe: Motion,
+    /// Deflection of the rim at the cut.
+    pub cut: Motion,
+    /// One-sided pads.
+    pub pads: Vec<PadMotion>,
+    /// Largest deflection of the blade, as an absolute value.
+    pub largest_m: f64,
+    /// Fastest growth of small motions about it, in 1/s, and their smallest frequency, in rad/s.
+    pub growth: Option<(f64, f64)>,
+}
+
+/// Harmonics of the motion. With more of them amplitudes of the saws of the tests change by less than a percent.
+pub(super) const HARMONICS: usize = 6;
+/// More harmonics, with which the amplitude is compared.
+const MORE_HARMONICS: usize = 10;
+/// Phases at which a motion is read.
+const PHASES: usize = 96;
+/// Every so many phases the whole blade is looked at.
+const EVERY: usize = 6;
+
+/// A blade in a basis for its oscillations at some speed.
+pub(super) struct OscillatingBlade {
+    pub(super) blade: StretchedBlade,
+    pub(super) system: GyroscopicSystem,
+    /// Order, and factors of cosine and sine, or those divided by Ω² of an imbalance.
+    loads: Vec<(Load, Col<c64>)>,
+    probe: Col<f64>,
+    pub(super) cut: Col<f64>,
+    sites: Sites,
+    /// Indices of the guides that lift off.
+    guides: Vec<usize>,
+    size: f64,
+}
+
+impl OscillatingBlade {
+    /// The blade of a scene under a steady side force at the rim at the cut. The basis has the modes of
+    /// [`StretchedBlade::up_to`], and the linear responses to the loads at a speed with and without contact.
+    pub(super) fn new(
+        scene: &Scene,
+        resolution: Resolution,
+        oscillators: &Oscillators,
+        (force_n, speed_rad_per_s, to_rad_per_s): (f64, f64, f64),
+        modes: usize,
+    ) -> Result<Self, GapError> {
+        let plate = Plate::new(scene, resolution);
+        let place = (plate.blade.outer_radius_m, scene.cut_angle_rad());
+        let mut loads = loads(&plate, scene, &oscillators.turning)
+            .map_err(|waves| rigid(waves, &oscillators.turning))?;
+        if let Some(force) = oscillators.force {
+            loads.push(Load::at_rim(
+                &plate,
+                place.1,
+                force.amplitude_n,
+                force.order,
+            ));
+        }
+        let systems = [
+            Some(GyroscopicSystem::of_plate(&plate)),
+            GyroscopicSystem::of_released(&plate),
+        ];
+        let systems: Vec<GyroscopicSystem> = systems.into_iter().flatten().collect();
+        let mut further = Vec::new();
+        for (load, system) in loads
+            .iter()
+            .flat_map(|l| systems.iter().map(move |s| (l, s)))
+        {
+            let state = State {
+                speed_rad_per_s,
+                frequency_rad_per_s: f64::from(load.order) * speed_rad_per_s,
+            };
+            let found = solution(system, &load.vector, state);
+            let parts: [fn(c64) -> f64; 2] = [|z| z.re, |z| z.im];
+            for part in parts {
+                let shape = Col::from_fn(found.nrows(), |i| part(found[i]));
+                let norm = shape.norm_l2();
+                // The imaginary part of an undamped response is rounding.
+                if norm.is_finite() && norm > 1e-9 * found.norm_l2() {
+                    further.push(faer::Scale(1.0 / norm) * shape);
+                }
+            }
+        }
+        let modes = modes.min(plate.degrees_of_freedom());
+        let blade = StretchedBlade::up_to_with(&plate, to_rad_per_s, place, (modes, &further))?;
+        let blade = blade.pressed(force_n, place)?;
+        let probe = scene.probe();
+        let reduced = loads.into_iter().map(|load| {
+            let vector = &load.vector;
+            let [re, im] = [|z: c64| z.re, |z: c64| z.im].map(|part| {
+                blade.shapes().transpose() * Col::from_fn(vector.nrows(), |i| part(vector[i]))
+            });
+            let on_shapes = Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i]));
+            (load, on_shapes)
+        });
+        Ok(OscillatingBlade {
+            loads: reduced.collect(),
+            system: reduced_system(&plate, &blade),
+            probe: blade.shapes_at((probe.radius_m, probe.angle_rad)),
+            cut: blade.shapes_at(place),
+            sites: blade.sites(),
+            guides: scene
+                .guides()
+                .iter()
+                .filter(|guide| guide.lifting.is_some())
+                .map(|guide| guide.index)
+                .collect(),
+            size: 1e-3 * plate.blade.thickness_m * plate.blade.mass_kg().sqrt(),
+            blade,
+        })
+    }
+
+    pub(super) fn terms(&self) -> Vec<Term<'_>> {
+        let stretching = Term {
+            force: self.blade.stretching(),
+            is_smooth: true,
+        };
+        let gaps = self.blade.gaps().map(|gaps| Term {
+            force: gaps,
+            is_smooth: false,
+        });
+        std::iter::once(stretching).chain(gaps).collect()
+    }
+
+    /// Coefficients of all loads at a speed: the steady force, and the alternating ones.
+    pub(super) fn load(&self, zero: Mat<f64>, speed_rad_per_s: f64, base_order: u32) -> Mat<f64> {
+        let mut load = zero;
+        load.col_mut(0).copy_from(self.blade.force());
+        for (own, vector) in &self.loads {
+            let factor = own.factor(speed_rad_per_s);
+            let k = (own.order / base_order) as usize;
+            for i in 0..vector.nrows() {
+                load[(i, 2 * k - 1)] += factor * vector[i].re;
+                load[(i, 2 * k)] -= factor * vector[i].im;
+            }
+        }
+        load
+    }
+
+    /// The motion at a speed, its stability if asked for, and the deflection at rest without oscillation.
+    pub(super) fn at(
+        &self,
+        speed_rad_per_s: f64,
+        base_order: u32,
+    ) -> Result<(Option<Found>, f64), GapError> {
+        Cancellation::current().check()?;
+        let rest = self.blade.settled(speed_rad_per_s, &self.blade.flat())?;
+        let still_m = self.cut.transpose() * &rest.coordinates;
+        let terms = self.terms();
+        let balance = self.balance(speed_rad_per_s, (base_order, HARMONICS), &terms);
+        let load = self.load(balance.no_load(), speed_rad_per_s, base_order);
+        let found = balance
+            .motion(&rest.coordinates, &load)
+            .map(|motion| Found {
+                growth: balance.growth(&motion),
+                motion,
+            });
+        Ok((found, still_m))
+    }
+
+    /// Looks for the motions that were not found from those at neighbouring speeds, upwards and downwards.
+    pub(super) fn follow(&self, motions: &mut [Option<Found>], speeds: &[f64], base_order: u32) {
+        let last = motions.len().saturating_sub(1);
+        let upwards = (1..=last).map(|k| (k - 1, k));
+        let downwards = (1..=last).rev().map(|k| (k, k - 1));
+        for (from, to) in upwards.chain(downwards) {
+            if let (Some(near), None) = (&motions[from], &motions[to]) {
+                motions[to] = self.near(&near.motion, speeds[to], base_order);
+            }
+        }
+    }
+
+    /// The motion at a speed from that at one close to it.
+    fn near(&self, near: &Periodic, speed_rad_per_s: f64, base_order: u32) -> Option<Found> {
+        let terms = self.terms();
+        let balance = self.balance(speed_rad_per_s, (base_order, HARMONICS), &terms);
+        let load = self.load(balance.no_load(), speed_rad_per_s, base_order);
+        let motion = balance.refined(near, &load)?;
+        Some(Found {
+            growth: balance.growth(&motion),
+            motion,
+        })
+    }
+
+    /// A motion with more harmonics.
+    pub(super) fn refined(
+        &self,
+        near: &Periodic,
+        speed_rad_per_s: f64,
+        base_order: u32,
+    ) -> Option<Periodic> {
+        let terms = self.terms();
+        let balance = self.balance(speed_rad_per_s, (base_order, MORE_HARMONICS), &terms);
+        let load = self.load(balance.no_load(), speed_rad_per_s, base_order);
+        balance.refined(near, &load)
+    }
+
+    fn balance<'a>(
+        &self,
+        speed_rad_per_s: f64,
+        (base_order, harmonics): (u32, usize),
+        terms: &'a [Term<'a>],
+    ) -> Balance<'a> {
+        let frequency = f64::from(base_order) * speed_rad_per_s;
+        let asked = (frequency, harmonics);
+        Balance::new(&self.system, speed_rad_per_s, asked, terms, self.size)
+    }
+
+    pub(super) fn read(&self, speed_rad_per_s: f64, found: &Found) -> AtSpeed {
+        let phases = (0..PHASES).map(|k| TAU * k as f64 / PHASES as f64);
+        let states: Vec<Col<f64>> = phases.map(|phase| found.motion.at(phase)).collect();
+        let seen = states.iter().step_by(EVERY);
+        AtSpeed {
+            speed_rad_per_s,
+            probe: motion_at(&found.motion, &states, &self.probe),
+            cut: motion_at(&found.motion, &states, &self.cut),
+            pads: self.pads(&states),
+            largest_m: seen.map(|q| self.sites.largest_m(q)).fold(0.0, f64::max),
+            growth: found
+                .growth
+                .map(|growth| (growth.per_s, growth.frequency_rad_per_s)),
+        }
+    }
+
+    fn pads(&self, states: &[Col<f64>]) -> Vec<PadMotion> {
+        let Some(gaps) = self.blade.gaps() else {
+            return Vec::new();
+        };
+        let forces: Vec<Vec<f64>> = states.iter().map(|q| gaps.forces_n(q)).collect();
+        let count = states.len() as f64;
+        let pads = forces.first().map_or(0, Vec::len);
+        let pad = |pad: usize| {
+            let own = || forces.iter().map(|all| all[pad]);
+            PadMotion {
+                guide: self.guides.get(pad).copied().unwrap_or(pad),
+                mean_n: own().sum::<f64>() / count,
+                largest_n: own().map(f64::abs).fold(0.0, f64::max),
+                contact_share: own().filter(|force| *force != 0.0).count() as f64 / count,
+            }
+        };
+        (0..pads).map(pad).collect()
+    }
+}
+
+/// A motion and its stability.
+pub(super) struct Found {
+    pub motion: Periodic,
+    pub growth: Option<Growth>,
+}
+
+fn motion_at(motion: &Periodic, states: &[Col<f64>], place: &Col<f64>) -> Motion {
+    let values = || states.iter().map(|q| place.transpose() * q);
+    let low = values().fold(f64::INFINITY, f64::min);
+    let high = values().fold(f64::NEG_INFINITY, f64::max);
+    Motion {
+        mean_m: motion.mean(place),
+        amplitude_m: 0.5 * (high - low),
+        largest_m: low.abs().max(high.abs()),
+        harmonics_m: (1..=motion.harmonics())
+            .map(|k| motion.harmonic(k, place))
+            .collect(),
+    }
+}
+
+/// Amplitude at a place, to compare two motions.
+pub(super) fn amplitude_m(motion: &Periodic, place: &Col<f64>) -> f64 {
+    let phases = (0..PHASES).map(|k| TAU * k as f64 / PHASES as f64);
+    let states: Vec<Col<f64>> = phases.map(|phase| motion.at(phase)).collect();
+    motion_at(motion, &states, place).amplitude_m
+}
+
+impl AtSpeed {
+    /// Whether small motions about it do not grow.
+    pub fn is_stable(&self, threshold_per_s: f64) -> bool {
+        self.growth
+            .is_some_and(|(per_s, _)| per_s <= threshold_per_s)
+    }
+
+    /// Rotation speed in rpm.
+    pub fn rpm(&self) -> f64 {
+        rpm(self.speed_rad_per_s)
+    }
+}

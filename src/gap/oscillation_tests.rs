@@ -1,0 +1,225 @@
+//! Oscillations against the linear response, and against time histories.
+
+use std::f64::consts::TAU;
+
+use faer::{Col, Mat, c64};
+
+use super::super::oscillators::OscillatingForce;
+use super::*;
+use crate::gap::{GuideGaps, Options};
+use crate::plate::Resolution;
+use crate::response::{ForcedResponse, Options as ResponseOptions};
+use crate::scene::{
+    Accuracy, ContactLaw, DampingFile, GuideFile, ResponseFile, Scene, SweepFile, rad_per_s,
+};
+use crate::transient::{Force, Integrator, Newmark, State as MovingState};
+
+/// The built-in saw with damping and a lack of flatness.
+fn saw(change: impl FnOnce(&mut GuideFile)) -> Scene {
+    let scene = Scene::paper().edited(|file| {
+        (file.accuracy, file.operating_rpm) = (Accuracy::Draft, Some(900.0));
+        file.sweep = Some(SweepFile {
+            from_rpm: 0.0,
+            to_rpm: 1400.0,
+        });
+        file.damping = Some(DampingFile {
+            air_n_s_per_m3: 400.0,
+            ..DampingFile::default()
+        });
+        file.response = Some(ResponseFile {
+            flatness_m: 1.5e-4,
+            ..ResponseFile::default()
+        });
+        change(&mut file.guides[0]);
+    });
+    scene.unwrap()
+}
+
+const SMALL: Resolution = Resolution {
+    max_diameters: 8,
+    radial_functions: 4,
+};
+
+/// Independent value: a gap of a picometre makes a linear guide, for which `response` solves the full model.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn without_a_gap_the_motion_is_the_linear_response() {
+    let typed = saw(|_| ()).edited(|file| {
+        if let Some(response) = &mut file.response {
+            // Small deflections, which do not stretch the blade.
+            (response.flatness_m, response.imbalance_kg_m2) = (1e-5, 1e-6);
+        }
+    });
+    let typed = typed.unwrap();
+    let linear = ForcedResponse::new(&typed, &ResponseOptions::default()).unwrap();
+    let lifting = typed.edited(|file| {
+        let pad = &mut file.guides[0];
+        (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(1e-12));
+    });
+    let analysis = Analysis::new(&lifting.unwrap().idling().unwrap()).unwrap();
+    let oscillators = Oscillators::of(&analysis.scene, None).unwrap();
+    let speed = rad_per_s(900.0);
+    let found = Oscillation::new(&analysis, oscillators, 0.01, speed).unwrap();
+    assert_eq!(found.base_order, 1);
+    assert_eq!(found.name_of(2), "flatness, imbalance");
+    let largest = |order: u32| {
+        let own = linear.lines.iter().filter(|line| line.order == order);
+        let all = own.flat_map(|line| line.deflections.iter().flatten());
+        all.map(|w| w.at_probe.norm()).fold(0.0, f64::max)
+    };
+    let mut compared = 0;
+    for at in found.over_speed.iter().flatten() {
+        let away = |k: &usize| (linear.speeds_rad_per_s[*k] / at.speed_rad_per_s - 1.0).abs();
+        let speeds = 0..linear.speeds_rad_per_s.len();
+        let place = speeds.min_by(|a, b| away(a).total_cmp(&away(b))).unwrap();
+        assert!(away(&place) < 1e-4);
+        // The basis has the linear response at the speed of the map.
+        let tolerance = match (at.speed_rad_per_s / speed - 1.0).abs() < 1e-9 {
+            true => 1e-3,
+            false => 1e-2,
+        };
+        for order in [1, 2] {
+            let own = linear.lines.iter().filter(|line| line.order == order);
+            let sum: Option<c64> = own
+                .map(|line| Some(line.deflections[place]?.at_probe))
+                .sum();
+            let Some(expected) = sum else { continue };
+            let w = at.probe.harmonics_m[order as usize - 1];
+            // Between resonances the parts of the modes cancel each other.
+            let size = expected.norm().max(0.1 * largest(order));
+            assert!(
+                (w - expected).norm() < tolerance * size,
+                "{} rpm, {order}: {w} {expected}",
+                at.rpm()
+            );
+            compared += 1;
+        }
+    }
+    assert!(compared > 20, "{compared}");
+}
+
+/// Independent value: the time history of the same blade, from rest until it has settled.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many steps: run it in release")]
+fn the_motion_of_a_blade_that_is_not_flat_is_that_of_the_time_history() {
+    compare_with_time_history(true, None, 2);
+}
+
+/// Independent value: as above.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many steps: run it in release")]
+fn the_motion_under_an_oscillating_force_is_that_of_the_time_history() {
+    let force = OscillatingForce {
+        amplitude_n: 0.6,
+        order: 1,
+    };
+    compare_with_time_history(false, Some(force), 1);
+}
+
+fn compare_with_time_history(turning: bool, force: Option<OscillatingForce>, base: u32) {
+    let scene = saw(|pad| (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5)));
+    let speed = rad_per_s(900.0);
+    let scene = scene.edited(|file| {
+        if !turning {
+            file.response = None;
+        }
+    });
+    let scene = scene.unwrap().idling().unwrap();
+    let oscillators = Oscillators::of(&scene, force).unwrap();
+    assert_eq!(oscillators.base_order(), base);
+    let asked = (1.0, speed, rad_per_s(1400.0));
+    let blade = OscillatingBlade::new(&scene, SMALL, &oscillators, asked, 10).unwrap();
+    let (found, _) = blade.at(speed, base).unwrap();
+    let found = found.unwrap();
+    let at = blade.read(speed, &found);
+    assert!(at.is_stable(0.0), "{at:?}");
+    // Without lifting off there would be one harmonic only; the force is too small for much of it.
+    let [first, second] = [0, 1].map(|k| at.cut.harmonics_m[k].norm());
+    assert!(!turning || second > 0.02 * first, "{first} {second}");
+
+    let terms = blade.terms();
+    let forces: Vec<&dyn Force> = terms.iter().map(|term| term.force).collect();
+    let order = blade.system.order();
+    let zero = Mat::zeros(order, 1 + 2 * HARMONICS);
+    let load = blade.load(zero, speed, base);
+    let loads: Vec<Col<f64>> = (0..3).map(|k| load.col(k).to_owned()).collect();
+    let steps = 200;
+    let frequency = f64::from(base) * speed;
+    let step_s = TAU / frequency / f64::from(steps);
+    let newmark = Newmark::new(&blade.system, (speed, 0.0), &loads, step_s);
+    let newmark = newmark.with_forces(&forces);
+    let sizes = |step: u32| {
+        let (sin, cos) = (TAU * f64::from(step % steps) / f64::from(steps)).sin_cos();
+        [1.0, cos, sin]
+    };
+    let rest = blade.blade.settled(speed, &blade.blade.flat()).unwrap();
+    let mut state = MovingState::still(rest.coordinates);
+    let (mut mean, mut first) = (0.0, c64::new(0.0, 0.0));
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    // Small motions decay to less than two hundredths.
+    let decay = -at.growth.unwrap().0;
+    let periods = (4.0 * frequency / TAU / decay).ceil() as u32;
+    assert!((20..800).contains(&periods), "{periods}");
+    let periods = 1 + periods;
+    for step in 0..periods * steps {
+        let now = sizes(step);
+        if step >= (periods - 1) * steps {
+            let w = blade.cut.transpose() * &state.displacement;
+            mean += w / f64::from(steps);
+            first += 2.0 / f64::from(steps) * w * c64::new(now[1], -now[2]);
+            (low, high) = (low.min(w), high.max(w));
+        }
+        state = newmark.step(&state, [&now, &sizes(step + 1)]).unwrap();
+    }
+    let amplitude = 0.5 * (high - low);
+    assert!(
+        (at.cut.amplitude_m / amplitude - 1.0).abs() < 1e-2,
+        "{} {amplitude}",
+        at.cut.amplitude_m
+    );
+    assert!(
+        (at.cut.mean_m - mean).abs() < 1e-2 * amplitude,
+        "{} {mean}",
+        at.cut.mean_m
+    );
+    let own = at.cut.harmonics_m[0];
+    assert!((own - first).norm() < 1e-2 * amplitude, "{own} {first}");
+}
+
+/// Amplitudes converge with the harmonics, and a wider gap lets the blade oscillate more.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn more_harmonics_and_modes_change_little() {
+    let scene = saw(|pad| (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5)));
+    let options = Options {
+        force_n: Some(1.0),
+        ..Options::default()
+    };
+    let found = GuideGaps::new(&scene, &options).unwrap();
+    let found = found.oscillation.unwrap();
+    let [harmonics, basis] = [found.harmonics_error, found.basis_error].map(Option::unwrap);
+    assert!(harmonics < 0.02 && basis < 0.05, "{harmonics} {basis}");
+    assert_eq!(found.base_order, 2);
+    assert_eq!(found.name_of(4), "contact");
+}
+
+#[test]
+fn a_force_too_fast_for_the_turning_blade_and_invalid_numbers_are_refused() {
+    let scene = saw(|pad| (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5)));
+    let with = |amplitude_n: f64, order: u32| Options {
+        oscillating: Some(OscillatingForce { amplitude_n, order }),
+        ..Options::default()
+    };
+    for (options, key) in [
+        (with(0.0, 1), "oscillating_force_n"),
+        (with(f64::NAN, 1), "oscillating_force_n"),
+        (with(1.0, 0), "oscillating_order"),
+        (with(1.0, 41), "oscillating_order"),
+    ] {
+        assert_eq!(options.checked(&scene).unwrap_err().key, key);
+    }
+    assert!(with(1.0, 4).checked(&scene).is_ok());
+    let alone = scene.edited(|file| file.response = None).unwrap();
+    assert!(with(1.0, 41).checked(&alone).is_ok());
+    assert!(Oscillators::of(&alone, None).is_none());
+}

@@ -1,0 +1,121 @@
+//! What makes a blade oscillate: a side force at the cut, and a shape or an imbalance that turns with the blade.
+
+use crate::scene::{RefusedValue, ResponseFile, Scene};
+
+/// A side force at the rim at the cut that oscillates with a multiple of the rotation frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OscillatingForce {
+    /// Amplitude.
+    pub amplitude_n: f64,
+    /// Ratio of its frequency to that of rotation.
+    pub order: u32,
+}
+
+/// What makes the blade oscillate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Oscillators {
+    /// The oscillating side force.
+    pub force: Option<OscillatingForce>,
+    /// Run-out, flatness and imbalance of the scene.
+    pub turning: ResponseFile,
+}
+
+/// Largest ratio of the order of a load to that of the motion, so that multiples of it are left.
+const LARGEST_RATIO: u32 = 3;
+/// A larger order is that of no saw.
+const LARGEST_ORDER: u32 = 1000;
+
+impl OscillatingForce {
+    /// Refuses invalid numbers.
+    ///
+    /// # Errors
+    /// [`RefusedValue`].
+    pub fn checked(self) -> Result<Self, RefusedValue> {
+        let Self { amplitude_n, order } = self;
+        if !(amplitude_n > 0.0 && amplitude_n <= 1e6) {
+            let (allowed, remedy) = (
+                "above 0 and at most 1e6",
+                "give the amplitude of the side force, such as 2",
+            );
+            return Err(RefusedValue::new(
+                "oscillating_force_n",
+                amplitude_n,
+                allowed,
+                remedy,
+            ));
+        }
+        if !(1..=LARGEST_ORDER).contains(&order) {
+            let remedy = "1 is once a turn, the number of teeth is the tooth passing frequency";
+            let allowed = format!("from 1 to {LARGEST_ORDER}");
+            return Err(RefusedValue::new(
+                "oscillating_order",
+                order,
+                allowed,
+                remedy,
+            ));
+        }
+        Ok(self)
+    }
+}
+
+impl Oscillators {
+    /// The oscillators of a scene; `None` if nothing oscillates.
+    pub(super) fn of(scene: &Scene, force: Option<OscillatingForce>) -> Option<Self> {
+        let typed = scene.file().response.unwrap_or_default();
+        let turning = ResponseFile {
+            force_n: 0.0,
+            tooth_force_n: 0.0,
+            ..typed
+        };
+        (force.is_some() || turning.excites()).then_some(Oscillators { force, turning })
+    }
+
+    /// Causes and their orders.
+    pub fn causes(&self) -> Vec<(&'static str, u32)> {
+        let force = self
+            .force
+            .map(|force| ("oscillating side force", force.order));
+        let turning = [
+            ("run-out", 1, self.turning.runout_m),
+            ("flatness", 2, self.turning.flatness_m),
+            ("imbalance", 1, self.turning.imbalance_kg_m2),
+            ("imbalance", 2, self.turning.imbalance_kg_m2),
+        ];
+        let turning = turning.into_iter().filter(|(.., size)| *size != 0.0);
+        let turning = turning.map(|(name, order, _)| (name, order));
+        force.into_iter().chain(turning).collect()
+    }
+
+    /// The greatest common divisor of all orders.
+    pub(super) fn base_order(&self) -> u32 {
+        let divisor = |mut a: u32, mut b: u32| {
+            while b > 0 {
+                (a, b) = (b, a % b);
+            }
+            a
+        };
+        let orders = self.causes().into_iter().map(|(_, order)| order);
+        orders.fold(0, divisor).max(1)
+    }
+
+    /// Refuses a force whose frequency is too far from that of the turning blade.
+    pub(super) fn checked(self) -> Result<Self, RefusedValue> {
+        let Some(force) = self.force else {
+            return Ok(self);
+        };
+        force.checked()?;
+        if force.order > LARGEST_RATIO * self.base_order() {
+            let allowed = format!(
+                "1 to {LARGEST_RATIO} in a scene with response.runout_m, flatness_m or imbalance_kg_m2"
+            );
+            let remedy = "the motion would need too many harmonics; remove these keys to answer the force alone";
+            return Err(RefusedValue::new(
+                "oscillating_order",
+                force.order,
+                allowed,
+                remedy,
+            ));
+        }
+        Ok(self)
+    }
+}
