@@ -6,8 +6,9 @@
 //! The friction itself has no effect on the motion, as its moment in the plane is small.
 
 use crate::scene::{RefusedValue, Scene, TemperatureFile, TemperatureRow, rad_per_s};
-use crate::spectrum::Work;
+use crate::spectrum::{SpectrumError, Work};
 use crate::stability::Analysis;
+use crate::stretched::StretchedError;
 use crate::text::shown;
 
 use super::GapError;
@@ -99,12 +100,14 @@ pub struct FrictionHeat {
     pub cold: Option<Deviation>,
     /// Deflection and pad forces with it.
     pub hot: Option<Deviation>,
-    /// First critical speed of the linear chart without and with this heat.
+    /// First critical speed of the linear chart without and with this heat; `None` if the blade buckles.
     pub critical_rad_per_s: [Option<f64>; 2],
     /// Last change of the temperature, relative to its largest value.
     pub change: f64,
     /// Number of repetitions of the loop.
     pub repetitions: usize,
+    /// Whether this heat buckles the blade at rest with its guides in contact.
+    pub buckles: bool,
 }
 
 /// Thermal expansion of steel.
@@ -153,12 +156,16 @@ impl FrictionHeat {
             critical_rad_per_s: [first_critical_of_linear(scene, resolution)?, None],
             change: f64::INFINITY,
             repetitions: 0,
+            buckles: false,
             radii_m,
         };
         let work = Work::of("friction", MOST);
         let mut warm = scene.clone();
         while !found.has_settled() && found.repetitions < MOST {
-            let blade = PressedBlade::new(&warm, resolution, rpm, MODES)?;
+            let pressed = PressedBlade::new(&warm, resolution, rpm, MODES);
+            let Some(blade) = unless_buckled(pressed)? else {
+                break;
+            };
             let (deviation, contacts) = blade.with_contacts(force_n, rpm)?;
             if found.repetitions == 0 {
                 found.cold.clone_from(&deviation);
@@ -195,8 +202,22 @@ impl FrictionHeat {
             });
             warm = heated(scene, expansion_per_k, table.collect())?;
         }
-        found.critical_rad_per_s[1] = first_critical_of_linear(&warm, resolution)?;
+        let critical = unless_buckled(first_critical_of_linear(&warm, resolution))?;
+        found.buckles = critical.is_none();
+        found.critical_rad_per_s[1] = critical.flatten();
         Ok(found)
+    }
+}
+
+/// `None` in the place of the error that the blade is not stable at rest.
+fn unless_buckled<T>(found: Result<T, GapError>) -> Result<Option<T>, GapError> {
+    use SpectrumError::{Buckled, UnstableAtRest};
+    match found {
+        Err(
+            GapError::Spectrum(Buckled { .. } | UnstableAtRest { .. })
+            | GapError::Stretched(StretchedError::Spectrum(Buckled { .. } | UnstableAtRest { .. })),
+        ) => Ok(None),
+        found => found.map(Some),
     }
 }
 

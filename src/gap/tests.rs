@@ -213,6 +213,13 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
     }
     let [cold, hot] = heat.critical_rad_per_s.map(Option::unwrap);
     assert!((hot / cold - 1.0).abs() > 1e-3, "{hot} {cold}");
+
+    // Ten times the friction buckles the blade: it has deflections, but no critical speed.
+    let heat = FrictionHeat::new(&analysis, Friction::of(2.0), (30.0, 2000.0)).unwrap();
+    assert!(
+        heat.buckles && heat.critical_rad_per_s[1].is_none(),
+        "{heat:?}"
+    );
 }
 
 /// A blade that three pads hold heaves without force: pads that all have the same offset move it by this offset.

@@ -80,7 +80,7 @@ pub struct FrictionEntry {
     pub pads: Vec<FrictionPadEntry>,
     /// First critical speed of the linear chart without this heat.
     pub cold_critical_rpm: Option<f64>,
-    /// First critical speed of the linear chart with this heat.
+    /// First critical speed of the linear chart with this heat; null also if the heat buckles the blade.
     pub critical_rpm: Option<f64>,
     /// Whether the temperature has settled; otherwise the numbers are those of the last repetition.
     pub settled: bool,
@@ -322,11 +322,12 @@ impl From<BasisError> for BasisErrorEntry {
 const LARGE_ERROR: f64 = 0.02;
 
 fn warnings(mut warnings: Vec<String>, found: &GuideGaps) -> Vec<String> {
-    if found
-        .friction
-        .as_ref()
-        .is_some_and(|heat| !heat.has_settled())
-    {
+    let heat = found.friction.as_ref();
+    if heat.is_some_and(|heat| heat.buckles) {
+        warnings.push(
+            "the heat of friction buckles the blade at rest: the deflection is that of the last repetition before, and there is no critical speed".to_owned(),
+        );
+    } else if heat.is_some_and(|heat| !heat.has_settled()) {
         warnings.push(
             "the temperature of friction does not settle: heat, deflection and pad forces raise each other, and the numbers of friction are those of the last repetition".to_owned(),
         );

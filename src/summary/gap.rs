@@ -163,7 +163,8 @@ fn heat(text: &mut String, report: &GapReport, friction: &FrictionEntry) -> std:
         }
     });
     let mm = |m: Option<f64>| m.map_or_else(|| "unknown".to_owned(), |m| format!("{:.4}", 1e3 * m));
-    let speed = |rpm: Option<f64>| rpm.map_or_else(|| "none".to_owned(), |rpm| format!("{rpm:.1}"));
+    let speed =
+        |rpm: Option<f64>| rpm.map_or_else(|| "none".to_owned(), |rpm| format!("{rpm:.1} rpm"));
     let forces = friction
         .pad_forces_n
         .iter()
@@ -198,7 +199,7 @@ fn heat(text: &mut String, report: &GapReport, friction: &FrictionEntry) -> std:
         (
             "first critical speed",
             format!(
-                "{} rpm, without friction {} rpm (linear chart)",
+                "{}, without friction {} (linear chart)",
                 speed(friction.critical_rpm),
                 speed(friction.cold_critical_rpm)
             ),
