@@ -19,7 +19,6 @@ mod excitation;
 mod fit;
 mod gap;
 mod gap_oscillation;
-#[cfg(feature = "page")]
 mod in_cut;
 mod map;
 mod membrane;

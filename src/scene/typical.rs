@@ -4,6 +4,7 @@
 
 use serde_json::{Value, json};
 
+#[cfg(any(feature = "cli", feature = "page"))]
 use super::SceneFile;
 use crate::text::shown;
 
