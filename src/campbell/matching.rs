@@ -24,7 +24,7 @@ pub struct Sighted<'a> {
 }
 
 impl<'a> Sighted<'a> {
-    /// Modes of one projection, in its own coordinates.
+    /// Modes of one reduced model, with shapes in its own coordinates.
     pub fn of_modes(modes: &'a [Mode]) -> Vec<Self> {
         let shape = |mode: &'a Mode| &mode.coordinates;
         modes
@@ -36,7 +36,8 @@ impl<'a> Sighted<'a> {
             .collect()
     }
 
-    /// Modes of a chart, whose projection changes with the speed.
+    /// Modes of a chart, with shapes in the basis of the plate, because the reduced model differs between
+    /// speeds.
     pub fn of_described(modes: &'a [DescribedMode]) -> Vec<Self> {
         modes
             .iter()

@@ -73,8 +73,8 @@ pub struct Limits {
     pub accept_unusual: bool,
 }
 
-/// Saws for wood have rim speeds of 60 to 90 m/s, and manufacturers of carbide-tipped blades allow no more
-/// than this.
+/// Default limit of the rim speed, the largest that manufacturers of carbide-tipped blades allow. Saws for
+/// wood have 60 to 90 m/s.
 pub const RIM_LIMIT_M_PER_S: f64 = 100.0;
 
 /// Factor by which the sweep exceeds the speeds of the limits.

@@ -123,7 +123,8 @@ Exit code: 0 done, 1 a check failed, 2 the input was refused or the run failed."
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let arguments = match Arguments::try_parse_from(with_command(arguments)) {
         Ok(arguments) => arguments,
-        // The message repeats the user's words, so that control characters are made visible.
+        // The message repeats the user's words, and control characters in them could control the terminal:
+        // they are made visible.
         Err(refusal) if refusal.use_stderr() => {
             eprint!("{}", printable(&refusal.render().to_string()));
             return 2;

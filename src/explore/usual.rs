@@ -4,7 +4,7 @@ use crate::scene::{GuideFile, InPlane, Mount, RunUpFile, SceneFile, SplineFile, 
 use crate::text::shown_to;
 
 const LEAST_TEETH: f64 = 12.0;
-/// The paper's arbor.
+/// Spline of the saw in the paper, with assumed values for what the paper does not give.
 pub const SPLINE: SplineFile = SplineFile {
     teeth: 20,
     pressure_angle_deg: 30.0,

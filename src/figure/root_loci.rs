@@ -75,7 +75,8 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     heading::draw(&mut sheet, &title, &report.scene.name);
     draw_axes(&mut sheet, &chart);
     draw_band(&mut sheet, &chart, entry);
-    // The growing eigenvalue is drawn last, because over speed it covers the decaying one.
+    // The growing eigenvalue is drawn last, so that it remains visible in the panel over speed, where both
+    // have the same frequency.
     for path in chart.paths.iter().rev() {
         draw_path(&mut sheet, path, |s| chart.in_plane(s));
         draw_path(&mut sheet, path, |s| chart.over_speed(s));

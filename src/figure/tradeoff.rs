@@ -76,7 +76,8 @@ fn labels(settings: &[Setting], error: &Axis, time: &Axis) -> Vec<([f64; 2], Let
         let [x, y] = place(setting, error, time);
         let (colour, _) = look(setting.method);
         let letters = Lettering::regular(LABEL_SIZE, tint(colour, 0.8), Anchor::Middle);
-        // The label is above the dots of the same basis with other numbers of speeds, which are close by.
+        // Settings with the same basis and other numbers of speeds may have dots close by: the label is above the
+        // highest of them.
         let alike = settings
             .iter()
             .filter(|s| s.method == setting.method && s.functions == setting.functions);

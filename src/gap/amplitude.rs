@@ -175,7 +175,8 @@ fn read(analysis: &Analysis, amplitude_m: Option<f64>, shares: Vec<f64>) -> AtAm
 
 /// The amplitude at which the first critical speed is the mean of that of the free blade and that of the linear chart.
 fn half_way(analysis: &Analysis, smallest_gap_m: f64) -> Result<Option<f64>, GapError> {
-    // The same functions at all amplitudes, so that only the stiffness makes a difference.
+    // All amplitudes use the same basis, so that their critical speeds differ only by the stiffness of the
+    // guides.
     let resolution = analysis.model.plate.resolution;
     let at = |amplitude_m: f64| first_critical(&analysis.scene, resolution, amplitude_m);
     let linear = analysis.model.critical.first();

@@ -120,7 +120,7 @@ impl EventName {
         self.waves.first()?.shares.first()
     }
 
-    /// "2 diameters", "4 reflected with 2 forward".
+    /// Name in words, such as "2 diameters" or "4 reflected with 2 forward".
     pub fn in_words(&self) -> String {
         match self.waves.as_slice() {
             [waves] => waves.in_words(),

@@ -95,7 +95,7 @@ impl FullModel {
         !self.is_dense() && self.damping.is_some()
     }
 
-    /// Whether the columns neglect no more than rounding.
+    /// Whether the columns P represent the guides up to rounding errors.
     pub fn is_exact(&self) -> bool {
         matches!(&self.coupling, Coupling::Columns(columns) if columns.is_exact)
     }

@@ -194,8 +194,8 @@ fn edge(critical: &[f64], coalescences: &[f64], stable: Option<f64>, unstable: f
     let Some(stable) = stable else {
         return (unstable, Edge::Range);
     };
-    // Among several coalescences the one nearest to the divergence is taken. The coalescence may lie slightly
-    // beyond a stable speed, by the error of the states that gave it.
+    // Among several coalescences the one nearest to the divergence is taken. It may lie slightly beyond the
+    // stable speed, because its own speed has an error (`VICINITY`).
     let coalescence = |to: f64| {
         let beyond = stable + (stable - to).signum() * VICINITY * stable;
         let between = |speed: &&f64| (beyond.min(to)..=beyond.max(to)).contains(*speed);

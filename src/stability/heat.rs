@@ -92,7 +92,8 @@ impl HeatLimits {
                 && operating.as_ref().is_none_or(later)
         };
         let buckles_first = buckling.as_ref().is_some_and(before);
-        // At speed, rotation still keeps a blade flat that has buckled at rest.
+        // Rotation can keep a blade flat that would buckle at rest, so a limit at the operating speed may exist
+        // beyond the buckling limit. It is not given if the blade buckles first.
         let operating = operating.filter(|_| !buckles_first);
         let curves = heating.curves(operating.as_ref(), buckling.as_ref())?;
         Ok(Some(HeatLimits {

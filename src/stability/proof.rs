@@ -130,7 +130,8 @@ impl Proof<'_> {
         if negative <= listed {
             return true;
         }
-        // A count of the order of the basis would take longer than the whole search.
+        // With free rigid motions n₋(L(iω)) does not start at n₋(K), and in a dense model each count is a
+        // factorization of the order of the basis, so that the proof would take longer than the whole search.
         if self.full.has_free_motions() || self.full.is_dense() {
             return false;
         }

@@ -75,8 +75,8 @@ struct Place {
 }
 
 impl StretchedBlade {
-    /// Follows a curve from an equilibrium, towards higher or lower speeds, until it leaves the range of
-    /// speeds or is complete.
+    /// Follows a curve from an equilibrium, towards higher or lower speeds, up to an end of the range of
+    /// speeds, or up to the earlier end that `extent` allows.
     ///
     /// # Errors
     /// [`StretchedError::Value`] for an empty range or one that does not contain the start;

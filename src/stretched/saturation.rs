@@ -95,7 +95,8 @@ impl StretchedBlade {
             let (sin, cos) = turn.sin_cos();
             let second = c64::new(0.0, sin);
             let mean = self.mean_potential_j(&pair, (cos, second))?;
-            // Ū r⁴ = 2σ r² sin cos.
+            // With α = r cos φ and β = i r sin φ, where φ is `turn`, Ū = 2σ|α||β| becomes
+            // r⁴ Ū(cos φ, i sin φ) = σ r² sin 2φ, which gives the size r.
             let size = (pair.lambda.re * (2.0 * turn).sin() / mean).sqrt();
             for ((u, v), (place, _)) in readings.iter().zip(sites.iter()) {
                 let amplitude = 2.0 * size * (u * cos + v * second).norm();

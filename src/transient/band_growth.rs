@@ -77,7 +77,8 @@ fn followed(model: &SpectralModel, band: &Instability) -> Result<f64, SpectrumEr
     for way in ways {
         let mut last = at_peak;
         for (speed, weight) in way {
-            // Near an edge the growth may be rounding.
+            // Near an edge of the band the growth may be as small as rounding errors: then no growing mode is
+            // found, and this speed contributes nothing.
             let Some(next) = last.at(*speed, &model.modes(*speed)?, band.kind) else {
                 continue;
             };

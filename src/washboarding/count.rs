@@ -102,7 +102,8 @@ impl<'a> LoopGains<'a> {
         let mut crossings: Vec<Crossing> = self.crossings().collect();
         crossings.sort_by(|x, y| x.most_negative().total_cmp(&y.most_negative()));
         for crossing in crossings {
-            // Within a step a loop gain grows by at most a half.
+            // A loop gain changes by at most `LARGEST_CHANGE` from one frequency to the next, so that between
+            // them it is taken to be at most 1.5 times its larger value at the two.
             let least = -1.0 / (1.5 * crossing.most_negative());
             if best.is_some_and(|best| best.stiffness_n_per_m <= least) {
                 break;

@@ -158,9 +158,10 @@ fn write_stable(sheet: &mut Sheet, chart: &Chart, at: [f64; 2]) {
     sheet.text(at, letters, text);
 }
 
-/// The panel without bands and critical speeds. For an undamped saw it contains only growth within the bands,
-/// because nothing grows outside of them and decaying eigenvalues mirror the growing ones. For a damped saw
-/// it contains all branches, and the estimated curve of bands that no sample is close to.
+/// The curves of the panel; the caller adds the shading of bands and the lines at critical speeds. For an
+/// undamped saw these are only the growth rates within the bands, because nothing grows outside of them and
+/// decaying eigenvalues mirror the growing ones. For a damped saw they are those of all branches, and an
+/// estimated curve for each band without a sample near its largest growth.
 pub fn describe(report: &Report, shown: [f64; 2], speed: AxisData, said: bool) -> PanelData {
     let mut items = Vec::new();
     let mut bands: Vec<&InstabilityEntry> = report.instabilities.iter().collect();

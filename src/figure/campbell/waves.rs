@@ -112,7 +112,8 @@ pub fn look_of_segment(report: &Report, branch: &BranchEntry, i: usize) -> Stret
             .is_some_and(|&g| g > NEGLIGIBLE_PER_S)
     };
     let reflected = |i: usize| branch.krein_sign.get(i) == Some(&-1);
-    // A segment that leads to a band ends at the edge of the band, whether or not it grows.
+    // A segment that leads to a band has one end at the edge of the band. Even if the branch grows there, the
+    // middle of the segment is outside the band.
     let middle = (branch.rpm[i] + branch.rpm[i + 1]) / 2.0;
     let mut bands = report.instabilities.iter();
     let in_band = bands.any(|band| band.from_rpm <= middle && middle <= band.to_rpm);

@@ -12,7 +12,7 @@ use super::super::radial::RadialBasis;
 pub struct Circle {
     /// Radius of the circle.
     pub radius_m: f64,
-    /// Weight of the circle, for each radian of its arcs.
+    /// Quadrature weight of the circle for each radian of its arcs, as a share of the whole patch.
     pub weight: f64,
     /// Arcs 0 ≤ |ψ| ≤ π, upper half only; `None` for the point ψ = 0.
     pub arcs: Option<Vec<(f64, f64)>>,

@@ -166,7 +166,7 @@ impl Waves {
         rest: f64,
     ) -> Option<usize> {
         let count = self.soft.waves.len();
-        // Sum and difference of 1/d of the waves e^{inθ} and e^{−inθ}.
+        // Sum and difference of 1/d for the waves e^{inθ} and e^{−inθ}, with the diagonal element d of A.
         let (mut sum, mut difference) = (vec![0.0; count], vec![0.0; count]);
         let mut resonant: Vec<Resonant> = Vec::new();
         let mut negative = 0;
