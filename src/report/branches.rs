@@ -62,7 +62,7 @@ impl<'a> Numbered<'a> {
         self.names[number - 1].words.clone()
     }
 
-    /// The entries of the report.
+    /// Branches as entries of the report, in the order of their numbers.
     pub fn entries(&self) -> Vec<BranchEntry> {
         let branches = self.campbell().branches.iter().zip(&self.place);
         let mut entries: Vec<BranchEntry> = branches

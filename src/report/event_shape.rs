@@ -167,7 +167,7 @@ fn at_speed(
 ) -> Result<Vec<EventShapeEntry>, SpectrumError> {
     let model = &analysis.model;
     let modes = model.describe(speed_rad_per_s, model.modes(speed_rad_per_s)?);
-    // The mirror image of a flutter mode is not shown separately.
+    // The decaying partner of a flutter mode, λ = −σ + iω, is not shown separately.
     let modes = modes
         .iter()
         .filter(|found| found.mode.kind != ModeKind::Decaying);

@@ -84,7 +84,8 @@ impl Guide {
         }
     }
 
-    /// Radii of circles about the axis that touch a side of the pad or pass a corner.
+    /// Radii of the circles about the axis that touch a side of the pad or pass through a corner: there the arcs
+    /// inside the pad are not smooth functions of the radius.
     pub fn touching_radii_m(&self) -> Vec<f64> {
         let (a, b) = self.half_lengths_m();
         let c = self.radius_m;

@@ -193,7 +193,7 @@ fn short(value: f64) -> Value {
 #[cfg(any(feature = "cli", feature = "page"))]
 fn rounded(value: f64) -> f64 {
     let digit = 10f64.powf(value.abs().max(f64::MIN_POSITIVE).log10().floor() - 1.0);
-    // A decimal text and back, for a multiple of 0.01 is not one in binary.
+    // The product is written as decimal text and read again, because multiples of 0.01 have no exact binary form.
     let text = format!("{:.3e}", (value / digit).round() * digit);
     text.parse().unwrap_or(value)
 }

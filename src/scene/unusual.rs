@@ -112,7 +112,7 @@ fn out_of_range(scene: &SceneFile) -> Vec<Unusual> {
     let largest_rpm = rows.map(|row| row.rpm).fold(0.0, f64::max);
     let judged = |(path, value): (String, f64)| {
         let quantity = Quantity::of(&path)?;
-        // A measurement at a lower speed than the last is as usual as one at rest.
+        // Only the largest measured speed is compared with the usual range: lower ones, down to rest, are usual.
         let is_slower = quantity.path == "measured.rows[].rpm" && value < largest_rpm;
         let usual = Usual::of(scene, quantity);
         (!is_slower).then(|| usual.judged(&path, value, quantity.unit))?

@@ -51,7 +51,7 @@ pub(super) fn circles(plate: &Plate, pad: &Guide, points: usize) -> Vec<Circle> 
 }
 
 /// Intervals of r, clipped to the blade, on which the arcs are smooth inside:
-/// they are cut where a circle touches a side or passes a corner.
+/// they are cut where a circle touches a side or passes through a corner.
 fn smooth_radii(blade: &Blade, pad: &Guide) -> Vec<(f64, f64)> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let mut cuts = pad.touching_radii_m();
