@@ -2040,8 +2040,8 @@ class Friction(Entry):
     """First critical speed of the linear chart without this heat."""
 
     critical_rpm: float | None
-    """First critical speed of the linear chart with this heat; null also if the heat buckles the
-    blade."""
+    """First critical speed of the linear chart with this heat; null also if the heat buckles
+    the blade."""
 
     settled: bool
     """Whether the temperature has settled; otherwise the numbers are those of the last
