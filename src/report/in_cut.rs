@@ -51,15 +51,16 @@ impl InCutEntry {
             idling: analysis
                 .idling
                 .as_ref()
-                .map(|onsets| IdlingEntry::new(onsets, threshold)),
+                .map(|onsets| IdlingEntry::new(onsets, analysis.range_rad_per_s.1, threshold)),
         })
     }
 }
 
 impl IdlingEntry {
-    fn new(onsets: &Onsets, threshold_per_s: f64) -> Self {
+    fn new(onsets: &Onsets, to_rad_per_s: f64, threshold_per_s: f64) -> Self {
         let bands = onsets.instabilities.iter();
         let critical = onsets.critical_rad_per_s.iter();
+        let critical = critical.take_while(|speed| **speed <= to_rad_per_s);
         IdlingEntry {
             critical_speeds_rpm: critical.map(|speed| rpm(*speed)).collect(),
             instabilities: bands

@@ -167,6 +167,8 @@ fn saw_entry(map: &Map, saw: &Saw) -> MappedSawEntry {
         Outcome::Refused(reason) | Outcome::Failed(reason) => (&none, Some(reason.clone())),
     };
     let state = map.rpm().filter(|_| reason.is_none());
+    let to_rad_per_s = map.study().to_rad_per_s();
+    let within = |speed_rpm: &f64| *speed_rpm <= rpm(to_rad_per_s);
     MappedSawEntry {
         x: map.x().values[saw.index % columns],
         y: map.y().map(|y| y.values[saw.index / columns]),
@@ -175,7 +177,7 @@ fn saw_entry(map: &Map, saw: &Saw) -> MappedSawEntry {
         at_critical_rpm: state
             .and_then(|rpm| critical_at(&found.critical_rpm, rpm))
             .map(|place| found.critical_rpm[place]),
-        critical_rpm: found.critical_rpm.clone(),
+        critical_rpm: found.critical_rpm.iter().copied().filter(within).collect(),
         instabilities: found.bands.clone(),
         state: state.map(|rpm| state_at(&found.bands, rpm)),
         not_analysed: reason,

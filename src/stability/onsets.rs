@@ -16,7 +16,7 @@ use crate::spectrum::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
 pub struct Onsets {
     /// Lowest critical speed, in rad/s.
     pub lowest_critical_rad_per_s: Option<f64>,
-    /// Critical speeds within the range, ascending, in rad/s.
+    /// Critical speeds, ascending, in rad/s, including those next to the range.
     pub critical_rad_per_s: Vec<f64>,
     /// Bands by onset.
     pub instabilities: Vec<Instability>,
@@ -66,9 +66,8 @@ impl Onsets {
             estimated_relative_error,
             ..
         } = chosen;
-        let lowest_critical = critical.first().map(|c| c.speed_rad_per_s);
-        let speeds = critical.iter().map(|c| c.speed_rad_per_s);
-        let critical_rad_per_s = speeds.take_while(|speed| *speed <= range.1).collect();
+        let critical_rad_per_s: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
+        let lowest_critical = critical_rad_per_s.first().copied();
         let functions = saw.plate.degrees_of_freedom();
         // The waves of a free blade are uncoupled, and none is reflected below the lowest critical speed, so
         // there are no bands to search for.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::plan::Study;
 use crate::gap::{GapError, GapNumbers};
 use crate::scene::{Scene, rpm};
-use crate::stability::{Evidence, Instability, InstabilityKind, Onsets};
+use crate::stability::{CRITICAL_MARGIN, Evidence, Instability, InstabilityKind, Onsets};
 
 /// A saw and its result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -53,7 +53,8 @@ pub struct Found {
     pub estimated_relative_error: f64,
     /// Number of speeds at which the Krein index disagrees; 0 is expected.
     pub krein_violations: usize,
-    /// Critical speeds within the speeds of the study, ascending; empty in a study that does not list bands.
+    /// Critical speeds at which a saw at some speed of the study runs, ascending: those within these speeds, and up to
+    /// 5 % beyond them; empty in a study that does not list bands.
     #[serde(default)]
     pub critical_rpm: Vec<f64>,
     /// Bands of instability by onset; empty in a study that does not list them.
@@ -142,7 +143,7 @@ impl Study {
         };
         let evidence = Evidence {
             bands: &onsets.instabilities,
-            critical_rad_per_s: onsets.lowest_critical_rad_per_s.as_slice(),
+            critical_rad_per_s: &onsets.critical_rad_per_s,
             threshold_per_s: scene.flutter_threshold_per_s(),
             range_rad_per_s: (0.0, self.to_rad_per_s()),
         };
@@ -166,7 +167,10 @@ impl Study {
             let threshold = scene.flutter_threshold_per_s();
             let listed = onsets.instabilities.iter();
             bands.extend(listed.map(|band| FoundBand::new(band, threshold)));
-            critical_rpm.extend(onsets.critical_rad_per_s.iter().map(|speed| rpm(*speed)));
+            let end = self.to_rad_per_s();
+            let critical = onsets.critical_rad_per_s.iter();
+            let near = critical.take_while(|speed| (1.0 - CRITICAL_MARGIN) * **speed <= end);
+            critical_rpm.extend(near.map(|speed| rpm(*speed)));
         }
         Ok(Found {
             critical_rpm,

@@ -3,8 +3,10 @@
 //! Independent values: `analyze` of the scene with the numbers typed in; the critical speed of a blade without guides is
 //! proportional to its thickness.
 
+use sawflutter::map::{Map, Options, Range};
 use sawflutter::report::{MapReport, Report, StabilityState};
-use sawflutter::scene::{Accuracy, Scene};
+use sawflutter::scene::{Accuracy, Scene, SweepFile, rad_per_s};
+use sawflutter::stability::Analysis;
 use tempfile::TempDir;
 
 use super::program::{names_in, out, run, text, write_scene};
@@ -176,4 +178,38 @@ fn numbers_that_are_none_and_ranges_without_ends_are_refused() {
         assert!(message.contains(said), "{message}");
         assert!(!out(&folder).exists());
     }
+}
+
+/// The verdict of an analysis counts a critical speed beyond the sweep too, if the saw runs within 5 % of it.
+#[test]
+fn a_saw_runs_at_a_critical_speed_that_lies_just_beyond_the_sweep() {
+    let scene = Scene::paper().edited(|file| {
+        (file.accuracy, file.measured) = (Accuracy::Draft, None);
+        file.guides.clear();
+        file.operating_rpm = Some(1450.0);
+        file.sweep = Some(SweepFile {
+            from_rpm: 0.0,
+            to_rpm: 1450.0,
+        });
+    });
+    let scene = scene.unwrap();
+    let alone = Analysis::new(&scene).unwrap();
+    let alone_rpm = alone.critical_rpm_at(rad_per_s(1450.0)).unwrap();
+    let x = Range {
+        path: "blade.thickness_m".into(),
+        from: 0.0028,
+        to: 0.0032,
+    };
+    let options = Options {
+        points: Some(2),
+        ..Options::over(x)
+    };
+    let map = Map::new(scene, &options).unwrap();
+    let saws: Vec<_> = (0..2).map(|index| map.study().saw(index)).collect();
+    let report = MapReport::new(&map, &saws);
+    let critical = [0, 1].map(|saw| report.saws[saw].at_critical_rpm);
+    assert!((critical[0].unwrap() / alone_rpm - 1.0).abs() < 1e-3);
+    // The thicker blade has its critical speeds beyond 1.05 times the operating speed.
+    assert_eq!(critical[1], None);
+    assert!(report.saws.iter().all(|saw| saw.critical_rpm.is_empty()));
 }
