@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use faer::{Col, Mat, c64};
 
 use crate::plate::{Plate, Resolution};
-use crate::response::{Load, State, loads, rigid, solution};
+use crate::response::{Cause, Load, State, loads, rigid, solution};
 use crate::scene::{Scene, rpm};
 use crate::spectrum::Cancellation;
 use crate::stretched::{Sites, StretchedBlade};
@@ -72,7 +72,7 @@ const EVERY: usize = 6;
 pub(super) struct OscillatingBlade {
     pub(super) blade: StretchedBlade,
     pub(super) system: GyroscopicSystem,
-    /// Order, and factors of cosine and sine, or those divided by Ω² of an imbalance.
+    /// The alternating loads, and each of them on the shapes.
     loads: Vec<(Load, Col<c64>)>,
     probe: Col<f64>,
     pub(super) cut: Col<f64>,
@@ -97,11 +97,13 @@ impl OscillatingBlade {
         let mut loads = loads(&plate, scene, &oscillators.turning)
             .map_err(|waves| rigid(waves, &oscillators.turning))?;
         if let Some(force) = oscillators.force {
-            loads.push(Load::at_rim(
+            let (order, amplitude_n) = (force.order, force.amplitude_n);
+            loads.push(Load::at(
+                Cause::SideForce,
+                order,
                 &plate,
-                place.1,
-                force.amplitude_n,
-                force.order,
+                place,
+                amplitude_n,
             ));
         }
         let systems = [
@@ -194,15 +196,10 @@ impl OscillatingBlade {
         Cancellation::current().check()?;
         let rest = self.blade.settled(speed_rad_per_s, &self.blade.flat())?;
         let still_m = self.cut.transpose() * &rest.coordinates;
-        let terms = self.terms();
-        let balance = self.balance(speed_rad_per_s, (base_order, HARMONICS), &terms);
-        let load = self.load(balance.no_load(), speed_rad_per_s, base_order);
-        let found = balance
-            .motion(&rest.coordinates, &load)
-            .map(|motion| Found {
-                growth: balance.growth(&motion),
-                motion,
-            });
+        let found = self.balanced(speed_rad_per_s, (base_order, HARMONICS), |balance, load| {
+            let motion = balance.motion(&rest.coordinates, load)?;
+            Some(Found::new(balance, motion))
+        });
         Ok((found, still_m))
     }
 
@@ -213,21 +210,13 @@ impl OscillatingBlade {
         let downwards = (1..=last).rev().map(|k| (k, k - 1));
         for (from, to) in upwards.chain(downwards) {
             if let (Some(near), None) = (&motions[from], &motions[to]) {
-                motions[to] = self.near(&near.motion, speeds[to], base_order);
+                motions[to] =
+                    self.balanced(speeds[to], (base_order, HARMONICS), |balance, load| {
+                        let motion = balance.refined(&near.motion, load)?;
+                        Some(Found::new(balance, motion))
+                    });
             }
         }
-    }
-
-    /// The motion at a speed from that at one close to it.
-    fn near(&self, near: &Periodic, speed_rad_per_s: f64, base_order: u32) -> Option<Found> {
-        let terms = self.terms();
-        let balance = self.balance(speed_rad_per_s, (base_order, HARMONICS), &terms);
-        let load = self.load(balance.no_load(), speed_rad_per_s, base_order);
-        let motion = balance.refined(near, &load)?;
-        Some(Found {
-            growth: balance.growth(&motion),
-            motion,
-        })
     }
 
     /// A motion with more harmonics.
@@ -237,21 +226,25 @@ impl OscillatingBlade {
         speed_rad_per_s: f64,
         base_order: u32,
     ) -> Option<Periodic> {
-        let terms = self.terms();
-        let balance = self.balance(speed_rad_per_s, (base_order, MORE_HARMONICS), &terms);
-        let load = self.load(balance.no_load(), speed_rad_per_s, base_order);
-        balance.refined(near, &load)
+        let asked = (base_order, MORE_HARMONICS);
+        self.balanced(speed_rad_per_s, asked, |balance, load| {
+            balance.refined(near, load)
+        })
     }
 
-    fn balance<'a>(
+    /// The solution of the balance of some harmonics at a speed, under all loads.
+    fn balanced<T>(
         &self,
         speed_rad_per_s: f64,
         (base_order, harmonics): (u32, usize),
-        terms: &'a [Term<'a>],
-    ) -> Balance<'a> {
+        solve: impl FnOnce(&Balance<'_>, &Mat<f64>) -> Option<T>,
+    ) -> Option<T> {
+        let terms = self.terms();
         let frequency = f64::from(base_order) * speed_rad_per_s;
         let asked = (frequency, harmonics);
-        Balance::new(&self.system, speed_rad_per_s, asked, terms, self.size)
+        let balance = Balance::new(&self.system, speed_rad_per_s, asked, &terms, self.size);
+        let load = self.load(balance.no_load(), speed_rad_per_s, base_order);
+        solve(&balance, &load)
     }
 
     pub(super) fn read(&self, speed_rad_per_s: f64, found: &Found) -> AtSpeed {
@@ -294,6 +287,15 @@ impl OscillatingBlade {
 pub(super) struct Found {
     pub motion: Periodic,
     pub growth: Option<Growth>,
+}
+
+impl Found {
+    fn new(balance: &Balance<'_>, motion: Periodic) -> Self {
+        Found {
+            growth: balance.growth(&motion),
+            motion,
+        }
+    }
 }
 
 fn motion_at(motion: &Periodic, states: &[Col<f64>], place: &Col<f64>) -> Motion {

@@ -66,34 +66,35 @@ impl Oscillation {
         };
         let base = oscillators.base_order();
         let work = Work::of("oscillations", SPEEDS + 2);
-        let blade = of_modes(MODES)?;
-        let (found, still_m) = blade.at(speed_rad_per_s, base)?;
-        work.advance();
         let finer = of_modes(MORE_MODES)?;
         let (fine, _) = finer.at(speed_rad_per_s, base)?;
         work.advance();
-        let own_m = found.as_ref().map(|at| amplitude_m(&at.motion, &blade.cut));
+        let last = SPEEDS as f64;
+        let mut speeds: Vec<f64> = (1..=SPEEDS).map(|k| to * k as f64 / last).collect();
+        speeds.retain(|other| (*other - speed_rad_per_s).abs() > 1e-9 * to);
+        let place = speeds.partition_point(|other| *other < speed_rad_per_s);
+        speeds.insert(place, speed_rad_per_s);
+        let blade = of_modes(MODES)?;
+        let motions = speeds.par_iter().map(|speed| {
+            let found = blade.at(*speed, base)?;
+            work.advance();
+            Ok(found)
+        });
+        let motions = motions.collect::<Result<Vec<_>, GapError>>()?;
+        let still_m = motions[place].1;
+        let mut motions: Vec<_> = motions.into_iter().map(|(found, _)| found).collect();
+        blade.follow(&mut motions, &speeds, base);
+        let found = motions[place].as_ref();
+        let own_m = found.map(|at| amplitude_m(&at.motion, &blade.cut));
         let change = |other: f64| own_m.map(|own| (other / own - 1.0).abs());
-        let more = found.as_ref().and_then(|at| {
+        let more = found.and_then(|at| {
             let more = blade.refined(&at.motion, speed_rad_per_s, base)?;
             Some(amplitude_m(&more, &blade.cut))
         });
         let fine_m = fine.map(|at| amplitude_m(&at.motion, &finer.cut));
-        let at = found.map(|found| blade.read(speed_rad_per_s, &found));
-        let last = SPEEDS as f64;
-        let mut speeds: Vec<f64> = (1..=SPEEDS).map(|k| to * k as f64 / last).collect();
-        speeds.push(speed_rad_per_s);
-        speeds.sort_by(f64::total_cmp);
-        speeds.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * to);
+        let at = found.map(|found| blade.read(speed_rad_per_s, found));
         let threshold_per_s = scene.flutter_threshold_per_s();
         let thickness_m = scene.blade().thickness_m;
-        let motions = speeds.par_iter().map(|speed| {
-            let (found, _) = blade.at(*speed, base)?;
-            work.advance();
-            Ok(found)
-        });
-        let mut motions = motions.collect::<Result<Vec<_>, GapError>>()?;
-        blade.follow(&mut motions, &speeds, base);
         let is_valid = |at: &AtSpeed| at.is_stable(threshold_per_s) && at.largest_m <= thickness_m;
         let pairs = motions.iter().zip(&speeds);
         let over_speed = pairs.map(|(found, speed)| {

@@ -40,11 +40,17 @@ pub struct Load {
 }
 
 impl Load {
-    /// A force at the rim at an angle that oscillates with a multiple of the rotation frequency.
-    pub fn at_rim(plate: &Plate, angle_rad: f64, amplitude_n: f64, order: u32) -> Self {
-        let values = plate.functions_at(plate.blade.outer_radius_m, angle_rad);
+    /// A force at a radius and an angle that oscillates with a multiple of the rotation frequency.
+    pub fn at(
+        cause: Cause,
+        order: u32,
+        plate: &Plate,
+        (radius_m, angle_rad): (f64, f64),
+        amplitude_n: f64,
+    ) -> Self {
+        let values = plate.functions_at(radius_m, angle_rad);
         Load {
-            cause: Cause::SideForce,
+            cause,
             order,
             vector: Col::from_fn(values.len(), |i| c64::new(amplitude_n * values[i], 0.0)),
         }
@@ -67,18 +73,10 @@ const RIGID: f64 = 1e-9;
 /// The loads of a scene; the number of waves of a shape that nothing in the blade holds, if one is asked for.
 pub fn loads(plate: &Plate, scene: &Scene, typed: &ResponseFile) -> Result<Vec<Load>, usize> {
     let mut loads = Vec::new();
-    let at = |radius_m: f64, angle_rad: f64, force_n: f64| {
-        let values = plate.functions_at(radius_m, angle_rad);
-        Col::from_fn(values.len(), |i| c64::new(force_n * values[i], 0.0))
-    };
     let rim = plate.blade.outer_radius_m;
     if typed.force_n != 0.0 {
-        let (radius, angle) = force_place(scene, typed);
-        loads.push(Load {
-            cause: Cause::SideForce,
-            order: 0,
-            vector: at(radius, angle, typed.force_n),
-        });
+        let place = force_place(scene, typed);
+        loads.push(Load::at(Cause::SideForce, 0, plate, place, typed.force_n));
     }
     let shapes = [
         (Cause::RunOut, 1, typed.runout_m),
@@ -108,11 +106,8 @@ pub fn loads(plate: &Plate, scene: &Scene, typed: &ResponseFile) -> Result<Vec<L
         }));
     }
     if let (true, Some(teeth)) = (typed.tooth_force_n != 0.0, scene.file().blade.teeth) {
-        loads.push(Load {
-            cause: Cause::ToothPassing,
-            order: teeth,
-            vector: at(rim, scene.cut_angle_rad(), typed.tooth_force_n),
-        });
+        let (place, force_n) = ((rim, scene.cut_angle_rad()), typed.tooth_force_n);
+        loads.push(Load::at(Cause::ToothPassing, teeth, plate, place, force_n));
     }
     Ok(loads)
 }

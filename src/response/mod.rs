@@ -135,9 +135,7 @@ impl Options {
             _ => Ok(()),
         }
     }
-}
 
-impl Options {
     /// The speed of the frequency response, which must be one of the sweep: beyond it the saw was not analysed.
     fn speed_rad_per_s(&self, (from, to): (f64, f64)) -> Result<Option<f64>, RefusedValue> {
         let Some(asked) = self.rpm else {
