@@ -3,9 +3,8 @@
 use serde::Deserialize;
 
 use super::refusal::Refusal;
-use super::usual::{
-    SPLINE, between, guide, inner, mount, next_row, rim, round, runup, usual_teeth,
-};
+use super::usual::{SPLINE, between, guide, inner, mount, next_row, rim, runup, usual_teeth};
+use crate::scene::typical::rounded;
 use crate::scene::{
     CutFile, CutSpeedFile, DampingFile, ExcitationFile, ModeRatioRow, ProbeFile, ResidualStressRow,
     ResponseFile, RimFile, RollBandFile, Scene, SceneFile, StraightEdgeFile, SweepFile,
@@ -57,10 +56,10 @@ fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
         "sweep" => {
             scene.sweep = Some(SweepFile {
                 from_rpm: 0.0,
-                to_rpm: round(2.0 * typical::operating_rpm(scene), 2),
+                to_rpm: rounded(2.0 * typical::operating_rpm(scene), 2),
             });
         }
-        "runup" => scene.runup = Some(runup(scene)),
+        "runup" => scene.runup = Some(runup(scene)?),
         "response" => {
             scene.response = Some(ResponseFile {
                 force_n: typical::RESPONSE_FORCE.value,
@@ -93,7 +92,7 @@ fn add_to_blade(scene: &mut SceneFile, part: &str) -> Option<()> {
             let pitch = std::f64::consts::TAU * rim(scene) / f64::from(teeth.max(1));
             let per_area = scene.blade.material.density_kg_per_m3 * scene.blade.thickness_m;
             scene.blade.rim = Some(RimFile {
-                mass_per_tooth_kg: round(per_area * 0.25 * pitch * pitch, 1),
+                mass_per_tooth_kg: rounded(per_area * 0.25 * pitch * pitch, 1),
                 radius_m: None,
             });
         }
@@ -171,7 +170,7 @@ fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
         }
         "roll_tension[]" => membrane.roll_tension.push(RollBandFile {
             radius_m: between(scene, 0.5),
-            width_m: round(0.1 * (rim(scene) - inner(scene)), 2),
+            width_m: rounded(0.1 * (rim(scene) - inner(scene)), 2),
             eigenstrain: Some(typical::EIGENSTRAIN.value),
             groove_depth_m: None,
         }),

@@ -1,7 +1,7 @@
 //! Values with which a designer would begin, for a blade of any size.
 
+use crate::scene::typical::rounded;
 use crate::scene::{GuideFile, InPlane, Mount, RunUpFile, SceneFile, SplineFile, typical};
-use crate::text::shown_to;
 
 const LEAST_TEETH: f64 = 12.0;
 /// Spline of the saw in the paper, with assumed values for what the paper does not give.
@@ -29,11 +29,7 @@ pub fn inner(scene: &SceneFile) -> f64 {
 
 /// Radius at a share of the way from the collar or bore to the rim.
 pub fn between(scene: &SceneFile, share: f64) -> f64 {
-    round(inner(scene) + share * (rim(scene) - inner(scene)), 3)
-}
-
-pub fn round(value: f64, digits: usize) -> f64 {
-    shown_to(digits, value).parse().unwrap_or(value)
+    rounded(inner(scene) + share * (rim(scene) - inner(scene)), 3)
 }
 
 pub fn usual_teeth(scene: &SceneFile) -> u32 {
@@ -62,12 +58,12 @@ fn collar_diameter(scene: &SceneFile) -> f64 {
     let edges = scene.guides.iter();
     let edges = edges.map(|pad| 2.0 * pad.radius_m - pad.radial_length_m);
     let widest = edges.fold(outer, f64::min);
-    round(usual.min(0.9 * widest), 2).max(bore)
+    rounded(usual.min(0.9 * widest), 2).max(bore)
 }
 
 /// A guide like the last one, at the angle farthest from those that exist.
 pub fn guide(scene: &SceneFile) -> GuideFile {
-    let length = round(0.3 * (rim(scene) - inner(scene)), 2);
+    let length = rounded(0.3 * (rim(scene) - inner(scene)), 2);
     let first = GuideFile {
         radius_m: between(scene, 0.6),
         radial_length_m: length,
@@ -111,7 +107,7 @@ pub fn next_row(scene: &SceneFile, rows: &[(f64, f64)], value: f64) -> (f64, f64
     let end = |k: usize| rows.get(k + 1).map_or(rim, |next| next.0);
     let gap = |k: &usize| end(*k) - rows[*k].0;
     let Some(last) = rows.len().checked_sub(1) else {
-        return (round(inner(scene), 3), value);
+        return (rounded(inner(scene), 3), value);
     };
     let widest = || (0..=last).max_by(|x, y| gap(x).total_cmp(&gap(y)));
     let at = match gap(&last) > 1e-3 * rim {
@@ -120,20 +116,17 @@ pub fn next_row(scene: &SceneFile, rows: &[(f64, f64)], value: f64) -> (f64, f64
     };
     let next = rows.get(at + 1).unwrap_or(&rows[at]);
     (
-        round(0.5 * (rows[at].0 + end(at)), 4),
+        rounded(0.5 * (rows[at].0 + end(at)), 4),
         0.5 * (rows[at].1 + next.1),
     )
 }
 
-pub fn runup(scene: &SceneFile) -> RunUpFile {
-    RunUpFile {
-        from_rpm: 0.0,
-        to_rpm: round(typical::RUNUP_END.value * typical::operating_rpm(scene), 2),
-        duration_s: typical::RUNUP_TIME.value,
+/// The typical run-up, with a force for the guides of this scene.
+pub fn runup(scene: &SceneFile) -> Option<RunUpFile> {
+    Some(RunUpFile {
         force_n: side_force(scene),
-        angle_deg: 0.0,
-        stretching: false,
-    }
+        ..serde_json::from_value(typical::runup(scene)).ok()?
+    })
 }
 
 /// A force to which soft guides yield by less than the thickness of the blade, because the model is linear.
@@ -142,7 +135,7 @@ fn side_force(scene: &SceneFile) -> f64 {
         return typical::RUNUP_FORCE.value;
     }
     let stiffness: f64 = scene.guides.iter().map(|pad| pad.stiffness_n_per_m).sum();
-    round(
+    rounded(
         (0.01 * scene.blade.thickness_m * stiffness).clamp(1e-3, typical::RUNUP_FORCE.value),
         1,
     )

@@ -7,6 +7,8 @@ use serde_json::{Value, json};
 #[cfg(any(feature = "cli", feature = "page"))]
 use super::SceneFile;
 use crate::text::shown;
+#[cfg(any(feature = "cli", feature = "page"))]
+use crate::text::shown_to;
 
 /// A typical value of a number of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -142,16 +144,16 @@ fn block(schema: &Value, at: String) -> Option<String> {
 pub(crate) fn operating_rpm(scene: &SceneFile) -> f64 {
     let diameter_m = scene.blade.outer_diameter_m;
     let usual = 60.0 * RIM_SPEED.value / (std::f64::consts::PI * diameter_m);
-    scene.operating_rpm.unwrap_or_else(|| rounded(usual))
+    scene.operating_rpm.unwrap_or_else(|| rounded(usual, 2))
 }
 
 /// A typical cut for this blade.
 #[cfg(any(feature = "cli", feature = "page"))]
 pub(crate) fn cut(scene: &SceneFile) -> Value {
-    let depth_m = rounded(CUT_DEPTH.value * scene.blade.outer_diameter_m);
+    let depth_m = rounded(CUT_DEPTH.value * scene.blade.outer_diameter_m, 2);
     let mut cut = json!({
         "depth_m": depth_m,
-        "power_w": short(rounded(CUT_POWER.value * depth_m)),
+        "power_w": short(rounded(CUT_POWER.value * depth_m, 2)),
         "radial_n_per_tooth": short(RADIAL_FORCE.value),
         "lateral_n_per_tooth": short(LATERAL_FORCE.value),
         "feed_m_per_s": short(FEED.value),
@@ -174,7 +176,7 @@ pub(crate) fn washboarding() -> Value {
 pub(crate) fn runup(scene: &SceneFile) -> Value {
     json!({
         "from_rpm": 0,
-        "to_rpm": short(rounded(RUNUP_END.value * operating_rpm(scene))),
+        "to_rpm": short(rounded(RUNUP_END.value * operating_rpm(scene), 2)),
         "duration_s": short(RUNUP_TIME.value),
         "force_n": short(RUNUP_FORCE.value)
     })
@@ -189,13 +191,10 @@ fn short(value: f64) -> Value {
     }
 }
 
-/// To two digits.
+/// A number with so many digits.
 #[cfg(any(feature = "cli", feature = "page"))]
-fn rounded(value: f64) -> f64 {
-    let digit = 10f64.powf(value.abs().max(f64::MIN_POSITIVE).log10().floor() - 1.0);
-    // The product is written as decimal text and read again, because multiples of 0.01 have no exact binary form.
-    let text = format!("{:.3e}", (value / digit).round() * digit);
-    text.parse().unwrap_or(value)
+pub(crate) fn rounded(value: f64, digits: usize) -> f64 {
+    shown_to(digits, value).parse().unwrap_or(value)
 }
 
 #[cfg(test)]
