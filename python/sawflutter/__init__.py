@@ -36,7 +36,8 @@ from .matrices import Matrices
 from .modes import Modes
 from .motions import CutResults, DeflectResults, GapResults, ResponseResults, RunUpResults, WashboardResults
 from .peaks import Peaks
-from .records import Record, read_record
+from .record_files import read_record
+from .records import Record
 from .results import CampbellResults, load
 from .scene import Scene
 from .spectra import Spectrum, read_frf
