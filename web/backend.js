@@ -3,7 +3,7 @@
 // Tasks take minutes, and depend on no chart: charts do not wait for them.
 const CHARTS = "charts";
 const TASKS = "tasks";
-// Critical speeds come before the chart that is being computed.
+// Critical speeds do not wait for a chart that takes long.
 const CRITICAL = "critical";
 // What takes no time waits for neither.
 const QUICK = "quick";
@@ -26,7 +26,7 @@ class Queue {
   ask(question, signal) {
     return new Promise((resolve, reject) => {
       const job = { question, resolve, reject, lines: null };
-      if (question.path.startsWith("task/")) this.#stream(job);
+      if (/^(task|chart)\//.test(question.path)) this.#stream(job);
       signal?.addEventListener("abort", () => this.#takeBack(job, signal.reason));
       if (signal?.aborted) this.#fail(job, signal.reason);
       else this.#waiting.push(job);
@@ -34,7 +34,7 @@ class Queue {
     });
   }
 
-  // The progress of a task comes before its answer.
+  // The progress of a task, and early results of a chart, come before the answer.
   #stream(job) {
     const start = (controller) => (job.lines = controller);
     job.resolve(new Response(new ReadableStream({ start })));

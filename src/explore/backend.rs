@@ -10,7 +10,7 @@ use super::refusal::Refusal;
 use super::reply::FileNote;
 use super::reply::{SavedFile, Start};
 use super::task::Task;
-use super::{critical, mode, parts};
+use super::{ahead, mode, parts};
 use crate::fit::Measurement;
 use crate::scene::Scene;
 use crate::spectrum::Stage;
@@ -51,6 +51,8 @@ pub struct Answer {
 }
 
 const JSON: &str = "application/json";
+/// JSON line by line.
+pub(super) const LINES: &str = "application/x-ndjson";
 const OK: u16 = 200;
 const BAD_REQUEST: u16 = 400;
 const NOT_FOUND: u16 = 404;
@@ -133,7 +135,8 @@ impl Backend {
         self
     }
 
-    /// The answer to a request; `tell` is called with the progress of a task, line by line.
+    /// The answer to a request; `tell` is called with the progress of a task and with early results of a
+    /// diagram, line by line.
     pub fn answer(&self, asked: &Question, tell: impl Fn(String) + Send + Sync) -> Answer {
         self.found(asked, tell).unwrap_or_else(|refusal| {
             Answer::with_status(REFUSED, &refusal.in_field(&asked.body, asked.units))
@@ -150,14 +153,13 @@ impl Backend {
         Ok(match what {
             "start" => Answer::json(&self.start),
             "chart" => match Fidelity::named(name) {
-                Some(fidelity) => Answer {
-                    status: OK,
-                    media_type: JSON,
-                    content: self.charts.chart(&asked.page, body, fidelity)?.into_bytes(),
-                },
+                Some(fidelity) => {
+                    let chart = self.charts.chart(&asked.page, body, fidelity, &tell);
+                    last_line(asked, chart)
+                }
                 None => Answer::empty(BAD_REQUEST),
             },
-            "critical" => Answer::json(&critical::answer(body)?),
+            "critical" => Answer::json(&ahead::critical_speeds(body)?),
             "mode" => Answer::json(&mode::answer(&self.charts, body)?),
             "influence" => Answer::json(&self.charts.influence(body)?),
             "save" => match SavedFile::named(name) {
@@ -176,31 +178,27 @@ impl Backend {
             "part" => Answer::json(&parts::with_part(body)?),
             "measured" => Answer::json(&measured(body)?),
             "task" => match Task::named(name) {
-                Some(task) => Answer {
-                    status: OK,
-                    media_type: "application/x-ndjson",
-                    content: self.last_line(task, asked, tell).into_bytes(),
-                },
+                Some(task) => {
+                    let meter = Meter::new(&tell, self.clock);
+                    last_line(asked, task.run(body, &meter))
+                }
                 None => Answer::empty(BAD_REQUEST),
             },
             _ => Answer::empty(NOT_FOUND),
         })
     }
+}
 
-    /// Does a task; its answer or refusal is the last line of what is told.
-    fn last_line(
-        &self,
-        task: Task,
-        asked: &Question,
-        tell: impl Fn(String) + Send + Sync,
-    ) -> String {
-        match task.run(&asked.body, &Meter::new(&tell, self.clock)) {
-            Ok(answer) => answer,
-            Err(refusal) => {
-                let refusal = refusal.in_field(&asked.body, asked.units);
-                serde_json::json!({ "refusal": refusal }).to_string()
-            }
-        }
+/// The result of a diagram or task, or the refusal, as the last line of an answer that is sent line by line.
+fn last_line(asked: &Question, result: Result<String, Refusal>) -> Answer {
+    let line = result.unwrap_or_else(|refusal| {
+        let refusal = refusal.in_field(&asked.body, asked.units);
+        serde_json::json!({ "refusal": refusal }).to_string()
+    });
+    Answer {
+        status: OK,
+        media_type: LINES,
+        content: line.into_bytes(),
     }
 }
 

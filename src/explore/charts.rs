@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use serde::Serialize;
 
+use super::ahead::Ahead;
 use super::backend::Clock;
 use super::influence::{Influence, influences};
 use super::refusal::Refusal;
@@ -14,7 +15,7 @@ use super::under_way::UnderWay;
 use crate::figure::ChartData;
 use crate::report::{Report, SensitivityEntry};
 use crate::scene::{Accuracy, Scene, SceneError};
-use crate::stability::{Analysis, AnalysisOptions, Detail};
+use crate::stability::{Analysis, AnalysisOptions, Detail, Interim};
 
 /// Accuracy with which a diagram is requested.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,11 +107,18 @@ impl Charts {
         self.kept().made = number.saturating_sub(1);
     }
 
-    /// Computes a diagram for a page and keeps it for requests of modes; returns JSON.
+    /// Computes a diagram for a page and keeps it for requests of modes; returns JSON. `tell` receives earlier
+    /// results, as JSON too.
     ///
     /// # Errors
     /// [`Refusal`] if the scene is refused or the computation fails or is cancelled.
-    pub fn chart(&self, page: &str, scene: &str, fidelity: Fidelity) -> Result<String, Refusal> {
+    pub fn chart(
+        &self,
+        page: &str,
+        scene: &str,
+        fidelity: Fidelity,
+        tell: &(impl Fn(String) + Sync),
+    ) -> Result<String, Refusal> {
         let started = (self.clock)();
         let mut scene = Scene::from_json(scene)?;
         let detail = match fidelity {
@@ -120,8 +128,13 @@ impl Charts {
             }
             Fidelity::Scene => Detail::Full,
         };
+        let interim = |interim: Interim<'_>| {
+            let ahead = Ahead::new(&scene, interim);
+            tell(serde_json::json!({ "ahead": ahead }).to_string());
+        };
         let options = AnalysisOptions {
             detail,
+            interim: Some(&interim),
             ..AnalysisOptions::default()
         };
         let analysis = || Analysis::with_options(&scene, options);
@@ -239,7 +252,7 @@ mod tests {
     fn charts_are_kept_for_each_page_apart() {
         let charts = Charts::new(|| 0.0);
         let scene = serde_json::to_string(Scene::paper().file()).unwrap();
-        let ask = |page: &str| charts.chart(page, &scene, Fidelity::Draft).unwrap();
+        let ask = |page: &str| charts.chart(page, &scene, Fidelity::Draft, &drop).unwrap();
         let first = ask("one");
         assert!(first.starts_with(r#"{"chart":1,"#), "{}", &first[..40]);
         for _ in 0..=OF_A_PAGE {
@@ -263,7 +276,7 @@ mod tests {
         let charts = Charts::new(|| 0.0);
         let scene = Scene::paper().edited(|file| file.accuracy = Accuracy::Draft);
         let scene = serde_json::to_string(scene.unwrap().file()).unwrap();
-        charts.chart("one", &scene, Fidelity::Scene).unwrap();
+        charts.chart("one", &scene, Fidelity::Scene, &drop).unwrap();
         charts.influence("1").unwrap();
         let file = |chart: usize| {
             let solved = Arc::new(AtomicUsize::new(0));

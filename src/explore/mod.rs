@@ -4,10 +4,10 @@
 //! request and computes nothing: all that it shows, and every file that it saves, comes from the same
 //! functions as on the command line.
 
+mod ahead;
 mod answers;
 mod backend;
 mod charts;
-mod critical;
 mod examples;
 mod fields;
 #[cfg(feature = "explore")]

@@ -16,7 +16,8 @@ use axum::routing::{get, post};
 use futures_util::stream::unfold;
 use tokio::net::TcpListener;
 
-use super::backend::{Answer, Backend, Question};
+use super::backend::{Answer, Backend, LINES, Question};
+use super::charts::Fidelity;
 use super::fields::Units;
 use super::guard::{OwnHosts, guard};
 use super::job::Jobs;
@@ -69,7 +70,7 @@ struct Server {
     /// Queue of influences, which take about as long as a diagram. They do not wait for tasks, because
     /// waiting requests would occupy connections that diagrams need.
     influences: Jobs,
-    /// Queue of critical speeds, which are shown before a diagram that is being computed.
+    /// Queue of critical speeds, which do not wait for a diagram that takes long.
     criticals: Jobs,
     pages: Arc<Pages>,
     file: Option<Arc<OpenedFile>>,
@@ -128,7 +129,7 @@ fn router(server: Server, hosts: OwnHosts) -> Router {
         }
     };
     let at_once = waiting_in(Queue::None);
-    let drawn = waiting_in(Queue::Charts);
+    let saved = waiting_in(Queue::Charts);
     let weighed = waiting_in(Queue::Influences);
     let ahead = waiting_in(Queue::Criticals);
     Router::new()
@@ -142,9 +143,9 @@ fn router(server: Server, hosts: OwnHosts) -> Router {
         .route("/measured", post(at_once))
         .route("/part", post(at_once))
         .route("/mode", post(at_once))
-        .route("/chart/{fidelity}", post(drawn))
+        .route("/chart/{fidelity}", post(chart))
         .route("/critical", post(ahead))
-        .route("/save/{name}", post(drawn))
+        .route("/save/{name}", post(saved))
         .route("/influence", post(weighed))
         .route("/task/{task}", post(task))
         .route("/file", post(save_to_file))
@@ -238,7 +239,22 @@ fn sent(answer: Answer) -> Response {
     (status, kind, answer.content).into_response()
 }
 
-/// Sends progress and then the result, line by line; the task is cancelled when the connection closes.
+/// Sends early results of a diagram and then the diagram.
+async fn chart(
+    State(server): State<Server>,
+    Path(name): Path<String>,
+    uri: Uri,
+    headers: HeaderMap,
+    body: String,
+) -> Response {
+    if Fidelity::named(&name).is_none() {
+        return StatusCode::BAD_REQUEST.into_response();
+    }
+    let jobs = server.jobs.clone();
+    line_by_line(server.backend, jobs, question(&uri, &headers, body))
+}
+
+/// Sends the progress of a task and then its result.
 async fn task(
     State(server): State<Server>,
     Path(name): Path<String>,
@@ -249,13 +265,17 @@ async fn task(
     if Task::named(&name).is_none() {
         return StatusCode::BAD_REQUEST.into_response();
     }
-    let question = question(&uri, &headers, body);
+    let tasks = server.tasks.clone();
+    line_by_line(server.backend, tasks, question(&uri, &headers, body))
+}
+
+/// Sends the answer to a request line by line; the computation is cancelled when the connection closes.
+fn line_by_line(backend: Arc<Backend>, queue: Jobs, question: Question) -> Response {
     let (tell, told) = tokio::sync::mpsc::unbounded_channel();
     let job = async move {
-        let backend = server.backend.clone();
         // Errors are ignored, because the receiver may have closed.
         let work = move || backend.answer(&question, move |line| drop(tell.send(line)));
-        let done = server.tasks.run(work).await.map(|answer| answer.content);
+        let done = queue.run(work).await.map(|answer| answer.content);
         done.and_then(|line| String::from_utf8(line).ok())
             .unwrap_or_else(cancelled)
     };
@@ -268,7 +288,7 @@ async fn task(
         };
         Some((Ok::<_, Infallible>(line + "\n"), (rest, told)))
     });
-    let kind = [(header::CONTENT_TYPE, "application/x-ndjson")];
+    let kind = [(header::CONTENT_TYPE, LINES)];
     (kind, Body::from_stream(lines)).into_response()
 }
 

@@ -59,22 +59,28 @@ pub fn of_critical(first_rpm: Option<f64>, share: Option<f64>) -> [Fact; 2] {
     ]
 }
 
+/// Flutter speed, onset of the first flutter band, and largest growth rate.
+pub fn of_bands([flutter_rpm, first_merge_rpm]: [Option<f64>; 2], growth_per_s: f64) -> [Fact; 3] {
+    [
+        speed("Flutter speed", flutter_rpm),
+        speed("First merging", first_merge_rpm),
+        Fact {
+            name: "Fastest growth",
+            words: shown_to(3, growth_per_s),
+            unit: "1/s",
+        },
+    ]
+}
+
 fn facts(report: &Report) -> Vec<Fact> {
     let peaks = report.instabilities.iter().map(|b| b.peak_growth_per_s);
     let share = report.operating.as_ref().and_then(|o| o.of_lowest_critical);
     let critical = report.critical_speeds.first().map(|critical| critical.rpm);
     let [first_critical, share] = of_critical(critical, share);
-    let mut facts = vec![
-        first_critical,
-        speed("Flutter speed", report.flutter_speed_rpm),
-        speed("First merging", report.first_merge_rpm),
-        Fact {
-            name: "Fastest growth",
-            words: shown_to(3, peaks.fold(0.0, f64::max)),
-            unit: "1/s",
-        },
-        share,
-    ];
+    let onsets = [report.flutter_speed_rpm, report.first_merge_rpm];
+    let mut facts = vec![first_critical];
+    facts.extend(of_bands(onsets, peaks.fold(0.0, f64::max)));
+    facts.push(share);
     let heat = report.membrane.as_ref().and_then(|m| m.heat.as_ref());
     facts.extend(heat.map(|heat| {
         let rise = tolerated_rise_k(heat).map(|rise_k| shown_to(3, rise_k));

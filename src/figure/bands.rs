@@ -34,7 +34,7 @@ pub fn is_shaded([first, last]: [f64; 2], band: &InstabilityEntry) -> bool {
 impl Band {
     /// The shaded parts of a band: those where the growth exceeds the threshold. A band that never exceeds it
     /// is shaded as a whole, unless it is wide and weak, as bands caused by damping are.
-    pub(super) fn new(band: &InstabilityEntry, speeds: [f64; 2]) -> Self {
+    pub(crate) fn new(band: &InstabilityEntry, speeds: [f64; 2]) -> Self {
         let whole = [band.from_rpm, band.to_rpm];
         let shaded = match band.counted_rpm.is_empty() {
             _ if !is_shaded(speeds, band) => Vec::new(),

@@ -15,7 +15,9 @@ use super::{
 use crate::plate::Plate;
 use crate::scene::rpm;
 use crate::spectrum::{DescribedMode, EventName, EventWaves, WorkCounters};
-use crate::stability::{Analysis, Instability, OPERATING_LIMIT, Sensitivity, SensitivityError};
+use crate::stability::{
+    Analysis, Evidence, Instability, OPERATING_LIMIT, Sensitivity, SensitivityError,
+};
 
 /// Harmonics with a smaller share are omitted from the shape of a mode.
 const LEAST_SHARE: f64 = 1e-4;
@@ -297,7 +299,7 @@ fn critical_speeds(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<Critical
 
 impl InstabilityEntry {
     /// A band, with the range in which its growth exceeds the threshold.
-    pub(super) fn new(band: &Instability, threshold_per_s: f64) -> Self {
+    pub(crate) fn new(band: &Instability, threshold_per_s: f64) -> Self {
         let counted = band.counted(threshold_per_s).into_iter();
         InstabilityEntry {
             kind: band.kind,
@@ -336,23 +338,35 @@ impl InstabilityEntry {
     }
 }
 
-fn operating(analysis: &Analysis, speed: f64) -> OperatingEntry {
-    let lowest = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
-    let of_lowest_critical = lowest.map(|lowest| speed / lowest);
-    let verdict = analysis.verdict(speed);
+impl OperatingEntry {
+    /// Verdict at a speed, without the modes there.
+    pub(crate) fn from_evidence(evidence: &Evidence<'_>, speed_rad_per_s: f64) -> Self {
+        let critical = evidence.critical_rad_per_s;
+        let of_lowest_critical = critical.first().map(|lowest| speed_rad_per_s / lowest);
+        let verdict = evidence.verdict(speed_rad_per_s);
+        let window = evidence.window_without_instability(speed_rad_per_s);
+        OperatingEntry {
+            rpm: rpm(speed_rad_per_s),
+            of_lowest_critical,
+            limit: OPERATING_LIMIT,
+            within_limit: of_lowest_critical.map(|ratio| ratio <= OPERATING_LIMIT),
+            verdict: verdict.state,
+            inside_instability: verdict.band,
+            at_critical_rpm: verdict.critical.map(|place| rpm(critical[place])),
+            safe_window_rpm: window.map(|(from, to)| [rpm(from), rpm(to)]),
+            growth_per_s: None,
+            frequency_hz: None,
+        }
+    }
+}
+
+fn operating(analysis: &Analysis, speed_rad_per_s: f64) -> OperatingEntry {
+    let critical = analysis.critical_rad_per_s();
     let fastest = analysis.fastest_operating;
-    let window = analysis.window_without_instability(speed);
     OperatingEntry {
-        rpm: rpm(speed),
-        of_lowest_critical,
-        limit: OPERATING_LIMIT,
-        within_limit: of_lowest_critical.map(|ratio| ratio <= OPERATING_LIMIT),
-        verdict: verdict.state,
-        inside_instability: verdict.band,
-        at_critical_rpm: analysis.critical_rpm_at(speed),
-        safe_window_rpm: window.map(|(from, to)| [rpm(from), rpm(to)]),
         growth_per_s: fastest.map(|lambda| lambda.re),
         frequency_hz: fastest.map(|lambda| lambda.im.abs() / TAU),
+        ..OperatingEntry::from_evidence(&analysis.evidence(&critical), speed_rad_per_s)
     }
 }
 

@@ -4,7 +4,7 @@ use faer::c64;
 
 use super::band::{Instability, InstabilityKind};
 use super::basis::{ChosenBasis, check_stretch, two_digits_down};
-use super::chart::{CHART_SPEEDS, StabilityChart, chart, drawn};
+use super::chart::{CHART_SPEEDS, StabilityChart, drawn};
 use super::detail::Detail;
 use super::error::AnalysisError;
 use super::estimate::Estimates;
@@ -14,9 +14,10 @@ use super::heat::HeatLimits;
 use super::listed::Listed;
 use super::loci::RootLoci;
 use super::onsets::Onsets;
+use super::options::{AnalysisOptions, Interim};
 use super::out_of_reach::OutOfReach;
 use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
-use crate::campbell::{CampbellError, Progress};
+use crate::campbell::CampbellError;
 use crate::plate::StraightEdgeReading;
 use crate::scene::{Accuracy, Scene, SceneError, rad_per_s, rpm};
 use crate::spectrum::{DescribedMode, SpectralModel, SpectrumError, Strategy};
@@ -29,38 +30,19 @@ const FREE_CHART_SPEEDS: usize = 101;
 /// Speeds in the sketch of a free blade.
 const SKETCH_SPEEDS: usize = 25;
 
-/// Options of an analysis.
-#[derive(Clone, Copy)]
-pub struct AnalysisOptions<'a> {
-    /// Detail of the chart.
-    pub detail: Detail,
-    /// Progress callback: number of speeds done and number of speeds in total.
-    pub progress: Progress<'a>,
-    /// Callback that receives the expected work of a long sweep before the analysis begins; none by default.
-    pub expected: Option<&'a (dyn Fn(ExpectedWork) + Sync)>,
-}
-
-impl Default for AnalysisOptions<'_> {
-    fn default() -> Self {
-        AnalysisOptions {
-            detail: Detail::Full,
-            progress: &|_, _| (),
-            expected: None,
-        }
-    }
-}
-
 fn charted(
     model: &SpectralModel,
     range: (f64, f64),
-    AnalysisOptions {
-        detail, progress, ..
-    }: AnalysisOptions<'_>,
+    options: AnalysisOptions<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
-    match (model.plate.is_axisymmetric(), detail) {
-        (true, _) => chart(model, range, FREE_CHART_SPEEDS, progress),
-        (false, Detail::Full) => chart(model, range, CHART_SPEEDS, progress),
-        (false, Detail::Sketch) => drawn(model, range, SKETCH_SPEEDS, detail, progress),
+    let full = AnalysisOptions {
+        detail: Detail::Full,
+        ..options
+    };
+    match (model.plate.is_axisymmetric(), options.detail) {
+        (true, _) => drawn(model, range, FREE_CHART_SPEEDS, full),
+        (false, Detail::Full) => drawn(model, range, CHART_SPEEDS, full),
+        (false, Detail::Sketch) => drawn(model, range, SKETCH_SPEEDS, options),
     }
 }
 
@@ -201,6 +183,11 @@ impl Analysis {
             estimated_resting_error,
             larger,
         } = chosen;
+        options.report(Interim {
+            critical: &critical,
+            range_rad_per_s: range,
+            bands: None,
+        });
         let strategy = match detail {
             Detail::Full => Strategy::Reduced,
             Detail::Sketch => Strategy::Sketch,

@@ -4,8 +4,8 @@ use super::band::Instability;
 use super::certificate::Certificate;
 use super::certified::{GROWTH_FLOOR, contradictions};
 use super::damped;
-use super::detail::Detail;
 use super::error::AnalysisError;
+use super::options::AnalysisOptions;
 use super::signature::Signature;
 use super::undamped;
 use crate::campbell::{Campbell, Progress};
@@ -63,20 +63,23 @@ pub fn chart(
     count: usize,
     progress: Progress<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
-    drawn(model, range, count, Detail::Full, progress)
+    let options = AnalysisOptions {
+        progress,
+        ..AnalysisOptions::default()
+    };
+    drawn(model, range, count, options)
 }
 
-/// Charts a range of speeds with a chosen detail.
+/// Charts a range of speeds with the detail and the callbacks of options.
 pub(super) fn drawn(
     model: &SpectralModel,
     range: (f64, f64),
     count: usize,
-    detail: Detail,
-    progress: Progress<'_>,
+    options: AnalysisOptions<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
     let (samples, instabilities, certificate) = match model.is_conservative() {
-        true => undamped::charted(model, range, count, detail, progress)?,
-        false => damped::charted(model, range, count, detail, progress)?,
+        true => undamped::charted(model, range, count, options)?,
+        false => damped::charted(model, range, count, options)?,
     };
     Ok(StabilityChart {
         campbell: Campbell::track(samples, model.complete_to_rad_per_s),

@@ -35,6 +35,7 @@ mod material_damping_tests;
 mod maximum;
 mod mode_counts;
 mod onsets;
+mod options;
 mod out_of_reach;
 mod pair_continuation;
 mod partition;
@@ -49,8 +50,8 @@ mod tradeoff;
 mod undamped;
 mod verdict;
 
+pub use analysis::Analysis;
 pub(crate) use analysis::OPERATING_LIMIT;
-pub use analysis::{Analysis, AnalysisOptions};
 pub(crate) use band::CurvePoint;
 pub use band::{Instability, InstabilityKind};
 pub use basis::ChosenBasis;
@@ -74,6 +75,7 @@ pub(crate) use mode_counts::Miscount;
 pub use onsets::Onsets;
 #[doc(hidden)]
 pub use onsets::search_bands;
+pub use options::{AnalysisOptions, Interim};
 pub use out_of_reach::OutOfReach;
 pub(crate) use root::{Look, bracketed};
 pub use sensitivity::{Sensitivity, SensitivityError};

@@ -6,8 +6,9 @@ use super::certified::{Depth, bands, contradictions};
 use super::detail::Detail;
 use super::error::AnalysisError;
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP};
+use super::options::{AnalysisOptions, Interim};
 use super::signature::Signature;
-use crate::campbell::{self, Closeness, Progress, SpeedSample};
+use crate::campbell::{self, Closeness, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError, clear_range, searched_range};
 
 /// Number of even speeds at the start of the search for bands; the bands do not depend on it.
@@ -21,9 +22,11 @@ pub(super) fn charted(
     model: &SpectralModel,
     range: (f64, f64),
     count: usize,
-    detail: Detail,
-    progress: Progress<'_>,
+    options: AnalysisOptions<'_>,
 ) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
+    let AnalysisOptions {
+        detail, progress, ..
+    } = options;
     let drawn = clear_range(&model.critical, range);
     let even = campbell::even_speeds(drawn, count);
     let speeds = match detail {
@@ -42,11 +45,17 @@ pub(super) fn charted(
         Detail::Sketch => ([].as_slice(), Closeness::SKETCH, Depth::Counts),
     };
     campbell::check_room(model, &speeds)?;
-    let (samples, found) = rayon::join(
-        || campbell::sample(model, &speeds, progress),
-        || bands(model, range, &search, depth),
-    );
-    let (mut samples, (instabilities, mut certificate)) = (samples?, found?);
+    let searched = || {
+        let found = bands(model, range, &search, depth)?;
+        options.report(Interim {
+            critical: &model.critical,
+            range_rad_per_s: range,
+            bands: Some(&found.0),
+        });
+        Ok::<_, SpectrumError>(found)
+    };
+    let (found, samples) = rayon::join(searched, || campbell::sample(model, &speeds, progress));
+    let ((instabilities, mut certificate), mut samples) = (found?, samples?);
     let room = campbell::room_for_more(model, &samples);
     let between = inside(&instabilities, &samples, (within_bands, room), range);
     samples.extend(campbell::sample(model, &between, &|_, _| ())?);

@@ -74,10 +74,15 @@ pub fn answer(report: &Report) -> Vec<String> {
     lines
 }
 
+/// The answer for an operating speed, with its question.
+pub fn headline(operating: &OperatingEntry) -> String {
+    let answer = Answer::new(operating).in_words();
+    format!("Can it run at {:.0} rpm? {answer}", operating.rpm)
+}
+
 fn at_operating_speed(report: &Report, operating: &OperatingEntry) -> Vec<String> {
     let answer = Answer::new(operating);
-    let asked = format!("Can it run at {:.0} rpm?", operating.rpm);
-    let mut lines = vec![format!("{asked} {}", answer.in_words())];
+    let mut lines = vec![headline(operating)];
     let around = operating.inside_instability;
     let band = around.and_then(|index| report.instabilities.get(index));
     lines.extend(band.map(inside));

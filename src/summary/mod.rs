@@ -28,6 +28,8 @@ use std::fmt::Write;
 #[cfg(any(feature = "cli", feature = "page"))]
 pub use self::answer::Answer;
 pub use self::answer::answer;
+#[cfg(feature = "page")]
+pub use self::answer::headline;
 use crate::report::{
     CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
     PlaceReport, Report, ResponseReport, RunUpReport, WashboardReport,

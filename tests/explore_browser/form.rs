@@ -351,8 +351,10 @@ const REFUSED: &str = "
         asked.add(key);
         const abort = new AbortController();
         const answer = await fetch(path, { method: 'POST', body, signal: abort.signal });
-        // A task that reports its progress was not refused.
-        const [line] = new TextDecoder().decode((await answer.body.getReader().read()).value).split('\\n');
+        // A task that reports its progress was not refused; a chart may be refused after its first results.
+        const first = async () => new TextDecoder().decode((await answer.body.getReader().read()).value);
+        const lines = (await (path.startsWith('chart') ? answer.text() : first())).trim().split('\\n');
+        const line = path.startsWith('chart') ? lines.at(-1) : lines[0];
         if (answer.status !== 200 || line.startsWith('{\"refusal')) refused.push(`${words}: ${line}`);
         abort.abort();
     };

@@ -20,7 +20,6 @@ impl Page {
             "waiting",
             "computing",
             "sending",
-            "reading",
             "drawing",
             "painting",
         ] {
@@ -50,7 +49,8 @@ fn a_chart_is_drawn_once_and_in_few_strokes() {
             let page = Page::open(&[path.to_str().unwrap(), "--accuracy", "draft"]).await;
             page.settle().await;
             page.script(COUNT).await;
-            let charts = "sawflutter.computed.length";
+            // Critical speeds and bands are drawn before their chart.
+            let charts = "sawflutter.computed.length + sawflutter.ahead";
             let before = page.value(charts).await.as_u64().unwrap();
             page.enter("blade.thickness_m", "3").await;
             page.settle().await;
@@ -61,7 +61,7 @@ fn a_chart_is_drawn_once_and_in_few_strokes() {
             assert_eq!(count("clearRect"), 2 * charts, "{scene}: {drawn}");
             assert!(count("stroke") < 400 * charts, "{scene}: {drawn}");
             assert!(count("lineTo") < 4000 * charts, "{scene}: {drawn}");
-            println!("{scene}: {drawn} in {charts} charts");
+            println!("{scene}: {drawn} for {charts} charts and early results");
             page.close().await;
         }
     });
@@ -97,13 +97,17 @@ fn answers_come_during_a_drag_and_none_is_computed_in_vain() {
             .await;
         let released = page.value("sawflutter.latencies.release").await;
         let critical = page.value("sawflutter.latencies.critical").await;
+        let bands = page.value("sawflutter.latencies.bands").await;
         assert!(!critical.as_array().unwrap().is_empty());
+        assert!(!bands.as_array().unwrap().is_empty());
         println!(
-            "pointer move to painted critical speeds: median {:.0} ms, 95th percentile {:.0} ms; to painted chart at draft: median {:.0} ms, 95th percentile {:.0} ms \
+            "pointer move to painted critical speeds: median {:.0} ms, 95th percentile {:.0} ms; to painted bands and verdict: median {:.0} ms, 95th percentile {:.0} ms; to painted chart at draft: median {:.0} ms, 95th percentile {:.0} ms \
              ({} moves, {} charts of {:.0} ms median); release to painted chart at design \
              accuracy: median {:.0} ms of {}; parts of a move, median / 95th percentile: {}; load {}",
             percentile(&critical, 0.5),
             percentile(&critical, 0.95),
+            percentile(&bands, 0.5),
+            percentile(&bands, 0.95),
             percentile(&times, 0.5),
             percentile(&times, 0.95),
             times.as_array().unwrap().len(),
@@ -179,7 +183,7 @@ const GIVE_UP: &str = "
         await pause(after);
         const begun = performance.now();
         abort.abort();
-        await fetch('chart/scene', { method: 'POST', body: '{}' });
+        await (await fetch('chart/scene', { method: 'POST', body: '{}' })).text();
         const waited = performance.now() - begun;
         for (;;) {
             const { stopped, finished } = await jobs();

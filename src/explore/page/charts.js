@@ -23,7 +23,7 @@ export class Charts {
   // The point that is looked at, on the chart as it is now: a branch and the number of a speed.
   pointed = null;
   #zoom = null;
-  // The lines of the critical speeds of a saw whose chart is still being computed.
+  // Items of a saw whose chart is still being computed, by kind: critical speeds, and bands or null.
   #ahead = null;
   // The axes while a hand moves something.
   #held = null;
@@ -84,15 +84,18 @@ export class Charts {
     this.redraw();
   }
 
-  // Moves the lines of the critical speeds before the chart is known.
-  moveCritical(uprights) {
-    this.#ahead = uprights.map((upright) => ({ ...upright, item: "upright" }));
+  // Moves the lines of the critical speeds, and the bands if they are known, before the chart is complete.
+  moveAhead({ critical, bands }) {
+    this.#ahead = { critical, bands };
     this.redraw();
   }
 
   #items(number) {
     const { items } = this.#chart.figure.panels[number];
-    return this.#ahead ? [...items.filter(({ role }) => role !== "critical"), ...this.#ahead] : items;
+    if (!this.#ahead) return items;
+    const { critical, bands } = this.#ahead;
+    const isReplaced = ({ item, role }) => role === "critical" || (bands && item === "band");
+    return [...(bands ?? []), ...items.filter((item) => !isReplaced(item)), ...critical];
   }
 
   get report() {

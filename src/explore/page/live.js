@@ -1,13 +1,17 @@
-// Charts of a scene that keeps changing. The server computes one at a time: sketches that were
-// passed while it computed are never asked for; a final chart, and any change after one was asked
-// for, aborts what runs, and the server stops computing it. Critical speeds are known long before a
-// sketch: those of the newest scene are asked for beside it.
+// Charts of a scene that keeps changing. The server computes one chart at a time. Drafts of scenes that were replaced
+// while it computed are never requested. A final chart, and any change after one was requested, aborts the chart that
+// is being computed. Critical speeds, and then bands with the verdict, arrive before their chart. If a draft takes long,
+// the critical speeds of the newest scene are requested separately.
 
 import { chart, criticalSpeeds } from "./talk.js";
 
-// A hand that rests so long while it holds something is shown the chart at its own accuracy: after
-// the release nothing is left to compute.
+// If the pointer does not move for this time during a drag, the chart is computed at the accuracy of the scene, so that
+// nothing is left to compute after the release.
 const REST_MS = 150;
+
+// Time budget of a draft. While a draft within it is computed, a second computation would delay it by more than it
+// gains; a longer one leaves the newest scene without any result.
+const BUDGET_MS = 200;
 
 export class Live {
   #count = 0;
@@ -16,13 +20,13 @@ export class Live {
   // The newest that was shown.
   #shown = null;
   #rest = 0;
-  // The newest sketch whose critical speeds were not asked for yet.
+  // The newest results before their chart.
   #ahead = null;
-  #isAhead = false;
+  #isLookingAhead = false;
 
-  constructor({ onChart, onCritical, onRefused, onBusy }) {
+  constructor({ onChart, onAhead, onRefused, onBusy }) {
     this.onChart = onChart;
-    this.onCritical = onCritical;
+    this.onAhead = onAhead;
     this.onRefused = onRefused;
     this.onBusy = onBusy;
   }
@@ -40,7 +44,7 @@ export class Live {
   // Nothing is computed until it is asked for again.
   stop() {
     clearTimeout(this.#rest);
-    this.#next = this.#ahead = null;
+    this.#next = null;
     const running = this.#computing;
     if (!running) return;
     running.abort.abort();
@@ -52,11 +56,10 @@ export class Live {
     clearTimeout(this.#rest);
     const text = JSON.stringify(scene);
     // Every move waits for the chart that has it in, also those that were passed.
-    const stamps = this.#next?.stamps ?? [];
+    const { stamps = [], counted = {} } = this.#next ?? {};
     if (stamp !== undefined) stamps.push(stamp);
     if (!draft && this.#adopted(text, stamps, released)) return;
-    this.#next = { text, draft, stamps, released, number: ++this.#count };
-    this.#ahead = draft ? { text, number: this.#count, stamps: [...(this.#ahead?.stamps ?? []), ...(stamp === undefined ? [] : [stamp])] } : null;
+    this.#next = { text, draft, stamps, counted, released, number: ++this.#count };
     const running = this.#computing;
     if (running && (!draft || !running.draft)) {
       stamps.unshift(...running.stamps);
@@ -64,22 +67,32 @@ export class Live {
       this.#computing = null;
     }
     if (!this.#computing) this.#run(this.#next);
-    this.#lookAhead();
+    else this.#lookAhead();
   }
 
-  // One request at a time, each for the newest scene.
+  // Requests the critical speeds of the newest scene while a draft exceeds its budget, one request at a time.
   async #lookAhead() {
-    if (this.#isAhead) return;
-    this.#isAhead = true;
-    while (this.#ahead) {
-      const asked = this.#ahead;
-      this.#ahead = null;
-      // What is refused, the chart says.
-      const found = await criticalSpeeds(asked.text).catch(() => null);
-      const isPassed = asked.number <= (this.#shown?.request.number ?? 0);
-      if (found) this.onCritical(found, { ...asked, isPassed });
+    if (this.#isLookingAhead) return;
+    this.#isLookingAhead = true;
+    let last = null;
+    while (this.#next?.draft && this.#next !== last) {
+      const left = this.#computing.asked + BUDGET_MS - performance.now();
+      if (left > 0) await new Promise((resolve) => setTimeout(resolve, left));
+      if (left > 0) continue;
+      last = this.#next;
+      // The chart reports a refusal.
+      const found = await criticalSpeeds(last.text).catch(() => null);
+      if (found) this.#showAhead(found, last);
     }
-    this.#isAhead = false;
+    this.#isLookingAhead = false;
+  }
+
+  // Shows results before their chart, unless those of a newer scene are shown.
+  #showAhead(found, request) {
+    const newest = Math.max(this.#ahead?.request.number ?? 0, this.#shown?.request.number ?? 0);
+    if (request.number < newest) return;
+    this.#ahead = { found, request };
+    this.onAhead(found, request);
   }
 
   // Asks for the final chart anew, also where it is shown.
@@ -111,11 +124,10 @@ export class Live {
     this.onBusy(true, request.draft);
     let found;
     try {
-      const answer = await chart(request.text, request.draft, request.abort.signal);
+      found = await chart(request.text, request.draft, request.abort.signal, (ahead) => this.#showAhead(ahead, request));
       request.answered = performance.now();
-      // The server is free: it computes the next one while this one is read and drawn.
+      // The server computes the next chart while this one is drawn.
       this.#proceed(request);
-      found = await answer.json();
     } catch (error) {
       this.#proceed(request);
       if (!request.abort.signal.aborted) this.onRefused(error, request);
@@ -137,6 +149,8 @@ export class Live {
     if (passed) return;
     this.#shown = { chart: found, request };
     this.onChart(found, request);
+    const ahead = this.#ahead;
+    if (ahead && ahead.request.number > request.number) this.onAhead(ahead.found, ahead.request);
     if (!request.draft || this.#computing) return;
     this.#rest = setTimeout(() => this.#run({ ...request, draft: false, stamps: [], number: ++this.#count }), REST_MS);
   }

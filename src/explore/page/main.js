@@ -15,7 +15,7 @@ import { Pointed } from "./pointed.js";
 import { SceneState } from "./scene.js";
 import { Refused, influence, progress, start, stayConnected } from "./talk.js";
 import { Tasks } from "./tasks.js";
-import { facts, tables, verdict } from "./verdict.js";
+import { facts, headline, tables, verdict } from "./verdict.js";
 import { dock } from "./dock.js";
 import { write } from "./dom.js";
 import { Waiting } from "./waiting.js";
@@ -35,7 +35,7 @@ const kept = new Kept(begun.scene);
 // For the test in a browser: times from a move, or from the release, to its painted chart, the parts of
 // those of drafts, and what is shown.
 /** @type {any} */
-const seen = (/** @type {any} */ (window).sawflutter = { latencies: { critical: [], draft: [], scene: [], release: [] }, computed: [], parts: [], painted: null, newest: null });
+const seen = (/** @type {any} */ (window).sawflutter = { latencies: { critical: [], bands: [], draft: [], scene: [], release: [] }, ahead: 0, computed: [], parts: [], painted: null, newest: null });
 
 const state = new SceneState(begun.scene, (scene, { draft, structure, stamp, released }) => {
   live.ask(scene, { draft, stamp, released });
@@ -71,7 +71,7 @@ const tasks = new Tasks(by("tabs"), by("panels"), by("panel-chart"), state, begu
   inWords: (refusal) => form.inWords(refusal),
   nameOf: (file) => files.nameOf(file),
 });
-const live = new Live({ onChart, onCritical, onRefused, onBusy });
+const live = new Live({ onChart, onAhead, onRefused, onBusy });
 const waiting = new Waiting(by("waiting"), { onStop, onAgain: () => live.again(state.scene), ask: progress });
 seen.state = state;
 // Whether the chart that is painted is that of the scene, at its own accuracy.
@@ -169,26 +169,33 @@ function onChart(chart, request) {
   });
 }
 
-// The critical speeds of the saw as it is, before its chart: their lines, and the numbers that follow from them.
-function onCritical({ uprights, facts: ahead }, { stamps, isPassed }) {
+// Shows the critical speeds of a scene, and the bands with the verdict once they are known, before its chart.
+function onAhead(found, request) {
   if (!latest) return;
-  if (!isPassed) {
-    charts.moveCritical(uprights);
-    const now = latest.told.facts.map((fact) => ({ ...(ahead.find(({ name }) => name === fact.name) ?? fact), isAhead: ahead.some(({ name }) => name === fact.name) }));
-    facts(by("facts"), now, pinned.facts);
-  }
+  seen.ahead += 1;
+  charts.moveAhead(found);
+  const now = latest.told.facts.map((fact) => {
+    const ahead = found.facts.find(({ name }) => name === fact.name);
+    return { ...(ahead ?? fact), isAhead: ahead !== undefined };
+  });
+  facts(by("facts"), now, pinned.facts);
+  if (found.verdict) headline(by("verdict"), found.verdict);
+  if (!request.draft) return;
+  const kind = found.bands ? "bands" : "critical";
+  // Moves of an earlier request for which these results were shown before are not counted again.
+  const counted = request.counted[kind] ?? 0;
+  request.counted[kind] = request.stamps.length;
   painted(() => {
     const now = performance.now();
-    seen.latencies.critical.push(...stamps.map((stamp) => now - stamp));
+    seen.latencies[kind].push(...request.stamps.slice(counted).map((stamp) => now - stamp));
   });
 }
 
 // Where the time from a move to its painted chart goes, in milliseconds: waiting for the chart that was
-// computed at the time of each move, computing, being sent and answered besides, and on the page.
+// computed at the time of each move, computing, being sent, and on the page.
 function partsOf({ stamps, asked, answered }, computing, read, drawn, now) {
   return {
-    waiting: stamps.map((stamp) => asked - stamp), computing, sending: answered - asked - computing,
-    reading: read - answered, drawing: drawn - read, painting: now - drawn,
+    waiting: stamps.map((stamp) => asked - stamp), computing, sending: answered - asked - computing, drawing: drawn - read, painting: now - drawn,
   };
 }
 
@@ -229,6 +236,7 @@ function say(text) {
 function onRefused(error, request) {
   const answers = error instanceof Refused;
   if (!answers && request.draft) return;
+  if (latest) compare();
   refusedKey = error.key ?? null;
   const told = form.refuse(error);
   say(told ? "" : answers ? error.message : "The program does not answer any more. Save the scene, start the program again and open it there.");
@@ -246,6 +254,8 @@ function onStop() {
   live.stop();
   files.stop();
   if (seen.settled()) return false;
+  // Early results of a chart that is not completed are removed.
+  if (latest) compare();
   say("Chart and verdict are of the scene before the last change.");
   document.body.classList.add("stale");
   return true;

@@ -34,11 +34,34 @@ export async function mode(shown, rpm, frequency_hz, signal) {
   return answer.json();
 }
 
-// The chart of a scene, as JSON text: sketched for one that is just being changed. The answer is
-// there as soon as the server has computed it, its body a little later.
-export const chart = (text, draft, signal) => post(draft ? "chart/draft" : "chart/scene", text, signal);
+// Reads an answer that consists of lines of JSON. Each line is passed to `onLine` on arrival; the last one is the
+// result or a refusal.
+async function lastLine(answer, isLast, onLine) {
+  const reader = answer.body.pipeThrough(new TextDecoderStream()).getReader();
+  let text = "";
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) throw new Error("the answer ended early");
+    text += value;
+    const lines = text.split("\n");
+    text = lines.pop();
+    for (const line of lines) {
+      const told = JSON.parse(line);
+      if (told.refusal) throw new Refused(told.refusal);
+      if (isLast(told)) return told;
+      onLine(told);
+    }
+  }
+}
 
-// The lines of the critical speeds of a scene, and the numbers that follow from them, before its chart.
+// Computes the chart of a scene, as a draft or at the accuracy of the scene. `onAhead` receives the critical speeds and
+// then the bands before the chart is complete.
+export async function chart(text, draft, signal, onAhead) {
+  const answer = await post(draft ? "chart/draft" : "chart/scene", text, signal);
+  return lastLine(answer, ({ chart }) => chart !== undefined, ({ ahead }) => onAhead(ahead));
+}
+
+// Computes the critical speeds of a scene alone, with the accuracy of a draft.
 export async function criticalSpeeds(text) {
   const answer = await post("critical", text);
   return answer.json();
@@ -88,23 +111,8 @@ export async function influence(shown, signal) {
 // A task: `onProgress({ what, done, of })` and `onFigures([[name, svg]])` as it goes on, then its answer.
 export async function task(name, asked, signal, { onProgress, onFigures }) {
   const answer = await post(`task/${name}`, JSON.stringify(asked), signal);
-  const reader = answer.body.pipeThrough(new TextDecoderStream()).getReader();
-  let text = "";
-  for (;;) {
-    const { done, value } = await reader.read();
-    if (done) break;
-    text += value;
-    const lines = text.split("\n");
-    text = lines.pop();
-    for (const line of lines) {
-      const told = JSON.parse(line);
-      if (told.refusal) throw new Refused(told.refusal);
-      if (told.summary !== undefined) return told;
-      if (told.so_far) onFigures(told.so_far);
-      else onProgress(told);
-    }
-  }
-  throw new Error("the answer ended early");
+  const onLine = (told) => (told.so_far ? onFigures(told.so_far) : onProgress(told));
+  return lastLine(answer, ({ summary }) => summary !== undefined, onLine);
 }
 
 // Says so often that the page is there.

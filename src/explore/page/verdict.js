@@ -12,6 +12,11 @@ export function verdict(place, { answer, lines }) {
     node("span", { className: "reasons" }, ...reasons.flatMap((reason) => [node("span", { textContent: reason }), " "])));
 }
 
+// The answer alone, before its reasons are known. The reasons of an equal answer stay.
+export function headline(place, { answer, lines }) {
+  if (place.querySelector("strong")?.textContent !== lines[0]) verdict(place, { answer, lines });
+}
+
 // The numbers that a change is judged by, against those of another saw.
 export function facts(place, now, before) {
   const told = ({ words, unit }) => `${words} ${unit}`.trimEnd();

@@ -16,10 +16,11 @@ use super::band::Instability;
 use super::certificate::Certificate;
 use super::detail::Detail;
 use super::error::AnalysisError;
+use super::options::{AnalysisOptions, Interim};
 use super::partition::Plane;
 use super::pieces::{Piece, Search};
 use super::undamped::with_critical_speeds;
-use crate::campbell::{self, Progress, SpeedSample};
+use crate::campbell::{self, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError, clear_range};
 use crate::tuned::Tuned;
 use counts::Counts;
@@ -38,14 +39,23 @@ pub(super) fn charted(
     model: &SpectralModel,
     range: (f64, f64),
     count: usize,
-    detail: Detail,
-    progress: Progress<'_>,
+    options: AnalysisOptions<'_>,
 ) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
     let drawn = clear_range(&model.critical, range);
     let speeds = with_critical_speeds(model, drawn, campbell::even_speeds(drawn, count));
-    let mut samples = campbell::sample(model, &speeds, progress)?;
-    let closeness = Closeness::of(detail);
-    let (instabilities, certificate) = bands(model, range, closeness)?;
+    let closeness = Closeness::of(options.detail);
+    let searched = || {
+        let found = bands(model, range, closeness)?;
+        options.report(Interim {
+            critical: &model.critical,
+            range_rad_per_s: range,
+            bands: Some(&found.0),
+        });
+        Ok::<_, AnalysisError>(found)
+    };
+    let sampled = || campbell::sample(model, &speeds, options.progress);
+    let (found, samples) = rayon::join(searched, sampled);
+    let ((instabilities, certificate), mut samples) = (found?, samples?);
     let drawn = instabilities.iter();
     let drawn = drawn.flat_map(|band| drawn_speeds(band, closeness.drawn));
     let mut drawn: Vec<f64> = drawn.collect();
