@@ -16,13 +16,7 @@ impl Page {
 
     async fn all_parts(&self) -> String {
         let mut told = Vec::new();
-        for name in [
-            "waiting",
-            "computing",
-            "sending",
-            "drawing",
-            "painting",
-        ] {
+        for name in ["waiting", "computing", "sending", "drawing", "painting"] {
             let times = self.parts(name).await;
             let [middle, most] = [0.5, 0.95].map(|share| percentile(&times, share));
             told.push(format!("{name} {middle:.1} / {most:.1} ms"));
