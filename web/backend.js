@@ -1,28 +1,29 @@
-// Where a page without a server asks: workers of this browser, in which the program runs as WebAssembly.
+// Answers the requests of the page without a server, by workers of this browser that run the program as WebAssembly.
 
-// Tasks take minutes, and depend on no chart: charts do not wait for them.
+// Tasks take minutes and do not depend on charts, so that they have a separate worker.
 const CHARTS = "charts";
 const TASKS = "tasks";
-// Critical speeds do not wait for a chart that takes long.
+// Critical speeds have a separate worker, because a chart may take long.
 const CRITICAL = "critical";
-// What takes no time waits for neither.
+// Requests that take no time have a separate worker, so that they do not wait for any of the others.
 const QUICK = "quick";
 const IS_QUICK = /^(start|read|measured|part)$/;
-// The charts of a worker that was ended are gone: later ones have other numbers.
+// The charts of a terminated worker are lost. The identifiers of the next worker start this much higher, so that none
+// is used twice.
 const NUMBERS = 1_000_000;
 
 const compiled = fetch("page/sawflutter.wasm").then((answer) => answer.arrayBuffer()).then((bytes) => WebAssembly.compile(bytes));
 
-// A worker, and the requests that wait for it.
+// A worker and the requests that wait for it.
 class Queue {
   #worker = null;
   #begun = 0;
   #waiting = [];
   #running = null;
-  // What the request that is answered is at.
+  // Progress of the running request, or null.
   stage = null;
 
-  // Answers one request after the other. One that is taken back is ended with its worker.
+  // Answers one request after the other. If the running request is aborted, its worker is terminated.
   ask(question, signal) {
     return new Promise((resolve, reject) => {
       const job = { question, resolve, reject, lines: null };
@@ -34,7 +35,7 @@ class Queue {
     });
   }
 
-  // The progress of a task, and early results of a chart, come before the answer.
+  // Answers with a stream, because the progress of a task and early results of a chart arrive before the result.
   #stream(job) {
     const start = (controller) => (job.lines = controller);
     job.resolve(new Response(new ReadableStream({ start })));
@@ -82,7 +83,7 @@ class Queue {
     if (!answer && failure === undefined) return;
     [this.#running, this.stage] = [null, null];
     if (failure !== undefined) {
-      // What has failed once is begun anew.
+      // After a failure, the next request gets a new worker.
       this.#end();
       this.#fail(job, new Error(failure));
     } else if (job.lines) {
@@ -113,5 +114,5 @@ export async function ask(path, options = undefined) {
   return queueOf(path).ask(question, signal);
 }
 
-// No server is there that would wait for the page.
+// There is no server that has to know when the page is closed.
 export const leave = () => true;

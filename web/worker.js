@@ -1,6 +1,6 @@
-// The program in a worker: one request, one answer.
+// Runs the program in a worker, which answers one request after the other.
 
-// A stage is shown ten times a second at most.
+// Shortest time between two messages about the stage.
 const PAUSE_MS = 100;
 
 let program = null;
@@ -20,7 +20,7 @@ const page = {
 };
 
 function begin(module, first) {
-  // A library that could draw on a canvas asks for more of a browser than this program uses.
+  // A library imports functions of the browser that this program does not call. They are replaced by one that throws.
   const unused = () => {
     throw new Error("the program has asked for what it does not use");
   };

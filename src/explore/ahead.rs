@@ -110,7 +110,7 @@ mod tests {
     use super::*;
     use crate::explore::charts::{Charts, Fidelity};
 
-    /// The items of a panel of a diagram that have a role, or are of a kind, without their names.
+    /// Items of the first panel of a diagram whose `key` has this value, without their names.
     fn drawn(chart: &Value, key: &str, value: &str) -> Vec<Value> {
         let items = chart["figure"]["panels"][0]["items"].as_array().unwrap();
         let items = items.iter().filter(|item| item[key] == value);
@@ -125,8 +125,8 @@ mod tests {
         items.collect()
     }
 
-    /// Critical speeds, bands, numbers and verdict that come before a diagram are those of the diagram, also
-    /// if the first critical speed lies beyond the sweep, and with damping.
+    /// Critical speeds, bands, numbers and verdict that come before a diagram equal those of the diagram, also if the
+    /// first critical speed is beyond the sweep, and with damping.
     #[test]
     fn results_before_a_diagram_are_its_own() {
         let paper = Scene::paper();

@@ -1,4 +1,4 @@
-//! Answers of tasks in few numbers, which the page shows in the units of the form.
+//! Main numbers of the results of tasks, which the page shows in the units of the form.
 
 use serde::Serialize;
 
@@ -9,14 +9,14 @@ use crate::report::{
 };
 use crate::scene::Quantity;
 
-/// A number of an answer.
+/// A main number of the result of a task.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TaskAnswer {
-    /// What it is.
+    /// Name of the quantity.
     name: String,
-    /// Path of a number of scenes with the same unit.
+    /// Path of a number of scenes that has the unit of this one.
     unit_of: &'static str,
-    /// In the unit of this path; null if there is none.
+    /// Value in the unit of this path; null if there is none.
     value: Option<f64>,
     /// The value before a search; null elsewhere.
     before: Option<f64>,
@@ -36,7 +36,7 @@ fn answer(name: impl Into<String>, unit_of: &'static str, value: Option<f64>) ->
     }
 }
 
-/// Largest deflections at each speed of a cut.
+/// Largest deflections at each speed of a cut, in it and after it.
 pub fn of_cut(report: &CutReport) -> Vec<TaskAnswer> {
     let runs = report.runs.iter().flat_map(|run| {
         let at = |what| format!("Deflection {what} the cut at {:.0} rpm", run.rpm);
@@ -48,7 +48,7 @@ pub fn of_cut(report: &CutReport) -> Vec<TaskAnswer> {
     runs.collect()
 }
 
-/// Largest deflection of a run-up, and where it first doubles.
+/// Largest deflection of a run-up and its speed, and the onset of the first band that more than doubles a motion.
 pub fn of_runup(report: &RunUpReport) -> Vec<TaskAnswer> {
     let deflections = report.rpm.iter().zip(&report.deflection_m);
     let largest = deflections.max_by(|x, y| x.1.abs().total_cmp(&y.1.abs()));
@@ -82,7 +82,8 @@ pub fn of_response(report: &ResponseReport) -> Vec<TaskAnswer> {
     largest.chain(board).collect()
 }
 
-/// Amplitude from which guides with a gap act, and the first critical speeds on both sides.
+/// Amplitude at which the first critical speed is half way between those without and with contact, and these two
+/// speeds.
 pub fn of_gap(report: &GapReport) -> Vec<TaskAnswer> {
     let critical = |at: &AtAmplitudeEntry| at.critical_rpm.first().copied();
     vec![
@@ -104,7 +105,7 @@ pub fn of_gap(report: &GapReport) -> Vec<TaskAnswer> {
     ]
 }
 
-/// The numbers that were fitted, and the remaining deviation.
+/// Fitted numbers, and the remaining deviation from the measured frequencies.
 pub fn of_fit(report: &FitReport) -> Vec<TaskAnswer> {
     let found = report.parameters.iter();
     let found = found.filter_map(|found| number(&found.path, found.start, found.value));
@@ -115,7 +116,7 @@ pub fn of_fit(report: &FitReport) -> Vec<TaskAnswer> {
     found.chain([rms]).collect()
 }
 
-/// The numbers that were placed, and the speeds of the saw.
+/// Placed numbers, and the flutter speed and first critical speed of the saw.
 pub fn of_place(report: &PlaceReport) -> Vec<TaskAnswer> {
     let found = report.parameters.iter();
     let found = found.filter_map(|found| number(&found.path, found.start, found.value));
@@ -138,7 +139,7 @@ pub fn of_place(report: &PlaceReport) -> Vec<TaskAnswer> {
     found.chain(speeds).collect()
 }
 
-/// A number of the scene, by its path.
+/// A number of the scene before and after a search; `None` if the path is not that of a number.
 fn number(path: &str, before: f64, value: f64) -> Option<TaskAnswer> {
     let quantity = Quantity::of(path)?;
     Some(TaskAnswer {

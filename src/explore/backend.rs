@@ -1,4 +1,4 @@
-//! What the page asks for, answered without a server: one request, one answer.
+//! Answers to the requests of the page, for a server or a worker of the browser.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,17 +15,17 @@ use crate::fit::Measurement;
 use crate::scene::Scene;
 use crate::spectrum::Stage;
 
-/// Milliseconds since some beginning.
+/// Clock that returns milliseconds since an arbitrary time.
 pub type Clock = fn() -> f64;
 
 /// A request of the page.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Question {
-    /// What is asked for: `start`, `chart/draft`, `chart/scene`, `critical`, `mode`, `influence`, `save/NAME`, `task/NAME`,
-    /// `read`, `measured` or `part`.
+    /// Kind of the request: `start`, `chart/draft`, `chart/scene`, `critical`, `mode`, `influence`, `save/NAME`,
+    /// `task/NAME`, `read`, `measured` or `part`.
     pub path: String,
-    /// Name of the page.
+    /// Name of the page, under which its diagrams are kept.
     #[serde(default)]
     pub page: String,
     /// Identifier of the diagram that the page shows, if any.
@@ -34,24 +34,24 @@ pub struct Question {
     /// Units of the form, for messages.
     #[serde(default)]
     pub units: Units,
-    /// The content of the request.
+    /// Content of the request, which depends on its kind: text, or JSON.
     #[serde(default)]
     pub body: String,
 }
 
-/// An answer, by the status and media type of HTTP.
+/// An answer with the status and media type of HTTP.
 #[derive(Debug, Clone)]
 pub struct Answer {
-    /// 200; 422 with a refusal; 400, 404 or 500.
+    /// HTTP status: 200; 422 with a refusal; 400, 404 or 500 without content.
     pub status: u16,
     /// Media type of the content.
     pub media_type: &'static str,
-    /// The content.
+    /// Content of the answer in this media type.
     pub content: Vec<u8>,
 }
 
 const JSON: &str = "application/json";
-/// JSON line by line.
+/// Media type of JSON line by line.
 pub(super) const LINES: &str = "application/x-ndjson";
 const OK: u16 = 200;
 const BAD_REQUEST: u16 = 400;
@@ -72,7 +72,7 @@ impl Answer {
         Self::with_status(OK, value)
     }
 
-    /// A refusal.
+    /// An answer with a refusal.
     #[cfg(feature = "explore")]
     pub(super) fn refused(refusal: &Refusal) -> Self {
         Self::with_status(REFUSED, refusal)
@@ -90,7 +90,7 @@ impl Answer {
     }
 }
 
-/// A table of measured frequencies.
+/// A request for the `measured` block of a table.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Table {
@@ -98,16 +98,16 @@ struct Table {
     table: String,
 }
 
-/// Answers requests, and keeps the diagrams that later ones are about.
+/// Answers requests, and keeps the latest diagrams for later requests about them.
 pub struct Backend {
     start: Start,
     clock: Clock,
-    /// The diagrams.
+    /// The diagrams that are kept.
     pub(super) charts: Charts,
 }
 
 impl Backend {
-    /// A backend whose page begins with a scene.
+    /// Creates a backend whose page starts with this scene.
     pub fn new(scene: &Scene, clock: Clock) -> Self {
         Backend {
             start: Start::new(scene),
@@ -116,27 +116,26 @@ impl Backend {
         }
     }
 
-    /// Calls a function with every stage of diagrams that are computed.
+    /// Calls `tell` with every stage of the diagrams that are being computed.
     pub fn on_stage(mut self, tell: impl Fn(Stage) + Send + Sync + 'static) -> Self {
         self.charts.under_way.on_stage(tell);
         self
     }
 
-    /// Tells the page of a file that it can save to.
+    /// Adds the file that the page can save to, if any, to its initial data.
     #[cfg(feature = "explore")]
     pub(super) fn with_file(mut self, note: Option<FileNote>) -> Self {
         self.start.file = note;
         self
     }
 
-    /// Numbers diagrams from another number than 1 on, if an earlier backend has used the others.
+    /// Numbers diagrams from `number` instead of 1, so that no identifier of an earlier backend is used again.
     pub fn numbered_from(self, number: usize) -> Self {
         self.charts.number_from(number);
         self
     }
 
-    /// The answer to a request; `tell` is called with the progress of a task and with early results of a
-    /// diagram, line by line.
+    /// Answers a request. `tell` receives the progress of a task and the early results of a diagram as lines of JSON.
     pub fn answer(&self, asked: &Question, tell: impl Fn(String) + Send + Sync) -> Answer {
         self.found(asked, tell).unwrap_or_else(|refusal| {
             Answer::with_status(REFUSED, &refusal.in_field(&asked.body, asked.units))
@@ -202,7 +201,7 @@ fn last_line(asked: &Question, result: Result<String, Refusal>) -> Answer {
     }
 }
 
-/// A table of measured frequencies as a block of a scene, read as `sawflutter fit` does.
+/// Reads a table of measured frequencies as `sawflutter fit` does; returns the block of a scene.
 fn measured(body: &str) -> Result<crate::scene::Measured, Refusal> {
     let Table { name, table } = serde_json::from_str(body).map_err(|error| Refusal::of(&error))?;
     let measurement = Measurement::from_csv(&name, &table);

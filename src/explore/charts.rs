@@ -28,7 +28,7 @@ pub enum Fidelity {
 }
 
 impl Fidelity {
-    /// The accuracy with a name.
+    /// Returns the accuracy with this name: `draft` or `scene`.
     pub fn named(name: &str) -> Option<Self> {
         Some(match name {
             "draft" => Fidelity::Draft,
@@ -38,11 +38,11 @@ impl Fidelity {
     }
 }
 
-/// Tolerance of critical speeds and frequencies at rest: errors are smaller than the width of the lines, and
-/// half of it would take twice the time.
+/// Relative tolerance of critical speeds and frequencies at rest. Errors are smaller than the width of the lines; half
+/// the tolerance would take twice the time.
 const DRAFT_TOLERANCE: f64 = 2e-2;
 
-/// A scene with the accuracy of a draft.
+/// Returns the scene with the accuracy of a draft.
 ///
 /// # Errors
 /// [`SceneError`] if the scene is refused.
@@ -54,16 +54,16 @@ pub fn drafted(scene: &Scene) -> Result<Scene, SceneError> {
 
 #[derive(Serialize)]
 struct Chart<'a> {
-    /// Identifier of the diagram for requests of modes.
+    /// Identifier of the diagram for later requests about it.
     chart: usize,
     milliseconds: f64,
     told: Told,
-    /// The drawing.
+    /// Axes and items of the drawing.
     figure: ChartData,
     report: &'a Report,
 }
 
-/// The latest diagrams of every page, for requests of modes.
+/// The latest diagrams of every page, for later requests about them.
 pub struct Charts {
     clock: Clock,
     kept: Mutex<Kept>,
@@ -82,18 +82,18 @@ struct KeptChart {
     name: usize,
     page: String,
     analysis: Arc<Analysis>,
-    /// Report with the accuracy of the scene, for files. Later requests of the analysis count as separate
-    /// work.
+    /// Report for files; `None` for a draft. It is made at once, because its count of eigenproblems would include those
+    /// of later requests.
     report: Option<Arc<Report>>,
 }
 
-/// Number kept for one page: the visible diagram and those that replace it.
+/// Number of diagrams kept for one page: the visible diagram and those that replace it.
 const OF_A_PAGE: usize = 3;
-/// Number kept for all pages; each takes some megabytes.
+/// Number of diagrams kept for all pages; each takes some megabytes of memory.
 const OF_ALL: usize = 48;
 
 impl Charts {
-    /// No diagrams yet.
+    /// Creates an empty collection.
     pub fn new(clock: Clock) -> Self {
         Charts {
             clock,
@@ -102,13 +102,13 @@ impl Charts {
         }
     }
 
-    /// Begins with another identifier than 1.
+    /// Numbers the next diagram `number`.
     pub fn number_from(&self, number: usize) {
         self.kept().made = number.saturating_sub(1);
     }
 
-    /// Computes a diagram for a page and keeps it for requests of modes; returns JSON. `tell` receives earlier
-    /// results, as JSON too.
+    /// Computes a diagram for a page and keeps it for later requests; returns JSON. `tell` receives early results as
+    /// JSON.
     ///
     /// # Errors
     /// [`Refusal`] if the scene is refused or the computation fails or is cancelled.
@@ -215,7 +215,7 @@ impl Charts {
         self.kept().latest.retain(|chart| chart.page != page);
     }
 
-    /// The diagram with an identifier, if it is kept.
+    /// Returns the analysis of a diagram; `None` if it is no longer kept.
     pub fn named(&self, name: usize) -> Option<Arc<Analysis>> {
         self.find(name, |kept| kept.analysis.clone())
     }
@@ -226,8 +226,8 @@ impl Charts {
     }
 }
 
-/// Removes what the page does not show, which is most of the data: shapes at rest, and texts for points of
-/// the branches.
+/// Removes values that the page does not use, which are most of the report: shapes at rest, and the values at points of
+/// branches other than speed and frequency.
 fn leave_out_what_is_not_shown(report: &mut Report) {
     let at_rest = report.modes_at_rest.iter_mut();
     at_rest.for_each(|mode| mode.shape.clear());

@@ -33,7 +33,7 @@ const SCENES: &[&str] = &[
     include_str!("../../scenes/gallery/weak-pad.json"),
 ];
 
-/// All examples, in the order of the menu.
+/// Returns all examples in the order of the menu.
 pub fn examples() -> Vec<SceneFile> {
     let scenes = SCENES.iter().filter_map(|text| Scene::from_json(text).ok());
     scenes.map(|scene| scene.file().clone()).collect()

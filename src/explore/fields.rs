@@ -67,7 +67,7 @@ const UNITS: [(&str, &str, &str, f64); 21] = [
     ("m/s", "_m_per_s", "m/s", 1.0),
     ("Hz", "_hz", "Hz", 1.0),
 ];
-/// Keys whose names are not their first words.
+/// Keys whose labels are not the keys without their units: name, unit of the field, and the factor to it.
 const NAMED: [(&str, &str, &str, f64); 2] = [
     ("youngs_modulus_pa", "Young's modulus", "GPa", 1e-9),
     ("rpm", "speed", "rpm", 1.0),
@@ -81,18 +81,18 @@ const COUNTS: [&str; 5] = [
     "teeth_in_cut",
     "diameters",
 ];
-/// What is typed returns as typed, in any unit.
+/// With this many digits, a typed number is shown as typed after its unit was converted.
 const DIGITS: u32 = 12;
-/// A metric length has no last digit in inches.
+/// A round length in millimetres is not a round number of inches.
 const INCH_DIGITS: u32 = 6;
 
 impl Field {
-    /// All numbers of scenes, in the order of the schema.
+    /// Returns the fields of all numbers of scenes in the order of the schema.
     pub fn all() -> Vec<Self> {
         QUANTITIES.iter().map(Field::new).collect()
     }
 
-    /// The field of a path such as `guides[0].radius_m`.
+    /// Returns the field of a path such as `guides[0].radius_m`; `None` if it is not that of a number.
     pub fn of(path: &str) -> Option<Self> {
         Quantity::of(path).map(Field::new)
     }
@@ -135,7 +135,7 @@ impl Field {
         }
     }
 
-    /// The unit of the field.
+    /// Returns the unit in which the field is shown.
     pub fn unit(&self, units: Units) -> FieldUnit {
         match units {
             Units::Metric => self.metric,
@@ -153,7 +153,7 @@ mod tests {
     use super::*;
     use crate::scene::json_schema;
 
-    /// Every unit of a key is left out of its label, and converts by the factors of the SI.
+    /// No label contains the unit of its key, and the units convert by the factors of the SI.
     #[test]
     fn a_label_is_a_key_without_its_unit() {
         for field in Field::all() {

@@ -12,15 +12,15 @@ pub struct OwnHosts {
 }
 
 impl OwnHosts {
-    /// The host names with a port.
+    /// Creates the host names with this port.
     pub fn new(port: u16) -> Self {
         OwnHosts {
             hosts: ["127.0.0.1", "localhost"].map(|name| format!("{name}:{port}")),
         }
     }
 
-    /// Reason for which a request is refused. A foreign page may have a host name that points to this
-    /// computer, which shows in `Host`; or it may send a request here, which shows in `Origin`.
+    /// Returns the reason for which a request is refused, if any. A foreign page may have a host name that points to
+    /// this computer, which is visible in `Host`; or it may send a request here, which is visible in `Origin`.
     pub fn refusal(&self, headers: &HeaderMap) -> Option<String> {
         let own = |host: &str| self.hosts.iter().any(|own| own == host);
         let host = text(headers, header::HOST);

@@ -15,7 +15,7 @@ pub struct Influence {
     words: String,
 }
 
-/// Influences on the first critical speed and the flutter speed.
+/// Returns the influences on the first critical speed and the flutter speed.
 pub fn influences(entries: &[SensitivityEntry], report: &Report) -> Vec<Influence> {
     let critical = report.critical_speeds.first().map(|critical| critical.rpm);
     let flutter = report.flutter_speed_rpm;

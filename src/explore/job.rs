@@ -1,4 +1,4 @@
-//! Queue of computations: one at a time, and none whose result is no longer wanted.
+//! Queue of computations, which run one at a time and are cancelled if their request is closed.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -33,7 +33,8 @@ struct Count {
 /// Cancels a computation when its future is dropped.
 struct CancelOnDrop {
     stop: Cancellation,
-    /// A completed diagram keeps its flag, which later computations use.
+    /// Whether the computation is completed. Its flag is then not set, because the diagram keeps it for later
+    /// computations.
     done: bool,
 }
 
@@ -46,9 +47,9 @@ impl Drop for CancelOnDrop {
 }
 
 impl Jobs {
-    /// Runs a computation when its turn comes. Dropping the future, which the server does when the browser
-    /// closes the request, removes it from the queue or cancels it. The next one starts at once, while a
-    /// cancelled one ends.
+    /// Runs a computation when its turn comes. Dropping the future, which the server does when the browser closes the
+    /// request, removes the computation from the queue or cancels it. The next computation starts at once, without
+    /// waiting for the end of a cancelled one.
     ///
     /// `None` if the program is ending.
     pub async fn run<T: Send + 'static>(
@@ -97,8 +98,7 @@ mod tests {
         builder.enable_all().build().unwrap()
     }
 
-    /// An endless computation ends when its future is dropped, and the next one starts without waiting for
-    /// this.
+    /// An endless computation ends when its future is dropped, and the next one starts without waiting for this end.
     #[test]
     fn what_nobody_waits_for_is_stopped_and_holds_up_nothing() {
         let jobs = Jobs::default();

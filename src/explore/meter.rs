@@ -5,9 +5,9 @@ use std::sync::Mutex;
 use super::backend::Clock;
 use crate::figure::Figure;
 
-/// Interval between progress messages.
+/// Shortest interval between progress messages.
 const PAUSE_MS: f64 = 100.0;
-/// Interval between intermediate figures, each of which is drawn anew.
+/// Shortest interval between intermediate figures. It is longer, because each figure has to be drawn.
 const FIGURE_PAUSE_MS: f64 = 400.0;
 
 /// Sends the progress of a task.
@@ -19,7 +19,7 @@ pub struct Meter<'a> {
 }
 
 impl<'a> Meter<'a> {
-    /// Sends progress line by line.
+    /// Creates a meter that sends lines of JSON to `tell`.
     pub fn new(tell: &'a (dyn Fn(String) + Send + Sync), clock: Clock) -> Self {
         Meter {
             tell,
@@ -29,7 +29,7 @@ impl<'a> Meter<'a> {
         }
     }
 
-    /// Whether the interval has passed; if so, it starts again.
+    /// Returns whether the interval has passed. If so, it starts again.
     fn is_due(&self, last: &Mutex<Option<f64>>, pause_ms: f64) -> bool {
         let mut last = last.lock().unwrap_or_else(|e| e.into_inner());
         let now = (self.clock)();
@@ -40,14 +40,14 @@ impl<'a> Meter<'a> {
         is_due
     }
 
-    /// Sends the number of finished items of a kind.
+    /// Sends the number of finished items of a kind, unless the interval has not passed.
     pub fn show(&self, what: &str, done: usize, of: usize) {
         if self.is_due(&self.told, PAUSE_MS) {
             self.send(serde_json::json!({ "what": what, "done": done, "of": of }));
         }
     }
 
-    /// Sends an intermediate figure, unless it cannot be drawn yet.
+    /// Sends an intermediate figure, unless the interval has not passed or the figure cannot be drawn yet.
     pub fn draw(&self, figure: impl FnOnce() -> Option<Figure>) {
         if !self.is_due(&self.drawn, FIGURE_PAUSE_MS) {
             return;

@@ -11,19 +11,19 @@ use crate::scene::rpm;
 use crate::spectrum::DescribedMode;
 use crate::stability::Analysis;
 
-/// A request of a mode.
+/// A request for a mode.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Asked {
     /// Identifier of the diagram.
     chart: usize,
-    /// Speed of a point of a branch.
+    /// Rotation speed at a point of a branch.
     rpm: f64,
-    /// Frequency there, in space.
+    /// Frequency in space at this point.
     frequency_hz: f64,
 }
 
-/// The requested mode.
+/// Returns the requested mode.
 ///
 /// # Errors
 /// [`Refusal`] if the request cannot be read, or the diagram is no longer kept.
@@ -37,7 +37,8 @@ pub fn answer(charts: &Charts, asked: &str) -> Result<ModeEntry, Refusal> {
     Ok(ModeEntry::new(&analysis.model.plate, speed, mode))
 }
 
-/// The mode nearest to a frequency, at the speed nearest to that of the request.
+/// Finds the mode nearest to the requested frequency at the sampled speed nearest to the requested one; returns this
+/// speed in rad/s and the mode.
 fn nearest<'a>(analysis: &'a Analysis, asked: &Asked) -> Option<(f64, &'a DescribedMode)> {
     let samples = analysis.chart.campbell.samples.iter();
     let off = |value: f64, wanted: f64| (value - wanted).abs();

@@ -1,4 +1,4 @@
-//! Conditions of parts and tasks of the page, which a scene may lack.
+//! Conditions that a scene must satisfy for parts to be added and tasks to be computed.
 
 use serde::Serialize;
 
@@ -7,16 +7,16 @@ use serde::Serialize;
 pub struct Need {
     /// Path of the part, or name of the task.
     pub(super) of: &'static str,
-    /// Of these values of the scene it needs one.
+    /// Conditions of which the scene must satisfy at least one.
     pub(super) any: &'static [Condition],
-    /// Message otherwise.
+    /// Message if the scene satisfies none of them.
     otherwise: &'static str,
 }
 
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(super) struct Condition {
     pub(super) path: &'static str,
-    /// The value; null if any is sufficient.
+    /// Required value; null if any value is sufficient.
     pub(super) is: Option<&'static str>,
 }
 
@@ -33,7 +33,7 @@ const HELD: &[Condition] = &[
 ];
 const NOT_HELD: &str = "This needs a guide or a collar that holds the blade.";
 
-/// Conditions that a scene of the page may lack.
+/// Conditions of all parts and tasks that have one.
 pub const NEEDS: &[Need] = &[
     Need {
         of: "spline",

@@ -16,15 +16,15 @@ pub struct OpenedFile {
 }
 
 impl OpenedFile {
-    /// The file at a path; `None` if it cannot be read.
+    /// Opens the file at a path; returns `None` if it cannot be read.
     pub fn new(path: &Path) -> Option<Self> {
-        // A link remains, and the file that it refers to is written.
+        // A symbolic link is followed, so that saving replaces its target and not the link.
         let path = path.canonicalize().ok()?;
         let known = Mutex::new(std::fs::read(&path).ok()?);
         Some(OpenedFile { path, known })
     }
 
-    /// What the page shows of it.
+    /// Returns the name of the file, and whether it has comments.
     pub fn note(&self) -> FileNote {
         let name = self.path.file_name().unwrap_or_default();
         let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
@@ -34,7 +34,7 @@ impl OpenedFile {
         }
     }
 
-    /// Saves a scene. The file is replaced as a whole, or remains as it was.
+    /// Saves a scene. The file is replaced as a whole or does not change.
     ///
     /// # Errors
     /// [`Refusal`] if the scene is not valid, another program has changed the file, or it cannot be written.
@@ -68,7 +68,7 @@ impl OpenedFile {
             let found = path.metadata();
             found.is_ok_and(|found| found.permissions().readonly())
         };
-        // On Windows this attribute of a folder does not concern its files.
+        // On Windows, this attribute of a folder does not apply to its files.
         if cfg!(unix) && is_read_only(folder) {
             return Err(format!("the folder {} is read-only", folder.display()));
         }

@@ -50,7 +50,7 @@ files! {
     "Inter-SemiBold.otf": FONT, "../../assets/fonts/Inter-SemiBold.otf";
 }
 
-/// A file by its name.
+/// Returns a file by its name, or status 404.
 pub fn file(name: &str) -> Response {
     match FILES.iter().find(|(known, ..)| *known == name) {
         Some((_, kind, content)) => ([(header::CONTENT_TYPE, *kind)], *content).into_response(),

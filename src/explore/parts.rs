@@ -11,19 +11,19 @@ use crate::scene::{
     TemperatureFile, TemperatureRow, ThicknessRow, WoodFile, typical,
 };
 
-/// A request.
+/// A request for a part.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Asked {
     scene: serde_json::Value,
     /// Path of the part, with `[]` at its end for another entry of a list.
     path: String,
-    /// Kind of the mount.
+    /// Kind of the mount: `collar` or `spline`. It is only used if the part is the mount.
     #[serde(default)]
     kind: String,
 }
 
-/// The scene of a request with one more part.
+/// Returns the scene of a request with one more part.
 ///
 /// # Errors
 /// [`Refusal`] if the scene cannot be read, or the path is not that of a part.
@@ -88,7 +88,7 @@ fn add_to_blade(scene: &mut SceneFile, part: &str) -> Option<()> {
     match part {
         "rim" => {
             let teeth = *scene.blade.teeth.get_or_insert(usual_teeth(scene));
-            // A triangle of the blade's thickness, half as high as the pitch.
+            // The tooth is assumed to be a triangle with the thickness of the blade and half as high as the pitch.
             let pitch = std::f64::consts::TAU * rim(scene) / f64::from(teeth.max(1));
             let per_area = scene.blade.material.density_kg_per_m3 * scene.blade.thickness_m;
             scene.blade.rim = Some(RimFile {
@@ -248,7 +248,7 @@ mod tests {
         };
         for scene in examples() {
             for first in PARTS {
-                // What was measured with one mount does not hold for another.
+                // A spline or a residual stress of the scene excludes another mount.
                 let residual = scene
                     .membrane
                     .as_ref()

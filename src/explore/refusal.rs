@@ -14,7 +14,7 @@ use crate::stability::AnalysisError;
 pub struct Refusal {
     /// JSON path of the quantity, if there is one.
     pub key: Option<String>,
-    /// Message of the library.
+    /// Message of the library, in the unit of the key.
     pub message: String,
     /// Message in the unit of the field of this quantity, if it has one.
     pub told: Option<String>,
@@ -68,17 +68,17 @@ impl From<SpectrumError> for Refusal {
 }
 
 impl Refusal {
-    /// The diagram has been replaced by later ones.
+    /// Refusal of a request about a diagram that is no longer kept.
     pub fn gone(chart: usize) -> Self {
         Refusal::with_message(format!("chart {chart} is not kept any more"))
     }
 
-    /// An error that no quantity causes.
+    /// Refusal with the message of an error that no quantity causes.
     pub fn of(error: &dyn std::error::Error) -> Self {
         Refusal::with_message(error.to_string())
     }
 
-    /// A message about no quantity of the scene.
+    /// Refusal with a message about no quantity of the scene.
     pub fn with_message(message: impl Into<String>) -> Self {
         Refusal {
             key: None,
@@ -88,7 +88,7 @@ impl Refusal {
         }
     }
 
-    /// Adds the message in the unit of the field. The request contains the scene, or is one.
+    /// Adds the message in the unit of the field. `request` is the JSON of a scene, or contains one under `scene`.
     pub fn in_field(mut self, request: &str, units: Units) -> Self {
         let request: Value = serde_json::from_str(request).unwrap_or_default();
         let scene = request.get("scene").unwrap_or(&request);
@@ -99,7 +99,7 @@ impl Refusal {
     }
 }
 
-/// The value at a path such as `guides[0].radius_m`.
+/// Returns the value at a path such as `guides[0].radius_m`.
 fn at<'a>(scene: &'a Value, path: &str) -> Option<&'a Value> {
     let steps = path.split(['.', '[']);
     steps

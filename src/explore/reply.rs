@@ -17,9 +17,9 @@ use crate::stability::Analysis;
 /// A file that the page can save to.
 #[derive(Debug, Clone, Serialize)]
 pub struct FileNote {
-    /// Its name without folders.
+    /// Name of the file without folders.
     pub name: String,
-    /// Whether it is plain JSON. Comments are lost when it is saved.
+    /// Whether the file is JSON without comments, which would be lost when the page saves it.
     pub plain: bool,
 }
 
@@ -34,16 +34,16 @@ pub struct Start {
     examples: Vec<SceneFile>,
     /// Names, units and usual ranges of the numbers of scenes.
     fields: Vec<Field>,
-    /// What parts and tasks need.
+    /// Conditions of parts and tasks.
     needs: &'static [Need],
-    /// Tolerances of a study.
+    /// Usual tolerances, which a study of the page starts with.
     tolerances: &'static [UsualTolerance],
     colours: figure::Palette,
     version: &'static str,
 }
 
 impl Start {
-    /// The initial data for a scene.
+    /// Creates the initial data for a scene.
     pub fn new(scene: &Scene) -> Self {
         Start {
             scene: scene.file().clone(),
@@ -62,20 +62,20 @@ impl Start {
 /// A file that the page can save.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SavedFile {
-    /// The scene as the library understands it.
+    /// `scene.json`: the scene as the library reads it.
     Scene,
-    /// `report.json`.
+    /// `report.json`: the report of the analysis.
     Report,
-    /// `campbell.csv`.
+    /// `campbell.csv`: the points of the diagram.
     Table,
-    /// `campbell.png`.
+    /// `campbell.png`: the diagram in pixels.
     Png,
-    /// `campbell.svg`.
+    /// `campbell.svg`: the diagram as a vector graphic.
     Svg,
 }
 
 impl SavedFile {
-    /// The file with a name, as on the command line.
+    /// Returns the file with this name, which is that of the command line.
     pub fn named(name: &str) -> Option<Self> {
         Some(match name {
             "scene.json" => SavedFile::Scene,
@@ -87,7 +87,7 @@ impl SavedFile {
         })
     }
 
-    /// Media type.
+    /// Returns the media type of the file.
     pub fn media_type(self) -> &'static str {
         match self {
             SavedFile::Scene | SavedFile::Report => "application/json",
@@ -97,7 +97,7 @@ impl SavedFile {
         }
     }
 
-    /// The bytes of the file for a scene, from its report if it is known.
+    /// Returns the content of the file for a scene. It computes the report unless it is known.
     ///
     /// # Errors
     /// [`Refusal`] if a computation fails or is cancelled.

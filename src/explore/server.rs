@@ -1,4 +1,4 @@
-//! The server: its routes, and its end.
+//! The server: its routes, and the conditions of its end.
 
 use std::convert::Infallible;
 use std::net::{Ipv4Addr, SocketAddr};
@@ -54,7 +54,7 @@ pub enum ExploreError {
     Serve(#[from] std::io::Error),
 }
 
-/// Clock of a computer.
+/// Milliseconds since the first call.
 fn milliseconds() -> f64 {
     static BEGUN: OnceLock<Instant> = OnceLock::new();
     1e3 * BEGUN.get_or_init(Instant::now).elapsed().as_secs_f64()
@@ -80,7 +80,7 @@ struct Server {
 /// address.
 ///
 /// # Errors
-/// [`ExploreError`] when the port cannot be had or the system fails.
+/// [`ExploreError`] if the port is not available or the server fails.
 pub fn serve(
     scene: &Scene,
     options: &Options,
@@ -185,14 +185,14 @@ async fn progress(State(server): State<Server>, headers: HeaderMap) -> Response 
     sent(Answer::json(&stage))
 }
 
-/// Which requests wait for which.
+/// Queues of requests, which do not wait for requests in another queue.
 #[derive(Clone, Copy)]
 enum Queue {
     /// Diagrams and files.
     Charts,
     Influences,
     Criticals,
-    /// What takes no time.
+    /// Requests that take no time and are answered at once.
     None,
 }
 

@@ -16,10 +16,10 @@ pub struct Table {
 
 /// Number of modes at rest that are listed.
 const MODES: usize = 12;
-/// In place of a missing number or name.
+/// Text in place of a missing number or name.
 const NONE: &str = "–";
 
-/// Critical speeds, bands and modes at rest.
+/// Returns the tables of critical speeds, bands and modes at rest.
 pub fn tables(report: &Report) -> Vec<Table> {
     vec![critical_speeds(report), bands(report), at_rest(report)]
 }

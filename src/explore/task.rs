@@ -49,7 +49,7 @@ pub enum Task {
     Gap,
 }
 
-/// A request.
+/// A request for a task.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Asked {
@@ -57,7 +57,7 @@ pub struct Asked {
     /// For a placement: maximize the window without instability instead of the flutter speed.
     #[serde(default)]
     window: bool,
-    /// For a placement: lower limit of the first critical speed.
+    /// For a placement: lower limit of the first critical speed in rpm.
     #[serde(default)]
     min_critical_rpm: Option<Typed>,
     /// For a study: the tolerances.
@@ -72,7 +72,7 @@ pub struct Asked {
 struct Answer<'a, R> {
     /// Summary as printed by the program.
     summary: String,
-    /// Its main numbers.
+    /// Main numbers of the result.
     answers: Vec<TaskAnswer>,
     report: &'a R,
     /// Figures as SVG, by file name.
@@ -82,7 +82,7 @@ struct Answer<'a, R> {
 }
 
 impl Task {
-    /// The task with the name of its command.
+    /// Returns the task with the name of its command.
     pub fn named(name: &str) -> Option<Self> {
         Some(match name {
             "cut" => Task::Cut,
@@ -221,7 +221,8 @@ fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
     answer(&report, report.summary(), Vec::new(), None)
 }
 
-/// The saws of a study by number, in whatever order they are finished, with a figure of those so far.
+/// Computes the saws of a study and returns them in the order of their numbers. In the meantime, it sends figures of
+/// the finished ones.
 fn analysed(
     study: &Study,
     meter: &Meter<'_>,

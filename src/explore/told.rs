@@ -27,7 +27,7 @@ pub struct Fact {
 }
 
 impl Told {
-    /// The text for a report.
+    /// Creates the text for a report.
     pub fn new(report: &Report) -> Self {
         let on_one_line = |line: String| line.split_whitespace().collect::<Vec<_>>().join(" ");
         Told {
@@ -50,7 +50,7 @@ fn speed(name: &'static str, rpm: Option<f64>) -> Fact {
     }
 }
 
-/// First critical speed of the sweep, and ratio of the operating speed to the lowest one.
+/// First critical speed of the sweep, and ratio of the operating speed to the lowest critical speed.
 pub fn of_critical(first_rpm: Option<f64>, share: Option<f64>) -> [Fact; 2] {
     let percent = share.map(|share| format!("{:.1}", 100.0 * share));
     [
@@ -95,8 +95,8 @@ fn known(name: &'static str, words: Option<String>, unit: &'static str) -> Fact 
     Fact { name, words, unit }
 }
 
-/// Rise at which the first critical speed equals the operating speed, or at which the blade buckles if that
-/// is less.
+/// Temperature rise in K at which the lowest critical speed equals the operating speed or the blade buckles, whichever
+/// is smaller; `None` if the operating speed exceeds a critical speed of the cold blade.
 fn tolerated_rise_k(heat: &HeatEntry) -> Option<f64> {
     let limit = heat.operating_limit.as_ref().or(heat.buckling.as_ref());
     let limit = limit.filter(|_| !heat.past_critical_when_cold);

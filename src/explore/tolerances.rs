@@ -11,11 +11,11 @@ use crate::study::StudyFile;
 /// Usual tolerance of a number, to either side.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct UsualTolerance {
-    /// Its path, with `[]` for any guide.
+    /// Path of the number, with `[]` for any guide.
     path: &'static str,
-    /// In the unit of its key; zero if it is a share.
+    /// Tolerance in the unit of the key; zero if it is a share.
     plus_minus: f64,
-    /// Share of the value.
+    /// Tolerance as a share of the value; zero if it is in the unit of the key.
     share: f64,
 }
 
@@ -50,14 +50,14 @@ const SAWS: u32 = 200;
 #[derive(Debug, Clone, Deserialize)]
 #[serde(untagged)]
 pub enum Typed {
-    /// In the unit of its key.
+    /// Number in the unit of its key.
     Number(f64),
-    /// The text as typed.
+    /// Text as typed.
     Text(String),
 }
 
 impl Typed {
-    /// The number.
+    /// Returns the number.
     ///
     /// # Errors
     /// [`Refusal`] if it is a text.
@@ -83,7 +83,7 @@ pub struct Tolerance {
     plus_minus: Typed,
 }
 
-/// The study of random saws within tolerances.
+/// Returns the study of random saws within tolerances.
 ///
 /// # Errors
 /// [`Refusal`] if a tolerance is not a number or is negative, or all are zero.

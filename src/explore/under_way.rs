@@ -14,13 +14,13 @@ pub struct UnderWay {
     told: Option<Tell>,
 }
 
-/// What is called with every stage.
+/// Callback for every stage.
 type Tell = Arc<dyn Fn(Stage) + Send + Sync>;
 
 type Stages = Arc<Mutex<HashMap<String, (usize, Stage)>>>;
 
 impl UnderWay {
-    /// Calls a function with every stage, too.
+    /// Calls `tell` with every stage of every diagram.
     pub fn on_stage(&mut self, tell: impl Fn(Stage) + Send + Sync + 'static) {
         self.told = Some(Arc::new(tell));
     }
@@ -31,10 +31,10 @@ impl UnderWay {
         locked(&self.stages).get(page).map(|(_, stage)| *stage)
     }
 
-    /// Runs a function that computes a diagram of a page.
+    /// Runs a function that computes a diagram of a page, and records its stages.
     ///
     /// # Errors
-    /// The error of starting a thread.
+    /// An error if no thread can be started.
     pub fn watched<T: Send>(
         &self,
         page: &str,
@@ -44,7 +44,7 @@ impl UnderWay {
         let (stages, page_of, told) = (self.stages.clone(), page.to_owned(), self.told.clone());
         locked(&stages).insert(page_of.clone(), (number, Stage::default()));
         let progress = Progress::new(move |stage| {
-            // A cancelled computation may still be ending.
+            // A cancelled computation may still report stages after the next one has started.
             if let Some(latest) = locked(&stages).get_mut(&page_of)
                 && latest.0 == number
             {

@@ -1,10 +1,10 @@
-//! Values with which a designer would begin, for a blade of any size.
+//! Initial values of parts for a blade of any size.
 
 use crate::scene::typical::rounded;
 use crate::scene::{GuideFile, InPlane, Mount, RunUpFile, SceneFile, SplineFile, typical};
 
 const LEAST_TEETH: f64 = 12.0;
-/// Spline of the saw in the paper, with assumed values for what the paper does not give.
+/// Spline of the saw in the paper, with assumed values for the numbers that the paper does not give.
 pub const SPLINE: SplineFile = SplineFile {
     teeth: 20,
     pressure_angle_deg: 30.0,
@@ -19,7 +19,7 @@ pub fn rim(scene: &SceneFile) -> f64 {
     0.5 * scene.blade.outer_diameter_m
 }
 
-/// Radius from which on the blade moves.
+/// Radius of the collar or the bore, outside of which the blade deflects.
 pub fn inner(scene: &SceneFile) -> f64 {
     0.5 * match scene.mount {
         Mount::Collar { diameter_m, .. } => diameter_m,
@@ -48,7 +48,7 @@ pub fn mount(scene: &SceneFile, kind: &str) -> Option<Mount> {
     })
 }
 
-/// A third of the blade, between the bore and the guides.
+/// Diameter of a collar: 35 % of that of the blade, but larger than the bore and inside the guides.
 fn collar_diameter(scene: &SceneFile) -> f64 {
     let (bore, outer) = (scene.blade.inner_diameter_m, scene.blade.outer_diameter_m);
     let usual = match 0.35 * outer > bore {
@@ -61,7 +61,7 @@ fn collar_diameter(scene: &SceneFile) -> f64 {
     rounded(usual.min(0.9 * widest), 2).max(bore)
 }
 
-/// A guide like the last one, at the angle farthest from those that exist.
+/// A guide like the last one, at the angle farthest from those of the existing guides.
 pub fn guide(scene: &SceneFile) -> GuideFile {
     let length = rounded(0.3 * (rim(scene) - inner(scene)), 2);
     let first = GuideFile {
@@ -100,8 +100,9 @@ fn free_angle(guides: &[GuideFile]) -> f64 {
     }
 }
 
-/// Radius and value of another row of a table over the radius, with the values of its neighbours: between the last
-/// row and the rim, or where rows are farthest apart.
+/// Radius and value of another row of a table over the radius. The first row is at the collar or bore and has the given
+/// value. A later one is between the last row and the rim or, if the last row is at the rim, where rows are farthest
+/// apart; its value is the mean of its neighbours.
 pub fn next_row(scene: &SceneFile, rows: &[(f64, f64)], value: f64) -> (f64, f64) {
     let rim = rim(scene);
     let end = |k: usize| rows.get(k + 1).map_or(rim, |next| next.0);
@@ -129,7 +130,8 @@ pub fn runup(scene: &SceneFile) -> Option<RunUpFile> {
     })
 }
 
-/// A force to which soft guides yield by less than the thickness of the blade, because the model is linear.
+/// Side force of a run-up in N. Without a collar, it deflects the guides by about 1 % of the thickness of the blade at
+/// most, because the model is linear.
 fn side_force(scene: &SceneFile) -> f64 {
     if matches!(scene.mount, Mount::Collar { .. }) {
         return typical::RUNUP_FORCE.value;

@@ -1,4 +1,4 @@
-//! Why a number is refused, in the unit of its field and with a range that is of use.
+//! Messages about refused numbers, in the units of their fields and with usual ranges.
 
 use serde_json::Value;
 
@@ -6,7 +6,7 @@ use super::fields::{Field, FieldUnit, Units};
 use crate::scene::Quantity;
 use crate::text::shown_to;
 
-/// Digits of a bound.
+/// Number of significant digits of a bound.
 const DIGITS: usize = 6;
 /// Units whose fields have labels, such as "from" and "idle", that are not clear without the form around them.
 const UNCLEAR: [&str; 4] = ["rpm", "s", "1/s", "N per tooth"];
@@ -65,13 +65,13 @@ fn range(path: &str, allowed: &str, field: &Field, unit: FieldUnit) -> String {
     }
 }
 
-/// "between 0 and 600".
+/// Reads both ends from a text such as "between 0 and 600".
 fn ends(allowed: &str) -> Option<(f64, f64)> {
     let (from, to) = allowed.strip_prefix("between ")?.split_once(" and ")?;
     Some((from.parse().ok()?, to.parse().ok()?))
 }
 
-/// "above 0; saws have 0.0001 to 0.04 m".
+/// Reads the word and the number from a text such as "above 0; saws have 0.0001 to 0.04 m".
 fn bound(allowed: &str) -> Option<(&'static str, f64)> {
     let (bound, _) = allowed.split_once(';').unwrap_or((allowed, ""));
     ["above", "at least", "at most"]
@@ -79,7 +79,7 @@ fn bound(allowed: &str) -> Option<(&'static str, f64)> {
         .find_map(|word| Some((word, bound.strip_prefix(word)?.trim().parse().ok()?)))
 }
 
-/// A word without the marks around it.
+/// A word, separated from the brackets and punctuation around it.
 struct Word<'a> {
     before: &'a str,
     core: &'a str,
@@ -109,8 +109,8 @@ impl<'a> Word<'a> {
     }
 }
 
-/// The text with numbers in the unit of the field and names in place of paths. A number belongs to the field if it
-/// is alone or has the unit of the key; a number with a word of its own, as in "30 diameters", remains.
+/// Converts numbers in a text to the unit of the field and replaces paths by names. A number that is followed by a word
+/// other than the unit of the key, "and", "to" or "or", as in "30 diameters", is not converted.
 fn converted(path: &str, allowed: &str, unit: FieldUnit) -> String {
     let si = Quantity::of(path).map_or("", |quantity| quantity.unit);
     let words: Vec<Word<'_>> = allowed.split(' ').map(Word::new).collect();
@@ -150,7 +150,8 @@ fn converted(path: &str, allowed: &str, unit: FieldUnit) -> String {
     told.join(" ")
 }
 
-/// The name of the quantity of a path, which may begin at the block of another one; a word that is no path as it is.
+/// Returns the name of the quantity to which `word` is the path, which may be relative to the block of `path`. A word
+/// that is not a path is returned unchanged.
 fn named(path: &str, word: &str) -> String {
     let is_path = word.contains(['.', '_'])
         && word.starts_with(|c: char| c.is_ascii_lowercase())
@@ -168,8 +169,8 @@ fn named(path: &str, word: &str) -> String {
     )
 }
 
-/// What to type in place of a text that may be one of two numbers: before three digits a mark is decimal or
-/// separates thousands.
+/// Message with both numbers that a text may mean, because a mark before three digits is decimal or separates
+/// thousands; `None` if the text has one meaning.
 pub fn which_number(text: &str) -> Option<String> {
     let plain = text.trim().replace('−', "-");
     let digits = plain.trim_start_matches(['+', '-']);
@@ -201,7 +202,7 @@ mod tests {
     use crate::explore::refusal::Refusal;
     use crate::scene::Scene;
 
-    /// The message of a scene with another number.
+    /// Returns the message about a scene in which one number is replaced.
     fn told(path: &str, typed: &Value, units: Units) -> String {
         let mut scene = serde_json::to_value(Scene::paper().file()).unwrap();
         let mut place = &mut scene;

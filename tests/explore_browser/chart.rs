@@ -99,7 +99,7 @@ fn a_branch_that_is_pointed_at_moves_on_the_blade() {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
         let chart = page.find("#campbell").await;
-        // With the pointer: it moves downwards from the middle until it reaches a branch.
+        // The pointer moves downwards from the middle until it reaches a branch.
         let plot = page.find("#campbell .u-over").await;
         let middle = hand(&page).move_to_element_center(&plot);
         middle.perform().await.unwrap();
@@ -116,7 +116,7 @@ fn a_branch_that_is_pointed_at_moves_on_the_blade() {
         page.wait("!document.querySelector('#mode').textContent.includes('Krein')")
             .await;
         chart.focus().await.unwrap();
-        // With the keyboard alone: along a branch, and to the next ones.
+        // The arrow keys move along a branch and to the next ones.
         let mut told = Vec::new();
         for key in [Key::Right, Key::Up, Key::Up, Key::Up] {
             chart.send_keys(key + "").await.unwrap();
@@ -169,7 +169,7 @@ fn a_range_of_speeds_is_magnified_and_reset() {
         page.screenshot("1280-magnified.png").await;
         let told = page.text("#zoomed").await;
         assert!(told.contains("rpm of the sweep"), "{told}");
-        // With the keyboard: the chart is magnified, and then shown as a whole.
+        // The plus key magnifies the chart, and a double click shows all speeds.
         let chart = page.find("#campbell").await;
         chart.focus().await.unwrap();
         chart.send_keys("+").await.unwrap();
@@ -208,7 +208,8 @@ fn a_chart_of_an_earlier_scene_is_not_shown_as_the_present_one() {
     });
 }
 
-/// The page has the numbers of the program's figure: of critical speeds, of bands and of operation.
+/// The page writes the speeds of critical speeds, of bands and of operation into the diagram, as the program's figure
+/// does.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn critical_speeds_bands_and_operation_have_their_numbers() {
@@ -240,7 +241,7 @@ fn critical_speeds_bands_and_operation_have_their_numbers() {
     });
 }
 
-/// A chart that takes longer than a moment shows its progress, can be stopped, and can be requested again.
+/// A chart that takes longer than a second shows its progress, can be stopped, and can be requested again.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn a_long_chart_reports_its_progress_and_can_be_stopped() {
@@ -255,7 +256,7 @@ fn a_long_chart_reports_its_progress_and_can_be_stopped() {
         page.wait("document.querySelector('#busy').textContent.includes(' of ')")
             .await;
         page.screenshot("1280-computing.png").await;
-        // With the keyboard: the focus moves to the button that starts it again.
+        // The key press moves the focus to the button that starts the computation again.
         page.find("#stop")
             .await
             .send_keys(Key::Enter + "")
@@ -281,7 +282,7 @@ fn a_long_chart_reports_its_progress_and_can_be_stopped() {
     });
 }
 
-/// Ends of all axes.
+/// Script that returns the ends of all axes.
 const AXES: &str = "['#campbell', '#growth'].map((place) => document.querySelector(place).chart.scales)\
     .flatMap(({ x, y }) => [x.min, x.max, y.min, y.max])";
 
@@ -305,7 +306,7 @@ fn the_axes_stay_while_a_pad_is_moved_and_follow_after_the_release() {
         let_go(&page).await;
         page.settle().await;
         assert_ne!(page.value(AXES).await, before);
-        // One step from the axes of the drag to those of the chart after it.
+        // The axes change once, from those of the drag to those of the chart after the release.
         assert_eq!(page.value("window.seenAxes.size").await, json!(2));
         page.close().await;
     });
@@ -345,7 +346,7 @@ fn several_saws_are_pinned_listed_and_taken_out() {
         speeds.sort_unstable();
         speeds.dedup();
         assert_eq!(speeds.len(), 4, "{speeds:?}");
-        // Their lines have dashes of their own.
+        // The dashes of the pinned saws differ.
         let dashes = "new Set([...document.querySelectorAll('#pinned line')].map((line) => line.getAttribute('stroke-dasharray'))).size";
         assert_eq!(page.value(dashes).await, json!(3));
         for (width, height) in [(1440, 1000), (390, 1400)] {

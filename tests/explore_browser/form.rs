@@ -160,7 +160,7 @@ fn parts_are_added_with_values_that_can_be_computed() {
         press("Put cut in").await;
         press("Put damping in").await;
         page.screenshot("1280-parts.png").await;
-        // A screen reader never gets the same text twice in a row.
+        // The accessible names of all controls differ.
         let names = "[...document.querySelectorAll('#fields input, #fields select, #fields textarea')].map((field) => field.getAttribute('aria-label') ?? field.id)";
         let twice = page
             .value(&format!(
@@ -251,8 +251,8 @@ fn refusals_are_in_the_unit_of_the_field_and_name_what_a_designer_can_use() {
     });
 }
 
-/// A mark before three digits separates thousands or is decimal: the page asks, unless only one of the two numbers is
-/// usual for a saw.
+/// A mark before three digits separates thousands or is decimal: the page asks, unless only the number with the decimal
+/// mark is usual for a saw.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn a_number_that_may_be_one_of_two_is_asked_about() {
@@ -337,8 +337,8 @@ fn a_pad_that_is_dragged_off_the_blade_stays_on_it() {
     });
 }
 
-/// The refused changes among all that the form and the tabs make to the saws of the gallery: "name: text of the button:
-/// reason".
+/// Script that tries the changes that the form and the tabs make to the saws of the gallery, and returns those that are
+/// refused as "name: path: text of the button: reason".
 const REFUSED: &str = "
     const [{ Form }, { lacks }, begun] = await Promise.all([
         import('/page/form.js'), import('/page/parts.js'), fetch('start').then((answer) => answer.json()),
@@ -417,7 +417,7 @@ fn parts_added_to_saws_of_the_gallery_can_be_computed() {
         let found = page.value("window.found").await;
         println!("{} scenes computed", found["asked"]);
         let refused: Vec<String> = serde_json::from_value(found["refused"].clone()).unwrap();
-        // The number of modes of so large a blade is always too large.
+        // Washboarding of so large a blade is refused, because it has too many modes.
         let is_out_of_reach = |told: &String| told.starts_with("Stone saw of 3.5 m: washboard:");
         let refused: Vec<&String> = refused
             .iter()
@@ -444,7 +444,8 @@ fn pads_are_added_by_a_click_and_moved_in_pairs() {
             document.getElementById('pairs').dispatchEvent(new Event('change'))",
         )
         .await;
-        // Above the middle of the blade, a little to the right; without the button a click adds nothing.
+        // The click is above the centre of the blade, a little to the right. It adds nothing before the button is
+        // pressed.
         let drawing = page.find("#drawing").await;
         let click = || {
             let there = hand(&page)
@@ -463,7 +464,7 @@ fn pads_are_added_by_a_click_and_moved_in_pairs() {
         assert!((found[2] - (180.0 - found[1])).abs() < 1e-9, "{found:?}");
         assert_eq!(page.text("#fault").await, "");
 
-        // The partner follows the hand, the keys and the fields.
+        // The partner follows a drag and a change in a field.
         drag(&page, "[data-path='guides[1]'] .body", 10, (2, 1)).await;
         let_go(&page).await;
         page.settle().await;

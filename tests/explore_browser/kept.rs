@@ -266,7 +266,7 @@ fn a_saw_is_saved_to_the_file_that_the_program_was_started_with() {
         assert_eq!(page.text("#write").await, "Save to my-saw.json");
         page.enter("blade.thickness_m", "3").await;
         page.settle().await;
-        // Nothing is written before somebody says so.
+        // The file is not written before the button is pressed.
         assert_eq!(read(), paper);
         for (width, height) in [(1440, 1000), (390, 844)] {
             page.resize(width, height).await;
@@ -296,7 +296,7 @@ fn a_saw_is_saved_to_the_file_that_the_program_was_started_with() {
         page.wait("document.querySelector('#fault').textContent.includes('is read-only')")
             .await;
 
-        // Another saw is not saved over this one.
+        // The button is hidden for another saw, which must not overwrite this one.
         page.script(
             "window.confirm = () => true; document.getElementById('examples').value = 1; \
             document.getElementById('examples').dispatchEvent(new Event('change'))",
@@ -315,7 +315,7 @@ fn a_saw_is_saved_to_the_file_that_the_program_was_started_with() {
     });
 }
 
-/// A file of the browser's own storage stands for one of the computer.
+/// The test uses a file in the storage of the browser in place of a file of the computer.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn a_saw_is_saved_to_the_file_that_was_opened_in_the_browser() {

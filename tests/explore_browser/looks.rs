@@ -52,7 +52,7 @@ fn the_page_is_readable_on_a_small_and_on_a_dark_screen() {
     });
 }
 
-/// axe-core: labels, roles, contrast, order.
+/// Script of axe-core, which checks labels, roles, contrast and order.
 const AUDITOR: &str = include_str!("browser/axe.min.js");
 
 impl Page {
@@ -108,7 +108,7 @@ impl Page {
         tokio::time::sleep(Duration::from_millis(300)).await;
     }
 
-    /// Left and upper edge of both Campbell diagrams, the pinned one first.
+    /// Returns the left and upper edges of both Campbell diagrams, the pinned one first.
     async fn diagrams(&self) -> Vec<[f64; 2]> {
         let found = self
             .value("[...document.querySelectorAll('.campbell canvas')].map((c) => c.getBoundingClientRect()).map((box) => [box.left, box.top])")
@@ -154,7 +154,7 @@ fn two_saws_are_side_by_side_on_the_same_axes_on_a_wide_page() {
     });
 }
 
-/// Upper edges of the diagrams and of a field, on the page.
+/// Script that returns the upper edges of the diagrams and of a field on the page.
 const PLACES: &str = "['#campbell', '#growth', \"[id='guides[0].radius_m']\"]\
     .map((place) => document.querySelector(place).getBoundingClientRect().top + scrollY)";
 

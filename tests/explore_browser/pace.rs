@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::browser::{PAD, PATIENCE, Page, drag, hand, let_go, percentile, run, same};
 
 impl Page {
-    /// Milliseconds of one stage between each move and its drawn draft.
+    /// Returns the durations, in milliseconds, of one stage between each move and its drawn draft.
     async fn parts(&self, name: &str) -> Value {
         let all = format!("sawflutter.parts.flatMap((parts) => parts.{name})");
         self.value(&all).await
@@ -25,14 +25,14 @@ impl Page {
     }
 }
 
-/// Counts the drawing calls of canvases from now on.
+/// Script that counts the drawing calls of canvases from now on.
 const COUNT: &str = "window.drawn = { clearRect: 0, stroke: 0, lineTo: 0 }; \
     for (const name of Object.keys(drawn)) { \
         const own = CanvasRenderingContext2D.prototype[name]; \
         CanvasRenderingContext2D.prototype[name] = function (...given) { \
             drawn[name] += 1; return own.apply(this, given); }; }";
 
-/// A damped saw has thousands of ranges with a growth rate.
+/// A damped saw is included, because it has thousands of ranges with a growth rate.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn a_chart_is_drawn_once_and_in_few_strokes() {
@@ -51,7 +51,7 @@ fn a_chart_is_drawn_once_and_in_few_strokes() {
             let charts = page.value(charts).await.as_u64().unwrap() - before;
             let drawn = page.value("drawn").await;
             let count = |what: &str| drawn[what].as_u64().unwrap();
-            // Two canvases, the diagram and the growth rates.
+            // Each chart clears two canvases, the diagram and the growth rates.
             assert_eq!(count("clearRect"), 2 * charts, "{scene}: {drawn}");
             assert!(count("stroke") < 400 * charts, "{scene}: {drawn}");
             assert!(count("lineTo") < 4000 * charts, "{scene}: {drawn}");
@@ -67,7 +67,7 @@ fn answers_come_during_a_drag_and_none_is_computed_in_vain() {
     run(async {
         let page = Page::open(&[]).await;
         page.settle().await;
-        // Moves to and fro until enough charts have come, also on a busy machine.
+        // The pad moves to and fro until enough charts have arrived, also on a busy machine.
         for (charts, step) in [(5, 1), (10, -1), (15, 1)] {
             drag(&page, PAD, 1, (step, 0)).await;
             let begun = Instant::now();
@@ -162,8 +162,9 @@ fn a_drag_that_pauses_shows_the_chart_at_full_accuracy() {
     });
 }
 
-/// The time from a cancelled computation to the start of the next one, and the time until it has ended, in
-/// milliseconds; null if it was finished before. The next scene is one that is refused, which takes no time itself.
+/// Script that defines `giveUp`, which cancels a computation and sends a scene that is refused at once. It returns the
+/// times in milliseconds until this scene is answered and until the cancelled computation has ended; null if it was
+/// finished before.
 const GIVE_UP: &str = "
     const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
     const jobs = async () => (await fetch('jobs')).json();
@@ -187,7 +188,7 @@ const GIVE_UP: &str = "
         }
     };";
 
-/// This holds at any stage of the computation, and for matrices of any size.
+/// The computation may be cancelled at any stage, and its matrices may have any size.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn a_computation_starts_within_a_fifth_of_a_second_after_a_cancelled_one() {

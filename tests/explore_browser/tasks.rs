@@ -188,7 +188,7 @@ fn a_placement_tells_its_steps_and_ends_with_the_figure_of_the_command_line() {
     });
 }
 
-/// The bar beside a field is compared with two charts, of the number itself and of one 1 % larger.
+/// The text beside a field is compared with the charts of the number itself and of one that is 1 % larger.
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn the_influence_of_a_number_is_what_changing_it_does() {
@@ -252,7 +252,7 @@ fn inches_and_examples_show_the_same_saws() {
             .await;
         page.find("#tab-chart").await.click().await.unwrap();
 
-        // A task accepts units too, and an example is a saw that can be computed.
+        // An example from the menu can be computed.
         let count = page
             .value("document.querySelectorAll('#examples option').length - 1")
             .await;

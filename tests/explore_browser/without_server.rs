@@ -1,4 +1,4 @@
-//! The page without a server shows, saves and computes the same as the program.
+//! The page without a server has the charts, files and results of the program.
 //!
 //! Needs the folder of `web/build`; `.ci/web` builds it and runs these tests.
 
@@ -13,7 +13,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("../web-page")
 }
 
-/// Largest relative difference of numbers, where both are numbers, in the same places.
+/// Largest relative difference of two numbers in equal places of both values; null and text are not compared.
 fn difference(left: &Value, right: &Value) -> f64 {
     match (left, right) {
         (Value::Number(x), Value::Number(y)) => {
@@ -31,13 +31,14 @@ fn difference(left: &Value, right: &Value) -> f64 {
     }
 }
 
-/// The values of one key in all entries of a list of a report.
+/// Returns the values of one key in all entries of a list of a report.
 fn column(report: &Value, list: &str, key: &str) -> Value {
     let entries = report[list].as_array().unwrap();
     entries.iter().map(|entry| entry[key].clone()).collect()
 }
 
-/// Vector units round differently: edges, growth and critical speeds agree to a millionth.
+/// Band edges, growth rates and critical speeds agree to a relative difference of 1e-6, because vector units round
+/// differently.
 async fn assert_is_that_of_the_program(page: &Page) {
     let found = page.value("sawflutter.report()").await;
     let out = page.command_line().await;
@@ -87,7 +88,7 @@ fn charts_files_and_tasks_are_those_of_the_program() {
     });
 }
 
-/// A computation without a waiting page is ended with its worker, and the next one is answered.
+/// An outdated computation is ended with its worker, and the next one is answered.
 #[test]
 #[ignore = "needs chromium, chromium-driver and the folder of web/build; run by .ci/web"]
 fn a_computation_is_stopped_and_the_page_goes_on() {

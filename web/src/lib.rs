@@ -11,11 +11,11 @@ use sawflutter::scene::Scene;
 
 #[link(wasm_import_module = "page")]
 unsafe extern "C" {
-    /// The clock of the browser.
+    /// Returns the time of the browser's clock in milliseconds.
     safe fn milliseconds() -> f64;
-    /// Takes a line of the progress of a task.
+    /// Receives one line of JSON: progress of a task, or early results of a diagram.
     safe fn line(pointer: *const u8, length: usize);
-    /// Takes the stage of a diagram as JSON.
+    /// Receives the stage of a diagram as JSON.
     safe fn stage(pointer: *const u8, length: usize);
 }
 
@@ -29,7 +29,7 @@ fn clock() -> f64 {
     milliseconds()
 }
 
-/// Begins to answer; diagrams are numbered from `first` on.
+/// Creates the backend; its diagrams are numbered from `first`.
 #[unsafe(no_mangle)]
 pub extern "C" fn begin(first: usize) {
     let backend = Backend::new(&Scene::paper(), clock).on_stage(|at| {
@@ -40,7 +40,7 @@ pub extern "C" fn begin(first: usize) {
     BACKEND.set(Some(backend.numbered_from(first)));
 }
 
-/// Room for a request.
+/// Sets the length of the request buffer in bytes and returns its address.
 #[unsafe(no_mangle)]
 pub extern "C" fn reserve(length: usize) -> *mut u8 {
     REQUEST.with_borrow_mut(|request| {
@@ -50,7 +50,7 @@ pub extern "C" fn reserve(length: usize) -> *mut u8 {
     })
 }
 
-/// Answers the request; returns the status. 0 before [`begin`], and for a request that is none.
+/// Answers the request in the buffer. Returns the HTTP status; 0 before [`begin`], and if the request cannot be read.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> u32 {
     let question = REQUEST.with_borrow(|request| serde_json::from_slice::<Question>(request));
@@ -62,25 +62,25 @@ pub extern "C" fn answer() -> u32 {
     status
 }
 
-/// Where the content of the answer is.
+/// Returns the address of the content of the answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn content() -> *const u8 {
     of_answer(|answer| answer.content.as_ptr()).unwrap_or_default()
 }
 
-/// Its length.
+/// Returns the length of the content in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn content_length() -> usize {
     of_answer(|answer| answer.content.len()).unwrap_or_default()
 }
 
-/// Where the media type of the answer is.
+/// Returns the address of the media type of the answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn media_type() -> *const u8 {
     of_answer(|answer| answer.media_type.as_ptr()).unwrap_or_default()
 }
 
-/// Its length.
+/// Returns the length of the media type in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn media_type_length() -> usize {
     of_answer(|answer| answer.media_type.len()).unwrap_or_default()

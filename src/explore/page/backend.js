@@ -1,6 +1,6 @@
-// Where the page asks: the server that it comes from. A page without a server has another file in this place.
+// Sends requests to the server of the page. For the page without a server, `web/build` replaces this file.
 
 export const ask = (path, options = undefined) => fetch(path, options);
 
-// The page is being closed: an answer cannot be waited for.
+// Reports that the page is being closed. A beacon is sent, because a closing page cannot wait for an answer.
 export const leave = (page) => navigator.sendBeacon("leave", page);

@@ -1,4 +1,4 @@
-// The blade to scale, and what stands around it. Pads, cut and probe are taken hold of here.
+// Draws the blade to scale with its pads, cut and probe, which are moved with the pointer or the keyboard.
 
 import { shown, tidy } from "./words.js";
 
@@ -14,14 +14,15 @@ function element(name, attributes, parent) {
   return made;
 }
 
-// Numbers that a hand can mean: tenths of a millimetre and of a degree.
+// Positions are rounded to 0.1 mm and 0.1°. Angles are between −180° and 180°.
 const metres = (value) => tidy(Math.round(value * 1e4) / 1e4);
 const degrees = (value) => tidy(Math.round(turned(value) * 10) / 10);
 const turned = (value) => ((((value + 180) % 360) + 360) % 360) - 180;
 const radians = (value) => (value * Math.PI) / 180;
 
 export class Blade {
-  // `onSelect(path)` is told what was taken hold of, `onAdd(place)` where on the blade a pad is to be added.
+  // `onSelect(path)` is called when a pad, the cut or the probe gets the focus, `onAdd({ radius_m, angle_deg })` when a
+  // click adds a pad.
   constructor(svg, state, { onSelect, onAdd }) {
     this.svg = svg;
     this.state = state;
@@ -33,7 +34,7 @@ export class Blade {
     this.ground = element("g", {}, svg);
     this.things = element("g", {}, svg);
     this.mark = element("g", { class: "turns" }, svg);
-    // Asked for at every move, the width would cost a layout each time.
+    // The width is stored, because reading it at every move would force a layout each time.
     this.width = svg.clientWidth || 400;
     new ResizeObserver(() => {
       this.width = svg.clientWidth || 400;
@@ -41,7 +42,7 @@ export class Blade {
     }).observe(svg);
   }
 
-  // Whether a click on the blade adds a pad.
+  // True while a click on the blade adds a pad.
   get isAdding() {
     return this.svg.classList.contains("adding");
   }
@@ -50,7 +51,7 @@ export class Blade {
     this.svg.classList.toggle("adding", on);
   }
 
-  // Where on the blade the pointer is; nothing beside it.
+  // Returns the position of the pointer on the blade, or null if it is not on the blade.
   #onBlade(event) {
     const { scene } = this.state;
     const [x, y] = this.#place(event);
@@ -59,12 +60,12 @@ export class Blade {
     return isOn ? { radius_m: metres(radius), angle_deg: degrees((Math.atan2(y, x) * 180) / Math.PI) } : null;
   }
 
-  // Half the width of the drawing.
+  // Returns half the width of the drawing in metres: the radius of the blade and a margin of 12 %.
   static reach(scene) {
     return 0.5 * scene.blade.outer_diameter_m * 1.12;
   }
 
-  // Marks the thing that a field belongs to; nothing of other fields.
+  // Marks the pad, cut or probe with this path, and unmarks all others.
   select(path) {
     this.selected = path;
     for (const group of this.things.children) group.classList.toggle("selected", group.dataset.path === path);
@@ -78,7 +79,7 @@ export class Blade {
     const ground = JSON.stringify([this.pixel, scene.blade, scene.mount]);
     if (ground !== this.drawn) this.#drawGround(scene, reach);
     this.drawn = ground;
-    // Pads come last, on top: they are what is dragged most.
+    // Pads are drawn last, on top of cut and probe, because they are dragged most often.
     const wanted = [
       ...(scene.cut ? [["cut", "cut", scene.cut]] : []),
       ["probe", "probe", scene.probe ?? { angle_deg: 90 }],
@@ -104,7 +105,7 @@ export class Blade {
     if (scene.mount.kind === "collar") {
       parts.push(`<path class="collar" fill-rule="evenodd" d="${circle(0.5 * scene.mount.diameter_m)}${circle(a)}"/>`);
     }
-    // The way it turns.
+    // An arrow shows the direction of rotation.
     const r = b * 0.5 + a * 0.5;
     const [x, y] = polar(r, 205);
     const [u, v] = polar(r, 250);
@@ -116,7 +117,8 @@ export class Blade {
     this.mark.innerHTML = `<circle class="mark" cx="${b * 0.93}" cy="0" r="${4 * px}"/>`;
   }
 
-  // One group for each thing, kept while it is dragged.
+  // Makes a group for each new part and removes those of other parts. Existing groups are kept, because replacing a
+  // group would end its drag.
   #match(wanted) {
     const paths = wanted.map(([, path]) => path);
     for (const group of [...this.things.children]) {
@@ -142,19 +144,19 @@ export class Blade {
   _pad(group, pad) {
     const px = this.pixel;
     const [x, y] = polar(pad.radius_m, pad.angle_deg);
-    // A point spring is drawn as large as a finger finds it.
+    // A point spring has no extent. Its symbol is large enough to be touched.
     const point = pad.radial_length_m === 0;
     const [long, wide] = point ? [12 * px, 12 * px] : [pad.radial_length_m, pad.tangential_length_m];
     group.setAttribute("transform", `translate(${x} ${y}) rotate(${-pad.angle_deg})`);
     const [h, v] = [long / 2, wide / 2];
     group.querySelector(".body").setAttribute("d", point ? circle(h) : pad.shape === "round" ? ellipse(h, v) : `M${-h} ${-v}H${h}V${v}H${-h}Z`);
     const handle = group.querySelector(".handle");
-    // Seldom more than the corner of a small pad.
+    // The handle leaves most of a small pad free for moving it, but is always large enough to be touched.
     const size = Math.max(Math.min(11 * px, 0.45 * Math.min(long, wide)), 6 * px);
     Object.entries({ x: h - size / 2, y: -v - size / 2, width: size, height: size }).forEach(([k, n]) => handle.setAttribute(k, n));
     handle.style.display = point ? "none" : "";
     const number = Number(group.dataset.path.match(/\d+/)[0]) + 1;
-    // Upright, and beside a pad that it would cover.
+    // The number is upright. It is placed beside a small pad, which it would cover otherwise.
     const text = group.querySelector(".number");
     const aside = Math.min(long, wide) < 22 * px ? h + 9 * px : 0;
     text.setAttribute("transform", `translate(${aside} 0) rotate(${pad.angle_deg})`);
@@ -215,7 +217,7 @@ export class Blade {
         const edit = (scene) => this.#drag(scene, kind, path, action, this.#place(moved), grip);
         this.state.change(edit, { draft: true, stamp: moved.timeStamp });
       });
-      // On the window: a browser may end the capture, and the end of a drag must not be missed.
+      // The window receives the events, because a browser may end the pointer capture before the drag ends.
       const during = new AbortController();
       const end = own((ended) => {
         during.abort();
@@ -228,7 +230,7 @@ export class Blade {
     });
   }
 
-  // From the middle of a thing to where it was taken hold of.
+  // Returns the vector from the centre of a pad to the pointer in metres; zero for the cut and the probe.
   #grip(kind, path, [x, y]) {
     if (kind !== "pad") return [0, 0];
     const pad = this.state.scene.guides[Number(path.match(/\d+/)[0])];
@@ -284,13 +286,14 @@ export class Blade {
   }
 }
 
-// The middle of a thing stays on the blade.
+// Rounds a radius and limits it to the blade, so that the centre of a part stays on it.
 function within(radius, scene) {
   const [a, b] = [0.5 * scene.blade.inner_diameter_m, 0.5 * scene.blade.outer_diameter_m];
   return Math.min(Math.max(metres(radius), a), b);
 }
 
-// θ is positive with the rotation and drawn against the clock, from the right.
+// Coordinates in the drawing, where y points down. The angle is counted counterclockwise from the right, in the
+// direction of rotation.
 function polar(r, angle_deg) {
   return [r * Math.cos(radians(angle_deg)), -r * Math.sin(radians(angle_deg))];
 }
@@ -303,7 +306,7 @@ function ellipse(a, b) {
   return `M${-a} 0A${a} ${b} 0 1 0 ${a} 0A${a} ${b} 0 1 0 ${-a} 0Z`;
 }
 
-// The rim, with teeth for the eye: the model has none.
+// Path of the rim. The shape of its teeth is an illustration: the model has a circular rim.
 function toothed(b, teeth) {
   if (teeth < 3 || teeth > 400) return circle(b);
   const pitch = 360 / teeth;

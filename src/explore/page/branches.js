@@ -1,8 +1,8 @@
-// Points of a Campbell diagram: a branch and the number of one of its speeds.
+// Points of a Campbell diagram: a branch and the index of one of its speeds.
 
 const NEAR_PX = 14;
 
-// The point next to the pointer, or nothing where no branch is near.
+// Returns the point nearest to the pointer, or null if no branch is within NEAR_PX.
 export function nearest(report, chart, pointer) {
   let best = null;
   let least = NEAR_PX;
@@ -14,7 +14,7 @@ export function nearest(report, chart, pointer) {
       const distance = isLast ? Math.hypot(pointer[0] - here[0], pointer[1] - here[1]) : toSegment(pointer, here, at(i + 1));
       if (distance >= least) return;
       least = distance;
-      // Between two samples the nearer one speaks for both.
+      // Between two samples, the one with the nearer speed is taken.
       const next = !isLast && pointer[0] - here[0] > at(i + 1)[0] - pointer[0];
       best = { branch, i: next ? i + 1 : i };
     });
@@ -22,7 +22,8 @@ export function nearest(report, chart, pointer) {
   return best;
 }
 
-// From a point along its branch, or up to the branch above; into the first branch from nowhere.
+// Moves a point along its branch, or to the branch above or below at the same speed. Without a point, returns one of
+// the first branch.
 export function walked(report, point, [along, up]) {
   const { branches } = report.campbell;
   const { branch, i } = point ?? { branch: branches[0], i: Math.floor(branches[0].rpm.length / 3) };
@@ -35,7 +36,8 @@ export function walked(report, point, [along, up]) {
   return here[Math.min(Math.max(place + up, 0), here.length - 1)];
 }
 
-// The same point in the report of a saw that was changed a little.
+// Finds a point again in the report of a changed saw: the branch of equal name, and of equal number if there are
+// several, at the nearest speed. Returns null if no branch has this name.
 export function samePoint(report, { branch, i }) {
   const alike = report.campbell.branches.filter(({ name }) => name === branch.name);
   const found = alike.find((other) => other.branch === branch.branch) ?? alike[0];

@@ -1,4 +1,4 @@
-// The Campbell diagram and the growth rates, as the program describes them: panels by panel.js, items by marks.js.
+// Draws the Campbell diagram and the growth rates as the program describes them: panels by panel.js, items by marks.js.
 
 import { nearest, samePoint, walked } from "./branches.js";
 import { node } from "./dom.js";
@@ -6,26 +6,27 @@ import { Painter } from "./marks.js";
 import { plot, splitsOf } from "./panel.js";
 import { shown } from "./words.js";
 
-// No shorter stretch of the sweep is shown.
+// Smallest range of speeds that can be magnified, as a share of the sweep.
 const LEAST_STRETCH = 1e-3;
-// Labels of bands.
+// Largest number of rows of band labels, and the height of a row in pixels.
 const ROWS = 2;
 const ROW_PX = 14;
 
 export class Charts {
-  // The chart, its figure and its report, as the program sends them.
+  // Chart of the present saw, with its figure and its report, as the program sends it.
   #chart = null;
-  // Other saws whose lines are drawn behind, each with its chart and its dashes.
+  // Pinned saws whose lines are drawn too, each with its chart and its dashes.
   #others = [];
-  // Another chart that is shown beside this one, on the same axes.
+  // Chart that is shown beside this one on the same axes, or null.
   #other = null;
   width = 600;
-  // The point that is looked at, on the chart as it is now: a branch and the number of a speed.
+  // Highlighted point of the present chart, or null: a branch and the index of one of its speeds.
   pointed = null;
   #zoom = null;
-  // Items of a saw whose chart is still being computed, by kind: critical speeds, and bands or null.
+  // Early items of a saw whose chart is still being computed: critical speeds, and bands or null. Null once the chart
+  // is shown.
   #ahead = null;
-  // The axes while a hand moves something.
+  // Axes that are kept during a drag, or null.
   #held = null;
 
   constructor(campbellPlace, growthPlace, colours, { onHover, onZoom }) {
@@ -102,63 +103,65 @@ export class Charts {
     return this.#chart?.report ?? null;
   }
 
-  // Keeps the axes as they are, so that a hand sees what it moves; or lets them follow the chart again.
+  // Keeps the axes during a drag, so that the user sees the lines move and not the axes; or lets them follow the chart
+  // again.
   hold(on) {
     if (!on) this.#held = null;
     else if (this.#chart) this.#held ??= { ranges: [this.#range(0), this.#range(1)], isRooted: this.#isRooted, rows: this.#rows, sweep: this.#sweep };
   }
 
-  // Drawn with the next chart.
+  // Sets the other chart on these axes and the magnified range. The caller shows a chart afterwards, which draws both.
   shareAxes(other, stretch = this.#zoom) {
     this.#other = other;
     this.#zoom = stretch;
   }
 
-  // The same panel of each chart that the axes have room for.
+  // Returns the panels with this number of all charts on these axes.
   #panels(number) {
     return [this.#chart, this.#other].filter((chart) => chart !== null).map(({ figure }) => figure.panels[number]);
   }
 
-  // The vertical axis of a panel.
+  // Returns the range of the vertical axis of a panel.
   #range(number) {
     if (this.#held) return this.#held.ranges[number];
     const ranges = this.#panels(number).map(({ y }) => y.range);
     return ranges.length ? [Math.min(...ranges.map((r) => r[0])), Math.max(...ranges.map((r) => r[1]))] : [0, 1];
   }
 
-  // Whether growth rates stand on a root scale: divergence may grow thirty times as fast as the flutter beside it.
+  // Whether growth rates have a square-root scale, which the program chooses if one band grows much faster than
+  // another.
   get #isRooted() {
     return this.#held?.isRooted ?? this.#panels(1).some(({ y }) => y.spread === "signed_root");
   }
 
-  // Rows of labels of bands above the curves of growth.
+  // Number of rows of band labels above the curves of growth.
   get #rows() {
     return this.#held?.rows ?? Math.min(this.#panels(1)[0].items.filter(({ item }) => item === "band").length, ROWS);
   }
 
-  // The axis of growth rates, with room for the labels of bands.
+  // Returns the range of the axis of growth rates, with room for the labels of bands.
   #growthRange() {
     const [least, most] = this.#range(1).map(this.#height);
     const room = this.#chart ? (this.#rows * ROW_PX * devicePixelRatio) / this.growth.chart.bbox.height : 0;
     return [least, least + (most - least) / (1 - Math.min(room, 0.5))];
   }
 
-  // Where a growth rate stands on its axis.
+  // Position of a growth rate on its axis: on a root scale, its signed square root.
   #height = (rate) => (this.#isRooted ? Math.sign(rate) * Math.sqrt(Math.abs(rate)) : rate);
 
-  // From the first to the last speed that is swept.
+  // First and last speed [rpm] of the sweeps of all charts on these axes.
   get #sweep() {
     if (this.#held) return this.#held.sweep;
     const sweeps = this.#panels(0).map(({ x }) => x.range);
     return [Math.min(...sweeps.map((s) => s[0])), Math.max(...sweeps.map((s) => s[1]))];
   }
 
-  // The speeds that are shown.
+  // First and last speed [rpm] that are shown.
   get speeds() {
     return this.#zoom ?? this.#sweep;
   }
 
-  // The stretch that is magnified, if one is.
+  // Magnified range of speeds [rpm], or null.
   get stretch() {
     return this.#zoom;
   }
@@ -168,7 +171,7 @@ export class Charts {
     for (const part of [this.campbell, this.growth]) part.setRange(this.speeds);
   }
 
-  // Both panels show the same speeds: a stretch dragged out in one, all of them on a double click.
+  // Connects both panels: dragging in one magnifies a range of speeds in both, and a double click shows all speeds.
   #zoomTogether(chart) {
     const over = chart.over;
     let from = null;
@@ -184,7 +187,7 @@ export class Charts {
     over.addEventListener("dblclick", () => this.zoom(null));
   }
 
-  // Shows a stretch of speeds within the sweep, or all of them.
+  // Shows a range of speeds, limited to the sweep, or all speeds if it is null. A range that is too small is ignored.
   zoom(speeds) {
     const [from_rpm, to_rpm] = this.#sweep;
     const ends = speeds && [Math.max(speeds[0], from_rpm), Math.min(speeds[1], to_rpm)];
@@ -194,13 +197,13 @@ export class Charts {
     this.onZoom(this.#zoom);
   }
 
-  // The same where the other chart was zoomed.
+  // Applies the range that the user chose in the other chart, without a call of `onZoom`.
   zoomed(speeds) {
     this.#zoom = speeds;
     this.redraw();
   }
 
-  // Closer or farther about the point that is looked at, or the middle.
+  // Scales the shown range about the highlighted point, or about its middle if no point in it is highlighted.
   #magnify(factor) {
     const [from, to] = this.speeds;
     const looked = this.pointed?.branch.rpm[this.pointed.i];
@@ -250,7 +253,7 @@ export class Charts {
     if (note) painter.note(note);
   }
 
-  // The branch next to the pointer, or the one that the arrow keys have come to.
+  // Highlights the branch nearest to the pointer, or the one that is chosen with the arrow keys.
   #follow(element) {
     const over = this.campbell.chart.over;
     over.addEventListener("pointermove", (event) => {

@@ -1,4 +1,4 @@
-// On a narrow screen the diagram stays in sight while the form is scrolled.
+// Keeps the diagram visible on a narrow screen while the form is scrolled.
 
 const NARROW = "(max-width: 760px)";
 
@@ -9,7 +9,7 @@ export function dock(chart) {
     const isShown = narrow.matches && place.getBoundingClientRect().width > 0;
     const isPassed = isShown && place.getBoundingClientRect().top < 0;
     if (isPassed === chart.classList.contains("docked")) return;
-    // Its room stays, so that nothing jumps.
+    // Padding takes the place of the docked diagram, so that the content below does not jump.
     const height = chart.offsetHeight;
     place.style.paddingTop = isPassed ? `${height}px` : "";
     document.documentElement.style.scrollPaddingTop = isPassed ? `${height + 8}px` : "";

@@ -1,6 +1,7 @@
-// Elements of the page.
+// Helper functions for elements of the page.
 
-// A text that is the same already is left alone: it would be laid out, and read aloud, once more.
+// Sets a text if it differs. Setting an equal text would cause another layout and another announcement by screen
+// readers.
 export function write(place, text) {
   if (place.textContent !== text) place.textContent = text;
 }

@@ -1,7 +1,7 @@
-// The program's table of the numbers of a scene: names, usual ranges, and the units in which they are shown.
+// Table of the numbers of a scene, which the program sends: names, usual ranges, and the units of the form.
 
 let table = new Map();
-// Lengths are in inches or in millimetres; other numbers are metric.
+// "metric" or "inches"; only the units of lengths differ.
 let units = "metric";
 
 export function describe(fields) {
@@ -14,7 +14,7 @@ export function useInches(on) {
 
 export const unitsNow = () => units;
 
-// The entry of a number, or of the numbers of a list.
+// Returns the entry of a number or of a list of numbers; undefined if the table has none.
 export function fieldOf(path) {
   const general = path.replace(/\[\d+\]/g, "[]");
   return table.get(general) ?? table.get(`${general}[]`);

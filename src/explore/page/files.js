@@ -1,21 +1,21 @@
-// Scenes from files, examples and addresses, and files of the scene.
+// Opens scenes from files, examples and addresses, and saves files of the scene.
 
 import { download, node } from "./dom.js";
 import { bare, carried, link } from "./link.js";
 import { Refused, measured, read, saved, write } from "./talk.js";
 
 export class Files {
-  // The scene as it was last saved to a file, or as the program was started with.
+  // JSON of the scene as it was last opened or saved. The present scene has unsaved changes if it differs.
   #onDisk;
 
-  // The scene that the address carries.
+  // JSON of the scene in the address, or null.
   #linked = null;
-  // Name of the file that the scene was opened from, without its ending.
+  // Name, without extension, of the file that the scene was opened from, or null.
   #stem = null;
 
   #saving = null;
-  // `say(words)` is for what went wrong, `onReplaced()` for another saw than before, `onBusy(what)` for
-  // a file that is made; `shown()` waits for the name of the scene's chart.
+  // `say(text)` shows an error. `onReplaced()` is called before another saw replaces the present one, `onBusy(name)`
+  // while the program makes a file, and with null after it. `shown()` waits for the identifier of the scene's chart.
   constructor(state, kept, begun, { say, onReplaced, onBusy, shown }) {
     this.state = state;
     this.kept = kept;
@@ -29,7 +29,7 @@ export class Files {
     addEventListener("hashchange", () => this.#paste());
   }
 
-  // The scene is on the disk.
+  // Records that a scene is saved.
   saved(scene = this.state.scene) {
     this.#onDisk = JSON.stringify(scene);
   }
@@ -38,13 +38,14 @@ export class Files {
     return JSON.stringify(this.state.scene) === this.#onDisk;
   }
 
-  // The file that the program was started with.
+  // Returns the file that the program was started with as a target for saving, or null.
   #ofProgram() {
     const { file } = this.begun;
     return file && { ...file, write: () => write(this.state.scene) };
   }
 
-  // A file of this computer that the browser lets the page write to, once its user agrees.
+  // Returns a local file as a target for saving. The browser asks its user for permission when the page first writes to
+  // it.
   #ofBrowser(handle, text) {
     const put = async () => {
       const stream = await handle.createWritable();
@@ -54,18 +55,18 @@ export class Files {
     return { name: handle.name, plain: isPlain(text), write: put };
   }
 
-  // The file that a saw came from and can be saved to, if any, and the saw as it is there.
+  // Combines the file that a saw can be saved to, or null, with the scene as the file contains it.
   #origin(target, scene) {
     return { target, written: JSON.stringify(scene) };
   }
 
-  // The file that the saw can be saved to, and whether the saw differs from it; nothing without one.
+  // Name of the file that the saw can be saved to, and whether the saw differs from it; null if there is no file.
   get target() {
     const { target, written } = this.state.origin;
     return target && { name: target.name, differs: JSON.stringify(this.state.scene) !== written };
   }
 
-  // Saves the saw to the file that it came from.
+  // Saves the saw to the file that it came from. If the file has comments, the user is asked first.
   async write() {
     const { origin } = this.state;
     const { target } = origin;
@@ -90,25 +91,25 @@ export class Files {
     return `${JSON.stringify(this.state.scene, null, 2)}\n`;
   }
 
-  // A file of this saw: "six-pads-campbell.png", and "six-pads.json" of the scene itself.
+  // Returns the name of a file of this saw, such as "six-pads-campbell.png", or "six-pads.json" for the scene itself.
   nameOf(file) {
     const plain = (this.state.scene.name ?? "").normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
     const stem = this.#stem ?? (plain.replace(/[^a-z0-9]+/g, "-").slice(0, 60).replace(/^-|-$/g, "") || "saw");
     return file === "scene.json" ? `${stem}.json` : `${stem}-${file}`;
   }
 
-  // Whether another saw may take the place of this one.
+  // Returns true if all changes are saved, or if the user agrees to replace the saw.
   #mayReplace(name) {
     return this.isSaved || confirm(`Open “${name}” in place of the saw as you have changed it? “Undo” brings that back.`);
   }
 
-  // Of the scene as it is now; what was linked before is another one.
+  // Keeps a changed scene in the browser, and removes the scene from the address if it is a different one.
   changed(scene) {
     this.kept.keep(scene);
     if (this.#linked !== JSON.stringify(scene)) bare();
   }
 
-  // Another saw in place of this one.
+  // Replaces the scene by that of another saw, which has no unsaved changes.
   #open(scene, { stem = null, target = null } = {}) {
     this.#stem = stem;
     this.saved(scene);
@@ -128,7 +129,7 @@ export class Files {
 
   async save(name) {
     if (name === "scene.json") {
-      // Without the server: it may have ended.
+      // The page writes this file itself, because the server may have ended.
       download(this.nameOf(name), new Blob([this.#text()], { type: "application/json" }));
       this.saved();
       return;
@@ -145,14 +146,14 @@ export class Files {
     if (this.#saving === saving) this.onBusy(null);
   }
 
-  // No file is made any more.
+  // Cancels the file that is being made.
   stop() {
     this.#saving?.abort();
     this.#saving = null;
   }
 
-  // A scene, or a table of measured frequencies. What is neither leaves everything as it is. With a `handle` the page
-  // can save to the file.
+  // Opens a scene or a table of measured frequencies. If the file is neither, the scene does not change. With a
+  // `handle`, the page can save to the file.
   async open(file, handle = null) {
     try {
       const text = await file.text();
@@ -168,7 +169,8 @@ export class Files {
     }
   }
 
-  // Puts the address with the scene in it where it can be pasted from; `button` says where.
+  // Writes the scene into the address and copies it to the clipboard. The label of `button` then says where the link
+  // is.
   async copyLink(button) {
     const address = await link(this.state.scene);
     if (address === null) {
@@ -186,7 +188,8 @@ export class Files {
     setTimeout(() => (button.textContent = "Copy link"), 3000);
   }
 
-  // The scene of the address, or an edited one that this tab goes on with: then `note` is shown.
+  // Opens the scene of the address. Without one, restores an edited scene that the browser kept, if any, and shows
+  // `note`.
   async restore(note) {
     const linked = await this.#carried();
     const earlier = await this.kept.restored(linked);
@@ -212,7 +215,7 @@ export class Files {
     this.#open(scene);
   }
 
-  // An address with a scene that was pasted over that of the page.
+  // Opens the scene of an address that the user pasted into the address bar of the open page.
   async #paste() {
     const scene = await this.#carried();
     if (scene === null || JSON.stringify(scene) === JSON.stringify(this.state.scene)) return;
@@ -225,7 +228,7 @@ export class Files {
   }
 }
 
-// Whether a text is JSON without comments.
+// Returns whether a text is JSON without comments.
 function isPlain(text) {
   try {
     JSON.parse(text);

@@ -1,5 +1,4 @@
-// A field for every quantity of a scene, made from its schema: what the library can read, the
-// page can set.
+// Makes a field for every quantity in the schema of scenes, so that the page can set all that the library reads.
 
 import { node } from "./dom.js";
 import { fieldOf, unitOf } from "./fields.js";
@@ -8,18 +7,18 @@ import { Range } from "./range.js";
 import { get } from "./scene.js";
 import { numberOf, partName, readings, shown, tidy } from "./words.js";
 
-// The order in which a saw is thought of: what it shall run at, the blade, what guides it, what it
-// is mounted on and what it cuts.
+// Order of the first groups; the others follow in the order of the schema.
 const ORDER = ["operating_rpm", "blade", "guides", "mount", "cut"];
-// Parts that this chart does not depend on, and the command that looks at them.
+// Groups that the chart does not use, or only on request, and the command that uses each.
 const ELSEWHERE = { cut: "cut", "cut.washboarding": "washboard", runup: "runup", spline: "cut" };
 
-// Numbers that speeds are known to move with: they keep room for it from the beginning.
+// Numbers that influence the speeds of most saws. Their fields reserve a line for the influence before it is computed,
+// so that the form does not jump.
 const WEIGHED = new RegExp("^(blade[.](thickness_m|profile[[].*thickness_m|rim[.]mass_per_tooth_kg|material[.](youngs_modulus_pa|density_kg_per_m3))"
   + "|guides[[].*[.](radius_m|angle_deg|stiffness_n_per_m)|membrane[.].*(expansion_per_k|rim_rise_k|eigenstrain|groove_depth_m)|membrane[.]roll_tension.*radius_m)$");
 
 export class Form {
-  // `say(words)` is for what no field can say.
+  // `say(text)` shows an error that belongs to no field.
   constructor(place, { schema, needs }, state, say) {
     this.place = place;
     this.schema = schema;
@@ -28,11 +27,11 @@ export class Form {
     this.say = say;
     this.fields = new Map();
     this.found = [];
-    // The part that was put in last, until its fields are made.
+    // Path of the part that was added last; null after its fields are made.
     this.fresh = null;
   }
 
-  // Makes the fields anew, where the scene has got or lost a part.
+  // Makes all fields anew, after a part of the scene was added or removed. Open groups, focus and selection are kept.
   build() {
     const open = new Set([...this.place.querySelectorAll("details[open]")].map((d) => d.dataset.path));
     const first = this.place.childElementCount === 0;
@@ -52,14 +51,14 @@ export class Form {
     if (selected) this.select(selected);
   }
 
-  // What had the focus, or the list that it was taken out of.
+  // Returns the focus to the element with this id. If its entry of a list was removed, the button that adds an entry
+  // gets the focus.
   #focus(id) {
     const list = `${id.replace(/\[\d+\][^[]*$/, "")}:add`;
     (document.getElementById(id) ?? document.getElementById(list))?.focus({ preventScroll: true });
   }
 
-  // Shows the numbers of the scene, except in the field that is being typed in.
-  // While a hand moves, only those that changed.
+  // Shows the values of the scene. During a drag, only the fields whose values changed are updated.
   refresh(draft = false) {
     for (const field of this.fields.values()) {
       const value = get(this.state.scene, field.path);
@@ -69,7 +68,7 @@ export class Form {
     }
   }
 
-  // The thing on the blade that an element of the form belongs to.
+  // Returns the path of the pad, cut or probe that an element of the form belongs to, or null.
   partOf(element) {
     const paths = ["cut", "probe"];
     const part = element.closest("details[data-path^='guides['], details[data-path='cut'], details[data-path='probe']");
@@ -77,7 +76,7 @@ export class Form {
     return path && (paths.includes(path) || /^guides\[\d+\]$/.test(path)) ? path : null;
   }
 
-  // Opens and marks the fields of a thing on the blade.
+  // Opens and marks the fields of a pad, the cut or the probe; unmarks all if `path` is null.
   select(path) {
     for (const part of this.place.querySelectorAll("details.selected")) part.classList.remove("selected");
     let part = path && this.place.querySelector(`details[data-path="${path}"]`);
@@ -85,7 +84,7 @@ export class Form {
     for (; part; part = part.parentElement.closest("details")) part.open = true;
   }
 
-  // How the speeds move with each number.
+  // Shows beside each number how it influences the speeds.
   influence(found) {
     this.found = found;
     const by = new Map(found.map((one) => [one.path, one]));
@@ -99,12 +98,12 @@ export class Form {
     }
   }
 
-  // A refusal in the words and the unit of the field that it is about.
+  // Returns the text of a refusal, in the unit of its field if the form has one.
   inWords({ key, message, told }) {
     return (this.fields.has(key) && told) || message;
   }
 
-  // What is wrong, at the field it is about; whether there is one.
+  // Shows a refusal at its field and removes earlier ones. Returns whether the form has this field.
   refuse(refusal) {
     const key = refusal?.key ?? null;
     let told = false;
@@ -179,13 +178,13 @@ export class Form {
 
   #switch(path, title, there) {
     const textContent = there ? `Take ${title} out` : `Put ${title} in`;
-    // The same before and after: it keeps the focus.
+    // The button has an equal id when the part is added and when it is removed, so that it keeps the focus.
     const button = node("button", { type: "button", id: `${path}:switch`, textContent });
     button.addEventListener("click", () => (there ? this.state.set(path, undefined, { structure: true }) : this.#putIn(path, path)));
     return button;
   }
 
-  // Puts a part in; the fields of `fresh` are opened.
+  // Adds a part to the scene and opens the group with the path `fresh`.
   async #putIn(path, fresh, kind = "") {
     try {
       await putIn(this.state, path, { kind, before: () => (this.fresh = fresh) });
@@ -234,7 +233,7 @@ export class Form {
     };
     const shows = (value) => {
       show(value);
-      // What is of the scene, to tell it from what is being typed.
+      // The default value is the text of the scene. A control whose text differs is being typed in.
       if (!control.matches("select")) control.defaultValue = control.value;
     };
     this.fields.set(path, { path, element, show: shows, error });
@@ -269,13 +268,13 @@ export class Form {
     return this.#details(`${path}:lines`, key, "", this.#register(path, row, shows));
   }
 
-  // A list of numbers, with commas between them.
+  // Makes a field for a list of numbers, which are shown with commas between them.
   #numbers(schema, path) {
     const { unit, scale, name } = unitOf(path);
     const input = node("input", { id: path, type: "text", placeholder: "none" });
     input.addEventListener("change", () => {
       const texts = input.value.split(/[,;\s]+/).filter((text) => text !== "");
-      // What is no number the library shall refuse in its own words.
+      // A text that is not a number is sent as it is, so that the library refuses it with its own message.
       const numbers = texts.map((text) => (readings(text).length > 0 ? tidy(readings(text)[0] / scale) : text));
       this.state.set(path, numbers.length > 0 ? numbers : undefined);
     });
@@ -305,7 +304,7 @@ export class Form {
       const number = numberOf(input.value, isUsual);
       if (input.value.trim() === "" && !required) send(undefined);
       else if (number !== null) send(tidy(number / scale));
-      // What is no number the library shall refuse in its own words.
+      // A text that is not a number is sent as it is, so that the library refuses it with its own message.
       else send(input.value.trim());
     });
     const slid = () => tidy(whole ? Math.round(range.value(slider.value)) : Number(range.value(slider.value).toPrecision(4)));
@@ -328,10 +327,11 @@ export class Form {
   }
 }
 
-// Whether a field may be written to: nothing is being typed in it.
+// Returns whether a field may be overwritten, because nothing is being typed in it.
 const isWritten = (field) => document.activeElement !== field || field.value === field.defaultValue;
 
-// "guides[0].radius_m" is "guides 1: radius": no two fields sound alike.
+// Returns the accessible name of a field, such as "guides 1: radius" for "guides[0].radius_m". Each field has a
+// different one.
 function inWords(path, name) {
   const parts = path.split(".").slice(0, -1);
   const words = parts.map((part) => part.replace(/\[(\d+)\]/g, (_, index) => ` ${Number(index) + 1}`).replaceAll("_", " "));

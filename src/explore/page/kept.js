@@ -1,16 +1,17 @@
-// What is not to be lost: the edits of each tab in the browser's storage.
+// Keeps the edited scene of each tab in the storage of the browser.
 
 const PREFIX = "sawflutter scene ";
 const TAB = "sawflutter tab";
-// Scenes kept at most; the oldest go first.
+// Largest number of kept scenes; the oldest are removed first.
 const MOST = 30;
-// A tab that is loaded again waits so long for what it was before to let go of its name.
+// Longest time that a reloaded tab waits until its earlier page releases the lock of its name, and the interval of
+// attempts.
 const PATIENCE_MS = 1000;
 const STEP_MS = 50;
 
-// Edits belong to a tab and to the scene that the program was started with.
+// A kept scene belongs to a tab and to the scene that the program was started with.
 export class Kept {
-  // Whether the browser has kept the latest scene.
+  // Whether the browser stored the latest scene.
   works = true;
   #tab = null;
 
@@ -18,8 +19,9 @@ export class Kept {
     this.begun = JSON.stringify(begun);
   }
 
-  // The edited scene that this tab goes on with: its own of before it was loaded again, or the latest
-  // one that no open tab has. Where the address has a scene, others stay as they are kept.
+  // Returns the edited scene with which this tab continues, or null: its own from before a reload, or the latest one
+  // that no open tab has. If the address has another scene, the tab starts with a new name, so that it overwrites no
+  // kept scene.
   async restored(linked) {
     try {
       const all = entries().filter(({ begun }) => begun === this.begun).sort((x, y) => y.at - x.at);
@@ -29,7 +31,7 @@ export class Kept {
       if (linked !== null && !isLinked) return await this.#goesOn(crypto.randomUUID());
       const isFree = mine || !entries().some(({ tab }) => tab === own);
       if (own !== null && isFree && (await held(own, PATIENCE_MS))) return await this.#goesOn(own, mine);
-      // A tab that was doubled begins with the scene of the other, and keeps its own.
+      // A duplicated tab starts with the scene of the original tab, under a new name.
       if (mine) return await this.#goesOn(crypto.randomUUID(), mine);
       for (const entry of all) if (await held(entry.tab)) return await this.#goesOn(entry.tab, entry);
       return await this.#goesOn(crypto.randomUUID());
@@ -46,7 +48,7 @@ export class Kept {
     return entry?.scene ?? null;
   }
 
-  // A scene that was not changed needs not to be kept.
+  // Keeps the scene of this tab. The scene that the program was started with is not kept, because it has no changes.
   keep(scene) {
     if (this.#tab === null) return;
     try {
@@ -57,7 +59,7 @@ export class Kept {
       old.forEach(({ tab }) => localStorage.removeItem(PREFIX + tab));
       this.works = true;
     } catch {
-      // A browser that keeps nothing still has the page.
+      // The page also works without the storage of the browser.
       this.works = false;
     }
   }
@@ -77,7 +79,8 @@ function entries() {
 
 const names = new Set();
 
-// Takes the name of a tab for as long as this page is open; false where another tab has it.
+// Locks the name of a tab as long as this page is open. Returns false if another tab has it, after `patience`
+// milliseconds.
 async function held(tab, patience = 0) {
   if (names.has(tab)) return true;
   const take = () => new Promise((resolve) => {

@@ -1,6 +1,6 @@
-// The scene in the address of the page.
+// Writes a scene into the address of the page and reads it from there.
 
-// Browsers and mail cut longer addresses off.
+// Longest address in characters. Some browsers and mail programs truncate longer ones.
 const LONGEST_LINK = 8000;
 
 async function through(stream, bytes) {
@@ -8,7 +8,7 @@ async function through(stream, bytes) {
   return new Uint8Array(await new Response(piped).arrayBuffer());
 }
 
-// The address of the page with the scene in it; nothing where it would be too long.
+// Returns the address of the page with the scene in it, or null if it would be too long.
 export async function link(scene) {
   const packed = await through(new CompressionStream("deflate-raw"), new TextEncoder().encode(JSON.stringify(scene)));
   const text = btoa(String.fromCharCode(...packed)).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
@@ -16,7 +16,7 @@ export async function link(scene) {
   return address.length <= LONGEST_LINK ? address : null;
 }
 
-// The text of the scene that the address carries.
+// Returns the text of the scene in the address, or null.
 export async function carried() {
   const found = /^#scene=([\w-]+)$/.exec(location.hash);
   if (!found) return null;
@@ -24,7 +24,7 @@ export async function carried() {
   return new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), packed));
 }
 
-// The address without a scene: from the first change on it would be another one.
+// Removes the scene from the address, for use when the address does not describe the present scene.
 export function bare() {
   if (location.hash.startsWith("#scene=")) history.replaceState(null, "", location.pathname);
 }

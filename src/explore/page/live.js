@@ -17,10 +17,10 @@ export class Live {
   #count = 0;
   #computing = null;
   #next = null;
-  // The newest that was shown.
+  // The chart that was shown last, and its request.
   #shown = null;
   #rest = 0;
-  // The newest results before their chart.
+  // The newest early results, and their request.
   #ahead = null;
   #isLookingAhead = false;
 
@@ -31,7 +31,7 @@ export class Live {
     this.onBusy = onBusy;
   }
 
-  // Whether anything was asked for yet.
+  // Whether any chart was requested yet.
   get asked() {
     return this.#count > 0;
   }
@@ -41,7 +41,7 @@ export class Live {
     return this.#computing !== null;
   }
 
-  // Nothing is computed until it is asked for again.
+  // Cancels the chart that is being computed and drops the next request.
   stop() {
     clearTimeout(this.#rest);
     this.#next = null;
@@ -51,11 +51,12 @@ export class Live {
     this.#proceed(running);
   }
 
-  // `stamp` is when the hand moved, `released` when it let go.
+  // Requests the chart of a scene. `stamp` is the time of the move that changed the scene, `released` the time at which
+  // a drag ended.
   ask(scene, { draft, stamp = undefined, released = undefined }) {
     clearTimeout(this.#rest);
     const text = JSON.stringify(scene);
-    // Every move waits for the chart that has it in, also those that were passed.
+    // The request takes over the moves of drafts that were never computed, because its chart contains them.
     const { stamps = [], counted = {} } = this.#next ?? {};
     if (stamp !== undefined) stamps.push(stamp);
     if (!draft && this.#adopted(text, stamps, released)) return;
@@ -80,7 +81,7 @@ export class Live {
       if (left > 0) await new Promise((resolve) => setTimeout(resolve, left));
       if (left > 0) continue;
       last = this.#next;
-      // The chart reports a refusal.
+      // A refusal is ignored, because the chart reports it.
       const found = await criticalSpeeds(last.text).catch(() => null);
       if (found) this.#showAhead(found, last);
     }
@@ -95,13 +96,14 @@ export class Live {
     this.onAhead(found, request);
   }
 
-  // Asks for the final chart anew, also where it is shown.
+  // Requests the final chart again, also if it is shown.
   again(scene) {
     this.#shown = null;
     this.ask(scene, { draft: false });
   }
 
-  // Whether the final chart of this scene was begun or shown while the hand rested.
+  // Uses the final chart of this scene if it was requested while the pointer rested. Returns whether it is being
+  // computed or shown.
   #adopted(text, stamps, released) {
     const [running, shown] = [this.#computing, this.#shown];
     if (running && !running.draft && running.text === text) {
@@ -119,7 +121,7 @@ export class Live {
     this.#next = null;
     this.#computing = request;
     request.abort = new AbortController();
-    // For the test in a browser, as when it was answered.
+    // Times of request and answer. The budget of a draft and the browser test use them.
     request.asked = performance.now();
     this.onBusy(true, request.draft);
     let found;
@@ -144,7 +146,7 @@ export class Live {
   }
 
   #show(found, request) {
-    // A final chart is of the scene as it is, or it is not shown.
+    // A final chart is shown only if the scene has not changed since; a draft, if no newer chart is shown.
     const passed = request.draft ? request.number < (this.#shown?.request.number ?? 0) : request.number !== this.#count;
     if (passed) return;
     this.#shown = { chart: found, request };

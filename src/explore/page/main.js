@@ -1,4 +1,4 @@
-// Puts the page together: a change of the scene asks for a chart, a chart is shown.
+// Connects the modules of the page: each change of the scene requests a chart, which is shown when it arrives.
 
 import { Blade } from "./blade.js";
 import { Charts } from "./charts.js";
@@ -32,8 +32,8 @@ let latest = null;
 let refusedKey = null;
 const kept = new Kept(begun.scene);
 
-// For the test in a browser: times from a move, or from the release, to its painted chart, the parts of
-// those of drafts, and what is shown.
+// Read by the browser test: times from a move, or from the release of a drag, to the painted chart, the parts of these
+// times for drafts, and the state of the page.
 /** @type {any} */
 const seen = (/** @type {any} */ (window).sawflutter = { latencies: { critical: [], bands: [], draft: [], scene: [], release: [] }, ahead: 0, computed: [], parts: [], painted: null, newest: null });
 
@@ -74,22 +74,22 @@ const tasks = new Tasks(by("tabs"), by("panels"), by("panel-chart"), state, begu
 const live = new Live({ onChart, onAhead, onRefused, onBusy });
 const waiting = new Waiting(by("waiting"), { onStop, onAgain: () => live.again(state.scene), ask: progress });
 seen.state = state;
-// Whether the chart that is painted is that of the scene, at its own accuracy.
+// Returns whether the painted chart is that of the present scene at the accuracy of the scene.
 seen.settled = () => !isPuttingIn() && seen.painted === JSON.stringify(state.scene) && !document.body.classList.contains("stale");
-// The same at whatever accuracy.
+// Returns whether the painted chart, which may be a draft, is that of the present scene.
 seen.follows = () => seen.newest === JSON.stringify(state.scene);
 seen.report = () => latest.report;
 seen.speeds = () => charts.speeds;
 seen.nameOf = (file) => files.nameOf(file);
 seen.open = (file) => files.open(file);
 
-// The name of the chart of the scene, once it is shown; nothing where none will be.
+// Waits for the chart of the scene and returns its identifier, or null if no chart of the scene is being computed.
 async function chartOfScene() {
   while (live.isBusy && !seen.settled()) await new Promise((resolve) => setTimeout(resolve, STEP_MS));
   return seen.settled() ? latest.chart : null;
 }
 
-// Adds a pad at a place of the blade, and its partner where pads are changed in pairs.
+// Adds a pad at a position on the blade, and its partner if pads are changed in pairs.
 async function addPad(place) {
   adding(false);
   const before = (made) => {
@@ -105,13 +105,13 @@ async function addPad(place) {
   }
 }
 
-// Whether the next click on the blade adds a pad.
+// Sets whether the next click on the blade adds a pad.
 function adding(on) {
   blade.isAdding = on;
   by("add").setAttribute("aria-pressed", String(on));
 }
 
-// A thing on the blade and its fields are marked together.
+// Marks a pad, the cut or the probe in the drawing and its fields in the form.
 function select(path) {
   blade.select(path);
   form.select(path);
@@ -123,7 +123,7 @@ function onZoom(speeds) {
   pinned.zoomed(speeds);
 }
 
-// A chart that is of an earlier scene for longer than a blink is shown as such.
+// A chart of an earlier scene is marked as such if it is shown for longer than BLINK_MS.
 const BLINK_MS = 400;
 const STEP_MS = 20;
 let shownText = null;
@@ -150,7 +150,7 @@ function onChart(chart, request) {
   form.refuse(null);
   say("");
   document.body.classList.remove("stale");
-  // Until the chart after the release.
+  // The axes are kept until the chart after the release.
   pinned.hold(request.draft || state.isMoving);
   compare();
   if (!request.draft) weigh(chart);
@@ -191,15 +191,15 @@ function onAhead(found, request) {
   });
 }
 
-// Where the time from a move to its painted chart goes, in milliseconds: waiting for the chart that was
-// computed at the time of each move, computing, being sent, and on the page.
+// Divides the time from a move to its painted chart, in milliseconds, into waiting for the chart that was being
+// computed at the move, computing, sending, drawing and painting.
 function partsOf({ stamps, asked, answered }, computing, read, drawn, now) {
   return {
     waiting: stamps.map((stamp) => asked - stamp), computing, sending: answered - asked - computing, drawing: drawn - read, painting: now - drawn,
   };
 }
 
-// How the speeds of a chart move with the numbers of the form.
+// Requests the influence of the numbers of the form on the speeds of a chart, and shows it in the form.
 let weighing = null;
 async function weigh(chart) {
   weighing?.abort();
@@ -210,25 +210,25 @@ async function weigh(chart) {
     form.influence(found);
     by("fields").classList.remove("unweighed");
   } catch (error) {
-    // No chart depends on it: where it fails, the fields are as they were.
+    // A failure is not reported, because the chart does not depend on the influence. The fields then show none.
     if (error.name !== "AbortError") form.influence([]);
   }
 }
 
-// The chart, and what is held against it.
+// Shows the latest chart and the saws that it is compared with.
 function compare() {
   pinned.showWith(latest, by("side").checked && pinned.isNamed);
   tell();
 }
 
-// After the frame in which the chart is drawn.
+// Calls `then` after the next frame is painted.
 function painted(then) {
   const channel = new MessageChannel();
   channel.port1.onmessage = then;
   requestAnimationFrame(() => channel.port2.postMessage(null));
 }
 
-// One line under the chart for what no field can say.
+// Shows an error that belongs to no field.
 function say(text) {
   write(by("fault"), text);
 }
@@ -240,7 +240,7 @@ function onRefused(error, request) {
   refusedKey = error.key ?? null;
   const told = form.refuse(error);
   say(told ? "" : answers ? error.message : "The program does not answer any more. Save the scene, start the program again and open it there.");
-  // Chart and verdict are of an earlier scene.
+  // The shown chart and verdict are those of an earlier scene.
   document.body.classList.add("stale");
   blade.draw(state.scene, refusedKey);
 }
@@ -254,7 +254,7 @@ function onStop() {
   live.stop();
   files.stop();
   if (seen.settled()) return false;
-  // Early results of a chart that is not completed are removed.
+  // Early results of the chart that was stopped are removed.
   if (latest) compare();
   say("Chart and verdict are of the scene before the last change.");
   document.body.classList.add("stale");
@@ -286,7 +286,7 @@ function buttons() {
   const focused = /** @type {any} */ (document.activeElement);
   by("undo").disabled = !state.canUndo;
   by("redo").disabled = !state.canRedo;
-  // The button that was pressed last may have nothing left to do.
+  // If the button that was pressed is disabled now, the other one gets the focus.
   if (focused.disabled) [by("undo"), by("redo")].find((button) => !button.disabled)?.focus();
   const source = state.scene.measured?.source;
   by("points").hidden = source === undefined;
@@ -313,7 +313,7 @@ function pin() {
 }
 
 const INCHES = "sawflutter inches";
-// Lengths in inches or millimetres: the scene stays as it is.
+// Shows lengths in inches or millimetres; the scene does not change.
 function measure(on) {
   by("inches").checked = on;
   useInches(on);
@@ -322,17 +322,18 @@ function measure(on) {
   try {
     localStorage.setItem(INCHES, on ? "1" : "");
   } catch {
-    // A browser that keeps nothing still shows them.
+    // Without the storage of the browser, the choice lasts until the page is closed.
   }
 }
 
-// A text that is not yet, or not at all, of the scene: it has an undo of its own.
+// Returns whether an element contains a text that is not in the scene. The browser's own undo then applies to the text.
 function isBeingTyped(element) {
   if (!element.matches("input[type=text], textarea")) return false;
   return !by("fields").contains(element) || element.value !== element.defaultValue;
 }
 
-// A menu closes when something in it was chosen, and when the hand goes elsewhere.
+// Closes a menu when an entry is chosen, when the pointer or the focus moves elsewhere, and on Escape. Checkboxes and
+// the button that copies the link leave it open.
 function menu(place) {
   const close = () => (place.open = false);
   place.addEventListener("click", (event) => event.target.closest("button") && event.target.id !== "link" && close());
@@ -369,7 +370,7 @@ function wire() {
     event.preventDefault();
     const [file] = event.dataTransfer.files;
     if (!file) return;
-    // Asked for at once: later the browser does not know what was dropped.
+    // The handle is requested at once, because the dropped items are only available during the event.
     const handle = /** @type {any} */ (event.dataTransfer.items[0]).getAsFileSystemHandle?.() ?? Promise.resolve(null);
     handle.catch(() => null).then((found) => files.open(file, found));
   });
@@ -382,14 +383,14 @@ function wire() {
   });
   by("open").addEventListener("click", async (event) => {
     if (!("showOpenFilePicker" in globalThis)) return;
-    // A file that the page may save to.
+    // This dialog, unlike that of the input element, gives a handle by which the page can save to the file.
     event.preventDefault();
     const [handle] = await /** @type {any} */ (globalThis).showOpenFilePicker().catch(() => []);
     if (handle) await files.open(await handle.getFile(), handle);
   });
   by("open").addEventListener("change", async (event) => {
     if (event.target.files[0]) await files.open(event.target.files[0]);
-    // The same file can be opened once more.
+    // An empty value allows the user to choose the same file again.
     event.target.value = "";
   });
   for (const button of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-save]"))) {
@@ -403,7 +404,7 @@ function wire() {
     if (redo) state.redo();
     if (undo || redo) event.preventDefault();
   });
-  // The scheme may change while the page is printed.
+  // The colour scheme may change while the page is printed, so the medium is stored.
   let onPaper = false;
   const recolour = (printed = onPaper) => {
     onPaper = printed;
@@ -418,7 +419,7 @@ function wire() {
   menu(document.querySelector(".menu"));
   dock(by("campbell"));
   stayConnected((lost) => {
-    // A program that was started again has none of the charts of the one before.
+    // A program that was started again does not have the earlier charts.
     if (!lost && !by("lost").hidden) live.again(state.scene);
     by("lost").hidden = !lost;
   });

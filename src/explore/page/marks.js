@@ -1,4 +1,4 @@
-// How things are drawn: the colours of the figures, lighter on a dark page, and the items of a chart on a canvas.
+// Colours of the figures, which are lighter on a dark page, and the drawing of the items of a chart on a canvas.
 
 const DASH = [6, 4];
 const FINE_DASH = [4, 4];
@@ -9,12 +9,12 @@ const WHITE = [255, 255, 255];
 const mix = (a, b, share) => a.map((channel, i) => Math.round(channel * share + b[i] * (1 - share)));
 const css = (/** @type {number[]} */ [r, g, b]) => `rgb(${r}, ${g}, ${b})`;
 
-// Paper is white.
+// Returns the colours of the page as CSS. Printed paper has those of a light page.
 export function theme(colours, onPaper = false) {
   const dark = !onPaper && matchMedia("(prefers-color-scheme: dark)").matches;
   const chosen = {};
   for (const [name, colour] of Object.entries(colours)) {
-    // Lines and letters are lightened until they stand out; shades are darkened.
+    // On a dark page, lines and letters are lightened for contrast, and shades are darkened.
     if (!dark) chosen[name] = css(colour);
     else if (name.endsWith("_shade")) chosen[name] = css(mix(colours[name.replace("_shade", "")], DARK_PAPER, 0.55));
     else if (name.endsWith("_streak")) chosen[name] = css(mix(colour, DARK_PAPER, 0.6));
@@ -26,7 +26,7 @@ export function theme(colours, onPaper = false) {
   return { ...chosen, dark };
 }
 
-// The same colours for the style sheet.
+// Sets the colours of the page as custom properties for the style sheet, and returns them.
 export function publish(colours, onPaper) {
   const chosen = theme(colours, onPaper);
   for (const [name, colour] of Object.entries(chosen)) {
@@ -35,8 +35,8 @@ export function publish(colours, onPaper) {
   return chosen;
 }
 
-// Items of the program's description of a chart, on one of its panels. `x` and `y` are the places of values on the
-// canvas, `box` is the panel there, and `scale` is the number of its pixels to one of the page.
+// Draws the items of a chart on one of its panels. `x` and `y` convert values to canvas pixels, `box` is the panel in
+// canvas pixels, and `scale` is the number of canvas pixels for each pixel of the page.
 export class Painter {
   constructor(context, { x, y, box, scale, colours }) {
     this.context = context;
@@ -47,7 +47,7 @@ export class Painter {
     this.colours = colours;
   }
 
-  // What is drawn within the panel.
+  // Clips what `draw` draws to the panel.
   within(draw) {
     this.context.save();
     this.context.beginPath();
@@ -57,7 +57,7 @@ export class Painter {
     this.context.restore();
   }
 
-  // Narrow bands last: a wide one must not hide them.
+  // Draws the bands, narrow ones last, so that a wide one does not hide them.
   bands(items) {
     const stretches = items.filter(({ item }) => item === "band").flatMap((band) => band.shaded.map((ends) => ({ band, ends: ends.map(this.x) })));
     for (const narrow of [false, true]) {
@@ -85,7 +85,8 @@ export class Painter {
     }
   }
 
-  // The branch of a number is thicker. Of another saw, whose lines have the dashes `ghost`, branches alone are drawn in grey.
+  // Draws the lines. The branch with the number `highlighted` is thicker. If `ghost` is given, the items are those of a
+  // pinned saw: only its branches are drawn, in grey, with the dashes `ghost`.
   lines(items, { highlighted = null, ghost = null } = {}) {
     for (const line of items) {
       if (line.item !== "line" || (ghost && line.branch === null)) continue;
@@ -105,7 +106,7 @@ export class Painter {
     this.context.setLineDash(dash.map((d) => d * this.scale));
   }
 
-  // What lies above the panel is not drawn: of a damped saw that is most of it. A line is interrupted by null.
+  // Segments entirely above the panel are skipped, and a null in `x` interrupts a line.
   #trace({ x, y }) {
     let goesOn = false;
     this.context.beginPath();
@@ -149,7 +150,7 @@ export class Painter {
     return this.x(at) >= this.box.left && this.x(at) <= this.box.left + this.box.width;
   }
 
-  // What is said where there is nothing to be seen.
+  // Writes a note of the program across the panel, on a background in the colour of the page.
   note(words) {
     const [left, middle] = [this.box.left + 10 * this.scale, this.box.top + this.box.height / 2];
     this.#letters(this.colours.paper, "left", 12);
@@ -158,8 +159,8 @@ export class Painter {
     this.context.fillText(words, left, middle);
   }
 
-  // Labels of upright lines above the panel or below its upper edge, on paper; the operating speed first; those
-  // without room are left out.
+  // Labels the vertical lines above the panel or below its upper edge. The operating speed is labelled first; labels
+  // without room are omitted.
   labelUprights(items) {
     const { context, scale } = this;
     const taken = [];
@@ -181,8 +182,8 @@ export class Painter {
     }
   }
 
-  // Labels of bands in rows at the top of the panel, beside their bands, the fastest growing first; those without room
-  // are left out.
+  // Labels the bands in rows at the top of the panel, beside each band, in order of decreasing growth rate; labels
+  // without room are omitted.
   labelBands(items, rows, height) {
     const taken = [];
     const shown = items.filter((band) => band.item === "band" && band.shaded.length > 0 && (this.#has(band.to) || this.#has(band.from)));
@@ -196,7 +197,7 @@ export class Painter {
       if (!free) continue;
       taken.push(free);
       const middle = this.box.top + height * (0.6 + free.row) * this.scale;
-      // Thin bands of others pass behind it.
+      // A translucent background keeps the label legible where thin bands pass behind it.
       this.context.globalAlpha = 0.75;
       this.context.fillStyle = this.colours.paper;
       this.context.fillRect(free.left, middle - 6 * this.scale, width, 12 * this.scale);
@@ -206,7 +207,7 @@ export class Painter {
     }
   }
 
-  // Names at the right ends of lines, pushed apart; those without room are left out.
+  // Writes the names of lines at their right ends, moved apart; names without room are omitted.
   labelEnds(items) {
     const { context, box, scale } = this;
     const height = 13 * scale;
@@ -242,7 +243,7 @@ export class Painter {
   }
 }
 
-// As much of a text as there is room for.
+// Shortens a text to a width in canvas pixels.
 function fitted(context, text, room) {
   if (context.measureText(text).width <= room) return text;
   let cut = text.length - 1;

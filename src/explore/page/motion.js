@@ -1,9 +1,9 @@
-// A mode moving on the blade: w(r, θ, t) = Re Σ (c(r) cos nθ + s(r) sin nθ) e^{iωt}, seen from
-// space and slowed down. A mark on the blade turns with it, slowed down as much: a forward
-// wave overtakes it, a reflected one falls behind it though it runs the same way in space.
+// Animates a mode on the blade in slow motion, as seen from space: w(r, θ, t) = Re Σ (c(r) cos nθ + s(r) sin nθ)
+// e^{iωt}. A mark turns with the blade, equally slowed down. A forward wave overtakes the mark; a reflected one falls
+// behind it, although it runs in the direction of rotation in space.
 
 const SIZE = 180;
-// One oscillation takes this long to watch, and the blade no less for one turn.
+// Shortest times in which one oscillation and one turn of the blade are shown.
 const PERIOD_S = 2.4;
 const LEAST_TURN_S = 4;
 
@@ -20,8 +20,8 @@ export class Motion {
     this.still = matchMedia("(prefers-reduced-motion: reduce)").matches;
   }
 
-  // `reach` is the half width of the drawing, in metres. Returns how many times slower than in
-  // the workshop the motion is shown.
+  // Starts the animation of a mode. `reach` is half the width of the drawing in metres. Returns the factor by which the
+  // motion is slowed down.
   show(mode, reach) {
     this.hide();
     this.#field = sampled(mode, reach);
@@ -33,7 +33,7 @@ export class Motion {
     const draw = (now) => {
       const t = (now - begun) / 1000 / slower;
       this.#draw(2 * Math.PI * mode.frequency_hz * t);
-      // θ is positive with the rotation, which the drawing shows against the clock.
+      // The blade turns counterclockwise in the drawing, against the positive angle of SVG.
       this.mark?.setAttribute("transform", `rotate(${(-360 * t) / turn || 0})`);
       if (!this.still) this.#frame = requestAnimationFrame(draw);
     };
@@ -47,7 +47,8 @@ export class Motion {
     this.mark?.removeAttribute("transform");
   }
 
-  // Two oscillations as a video.
+  // Records the animation for twice PERIOD_S: two oscillations, or fewer if the slowdown follows from the time of a
+  // turn.
   async film() {
     const chunks = [];
     const recorder = new MediaRecorder(this.canvas.captureStream(30));
@@ -76,7 +77,7 @@ export class Motion {
   }
 }
 
-// Real and imaginary part of the deflection at every pixel, at most one.
+// Samples the real and imaginary part of the deflection at every pixel, scaled to a largest magnitude of one.
 function sampled({ radius_m, harmonics }, reach) {
   const count = SIZE * SIZE;
   const field = { re: new Float64Array(count), im: new Float64Array(count), inside: new Uint8Array(count) };

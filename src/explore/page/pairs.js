@@ -1,26 +1,26 @@
-// Pads that are changed in pairs: the image of a pad follows it.
+// Pads that are changed in pairs: a change of a pad is applied to its image too.
 
 const IMAGES = { mirrored: (angle) => 180 - angle, opposed: (angle) => angle + 180 };
-// A pad this close to an image is the partner.
+// A pad is the partner of another one if its radius and angle differ by less than this from those of the image.
 const NEAR_M = 5e-4;
 const NEAR_DEG = 0.5;
 
-// Between −180° and 180°, in tenths.
+// Maps an angle to between −180° and 180°, rounded to 0.1°.
 const turned = (angle) => Math.round(10 * (((((angle + 180) % 360) + 360) % 360) - 180)) / 10;
 
-// The image of a pad; nothing where pads are changed one by one.
+// Returns the image of a pad, or null if pads are changed one by one.
 export function imageOf(pad, kind) {
   return IMAGES[kind] ? { ...pad, angle_deg: turned(IMAGES[kind](pad.angle_deg)) } : null;
 }
 
-// The number of the pad that is the image of another one, or −1.
+// Returns the index of the pad that is the image of the one at `index`, or −1.
 export function partnerOf(guides, index, kind) {
   const image = imageOf(guides[index], kind);
   return image === null ? -1 : guides.findIndex((pad, i) => i !== index
     && Math.abs(pad.radius_m - image.radius_m) < NEAR_M && Math.abs(turned(pad.angle_deg - image.angle_deg)) < NEAR_DEG);
 }
 
-// Changes the partner of the pad that differs from `before` in the same way.
+// Finds the pad that differs from `before` and applies its change to its partner.
 export function follow(before, scene, kind) {
   const [old, guides] = [before.guides ?? [], scene.guides ?? []];
   if (old.length !== guides.length) return;

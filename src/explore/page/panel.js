@@ -1,8 +1,8 @@
-// A panel of the chart: axes by uPlot, marks by whoever draws.
+// A panel of the chart. uPlot draws the axes, and the function `draw` of the caller draws the items.
 
 import { shown } from "./words.js";
 
-// From a script of its own.
+// uPlot is loaded by a separate script, which defines a global.
 const { uPlot } = /** @type {any} */ (globalThis);
 
 const FONT = "12px Inter, Helvetica, Arial, sans-serif";
@@ -12,7 +12,8 @@ function axis(label, size, splits, tick = (/** @type {number} */ value) => value
   return { label, labelFont: FONT, font: FONT, size, labelSize: 18, gap: 4, space: splits ? 24 : 50, ticks: { size: 4 }, values, splits };
 }
 
-// Round values on an axis from the least to the most, as far apart as can be read. On a root scale these are roots.
+// Returns the positions of round values on an axis from `least` to `most`, far enough apart to be legible. On a root
+// scale, the positions are the square roots of the values.
 const ROUND = [0.01, 0.03, 0.1, 0.3, 1, 3, 10, 30, 100, 300, 1000];
 export function splitsOf(rooted, least, most) {
   const apart = 0.16 * (most - least);
@@ -33,8 +34,8 @@ export function splitsOf(rooted, least, most) {
   return marked;
 }
 
-// uPlot wants a series to spread its axes over; the branches have speeds of their own and are
-// drawn by hand.
+// Makes a panel. Its only series is invisible: uPlot needs one for its axes, but the speeds of the branches differ, so
+// that `draw` draws them.
 export function plot(place, { height, label, splits = undefined, tick = undefined, yRange, draw, room, xLabel }) {
   let range = null;
   const options = {
@@ -49,14 +50,14 @@ export function plot(place, { height, label, splits = undefined, tick = undefine
     hooks: { drawAxes: [draw] },
   };
   const chart = new uPlot(options, [[0, 1], [null, null]], place);
-  // For the test in a browser.
+  // The browser test finds the chart here.
   place.chart = chart;
   return {
     chart,
     setRange(wanted) {
       range = wanted;
       const [least, most] = yRange();
-      // Outside of the batch each of these would draw the panel once more.
+      // Outside of a batch, each of these calls would draw the panel once more.
       chart.batch(() => {
         chart.setData([range, [null, null]], false);
         chart.setScale("x", { min: range[0], max: range[1] });

@@ -1,22 +1,22 @@
-// Parts that are put into the scene: the program gives their values.
+// Adds parts to the scene, with values from the program.
 
 import { get } from "./scene.js";
 import { part } from "./talk.js";
 
 let underWay = 0;
 
-// Whether a part is on its way.
+// Returns whether a requested part is not in the scene yet.
 export const isPuttingIn = () => underWay > 0;
 
-// Puts a part in, and what it needs. `path` ends with [] for another entry of a list; `kind` is that of a mount.
-// `before(made)` is called with the new scene just before it takes the place of the other.
+// Adds a part to the scene, and other values that it needs. `path` ends with [] for another entry of a list; `kind` is
+// the kind of a mount. `before(made)` is called with the new scene just before it replaces the present one.
 export async function putIn(state, path, { kind = "", before = (/** @type {any} */ _) => {} } = {}) {
   underWay += 1;
   try {
     for (;;) {
       const asked = JSON.stringify(state.scene);
       const made = await part({ scene: state.scene, path, kind });
-      // A scene that was changed while the program answered gets the part once more.
+      // If the scene was changed while the program answered, the part is requested again for the changed scene.
       if (JSON.stringify(state.scene) !== asked) continue;
       before(made);
       return state.replace(made);
@@ -26,7 +26,7 @@ export async function putIn(state, path, { kind = "", before = (/** @type {any} 
   }
 }
 
-// The value at a path; with [] in it, those of every entry of the list.
+// Returns the value at a path or, if the path contains [], the values of all entries of the list.
 function valuesAt(scene, path) {
   const [list, key] = path.split("[].");
   return key === undefined ? [get(scene, path)] : (get(scene, list) ?? []).map((entry) => get(entry, key));
@@ -34,7 +34,7 @@ function valuesAt(scene, path) {
 
 const isThere = (value) => (Array.isArray(value) ? value.length > 0 : value !== undefined && value !== null);
 
-// Why a part cannot be put into this scene, or a task cannot be computed for it; nothing where it can.
+// Returns why a part cannot be added to this scene, or a task cannot be computed for it; empty if it can.
 export function lacks(needs, name, scene) {
   const need = needs.find((one) => one.of === name);
   const has = ({ path, is }) => valuesAt(scene, path).some((value) => (is === null ? isThere(value) : value === is));

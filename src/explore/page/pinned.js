@@ -5,18 +5,18 @@ import { Charts } from "./charts.js";
 import { node } from "./dom.js";
 import { clone } from "./scene.js";
 
-// Dashes of the lines of pinned saws; with more the chart is hard to read.
+// Dashes of the lines of pinned saws. There are no more, because the chart would be hard to read.
 const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
 const SVG = "http://www.w3.org/2000/svg";
 
 export class Pinned {
-  // The chart that the page began with, before a saw is pinned by hand.
+  // First chart of the page or of another saw that was opened. Numbers are compared with it while no saw is pinned.
   #begun = null;
-  // Each with its name, its chart and the dashes of its lines.
+  // Pinned saws, each with its name, its chart and the dashes of its lines.
   #saws = [];
   #charts = null;
 
-  // `present` are the charts of the saw as it is; `onUnpin()` is called after a saw was taken out.
+  // `present` are the charts of the present saw; `onUnpin()` is called after a saw is unpinned.
   constructor(place, list, present, onUnpin) {
     this.place = place;
     this.list = list;
@@ -32,7 +32,8 @@ export class Pinned {
     this.#begun ??= clone(chart);
   }
 
-  // Another saw is compared with itself, where none was pinned by hand.
+  // Forgets the first chart when another saw is opened, so that its numbers are not compared with those of the earlier
+  // saw. Pinned saws remain.
   reset() {
     if (!this.isNamed) this.#begun = null;
   }
@@ -51,7 +52,7 @@ export class Pinned {
     return this.#saws.length > 0;
   }
 
-  // The chart that numbers are compared with.
+  // Chart that numbers are compared with.
   get #last() {
     return this.#saws.at(-1)?.chart ?? this.#begun;
   }
@@ -66,7 +67,7 @@ export class Pinned {
     this.onUnpin();
   }
 
-  // A row for each pinned saw and one for the present one.
+  // Fills the table: a row for each pinned saw and one for the present saw.
   tell(facts) {
     const hadFocus = this.list.contains(document.activeElement);
     this.list.hidden = !this.isNamed;
@@ -82,13 +83,13 @@ export class Pinned {
     if (hadFocus) this.list.querySelector("button")?.focus();
   }
 
-  // All saws on the axes of the present one; or the last pinned one beside it.
+  // Shows the lines of all pinned saws in the present chart or, if `beside`, the last pinned saw beside it.
   showWith(chart, beside) {
     this.place.hidden = !beside;
     this.place.parentElement.classList.toggle("two", beside);
     this.present.shareAxes(beside ? this.#last : null);
     const differs = (saw) => JSON.stringify(saw.chart.report.scene) !== JSON.stringify(chart.report.scene);
-    // Side by side nothing lies over each other.
+    // Side by side, the present chart has the lines of the present saw only.
     this.present.show(chart, beside ? [] : this.#saws.filter(differs));
     if (!beside) return;
     this.#charts ??= new Charts(this.campbell, this.growth, this.present.colours, {
@@ -107,7 +108,7 @@ export class Pinned {
     this.#charts?.zoomed(speeds);
   }
 
-  // Keeps the axes of all charts as they are.
+  // Keeps the axes of all charts, or lets them follow the charts again.
   hold(on) {
     for (const charts of [this.present, this.#charts]) charts?.hold(on);
   }
@@ -117,7 +118,7 @@ export class Pinned {
   }
 }
 
-// A piece of the line of a saw.
+// Returns a sample of the line of a saw.
 function sample(dash) {
   const picture = document.createElementNS(SVG, "svg");
   const line = document.createElementNS(SVG, "line");

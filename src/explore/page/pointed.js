@@ -1,4 +1,4 @@
-// The mode of the point that is looked at: in words, moving on the blade, and as a film.
+// Shows the mode at the highlighted point as a text and as an animation on the blade, and saves it as a video.
 
 import { Blade } from "./blade.js";
 import { download, node, write } from "./dom.js";
@@ -16,10 +16,10 @@ const NEGLIGIBLE_PER_S = 1e-3;
 
 export class Pointed {
   #asked = null;
-  // The mode that was pointed at last.
+  // Mode that was shown last.
   #filmed = null;
 
-  // `colours()` are those of the page as it is; `scene()` is the scene.
+  // `colours()` returns the present colours of the page, `scene()` the present scene.
   constructor({ canvas, words, film, mark, colours, scene, nameOf }) {
     this.words = words;
     this.film = film;
@@ -33,12 +33,13 @@ export class Pointed {
     film.addEventListener("click", () => this.#save());
   }
 
-  // Whether a mode is shown or on its way.
+  // Whether a mode is shown or requested.
   get isOn() {
     return this.#asked !== null;
   }
 
-  // `point` is a branch and the number of a speed on a chart, or nothing.
+  // Shows the mode at `point`, a branch and the index of one of its speeds in the chart, or hides it if there is no
+  // point.
   async show(chart, point) {
     this.#asked?.abort();
     this.#asked = null;
@@ -64,7 +65,7 @@ export class Pointed {
     this.hint();
   }
 
-  // What can be done here, while no mode is shown.
+  // Explains, while no mode is shown, how to show one and what can be dragged.
   hint() {
     if (this.isOn) return;
     const { guides, cut } = this.scene();

@@ -1,15 +1,16 @@
-// What a slider spans: the part of the usual values around the one the field began with. A value
-// typed outside leaves the slider at its end and its span as it is.
+// Range of a slider: the part of the usual range around the first value of the field. If a value outside is typed, the
+// slider is at its end, and its range does not change.
 
 export class Range {
-  // A slider has this many steps.
+  // Number of steps of a slider.
   static NOTCHES = 400;
 
-  // `usual`: between which values those of all saws lie. A number that a scene does not have begins amid them.
+  // `usual` is the range of the values of all saws. If the scene has no value, the geometric mean of `usual` takes its
+  // place, or zero if `usual` is unknown or not positive.
   constructor(key, known, usual, scene) {
     const [least, most] = usual ?? [-Infinity, Infinity];
     const value = known ?? (least > 0 ? Math.sqrt(least * most) : 0);
-    // Values over decades are searched by decades.
+    // A slider over several decades is logarithmic.
     this.log = value > 0 && least > 0 && most / least > 3000;
     const [from, to] = this.#around(key, value, scene);
     this.from = Math.max(from, this.log ? Math.log(least) : least);

@@ -1,9 +1,9 @@
-// The scene that is being changed, and what it was before.
+// The scene that the page changes, with its history for undo and redo.
 
 import { follow } from "./pairs.js";
 
 const STEPS = 200;
-// Changes of one run follow each other within this time.
+// Longest time between two changes of one run.
 const RUN_MS = 1500;
 
 export const clone = (value) => structuredClone(value);
@@ -29,19 +29,19 @@ export function set(scene, path, value) {
   }
 }
 
-// Tells `listener(scene, { draft, structure, stamp, released })` of every change; `stamp` is the time
-// of a move, `released` that of the end of a drag. A change that is still
-// going on, such as a drag, is a draft; all of them make one step of undo, and so do changes of one
-// `run`, such as presses of one key, that follow each other closely.
+// Calls `listener(scene, { draft, structure, stamp, released })` after every change. `structure` is true if parts may
+// have been added or removed, `stamp` is the time of a move, and `released` the time at which a drag ended. A change
+// that continues, such as a drag, is a draft. All drafts of a drag are one step of undo, and so are the changes of one
+// `run`, such as presses of one key, within RUN_MS.
 export class SceneState {
   #past = [];
   #future = [];
   #before = null;
   #pending = null;
   #run = { name: null, at: 0 };
-  // How pads are changed together, see pairs.js; one by one if empty.
+  // Kind of the pairs in which pads are changed, see pairs.js; empty if they are changed one by one.
   pairs = "";
-  // Where the scene comes from, see files.js. It is taken back with the scene.
+  // File that the scene comes from, see files.js. Undo restores it with the scene.
   origin = null;
 
   constructor(scene, listener) {
@@ -64,7 +64,7 @@ export class SceneState {
     this.change((scene) => set(scene, path, value), options);
   }
 
-  // Another scene in place of this one.
+  // Replaces the scene by another one, in one step of undo.
   replace(scene, origin = this.origin) {
     this.change((current) => {
       for (const key of Object.keys(current)) delete current[key];
@@ -72,7 +72,7 @@ export class SceneState {
     }, { structure: true, origin });
   }
 
-  // The end of a drag.
+  // Ends a drag, or a change by a key, at the time `released`.
   settle(released) {
     if (this.#before === null) return;
     this.#settle();
@@ -92,7 +92,7 @@ export class SceneState {
     this.#pending = null;
   }
 
-  // Whether a hand is changing something that it has not let go of.
+  // Whether a drag, or a change by a key, has not ended.
   get isMoving() {
     return this.#before !== null;
   }

@@ -1,10 +1,11 @@
-// Everything that is asked of the program.
+// All requests to the program.
 
 import { ask, leave } from "./backend.js";
 import { unitsNow } from "./fields.js";
 
 export class Refused extends Error {
-  // `told` is the message in the unit of the field of the key, where it has one.
+  // `key` is the path of the quantity that causes the refusal, or null. `told` is the message in the unit of its field,
+  // or null.
   constructor({ key, message, told = null }) {
     super(message);
     this.key = key;
@@ -12,7 +13,7 @@ export class Refused extends Error {
   }
 }
 
-// The server keeps the charts of each page apart.
+// Name of this page, under which the server keeps its charts.
 const page = crypto.randomUUID();
 
 async function post(path, body, signal, shown = "") {
@@ -67,25 +68,26 @@ export async function criticalSpeeds(text) {
   return answer.json();
 }
 
-// What the chart is at that is being computed; null where none is.
+// Returns the progress of the chart that is being computed, or null.
 export async function progress() {
   const answer = await ask("progress", { headers: { "sawflutter-page": page } });
   return answer.json();
 }
 
-// The file that the command line would write for this scene, whose chart may be known.
+// Returns the file that the command line would write for this scene. `shown` is the identifier of the scene's chart, or
+// null.
 export async function saved(name, scene, shown, signal) {
   const answer = await post(`save/${name}`, JSON.stringify(scene), signal, shown ?? "");
   return answer.blob();
 }
 
-// A scene as the program reads it, or a refusal.
+// Returns the scene that a text describes, as the program reads it.
 export async function read(text) {
   const answer = await post("read", text);
   return answer.json();
 }
 
-// A scene with one more part.
+// Returns the scene of a request with one more part.
 export async function part(asked) {
   const answer = await post("part", JSON.stringify(asked));
   return answer.json();
@@ -96,30 +98,31 @@ export async function write(scene) {
   await post("file", JSON.stringify(scene));
 }
 
-// A table of measured frequencies as the program reads it, as the `measured` block of a scene.
+// Returns the `measured` block of a scene for a table of measured frequencies.
 export async function measured(name, table) {
   const answer = await post("measured", JSON.stringify({ name, table }));
   return answer.json();
 }
 
-// Influence of the scene's numbers on the speeds of a chart.
+// Returns the influence of the scene's numbers on the speeds of a chart.
 export async function influence(shown, signal) {
   const answer = await post("influence", JSON.stringify(shown), signal);
   return answer.json();
 }
 
-// A task: `onProgress({ what, done, of })` and `onFigures([[name, svg]])` as it goes on, then its answer.
+// Computes a task and returns its answer. `onProgress({ what, done, of })` and `onFigures([[name, svg]])` are called in
+// the meantime.
 export async function task(name, asked, signal, { onProgress, onFigures }) {
   const answer = await post(`task/${name}`, JSON.stringify(asked), signal);
   const onLine = (told) => (told.so_far ? onFigures(told.so_far) : onProgress(told));
   return lastLine(answer, ({ summary }) => summary !== undefined, onLine);
 }
 
-// Says so often that the page is there.
+// Interval of the messages that the page is open.
 const BEAT_MS = 2000;
 
-// Tells the server that the page is open, and when it is closed; `onLost(lost)` whether the
-// server answers.
+// Informs the server that the page is open, and when it is closed. `onLost(lost)` is called with whether the server
+// failed to answer.
 export function stayConnected(onLost) {
   const beat = () => ask("alive", { method: "POST", body: page }).then((answer) => onLost(!answer.ok), () => onLost(true));
   beat();

@@ -1,5 +1,5 @@
-// What besides the chart can be asked of a saw: the cut, a run-up, a fit, a placement, tolerances.
-// Each is a tab with what the program prints, its figures, and its report to save.
+// Tasks besides the chart, such as the cut, a run-up or a fit. Each is a tab with the summary that the program prints,
+// its figures, and its report to save.
 
 import { download, node } from "./dom.js";
 import { unitOf } from "./fields.js";
@@ -8,7 +8,8 @@ import { get } from "./scene.js";
 import { Refused, task } from "./talk.js";
 import { numberOf, partName, shown, tidy } from "./words.js";
 
-// The numbers of a scene that have a usual tolerance, each with this tolerance in its own unit.
+// Returns the paths of the numbers of a scene that have a usual tolerance, each with this tolerance in the unit of its
+// key.
 function usualTolerances(tolerances, scene) {
   const known = (path) => [path, get(scene, path)];
   return tolerances.flatMap(({ path, plus_minus, share }) => {
@@ -18,12 +19,12 @@ function usualTolerances(tolerances, scene) {
   });
 }
 
-// The numbers that every saw of this kind has, in words: the axes of a map.
+// Returns the options for the axes of a map: the numbers that have a usual tolerance.
 function axesOf(tolerances, scene) {
   return usualTolerances(tolerances, scene).map(([path]) => ({ value: path, textContent: placeOf(path) }));
 }
 
-// A number with the guide that it belongs to.
+// Returns the name of a number, with the guide that it belongs to.
 function placeOf(path) {
   const { name } = unitOf(path);
   return path.startsWith("guides") ? `guide ${Number(/\d+/.exec(path)[0]) + 1}: ${name}` : name;
@@ -44,7 +45,8 @@ const TASKS = [
 export class Tasks {
   #panels = new Map();
 
-  // `onScene(scene)` takes a saw over that was found; `inWords(refusal)` is what a field says of it.
+  // Among `listeners`, `onScene(scene)` takes over a resulting saw, `inWords(refusal)` returns the text of a refusal,
+  // and `nameOf(file)` the name of a saved file.
   constructor(tabs, panels, chartPanel, state, begun, listeners) {
     this.tabs = tabs;
     this.panels = panels;
@@ -73,18 +75,18 @@ export class Tasks {
       const tab = this.tabs.querySelector(`#tab-${own}`);
       tab.setAttribute("aria-selected", String(chosen));
       tab.tabIndex = chosen ? 0 : -1;
-      // On a narrow screen the tabs are one row that is pushed aside.
+      // On a narrow screen, the tabs are one row that is scrolled to the chosen tab.
       if (chosen) this.tabs.scrollLeft = tab.offsetLeft - 0.5 * (this.tabs.clientWidth - tab.clientWidth);
     }
     this.#panels.get(name).task?.refresh();
   }
 
-  // Answers of an earlier scene are shown as such.
+  // Updates the visible tab after a change of the scene. An answer for an earlier scene is marked as such.
   changed() {
     for (const panel of this.#panels.values()) panel.task?.refresh();
   }
 
-  // Left and right go from tab to tab, as in every list of tabs.
+  // The left and right arrow keys change the tab, as is usual for lists of tabs.
   #walk(event) {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (!step) return;
@@ -105,13 +107,13 @@ export class Tasks {
   }
 }
 
-// One tab: what goes in, how far it has come, what came out.
+// One tab: the inputs, the progress and the answer of a task.
 class Task {
   #abort = null;
   #scene = null;
-  // Of a study: the fields of its tolerances, each with the unit that it is typed in.
+  // Fields for the tolerances of a study, each with its unit; empty for other tasks.
   tolerances = [];
-  // Of a map: the numbers along its axes.
+  // Select elements for the axes of a map; empty for other tasks.
   axes = [];
 
   constructor(panel, entry, state, { needs, tolerances }, { onScene, inWords, nameOf }) {
@@ -143,7 +145,7 @@ class Task {
     panel.append(node("p", { className: "remark", textContent: entry.what }), this.missing, this.inputs, row, this.fault, this.old, this.answer);
   }
 
-  // What the scene has and lacks now.
+  // Updates the tab for the present scene: missing parts, inputs, and whether the answer is for an earlier scene.
   refresh() {
     if (this.panel.hidden) return;
     const { name, part } = this.entry;
@@ -176,7 +178,7 @@ class Task {
       node("div", { className: "field" }, node("label", { htmlFor: "place-least", textContent: "Lower limit of the first critical speed, rpm" }), this.least));
   }
 
-  // The numbers along the axes of a map; what was chosen stays as long as the scene has it.
+  // Offers the numbers for the axes of a map. A chosen number is kept as long as the scene has it.
   #offerAxes(scene) {
     const numbers = axesOf(this.usual, scene);
     const isSame = this.axes[0]?.options.length === numbers.length && numbers.every(({ value }, k) => value === this.axes[0].options[k].value);
@@ -189,7 +191,8 @@ class Task {
       node("div", { className: "field" }, node("label", { htmlFor: axis.id, textContent: ["Horizontal axis", "Vertical axis"][k] }), axis)));
   }
 
-  // A field for each number that has a usual tolerance; what was typed stays, in the unit that is shown now.
+  // Makes a field for each number that has a usual tolerance. A typed tolerance is kept and converted to the present
+  // unit.
   #offerTolerances(scene) {
     const usual = usualTolerances(this.usual, scene).map(([path, width]) => ({ path, width, ...unitOf(path) }));
     const same = (one, k) => one.path === this.tolerances[k]?.path && one.unit === this.tolerances[k].unit;
@@ -232,8 +235,8 @@ class Task {
           this.#grow(figures);
         },
       };
-      // One task of all tabs at a time: those that waited at the server would hold the few
-      // connections that a browser opens to it.
+      // The tasks of all tabs of the browser run one at a time, because tasks that wait at the server would occupy the
+      // few connections that a browser opens to it.
       const answer = await navigator.locks.request("sawflutter task", { signal: abort.signal }, () => {
         this.so_far.textContent = "computing …";
         return task(this.entry.name, asked, abort.signal, listeners);
@@ -254,12 +257,12 @@ class Task {
     if (hadFocus && !on) this.start.focus();
     this.bar.hidden = !on;
     this.bar.removeAttribute("value");
-    // What was not brought to its end says so as long as it is seen.
+    // A partial answer that remains visible is labelled as ended early.
     const isPart = this.answer.firstElementChild?.classList.contains("so-far") ?? false;
     this.so_far.textContent = on ? "waits for another computation …" : isPart ? `ended early, ${this.so_far.textContent}` : "";
   }
 
-  // What is known so far, as the program will draw it.
+  // Shows an intermediate figure of the program.
   #grow(figures) {
     let place = this.answer.firstElementChild;
     if (!place?.classList.contains("so-far")) {
@@ -307,7 +310,7 @@ class Task {
     this.#tellNumbers();
   }
 
-  // The main numbers of the answer, with three digits in the units of the form.
+  // Shows the main numbers of the answer with three digits in the units of the form.
   #tellNumbers() {
     this.numbers.replaceChildren(...this.answers.map(({ name, unit_of, value, before }) => {
       const { unit, scale } = unitOf(unit_of);
@@ -321,7 +324,7 @@ class Task {
 
 const pictureOf = (svg) => URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
 
-// A number in its own unit, or the text that is none: the program refuses it.
+// Returns a typed number in the unit of its key, or a text that is not a number, which the program refuses.
 function asTyped(text, scale) {
   const value = numberOf(text);
   return value === null ? text : tidy(value / scale);

@@ -1,8 +1,8 @@
-// What the chart says, in words and tables.
+// Shows the results of a chart as text and tables.
 
 import { node } from "./dom.js";
 
-// The answer of the program and its reasons, in its own words.
+// Shows the answer of the program and its reasons.
 export function verdict(place, { answer, lines }) {
   place.className = answer ?? "";
   const [headline, ...reasons] = lines;
@@ -12,12 +12,12 @@ export function verdict(place, { answer, lines }) {
     node("span", { className: "reasons" }, ...reasons.flatMap((reason) => [node("span", { textContent: reason }), " "])));
 }
 
-// The answer alone, before its reasons are known. The reasons of an equal answer stay.
+// Shows the answer before its reasons are known. If the answer is unchanged, the reasons remain.
 export function headline(place, { answer, lines }) {
   if (place.querySelector("strong")?.textContent !== lines[0]) verdict(place, { answer, lines });
 }
 
-// The numbers that a change is judged by, against those of another saw.
+// Shows the main numbers of a saw, each with that of another saw if it differs.
 export function facts(place, now, before) {
   const told = ({ words, unit }) => `${words} ${unit}`.trimEnd();
   place.replaceChildren(...now.map((fact) => {
@@ -37,5 +37,5 @@ function table({ caption, heads, rows }) {
     node("tbody", {}, ...rows.map((row) => node("tr", {}, ...row.map(cell("td"))))));
 }
 
-// The chart for those who do not see it, and for who wants the numbers.
+// Shows the numbers of a chart in tables, also for users who do not see the chart.
 export const tables = (place, all) => place.replaceChildren(...all.map(table));

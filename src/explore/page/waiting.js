@@ -1,5 +1,5 @@
-// What is being computed: since when, how far it is, and a button that stops it. Whoever waits for less
-// than a moment sees words alone, and nothing moves.
+// Shows what is being computed. After a second, it also shows the time, the progress and a button that stops the
+// computation, so that nothing appears and disappears during short computations.
 
 import { node, write } from "./dom.js";
 
@@ -11,7 +11,8 @@ export class Waiting {
   #ticking = 0;
   #what = "";
 
-  // `onStop()` is for the button, and says whether something is left to compute; `ask()` tells how far the computation is.
+  // `onStop()` stops the computation and returns whether the chart of the scene is missing, `onAgain()` starts it
+  // again, and `ask()` returns its progress.
   constructor(place, { onStop, onAgain, ask }) {
     this.place = place;
     this.ask = ask;
@@ -23,7 +24,7 @@ export class Waiting {
     this.stop.addEventListener("click", () => {
       const isStopped = onStop();
       this.#show({ isStopped });
-      // Where the hand was.
+      // This button replaces the one that was pressed.
       if (isStopped) this.again.focus();
     });
     this.again.addEventListener("click", onAgain);

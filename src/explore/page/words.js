@@ -1,13 +1,13 @@
-// Names and numbers as people read them.
+// Converts names and numbers to text, and text to numbers.
 
-// Twelve digits: what is typed comes back as typed, whatever the unit.
+// Rounds to twelve digits, so that a typed number is shown as typed after its unit was converted.
 export const tidy = (value) => Number(value.toPrecision(12));
 
 const DECIMAL = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 const GROUPED = /^([+-]?[1-9]\d{0,2})[.,](\d{3})$/;
 
-// The numbers that a text may mean, with a decimal comma or a true minus. Before three digits a mark is decimal or
-// separates thousands: then there are two, the one with the decimal mark first.
+// Returns the numbers that a text may mean; it may have a decimal comma or the minus sign U+2212. A mark before three
+// digits is decimal or separates thousands: then there are two numbers, the one with the decimal mark first.
 export function readings(text) {
   const plain = text.trim().replace("−", "-");
   const point = plain.replace(",", ".");
@@ -16,8 +16,8 @@ export function readings(text) {
   return grouped ? [Number(point), Number(grouped[1] + grouped[2])] : [Number(point)];
 }
 
-// The number that a text means; null where it is none or may be one of two. The decimal mark is certain where only
-// the number with it is usual.
+// Returns the number that a text means, or null if it is not a number or may be one of two. The one with the decimal
+// mark is taken if it is a usual value and the other one is not.
 export function numberOf(text, isUsual = (/** @type {number} */ _) => true) {
   const [decimal, grouped] = readings(text);
   const isCertain = grouped === undefined || (isUsual(decimal) && !isUsual(grouped));
@@ -33,11 +33,11 @@ export function shown(value, digits = 6) {
   return String(Number(value.toPrecision(digits)));
 }
 
-// A part of the scene, by its key.
+// Returns the name of a part of the scene with this key.
 export const partName = (key) => (key === "runup" ? "run-up" : key.replaceAll("_", " "));
 
-// Number and name of a branch, the same wherever it is met.
+// Returns number and name of a branch, as the program writes them.
 export const numbered = (branch, name) => (branch ? `${branch}: ${name}` : name);
 
-// What a Krein sign says.
+// Returns a Krein sign as text.
 export const krein = (sign) => (sign > 0 ? "+1" : sign < 0 ? "−1 (reflected)" : "0 (none)");

@@ -14,9 +14,9 @@ pub use webdriver::{Actions, Key, WebDriver, WebElement, WindowHandle};
 mod program;
 mod webdriver;
 
-/// The first pad.
+/// Selector of the first pad.
 pub const PAD: &str = "[data-path='guides[0]'] .body";
-/// A limit longer than any step takes, also on a busy machine.
+/// Time limit that is longer than any step takes, also on a busy machine.
 pub const PATIENCE: Duration = Duration::from_secs(180);
 
 /// A program that is ended when this value is dropped.
@@ -86,7 +86,7 @@ impl Page {
         Self::at(explore(arguments)).await
     }
 
-    /// The page that a folder holds.
+    /// Opens the page in a folder, which is served without the program.
     pub async fn open_folder(folder: &Path) -> Self {
         Self::at(served(folder)).await
     }
@@ -155,7 +155,7 @@ impl Page {
         self.script(&format!("return {expression}")).await
     }
 
-    /// The value of an asynchronous script: an expression with `await`.
+    /// Returns the value of an asynchronous script: an expression with `await`.
     pub async fn awaited(&self, expression: &str) -> Value {
         let script = format!(
             "const done = arguments[arguments.length - 1]; (async () => {expression})().then(done)"
@@ -179,7 +179,7 @@ impl Page {
         }
     }
 
-    /// Waits until the chart is that of the scene at its own accuracy.
+    /// Waits until the chart is that of the scene at the accuracy of the scene.
     pub async fn settle(&self) {
         self.wait("sawflutter.settled()").await;
     }
@@ -188,7 +188,7 @@ impl Page {
         self.driver.find(selector).await.unwrap()
     }
 
-    /// Types a number over the one that is there.
+    /// Types a text into a field in place of its present text.
     pub async fn enter(&self, path: &str, text: &str) {
         let field = self.find(&format!("[id={path:?}]")).await;
         field.send_keys(Key::Control + "a").await.unwrap();
@@ -227,14 +227,14 @@ impl Page {
         self.wait_for_file(name).await
     }
 
-    /// The name that a file of this saw is saved under.
+    /// Returns the name under which a file of this saw is saved.
     async fn file_name(&self, name: &str) -> String {
         let file = self.value(&format!("sawflutter.nameOf({name:?})")).await;
         file.as_str().unwrap().to_owned()
     }
 
-    /// The file that the browser saves for this saw. Chromium first makes an empty file of that name, and then moves
-    /// the complete one there.
+    /// Waits for a file that the browser saves for this saw, and reads it. Chromium first makes an empty file of this
+    /// name, and then replaces it by the complete one.
     pub async fn wait_for_file(&self, name: &str) -> Vec<u8> {
         let path = self.folder.path().join(self.file_name(name).await);
         let begun = Instant::now();
@@ -248,12 +248,12 @@ impl Page {
         }
     }
 
-    /// Runs `analyze` on the saved scene and gives its folder.
+    /// Runs `analyze` on the saved scene and returns its folder.
     pub async fn command_line(&self) -> PathBuf {
         self.command(&["analyze"]).await.0
     }
 
-    /// Runs a command on the saved scene; gives its folder and its output.
+    /// Runs a command on the saved scene; returns its folder and its output.
     pub async fn command(&self, command: &[&str]) -> (PathBuf, String) {
         let scene = self.download("scene.json").await;
         let path = self.folder.path().join("saved-scene.json");
@@ -282,7 +282,7 @@ pub fn run(test: impl Future<Output = ()>) {
     builder.enable_all().build().unwrap().block_on(test);
 }
 
-/// Moves the pointer sixty times a second, the rate of a screen.
+/// Creates actions whose pointer moves take a sixtieth of a second each, the period of a screen.
 pub fn hand(page: &Page) -> Actions {
     let frame = Duration::from_millis(16);
     Actions::new(&page.driver, frame)
@@ -319,7 +319,7 @@ pub fn percentile(times: &Value, share: f64) -> f64 {
     times[((times.len() - 1) as f64 * share).round() as usize]
 }
 
-/// Compares to the last bit, except that JavaScript writes 1.0 as 1.
+/// Compares numbers to the last bit. 1.0 and 1 are equal, because JavaScript writes the former as the latter.
 pub fn same(left: &Value, right: &Value) -> bool {
     match (left, right) {
         (Value::Number(x), Value::Number(y)) => x.as_f64() == y.as_f64(),

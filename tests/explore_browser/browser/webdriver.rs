@@ -9,12 +9,12 @@ use std::time::Duration;
 use serde_json::{Value, json};
 use tokio::net::TcpStream;
 
-/// Longer than any command takes: the scripts that wait have a limit of their own.
+/// Time limit of a command, also of a script that waits.
 const LIMIT: Duration = Duration::from_secs(180);
-/// The key of an element in JSON, by the standard.
+/// Key of an element in JSON, defined by the standard.
 const ELEMENT: &str = "element-6066-11e4-a52e-4f735466cecf";
 
-/// The browser's error message.
+/// Error message of the browser.
 #[derive(Debug)]
 pub struct Refused(String);
 
@@ -131,7 +131,7 @@ impl WebDriver {
         command(self.port, "DELETE", &path, None).await.map(drop)
     }
 
-    /// A command of Chromium's own protocol.
+    /// Sends a command of the DevTools protocol of Chromium.
     pub async fn chromium(&self, name: &str, parameters: Value) -> Answer<Value> {
         let content = json!({ "cmd": name, "params": parameters });
         self.post("goog/cdp/execute", content).await
@@ -309,7 +309,7 @@ async fn exchange(port: u16, mut said: &[u8]) -> std::io::Result<Vec<u8>> {
     }
 }
 
-/// The body of an answer, as soon as its length is that of the head.
+/// Returns the body of an answer once it has the length that the head announces.
 fn whole_content(heard: &[u8]) -> Option<&[u8]> {
     let end = heard.windows(4).position(|four| four == b"\r\n\r\n")?;
     let head = std::str::from_utf8(&heard[..end]).expect("a head is text");
