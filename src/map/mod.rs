@@ -35,6 +35,9 @@ const USUAL_POINTS: [usize; 2] = [41, 17];
 /// Range of the number of points along an axis.
 const POINTS: (usize, usize) = (2, 401);
 
+/// Path of the speed at which the saws are judged. It changes no band, and every saw is judged at the same one.
+const OPERATING_SPEED: &str = "operating_rpm";
+
 /// A number of the scene and the ends of its axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Range {
@@ -116,6 +119,14 @@ impl Map {
             let given = format!("{} again", x.path);
             let remedy = "leave it out for a map over the speed";
             return Err(RefusedValue::new("y", given, "another number than x", remedy).into());
+        }
+        for (key, along) in std::iter::once(("x", &x)).chain(y.as_ref().map(|y| ("y", y))) {
+            if along.path == OPERATING_SPEED {
+                let allowed = "a number that changes critical speeds or bands";
+                let remedy =
+                    "name another one; a map over one number has the speed as its vertical axis";
+                return Err(RefusedValue::new(key, OPERATING_SPEED, allowed, remedy).into());
+            }
         }
         if let Some(asked) = options.rpm {
             speed_rad_per_s("rpm", asked)?;

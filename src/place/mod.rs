@@ -148,8 +148,9 @@ const COARSE_STEPS: (f64, f64) = (0.08, 5e-3);
 /// Factor by which the refinement on the fine basis is shorter: it moves an optimum only a little, and each
 /// saw costs ten times as much.
 const SETTLED: u64 = 3;
-/// Number of samples, best at their nominal numbers, that are compared on the finer basis too.
-const MORE_SAMPLES: usize = 3;
+/// Number of samples, and of cells of the map, best at their nominal numbers, that are compared on the finer
+/// basis too.
+const MOST_PROMISING: usize = 3;
 /// A share nearer to a bound than this is taken for the bound.
 const AT_BOUND: f64 = 1e-3;
 /// Shares at which the effect of a number is examined.
@@ -282,8 +283,8 @@ fn parameters(
 
 /// Samples the bounds, refines the best samples and draws the map through the best saw; a better cell of the
 /// map is refined too. Returns the candidates for the finer basis: the results of the refinements, the
-/// original scene, and the samples that are best at their nominal numbers and within their tolerances,
-/// because the finer basis may move a jump past a saw.
+/// original scene, the samples that are best within their tolerances, and the samples and cells that are best at
+/// their nominal numbers, because the finer basis may move a jump past a saw, or away from it.
 fn look_everywhere(
     search: &Search<'_>,
     own: &[f64],
@@ -314,7 +315,8 @@ fn look_everywhere(
     candidates.extend(starts);
     candidates.extend(search.cheapest());
     candidates.extend(tried.iter().find(|one| one.shares == own).cloned());
-    candidates.extend(tried.into_iter().take(MORE_SAMPLES));
+    candidates.extend(tried.into_iter().take(MOST_PROMISING));
+    candidates.extend(cells.into_iter().take(MOST_PROMISING));
     candidates.retain(|one| one.cost < REFUSED);
     candidates.sort_by(|x, y| x.cost.total_cmp(&y.cost));
     candidates.dedup_by(|x, y| x.shares == y.shares);

@@ -164,6 +164,19 @@ fn numbers_that_are_none_and_ranges_without_ends_are_refused() {
             "--y is blade.thickness_m again",
         ),
         (
+            &[
+                "--x",
+                "blade.thickness_m=2mm..3mm",
+                "--y",
+                "operating_rpm=1000..2000",
+            ],
+            "--y is operating_rpm",
+        ),
+        (
+            &["--x", "operating_rpm=1000..2000"],
+            "a map over one number has the speed as its vertical axis",
+        ),
+        (
             &["--x", "blade.thickness_m=2mm..3mm", "--points", "1"],
             "--points is 1",
         ),

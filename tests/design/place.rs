@@ -489,6 +489,29 @@ fn the_window_is_never_narrower_than_before() {
     assert_close("window", found.best.value_rad_per_s, own, 1e-2);
 }
 
+/// On the coarse basis the cells of highest flutter speed lie next to jumps and are worse in the worst case of their
+/// tolerances than a cell elsewhere. A robust saw next to them, which this test knows, is better than both.
+#[test]
+fn a_robust_saw_next_to_fragile_cells_of_the_map_is_found() {
+    let saw = draft("two-pads");
+    let free = freed(&saw, &[(RADIUS, 0.2, 0.3), (ANGLE, -120.0, 0.0)]);
+    let options = Options {
+        samples: 16,
+        places: 1,
+        refine: 30,
+        map: 11,
+        ..Options::default()
+    };
+    let found = place(&saw, &free, &Demands::default(), &options);
+    let known = with(&saw, &[(RADIUS, 0.2525), (ANGLE, -117.6)]);
+    let flutter = |saw: &Scene| Onsets::new(saw).unwrap().flutter_speed_rad_per_s.unwrap();
+    let saws = within_tolerances(&known, &[RADIUS, ANGLE]);
+    let known = saws.iter().map(flutter).fold(f64::INFINITY, f64::min);
+    let worst = found.worst_rad_per_s();
+    println!("{} of a known {} rpm", rpm(worst), rpm(known));
+    assert!(worst > 0.995 * known, "{} {}", rpm(worst), rpm(known));
+}
+
 /// Below 1600 rpm no saw flutters, so that none is better than another: the result is the start, to the last digit and
 /// without a note in its scene.
 #[test]
