@@ -12,8 +12,8 @@ use crate::spectrum::{
 };
 use crate::stability::{Analysis, Instability, InstabilityKind};
 
-/// Shapes of lower likeness are not taken for the same wave. The likeness of a travelling and a standing wave
-/// is a half.
+/// Smallest likeness of a mode and the wave of a critical speed for which the mode is taken for this wave. The
+/// likeness of a travelling and a standing wave is a half.
 const LEAST_LIKENESS: f64 = 0.4;
 
 /// The branches of an analysis in the order of their numbers.
@@ -31,7 +31,8 @@ struct BranchName {
 }
 
 impl<'a> Numbered<'a> {
-    /// Numbers the branches by their first speeds, and those that begin at the same speed by frequency.
+    /// Numbers the branches in the order of their first speeds; branches that begin at one speed in the order of
+    /// their frequencies.
     pub fn new(analysis: &'a Analysis) -> Self {
         let campbell = &analysis.chart.campbell;
         let start = |b: usize| {
@@ -72,7 +73,8 @@ impl<'a> Numbered<'a> {
         entries
     }
 
-    /// The branch that begins at a mode at rest; `index` counts the oscillating modes.
+    /// Number of the branch that begins at a mode at rest, if the sweep begins at rest; `index` counts the
+    /// oscillating modes from 0.
     pub fn of_mode_at_rest(&self, index: usize) -> Option<usize> {
         let first = self.campbell().samples.first();
         let first = first.filter(|sample| sample.speed_rad_per_s == 0.0)?;
@@ -94,7 +96,7 @@ impl<'a> Numbered<'a> {
         both.filter_map(|point| self.at(point)).collect()
     }
 
-    /// Name of a band by its waves, if the diagram includes its speed.
+    /// Name of a band by its waves; `None` if no mode grows at the speed of the diagram that is nearest to the peak.
     pub fn event(&self, band: &Instability) -> Option<EventName> {
         let point = self.at_peak(band, self.growing_kind(band))?;
         let growing = self.campbell().mode(point);
@@ -134,7 +136,7 @@ impl<'a> Numbered<'a> {
         Some((index, partner))
     }
 
-    /// The branch whose wave stands still at a critical speed.
+    /// Number of the branch whose wave stands still at a critical speed.
     pub fn of_critical(&self, critical: &NamedCriticalSpeed) -> Option<usize> {
         let samples = &self.campbell().samples;
         let above = samples.partition_point(|s| s.speed_rad_per_s < critical.speed_rad_per_s);
@@ -233,10 +235,10 @@ impl BranchName {
     }
 }
 
-/// Shapes are alike if their likeness is at least this share of the largest.
+/// A mode is a candidate for the wave of a critical speed if its likeness is at least this share of the largest.
 const ALIKE: f64 = 0.8;
 
-/// |xᵀq|² of a wave that stands and a mode, both of length one.
+/// |xᵀq|² of the shape x at a critical speed and the shape q of a mode, both of length one.
 fn standing_likeness(
     model: &SpectralModel,
     critical: &NamedCriticalSpeed,
@@ -253,9 +255,9 @@ fn standing_likeness(
 fn damped_partner(modes: &[DescribedMode], growing: c64) -> Option<usize> {
     let off = |m: &DescribedMode| (m.mode.lambda.im - growing.im).abs();
     let decays = |m: &DescribedMode| m.mode.lambda.re < 0.0;
-    let met = |m: &DescribedMode| off(m) < growing.re - m.mode.lambda.re;
+    let is_near = |m: &DescribedMode| off(m) < growing.re - m.mode.lambda.re;
     let modes = modes.iter().enumerate();
-    let met = modes.filter(|(_, m)| decays(m) && met(m));
-    met.min_by(|x, y| off(x.1).total_cmp(&off(y.1)))
-        .map(|(k, _)| k)
+    let partners = modes.filter(|(_, m)| decays(m) && is_near(m));
+    let nearest = partners.min_by(|x, y| off(x.1).total_cmp(&off(y.1)));
+    nearest.map(|(k, _)| k)
 }

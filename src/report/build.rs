@@ -19,7 +19,7 @@ use crate::stability::{
     Analysis, Evidence, Instability, OPERATING_LIMIT, Sensitivity, SensitivityError,
 };
 
-/// Harmonics with a smaller share are omitted from the shape of a mode.
+/// Harmonics with a smaller share of the kinetic energy are omitted from a mode at rest.
 const LEAST_SHARE: f64 = 1e-4;
 /// Two critical speeds with the same name and a smaller relative distance are a double one.
 const DOUBLE: f64 = 1e-9;
@@ -151,22 +151,36 @@ impl From<&Sensitivity> for SensitivityEntry {
 
 /// The modes at rest, with branch and estimated error.
 fn rest_modes(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<RestMode> {
-    let at_rest = &analysis.modes_at_rest;
+    let (at_rest, plate) = (&analysis.modes_at_rest, &analysis.model.plate);
     let errors = match &analysis.estimates {
         Some(estimates) => estimates.frequencies(&analysis.model, 0.0, at_rest),
         None => vec![None; at_rest.len()],
     };
     let modes = at_rest.iter().zip(errors).enumerate();
     modes
-        .map(|(i, (mode, truncation))| {
+        .map(|(i, (described, truncation))| {
+            let DescribedMode { mode, name, .. } = described;
             let branch = branches.of_mode_at_rest(i);
-            let name = branch.map(|number| branches.name(number));
-            let rounding = analysis.model.relative_rounding(&mode.mode);
+            let of_branch = branch.map(|number| branches.name(number));
+            let rounding = analysis.model.relative_rounding(mode);
+            let harmonics = name.harmonics.iter().filter(|h| h.share >= LEAST_SHARE);
             RestMode {
+                frequency_hz: mode.frequency_rad_per_s() / TAU,
+                nodal_diameters: name.diameters,
+                nodal_circles: name.circles,
+                name: of_branch.unwrap_or_else(|| name.in_shares()),
                 branch,
-                name: name.unwrap_or_else(|| mode.name.in_shares()),
+                damping_ratio: mode.damping_ratio(),
+                logarithmic_decrement: mode.logarithmic_decrement(),
                 estimated_relative_error: truncation.map(|error| error + rounding),
-                ..rest_mode(analysis, mode)
+                backward_error: described.backward_error,
+                harmonics: harmonics
+                    .map(|h| HarmonicEntry {
+                        nodal_diameters: h.diameters,
+                        share: h.share,
+                    })
+                    .collect(),
+                shape: shape(plate, described),
             }
         })
         .collect()
@@ -192,33 +206,7 @@ fn instabilities(
         .collect()
 }
 
-fn rest_mode(analysis: &Analysis, described: &DescribedMode) -> RestMode {
-    let name = &described.name;
-    let plate = &analysis.model.plate;
-    RestMode {
-        frequency_hz: described.mode.frequency_rad_per_s() / TAU,
-        nodal_diameters: name.diameters,
-        nodal_circles: name.circles,
-        name: name.in_shares(),
-        branch: None,
-        damping_ratio: described.mode.damping_ratio(),
-        logarithmic_decrement: described.mode.logarithmic_decrement(),
-        estimated_relative_error: None,
-        backward_error: described.backward_error,
-        harmonics: name
-            .harmonics
-            .iter()
-            .filter(|h| h.share >= LEAST_SHARE)
-            .map(|h| HarmonicEntry {
-                nodal_diameters: h.diameters,
-                share: h.share,
-            })
-            .collect(),
-        shape: shape(plate, described),
-    }
-}
-
-/// The deflection at the moment of its maximum.
+/// The harmonics of a mode at the moment of its largest deflection, scaled to a largest value of one.
 fn shape(plate: &Plate, described: &DescribedMode) -> Vec<ShapeEntry> {
     let q = &described.shape;
     let turn: c64 = q.iter().map(|c| c * c).sum::<c64>().sqrt();
@@ -318,10 +306,8 @@ impl InstabilityEntry {
             estimated_relative_growth_error: None,
         }
     }
-}
 
-impl InstabilityEntry {
-    /// Adds waves and branch numbers to the band.
+    /// A band with its waves and the numbers of its branches.
     pub(super) fn in_chart(
         band: &Instability,
         branches: &Numbered<'_>,

@@ -82,9 +82,10 @@ pub struct CriterionEntry {
     pub name: String,
     /// Result in words.
     pub finding: String,
-    /// Speed found; null if it exceeds the sweep.
+    /// Speed that was found: the critical or flutter speed itself, or the speed from which on another limit is
+    /// exceeded; null if it exceeds the sweep.
     pub found_rpm: Option<f64>,
-    /// Speed required.
+    /// Speed with which the found one is compared.
     pub asked_rpm: f64,
     /// Whether the limit is kept.
     pub passed: bool,
@@ -143,25 +144,19 @@ fn warnings(scene: &Scene, limits: &Limits, check: &Check) -> Vec<String> {
         ));
     }
     let gaps = scene.file().guides.iter().filter(|g| g.gap_m.is_some());
-    let told = check.all_criteria().filter(|c| c.key == "gap");
-    if gaps.count() > told.count() {
+    let compared = check.all_criteria().filter(|c| c.key == "gap").count();
+    if gaps.count() > compared {
         warnings.push(
             "a guide has a gap_m, but the scene has no lateral force that could close it (cut.lateral_n_per_tooth), or nothing holds the blade"
                 .to_owned(),
         );
     }
-    if limits.operating_rad_per_s
-        >= check
-            .analysis
-            .model
-            .critical
-            .first()
-            .map_or(f64::INFINITY, |c| c.speed_rad_per_s)
-    {
-        let gap = check.all_criteria().any(|c| c.key == "gap");
-        warnings.extend(gap.then(|| {
-            "above the first critical speed a static deflection does not show whether the gaps of guides close".to_owned()
-        }));
+    let critical = check.analysis.model.critical.first();
+    let is_above = critical.is_some_and(|first| operating >= first.speed_rad_per_s);
+    if is_above && compared > 0 {
+        warnings.push(
+            "above the first critical speed a static deflection does not show whether the gaps of guides close".to_owned(),
+        );
     }
     warnings
 }

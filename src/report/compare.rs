@@ -8,7 +8,7 @@ use crate::check::rim_stiffness_at_rest_n_per_m;
 use crate::scene::{Scene, SceneError, SceneFile, SpeedRange, in_words};
 use crate::stability::{Analysis, AnalysisError, end_of_sweep};
 
-/// `compare.json`.
+/// Report of a comparison (`compare.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CompareReport {
@@ -36,10 +36,10 @@ pub struct ComparedEntry {
     pub instabilities: Vec<InstabilityEntry>,
     /// Lowest speed at which flutter counts.
     pub flutter_speed_rpm: Option<f64>,
-    /// The operating speed, and whether it can run there.
+    /// Operating speed, and whether the saw is stable there.
     pub operating: Option<OperatingEntry>,
-    /// Lateral stiffness of a point of the rim at the middle of the cut, at rest; null where nothing holds the blade, and of a
-    /// report that was read.
+    /// Lateral stiffness of a point of the rim at the middle of the cut, at rest; null if the blade has free rigid
+    /// motions, and for a saw whose report was given instead of its scene.
     pub rim_stiffness_at_rest_n_per_m: Option<f64>,
     /// Estimated relative error of its critical speeds.
     pub estimated_relative_error: Option<f64>,
@@ -60,7 +60,7 @@ pub struct DifferenceEntry {
 }
 
 impl ComparedEntry {
-    /// Of a report that was computed before.
+    /// Makes the entry of a saw whose report exists already.
     pub fn of_report(label: String, report: &Report) -> Self {
         let warnings = report.unusual_numbers.iter().chain(&report.warnings);
         ComparedEntry {
@@ -77,7 +77,7 @@ impl ComparedEntry {
         }
     }
 
-    /// Of an analysis.
+    /// Makes the entry of an analysed saw, with the stiffness of its rim.
     pub fn of_analysis(label: String, analysis: &Analysis) -> Self {
         ComparedEntry {
             rim_stiffness_at_rest_n_per_m: rim_stiffness_at_rest_n_per_m(&analysis.scene),
@@ -125,10 +125,11 @@ fn keys(scene: &SceneFile) -> Vec<(String, String)> {
         .collect()
 }
 
-/// The scenes over the same speeds where they name none: up to the largest speed that the program chooses for one of them.
+/// Gives every scene without a sweep the same one: from rest to the largest end that the program chooses for any of
+/// these scenes.
 ///
 /// # Errors
-/// [`AnalysisError`] where a scene has no critical speed to choose by, or does not allow these speeds.
+/// [`AnalysisError`] if no end can be chosen for a scene, or a scene refuses these speeds.
 pub fn over_common_speeds(scenes: Vec<Scene>) -> Result<Vec<Scene>, AnalysisError> {
     let mut last = 0.0_f64;
     for scene in scenes.iter().filter(|scene| scene.sweep().is_none()) {

@@ -10,8 +10,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use self::certificate::CutCertificateEntry;
+pub(super) use self::criteria::growing_hz;
 pub use self::criteria::{CutCriterion, CutCriterionEntry, CutVerdict, Verdict};
-use self::criteria::{agree, criteria, growing_hz, worst};
+use self::criteria::{agree, criteria, worst};
 use self::warnings::warnings;
 use super::SplineEntry;
 use super::remarks::lifting_off;
@@ -60,7 +61,7 @@ pub struct CutRunEntry {
     pub lateral_n_per_tooth: f64,
     /// The worst of the criteria; if no motion grows, whether the deflection stays within the model.
     pub verdict: CutVerdict,
-    /// The criterion of fastest growth.
+    /// Criterion of fastest growth among those with this verdict.
     pub decided_by: CutCriterion,
     /// The result of each criterion.
     pub criteria: Vec<CutCriterionEntry>,
@@ -320,7 +321,7 @@ impl VerdictMapEntry {
     }
 }
 
-pub(super) fn hertz(rad_per_s: f64) -> f64 {
+fn hertz(rad_per_s: f64) -> f64 {
     rad_per_s / TAU
 }
 

@@ -97,7 +97,7 @@ pub struct ArcEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JumpEntry {
-    /// Fold, at which the equilibrium ceases to exist, or bifurcation, at which another one crosses it.
+    /// Fold, beyond which the equilibrium does not exist, or bifurcation, at which another one crosses it.
     pub kind: TurnKind,
     /// Rotation speed.
     pub rpm: f64,

@@ -52,11 +52,12 @@ pub struct EventShapeEntry {
     pub harmonics: Vec<WaveEntry>,
 }
 
-/// Harmonics with a smaller share of the squared deflection have a ten-thousandth of it and are not visible.
-/// For a blade on a stiff pad many are small: with 1e-6 the error of the deflection of the paper's saw
-/// exceeded a thousandth.
+/// Smallest share of the squared deflection of a listed harmonic; its amplitude is of the order of 1e-4 of the
+/// largest. A blade on a stiff pad has many small harmonics: with a limit of 1e-6 the error of the deflection of the
+/// paper's saw exceeded a thousandth.
 const LEAST_SHARE: f64 = 1e-8;
-/// Number of modes at a single speed besides those that grow; a slow side force excites the lowest most.
+/// Number of modes of lowest frequency that are listed at a single speed, because a slow side force excites them
+/// most. Growing modes of higher frequency are listed in addition.
 const LOWEST: usize = 4;
 /// Number of angles per nodal diameter at which the largest deflection is searched for.
 const ANGLES_EACH: usize = 24;
@@ -90,8 +91,8 @@ impl Report {
     }
 }
 
-/// The waves that stand still; each speed of a free blade is listed once, because its two waves differ by a
-/// rotation.
+/// The waves that stand still at the critical speeds of the sweep. Each speed of a free blade is listed once,
+/// because its two waves differ by a rotation.
 fn standing(analysis: &Analysis) -> Vec<EventShapeEntry> {
     let model = &analysis.model;
     let end = analysis.range_rad_per_s.1;
@@ -124,7 +125,7 @@ fn standing(analysis: &Analysis) -> Vec<EventShapeEntry> {
     shapes
 }
 
-/// The motion of largest growth of a band.
+/// The motion of largest growth of a band; `None` if no mode of its kind grows at the peak.
 fn of_band(
     analysis: &Analysis,
     band: &Instability,
@@ -184,7 +185,7 @@ fn at_speed(
             shape: &described.shape,
         };
         let mut entry = found.entry(&model.plate);
-        // Rounding of an undamped mode is not growth.
+        // The real part of λ of an undamped mode is rounding error and not growth.
         entry.growth_per_s = described.mode.growth_per_s();
         entry
     });
@@ -218,8 +219,8 @@ impl Found<'_> {
     }
 }
 
-/// The unknowns are orthonormal with respect to mass, so that their squares are shares of the squared
-/// deflection.
+/// Visible harmonics of a shape, the largest first. The basis functions are orthonormal with respect to mass, so that
+/// the squares of their coordinates are shares of the squared deflection.
 fn harmonics(plate: &Plate, shape: &Col<c64>) -> Vec<WaveEntry> {
     let size = plate.basis.count();
     let square = |n: usize| {

@@ -44,7 +44,7 @@ pub struct FitReport {
     pub starts: Vec<Start>,
     /// Largest number of nodal diameters of the basis.
     pub max_diameters: usize,
-    /// Polynomials over the radius for each.
+    /// Number of polynomials over the radius for each number of nodal diameters.
     pub radial_functions: usize,
     /// Estimated relative error of the critical speeds on this basis.
     pub estimated_relative_error: Option<f64>,
@@ -58,7 +58,7 @@ pub struct FitReport {
 pub struct ParameterEntry {
     /// JSON path in the scene.
     pub path: String,
-    /// Value before.
+    /// Value before the fit.
     pub start: f64,
     /// Fitted value.
     pub value: f64,
@@ -89,7 +89,7 @@ pub struct ResidualEntry {
     pub before_hz: f64,
     /// Frequency computed with the fitted numbers.
     pub fitted_hz: f64,
-    /// False for a speed that was excluded from the fit.
+    /// Whether the fit includes this speed.
     pub fitted: bool,
 }
 
@@ -180,19 +180,18 @@ fn misfit(fit: &Fit, used: &Measurement) -> Option<String> {
     })
 }
 
-/// Unusual numbers of the scene, and of measurements that it does not contain.
+/// Unusual numbers of the scene, and the highest measured speed if it is unusual and the scene does not contain the
+/// measurement.
 fn unusual_numbers(fit: &Fit) -> Vec<String> {
     let scene = fit.scene.file();
-    let mut told = scene.unusual_numbers();
-    if told
-        .iter()
-        .all(|sentence| !sentence.contains("measured.rows"))
-    {
+    let mut unusual = scene.unusual_numbers();
+    let of_measurement = |sentence: &String| sentence.contains("measured.rows");
+    if !unusual.iter().any(of_measurement) {
         let top_rpm = fit.measurement.up_to(fit.to_rpm).top_rpm();
         let label = "the highest measured speed";
-        told.extend(unusual_number(scene, label, "sweep.to_rpm", top_rpm));
+        unusual.extend(unusual_number(scene, label, "sweep.to_rpm", top_rpm));
     }
-    told
+    unusual
 }
 
 fn warnings(fit: &Fit) -> Vec<String> {

@@ -9,7 +9,7 @@ use crate::gap::{AtAmplitude, BasisError, Deviation, DeviationMap, FrictionHeat,
 use crate::scene::{Guide, Scene, SceneFile, rpm};
 use crate::text::shown_to;
 
-/// `gap.json`.
+/// Report of a saw whose guides have a gap (`gap.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GapReport {
@@ -17,8 +17,8 @@ pub struct GapReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
-    /// Numbers that no saw has, each with its key, what saws have, and the remedy: what the report
-    /// says holds for them as they were typed.
+    /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
+    /// numbers as typed.
     #[serde(default)]
     pub unusual_numbers: Vec<String>,
     /// Size of the basis.
@@ -29,9 +29,9 @@ pub struct GapReport {
     pub to_rpm: f64,
     /// Smallest gap of a one-sided guide.
     pub smallest_gap_m: f64,
-    /// The blade inside all gaps, where only films act.
+    /// The chart of a blade that moves within all gaps, where only the films of the pads act.
     pub free: AtAmplitudeEntry,
-    /// Amplitudes beyond the smallest gap, ascending.
+    /// The charts at amplitudes beyond the smallest gap, ascending.
     pub amplitudes: Vec<AtAmplitudeEntry>,
     /// The linear chart of the scene, with guides of their full stiffness.
     pub linear: AtAmplitudeEntry,
@@ -74,7 +74,7 @@ pub struct FrictionEntry {
     pub cold_deflection_m: Option<f64>,
     /// Deflection at the cut with this heat.
     pub deflection_m: Option<f64>,
-    /// Force of each one-sided pad on the blade beyond its gap, with this heat.
+    /// Force of each one-sided pad on the blade beyond its gap, without that of its film, with this heat.
     pub pad_forces_n: Vec<f64>,
     /// Each one-sided pad, in the order of the scene.
     pub pads: Vec<FrictionPadEntry>,
@@ -109,7 +109,7 @@ pub struct FrictionPadEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AtAmplitudeEntry {
-    /// Amplitude at the guides; null of the free blade and of the linear chart.
+    /// Amplitude at the guides; null for the free blade and for the linear chart.
     pub amplitude_m: Option<f64>,
     /// Mean stiffness of each one-sided guide over the oscillation (describing function), relative to its full stiffness.
     pub stiffness_shares: Vec<f64>,
@@ -137,26 +137,27 @@ pub struct DeviationEntry {
     pub deflection_m: Vec<Vec<Option<f64>>>,
     /// Largest deflection of the blade, as an absolute value.
     pub largest_deflection_m: Vec<Vec<Option<f64>>>,
-    /// Force of each one-sided pad on the blade beyond its gap, for each pad one row a gap; null for linear guides.
+    /// Force of each one-sided pad on the blade beyond its gap, without that of its film: for each pad one row a gap; null for
+    /// linear guides.
     pub pad_forces_n: Vec<Vec<Vec<Option<f64>>>>,
     /// Largest deflection at the cut that is allowed; null if none was given.
     pub max_deflection_m: Option<f64>,
-    /// Largest side force that keeps it, for each gap; null where the smallest force of the map exceeds it. Empty without a
-    /// limit.
+    /// Largest side force under which the deflection keeps this limit, for each gap; null where it exceeds the limit under
+    /// the smallest force of the map. Empty without a limit.
     pub force_within_n: Vec<Option<f64>>,
     /// Side force of the map over gap and speed, and of the series over the speed with the gaps of the scene.
     pub force_n: f64,
-    /// Speeds of this map and of the series.
+    /// Speeds of the map over gap and speed and of the series.
     pub speeds_rpm: Vec<f64>,
-    /// Deflection at the cut over gap and speed, one row a gap; null where the blade leans by more than its thickness.
+    /// Deflection at the cut over gap and speed, one row a gap; null where the blade deflects by more than its thickness.
     pub deflection_over_gap_and_speed_m: Vec<Vec<Option<f64>>>,
-    /// Largest speed up to which the deflection at the cut is allowed under this force, for each gap; null where that at rest
-    /// is not. Empty without a limit.
+    /// Largest speed up to which the deflection at the cut keeps the limit under this force, for each gap; null where it
+    /// exceeds the limit at rest. Empty without a limit.
     pub speed_within_rpm: Vec<Option<f64>>,
-    /// Deflection at the cut at these speeds, with the gaps of the scene; null where the blade leans by more than its
+    /// Deflection at the cut at these speeds, with the gaps of the scene; null where the blade deflects by more than its
     /// thickness.
     pub deflection_over_speed_m: Vec<Option<f64>>,
-    /// Forces of the pads at these speeds, one row a pad; null where the blade leans.
+    /// Forces of the pads at these speeds, one row a pad; null where the blade deflects by more than its thickness.
     pub pad_forces_over_speed_n: Vec<Vec<Option<f64>>>,
     /// Estimated error of the deflections over gap and force; null if none could be compared.
     pub basis_error: Option<BasisErrorEntry>,
@@ -166,7 +167,7 @@ pub struct DeviationEntry {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BasisErrorEntry {
-    /// The change.
+    /// Relative change.
     pub share: f64,
     /// Factor of the gaps at which it occurs.
     pub gap_factor: f64,
@@ -179,7 +180,7 @@ pub struct BasisErrorEntry {
 }
 
 impl GapReport {
-    /// Reports what was found.
+    /// The report of charts and deflections.
     pub fn new(found: &GuideGaps) -> Self {
         let chart = found.analysis.report();
         let threshold = found.scene.flutter_threshold_per_s();
@@ -318,7 +319,7 @@ impl From<BasisError> for BasisErrorEntry {
     }
 }
 
-/// Errors of deflections above this share are worth a warning.
+/// Estimated relative error of the deflections above which the report contains a warning.
 const LARGE_ERROR: f64 = 0.02;
 
 fn warnings(mut warnings: Vec<String>, found: &GuideGaps) -> Vec<String> {

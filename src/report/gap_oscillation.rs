@@ -24,12 +24,12 @@ pub struct OscillationEntry {
     pub lines: Vec<OscillationLineEntry>,
     /// The motion at the speed of the map; null if no periodic motion was found.
     pub at: Option<OscillationAtEntry>,
-    /// Deflection of the rim at the cut at this speed without oscillation.
+    /// Deflection of the rim at the cut at the speed of the map without oscillation.
     pub still_deflection_m: f64,
-    /// Relative change of the amplitude at the cut at this speed with ten harmonics in the place of six; null if no motion was
-    /// found.
+    /// Relative change of the amplitude at the cut at the speed of the map with ten harmonics instead of six; null if no
+    /// motion was found.
     pub harmonics_error_share: Option<f64>,
-    /// Relative change of this amplitude with 24 modes at rest in the place of 16; null if no motion was found.
+    /// Relative change of this amplitude with 24 modes at rest instead of 16; null if no motion was found.
     pub basis_error_share: Option<f64>,
     /// Rotation speeds of the series below, ascending.
     pub rpm: Vec<f64>,
@@ -50,7 +50,7 @@ pub struct OscillationEntry {
 pub struct OscillationLineEntry {
     /// Ratio of its frequency to that of rotation.
     pub order: u32,
-    /// Its causes, such as "run-out" or "flatness"; "contact" if only the contact of the pads has this order.
+    /// Causes of this part, such as "run-out" or "flatness"; "contact" if only the contact of the pads has this order.
     pub name: String,
     /// Amplitude at the probe at the speeds of the series.
     pub probe_m: Vec<Option<f64>>,
@@ -74,9 +74,9 @@ pub struct OscillationAtEntry {
     pub largest_deflection_m: f64,
     /// Growth rate of the fastest small motion about this one, negative if all decay; null if it was not found.
     pub growth_per_s: Option<f64>,
-    /// Frequency of that motion, at most half of the frequency above: half of it is a motion of twice the period.
+    /// Frequency of that small motion, at most half of `frequency_hz`; a motion with exactly half has twice the period.
     pub growth_frequency_hz: Option<f64>,
-    /// Whether no such motion grows faster than the threshold of the scene.
+    /// Whether no small motion about this one grows faster than the threshold of the scene.
     pub stable: bool,
 }
 
@@ -84,7 +84,7 @@ pub struct OscillationAtEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OscillationPlaceEntry {
-    /// Mean.
+    /// Mean deflection.
     pub mean_m: f64,
     /// Half of the difference between the largest and the smallest deflection.
     pub amplitude_m: f64,
@@ -177,7 +177,7 @@ fn place(motion: &Motion) -> OscillationPlaceEntry {
     }
 }
 
-/// Changes of the amplitude above this share are worth a warning.
+/// Relative change of the amplitude above which the report contains a warning.
 const LARGE_ERROR: f64 = 0.05;
 
 /// Remarks on the validity of the oscillation.

@@ -38,7 +38,7 @@ pub struct IdlingEntry {
 }
 
 impl InCutEntry {
-    /// `None` for the idling saw.
+    /// The forces in the diagram of an analysis; `None` if the diagram is that of the idling saw.
     pub(super) fn new(analysis: &Analysis) -> Option<Self> {
         let cut = analysis.scene.cut()?;
         let run = cut.chart?;

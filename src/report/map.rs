@@ -8,7 +8,7 @@ use crate::scene::{Quantity, SceneFile, rpm};
 use crate::stability::{StabilityState, critical_at};
 use crate::study::{Found, FoundBand, LogError, Outcome, Rows, Saw};
 
-/// `map.json`.
+/// Report of a map (`map.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MapReport {
@@ -77,7 +77,7 @@ pub struct MappedSawEntry {
     pub state: Option<StabilityState>,
     /// Critical speed within 5 % of that speed; null if there is none.
     pub at_critical_rpm: Option<f64>,
-    /// Why the saw was not analysed; null if it was.
+    /// Reason for which the saw was not analysed; null if it was.
     pub not_analysed: Option<String>,
 }
 
@@ -95,9 +95,9 @@ pub enum ContouredEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContourEntry {
-    /// The quantity.
+    /// Quantity that is constant along the line.
     pub quantity: ContouredEntry,
-    /// Its value along the line.
+    /// Value of this quantity.
     pub rpm: f64,
     /// Points of the line: values of x and of y.
     pub points: Vec<[f64; 2]>,

@@ -64,7 +64,7 @@ pub struct StraightEdgeEntry {
     /// Light gap in the middle; negative if the blade touches there and light is under the ends. Null if the blade buckles off its
     /// machine.
     pub gap_m: Option<f64>,
-    /// Depth of the middle below the points; null likewise.
+    /// Depth of the middle below the two points; null if the blade buckles off its machine.
     pub sag_m: Option<f64>,
     /// Light gap of the blade without its roll tension.
     pub gap_without_rolling_m: f64,
@@ -72,7 +72,7 @@ pub struct StraightEdgeEntry {
     pub sag_without_rolling_m: f64,
     /// Factor of the roll tension at which the blade buckles off its machine; null without roll tension.
     pub buckling_factor: Option<f64>,
-    /// Roll tension that has the measured gap.
+    /// Roll tension that causes the measured gap; null if none was measured.
     pub measured: Option<MeasuredGapEntry>,
 }
 
@@ -80,7 +80,7 @@ pub struct StraightEdgeEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeasuredGapEntry {
-    /// The light gap.
+    /// Light gap with this roll tension.
     pub gap_m: f64,
     /// Ratio of its roll tension to that of the scene.
     pub factor: f64,
@@ -96,7 +96,7 @@ pub struct MeasuredGapEntry {
 pub struct HeatEntry {
     /// Peak of the profile in the scene: the rise of largest magnitude, at the rim for a shape.
     pub rise_k: f64,
-    /// Rises at the radii of the stress.
+    /// Temperature rises at the radii of the stress.
     pub profile_k: Vec<f64>,
     /// Peak at which the lowest critical speed equals the operating speed; null without an operating speed,
     /// or if the blade buckles at a smaller one.
@@ -153,7 +153,7 @@ const SHOWN: usize = 40;
 const ASIDE: f64 = 1e-9;
 
 impl MembraneEntry {
-    /// `None` for a scene without membrane stress.
+    /// Stress and limits of an analysis; `None` for a scene without membrane stress, temperature and straight edge.
     pub(super) fn new(scene: &Scene, analysis: &Analysis) -> Option<Self> {
         let plate = &analysis.model.plate;
         let heat = analysis.heat.as_ref();

@@ -2,8 +2,8 @@
 //!
 //! Reports are made from an [`Analysis`](crate::stability::Analysis), a [`Check`](crate::check::Check), a
 //! fit, a placement or the history of a cut, and are written as JSON with speeds in rpm, frequencies in Hz
-//! and growth rates in 1/s. A report solves no eigenproblem; its contents were computed before. Only
-//! [`WhirlEntry`], [`EventShapeEntry`] and [`SensitivityEntry`] are computed on request.
+//! and growth rates in 1/s. The contents of a report are computed before it is made; only [`WhirlEntry`],
+//! [`EventShapeEntry`] and [`SensitivityEntry`] are computed on request and added.
 
 mod branches;
 mod build;
@@ -127,7 +127,7 @@ pub struct Report {
     /// them.
     #[serde(default)]
     pub excitation: Option<ExcitationEntry>,
-    /// Comparison of the operating speed with the 85 % rule, if the scene has one.
+    /// Comparison of the operating speed with the 85 % rule, if the scene has an operating speed.
     pub operating: Option<OperatingEntry>,
     /// Modes at one speed, on request.
     pub whirl: Option<WhirlEntry>,
@@ -183,7 +183,7 @@ pub struct InstabilityEntry {
     pub kind: InstabilityKind,
     /// Speed at which the band begins.
     pub from_rpm: f64,
-    /// End, or the end of the sweep.
+    /// Speed at which the band ends, or the end of the sweep.
     pub to_rpm: f64,
     /// False if the sweep begins or ends inside the band.
     pub closed: bool,
@@ -225,13 +225,13 @@ pub struct InstabilityEntry {
 pub struct OperatingEntry {
     /// The scene's operating speed.
     pub rpm: f64,
-    /// Ratio of operating speed to lowest critical speed.
+    /// Ratio of operating speed to lowest critical speed; null if the blade has no critical speed.
     pub of_lowest_critical: Option<f64>,
     /// Usual limit of that ratio, 0.85.
     pub limit: f64,
-    /// Whether the ratio is below the limit.
+    /// Whether the ratio is at most the limit; null without a ratio.
     pub within_limit: Option<bool>,
-    /// Whether the saw can run at that speed.
+    /// Whether the saw is stable at that speed.
     pub verdict: StabilityState,
     /// Index into `instabilities` of the band that makes it unstable.
     pub inside_instability: Option<usize>,
@@ -257,7 +257,8 @@ pub struct AccuracyEntry {
     pub name: Accuracy,
     /// Largest number of nodal diameters.
     pub max_diameters: usize,
-    /// Radial functions for each, including those that steps and kinks of the thickness add.
+    /// Number of radial functions for each number of nodal diameters, including those that steps and kinks of the
+    /// thickness add.
     pub radial_functions: usize,
     /// Size of the basis.
     pub degrees_of_freedom: usize,
@@ -283,9 +284,9 @@ pub struct WorkEntry {
     /// Eigenproblems of the full model: Krylov iterations with a factorization each, or dense ones.
     pub full_solves: usize,
     /// Number of `full_solves` that used the block structure of the blade and the few columns of its guides, in a time
-    /// linear in the number of functions; scenes with edge loads or dampers have no such structure.
+    /// linear in the number of basis functions; scenes with edge loads or dampers have no such structure.
     pub structured_solves: usize,
-    /// Dense eigenproblems of the projected matrices.
+    /// Dense eigenproblems of the reduced model.
     pub reduced_solves: usize,
     /// Dense eigenproblems of the Hamiltonian reduction between two speeds.
     pub local_solves: usize,

@@ -10,7 +10,7 @@ use crate::plate::Plate;
 use crate::scene::rpm;
 use crate::spectrum::{DescribedMode, Direction};
 
-/// w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ) e^{λt}.
+/// A mode at one speed: w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ) e^{λt}.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModeEntry {
@@ -59,7 +59,7 @@ pub struct ComplexEntry {
     pub im: Vec<f64>,
 }
 
-/// The motion of harmonics with a smaller share of the energy is not visible.
+/// Smallest share of the kinetic energy of a listed harmonic; smaller ones are not visible.
 const LEAST_SHARE: f64 = 1e-3;
 
 impl ModeEntry {
@@ -83,7 +83,7 @@ impl ModeEntry {
     }
 }
 
-/// n nodal diameters of a shape in the basis of the plate.
+/// The harmonic of n nodal diameters of a shape, which is given in the basis of the plate.
 pub(super) fn profile(plate: &Plate, shape: &Col<c64>, n: usize, share: f64) -> WaveEntry {
     let (first, size) = (plate.offset(n), plate.basis.count());
     let over_radii = |offset: usize| {
@@ -98,18 +98,18 @@ pub(super) fn profile(plate: &Plate, shape: &Col<c64>, n: usize, share: f64) -> 
             im: values.iter().map(|c| c.im).collect(),
         }
     };
-    let none = || ComplexEntry {
-        re: vec![0.0; plate.sampled_functions(n).len()],
-        im: vec![0.0; plate.sampled_functions(n).len()],
-    };
+    let cosine = over_radii(first);
+    let none = vec![0.0; cosine.re.len()];
     WaveEntry {
         nodal_diameters: n,
         share,
-        cosine: over_radii(first),
-        sine: if n > 0 {
-            over_radii(first + size)
-        } else {
-            none()
+        sine: match n {
+            0 => ComplexEntry {
+                re: none.clone(),
+                im: none,
+            },
+            _ => over_radii(first + size),
         },
+        cosine,
     }
 }

@@ -39,7 +39,7 @@ pub struct PlaceReport {
     /// Whether the best saw keeps the limits in the worst case of its tolerances.
     pub kept: bool,
     /// Whether the best saw is better than the original scene, both in the worst case of their tolerances. If
-    /// no saw between the bounds is, `scene`, `best` and the numbers are those of the original scene, unless
+    /// no saw between the bounds is better, `scene`, `best` and the numbers are those of the original scene, unless
     /// that lies outside the bounds.
     pub improved: bool,
     /// First speed of the sweep, the same for every saw.
@@ -56,7 +56,7 @@ pub struct PlaceReport {
     pub before: OutcomeEntry,
     /// Worst neighbour of the original scene within its tolerances, itself included.
     pub worst_before: NeighbourEntry,
-    /// The best saw: that of the best goal in the worst case of its tolerances.
+    /// Result of the best saw, which has the best goal in the worst case of its tolerances.
     pub best: OutcomeEntry,
     /// Bands of the best saw.
     pub bands: Vec<InstabilityEntry>,
@@ -77,11 +77,11 @@ pub struct PlaceReport {
     pub map: Option<MapEntry>,
     /// Number of saws analysed.
     pub saws: usize,
-    /// Number of those that could not be computed; they count as the worst.
+    /// Number of saws that could not be computed; they count as the worst.
     pub failed_saws: usize,
     /// Largest number of nodal diameters of the best saw's basis.
     pub max_diameters: usize,
-    /// Radial functions of each.
+    /// Number of radial functions for each number of nodal diameters.
     pub radial_functions: usize,
     /// Remarks on the validity of the result.
     pub warnings: Vec<String>,
@@ -103,7 +103,7 @@ pub enum GoalEntry {
 pub struct PlacedEntry {
     /// JSON path in the scene.
     pub path: String,
-    /// Value before.
+    /// Value in the original scene.
     pub start: f64,
     /// Best value.
     pub value: f64,
@@ -173,7 +173,7 @@ pub struct FragileOptimumEntry {
 pub struct NeighbourEntry {
     /// Values of the numbers, in their order.
     pub values: Vec<f64>,
-    /// Its result; null if it could not be computed.
+    /// Result of the saw; null if it could not be computed.
     pub outcome: Option<OutcomeEntry>,
 }
 
@@ -189,9 +189,9 @@ pub struct MapEntry {
     pub y_path: Option<String>,
     /// Values along y.
     pub y: Vec<f64>,
-    /// The goal, one row for each value of y; null if there is no such saw.
+    /// The goal, one row for each value of y; null if there is no such saw or it could not be computed.
     pub goal_rpm: Vec<Vec<Option<f64>>>,
-    /// Whether the limit of the critical speed is kept.
+    /// Whether the limits of the critical speed and of the deflection are kept.
     pub kept: Vec<Vec<bool>>,
 }
 

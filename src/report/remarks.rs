@@ -1,5 +1,4 @@
-//! Terms of the equation of motion that were assembled, whether the tolerance was reached, and remarks on the
-//! validity of the result.
+//! Terms of the equation of motion that were assembled, and remarks on the validity of the result.
 
 use std::f64::consts::TAU;
 
@@ -11,10 +10,10 @@ use crate::text::{shown, shown_to};
 
 use super::CertificateEntry;
 
-/// Relative rounding from which a frequency has fewer than six valid digits.
+/// Relative rounding error above which a frequency has fewer than six valid digits.
 const LEAST_DIGITS: f64 = 1e-6;
 
-/// Stiffest pad in the calibration of the error estimate.
+/// Stiffness of the stiffest pad in the trials that calibrated the error estimate.
 const CALIBRATED_N_PER_M: f64 = 1e9;
 
 /// Terms of the equation of motion that were assembled.
@@ -129,7 +128,7 @@ fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
     ))
 }
 
-/// Warning that the program ends the sweep before twice the lowest critical speed.
+/// Warning that the sweep chosen by the program ends at a lower speed than usual.
 fn ended_early(scene: &Scene, analysis: &Analysis) -> Option<String> {
     let lowest = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
     let (end, usual) = (analysis.range_rad_per_s.1, chosen_end(scene, lowest));

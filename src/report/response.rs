@@ -1,18 +1,19 @@
 //! `response.json`: steady-state amplitude and phase over the speed, and over the frequency at one speed.
 
+use std::f64::consts::TAU;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::response::{Cause, Deflection, ForcedResponse, FrequencyResponse, ResponseLine};
 use crate::scene::typical::RESPONSE_FORCE;
-use crate::scene::{SceneFile, rpm};
+use crate::scene::{SceneFile, rad_per_s, rpm};
 use crate::stability::StabilityState;
 use crate::text::shown;
-use std::f64::consts::TAU;
 
 use super::InstabilityEntry;
 
-/// `response.json`.
+/// Report of steady-state responses (`response.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResponseReport {
@@ -20,7 +21,8 @@ pub struct ResponseReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
-    /// Numbers that no saw has, each with its key, the usual range, and the remedy.
+    /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
+    /// numbers as typed.
     #[serde(default)]
     pub unusual_numbers: Vec<String>,
     /// Size of the basis.
@@ -45,7 +47,7 @@ pub struct ResponseReport {
     /// Responses, one for each cause and order of the rotation speed.
     pub lines: Vec<ResponseLineEntry>,
     /// Largest distance of the cut surface from the middle plane of the blade at rest, at each speed: the static deflection of
-    /// the rim at the cut and all amplitudes there, as if their maxima coincided; null where one of them is.
+    /// the rim at the cut and all amplitudes there, as if their maxima coincided; null where one of them is null.
     pub board_deviation_m: Vec<Option<f64>>,
     /// Deflections at the operating speed; null if it is not within the sweep.
     pub operating: Option<OperatingResponseEntry>,
@@ -138,7 +140,7 @@ pub struct FrequencyResponseEntry {
 }
 
 impl ResponseReport {
-    /// Reports what was computed.
+    /// The report of responses.
     pub fn new(found: &ForcedResponse) -> Self {
         let (scene, chart) = (&found.scene, found.analysis.report());
         let limit = found.linear_limit_m();
@@ -150,7 +152,7 @@ impl ResponseReport {
             .collect();
         let board = found.board_deviation_m();
         let operating = scene.file().operating_rpm.and_then(|asked| {
-            // Speeds are converted to rad/s and back.
+            // The conversion of speeds to rad/s and back has a rounding error.
             let is_same = |rpm: &f64| (rpm / asked - 1.0).abs() < 1e-9;
             let place = rpm_of.iter().position(is_same)?;
             Some(OperatingResponseEntry {
@@ -264,7 +266,7 @@ fn warnings(
         .iter()
         .flat_map(|line| &line.resonances)
         .filter(|resonance| {
-            let speed = crate::scene::rad_per_s(resonance.rpm);
+            let speed = rad_per_s(resonance.rpm);
             let state = found.analysis.verdict(speed).state;
             resonance.amplitude_m.is_none() && state == StabilityState::Stable
         })

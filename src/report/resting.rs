@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RestMode {
-    /// Natural frequency.
+    /// |Im λ|/2π, the natural frequency.
     pub frequency_hz: f64,
     /// Nodal diameters of the dominant harmonic.
     pub nodal_diameters: usize,
@@ -24,7 +24,7 @@ pub struct RestMode {
     /// Estimated relative error of the frequency.
     #[serde(default)]
     pub estimated_relative_error: Option<f64>,
-    /// ‖L(λ)q‖ relative to the size of its terms.
+    /// Backward error: ‖L(λ)q‖ relative to the size of its terms.
     pub backward_error: f64,
     /// Share of each harmonic of the kinetic energy, largest first.
     pub harmonics: Vec<HarmonicEntry>,

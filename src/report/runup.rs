@@ -33,7 +33,7 @@ pub struct RunUpReport {
     pub step_s: f64,
     /// Largest deflection that is given; beyond it the linear model is not valid.
     pub linear_limit_m: f64,
-    /// Speed at which the deflection at the probe exceeds it and the record ends; null if it does not.
+    /// Speed at which the deflection at the probe exceeds this limit and the record ends; null if it does not.
     pub linear_until_rpm: Option<f64>,
     /// Speeds of the record.
     pub rpm: Vec<f64>,
@@ -68,8 +68,8 @@ pub struct RunUpBand {
     /// power.
     pub growth_exponent: f64,
     /// Ratio of the largest deflection at the probe within the band to that in an interval of equal length
-    /// before it; null if the linear model ends before the band does. All vibrating modes contribute: with a
-    /// small exponent it shows beating of other modes, not growth.
+    /// before it; null if the record ends before the band does. All vibrating modes contribute: with a small
+    /// exponent the ratio shows beating of other modes, not growth.
     pub seen_amplification: Option<f64>,
 }
 
@@ -91,7 +91,7 @@ pub struct StretchingEntry {
     pub amplitude_m: Vec<Vec<f64>>,
 }
 
-/// |w/F| over speed and frequency.
+/// Magnitude of the deflection at the probe for a harmonic force of one newton, over speed and frequency.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResponseEntry {
@@ -99,7 +99,7 @@ pub struct ResponseEntry {
     pub rpm: Vec<f64>,
     /// Frequencies of the force.
     pub frequency_hz: Vec<f64>,
-    /// Deflection at the probe per newton, one row for each speed.
+    /// |w/F|, one row for each speed.
     pub receptance_m_per_n: Vec<Vec<f64>>,
 }
 

@@ -9,7 +9,7 @@ impl Report {
     /// Adds the amplitude to which the flutter of each band rises.
     ///
     /// # Errors
-    /// [`StretchedError`].
+    /// [`StretchedError`] if the amplitude of a band cannot be computed.
     pub fn add_amplitudes(&mut self, analysis: &Analysis) -> Result<(), StretchedError> {
         add_amplitudes(&mut self.instabilities, &saturations(analysis)?);
         Ok(())

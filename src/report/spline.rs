@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::cut::{Verdict, hertz};
+use super::cut::{Verdict, growing_hz};
 use crate::scene::Scene;
 use crate::transient::OnSpline;
 
@@ -15,7 +15,7 @@ pub struct SplineEntry {
     pub verdict: Verdict,
     /// Largest Re λ with this reaction.
     pub growth_per_s: f64,
-    /// Frequency of the growing mode.
+    /// Frequency of the mode of this growth; null if none grows.
     pub frequency_hz: Option<f64>,
     /// ‖change of K_e‖ / ‖K_e‖ from the assumed to the simulated reaction, on the lowest
     /// modes of the idle saw.
@@ -30,19 +30,19 @@ pub struct SplineEntry {
     pub teeth_in_contact: f64,
     /// Largest normal force on a spline tooth.
     pub peak_tooth_n: f64,
-    /// Largest approach of any flank.
+    /// Largest depth by which two flanks overlap.
     pub deepest_m: f64,
     /// Mean reaction plus load, relative to the load: the remaining imbalance of the average.
     pub imbalance: f64,
     /// Measure of how far the motion is from being settled.
     pub unsteadiness: f64,
-    /// Index in the orbit from which the reaction was averaged.
+    /// Index in the reported orbit from which on the reaction was averaged.
     pub settled_from: usize,
     /// Times of the orbit.
     pub time_s: Vec<f64>,
-    /// Centre of the blade, towards the cut.
+    /// Position of the centre of the blade, towards the cut.
     pub x_m: Vec<f64>,
-    /// Centre of the blade, a quarter turn further in the direction of rotation.
+    /// Position of the centre of the blade, a quarter turn further in the direction of rotation.
     pub y_m: Vec<f64>,
 }
 
@@ -59,7 +59,7 @@ impl SplineEntry {
         SplineEntry {
             verdict: Verdict::of(scene, growth),
             growth_per_s: growth,
-            frequency_hz: (growth > 0.0).then(|| hertz(found.in_cut.frequency_rad_per_s)),
+            frequency_hz: growing_hz(found.in_cut),
             stiffness_change: found.stiffness_change,
             force_n: reaction.force_n,
             torque_n_m: reaction.torque_n_m,

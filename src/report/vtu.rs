@@ -9,7 +9,7 @@ use std::fmt::Write;
 use super::{EventShapeEntry, Report};
 use crate::text::escaped;
 
-/// Names of the list and of the grids.
+/// File names of the list and of the grids.
 pub const VTK_NAMES: [&str; 1 + PHASES] = [
     "modes.pvd",
     "modes-00.vtu",
@@ -129,12 +129,12 @@ fn quadrilateral(cell: usize) -> String {
     )
 }
 
-/// A number with enough digits for a picture.
+/// A number with six decimals, enough for a picture.
 fn short(value: f64) -> String {
     format!("{}", (1e6 * value).round() / 1e6)
 }
 
-/// The name of an array, which ParaView lists.
+/// Title of a shape: the name of its array, which ParaView lists.
 fn title(number: usize, shape: &EventShapeEntry) -> String {
     escaped(&format!("{number:02} {:.0} rpm {}", shape.rpm, shape.name))
 }

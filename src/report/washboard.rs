@@ -40,7 +40,7 @@ pub struct WashboardReport {
     pub arc_deg: f64,
     /// Feed speed of the wood, if given.
     pub feed_m_per_s: Option<f64>,
-    /// Smallest cutting stiffness at which a motion grows at that speed; null if it exceeds
+    /// Smallest cutting stiffness at which a motion grows at the speed `rpm`; null if it exceeds
     /// `ceiling_n_per_m`, zero if a motion grows without the delayed force.
     pub critical_stiffness_n_per_m: Option<f64>,
     /// Frequency of this motion.
@@ -50,7 +50,7 @@ pub struct WashboardReport {
     pub growing_eigenvalues: Option<usize>,
     /// Number of growing eigenvalues without the delayed force.
     pub growing_eigenvalues_without: usize,
-    /// Modes at that speed, in descending order of growth.
+    /// Modes at the speed `rpm`, in descending order of growth.
     pub modes: Vec<WashboardModeEntry>,
     /// Smallest cutting stiffness at which a motion grows, over the speed.
     pub lobes: LobesEntry,
@@ -60,7 +60,7 @@ pub struct WashboardReport {
     pub complete_to_hz: f64,
     /// Largest number of nodal diameters of the basis.
     pub max_diameters: usize,
-    /// Radial functions for each.
+    /// Number of radial functions for each number of nodal diameters.
     pub radial_functions: usize,
     /// Estimated relative error of the critical speeds in this basis.
     pub estimated_relative_error: Option<f64>,
@@ -84,12 +84,12 @@ pub struct WashboardModeEntry {
     pub growth_without_per_s: Option<f64>,
     /// Im λ/2π of the mode without the delayed force.
     pub frequency_without_hz: Option<f64>,
-    /// Multiple of the tooth passing frequency that is nearest to its frequency; null for unevenly spaced
+    /// Multiple of the tooth passing frequency that is nearest to `frequency_hz`; null for unevenly spaced
     /// teeth.
     pub tooth_passing_multiple: Option<u32>,
-    /// Difference between its frequency and this multiple.
+    /// `frequency_hz` minus this multiple.
     pub beside_tooth_passing_hz: Option<f64>,
-    /// Wavelength of its pattern on the board, along the feed; null without a feed.
+    /// Wavelength, along the feed, of the pattern that the mode leaves on the board; null without a feed.
     pub pattern_pitch_m: Option<f64>,
 }
 
@@ -104,7 +104,7 @@ pub struct LobesEntry {
     pub critical_stiffness_n_per_m: Vec<Option<f64>>,
     /// Frequency of this motion.
     pub frequency_hz: Vec<Option<f64>>,
-    /// Whether the argument principle confirms that nothing grows just below it.
+    /// Whether the argument principle confirms that nothing grows just below this stiffness.
     pub confirmed: Vec<bool>,
 }
 
@@ -117,16 +117,14 @@ impl WashboardReport {
         let boundary = found.boundary;
         let resolution = found.plate.resolution;
         let error = found.estimated_relative_error;
-        let stable = found.growing == Some(0);
         WashboardReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: found.scene.file().clone(),
             unusual_numbers: unusual_numbers(found),
             rpm: run.rpm,
-            verdict: if stable {
-                Verdict::Stable
-            } else {
-                Verdict::Unstable
+            verdict: match found.growing {
+                Some(0) => Verdict::Stable,
+                _ => Verdict::Unstable,
             },
             tooth_passing_hz: passing / TAU,
             delays_s: washboarding.delays_s(speed),

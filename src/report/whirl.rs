@@ -9,13 +9,13 @@ use crate::scene::rpm;
 use crate::spectrum::{DescribedMode, Direction, SpectrumError, in_words};
 use crate::stability::{Analysis, StabilityState};
 
-/// The modes at one speed.
+/// The modes at one speed, and the verdict on it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WhirlEntry {
     /// Rotation speed.
     pub rpm: f64,
-    /// Whether the saw can run at that speed.
+    /// Whether the saw is stable at this speed.
     pub verdict: StabilityState,
     /// Critical speed within 5 % of this speed; null if there is none.
     #[serde(default)]
@@ -36,7 +36,7 @@ pub struct WhirlMode {
     pub nodal_circles: usize,
     /// Direction of the dominant harmonic, seen from space.
     pub direction: Direction,
-    /// Name of the mode.
+    /// Nodal diameters, nodal circles and direction of the dominant harmonic in words.
     pub name: String,
     /// Re λ.
     pub growth_per_s: f64,

@@ -130,7 +130,8 @@ pub(super) fn agree(scene: &Scene, fitted: Growth, eigenvalue: Growth) -> bool {
     of(fitted) == of(eigenvalue) && (of(fitted) == Verdict::Stable || apart <= AGREEMENT)
 }
 
-pub(super) fn growing_hz(growth: Growth) -> Option<f64> {
+/// Frequency of a motion, in Hz; `None` if it does not grow.
+pub(in crate::report) fn growing_hz(growth: Growth) -> Option<f64> {
     (growth.growth_per_s > 0.0).then(|| hertz(growth.frequency_rad_per_s))
 }
 
@@ -201,7 +202,7 @@ mod tests {
 
     /// The threshold is 0.25 1/s. One criterion above it suffices and is named.
     #[test]
-    fn item_3_the_worst_criterion_decides() {
+    fn the_worst_criterion_decides() {
         use CutCriterion::{Eigenvalues, MovingToothLoads, OutOfCut, TimeHistory};
         let cases = [
             ([0.0, 1e-9, 0.379, 0.0], Verdict::Unstable, MovingToothLoads),
@@ -220,7 +221,7 @@ mod tests {
 
     /// A growth rate that is not a number is not called stable.
     #[test]
-    fn item_3_what_is_not_a_number_is_not_stable() {
+    fn a_growth_rate_that_is_not_a_number_is_not_stable() {
         let scene = Scene::paper();
         assert_eq!(Verdict::of(&scene, f64::NAN), Verdict::Unstable);
         assert_eq!(Verdict::of(&scene, f64::INFINITY), Verdict::Unstable);
