@@ -1,10 +1,10 @@
 //! Campbell diagram: modes at many speeds, computed in parallel and followed as branches.
 //!
-//! The input is a [`SpectralModel`] and speeds in rad/s, the result a [`Campbell`]: the modes at every speed,
-//! and the modes that belong to each branch.
+//! The input is a [`SpectralModel`] and speeds in rad/s. The result is a [`Campbell`], which contains the
+//! modes at every speed, and the modes that belong to each branch.
 //!
-//! Every mode of an undamped blade is converted to positive action: a reflected wave (ω, q) with Krein sign
-//! −1 is the same motion as (−ω, q̄) with sign +1. A backward wave then passes through its critical speed
+//! To follow modes, each is converted to positive action: a reflected wave (ω, q) with Krein sign −1 is the same
+//! motion as (−ω, q̄) with sign +1. A backward wave then passes through its critical speed
 //! without changing its shape, and modes of opposite sign cannot be mistaken for each other.
 
 mod assignment;
@@ -31,18 +31,18 @@ pub enum CampbellError {
     /// An eigenproblem failed.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
-    /// The modes at all speeds of a chart do not fit into the allowed memory.
+    /// The modes at all speeds of a chart exceed the allowed memory.
     #[error(
         "the chart would take {needed_mb} MB of memory for {modes} modes at each of {speeds} speeds, but must not take more than {allowed_mb} MB; {}choose a coarser accuracy", end_in_words(*.largest_end_rpm)
     )]
     TooLarge {
-        /// Memory needed.
+        /// Memory needed, in MiB.
         needed_mb: usize,
-        /// Memory allowed.
+        /// Memory allowed, in MiB.
         allowed_mb: usize,
-        /// Modes at the last speed.
+        /// Number of modes at the last speed.
         modes: usize,
-        /// Speeds.
+        /// Number of speeds.
         speeds: usize,
         /// Largest end of a sweep whose chart would fit, if any.
         largest_end_rpm: Option<f64>,
@@ -66,7 +66,7 @@ pub struct SpeedSample {
 /// One mode followed over speed.
 #[derive(Debug, Clone, Default)]
 pub struct Branch {
-    /// (index of the sample, index of the mode in it), one for each speed, without gaps.
+    /// Index of the sample, and of the mode in it, for consecutive samples.
     pub points: Vec<(usize, usize)>,
 }
 
@@ -88,11 +88,11 @@ pub fn even_speeds((from, to): (f64, f64), count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Memory allowed for the modes of a chart. A saw needs at most a tenth of it.
+/// Memory allowed for the modes of a chart, in MiB; usual saws need at most a tenth of it.
 const MEMORY_BUDGET_MB: usize = 1024;
 
-/// Memory for a mode of a chart: its shape, its projected coordinates of at most the same length, and a share
-/// for each harmonic.
+/// Memory for a mode of a chart, in bytes: its shape, its projected coordinates of at most the same length, and
+/// a share for each harmonic.
 fn bytes_of_mode(model: &SpectralModel) -> usize {
     let shape = 2 * model.plate.degrees_of_freedom() * size_of::<c64>();
     let shares = model.plate.max_diameters() * size_of::<HarmonicShare>();
@@ -110,7 +110,7 @@ pub(crate) fn room_for_more(model: &SpectralModel, samples: &[SpeedSample]) -> u
     most_speeds(model, modes.unwrap_or(0)).saturating_sub(samples.len())
 }
 
-/// Checks the memory for the modes of a chart by the number of modes at the last speed, which is the largest.
+/// Checks the memory for a chart by the number of modes at its last speed, which is the largest of all speeds.
 fn check_memory(model: &SpectralModel, modes: usize, speeds: &[f64]) -> Result<(), CampbellError> {
     let most = most_speeds(model, modes);
     if speeds.len() <= most {
@@ -130,7 +130,7 @@ fn check_memory(model: &SpectralModel, modes: usize, speeds: &[f64]) -> Result<(
 /// Checks that the modes at some speeds fit into the allowed memory, before any other search at them.
 ///
 /// # Errors
-/// [`CampbellError`] of the last speed, or [`CampbellError::TooLarge`].
+/// [`CampbellError`] when the eigenproblem of the last speed fails; [`CampbellError::TooLarge`].
 pub(crate) fn check_room(model: &SpectralModel, speeds: &[f64]) -> Result<(), CampbellError> {
     let Some(last) = speeds.last() else {
         return Ok(());
@@ -138,8 +138,9 @@ pub(crate) fn check_room(model: &SpectralModel, speeds: &[f64]) -> Result<(), Ca
     check_memory(model, model.drawn_modes(*last)?.len(), speeds)
 }
 
-/// Critical speed at which a sweep with this many charted speeds may end. An earlier end omits the speeds
-/// beside later critical speeds but keeps the even ones, closer together. There are fewer modes too.
+/// Highest critical speed at which a sweep may end so that its chart has at most `most` speeds. An earlier end
+/// omits the speeds beside later critical speeds but keeps the number of even ones. The chart then also has
+/// fewer modes, which this estimate does not use.
 fn largest_end(critical: &[f64], speeds: &[f64], most: usize) -> Option<f64> {
     let last = *speeds.last()?;
     let first = *critical.first()?;
@@ -161,7 +162,7 @@ const BESIDE: f64 = 1e-3;
 /// bit by bit.
 ///
 /// # Errors
-/// [`CampbellError`] of the last speed or of the lowest that fails; [`CampbellError::TooLarge`].
+/// [`CampbellError`] of the last speed, or of the first one that fails; [`CampbellError::TooLarge`].
 #[doc(hidden)]
 pub fn sample(
     model: &SpectralModel,
@@ -191,8 +192,8 @@ pub fn sample(
 }
 
 impl Campbell {
-    /// Follows the modes of samples up to the height of their chart. A branch begins and ends at the first or
-    /// last speed or at that height.
+    /// Follows the modes of samples up to the height of their chart. A branch begins at the first speed or at
+    /// that height, and ends at the last speed or at that height.
     pub fn track(mut samples: Vec<SpeedSample>, height_rad_per_s: f64) -> Self {
         samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
         let matches: Vec<Vec<Match>> = samples
@@ -204,7 +205,7 @@ impl Campbell {
             })
             .collect();
         let mut branches: Vec<Branch> = Vec::new();
-        // Branch of each mode of the previous sample.
+        // `current` has the index of the branch of each mode of the previous sample.
         let mut current: Vec<usize> = Vec::new();
         for (index, sample) in samples.iter().enumerate() {
             let before = index.checked_sub(1);
@@ -252,7 +253,7 @@ mod tests {
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
         let samples = sample(&model, &even_speeds(range, 31), &|_, _| ()).unwrap();
         let campbell = Campbell::track(samples, model.complete_to_rad_per_s);
-        // Other branches leave the chart at its top.
+        // Branches that leave the chart at its top are shorter.
         let whole = campbell.branches.iter().filter(|b| b.points.len() > 10);
         let mut followed = 0;
         for branch in whole {
@@ -269,8 +270,8 @@ mod tests {
         assert!(followed >= 8, "{followed}");
     }
 
-    /// Fifty even speeds, and two beside each of 40 critical speeds in the second half of the sweep: with
-    /// room for 90, half of the critical speeds may stay.
+    /// There are fifty even speeds, and two beside each of 40 critical speeds in the second half of the
+    /// sweep. With room for 90 speeds, half of the critical speeds may remain.
     #[test]
     fn a_sweep_that_does_not_fit_may_end_at_the_last_critical_speed_that_does() {
         let critical: Vec<f64> = (0..40).map(|k| 50.5 + 1.23 * f64::from(k)).collect();

@@ -7,9 +7,9 @@
 //! K_b + K_m + K_g + K_e. Terms that the scene does not contain are absent.
 //!
 //! This is the equation ρh D²w/Dt² + … = 0 of the plate with the convective derivative D/Dt = ∂t + Ω∂θ: D²
-//! gives ∂t², the gyroscopic 2Ω ∂t∂θ and Ω² ∂θ², which is −N. Material damping η resists the strain rate of
-//! the turning blade, C_i Dq/Dt with C_i = η K_b or the square root of K_b, hence the part C_i of C, and K_circ = C_i G; air that turns with the
-//! share s of the speed resists w_t + sΩw_θ.
+//! gives ∂t², the gyroscopic 2Ω ∂t∂θ and Ω² ∂θ², which is −N. Material damping resists the strain rate of the
+//! turning blade by C_i Dq/Dt, with C_i in proportion to K_b or to its square root; hence the part C_i of C, and
+//! K_circ = C_i G. Air that turns with the share s of the speed resists w_t + sΩw_θ.
 //!
 //! References: W. D. Iwan & T. L. Moeller, J. Appl. Mech. 43 (1976), 485–490; P. Lancaster, *Strongly stable
 //! gyroscopic systems*, Electron. J. Linear Algebra 5 (1999), 53–66, for Krein signs as a consequence of
@@ -20,7 +20,7 @@ use nalgebra::DMatrix;
 
 use crate::plate::{HarmonicBlock, Plate};
 
-/// L(λ) = λ² + λD + K, of K(Ω) and D = 2ΩG + C.
+/// L(λ) = λ² + λD + K from K(Ω) and D = 2ΩG + C, in 1/s².
 pub(crate) fn dynamic_stiffness(
     stiffness: &Mat<f64>,
     velocity: &Mat<f64>,
@@ -34,7 +34,7 @@ pub(crate) fn dynamic_stiffness(
     dynamic
 }
 
-/// Matrices of the gyroscopic system, N × N; their projection on fewer vectors is a system of the same kind.
+/// Matrices of the equation of motion, N × N; their projection on fewer vectors is a system of the same kind.
 #[derive(Debug, Clone)]
 pub struct GyroscopicSystem {
     /// K₀ = K_b + K_m + K_g + K_e, in 1/s², symmetric: bending, membrane stress, guides, edge loads.
@@ -42,16 +42,16 @@ pub struct GyroscopicSystem {
     /// K_σ − N, dimensionless, symmetric: centrifugal tension minus the convective term, N = n² for the waves
     /// of n nodal diameters.
     pub spin: Mat<f64>,
-    /// G = ∂θ in the basis, dimensionless, skew: n between the sines and cosines of n.
+    /// G = ∂θ in the basis, dimensionless, skew: ±n between the cosines and the sines of n nodal diameters.
     pub gyroscopic: Mat<f64>,
     /// C, in 1/s, symmetric: pads, air and material.
     pub damping: Option<Mat<f64>>,
     /// K_circ = C_i G + s C_a G, in 1/s: material damping C_i turns with the blade, and air, with the part C_a
     /// of C, with the share s of its speed.
     pub circulatory: Option<Mat<f64>>,
-    /// K_n, in 1/s², of no symmetry: contact forces that have no potential.
+    /// K_n, in 1/s², without symmetry: contact forces that have no potential.
     pub nonconservative: Option<Mat<f64>>,
-    /// Rigid motions z that nothing holds, orthonormal: K(Ω) z = 0 at every speed.
+    /// Rigid motions z without stiffness, orthonormal: K(Ω) z = 0 at every speed.
     pub free_rigid: Vec<Col<f64>>,
     /// Contribution of free rigid motions to K_σ − N for a wave that stands still, see
     /// [`GyroscopicSystem::standing_spin`]; dimensionless.
@@ -77,8 +77,8 @@ impl GyroscopicSystem {
         system
     }
 
-    /// The system of the whole plate inside the gaps of its pads, in which motions that nothing holds are not taken for free
-    /// ones, because the pads hold them beyond the gaps; `None` if no pad lifts off.
+    /// The system of the whole plate inside the gaps of its pads. Its rigid motions without stiffness do not
+    /// count as free, because the pads hold them beyond the gaps. `None` if no pad lifts off.
     pub(crate) fn of_released(plate: &Plate) -> Option<Self> {
         let mut system = Self::of_plate(&plate.released()?);
         system.free_rigid.clear();
@@ -148,11 +148,11 @@ impl GyroscopicSystem {
         self.damping = Some(total);
     }
 
-    /// Finds heave and tilt without stiffness. `first` is the index of the first unknown in the basis of the
+    /// Finds free heave and tilt, and their drift. `first` is the index of the first unknown in the basis of the
     /// plate.
     fn find_free_rigid_motions(&mut self, plate: &Plate, first: usize) {
-        // A force without potential does work on a rigid motion that nothing else resists, so that its
-        // momentum is not conserved.
+        // A force without a potential does work on a rigid motion without stiffness, so that the momentum of
+        // this motion is not conserved.
         if !plate.basis.has_rigid_motions() || self.nonconservative.is_some() {
             return;
         }
@@ -165,7 +165,7 @@ impl GyroscopicSystem {
         if rigid.is_empty() {
             return;
         }
-        let held = nalgebra::DMatrix::from_fn(rigid.len(), rigid.len(), |i, j| {
+        let held = DMatrix::from_fn(rigid.len(), rigid.len(), |i, j| {
             self.stiffness[(rigid[i], rigid[j])]
         });
         let eigen = held.symmetric_eigen();
@@ -194,7 +194,7 @@ impl GyroscopicSystem {
             .collect();
         let count = turned.len();
         // ĜᵀĜ, Ĝ = ZᵀGZ
-        let coupled = nalgebra::DMatrix::from_fn(count, count, |i, j| {
+        let coupled = DMatrix::from_fn(count, count, |i, j| {
             self.free_rigid[i].transpose() * &turned[j]
         });
         let eigen = (coupled.transpose() * coupled).symmetric_eigen();
@@ -213,12 +213,12 @@ impl GyroscopicSystem {
         drift
     }
 
-    /// The matrix in place of K_σ − N for which K₀ + Ω²(…) is singular when a wave stands still: it includes
-    /// 4GᵀzzᵀG for a free rigid motion z. The momentum zᵀ(q̇ + 2ΩGq) is constant, and zero in every motion
-    /// that oscillates or grows: displaced by q the blade drifts at −2ΩzᵀGq, and 2ΩG times that drift is a
-    /// force proportional to q, as that of a spring.
+    /// Matrix S for which K₀ + Ω²S is singular at the speeds at which a wave stands still: K_σ − N, plus 4GᵀzzᵀG
+    /// for every free rigid motion z. The momentum zᵀ(q̇ + 2ΩGq) is constant, and zero in every motion that
+    /// oscillates or grows: displaced by q the blade drifts at −2ΩzᵀGq, and 2ΩG times that drift is a force
+    /// proportional to q, as that of a spring.
     ///
-    /// Two free motions that G couples (zᵀGz′ ≠ 0) need no such term: each is displaced until the momentum of
+    /// Two free motions that G couples (zᵀGz′ ≠ 0) have no such term: each is displaced until the momentum of
     /// the other vanishes.
     pub fn standing_spin(&self) -> Mat<f64> {
         match &self.drift {
@@ -227,7 +227,7 @@ impl GyroscopicSystem {
         }
     }
 
-    /// Number of unknowns.
+    /// Number N of unknowns.
     pub fn order(&self) -> usize {
         self.stiffness.nrows()
     }
@@ -237,7 +237,7 @@ impl GyroscopicSystem {
         self.damping.is_none() && self.circulatory.is_none() && self.nonconservative.is_none()
     }
 
-    /// The terms that have a potential, and those of rotation.
+    /// The system without damping and without forces that have no potential.
     pub fn conservative(&self) -> Self {
         GyroscopicSystem {
             damping: None,
@@ -268,8 +268,8 @@ impl GyroscopicSystem {
         velocity
     }
 
-    /// Galerkin projection on the orthonormal columns of V. It preserves symmetry and skewness, so that
-    /// Krein's theory applies to the small system too. V must contain the free rigid motions.
+    /// Galerkin projection on the orthonormal columns of V, which must span the free rigid motions. It preserves
+    /// symmetry and skewness, so that Krein's theory applies to the small system too.
     pub fn project(&self, basis: MatRef<'_, f64>) -> Self {
         self.times(basis).onto(basis)
     }
@@ -303,7 +303,7 @@ impl GyroscopicSystem {
         }
     }
 
-    /// Vᵀ times [`GyroscopicSystem::times`].
+    /// Vᵀ times the products that [`GyroscopicSystem::times`] gives: the projection on V.
     pub(crate) fn onto(&self, basis: MatRef<'_, f64>) -> Self {
         let onto = |product: &Mat<f64>| basis.transpose() * product;
         GyroscopicSystem {
@@ -322,7 +322,7 @@ impl GyroscopicSystem {
         }
     }
 
-    /// Σ weight · system, term by term: for differences of systems.
+    /// Σ weight · system, term by term, for derivatives of the matrices. `None` without systems.
     pub(crate) fn combination(terms: &[(f64, GyroscopicSystem)]) -> Option<Self> {
         let (_, first) = terms.first()?;
         let order = first.order();
@@ -348,17 +348,17 @@ impl GyroscopicSystem {
     }
 }
 
-/// ∫ φᵢφⱼ dA in units of the mass, where it is not the identity.
+/// ∫ φᵢφⱼ dA, area relative to mass, for the resistance of air; `None` if it is the identity.
 fn air_area(plate: &Plate, range: std::ops::RangeInclusive<usize>) -> Option<Mat<f64>> {
     let blocks: Option<Vec<_>> = plate.harmonics.iter().map(|h| h.area.as_ref()).collect();
     Some(spread(plate, range, &blocks?))
 }
 
-/// Entries below this share of the largest are rounding.
+/// Numbers below this share of the largest are rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// A matrix that couples no harmonics, from its blocks of n = 0 … n_max; the rows and columns are those of
-/// `range`, and cosines and sines have the same block.
+/// A matrix that couples no harmonics, in the unknowns of the harmonics of `range`, from its blocks of n = 0 …
+/// n_max. Cosines and sines have the same block.
 pub(crate) fn spread(
     plate: &Plate,
     range: std::ops::RangeInclusive<usize>,
@@ -386,10 +386,11 @@ fn put(matrix: &mut Mat<f64>, offset: usize, block: &DMatrix<f64>) {
 }
 
 /// Removes the rounding of a product that is symmetric in exact arithmetic.
-fn symmetric(matrix: Mat<f64>) -> Mat<f64> {
+pub(crate) fn symmetric(matrix: Mat<f64>) -> Mat<f64> {
     Scale(0.5) * (&matrix + matrix.transpose())
 }
 
+/// Removes the rounding of a product that is skew in exact arithmetic.
 fn skew(matrix: Mat<f64>) -> Mat<f64> {
     Scale(0.5) * (&matrix - matrix.transpose())
 }

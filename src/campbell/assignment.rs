@@ -1,13 +1,13 @@
-//! Cheapest pairing of two lists, with each element used at most once.
+//! Pairs of two lists with the least total cost, each element in one pair.
 
-/// Column of each row in the assignment of least total cost, for a square matrix of finite
-/// costs: shortest augmenting paths with dual prices.
+/// Column of each row in the assignment of least total cost, for a square matrix of finite costs, by shortest
+/// augmenting paths with dual prices.
 ///
 /// References: Kuhn, Naval Research Logistics Quarterly 2, 1955; Jonker and Volgenant,
 /// Computing 38, 1987.
 pub fn cheapest(costs: &[Vec<f64>]) -> Vec<usize> {
     let size = costs.len();
-    // Row and column 0 are a start outside the matrix.
+    // Row and column 0 are the start of every path and not part of the matrix.
     let (mut row_price, mut column_price) = (vec![0.0; size + 1], vec![0.0; size + 1]);
     let mut row_of = vec![0; size + 1];
     for row in 1..=size {
@@ -63,7 +63,7 @@ mod tests {
         columns.iter().enumerate().map(|(i, k)| costs[i][*k]).sum()
     }
 
-    /// Least total cost over all permutations, by trying them.
+    /// Least total cost, from all permutations.
     fn least(costs: &[Vec<f64>], row: usize, free: &mut Vec<usize>) -> f64 {
         if row == costs.len() {
             return 0.0;

@@ -3,9 +3,9 @@
 use faer::{Col, Mat, c64};
 
 use super::assignment::cheapest;
-use crate::spectrum::{DescribedMode, Mode, ModeKind};
+use crate::spectrum::{DescribedMode, Mode, ModeKind, halves};
 
-/// Modes at two speeds that are identified with each other.
+/// A mode at each of two speeds that belong to one branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Match {
     /// Index of the mode at the lower speed.
@@ -26,14 +26,11 @@ pub struct Sighted<'a> {
 impl<'a> Sighted<'a> {
     /// Modes of one reduced model, with shapes in its own coordinates.
     pub fn of_modes(modes: &'a [Mode]) -> Vec<Self> {
-        let shape = |mode: &'a Mode| &mode.coordinates;
-        modes
-            .iter()
-            .map(|mode| Sighted {
-                mode,
-                shape: shape(mode),
-            })
-            .collect()
+        let sighted = |mode: &'a Mode| Sighted {
+            mode,
+            shape: &mode.coordinates,
+        };
+        modes.iter().map(sighted).collect()
     }
 
     /// Modes of a chart, with shapes in the basis of the plate, because the reduced model differs between
@@ -52,24 +49,24 @@ impl<'a> Sighted<'a> {
 /// Weight of a frequency difference as large as the chart's height, relative to completely different shapes:
 /// the shape decides between neighbours, and no branch jumps across the chart.
 const OFF: f64 = 4.0;
-/// Cost of a branch that ends or begins at the top of the chart or at zero frequency, and of one that does so
-/// elsewhere, which no eigenvalue of a stable window does.
+/// Cost of a branch that ends or begins at the top of the chart, or of a damped one at zero frequency.
 const AT_EDGE: f64 = 0.5;
+/// Cost of a branch that ends or begins elsewhere, which no eigenvalue does.
 const INSIDE: f64 = 20.0;
 /// Share of the height that counts as its top, in addition to the change of a frequency in one step.
 const TOP: f64 = 0.02;
 /// Frequencies below this share of the height belong to real λ, or to a free blade that drifts in rotating
 /// air.
 const STOPPED: f64 = 1e-6;
-/// Weight of growth that turns into decay, for damped modes. Two that have coalesced have conjugate shapes
-/// and equal frequencies, so only growth distinguishes them. Of the two real λ that a wave turns into, the
-/// growing one continues its branch, as in an undamped blade.
+/// Weight of the difference of growth rates, for damped modes. Two modes that have coalesced have conjugate
+/// shapes and equal frequencies, so that only growth distinguishes them. If a wave turns into two real λ, the
+/// larger one continues its branch, as in an undamped blade.
 const REGROWN: f64 = 0.2;
-/// Cost of two modes that cannot turn into each other.
+/// Cost of a pair of modes of different components, which never belong to one branch.
 const NEVER: f64 = 1e3;
 
-/// Pairs of least total cost for two speeds that differ by `step`. A mode stays single only where it leaves
-/// or enters the chart at its top, `height_rad_per_s`, or where one list is longer.
+/// Pairs of least total cost for the modes at two speeds that differ by `step`, in rad/s. A mode has no partner
+/// only if it leaves or enters the chart at its top, `height_rad_per_s`, or if one list is longer.
 pub fn match_modes(
     [before, after]: [&[Sighted<'_>]; 2],
     step: f64,
@@ -79,8 +76,8 @@ pub fn match_modes(
     let new: Vec<Carrier> = after.iter().map(Carrier::new).collect();
     let alike = Likenesses::new([before, after]);
     let height = height_rad_per_s.max(f64::MIN_POSITIVE);
-    // Costs of ending within the step, by the slope at each mode's own speed. A damped mode that stops
-    // oscillating turns into two real λ, one of which begins or ends there.
+    // The slope at a mode's own speed shows whether it leaves the chart within the step. A damped mode that
+    // stops oscillating turns into two real λ, one of which begins or ends there.
     let leaving = |c: &Carrier, step: f64| {
         let there = (c.frequency + c.slope * step).abs().max(c.frequency.abs());
         match there >= (1.0 - TOP) * height || c.has_stopped(height) {
@@ -139,7 +136,7 @@ impl Carrier {
         }
     }
 
-    /// This motion, written as (−ω, q̄).
+    /// The same motion, written as (−ω, q̄).
     fn mirrored(&self) -> Self {
         Carrier {
             frequency: -self.frequency,
@@ -149,8 +146,8 @@ impl Carrier {
         }
     }
 
-    /// Cost of identifying two modes, and the likeness of their shapes, which a function gives for x and y or
-    /// for x̄ and y.
+    /// Cost of the pair of two modes x and y, and the likeness of their shapes. The function gives the
+    /// likeness of x and y, or of x̄ and y for `true`.
     fn cost(
         &self,
         other: &Carrier,
@@ -174,9 +171,9 @@ impl Carrier {
 
     fn cost_as_is(&self, other: &Carrier, step: f64, height: f64, likeness: f64) -> (f64, f64) {
         let moved = other.frequency - self.frequency;
-        // Next to a coalescence the slope of a frequency is unbounded, so one end is more reliable.
+        // Next to a coalescence the slope of a frequency is unbounded, so the slope at the other end is better.
         let slopes = [self.slope, other.slope, 0.5 * (self.slope + other.slope)];
-        // For two damped modes that have coalesced, the slope, which neglects damping, is useless.
+        // For two damped modes that have coalesced, the slope, which neglects damping, is wrong.
         let level = self.damped.then_some(0.0);
         let off = slopes
             .into_iter()
@@ -195,8 +192,8 @@ impl Carrier {
         self.damped && self.frequency.abs() <= STOPPED * height
     }
 
-    /// Relative difference of the growth rates, from 0 to 1; for a wave and a real λ, 1 if λ grows less than
-    /// the wave.
+    /// Relative difference of the growth rates, from 0 to 1; for a wave and a real λ, 1 if the real one grows
+    /// less than the wave, otherwise 0.
     fn regrown(&self, other: &Carrier, height: f64) -> f64 {
         match [self, other].map(|c| c.has_stopped(height)) {
             [true, false] => f64::from(u8::from(self.growth < other.growth)),
@@ -209,8 +206,7 @@ impl Carrier {
     }
 }
 
-/// |xᴴy|² and |xᵀy|² of every mode of one speed with every one of another, from one product of real matrices:
-/// hundreds of thousands of operations for each pair of speeds of a chart.
+/// |xᴴy|² and |xᵀy|² of every mode x of one speed and every mode y of another, from one product of real matrices.
 struct Likenesses {
     /// (Re x, Im x)ᵀ(Re y, Im y), two rows for each x and two columns for each y.
     products: Mat<f64>,
@@ -220,14 +216,11 @@ impl Likenesses {
     fn new(speeds: [&[Sighted<'_>]; 2]) -> Self {
         let [x, y] = speeds.map(|modes| {
             let rows = modes.first().map_or(0, |mode| mode.shape.nrows());
-            Mat::from_fn(rows, 2 * modes.len(), |i, k| {
-                let z = modes[k / 2].shape[i];
-                if k % 2 == 0 { z.re } else { z.im }
-            })
+            halves(rows, modes.iter().map(|mode| mode.shape))
         });
         let products = match x.nrows() == y.nrows() {
             true => x.transpose() * y,
-            // One of the speeds has no modes.
+            // The numbers of rows differ only if one of the speeds has no modes.
             false => Mat::zeros(x.ncols(), y.ncols()),
         };
         Likenesses { products }
@@ -261,7 +254,7 @@ mod tests {
 
     /// A damped mode stops oscillating below three others, the highest next to the top.
     #[test]
-    fn of_two_real_eigenvalues_the_growing_one_carries_on_and_the_waves_above_go_on() {
+    fn the_larger_of_two_real_eigenvalues_continues_the_branch_of_their_wave() {
         let waves = || [(40.0, 1), (70.0, 2), (97.0, 3)].map(|(im, k)| damped(-0.1, im, k));
         let before: Vec<Mode> = [damped(-0.1, 0.5, 0)].into_iter().chain(waves()).collect();
         let real = [damped(0.4, 0.0, 0), damped(-0.6, 0.0, 0)];

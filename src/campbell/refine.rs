@@ -13,7 +13,7 @@ pub struct Closeness {
     pub chord: f64,
     /// Distance below the top of the chart at which a line may end, as a share of its height.
     pub end: f64,
-    /// Likeness of two shapes above which they belong to the same mode.
+    /// Smallest likeness of the shapes of one branch at two neighbouring speeds.
     pub alike: f64,
     /// Number of times that a step may be halved.
     pub halvings: usize,
@@ -36,12 +36,12 @@ impl Closeness {
     };
 }
 
-/// Allowed difference of a squared growth rate from the line between its neighbours, as a share of the larger
-/// one: a parabola with five points is accurate enough.
+/// Allowed distance of a squared growth rate from the line between its neighbours, as a share of the larger
+/// neighbour: five points on a parabola are enough.
 const GROWTH_CHORD: f64 = 0.13;
 
-/// Adds speeds to samples at ascending speeds until the lines between them are accurate, or there is no room
-/// for more.
+/// Adds speeds to samples at ascending speeds until the lines between them are accurate, the allowed halvings
+/// are used up, or the allowed memory is full.
 ///
 /// # Errors
 /// [`CampbellError`] of a speed that fails.
@@ -105,7 +105,8 @@ fn is_doubtful(
         || matches.iter().any(doubtful)
 }
 
-/// Distance between the cubic through two frequencies with their slopes and the line between them.
+/// Distance, in rad/s, in the middle of a step between the cubic through two frequencies with their slopes
+/// and the line; 0 if a mode is not a wave.
 fn bend(ends: [&DescribedMode; 2], step: f64) -> f64 {
     let is_wave = |m: &DescribedMode| m.mode.krein_sign() != 0 || m.mode.kind == ModeKind::Damped;
     if !ends.into_iter().all(is_wave) {
@@ -115,7 +116,8 @@ fn bend(ends: [&DescribedMode; 2], step: f64) -> f64 {
     0.125 * (slope(ends[0]) - slope(ends[1])).abs() * step
 }
 
-/// Whether squared growth rates deviate too far from a line; they are nearly parabolas over a band.
+/// Whether the squared growth rates of a growing mode, nearly a parabola over a band, deviate too far from a
+/// line.
 fn growth_bends(model: &SpectralModel, ends: [&DescribedMode; 2], speeds: [f64; 2]) -> bool {
     let grows = |m: &DescribedMode| matches!(m.mode.kind, ModeKind::Flutter | ModeKind::Divergent);
     if !ends.into_iter().all(grows) {

@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
-/// Largest change between two neighbouring points; beyond it a point is added between them.
+/// Largest change of the angle between two neighbouring points, in rad; beyond it a point is added between them.
 const LARGEST_TURN: f64 = 0.7;
+/// Number of halvings of an interval after which the path passes through a root.
 const MOST_HALVINGS: usize = 24;
 
 /// Change of an angle, known up to whole turns, along a path from the first to the last of some ascending
@@ -20,6 +21,7 @@ pub fn turn_along(places: &[f64], angle: impl Fn(f64) -> Option<f64>) -> Option<
     Some(total)
 }
 
+/// Change of the angle between two points, from halves if it is too large to be certain.
 fn turned(
     angle: &impl Fn(f64) -> Option<f64>,
     (from, before): (f64, f64),
@@ -44,7 +46,7 @@ fn turned(
 mod tests {
     use super::*;
 
-    /// z³ around the unit circle, and an undetermined case.
+    /// z³ turns three times around the unit circle; an angle that jumps by 2 rad is undetermined.
     #[test]
     fn whole_turns_are_counted() {
         let places = [0.0, 1.0, TAU];

@@ -1,22 +1,21 @@
 //! The few eigenvalues of smallest magnitude of a large quadratic problem.
 //!
-//! With z = (q, q̇/s) the companion problem is A z = λ z. Its inverse shifted by a
-//! real σ needs one factorization of L(σ) = σ² + σD + K, of half the order, see [`operator`].
-//! Arnoldi's iteration on it finds the λ nearest to σ. A real shift keeps the arithmetic real, and σ > 0
-//! is away from the spectrum of a stable saw, where σ = 0 is singular at every
-//! critical speed. The iteration is not restarted: the few dozen vectors fit, and the
-//! Schur forms that restarts need cost more than the steps they save.
+//! With z = (q, q̇/s) the companion problem is A z = λ z. The shifted inverse (A − σ)⁻¹ with a real σ needs one
+//! factorization of L(σ) = σ² + σD + K, of half the order, see [`operator`]. Arnoldi's iteration on this
+//! inverse finds the λ nearest to σ. A real shift keeps the arithmetic real, and σ > 0
+//! is away from the spectrum of a stable saw, whereas A itself is singular at every critical speed. The
+//! iteration is not restarted: a few dozen vectors need little memory, and the Schur forms that restarts need
+//! cost more than the steps they save.
 //!
-//! Of an undamped blade A is Hamiltonian, with p = q̇ + ΩGq for q̇, and (A² − σ²)⁻¹ skew-Hamiltonian: each
-//! λ² is double, and its Krylov vectors, on which the symplectic form vanishes, find each once. So
-//! half as many vectors find the same modes, and the eigenproblem among them takes an eighth (V. Mehrmann, D. Watkins,
-//! SIAM J. Sci. Comput. 22, 2001).
+//! For an undamped blade A is Hamiltonian in (q, p/s), p = q̇ + ΩGq, and (A² − σ²)⁻¹ is skew-Hamiltonian. Each
+//! λ² is a double eigenvalue, but the symplectic form vanishes on the Krylov vectors, which therefore find each
+//! λ² once. Half as many vectors find the same modes, and the eigenproblem among them takes an eighth of the
+//! time (V. Mehrmann, D. Watkins, SIAM J. Sci. Comput. 22, 2001).
 
 mod operator;
 
 use faer::{Col, Mat, Scale};
 
-use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
 use self::operator::{Operator, ShiftedInverse, SquaredInverse};
@@ -53,15 +52,16 @@ pub fn lowest_eigenpairs(
         true => nearest(&SquaredInverse::new(inverse), count, shift_per_s),
         false => nearest(&inverse, 2 * count, shift_per_s),
     };
-    let mut pairs = found.map_err(|_| no_convergence(system, speed_rad_per_s))?;
+    let failed = |_| SpectrumError::no_convergence(2 * system.order(), speed_rad_per_s);
+    let mut pairs = found.map_err(failed)?;
     // Free rigid motions are known exactly; these pairs are their approximations.
     pairs.retain(|(lambda, _)| lambda.norm() >= rigid_noise(system));
     Ok(pairs)
 }
 
-/// As [`lowest_eigenpairs`], by the structure of an undamped blade's matrices, in a time linear in the number
-/// of functions: exact except for the part of the guides that their columns neglect, so the vectors suffice
-/// for a reduced basis. `None` without such a structure.
+/// Eigenpairs as from [`lowest_eigenpairs`], by the structure of an undamped blade's matrices, in a time linear
+/// in the number of basis functions. They neglect the part of the guides that the columns do not represent, so
+/// the vectors suffice for a reduced basis. `None` without such a structure.
 ///
 /// # Errors
 /// [`SpectrumError::NoConvergence`].
@@ -75,29 +75,22 @@ pub(super) fn nearly_lowest_eigenpairs(
     if !is_hamiltonian(system) {
         return Ok(None);
     }
-    let inverse = ShiftedInverse::by_structure(full, speed_rad_per_s, shift_per_s);
-    let Some(inverse) = inverse else {
+    let Some(inverse) = ShiftedInverse::by_structure(full, speed_rad_per_s, shift_per_s) else {
         return Ok(None);
     };
     let found = nearest(&SquaredInverse::new(inverse), count, shift_per_s);
-    found
-        .map(Some)
-        .map_err(|_| no_convergence(system, speed_rad_per_s))
+    let failed = |_| SpectrumError::no_convergence(2 * system.order(), speed_rad_per_s);
+    found.map(Some).map_err(failed)
 }
 
-/// Free rigid motions are double zeros, for which the squares are defective.
+/// Whether the iteration with A² is possible: free rigid motions are double zeros of A, for which A² is
+/// defective.
 fn is_hamiltonian(system: &GyroscopicSystem) -> bool {
     system.is_conservative() && system.free_rigid.is_empty()
 }
 
-fn no_convergence(system: &GyroscopicSystem, speed_rad_per_s: f64) -> SpectrumError {
-    SpectrumError::NoConvergence {
-        order: 2 * system.order(),
-        rpm: rpm(speed_rad_per_s),
-    }
-}
-
-/// The pairs of the eigenvalues of largest magnitude of an operator, as many as requested.
+/// Eigenpairs of A that belong to the `wanted` eigenvalues of largest magnitude of an operator; fewer if the
+/// iteration stalls.
 fn nearest<O: Operator>(
     operator: &O,
     wanted: usize,
@@ -119,7 +112,7 @@ fn nearest<O: Operator>(
     }
 }
 
-/// Orthonormal vectors V with WV = VH + h vᵀ for an operator W.
+/// Orthonormal vectors V with WV = VH + h v eᵀ for an operator W, v the next vector and e the last unit vector.
 struct Krylov {
     vectors: Mat<f64>,
     hessenberg: Mat<f64>,
@@ -145,7 +138,7 @@ impl Krylov {
         }
     }
 
-    /// Extends to a number of steps; fewer if the space is exhausted.
+    /// Extends the basis to a number of steps, or to fewer if the space is exhausted.
     fn extend(&mut self, operator: &impl Operator, steps: usize) {
         while self.steps < steps && !self.exhausted {
             let k = self.steps;
@@ -175,8 +168,8 @@ impl Krylov {
         }
     }
 
-    /// The pairs of the eigenvalues of largest magnitude, if all of the requested ones (or all that exist)
-    /// have converged.
+    /// The pairs of the `wanted` eigenvalues of largest magnitude. `None` if some of them have not converged;
+    /// once the iteration is `finished`, those are left out instead.
     fn eigenpairs(
         &self,
         operator: &impl Operator,
@@ -244,7 +237,7 @@ mod tests {
             let dense = companion_eigenpairs(&system, rad_per_s(speed)).unwrap();
             let few = lowest_eigenpairs(&system, rad_per_s(speed), 10, 100.0).unwrap();
             assert!(few.len() >= 9);
-            // Two real λ of opposite sign have no order.
+            // The order of two real λ of equal magnitude is arbitrary.
             let is_near = |x: &Eigenpair, y: &Eigenpair| (x.0 - y.0).norm() < 1e-7 * y.0.norm();
             for pairs in [[&few, &dense], [&dense, &few]] {
                 for pair in pairs[0].iter().take(8) {
@@ -281,27 +274,19 @@ mod tests {
         }
     }
 
-    /// Uncoupled oscillators of which many are alike: the iteration from one vector finds one of each kind
-    /// and then has no next direction. If the last vector of the subspace were dropped, the frequencies of
-    /// all kinds would be wrong.
+    /// Twelve uncoupled oscillators of three kinds: the iteration from one vector finds one of each kind and
+    /// then has no next direction. If the last vector of the subspace were dropped, the frequencies of all
+    /// kinds would be wrong.
     #[test]
     fn on_breakdown_the_last_direction_counts() {
         let order = 12;
         let kinds = [1.0, 2.0, 3.0];
         let zero = || Mat::<f64>::zeros(order, order);
-        let system = GyroscopicSystem {
-            stiffness: Mat::from_fn(order, order, |i, k| match i == k {
-                true => f64::powi(kinds[i % 3], 2),
-                false => 0.0,
-            }),
-            spin: zero(),
-            gyroscopic: zero(),
-            damping: None,
-            circulatory: None,
-            nonconservative: None,
-            free_rigid: Vec::new(),
-            drift: None,
-        };
+        let stiffness = Mat::from_fn(order, order, |i, k| match i == k {
+            true => f64::powi(kinds[i % 3], 2),
+            false => 0.0,
+        });
+        let system = GyroscopicSystem::undamped(stiffness, zero(), zero());
         let found = lowest_eigenpairs(&system, 0.0, 12, 1.0).unwrap();
         assert_eq!(found.len(), kinds.len());
         for ((lambda, _), exact) in found.iter().zip(kinds) {

@@ -20,9 +20,9 @@ pub type SpeedLimit<'a> = &'a dyn Fn(&[f64]) -> f64;
 /// A plate with its matrices, and for large ones their structure, which is computed when first needed.
 #[derive(Debug)]
 pub struct Assembled {
-    /// The plate.
+    /// Blade, guides and basis.
     pub plate: Plate,
-    /// Independent components.
+    /// Decoupled components of its equation of motion.
     pub components: Vec<Component>,
     pub(super) structure: OnceLock<Option<StructuredStiffness>>,
 }
@@ -38,12 +38,13 @@ impl From<Plate> for Assembled {
 }
 
 impl Assembled {
-    /// Whether its computations need no dense eigenproblem of the order of the basis.
+    /// Whether critical speeds and modes at rest need no dense eigenproblem of the order of the basis.
     pub fn is_structured(&self) -> bool {
         self.structured().is_some() || self.components.len() > 1
     }
 
-    /// The structure and the only component that has it.
+    /// The structure, and the only component; `None` for small systems, several components, and free rigid
+    /// motions.
     fn structured(&self) -> Option<(&StructuredStiffness, &Component)> {
         let [only] = self.components.as_slice() else {
             return None;
@@ -63,8 +64,8 @@ impl Assembled {
         structure.full.critical_speeds_below(speed_rad_per_s)
     }
 
-    /// The critical speeds of the plate up to a limit, which may depend on those found so far, and the lowest
-    /// one; without a limit, all. Ascending.
+    /// The critical speeds of the plate up to a limit, which may depend on those found so far, ascending; at
+    /// least the lowest one, and all without a limit or if their computation gives all at once.
     ///
     /// # Errors
     /// [`SpectrumError::UnstableAtRest`], or [`SpectrumError::Buckled`] where membrane stress is
@@ -162,8 +163,8 @@ mod tests {
     use crate::scene::{Scene, rad_per_s};
     use crate::spectrum::generalized::singular_multiples;
 
-    /// The stiffest pad has a million times the stiffness of the blade, and its columns are exact to the
-    /// rounding of that.
+    /// The stiffest pad has a million times the stiffness of the blade, and its columns have rounding errors
+    /// relative to that stiffness.
     const ROUNDING: f64 = 1e-9;
 
     fn pads(count: usize, stiffness_n_per_m: f64) -> Scene {
@@ -184,7 +185,7 @@ mod tests {
     /// speeds and frequencies, compared with all eigenvalues of the dense symmetric problems. More than 20
     /// critical speeds up to 6000 rpm are found.
     #[test]
-    fn by_structure_they_are_those_of_all_eigenvalues() {
+    fn critical_speeds_and_modes_by_structure_are_those_of_all_eigenvalues() {
         let top = rad_per_s(6000.0);
         let resolution = Resolution {
             max_diameters: 30,

@@ -5,14 +5,15 @@ use faer::{Col, Mat, Scale, Side};
 
 use super::component::Component;
 use super::error::SpectrumError;
+use super::generalized::stiffened;
 use crate::system::GyroscopicSystem;
 
-/// A natural frequency at rest.
+/// A mode of the undamped blade at rest.
 #[derive(Debug, Clone)]
 pub struct RestingMode {
-    /// Angular frequency ω.
+    /// Natural frequency ω.
     pub frequency_rad_per_s: f64,
-    /// Index of the component that it belongs to.
+    /// Index of the component of the mode.
     pub component: usize,
     /// q in the unknowns of the component, ‖q‖ = 1.
     pub shape: Col<f64>,
@@ -21,10 +22,10 @@ pub struct RestingMode {
 /// Below this order all eigenvectors cost less than an iteration.
 const SMALL: usize = 64;
 /// Number of vectors beyond the number of requested modes: in each iteration the error of a frequency falls
-/// by the fourth power of its ratio to the first one omitted.
+/// by the fourth power of the ratio of this frequency to the first one that the vectors omit.
 const MORE: usize = 10;
-/// Residual ‖K₀⁻¹q − q/ω²‖ω² at which the iteration ends: the error of the frequency is half its square,
-/// divided by the relative distance to the squares that the vectors do not represent.
+/// Residual ‖K₀⁻¹q − q/ω²‖ω² at which the iteration ends: the relative error of the frequency is half the
+/// square of the residual, divided by the relative distance to the ω² that the vectors do not represent.
 const RESIDUAL: f64 = 1e-5;
 /// Largest number of iterations, after which all eigenvectors are computed; eight are usual.
 const MOST_ROUNDS: usize = 40;
@@ -56,11 +57,7 @@ pub fn modes_at_rest(
 /// (ω², q), ascending: by subspace iteration with K₀⁻¹, or by a dense solver for small orders.
 fn lowest(system: &GyroscopicSystem, count: usize) -> Result<Vec<(f64, Col<f64>)>, SpectrumError> {
     let order = system.order();
-    let mut stiffness = system.stiffness.clone();
-    let mean = stiffness.norm_l2() / (order as f64).sqrt();
-    for z in &system.free_rigid {
-        stiffness += Scale(mean) * z * z.transpose();
-    }
+    let stiffness = stiffened(&system.stiffness, &system.free_rigid);
     let unstable = |_| SpectrumError::UnstableAtRest { order };
     let factor = stiffness.llt(Side::Lower).map_err(unstable)?;
     let width = count + MORE;
@@ -159,9 +156,9 @@ mod tests {
     use crate::scene::Scene;
     use crate::spectrum::LowestModes;
 
-    /// Blades that are held, loose, and held at a point, which leaves rigid motions free.
+    /// A blade on a pad, a free one, and one held at a point, which leaves tilts free.
     #[test]
-    fn they_are_those_of_the_quadratic_problem() {
+    fn modes_at_rest_are_those_of_the_quadratic_problem() {
         let free = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();
         let point = Scene::paper().edited(|saw| {
             saw.guides[0].radial_length_m = 0.0;

@@ -1,4 +1,4 @@
-//! Multiples of a membrane stress at which a wave stands still or the blade buckles.
+//! The multiple of a membrane stress at which a wave stands still or the blade buckles.
 
 use nalgebra::DMatrix;
 
@@ -11,12 +11,12 @@ use super::error::SpectrumError;
 use super::event_name::EventName;
 use super::generalized::singular_multiples;
 
-/// A multiple of a stress under which K(Ω) is singular.
+/// Change of a stress under which K(Ω) becomes singular.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SingularStress {
-    /// The multiple.
+    /// Change of the multiple from [`AddedStress::from`] on, positive.
     pub multiple: f64,
-    /// Waves of the shape.
+    /// Waves of the null vector of K(Ω).
     pub name: EventName,
 }
 
@@ -25,9 +25,9 @@ pub struct SingularStress {
 pub struct AddedStress<'a> {
     /// Geometric stiffness of the stress, of n = 0 … n_max, in 1/s².
     pub stiffness: &'a [DMatrix<f64>],
-    /// Initial multiple.
+    /// Initial multiple of the stress.
     pub from: f64,
-    /// +1 or −1.
+    /// +1 for rising multiples, −1 for falling ones.
     pub direction: f64,
 }
 
@@ -35,7 +35,7 @@ pub struct AddedStress<'a> {
 /// follows from a generalized symmetric eigenproblem, without a sweep.
 ///
 /// # Errors
-/// [`SpectrumError::UnstableAtRest`] when it is not positive definite at m = 0.
+/// [`SpectrumError::UnstableAtRest`] when the matrix is not positive definite at m = 0.
 pub fn first_singular(
     plate: &Plate,
     components: &[Component],
@@ -66,8 +66,8 @@ pub fn first_singular(
     Ok(first)
 }
 
-/// Adds to the error of a plate that is unstable at rest the share of its membrane stress at which it
-/// buckles, if that is the cause.
+/// Explains that a plate is unstable at rest: if its membrane stress is the cause, the error gives the share
+/// of this stress at which the plate buckles. Other errors are returned unchanged.
 pub fn explained(plate: &Plate, error: SpectrumError) -> SpectrumError {
     let SpectrumError::UnstableAtRest { .. } = error else {
         return error;

@@ -2,9 +2,9 @@
 
 use faer::Mat;
 
-/// Smallest pivot of the form between states of unit length. Canonical states are longer by its inverse root,
-/// and the square of their matrix loses accuracy by the square of that. Of 23 projections of the paper's saw
-/// the smallest pivots are 0.018 to 0.7.
+/// Smallest pivot of the form between states of unit length. Canonical states are longer by the inverse root
+/// of the pivot, and the square of their matrix loses accuracy by the inverse pivot. The smallest pivots of 23
+/// projections of the paper's saw are 0.018 to 0.7.
 const WELL_PAIRED: f64 = 5e-3;
 
 /// T with TᵀFT = [0 −I; I 0] for a skew F, by the method of Gram and Schmidt with the largest entry of F as
@@ -49,7 +49,7 @@ pub fn canonical_basis(mut form: Mat<f64>) -> Option<Mat<f64>> {
     }))
 }
 
-/// JS of a symmetric S, J = [0 I; −I 0].
+/// JS of a symmetric matrix S, J = [0 I; −I 0].
 pub fn turned(symmetric: Mat<f64>) -> Mat<f64> {
     let (order, half) = (symmetric.nrows(), symmetric.nrows() / 2);
     Mat::from_fn(order, order, |i, k| match i < half {

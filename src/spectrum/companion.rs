@@ -1,15 +1,14 @@
 //! All eigenvalues of the quadratic problem, by its companion matrix.
 
 use faer::reborrow::ReborrowMut;
-use faer::{Col, Mat, Scale, c64};
+use faer::{Mat, Scale, c64};
 
-use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
 use super::deflation::Deflation;
 use super::error::SpectrumError;
 use super::real_eigen::RealEigen;
-use super::vectors::{Eigenpair, by_magnitude, unit};
+use super::vectors::{Eigenpair, by_magnitude, complex, unit};
 use super::work::Cancellation;
 
 /// The power of two nearest to the root mean square of the natural frequencies. Scaling time by it is exact
@@ -25,7 +24,7 @@ pub fn time_scale(stiffness: &Mat<f64>) -> f64 {
     }
 }
 
-/// The companion matrix of x = (q, q̇/s), in units of s, and s.
+/// The companion matrix of x = (q, q̇/s), in units of s, and the scale s, in 1/s.
 ///
 /// # Errors
 /// [`SpectrumError::NotFinite`].
@@ -37,10 +36,7 @@ pub(super) fn companion(
     let velocity = system.velocity_at(speed_rad_per_s);
     let size = system.order();
     if !(stiffness.is_all_finite() && velocity.is_all_finite()) {
-        return Err(SpectrumError::NotFinite {
-            order: 2 * size,
-            rpm: rpm(speed_rad_per_s),
-        });
+        return Err(SpectrumError::not_finite(2 * size, speed_rad_per_s));
     }
     let scale = time_scale(&stiffness);
     let mut state = Mat::zeros(2 * size, 2 * size);
@@ -59,7 +55,7 @@ pub(super) fn companion(
     Ok((state, scale))
 }
 
-/// The companion matrix without the free rigid motions.
+/// The matrix of [`companion`] without the free rigid motions, s, and the deflation if there are such motions.
 pub(super) fn deflated_companion(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
@@ -85,18 +81,14 @@ pub fn companion_eigenpairs(
 ) -> Result<Vec<Eigenpair>, SpectrumError> {
     let (state, scale, deflation) = deflated_companion(system, speed_rad_per_s)?;
     let size = system.order();
-    let eigen = RealEigen::new(state.as_ref()).map_err(|_| SpectrumError::NoConvergence {
-        order: state.nrows(),
-        rpm: rpm(speed_rad_per_s),
-    })?;
+    let failed = |_| SpectrumError::no_convergence(state.nrows(), speed_rad_per_s);
+    let eigen = RealEigen::new(state.as_ref()).map_err(failed)?;
     let displacement = |i: usize| match &deflation {
         Some(deflation) => deflation.displacement(eigen.values[i], &eigen.vector(i)),
         None => eigen.vector(i).subrows(0, size).to_owned(),
     };
-    let free = deflation.iter().flat_map(|_| &system.free_rigid).map(|z| {
-        let z = Col::from_fn(size, |i| c64::new(z[i], 0.0));
-        (c64::new(0.0, 0.0), z)
-    });
+    let free = deflation.iter().flat_map(|_| &system.free_rigid);
+    let free = free.map(|z| (c64::new(0.0, 0.0), complex(z)));
     let pairs = eigen
         .upper()
         .into_iter()

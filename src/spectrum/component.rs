@@ -18,11 +18,11 @@ use super::vectors::{Eigenpair, real_times};
 /// An independent component of the blade: one harmonic, or all of them coupled by guides.
 #[derive(Debug)]
 pub struct Component {
-    /// Index of its first unknown in the basis of the plate.
+    /// Index of the first unknown of the component in the basis of the plate.
     pub first: usize,
-    /// The whole component.
+    /// Equation of motion in all unknowns of the component.
     pub full: GyroscopicSystem,
-    /// Method by which its modes are computed.
+    /// Method by which the modes are computed.
     pub(super) solution: Solution,
     norms: OnceLock<MatrixNorms>,
 }
@@ -30,7 +30,7 @@ pub struct Component {
 /// Method by which the modes of a component are computed.
 #[derive(Debug)]
 pub(super) enum Solution {
-    /// Every eigenvalue of the whole component.
+    /// All eigenpairs of the whole component.
     Whole(OnceLock<Projection>),
     /// Modes of one harmonic of an undamped free blade, a symmetric problem.
     FreeWaves(Projection),
@@ -58,22 +58,22 @@ impl Component {
         }
     }
 
-    /// Norms of its matrices.
+    /// Norms of the matrices, for backward errors.
     pub(super) fn norms(&self) -> &MatrixNorms {
         self.norms.get_or_init(|| MatrixNorms::new(&self.full))
     }
 
-    /// Coordinates in this component of a vector in the basis of the plate.
+    /// The unknowns of this component, from a vector in the basis of the plate.
     pub fn coordinates(&self, shape: &Col<c64>) -> Col<c64> {
         Col::from_fn(self.full.order(), |i| shape[self.first + i])
     }
 
-    /// A mode at a speed in the coordinates of this component.
+    /// A mode in the unknowns of this component, from its coordinates in the projection for a speed.
     pub fn lifted(&self, speed_rad_per_s: f64, coordinates: &Col<c64>) -> Col<c64> {
         real_times(&self.at(speed_rad_per_s).basis, coordinates)
     }
 
-    /// The projection for a speed; beyond the range, the last one.
+    /// The projection for a speed; beyond the range, that of the last interval.
     pub(super) fn at(&self, speed_rad_per_s: f64) -> &Projection {
         match &self.solution {
             Solution::Whole(whole) => whole.get_or_init(|| Projection::whole(&self.full)),
@@ -82,7 +82,8 @@ impl Component {
         }
     }
 
-    /// Eigenpairs at a speed in the coordinates of [`Component::at`].
+    /// Eigenpairs at a speed in the coordinates of [`Component::at`]; `index` is that of the component, which
+    /// for a free blade is the number of nodal diameters.
     pub(super) fn eigenpairs(
         &self,
         plate: &Plate,

@@ -9,6 +9,7 @@ use super::component::Component;
 use super::error::SpectrumError;
 use super::event_name::EventName;
 use super::generalized::singular_multiples;
+use super::vectors::complex;
 
 /// A speed at which K(Ω) is singular: a wave stands still in space.
 #[derive(Debug, Clone)]
@@ -27,7 +28,7 @@ pub struct CriticalSpeed {
 /// changes nothing else.
 ///
 /// # Errors
-/// [`SpectrumError::UnstableAtRest`] when A has another direction without stiffness;
+/// [`SpectrumError::UnstableAtRest`] when A is not positive definite except on free rigid motions;
 /// [`SpectrumError::NoConvergence`].
 pub fn critical_speeds(system: &GyroscopicSystem) -> Result<Vec<CriticalSpeed>, SpectrumError> {
     let softening = Scale(-1.0) * system.standing_spin();
@@ -52,12 +53,14 @@ pub struct NamedCriticalSpeed {
     pub shape: Col<f64>,
 }
 
-/// Relative distance from a critical speed from which on λ², which passes through zero there, is well above
-/// rounding; half of it would suffice, even where two waves of a free blade stand still at the same speed.
+/// Relative distance from a critical speed beyond which λ², which passes through zero there, is well above
+/// rounding. Half of this distance would suffice, even where two waves of a free blade stand still at the same
+/// speed.
 const CLEAR: f64 = 2e-4;
 
-/// Range of the search for bands within another range: slightly wider, with ends at which no eigenvalue is
-/// near zero and, except by chance, none is about to coalesce if the given range ends at the edge of a band.
+/// Range of the search for the bands of a given range. It is slightly wider, so that no eigenvalue is near zero
+/// at its ends and, except by chance, none is about to coalesce there if the given range ends at the edge of a
+/// band.
 pub(crate) fn searched_range(
     critical: &[NamedCriticalSpeed],
     (from, to): (f64, f64),
@@ -66,7 +69,8 @@ pub(crate) fn searched_range(
     (clear_below(critical, below), clear_above(critical, above))
 }
 
-/// The part of a range between the first and the last speed at which no eigenvalue is near zero.
+/// The part of a range between the first and the last speed at which no eigenvalue is near zero; the whole
+/// range if there are no such speeds.
 pub(crate) fn clear_range(critical: &[NamedCriticalSpeed], (from, to): (f64, f64)) -> (f64, f64) {
     let clear = (clear_above(critical, from), clear_below(critical, to));
     match clear.0 < clear.1 {
@@ -98,7 +102,7 @@ fn is_clear(speed_rad_per_s: f64, critical_rad_per_s: f64) -> bool {
 }
 
 /// Critical speeds of the components of a plate, all together ascending, with the names of their waves.
-pub(super) fn named(
+pub(crate) fn named(
     plate: &Plate,
     components: &[Component],
     found: Vec<Vec<CriticalSpeed>>,
@@ -120,15 +124,15 @@ pub(super) fn named(
 }
 
 /// The name of a wave that stands still, from its unknowns in a component.
-pub(crate) fn standing_name(
+pub(super) fn standing_name(
     plate: &Plate,
     first: usize,
     unknowns: &Col<f64>,
     speed_rad_per_s: f64,
 ) -> EventName {
-    let mut shape = Col::zeros(plate.degrees_of_freedom());
-    for i in 0..unknowns.nrows() {
-        shape[first + i] = c64::new(unknowns[i], 0.0);
-    }
+    let mut shape: Col<c64> = Col::zeros(plate.degrees_of_freedom());
+    shape
+        .subrows_mut(first, unknowns.nrows())
+        .copy_from(complex(unknowns));
     EventName::standing(plate, &shape, speed_rad_per_s)
 }

@@ -19,13 +19,13 @@ const ROUNDING: f64 = 1e-10;
 pub struct Deflation {
     /// Orthonormal basis of these states, 2N × (2N − number removed).
     pub kept: Mat<f64>,
-    /// Removed displacements, N × k₀.
+    /// Removed displacements, N × their number.
     split_off: Mat<f64>,
 }
 
 impl Deflation {
-    /// For the companion matrix in units of time 1/s = 1/`scale`. `None` if every rigid motion is held, even
-    /// by a stiffness that was added later.
+    /// Deflation of the companion matrix in units of time 1/s = 1/`scale`. `None` if no rigid motion is free, or
+    /// if a stiffness that was added later holds one of the free motions.
     pub fn new(system: &GyroscopicSystem, speed_rad_per_s: f64, scale: f64) -> Option<Self> {
         let (size, free) = (system.order(), &system.free_rigid);
         if free.is_empty() {

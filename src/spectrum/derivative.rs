@@ -119,10 +119,10 @@ pub fn next_to(
 const NEWTON_STEPS: usize = 6;
 /// Relative size of the last correction, after which only rounding remains.
 const NEWTON_TOLERANCE: f64 = 1e-9;
-/// Number of inverse iterations from an arbitrary vector.
+/// Number of inverse iterations in the first step, which begins with an arbitrary vector.
 const FIRST_ITERATIONS: usize = 4;
 
-/// dλ for a small change of the matrices.
+/// dλ, in 1/s, for a small change of the matrices.
 pub fn with_change(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
@@ -146,9 +146,10 @@ fn along(
     -(y.adjoint() * changed) / (y.adjoint() * slope)
 }
 
-/// dΩ of the speed at which two modes coalesce, where yᴴ(∂L/∂λ)x = 0, for a small change of the matrices,
-/// with the right and the left vector x, y: −yᴴ(dL)x / yᴴ(∂L/∂Ω)x. For λ = 0 it is that of a critical speed.
-pub fn of_merging(
+/// Change dΩ = −yᴴ(dL)x / yᴴ(∂L/∂Ω)x of the speed at which two modes coalesce, where yᴴ(∂L/∂λ)x = 0, for a
+/// small change of the matrices, with the right and the left vector x, y. For λ = 0 this is the change of a
+/// critical speed.
+pub fn of_coalescence(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
     lambda: c64,
@@ -175,12 +176,12 @@ fn change_of_residual(
     changed
 }
 
-/// Then x is singular for K₀ + Ω² [`GyroscopicSystem::standing_spin`].
+/// Whether a mode is at rest in space. Then K₀ + Ω² [`GyroscopicSystem::standing_spin`] times its shape is zero.
 fn stands_still(lambda: c64) -> bool {
     lambda == c64::new(0.0, 0.0)
 }
 
-/// (∂L/∂Ω)x.
+/// (∂L/∂Ω)x, with the drift of free motions if the mode is at rest in space.
 fn speed_slope(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>) -> Col<c64> {
     let gyroscopic = real_times(&system.gyroscopic, x);
     let spin = real_times(&system.spin, x);
@@ -199,8 +200,7 @@ pub fn with_lambda(velocity: &Mat<f64>, lambda: c64, x: &Col<c64>) -> Col<c64> {
     Scale(2.0 * lambda) * x + real_times(velocity, x)
 }
 
-/// y by inverse iteration on L(λ)ᴴ. An undamped oscillation needs none: there L is
-/// Hermitian and y = x.
+/// Left vector y, by inverse iteration on L(λ)ᴴ. For an undamped oscillation L is Hermitian and y = x.
 fn left_vector(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>) -> Col<c64> {
     if system.is_conservative() && lambda.re == 0.0 {
         return x.clone();
@@ -220,7 +220,7 @@ fn left_vector(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>)
     y
 }
 
-/// The shift is slightly different from the eigenvalue, so that L is not exactly singular.
+/// A shift slightly beside an eigenvalue, so that L is not exactly singular.
 fn beside(lambda: c64) -> c64 {
     lambda * (1.0 + 1e-9) + c64::new(1e-9, 0.0)
 }
@@ -249,7 +249,7 @@ mod tests {
         nearest.unwrap().0
     }
 
-    /// Reference: differences of eigenvalues at two nearby speeds.
+    /// Reference: difference quotients of the eigenvalues at two nearby speeds.
     #[test]
     fn slopes_of_all_eigenvalues_are_their_differences_over_the_speed() {
         let (system, speed, step) = (system(), rad_per_s(1000.0), 1e-3);
@@ -272,7 +272,8 @@ mod tests {
         }
     }
 
-    /// The start differs by a thousandth; the reference is all eigenvalues.
+    /// The start differs by a thousandth from the eigenvalue. Reference: all eigenvalues of the companion
+    /// matrix.
     #[test]
     fn newton_finds_the_eigenvalue_next_to_an_expected_one() {
         let (system, speed) = (system(), rad_per_s(1000.0));

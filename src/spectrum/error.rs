@@ -1,18 +1,20 @@
 //! Errors of eigenproblems.
 
+use crate::scene::rpm;
+
 /// Reason for which a spectrum could not be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum SpectrumError {
-    /// The QR iteration did not converge.
+    /// The eigenvalue iteration did not converge.
     #[error("the eigenvalues of order {order} did not converge at {rpm} rpm")]
     NoConvergence {
-        /// Order of the state matrix.
+        /// Order of the matrix.
         order: usize,
         /// Rotation speed.
         rpm: f64,
     },
-    /// The stiffness at rest is not positive definite, so that no speed is critical
-    /// in the usual sense.
+    /// The stiffness at rest is not positive definite: critical speeds of a blade that is unstable at rest are
+    /// not defined.
     #[error(
         "the blade is not stable at rest: its stiffness of order {order} is not positive definite; use stiffer guides, or smaller cutting forces if the chart includes them (cut.chart_rpm)"
     )]
@@ -30,7 +32,7 @@ pub enum SpectrumError {
         /// Share of the scene's membrane stress at which it buckles.
         share: f64,
     },
-    /// The numbers differ so much in size that their products overflow.
+    /// The numbers of the scene differ so much in size that their products overflow.
     #[error(
         "the matrices of order {order} are not finite at {rpm} rpm; the numbers of the scene differ by too many orders of magnitude"
     )]
@@ -43,4 +45,20 @@ pub enum SpectrumError {
     /// The computation was cancelled, see [`Cancellation`](super::Cancellation).
     #[error("the computation was cancelled")]
     Cancelled,
+}
+
+impl SpectrumError {
+    pub(super) fn no_convergence(order: usize, speed_rad_per_s: f64) -> Self {
+        SpectrumError::NoConvergence {
+            order,
+            rpm: rpm(speed_rad_per_s),
+        }
+    }
+
+    pub(super) fn not_finite(order: usize, speed_rad_per_s: f64) -> Self {
+        SpectrumError::NotFinite {
+            order,
+            rpm: rpm(speed_rad_per_s),
+        }
+    }
 }

@@ -15,15 +15,15 @@ use faer::{Col, c64};
 
 use super::mode::{Mode, ModeKind};
 use super::mode_name::{Direction, HarmonicShare, STANDING, in_words, mixed, short};
-use super::wave::{Wave, circles};
+use super::wave::{Wave, circles, square};
 use crate::plate::Plate;
 
 /// Largest number of waves in a name if none dominates.
 const MOST_NAMED: usize = 2;
-/// Waves with a smaller share are omitted.
+/// Waves with a smaller share of the weights are omitted.
 const LEAST: f64 = 1e-3;
-/// A growing damped wave has not coalesced with another if the action of the others is less than this share
-/// of its own.
+/// In a damped blade, the waves of one sign of energy are named only if their weight is at least this share of
+/// the weight of the other sign: a wave that grows alone has no partner.
 const LEAST_PARTNER: f64 = 1.0 / 3.0;
 
 /// Waves of one direction that belong to an event.
@@ -31,7 +31,7 @@ const LEAST_PARTNER: f64 = 1.0 / 3.0;
 pub struct EventWaves {
     /// Direction in space.
     pub direction: Direction,
-    /// Shares of their sum, largest first.
+    /// Waves with their shares of the sum of the weights, largest first.
     pub shares: Vec<HarmonicShare>,
 }
 
@@ -133,7 +133,8 @@ impl EventName {
 }
 
 impl EventWaves {
-    /// Waves with their weights; `named` gives nodal diameters and circles. `None` if no wave has weight.
+    /// The waves of an event from all waves with their weights; `named` gives nodal diameters and circles.
+    /// `None` if every weight is zero.
     fn new<W>(
         direction: Direction,
         mut weighed: Vec<(&W, f64)>,
@@ -162,33 +163,21 @@ impl EventWaves {
     pub fn in_words(&self) -> String {
         let (diameters, circles) = self.first();
         let dominant = || in_words(diameters, circles, self.direction);
-        let ending = self
-            .word()
-            .map_or(String::new(), |word| format!(", {word}"));
-        mixed(&self.shares, MOST_NAMED).map_or_else(dominant, |shares| shares + &ending)
+        mixed(&self.shares, MOST_NAMED)
+            .map_or_else(dominant, |shares| shares + &self.direction.ending(", "))
     }
 
     /// "2 forward", "3 (52 %) + 2 (41 %) reflected".
     fn in_short(&self) -> String {
         let (diameters, circles) = self.first();
         let dominant = || short(diameters, circles);
-        let ending = self.word().map_or(String::new(), |word| format!(" {word}"));
-        mixed(&self.shares, MOST_NAMED).unwrap_or_else(dominant) + &ending
+        mixed(&self.shares, MOST_NAMED).unwrap_or_else(dominant) + &self.direction.ending(" ")
     }
 
     /// Nodal diameters and circles of the wave with the largest share.
     fn first(&self) -> (usize, usize) {
         let first = self.shares.first();
         first.map_or((0, 0), |wave| (wave.diameters, wave.circles))
-    }
-
-    fn word(&self) -> Option<&'static str> {
-        match self.direction {
-            Direction::Forward => Some("forward"),
-            Direction::Backward => Some("backward"),
-            Direction::Reflected => Some("reflected"),
-            Direction::Standing => None,
-        }
     }
 }
 
@@ -197,8 +186,8 @@ fn waves(plate: &Plate, lambda: c64, shape: &Col<c64>, speed_rad_per_s: f64) -> 
     (0..=plate.max_diameters()).map(wave).collect()
 }
 
-/// One of the two waves of a harmonic, or both if their energies have the same sign: their standing part has
-/// nearly no action.
+/// One of the two waves of a harmonic, or both if their energies have the same sign, because the standing part
+/// of the two has nearly no action.
 struct Part<'a> {
     wave: &'a Wave,
     forward: &'a [c64],
@@ -230,12 +219,13 @@ fn parts<'a>(plate: &Plate, lambda: c64, wave: &'a Wave, speed_rad_per_s: f64) -
 }
 
 impl Part<'_> {
+    /// (ω − nΩ)|f|² + (ω + nΩ)|b|².
     fn action(&self, omega: f64) -> f64 {
         let carried = self.wave.carried;
         (omega - carried) * square(self.forward) + (omega + carried) * square(self.backward)
     }
 
-    /// The smaller of the energy and 2ω times the action; zero if their signs differ.
+    /// The smaller in magnitude of the energy and 2ω times the action, with its sign; zero if the signs differ.
     fn weight(&self, omega: f64) -> f64 {
         let by_action = 2.0 * omega * self.action(omega);
         match by_action * self.energy > 0.0 {
@@ -255,7 +245,7 @@ impl Part<'_> {
     }
 }
 
-/// Common direction of waves in space, weighted. Waves without nodal diameters have none.
+/// Common direction of weighted waves in space. Waves without nodal diameters have no direction.
 fn direction(parts: &[&Part<'_>], omega: f64) -> Direction {
     let [mut forward, mut backward, mut all] = [0.0; 3];
     for part in parts {
@@ -276,11 +266,7 @@ fn direction(parts: &[&Part<'_>], omega: f64) -> Direction {
     }
 }
 
-fn square(wave: &[c64]) -> f64 {
-    wave.iter().map(|c| c.norm_sqr()).sum()
-}
-
-/// cᴴAc of a symmetric matrix.
+/// cᴴAc of a symmetric matrix A.
 fn form(c: &[c64], entry: impl Fn(usize, usize) -> f64) -> f64 {
     let row = |i: usize| -> c64 { (0..c.len()).map(|k| c[k] * entry(i, k)).sum() };
     (0..c.len()).map(|i| (c[i].conj() * row(i)).re).sum()

@@ -1,4 +1,4 @@
-//! Waves of one harmonic of an undamped blade without anything fixed in space.
+//! Waves of one harmonic of an undamped blade without guides or loads fixed in space.
 //!
 //! In the body frame they are solutions of a symmetric problem, (K_b + K_m + Ω²K_σ) x = ω_b² x, of the radial
 //! functions alone. In space a forward wave has ω = ω_b + nΩ and q = (x, −ix) in (cos, sin), a backward one ω
@@ -9,9 +9,8 @@ use faer::linalg::solvers::DenseSolveCore;
 use faer::{Col, Mat, Side, c64};
 
 use super::error::SpectrumError;
-use super::vectors::{Eigenpair, by_magnitude, unit};
+use super::vectors::{Eigenpair, by_magnitude, complex, unit};
 use crate::plate::Plate;
-use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
 /// Every eigenpair with Im λ ≥ 0 of n nodal diameters, ‖q‖ = 1, ordered by |λ|; each free rigid motion has
@@ -26,7 +25,7 @@ pub fn eigenpairs(
     speed_rad_per_s: f64,
 ) -> Result<Vec<Eigenpair>, SpectrumError> {
     let radial = plate.basis.count();
-    // The rigid motion is decoupled exactly.
+    // The first radial function is the rigid motion, which nothing couples to the others.
     let rigid = usize::from(plate.basis.has_rigid_motions() && n <= 1);
     let stiffness = plate.harmonics[n].body_frame_stiffness(speed_rad_per_s);
     let elastic = stiffness.get(rigid.., rigid..).to_owned();
@@ -55,9 +54,8 @@ pub fn eigenpairs(
         let tilt = Col::from_fn(radial, |i| f64::from(u8::from(i == 0)));
         add(2.0 * speed_rad_per_s, forward, &tilt);
     }
-    let still = c64::new(0.0, 0.0);
     let free = system.free_rigid.iter();
-    pairs.extend(free.map(|z| (still, Col::from_fn(z.nrows(), |i| c64::new(z[i], 0.0)))));
+    pairs.extend(free.map(|z| (c64::new(0.0, 0.0), complex(z))));
     Ok(by_magnitude(pairs))
 }
 
@@ -68,10 +66,7 @@ fn symmetric_modes(
     speed_rad_per_s: f64,
 ) -> Result<Vec<(f64, Col<f64>)>, SpectrumError> {
     let order = matrix.nrows();
-    let failed = || SpectrumError::NoConvergence {
-        order,
-        rpm: rpm(speed_rad_per_s),
-    };
+    let failed = || SpectrumError::no_convergence(order, speed_rad_per_s);
     let flexibility = matrix.llt(Side::Lower).map_err(|_| failed())?.inverse();
     let eigen = flexibility.self_adjoint_eigen(Side::Lower);
     let eigen = eigen.map_err(|_| failed())?;

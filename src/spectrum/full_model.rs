@@ -1,4 +1,5 @@
-//! The full model of a saw by its structure: one block for each number of nodal diameters, and few columns.
+//! The full model of a saw by its structure: a block for each number of nodal diameters, and few columns that
+//! couple the blocks.
 //!
 //! In the body frame a wave of n nodal diameters with the frequency ω in space has the frequency ω + nΩ; for
 //! the opposite wave n is negative. Without guides
@@ -32,13 +33,13 @@ use self::harmonic::Harmonic;
 use super::scale::frequency_scale;
 use crate::plate::{HarmonicBlock, Plate};
 
-/// The blade, and the coupling of its harmonics.
+/// The blocks of the harmonics of a blade, and their coupling.
 #[derive(Debug)]
 pub struct FullModel {
     harmonics: Vec<Harmonic>,
     coupling: Coupling,
-    /// `None` if other terms have no such structure: forces without a potential, and dampers of too many
-    /// columns.
+    /// Inertia, gyroscopic forces and damping; `None` if they have no such structure, because of forces
+    /// without a potential, or because dampers need too many columns.
     damping: Option<Damping>,
 }
 
@@ -48,7 +49,8 @@ impl FullModel {
         Self::with_columns(plate, Kept::All)
     }
 
-    /// As [`FullModel::new`], with solves and products accurate to a millionth, in a third of the time.
+    /// The full model with solves and products accurate to a millionth, in a third of the time of
+    /// [`FullModel::new`].
     pub fn nearly(plate: &Plate) -> Self {
         Self::with_columns(plate, Kept::Few)
     }
@@ -119,8 +121,8 @@ impl FullModel {
     }
 
     /// K₀ with all columns, because changes by a larger basis are small and involve stiff guides. Heave and
-    /// tilt may have no stiffness except that of the guides: the blocks are stiffened, and further columns
-    /// subtract what was added. `None` if it is not structured, or if a block is singular.
+    /// tilt may have no stiffness except that of the guides: their blocks are stiffened, and further columns
+    /// subtract the added stiffness. `None` with loads at the rim, or if a block is singular.
     pub fn eliminated_at_rest(&self) -> Option<Elimination<f64>> {
         let Coupling::Columns(springs) = &self.coupling else {
             return None;
@@ -149,7 +151,7 @@ impl FullModel {
     }
 }
 
-/// Adds real blocks times a number to complex ones.
+/// Adds a real block times a number to a complex block.
 fn add_scaled(sum: &mut DMatrix<c64>, factor: c64, block: &DMatrix<f64>) {
     if factor != c64::new(0.0, 0.0) {
         sum.zip_apply(block, |sum, own| *sum += factor * own);

@@ -1,4 +1,4 @@
-//! The symmetric pencil A − m B.
+//! Eigenvalues of the symmetric pencil A − m B.
 
 use faer::linalg::solvers::SelfAdjointEigen;
 use faer::linalg::triangular_solve::{
@@ -9,11 +9,22 @@ use faer::{Col, Mat, Par, Scale, Side};
 use super::error::SpectrumError;
 use super::work::Cancellation;
 
+/// K₀ with a stiffness added to its free motions z, K₀z = 0, which makes it definite and changes no other
+/// motion.
+pub fn stiffened(stiffness: &Mat<f64>, free: &[Col<f64>]) -> Mat<f64> {
+    let mut stiffened = stiffness.clone();
+    let mean = stiffness.norm_l2() / (stiffness.nrows() as f64).sqrt();
+    for z in free {
+        stiffened += Scale(mean) * z * z.transpose();
+    }
+    stiffened
+}
+
 /// Every m > 0 at which A − m B is singular, ascending, with x of (A − m B) x = 0, ‖x‖ = 1, for symmetric A
 /// and B. A is positive definite except on the motions `free`, on which both vanish.
 ///
 /// # Errors
-/// [`SpectrumError::UnstableAtRest`] when A has another direction without stiffness;
+/// [`SpectrumError::UnstableAtRest`] when A is not positive definite on the other motions;
 /// [`SpectrumError::NoConvergence`].
 pub fn singular_multiples(
     stiffness: &Mat<f64>,
@@ -22,11 +33,7 @@ pub fn singular_multiples(
 ) -> Result<Vec<(f64, Col<f64>)>, SpectrumError> {
     Cancellation::current().check()?;
     let order = stiffness.nrows();
-    let mut stiffness = stiffness.clone();
-    let mean = stiffness.norm_l2() / (order as f64).sqrt();
-    for z in free {
-        stiffness += Scale(mean) * z * z.transpose();
-    }
+    let stiffness = stiffened(stiffness, free);
     let unstable = || SpectrumError::UnstableAtRest { order };
     let factor = stiffness.llt(Side::Lower).map_err(|_| unstable())?;
     let lower = factor.L();

@@ -1,8 +1,7 @@
-//! Growth rates of a system at one speed from eigenvalues alone, which takes a third of the work of modes.
+//! Growth rates of a system at one speed from eigenvalues alone, which takes a third of the time of modes.
 
 use faer::c64;
 
-use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
 use super::companion::deflated_companion;
@@ -10,7 +9,7 @@ use super::error::SpectrumError;
 use super::mode::{DAMPED_NOISE, GROWTH_NOISE};
 use super::real_eigen::real_eigenvalues;
 
-/// Every eigenvalue with Im λ ≥ 0, in 1/s, without free rigid motions, in no order.
+/// Every eigenvalue with Im λ ≥ 0, in 1/s, without free rigid motions, in no particular order.
 ///
 /// # Errors
 /// [`SpectrumError`] when the eigenproblem fails.
@@ -19,16 +18,12 @@ pub fn eigenvalues(
     speed_rad_per_s: f64,
 ) -> Result<Vec<c64>, SpectrumError> {
     let (state, scale, _) = deflated_companion(system, speed_rad_per_s)?;
-    let values = real_eigenvalues(state.as_ref()).map_err(|_| SpectrumError::NoConvergence {
-        order: state.nrows(),
-        rpm: rpm(speed_rad_per_s),
-    })?;
+    let order = state.nrows();
+    let failed = |_| SpectrumError::no_convergence(order, speed_rad_per_s);
+    let values = real_eigenvalues(state.as_ref()).map_err(failed)?;
     // A maximum would ignore NaN.
     if !values.iter().all(|value| value.is_finite()) {
-        return Err(SpectrumError::NotFinite {
-            order: state.nrows(),
-            rpm: rpm(speed_rad_per_s),
-        });
+        return Err(SpectrumError::not_finite(order, speed_rad_per_s));
     }
     let upper = values.into_iter().filter(|value| value.im >= 0.0);
     Ok(upper.map(|value| value * scale).collect())

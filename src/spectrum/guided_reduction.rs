@@ -1,4 +1,4 @@
-//! The intervals of a range of speeds, each with a small basis for its low modes.
+//! Division of a range of speeds into intervals, each with a small basis for the low modes.
 
 mod error;
 mod settled;
@@ -13,17 +13,17 @@ use super::critical::NamedCriticalSpeed;
 use super::error::SpectrumError;
 use super::full_model::FullModel;
 use super::interval::{Interval, StandingWave};
-use super::mode::{ModeKind, classify, is_seen};
+use super::mode::{classify, is_seen, krein_index};
 use super::model::{CHART_MODES, Strategy, chart_height};
 use super::vectors::Eigenpair;
 use super::work::WorkCounters;
 use crate::system::GyroscopicSystem;
 use crate::tuned::Tuned;
 
-/// Modes up to this multiple of the highest reflected wave's frequency may coalesce with it.
+/// Modes up to this multiple of the frequency of the highest reflected wave may coalesce with that wave.
 const REFLECTED_MARGIN: Tuned = Tuned::new("spectrum/guided_reduction::REFLECTED_MARGIN", 1.3);
-/// Relative distance of the first speed of the search for bands from the lowest critical speed; larger than
-/// the distance that the search itself keeps.
+/// Relative distance of the first interval from the lowest critical speed if only bands are searched for; it is
+/// larger than the distance that the search keeps from critical speeds.
 const BELOW_CRITICAL: f64 = 1e-3;
 
 /// The reduced models of a guided blade.
@@ -35,27 +35,27 @@ pub struct Reduction {
     /// Frequency up to which instabilities are searched for, slightly above the highest reflected wave; 0 if
     /// there is none.
     pub reflected_to_rad_per_s: f64,
-    /// Largest estimated error of a frequency beyond its tolerance, in rad/s; 0 unless the number of
+    /// Largest estimated error of a frequency that exceeds the tolerance, in rad/s; 0 unless the number of
     /// snapshots reached its limit.
     pub unsettled_rad_per_s: f64,
 }
 
-/// A guided blade and its known data.
+/// A guided blade with the data that its reduction uses.
 pub struct Guided<'a> {
     pub system: &'a GyroscopicSystem,
-    /// Blocks and columns of its matrices, if it has such a structure.
+    /// Blocks and columns of the matrices, if a solve by them costs less than a dense one.
     pub structure: Option<&'a FullModel>,
-    /// Frequency scale.
+    /// Frequency scale of the blade, in rad/s.
     pub scale: f64,
-    /// Every critical speed of the range.
+    /// Critical speeds, ascending, at least those of the range.
     pub critical: &'a [NamedCriticalSpeed],
 }
 
-/// Computes modes of the guided blade at a few speeds, and at more until every mode up to the height of the
-/// diagram, and every reflected one, is accurate in between too.
+/// Computes modes of the guided blade at a few speeds, and at further ones until every mode up to the height of
+/// the diagram, and every reflected one, is accurate in between too.
 ///
 /// For bands alone, modes that only a diagram shows are omitted, and so are speeds below the lowest critical
-/// one, where no wave is reflected: this takes a sixth of the time.
+/// speed, where no wave is reflected. This takes a sixth of the time.
 ///
 /// # Errors
 /// [`SpectrumError::Cancelled`].
@@ -112,13 +112,13 @@ struct Builder<'a> {
     standing: Vec<StandingWave<'a>>,
     range: (f64, f64),
     counters: &'a WorkCounters,
-    /// Frequency up to which modes are needed.
+    /// Frequency up to which diagram or search need modes.
     window: f64,
-    /// Frequency up to which the search needs modes.
+    /// Frequency up to which the search needs modes; 0 without reflected waves.
     reflected: f64,
     snapshots: Vec<Snapshot>,
     unsettled_rad_per_s: f64,
-    /// Whether the errors may be those of a preview.
+    /// Whether the larger errors of a preview are allowed.
     is_sketch: bool,
 }
 
@@ -138,7 +138,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Adds the first snapshots, some of which may be known.
+    /// Adds the first snapshots; known ones with every mode of the window are not computed again.
     fn add_first_snapshots(&mut self, known: Vec<Snapshot>) -> Result<(), SpectrumError> {
         let mut speeds = first_speeds(self.range).to_vec();
         for known in known {
@@ -172,6 +172,7 @@ impl<'a> Builder<'a> {
         lowest_eigenpairs(system, speed, count, shift)
     }
 
+    /// Height of a diagram from the modes at a speed, in rad/s, and these modes.
     fn chart_height(&self, speed: f64) -> Result<(f64, Snapshot), SpectrumError> {
         let Guided { system, scale, .. } = self.guided;
         let is_conservative = system.is_conservative();
@@ -184,7 +185,7 @@ impl<'a> Builder<'a> {
                 let height = chart_height(&lambdas, is_conservative).unwrap_or(scale);
                 return Ok((height, Snapshot { speed, pairs }));
             }
-            // Modes that decay without oscillating are among the computed ones.
+            // Modes that decay without oscillating are not drawn but are among the computed ones.
             count *= 2;
         }
     }
@@ -195,8 +196,9 @@ impl<'a> Builder<'a> {
         highest.is_some_and(|(lambda, _)| lambda.norm() > self.window)
     }
 
-    /// Highest reflected wave at the top speed, with a margin for waves that may coalesce with it; for a
-    /// damped blade, that of the undamped one, because damping destabilizes these waves.
+    /// Frequency of the highest reflected wave at the top speed, with a margin for waves that may coalesce with
+    /// it, and the modes there; 0 below the lowest critical speed. For a damped blade the frequency is that
+    /// without damping, because damping destabilizes reflected waves.
     fn reflected_height(&self, speed: f64) -> Result<(f64, Option<Snapshot>), SpectrumError> {
         let Guided {
             system,
@@ -215,14 +217,8 @@ impl<'a> Builder<'a> {
         loop {
             let pairs = self.lowest_of(system, speed, count)?;
             let modes = classify(system, speed, 0, pairs.clone());
-            let negative = |kind| match kind {
-                ModeKind::Negative | ModeKind::Flutter => 2,
-                ModeKind::Divergent => 1,
-                _ => 0,
-            };
-            let found: usize = modes.iter().map(|mode| negative(mode.kind)).sum();
-            if found >= index || 2 * count >= system.order() {
-                let highest = modes.iter().filter(|mode| negative(mode.kind) > 0);
+            if krein_index(&modes) >= index || 2 * count >= system.order() {
+                let highest = modes.iter().filter(|mode| mode.kind.krein_index() > 0);
                 let height = highest.fold(0.0, |top, mode| mode.frequency_rad_per_s().max(top));
                 let height = REFLECTED_MARGIN.get() * height.max(0.1 * scale);
                 return Ok((height, (!is_damped).then_some(Snapshot { speed, pairs })));
@@ -231,7 +227,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Adds every mode below the height of the diagram at each speed, and one above it.
+    /// Adds snapshots, each with every mode of the window and at least one above it.
     fn add_snapshots(&mut self, speeds: &[f64]) -> Result<(), SpectrumError> {
         let new: Result<Vec<Snapshot>, SpectrumError> = speeds
             .par_iter()
@@ -254,8 +250,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Speed from which on waves are reflected: slightly below the lowest critical speed, or the end of the
-    /// range.
+    /// Speed from which on waves are reflected: slightly below the lowest critical speed; the start of the range
+    /// if no critical speed is within it.
     fn first_reflecting(&self) -> f64 {
         let (from, to) = self.range;
         let lowest = self.guided.critical.first();

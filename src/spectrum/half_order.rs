@@ -3,8 +3,8 @@
 //! A is Hamiltonian if JA is symmetric, J = [0 I; −I 0]; then A² is skew-Hamiltonian, each λ² is double, and
 //! the Krylov vectors of A² are isotropic, vᵀJw = 0, so that n of them span an invariant subspace of a matrix
 //! of order 2n that contains each λ² once: A²V = VH, VᵀV = I (C. Van Loan, Linear Algebra Appl. 61, 1984; V.
-//! Mehrmann, D. Watkins, SIAM J. Sci. Comput. 22, 2001). For a vector z of A², (A + λ)z belongs to λ. An
-//! eigenproblem takes 25 times the cube of its order, so this takes half the time of that of A. λ² is
+//! Mehrmann, D. Watkins, SIAM J. Sci. Comput. 22, 2001). For an eigenvector z of A², (A + λ)z is one of A for
+//! λ. An eigenproblem takes 25 times the cube of its order, so this takes half the time of that of A. λ² is
 //! accurate to ε‖A‖², as if K had been rounded.
 
 use faer::{Col, Mat, MatRef, Scale, c64};
@@ -14,20 +14,19 @@ use super::error::SpectrumError;
 use super::real_eigen::{NoConvergence, RealEigen};
 use super::vectors::{Eigenpair, by_magnitude, joined, unit};
 use super::work::Cancellation;
-use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
 /// A vector whose part outside the span of the others is below this share is rounding.
 const BREAKDOWN: f64 = 1e-14;
-/// If this share of a vector remains after orthogonalization, it is orthogonal to rounding.
+/// If this share of a vector remains after an orthogonalization, the vector is orthogonal to rounding.
 const MOSTLY_KEPT: f64 = 0.5;
 
 /// Eigenpairs with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|, of a Hamiltonian system: undamped, and without free
-/// rigid motions, whose double zero cannot be distinguished from a single one in the square. For other
-/// systems, those of the companion matrix.
+/// rigid motions, whose double zero cannot be distinguished from a single one in the square. Other systems
+/// are solved by the companion matrix.
 ///
 /// # Errors
-/// Those of [`companion_eigenpairs`].
+/// The errors of [`companion_eigenpairs`].
 pub fn eigenpairs(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
@@ -37,10 +36,7 @@ pub fn eigenpairs(
     }
     Cancellation::current().check()?;
     let (matrix, scale) = hamiltonian_matrix(system, speed_rad_per_s);
-    let failed = |_: NoConvergence| SpectrumError::NoConvergence {
-        order: matrix.nrows(),
-        rpm: rpm(speed_rad_per_s),
-    };
+    let failed = |_| SpectrumError::no_convergence(matrix.nrows(), speed_rad_per_s);
     let Some(found) = hamiltonian_eigenpairs(matrix.as_ref()).map_err(failed)? else {
         return companion_eigenpairs(system, speed_rad_per_s);
     };
@@ -50,7 +46,7 @@ pub fn eigenpairs(
     Ok(by_magnitude(pairs.collect()))
 }
 
-/// A of (q, p/s), p = q̇ + ΩGq, in units of s, and s.
+/// A of (q, p/s), p = q̇ + ΩGq, in units of s, and the scale s, in 1/s.
 fn hamiltonian_matrix(system: &GyroscopicSystem, speed_rad_per_s: f64) -> (Mat<f64>, f64) {
     let stiffness = system.stiffness_at(speed_rad_per_s);
     let scale = time_scale(&stiffness);
@@ -66,7 +62,7 @@ fn hamiltonian_matrix(system: &GyroscopicSystem, speed_rad_per_s: f64) -> (Mat<f
 }
 
 /// Share of the norm of the square above which squares can be distinguished from zero and from one another.
-/// Rounding is 1e-15 of the norm, and the root of it where two coalesce.
+/// Their rounding is 1e-15 of the norm, and the root of 1e-15 where two coalesce.
 const LEAST_APART: f64 = 1e-8;
 
 /// λ with Im λ ≥ 0, and the real and imaginary parts of their vectors side by side, two columns each.
@@ -75,7 +71,7 @@ pub struct UpperPairs {
     pub halves: Mat<f64>,
 }
 
-/// Eigenpairs of a Hamiltonian matrix. `None` if squares are close to zero or to one another, at critical
+/// Eigenpairs of a Hamiltonian matrix. `None` if squares λ² are close to zero or to one another, at critical
 /// speeds and where waves coalesce, because there only the matrix itself determines its eigenvalues; also if
 /// the computation was cancelled.
 ///
@@ -152,17 +148,13 @@ fn isotropic(square: &Mat<f64>) -> Option<(Mat<f64>, Mat<f64>)> {
             return None;
         }
         let known = span.subcols(0, 2 * k);
-        let (size, shares) = orthogonalise(known, &mut next);
-        match (k.checked_sub(1), size > 0.0) {
-            (Some(last), true) => {
-                add(&shares, &mut compressed, last);
-                compressed[(k, last)] = size;
+        let (size, shares) = orthogonalize(known, &mut next);
+        if let Some(last) = k.checked_sub(1) {
+            add(&shares, &mut compressed, last);
+            match size > 0.0 {
+                true => compressed[(k, last)] = size,
+                false => next = fresh(known),
             }
-            (Some(last), false) => {
-                add(&shares, &mut compressed, last);
-                next = fresh(known);
-            }
-            (None, _) => (),
         }
         for i in 0..half {
             let (q, p) = (next[i], next[half + i]);
@@ -172,14 +164,14 @@ fn isotropic(square: &Mat<f64>) -> Option<(Mat<f64>, Mat<f64>)> {
         next = square * &next;
     }
     if let Some(last) = half.checked_sub(1) {
-        let (_, shares) = orthogonalise(span.as_ref(), &mut next);
+        let (_, shares) = orthogonalize(span.as_ref(), &mut next);
         add(&shares, &mut compressed, last);
     }
     let vectors = Mat::from_fn(order, half, |i, k| span[(i, 2 * k)]);
     Some((vectors, compressed))
 }
 
-/// Puts the components along v₁, v₂, … into a column; those along Jv₁, Jv₂, … are rounding.
+/// Sets a column to the components along v₁, v₂, …; those along Jv₁, Jv₂, … are rounding.
 fn add(shares: &Col<f64>, compressed: &mut Mat<f64>, column: usize) {
     for i in 0..shares.nrows() / 2 {
         compressed[(i, column)] = shares[2 * i];
@@ -188,7 +180,7 @@ fn add(shares: &Col<f64>, compressed: &mut Mat<f64>, column: usize) {
 
 /// Orthogonalizes a vector against a span and normalizes it. Returns its remaining length, 0 if that is
 /// rounding, and its components in the span.
-fn orthogonalise(span: MatRef<'_, f64>, next: &mut Col<f64>) -> (f64, Col<f64>) {
+fn orthogonalize(span: MatRef<'_, f64>, next: &mut Col<f64>) -> (f64, Col<f64>) {
     let size = next.norm_l2();
     let mut shares = Col::zeros(span.ncols());
     let mut left = size;
@@ -208,12 +200,12 @@ fn orthogonalise(span: MatRef<'_, f64>, next: &mut Col<f64>) -> (f64, Col<f64>) 
     }
 }
 
-/// A unit vector outside an invariant subspace; zero if there is none.
+/// A unit vector orthogonal to a span; zero if there is none.
 fn fresh(span: MatRef<'_, f64>) -> Col<f64> {
     let order = span.nrows();
     let attempts = (0..order).map(|k| {
         let mut attempt = scattered(order, k);
-        (orthogonalise(span, &mut attempt).0, attempt)
+        (orthogonalize(span, &mut attempt).0, attempt)
     });
     let mut found = attempts.filter(|(left, _)| *left > 0.0);
     found
@@ -279,8 +271,8 @@ mod tests {
         }
     }
 
-    /// Oscillators of which many are alike: the Krylov space of one vector contains one of each kind. Equal
-    /// squares are detected, and the matrix itself is used.
+    /// Eight oscillators of three kinds: the Krylov space of one vector contains one of each kind. The equal
+    /// squares are detected, so that the eigenproblem of the matrix itself is solved.
     #[test]
     fn equal_eigenvalues_are_left_to_the_whole_matrix() {
         let half = 8;

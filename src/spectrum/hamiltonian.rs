@@ -1,15 +1,14 @@
-//! The smallest system with given motions of an undamped blade, in states.
+//! An undamped blade projected on the states (q, p) of given modes.
 //!
 //! With p = q̇ + ΩGq the blade is Hamiltonian, H = ½|p − ΩGq|² + ½qᵀK(Ω)q, and a mode is a state z = (q, p)
 //! with Jᵀz λ = S(Ω)z, S = S₀ + ΩS₁ + Ω²S₂ the Hessian of H. The real and imaginary parts of m modes span 2m
 //! states, whereas a basis of deflections needs 2m more for velocities: half the order takes an eighth of the
-//! time. Galerkin's projection zᵀJᵀz, zᵀSz preserves the Hamiltonian structure, so the error of eigenvalues
-//! is the square of that of the states, and none loses its Krein sign.
+//! time. Galerkin's projection of zᵀJᵀz and zᵀSz preserves the Hamiltonian structure, so the error of
+//! eigenvalues is the square of that of the states, and none loses its Krein sign.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, c64};
 
-use crate::scene::rpm;
 use crate::system::GyroscopicSystem;
 
 use super::canonical::{canonical_basis, turned};
@@ -25,7 +24,7 @@ pub struct State {
     pub lambda: c64,
     /// Deflection q.
     pub q: Col<c64>,
-    /// Momentum, in 1/s.
+    /// Momentum p, in 1/s.
     pub p: Col<c64>,
 }
 
@@ -49,6 +48,7 @@ pub struct HamiltonianReduction {
     /// Projection on states W with WᵀJᵀW = Jᵀ, if they are well conditioned for an eigenproblem of half the
     /// order.
     canonical: Option<Coordinates>,
+    /// Unit of λ and of momenta, in 1/s.
     scale: f64,
 }
 
@@ -117,7 +117,7 @@ impl HamiltonianReduction {
         if singular {
             return None;
         }
-        // For two modes only their invariants are needed.
+        // For two modes only [`HamiltonianReduction::pair_invariants`] is needed.
         let canonical = match form.nrows() > ORDER_OF_TWO_MODES {
             true => canonical_basis(form),
             false => None,
@@ -135,7 +135,7 @@ impl HamiltonianReduction {
         })
     }
 
-    /// Number of states.
+    /// Number of states of the basis.
     pub fn order(&self) -> usize {
         self.own.deflections.ncols()
     }
@@ -145,10 +145,8 @@ impl HamiltonianReduction {
     /// # Errors
     /// [`SpectrumError::NoConvergence`].
     pub fn eigenpairs(&self, speed_rad_per_s: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
-        let failed = |_: NoConvergence| SpectrumError::NoConvergence {
-            order: self.order(),
-            rpm: rpm(speed_rad_per_s),
-        };
+        let failed =
+            |_: NoConvergence| SpectrumError::no_convergence(self.order(), speed_rad_per_s);
         let mut found = None;
         if let Some(canonical) = &self.canonical {
             let matrix = canonical.matrix(speed_rad_per_s);

@@ -21,18 +21,18 @@ use super::mode::{Mode, classify};
 use super::mode_pair::{ModePair, standing_states};
 use super::model::SpectralModel;
 use super::projection::Projection;
-use super::vectors::{Eigenpair, real_times};
+use super::vectors::{Eigenpair, real_times, smallest};
 use super::work::WorkCounters;
 use crate::tuned::Tuned;
 
 /// Modes up to this multiple of the window are included, because some of them enter it between two speeds.
 pub(super) const SPAN_MARGIN: Tuned = Tuned::new("spectrum/interval::SPAN_MARGIN", 1.5);
 
-/// A growth of the projection that differs from that of the states by more than this share of it belongs to
-/// another mode: the states are accurate to 1e-5 of the height.
+/// If the growth rates by the projection and by the states differ by more than this share, they belong to
+/// different modes: the states are accurate to 1e-5 of the height.
 const SAME_GROWTH: f64 = 0.01;
 
-/// The low modes at a speed, in the coordinates of a projection.
+/// Eigenpairs at a speed, in the coordinates of a projection.
 #[derive(Debug, Clone)]
 pub struct KnownModes {
     pub speed_rad_per_s: f64,
@@ -40,7 +40,7 @@ pub struct KnownModes {
 }
 
 impl KnownModes {
-    /// Low modes of a projection.
+    /// All eigenpairs of a projection at a speed.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -58,23 +58,26 @@ impl KnownModes {
     }
 }
 
-/// A wave that stands still at its critical speed: q of the component.
+/// A critical speed, in rad/s, and the wave that stands still there, in the unknowns of the component.
 pub(super) type StandingWave<'a> = (f64, &'a Col<f64>);
 
 /// The reduced model of an interval of speeds.
 #[derive(Debug, Clone)]
 pub struct Interval {
+    /// End of the interval, which begins at the end of the one before.
     pub(super) to_rad_per_s: f64,
     pub(super) projection: Arc<Projection>,
-    /// The projected system on the states of the modes at both ends, if these represent the modes in between:
-    /// one for the diagram, one for the search for instabilities.
+    /// Projection on the states of the modes at both ends up to the height of the diagram, if it represents the
+    /// modes in between.
     pub(super) drawn: Option<HamiltonianReduction>,
+    /// As `drawn`, up to the height of the search for bands.
     pub(super) searched: Option<HamiltonianReduction>,
 }
 
-/// A system on the states of the modes at two speeds up to slightly above a frequency, and of the waves that
-/// stand still between the two. The error falls with the fourth power of the distance, and vanishes at both
-/// speeds and where a wave stands still. `None` if the states do not represent the modes in between.
+/// Projection on the states of the modes at two speeds up to slightly above a frequency, and of the waves that
+/// stand still between the two. Its error falls with the fourth power of the distance of the speeds, and
+/// vanishes at both and where a wave stands still. `None` for a blade with damping or free rigid motions, and if
+/// the symplectic form is singular on the states.
 pub(super) fn states_between(
     projection: &Projection,
     ends: [&KnownModes; 2],
@@ -103,7 +106,7 @@ pub(super) fn states_between(
 }
 
 impl Interval {
-    /// Eigenpairs of its projection.
+    /// Eigenpairs of the interval's projection at a speed.
     pub(super) fn projected_pairs(
         &self,
         speed_rad_per_s: f64,
@@ -113,7 +116,7 @@ impl Interval {
     }
 }
 
-/// Eigenpairs from the states.
+/// Eigenpairs of a projection on states at a speed.
 pub(super) fn states_at(
     states: &HamiltonianReduction,
     speed_rad_per_s: f64,
@@ -124,7 +127,7 @@ pub(super) fn states_at(
     states.eigenpairs(speed_rad_per_s)
 }
 
-/// The interval that contains a speed; beyond the end, the last one.
+/// The interval that contains a speed; the last one beyond the end.
 pub(super) fn interval_at(intervals: &[Interval], speed_rad_per_s: f64) -> &Interval {
     let place = intervals.partition_point(|interval| interval.to_rad_per_s < speed_rad_per_s);
     &intervals[place.min(intervals.len() - 1)]
@@ -140,8 +143,8 @@ pub struct SearchModel<'a> {
 }
 
 impl<'a> SearchModel<'a> {
-    /// The search model of an undamped blade's reduced model. `None` for a blade whose harmonics are not
-    /// coupled.
+    /// The search model of an undamped blade's reduced model. `None` for a damped blade, and for one without a
+    /// reduced model.
     pub(crate) fn new(model: &'a SpectralModel) -> Option<Self> {
         let (component, standing) = guided(model)?;
         let Solution::Projected(intervals) = &component.solution else {
@@ -213,7 +216,7 @@ impl<'a> SearchModel<'a> {
         })
     }
 
-    /// Frequency up to which its modes are complete.
+    /// Frequency up to which the modes are complete and accurate.
     pub fn height_rad_per_s(&self) -> f64 {
         self.height_rad_per_s
     }
@@ -234,8 +237,8 @@ impl<'a> SearchModel<'a> {
         }
     }
 
-    /// Its modes at a speed. Modes above [`SearchModel::height_rad_per_s`] are inaccurate; they are included to show
-    /// that modes follow.
+    /// Modes at a speed, in the coordinates of a projection. Those above [`SearchModel::height_rad_per_s`] are
+    /// inaccurate; they show where the frequencies continue.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -246,7 +249,7 @@ impl<'a> SearchModel<'a> {
         Ok(classify(system, speed_rad_per_s, 0, pairs))
     }
 
-    /// As [`SearchModel::modes`], without the error of the states.
+    /// The modes of [`SearchModel::modes`] by the projection, without the error of the states.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -280,7 +283,7 @@ impl<'a> SearchModel<'a> {
         Ok(modes)
     }
 
-    /// Whether modes are given in the coordinates of the projection for a speed.
+    /// Whether modes have as many coordinates as the projection for a speed.
     pub fn has(&self, speed_rad_per_s: f64, modes: &[Mode]) -> bool {
         let order = self.at(speed_rad_per_s).projection.reduced.order();
         modes.iter().all(|mode| mode.coordinates.nrows() == order)
@@ -313,10 +316,8 @@ impl<'a> SearchModel<'a> {
         let mut pairs = self.pairs(interval, speed_rad_per_s)?;
         let mut chosen = Vec::new();
         for lambda in lambdas {
-            let distance = |pair: &Eigenpair| (pair.0 - lambda).norm();
-            let nearest = (0..pairs.len())
-                .min_by(|&i, &k| distance(&pairs[i]).total_cmp(&distance(&pairs[k])));
-            let Some(nearest) = nearest else {
+            let distance = |place: &usize| (pairs[*place].0 - lambda).norm();
+            let Some(nearest) = smallest(0..pairs.len(), distance) else {
                 return Ok(None);
             };
             chosen.push(pairs.swap_remove(nearest));
@@ -327,7 +328,7 @@ impl<'a> SearchModel<'a> {
         Ok(self.refined(speed_rad_per_s, [first, second]))
     }
 
-    /// A pair at another speed, by a factorization instead of an eigenproblem.
+    /// The pair at another speed, by a factorization instead of an eigenproblem. `None` if it is lost.
     pub fn moved(&self, pair: &ModePair, speed_rad_per_s: f64) -> Option<ModePair> {
         self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
         let projection = &self.at(speed_rad_per_s).projection;
@@ -335,7 +336,7 @@ impl<'a> SearchModel<'a> {
     }
 }
 
-/// The one component of a guided blade, and the standing waves of its critical speeds.
+/// The only component of an undamped guided blade, and the standing waves of its critical speeds.
 fn guided(model: &SpectralModel) -> Option<(&Component, Vec<StandingWave<'_>>)> {
     let ([component], true) = (model.components.as_slice(), model.is_conservative()) else {
         return None;

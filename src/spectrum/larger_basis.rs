@@ -1,10 +1,10 @@
-//! The error of a basis, measured by the change that the functions of a larger one cause.
+//! Error of a basis, estimated by the change that the functions of a larger one cause.
 //!
-//! On a larger basis L(λ) has the block L_cc that was solved, L_nn of the new functions and L_nc between
-//! them. A mode q leaves the residual L_nc q there, and the larger basis reduces qᵀLq by (L_nc q)ᵀ S⁻¹ (L_nc
-//! q), S = L_nn − L_nc L_cc⁻¹ L_cn, because the old functions respond too. Mass and gyroscopic matrix couple
-//! no two functions of different index, so L_nc = K_nc(Ω); in S the stiffness at rest approximates L, because
-//! functions of high frequency dominate it.
+//! On a larger basis L(λ) has the block L_cc, which was solved, the block L_nn of the new functions, and L_nc
+//! between the two. A mode q leaves the residual L_nc q there, and the larger basis reduces qᵀLq by (L_nc q)ᵀ
+//! S⁻¹ (L_nc q), S = L_nn − L_nc L_cc⁻¹ L_cn, because the old functions respond too. Mass and gyroscopic
+//! matrix couple no two functions of different index, so L_nc = K_nc(Ω); in S the stiffness at rest
+//! approximates L, because functions of high frequency dominate it.
 
 use faer::{Col, Mat, Scale, c64};
 
@@ -14,7 +14,7 @@ use super::critical::NamedCriticalSpeed;
 use super::error::SpectrumError;
 use super::mode::{Mode, ModeKind};
 use super::model::DescribedMode;
-use super::vectors::real_times;
+use super::vectors::{halves, real_times};
 use crate::plate::Plate;
 
 mod added;
@@ -32,7 +32,7 @@ pub struct LargerBasis {
 const LEAST_SLOPE: f64 = 0.3;
 
 impl LargerBasis {
-    /// The functions of `larger` that `plate`, the same saw in a smaller basis, lacks.
+    /// The functions of `larger` that are absent from `plate`, which is the same saw in a smaller basis.
     ///
     /// # Errors
     /// [`SpectrumError::UnstableAtRest`] when the blade is unstable on the larger basis.
@@ -84,10 +84,7 @@ impl LargerBasis {
                 .iter()
                 .map(|&k| component.coordinates(&modes[k].shape))
                 .collect();
-            let columns = Mat::from_fn(component.full.order(), 2 * shapes.len(), |i, k| {
-                let q = shapes[k / 2][i];
-                if k % 2 == 0 { q.re } else { q.im }
-            });
+            let columns = halves(component.full.order(), shapes.iter());
             let softened = self.added[index].softened(speed_rad_per_s, &columns);
             for (k, (&place, q)) in places.iter().zip(&shapes).enumerate() {
                 let softening = softened[2 * k] + softened[2 * k + 1];
@@ -106,7 +103,7 @@ impl LargerBasis {
         errors
     }
 
-    /// Reduction of the stiffness of a component by eliminating the added functions, projected on columns.
+    /// Reduction of the stiffness of a component by the added functions, projected on columns, in 1/s².
     pub fn softening(
         &self,
         component: usize,
@@ -116,14 +113,14 @@ impl LargerBasis {
         self.added[component].softening(speed_rad_per_s, columns)
     }
 
-    /// Reduction of the square of a frequency by one part of the stiffness alone, given on the larger basis,
-    /// qᵀK_cn S⁻¹ K_nc q. `None` for a saw without the structure of a guided blade.
+    /// qᵀK_cn S⁻¹ K_nc q, in 1/s², with the block K_nc of one part of the stiffness, given on the larger
+    /// basis. `None` for a saw without the structure of a guided blade.
     pub fn softening_by(&self, component: usize, part: &Mat<f64>, shape: &Mat<f64>) -> Option<f64> {
         self.added[component].softening_by(part, shape)
     }
 }
 
-/// Whether the functions determine the frequency of a mode smoothly.
+/// Whether a mode is an oscillation, whose frequency depends smoothly on the matrices.
 fn oscillates(mode: &Mode) -> bool {
     match mode.kind {
         ModeKind::Positive | ModeKind::Negative => true,
@@ -143,9 +140,9 @@ mod tests {
     use crate::scene::Scene;
     use crate::spectrum::{SpectralModel, at_rest::modes_at_rest};
 
-    /// Reference: the differences of two bases that were both solved.
+    /// Reference: the differences between the results of both bases.
     #[test]
-    fn it_tells_what_the_larger_basis_gives() {
+    fn estimated_errors_are_the_changes_on_the_larger_basis() {
         let free = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();
         for scene in [Scene::paper(), free] {
             let [plate, larger] = [(10, 6), (18, 10)].map(|(max_diameters, radial_functions)| {
@@ -161,15 +158,15 @@ mod tests {
                 [&components, &finer].map(|components| modes_at_rest(components, 10).unwrap());
             for (coarse, fine) in coarse.iter().zip(&fine) {
                 let error = coarse.frequency_rad_per_s / fine.frequency_rad_per_s - 1.0;
-                let told = basis.resting_error(coarse);
-                assert!((told / error - 1.0).abs() < 0.1, "{told} {error}");
+                let estimate = basis.resting_error(coarse);
+                assert!((estimate / error - 1.0).abs() < 0.1, "{estimate} {error}");
             }
             let [coarse, fine] =
                 [&plate, &larger].map(|plate| SpectralModel::critical_speeds(plate).unwrap());
             for (coarse, fine) in coarse.iter().zip(&fine).take(6) {
                 let error = coarse.speed_rad_per_s / fine.speed_rad_per_s - 1.0;
-                let told = basis.critical_error(&components, coarse);
-                assert!((told / error - 1.0).abs() < 0.2, "{told} {error}");
+                let estimate = basis.critical_error(&components, coarse);
+                assert!((estimate / error - 1.0).abs() < 0.2, "{estimate} {error}");
             }
         }
     }

@@ -20,13 +20,14 @@ pub struct LowestModes {
     scale_rad_per_s: f64,
 }
 
-/// Eigenvalues are ordered by magnitude, modes by frequency, so that a growing mode has a late place.
+/// Number of eigenpairs beyond the requested ones: they are found in the order of |λ|, whereas modes are
+/// requested in the order of frequency, so that a growing mode of low frequency is found late.
 const MORE: usize = 4;
 /// Below this order all eigenvalues cost less than an iteration.
 const SMALL: usize = 40;
 
 impl LowestModes {
-    /// Prepares a plate.
+    /// Assembles the equation of motion of a plate.
     pub fn new(plate: &Plate) -> Self {
         LowestModes {
             components: Component::of(plate),
@@ -70,9 +71,9 @@ mod tests {
     use crate::scene::{Scene, rad_per_s};
     use crate::spectrum::{SpectralModel, Strategy};
 
-    /// The speeds are at rest, above critical speeds, in a band of divergence and in a flutter band.
+    /// The saw is at rest, above critical speeds, in a band of divergence and in a flutter band.
     #[test]
-    fn they_are_the_lowest_of_all_modes() {
+    fn lowest_modes_are_the_lowest_of_all() {
         let resolution = Resolution {
             max_diameters: 8,
             radial_functions: 5,

@@ -1,7 +1,7 @@
 //! Derivatives of the matrices by a number of the scene.
 //!
-//! They are smooth in every number, so they are computed by differences of the assembly; eigenvalues are then
-//! differentiated exactly, with left and right vectors ([`derivative`](super::derivative)).
+//! The matrices are smooth in every number, so their derivatives are differences of assembled matrices.
+//! Eigenvalues are then differentiated exactly, with left and right vectors ([`derivative`](super::derivative)).
 
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
@@ -13,14 +13,14 @@ use super::component::Component;
 pub enum Differences {
     /// Both sides: fourth order.
     Central,
-    /// Only above it, if smaller values are not allowed: third order.
+    /// Only above the number, if smaller values are not allowed: third order.
     Above,
-    /// Only below it, if larger values are not allowed: third order.
+    /// Only below the number, if larger values are not allowed: third order.
     Below,
 }
 
 impl Differences {
-    /// Points, in steps, and their weights.
+    /// Points, in steps, and their weights in the derivative.
     fn stencil(self) -> [(f64, f64); 4] {
         let twelfth = 1.0 / 12.0;
         let above = [
@@ -42,11 +42,11 @@ impl Differences {
     }
 }
 
-/// Derivative of the matrices of every component of a plate by a number s at s = 0;
-/// `plate_at(s)` is the plate there.
+/// Derivative of the matrices of every component of a plate by a number s at s = 0; `plate_at(s)` is the plate
+/// for a value of s.
 ///
 /// # Errors
-/// Those of `plate_at`.
+/// The errors of `plate_at`.
 pub fn matrix_slopes<E>(
     step: f64,
     differences: Differences,
@@ -61,7 +61,8 @@ pub fn matrix_slopes<E>(
         }
     }
     let combined = terms.iter_mut().map(|terms| {
-        // If a step of the thickness leaves the ring its functions vanish, and there is no derivative.
+        // If a step of the thickness leaves the ring, the functions at the step vanish and the matrices have
+        // another order. The derivative is then taken as zero.
         let order = terms.first().map(|(_, system)| system.order());
         if terms
             .iter()

@@ -1,4 +1,4 @@
-//! One rotation speed: eigenvalues, modes, Krein signs, names.
+//! Eigenvalues, modes, Krein signs and names at one rotation speed.
 //!
 //! A [`Plate`](crate::plate::Plate) gives a [`SpectralModel`], which computes the modes of
 //!
@@ -68,7 +68,7 @@ pub use component::Component;
 pub use critical::NamedCriticalSpeed;
 #[doc(hidden)]
 pub use critical::{CriticalSpeed, critical_speeds};
-pub(crate) use critical::{clear_range, searched_range, standing_name};
+pub(crate) use critical::{clear_range, named, searched_range};
 pub use error::SpectrumError;
 pub use event_name::{EventName, EventWaves};
 pub(crate) use full_model::{AtSpeed, FullModel};
@@ -93,7 +93,7 @@ pub use progress::{Progress, Stage};
 pub(crate) use real_eigen::real_eigenvalues;
 pub(crate) use refined::RefinedPair;
 pub(crate) use scale::frequency_scale;
-pub(crate) use vectors::{orthonormal, split};
+pub(crate) use vectors::{complex, halves, orthonormal, smallest, split};
 pub use work::Cancellation;
 #[doc(hidden)]
 pub use work::WorkCounters;

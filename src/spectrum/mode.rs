@@ -5,15 +5,14 @@ use faer::{Col, Mat, c64};
 use crate::system::GyroscopicSystem;
 
 use super::companion::time_scale;
-use super::vectors::{Eigenpair, halves, real_times};
+use super::vectors::{Eigenpair, halves, real_times, smallest};
 
 /// Kind of an eigenvalue with Im λ ≥ 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ModeKind {
     /// λ = iω of an undamped blade, Krein sign +1: forward and backward waves.
     Positive,
-    /// λ = iω of an undamped blade, Krein sign −1: a reflected wave, whose energy
-    /// in space is negative.
+    /// λ = iω of an undamped blade, Krein sign −1: a reflected wave, whose energy in space is negative.
     Negative,
     /// λ = σ + iω, σ > 0, of an undamped blade.
     Flutter,
@@ -23,7 +22,7 @@ pub enum ModeKind {
     Divergent,
     /// λ = 0 of a free rigid motion; never an instability.
     Rigid,
-    /// Any λ of a damped blade.
+    /// Any λ ≠ 0 of a blade with damping or with forces without a potential.
     Damped,
 }
 
@@ -51,12 +50,12 @@ pub struct Mode {
     pub lambda: c64,
     /// Kind of the mode.
     pub kind: ModeKind,
-    /// dω/dΩ of an oscillation on the imaginary axis, zero otherwise.
+    /// dω/dΩ of an oscillation λ = iω; for a damped one the value without damping; otherwise zero.
     pub frequency_slope: f64,
-    /// dλ/dΩ of a growing mode of an undamped blade; zero otherwise.
+    /// dλ/dΩ of a growing mode of an undamped blade; otherwise zero.
     pub growth_slope: c64,
-    /// Sign of the action, ω·κ: a reflected wave (ω, q) is the same motion as (−ω, q̄) with positive action.
-    /// The decaying partner of a flutter mode is counted as negative.
+    /// Sign of the action, +1 or −1: a reflected wave (ω, q) has −1 and is the same motion as (−ω, q̄) with +1.
+    /// A mode without oscillation and a flutter mode have +1, the decaying partner of a flutter mode −1.
     pub action: i8,
     /// Index of the component.
     pub component: usize,
@@ -64,20 +63,20 @@ pub struct Mode {
     pub coordinates: Col<c64>,
 }
 
-/// A growth rate below this share of |λ| + Ω is rounding: at a coalescence of two modes eigenvalues are
-/// accurate to √ε only.
+/// A growth rate of an undamped blade below this share of |λ| + Ω is rounding: at a coalescence of two modes
+/// eigenvalues are accurate to √ε only.
 pub(super) const GROWTH_NOISE: f64 = 1e-7;
 /// Growth or decay of a damped mode below this share of |λ| is rounding of the eigenproblem, a small multiple
-/// of ε of its largest eigenvalue: for a free blade with material damping, which tilts without bending, |Re
-/// λ| was up to 3e-13 |λ|.
+/// of ε times its largest eigenvalue. For tilts of a free blade with material damping, which do not bend it,
+/// |Re λ| was up to 3e-13 |λ|.
 pub(super) const DAMPED_NOISE: f64 = 1e-10;
 /// With free rigid motions, eigenvalues below this share of the root mean square frequency are zero, because
-/// a double zero is accurate to √ε of it only.
+/// a double zero is accurate only to √ε times that frequency.
 pub(super) const RIGID_NOISE: f64 = 2e-7;
 
-/// A motion that changes by e to the power of 2π/1e-2 = 628 within a period does not oscillate. An example is
-/// a free tilt in air, whose period is infinite; the small speed by which the two waves of equal n are
-/// separated at rest makes it finite.
+/// Smallest |Im λ/Re λ| of an oscillation: a motion that changes by e to the power of 2π/1e-2 = 628 within a
+/// period does not oscillate. An example is a free tilt in air at rest, whose Im λ is zero except for the small
+/// speed by which the two waves of equal n are separated.
 const LEAST_OSCILLATION: f64 = 1e-2;
 
 fn oscillates(lambda: c64) -> bool {
@@ -124,8 +123,8 @@ impl Mode {
         oscillates.then(|| std::f64::consts::TAU * decay / self.lambda.im.abs())
     }
 
-    /// Re λ beyond rounding: zero for undamped modes that neither grow nor decay, and for damped ones whose
-    /// growth is rounding.
+    /// Re λ, in 1/s; zero for undamped modes that neither grow nor decay, and for damped ones whose growth or
+    /// decay is rounding.
     pub fn growth_per_s(&self) -> f64 {
         let is_known = match self.kind {
             ModeKind::Flutter | ModeKind::Decaying | ModeKind::Divergent => true,
@@ -141,7 +140,7 @@ pub fn pairs_of(modes: &[Mode]) -> Vec<(c64, &Col<c64>)> {
     modes.iter().map(|m| (m.lambda, &m.coordinates)).collect()
 }
 
-/// |λ| below which a mode of a blade with free rigid motions is one of them.
+/// |λ|, in 1/s, below which a mode of a blade with free rigid motions is one of them; 0 without such motions.
 pub fn rigid_noise(system: &GyroscopicSystem) -> f64 {
     if system.free_rigid.is_empty() {
         return 0.0;
@@ -199,11 +198,7 @@ fn growth_slopes(system: &GyroscopicSystem, speed: f64, pairs: &[Eigenpair]) -> 
         if !system.is_conservative() || lambda.re <= noise {
             return c64::new(0.0, 0.0);
         }
-        let mirrored = |pair: &&Eigenpair| (pair.0 + lambda.conj()).norm();
-        let mirror = pairs
-            .iter()
-            .min_by(|x, y| mirrored(x).total_cmp(&mirrored(y)));
-        let Some((_, mirror)) = mirror else {
+        let Some((_, mirror)) = smallest(pairs, |pair| (pair.0 + lambda.conj()).norm()) else {
             return c64::new(0.0, 0.0);
         };
         let gyroscopic = mirror.adjoint() * real_times(&system.gyroscopic, x);
@@ -255,7 +250,7 @@ struct Forms {
 }
 
 impl Forms {
-    /// Quadratic forms of many vectors, by matrix products.
+    /// Quadratic forms of the vectors of many pairs, by matrix products.
     fn of(system: &GyroscopicSystem, pairs: &[Eigenpair]) -> Vec<Self> {
         let halves = halves(system.order(), pairs.iter().map(|(_, q)| q));
         let (turned, spun) = (&system.gyroscopic * &halves, &system.spin * &halves);
@@ -272,11 +267,11 @@ impl Forms {
         (0..pairs.len()).map(form).collect()
     }
 
-    /// Sign of the action and slope of a mode λ = iω, ω > 0, qᴴq = 1; for a damped one, the values without
-    /// damping.
+    /// Sets the sign of the action and the slope of a mode λ = iω, ω > 0, qᴴq = 1; for a damped one, the values
+    /// without damping.
     ///
-    /// With qᴴGq = iγ: κ = sign[qᴴ(2ω − 2iΩG)q] = sign(ω + Ωγ), and from
-    /// L(ω, Ω) = −ω² + 2iωΩG + K: dω/dΩ = (Ω qᴴ(K_σ−N)q − ωγ) / (ω + Ωγ).
+    /// With qᴴGq = iγ the sign is that of qᴴ(2ω − 2iΩG)q, or of ω + Ωγ. From L(ω, Ω) = −ω² + 2iωΩG + K follows
+    /// dω/dΩ = (Ω qᴴ(K_σ−N)q − ωγ) / (ω + Ωγ).
     fn set_action(self, speed: f64, mode: &mut Mode) {
         let omega = mode.lambda.im;
         let form = omega + speed * self.gamma;
@@ -292,7 +287,7 @@ mod tests {
 
     /// 3.6e-12 1/s at 60 Hz is neither growth nor decay; 1e-5 1/s is.
     #[test]
-    fn what_rounding_makes_of_a_damped_mode_is_no_growth() {
+    fn rounding_of_a_damped_mode_is_no_growth() {
         let mode = |re: f64| Mode {
             lambda: c64::new(re, 377.0),
             kind: ModeKind::Damped,
@@ -304,12 +299,12 @@ mod tests {
         };
         for re in [3.6e-12, -3.6e-12] {
             let mode = mode(re);
-            let told = [mode.growth_per_s()]
+            let measures = [mode.growth_per_s()]
                 .into_iter()
                 .chain(mode.damping_ratio())
                 .chain(mode.logarithmic_decrement());
-            assert!(told.clone().count() == 3 && told.clone().all(|v| v == 0.0));
-            assert!(told.clone().all(f64::is_sign_positive), "no -0");
+            assert!(measures.clone().count() == 3 && measures.clone().all(|v| v == 0.0));
+            assert!(measures.clone().all(f64::is_sign_positive), "no -0");
         }
         assert_eq!(mode(1e-5).growth_per_s(), 1e-5);
         assert!(mode(-1e-5).damping_ratio().unwrap() > 0.0);

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 use crate::plate::Plate;
 
 use super::mode::{Mode, ModeKind};
-use super::wave::Wave;
+use super::wave::{Wave, square};
 
-/// How a wave runs, seen from space.
+/// Direction in which a wave runs, seen from space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
@@ -17,10 +17,10 @@ pub enum Direction {
     Forward,
     /// Against the rotation.
     Backward,
-    /// Against the rotation on the blade, but carried forward in space: a backward
-    /// wave past its critical speed.
+    /// Against the rotation on the blade, but carried forward in space: a backward wave above its critical
+    /// speed.
     Reflected,
-    /// Neither: no nodal diameters, or much of both.
+    /// In neither direction: without nodal diameters, or with similar amplitudes in both directions.
     Standing,
 }
 
@@ -32,14 +32,26 @@ impl Direction {
             other => other,
         }
     }
+
+    /// The direction as a word after a separator; empty for a standing wave.
+    pub(super) fn ending(self, separator: &str) -> String {
+        let word = match self {
+            Direction::Forward => "forward",
+            Direction::Backward => "backward",
+            Direction::Reflected => "reflected",
+            Direction::Standing => return String::new(),
+        };
+        format!("{separator}{word}")
+    }
 }
 
-/// Share of n nodal diameters of the kinetic energy of a mode.
+/// Share of the waves of n nodal diameters in a mode, by kinetic energy, or in an event, by the weights of its
+/// waves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HarmonicShare {
     /// Number n of nodal diameters.
     pub diameters: usize,
-    /// Nodal circles of its radial profile; 0 if its share is below a thousandth.
+    /// Nodal circles of the radial profile; 0 in a mode if the share is below a thousandth.
     pub circles: usize,
     /// Share, between 0 and 1.
     pub share: f64,
@@ -60,15 +72,16 @@ pub struct ModeName {
     pub body_frequency_rad_per_s: f64,
 }
 
-/// If the squared amplitudes of all forward and of all backward waves differ by less than this share of their
-/// sum, the motion is a standing wave: the larger is less than twice the smaller.
+/// A motion is a standing wave if the squared amplitudes of all forward and of all backward waves differ by less
+/// than this share of their sum: the larger is less than twice the smaller.
 pub(super) const STANDING: f64 = 1.0 / 3.0;
 /// A harmonic with this share of the energy names the mode alone.
 const DOMINANT: f64 = 2.0 / 3.0;
-/// Harmonics are named until their shares reach this sum; their number is limited.
+/// Harmonics are named until their shares reach this sum.
 const NAMED_SHARE: f64 = 0.75;
+/// Largest number of harmonics in a name.
 const MOST_NAMED: usize = 3;
-/// Nodal circles of a harmonic with less of the energy are not counted.
+/// Nodal circles of a harmonic with a smaller share of the energy are not counted.
 const COUNTED: f64 = 1e-3;
 
 impl ModeName {
@@ -118,7 +131,7 @@ impl ModeName {
     }
 }
 
-/// Harmonics with their shares, largest first, unless one dominates.
+/// At most `most` harmonics with their shares, largest first; `None` if one dominates.
 pub(super) fn mixed(harmonics: &[HarmonicShare], most: usize) -> Option<String> {
     if harmonics.first().is_none_or(|h| h.share >= DOMINANT) {
         return None;
@@ -139,7 +152,7 @@ pub(super) fn mixed(harmonics: &[HarmonicShare], most: usize) -> Option<String> 
     Some(terms.join(" + "))
 }
 
-/// "2", with a nodal circle "2/1".
+/// Number of nodal diameters, with nodal circles after a slash: "2", "2/1".
 pub(super) fn short(diameters: usize, circles: usize) -> String {
     match circles {
         0 => format!("{diameters}"),
@@ -151,7 +164,6 @@ pub(super) fn short(diameters: usize, circles: usize) -> String {
 /// amplitudes, because the energy of a standing wave in space is mostly that of its backward half, against
 /// which the material moves.
 fn direction(waves: &[Wave], dominant: &Wave, mode: &Mode) -> Direction {
-    let square = |wave: &[c64]| wave.iter().map(|c| c.norm_sqr()).sum::<f64>();
     let [mut forward, mut backward, mut all] = [0.0; 3];
     for wave in waves {
         let squares = [square(&wave.forward), square(&wave.backward)];
@@ -178,7 +190,7 @@ fn direction(waves: &[Wave], dominant: &Wave, mode: &Mode) -> Direction {
     }
 }
 
-/// "2 diameters, 1 circle, backward".
+/// Name of a wave in words, such as "2 diameters, 1 circle, backward".
 pub fn in_words(diameters: usize, circles: usize, direction: Direction) -> String {
     let count = |number: usize, noun: &str| match number {
         1 => format!("1 {noun}"),
@@ -188,12 +200,7 @@ pub fn in_words(diameters: usize, circles: usize, direction: Direction) -> Strin
     if circles > 0 {
         words += &format!(", {}", count(circles, "circle"));
     }
-    match direction {
-        Direction::Forward => words + ", forward",
-        Direction::Backward => words + ", backward",
-        Direction::Reflected => words + ", reflected",
-        Direction::Standing => words,
-    }
+    words + &direction.ending(", ")
 }
 
 #[cfg(test)]

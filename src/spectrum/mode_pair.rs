@@ -1,4 +1,4 @@
-//! Two neighbouring modes, refined on the system to which they belong.
+//! Two neighbouring modes, refined together by inverse iteration.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
 use super::hamiltonian::{HamiltonianReduction, State};
 use super::projection::Projection;
-use super::vectors::{Eigenpair, real_times};
+use super::vectors::{Eigenpair, complex, real_times};
 
 /// The invariant subspace of two modes at one speed, and its extrapolation to nearby speeds.
 #[derive(Debug)]
@@ -26,14 +26,14 @@ struct Subspace {
     v: Mat<c64>,
 }
 
-/// Number of steps of inverse iteration, each with both shifts: it reduces foreign components by the ratio of
-/// the distances of other modes and of the pair.
+/// Smallest and largest number of steps of inverse iteration, each with both shifts. A step reduces the
+/// components of other modes by the ratio of the distances of the pair and of the other modes from the shifts.
 const STEPS: std::ops::RangeInclusive<usize> = 2..=12;
 /// Relative residual beyond which the two states are not modes.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
 impl ModePair {
-    /// The pair of two modes at a speed, refined. `None` if block inverse iteration does not converge to two
+    /// Refines two modes at a speed. `None` if block inverse iteration does not converge to two
     /// modes.
     pub(super) fn new(
         projection: &Arc<Projection>,
@@ -109,7 +109,7 @@ impl ModePair {
                 let u = Scale(c64::new(-1.0, 0.0)) * solve(which, load);
                 v = &q + Scale(*shift) * &u;
                 q = u;
-                orthonormalise(&mut q, &mut v, scale)?;
+                orthonormalize(&mut q, &mut v, scale)?;
             }
             let settled = || residual(&stiffness, &damping, &q, &v) <= LARGEST_RESIDUAL;
             if step >= *STEPS.start() && settled() {
@@ -119,6 +119,7 @@ impl ModePair {
         None
     }
 
+    /// The pair as a model of two modes. `None` if the two states are dependent.
     fn projected(
         projection: &Arc<Projection>,
         speed_rad_per_s: f64,
@@ -151,7 +152,7 @@ impl ModePair {
         [-0.25 * (sum - 2.0 * product), 0.25 * (sum + 2.0 * product)]
     }
 
-    /// Both eigenvalues with Im λ ≥ 0.
+    /// Estimated eigenvalues of the pair at a speed near its own.
     fn eigenvalues(&self, speed_rad_per_s: f64) -> [c64; 2] {
         let [growth, frequency] = self.squares(speed_rad_per_s);
         // Each square belongs to a real or to an imaginary part.
@@ -166,7 +167,7 @@ impl ModePair {
 }
 
 /// Makes two complex states orthonormal in (q, v/scale).
-fn orthonormalise(q: &mut Mat<c64>, v: &mut Mat<c64>, scale: f64) -> Option<()> {
+fn orthonormalize(q: &mut Mat<c64>, v: &mut Mat<c64>, scale: f64) -> Option<()> {
     let order = q.nrows();
     let stacked = Mat::from_fn(2 * order, 2, |i, k| match i.checked_sub(order) {
         Some(i) => v[(i, k)] / scale,
@@ -184,8 +185,7 @@ fn orthonormalise(q: &mut Mat<c64>, v: &mut Mat<c64>, scale: f64) -> Option<()> 
     Some(())
 }
 
-/// Distance of A(q, v) from the span of the two states, relative to its length; only velocities contribute,
-/// because q̇ = v is satisfied exactly.
+/// Distance of A(q, v) from the span of the two states, relative to its length.
 fn residual(stiffness: &Mat<f64>, damping: &Mat<c64>, q: &Mat<c64>, v: &Mat<c64>) -> f64 {
     let order = q.nrows();
     let complex = |part: Mat<f64>| Mat::from_fn(order, 2, |i, k| c64::new(part[(i, k)], 0.0));
@@ -201,14 +201,15 @@ fn residual(stiffness: &Mat<f64>, damping: &Mat<c64>, q: &Mat<c64>, v: &Mat<c64>
     left.norm_l2() / size + kinematic.norm_l2() / v.norm_l2().max(f64::MIN_POSITIVE)
 }
 
-/// The two states of a wave that stands still at its critical speed: its deflection, and a momentum of the same shape.
+/// The two states of a wave that stands still at its critical speed: its deflection, and a momentum of the same
+/// shape.
 pub(super) fn standing_states(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
     shape: &Col<f64>,
     scale: f64,
 ) -> [State; 2] {
-    let q = Col::from_fn(shape.nrows(), |i| c64::new(shape[i], 0.0));
+    let q = complex(shape);
     let still = State::new(system, speed_rad_per_s, (c64::new(0.0, 0.0), q.clone()));
     let momentum = State {
         lambda: c64::new(0.0, 0.0),

@@ -24,6 +24,7 @@ use super::mode::{Mode, ModeKind, classify, is_seen, pairs_of};
 use super::mode_name::ModeName;
 use super::projection::Projection;
 use super::scale::frequency_scale;
+use super::structured::LARGE;
 use super::work::{Cancellation, WorkCounters};
 
 mod described;
@@ -36,7 +37,7 @@ pub enum Strategy {
     /// Projection on the low modes at a few speeds.
     #[default]
     Reduced,
-    /// The same projection with larger errors, for a preview.
+    /// Projection as in [`Strategy::Reduced`] with larger errors, for a preview.
     Sketch,
     /// Projection on those modes alone that can form bands; no diagram is possible.
     Bands,
@@ -47,11 +48,11 @@ pub enum Strategy {
 /// A mode with its name, shape and backward error.
 #[derive(Debug, Clone)]
 pub struct DescribedMode {
-    /// The mode.
+    /// Eigenvalue and kind of the mode.
     pub mode: Mode,
     /// q in the basis of the plate.
     pub shape: Col<c64>,
-    /// Name of the mode.
+    /// Waves that make the mode.
     pub name: ModeName,
     /// ‖L(λ)q‖ / ((|λ|² + |λ|‖D‖ + ‖K‖)‖q‖) of the full model.
     pub backward_error: f64,
@@ -60,18 +61,19 @@ pub struct DescribedMode {
 /// Modes of a saw at any speed of a range.
 #[derive(Debug)]
 pub struct SpectralModel {
-    /// The matrices.
+    /// Blade, guides and basis.
     pub plate: Plate,
-    /// Independent components.
+    /// Decoupled components of its equation of motion.
     pub components: Vec<Component>,
-    /// Every critical speed, ascending; those of a free blade are double and are listed twice.
+    /// Critical speeds, ascending, at least those of the range; the double ones of a free blade are listed
+    /// twice.
     pub critical: Vec<NamedCriticalSpeed>,
     /// Frequency up to which the modes are complete and accurate.
     pub complete_to_rad_per_s: f64,
-    /// Frequency up to which instabilities are searched for.
+    /// Frequency up to which bands are searched for.
     pub reflected_to_rad_per_s: f64,
-    /// Largest estimated error of a frequency of the reduced models beyond their tolerance, in rad/s; 0
-    /// unless they needed more speeds than allowed.
+    /// Largest estimated error of a frequency of the reduced models that exceeds their tolerance, in rad/s; 0
+    /// unless these models needed more speeds than allowed.
     pub unsettled_rad_per_s: f64,
     /// Work done so far.
     pub counters: WorkCounters,
@@ -81,9 +83,9 @@ pub struct SpectralModel {
 /// Number of modes that a diagram shows at the lowest speed.
 pub(super) const CHART_MODES: usize = 12;
 
-/// A frequency slightly above that of the twelfth mode at a speed, in order of frequency, or of the last one
-/// if there are fewer. For a damped blade only oscillating modes count; if there are none, |λ| replaces the
-/// frequency.
+/// A frequency slightly above that of the twelfth mode, or of the last one if there are fewer, from the
+/// eigenvalues of one speed in ascending order. For a damped blade only oscillating modes count; if there are
+/// none, |λ| replaces the frequency.
 pub(super) fn chart_height(lambdas: &[c64], is_conservative: bool) -> Option<f64> {
     let last = |sizes: Vec<f64>| sizes.get(CHART_MODES - 1).or(sizes.last()).copied();
     let of_seen = lambdas
@@ -96,17 +98,14 @@ pub(super) fn chart_height(lambdas: &[c64], is_conservative: bool) -> Option<f64
         .map(|frequency| 1.02 * frequency)
 }
 
-/// Below this order a factorization of the whole matrix costs less than one by blocks and columns.
-const STRUCTURED: usize = 200;
-
 /// At rest the two waves of equal n are degenerate. A rotation by this share of the blade's frequency scale
 /// separates them into forward and backward waves, as at any other speed, and changes frequencies by no more
 /// than itself.
 pub(super) const SPLITTING: f64 = 1e-9;
 
 impl SpectralModel {
-    /// Prepares the modes for a range of speeds, (from, to) in rad/s, and for a search for the bands within
-    /// it.
+    /// Prepares the modes for a range of speeds, (from, to) in rad/s, and for the search for bands within that
+    /// range.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -115,7 +114,7 @@ impl SpectralModel {
         Self::with_critical(plate, critical, range, strategy)
     }
 
-    /// As [`SpectralModel::new`], with known critical speeds, which may exceed the range.
+    /// Prepares the modes as [`SpectralModel::new`], with known critical speeds, at least those of the range.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -161,6 +160,7 @@ impl SpectralModel {
         Ok(model)
     }
 
+    /// Selects the symmetric eigenproblem in the body frame for every component.
     fn use_free_waves(&mut self) {
         for component in &mut self.components {
             component.solution = Solution::FreeWaves(Projection::whole(&component.full));
@@ -168,11 +168,11 @@ impl SpectralModel {
     }
 
     /// Projects each component on the low modes at a few speeds.
-    fn reduce(&mut self, asked: (f64, f64), strategy: Strategy) -> Result<(), SpectrumError> {
-        let range = searched_range(&self.critical, asked);
+    fn reduce(&mut self, range: (f64, f64), strategy: Strategy) -> Result<(), SpectrumError> {
+        let range = searched_range(&self.critical, range);
         let scale = frequency_scale(&self.plate);
         let (critical, counters) = (&self.critical, &self.counters);
-        let is_large = self.plate.degrees_of_freedom() >= STRUCTURED;
+        let is_large = self.plate.degrees_of_freedom() >= LARGE;
         let structure = is_large.then(|| self.full.get_or_init(|| FullModel::new(&self.plate)));
         for component in &mut self.components {
             let guided = Guided {
@@ -214,8 +214,9 @@ impl SpectralModel {
         self.solve(speed_rad_per_s, f64::INFINITY)
     }
 
-    /// Modes up to `complete_to`, without the rigid motions at rest. For a damped blade modes that decay
-    /// faster than that are omitted: the reduced model does not represent them, and no diagram shows them.
+    /// Modes up to `complete_to`, without free rigid motions, ordered by |Im λ|. For a damped blade modes with
+    /// −Re λ above `complete_to` are omitted: the reduced model does not represent them, and no diagram shows
+    /// them.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -227,8 +228,8 @@ impl SpectralModel {
         Ok(modes)
     }
 
-    /// The modes of [`SpectralModel::modes`] for a diagram: for an undamped guided blade they are computed from few
-    /// states, and frequencies are accurate to 1e-5 of `complete_to`.
+    /// The modes of [`SpectralModel::modes`] for a diagram: for an undamped guided blade they are computed from
+    /// few states, and their frequencies are accurate to 1e-5 of `complete_to`.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -267,12 +268,12 @@ impl SpectralModel {
         Ok(modes)
     }
 
-    /// The blade and the coupling of its harmonics.
+    /// The full model by its structure, computed when first needed.
     pub(crate) fn full_model(&self) -> &FullModel {
         self.full.get_or_init(|| FullModel::new(&self.plate))
     }
 
-    /// Whether the scene is undamped: then modes have Krein signs.
+    /// Whether every force has a potential or is gyroscopic: then modes have Krein signs.
     pub fn is_conservative(&self) -> bool {
         self.components
             .iter()
@@ -286,7 +287,7 @@ impl SpectralModel {
         components.any(|component| component.full.circulatory.is_some())
     }
 
-    /// dλ/dΩ of a mode at a speed.
+    /// dλ/dΩ of a mode at a speed, dimensionless.
     pub(crate) fn eigenvalue_slope(&self, speed_rad_per_s: f64, mode: &Mode) -> c64 {
         let system = &self.components[mode.component].at(speed_rad_per_s).reduced;
         derivative::with_speed(system, speed_rad_per_s, mode.lambda, &mode.coordinates)
@@ -308,8 +309,8 @@ impl SpectralModel {
         })
     }
 
-    /// The eigenvalue of a component nearest to an expected one, and dλ/dΩ, without an eigenproblem. `None`
-    /// if none is found.
+    /// The eigenvalue of a component nearest to an expected one, and dλ/dΩ, by Newton's method. `None` if it
+    /// does not converge.
     pub(crate) fn eigenvalue_next_to(
         &self,
         component: usize,
@@ -322,8 +323,8 @@ impl SpectralModel {
     }
 
     /// Relative change of a frequency at rest that rounding may cause: a backward stable solver changes ω² by
-    /// ε times the largest one. The inverse used for the waves of a free blade gives low ones with a small
-    /// relative error; then only the entries of the matrix are rounded, each by ε of itself.
+    /// ε times the largest ω². The inverse used for the waves of a free blade gives low frequencies with a small
+    /// relative error; then rounding only changes each entry of the matrix by ε times its size.
     pub(crate) fn relative_rounding(&self, mode: &Mode) -> f64 {
         let component = &self.components[mode.component];
         let stiffness = &component.at(0.0).reduced.stiffness;
@@ -373,6 +374,7 @@ impl SpectralModel {
         ))
     }
 
+    /// Modes of all components up to a frequency, ordered by |Im λ|.
     fn solve(
         &self,
         speed_rad_per_s: f64,

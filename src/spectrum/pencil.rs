@@ -1,10 +1,10 @@
 //! The lowest m of a large symmetric pencil A − mB, with A = K₀ of a guided blade, by its structure.
 //!
-//! Davidson's iteration in blocks: Ritz pairs (m, x) of the pencil on a growing span, to which A⁻¹ times
-//! their residuals Ax − mBx is added. By the structure of K₀ one A⁻¹b costs O(N) instead of O(N²), and the
-//! part that its few columns neglect only slows the iteration: Ritz values follow from the exact matrices,
-//! and their error is the square of that of their vectors. A count of the negative eigenvalues of A − mB by
-//! Sylvester's law of inertia shows that none was missed.
+//! The method is Davidson's iteration in blocks, with Ritz pairs (m, x) of the pencil on a growing span, to
+//! which A⁻¹ times their residuals Ax − mBx is added. By the structure of K₀ one A⁻¹b costs O(N) instead of
+//! O(N²), and the part that its few columns neglect only slows the iteration: Ritz values follow from the
+//! exact matrices, and their error is the square of that of their vectors. A count of the negative
+//! eigenvalues of A − mB by Sylvester's law of inertia shows that none was missed.
 //!
 //! E. R. Davidson, J. Comput. Phys. 17 (1975), 87–94; Y. Saad, *Numerical Methods for Large Eigenvalue
 //! Problems*, 2nd ed. (2011), section 8.4.
@@ -13,25 +13,26 @@ use faer::{Col, Mat, MatRef, Scale};
 
 use super::generalized::singular_multiples;
 use super::structured::{self, StructuredStiffness};
+use super::vectors::independent;
 use super::work::Cancellation;
-use crate::system::GyroscopicSystem;
+use crate::system::{GyroscopicSystem, symmetric};
 
 /// A pencil A − mB, A = K₀ positive definite.
 pub struct Pencil<'a> {
     /// K₀ and K_σ − N.
     pub system: &'a GyroscopicSystem,
-    /// The structure of these matrices.
+    /// The structure of K₀ and K_σ − N.
     pub structure: &'a StructuredStiffness,
-    /// Matrix B of the softening.
+    /// Choice of B.
     pub softening: Softening,
 }
 
-/// B of a pencil.
+/// Matrix B of a pencil, which softens A.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Softening {
     /// N − K_σ: m is Ω² of a critical speed.
     Rotation,
-    /// The mass, one: m is ω² of a mode at rest.
+    /// The mass matrix, which is the identity: m is ω² of a mode at rest.
     Mass,
 }
 
@@ -39,6 +40,7 @@ pub enum Softening {
 const TOLERANCE: f64 = 1e-14;
 /// Error that is accepted if rounding prevents a further decrease.
 const ROUNDING: f64 = 1e-11;
+/// Largest number of iterations, after which the search fails.
 const MOST_ROUNDS: usize = 20;
 /// Number of initial vectors of the span, and of those added if some m are missing.
 const BLOCK: usize = 25;
@@ -50,10 +52,10 @@ const BEYOND: f64 = 1.01;
 /// Directions closer to the span than this are omitted.
 const INDEPENDENT: f64 = 1e-10;
 
-/// Pairs on a span.
+/// Ritz pairs (m, x) on a span, ascending.
 struct Ritz {
     multiples: Vec<f64>,
-    /// x in the vectors of the span.
+    /// x in coordinates of the span.
     shapes: Vec<Col<f64>>,
 }
 
@@ -181,11 +183,7 @@ impl Span {
             let shares = span.transpose() * &new;
             new -= span * shares;
         }
-        let qr = new.col_piv_qr();
-        let rank = (0..new.ncols().min(new.nrows()))
-            .take_while(|&k| qr.thin_R()[(k, k)].abs() > INDEPENDENT)
-            .count();
-        let mut new = qr.compute_thin_Q().subcols(0, rank).to_owned();
+        let mut new = independent(&new, INDEPENDENT);
         let shares = span.transpose() * &new;
         new -= span * shares;
         let structure = Some(&pencil.structure.full);
@@ -203,22 +201,20 @@ impl Span {
 
     fn ritz(&self) -> Option<Ritz> {
         let [v, av, bv] = &self.vectors;
-        let small = |product: &Mat<f64>| {
-            let half = v.transpose() * product;
-            Scale(0.5) * (&half + half.transpose())
-        };
+        let small = |product: &Mat<f64>| symmetric(v.transpose() * product);
         let pairs = singular_multiples(&small(av), &[], &small(bv)).ok()?;
         let (multiples, shapes) = pairs.into_iter().unzip();
         Some(Ritz { multiples, shapes })
     }
 
-    /// x, Ax and Bx of the first pairs.
+    /// x, Ax and Bx of the first `count` pairs, in the unknowns of the system.
     fn lifted(&self, ritz: &Ritz, count: usize) -> [Mat<f64>; 3] {
         let [v, av, bv] = &self.vectors;
         let shapes = Mat::from_fn(v.ncols(), count, |i, k| ritz.shapes[k][i]);
         [v * &shapes, av * &shapes, bv * &shapes]
     }
 
+    /// Pairs (m, x) up to a limit, ‖x‖ = 1.
     fn pairs(&self, ritz: &Ritz, limit: f64) -> Vec<(f64, Col<f64>)> {
         let count = ritz.multiples.partition_point(|m| *m <= limit);
         let [x, ..] = self.lifted(ritz, count);

@@ -1,7 +1,8 @@
 //! Progress of a computation, for a progress callback.
 //!
-//! A loop over a known amount of work is a [`Work`]. Loops may be nested: the outermost one is shown; in
-//! between the number of eigenproblems rises, which is counted wherever the cancellation flag is read.
+//! A loop over a known amount of work is a [`Work`]. Of nested loops the outermost one is shown. The number of
+//! eigenproblems is counted wherever the cancellation flag is read, and shows progress within one item of the
+//! loop.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -15,7 +16,7 @@ use super::work::Cancellation;
 /// Stage of a computation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Stage {
-    /// Name of the counted items; empty between two steps.
+    /// Name of the counted items; empty between two loops.
     pub what: &'static str,
     /// Number of finished items.
     pub done: usize,
@@ -43,7 +44,7 @@ thread_local! {
 }
 
 impl Progress {
-    /// Calls a function at every progress of a computation.
+    /// A callback that receives the stage whenever an item of the loop shown or an eigenproblem is finished.
     pub fn new(callback: impl Fn(Stage) + Send + Sync + 'static) -> Self {
         Progress(Some(Arc::new(Shared {
             callback: Box::new(callback),
@@ -69,7 +70,7 @@ impl Progress {
         CURRENT.with_borrow(Clone::clone)
     }
 
-    /// Sets it for this thread.
+    /// Sets this callback for this thread.
     pub(super) fn enter(&self) {
         CURRENT.set(self.clone());
     }
@@ -176,8 +177,8 @@ mod tests {
     /// The callback receives the outer of two loops, part by part, and every eigenproblem.
     #[test]
     fn the_outer_loop_is_shown_and_every_eigenproblem_counts() {
-        let told = Arc::new(Mutex::new(Vec::new()));
-        let seen = told.clone();
+        let stages = Arc::new(Mutex::new(Vec::new()));
+        let seen = stages.clone();
         let progress = Progress::new(move |stage| seen.lock().unwrap().push(stage));
         let work = || {
             let outer = Work::of("saws", 8);
@@ -193,14 +194,17 @@ mod tests {
             Work::of("points", 1).advance();
         };
         progress.watched(work).unwrap();
-        let told = told.lock().unwrap();
-        assert!(told.iter().all(|stage| stage.what != "speeds"));
-        assert_eq!(told[0].what, "saws");
-        assert_eq!(told.iter().map(|stage| stage.eigenproblems).max(), Some(24));
+        let stages = stages.lock().unwrap();
+        assert!(stages.iter().all(|stage| stage.what != "speeds"));
+        assert_eq!(stages[0].what, "saws");
+        assert_eq!(
+            stages.iter().map(|stage| stage.eigenproblems).max(),
+            Some(24)
+        );
         let points = |stage: &Stage| (stage.what, stage.done, stage.of) == ("points", 1, 1);
-        assert!(told.iter().any(points));
-        assert_eq!(told[told.len() - 1].what, "");
-        let saws = told.iter().filter(|stage| stage.what == "saws");
+        assert!(stages.iter().any(points));
+        assert_eq!(stages[stages.len() - 1].what, "");
+        let saws = stages.iter().filter(|stage| stage.what == "saws");
         assert_eq!(saws.map(|stage| stage.done).max(), Some(8));
     }
 }

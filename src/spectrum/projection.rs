@@ -7,21 +7,21 @@ use crate::system::GyroscopicSystem;
 use super::full_model::FullModel;
 use super::residual::Lifted;
 use super::structured;
-use super::vectors::{Eigenpair, split};
+use super::vectors::{Eigenpair, halves, joined, split};
 
 /// A component projected on few orthonormal vectors.
 #[derive(Debug, Clone)]
 pub struct Projection {
-    /// V, N × r.
+    /// V, N × r, with orthonormal columns.
     pub basis: Mat<f64>,
-    /// The projected matrices.
+    /// The matrices projected on V.
     pub reduced: GyroscopicSystem,
     /// The matrices times V, for residuals on the whole component.
     products: GyroscopicSystem,
 }
 
 impl Projection {
-    /// Projects a component; by its structure if it is known.
+    /// Projects a component on orthonormal vectors, in less time if its structure is known.
     pub fn new(system: &GyroscopicSystem, structure: Option<&FullModel>, basis: Mat<f64>) -> Self {
         let products = structured::times(system, structure, basis.as_ref());
         let reduced = products.onto(basis.as_ref());
@@ -32,7 +32,7 @@ impl Projection {
         }
     }
 
-    /// The component itself.
+    /// The whole component, with V = 1.
     pub fn whole(system: &GyroscopicSystem) -> Self {
         Projection {
             basis: Mat::identity(system.order(), system.order()),
@@ -53,25 +53,16 @@ impl Projection {
 
     /// Vq and L(λ)Vq of pairs (λ, q) at one speed, all in one product of matrices.
     pub fn lifted(&self, speed_rad_per_s: f64, pairs: &[(c64, &Col<c64>)]) -> Vec<Lifted> {
-        let width = self.basis.ncols();
-        let coordinates = Mat::from_fn(width, 2 * pairs.len(), |i, k| {
-            let q = pairs[k / 2].1[i];
-            if k % 2 == 0 { q.re } else { q.im }
-        });
+        let coordinates = halves(self.basis.ncols(), pairs.iter().map(|(_, q)| *q));
         let shape = &self.basis * &coordinates;
         let force = self.products.stiffness_at(speed_rad_per_s) * &coordinates;
         let momentum = self.products.velocity_at(speed_rad_per_s) * &coordinates;
-        let column = |matrix: &Mat<f64>, k: usize| {
-            Col::from_fn(matrix.nrows(), |i| {
-                c64::new(matrix[(i, 2 * k)], matrix[(i, 2 * k + 1)])
-            })
-        };
         pairs
             .iter()
             .enumerate()
             .map(|(k, (lambda, _))| {
-                let shape = column(&shape, k);
-                let (force, momentum) = (column(&force, k), column(&momentum, k));
+                let shape = joined(&shape, k);
+                let (force, momentum) = (joined(&force, k), joined(&momentum, k));
                 let residual = Col::from_fn(shape.nrows(), |i| {
                     lambda * (lambda * shape[i] + momentum[i]) + force[i]
                 });

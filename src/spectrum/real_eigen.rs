@@ -1,10 +1,10 @@
-//! Every eigenvalue, and the eigenvectors, of a real matrix. Other modules use this solver only.
+//! Every eigenvalue, and the eigenvectors, of a real matrix; the only such solver outside of tests.
 //!
 //! faer's blocked QR iteration orders the eigenvalues of a window by exchanging neighbours. Two conjugate
 //! pairs that are equal except for rounding cannot be exchanged (Z. Bai, J. Demmel, Linear Algebra Appl. 186,
 //! 1993), and the iteration does not end; this occurs for damped free blades at rest, for which every wave is
 //! double. The double-shift iteration without such a window takes at most 30 steps for each eigenvalue. faer
-//! does not report if these were not enough, but the traces of the matrix and of its square show it.
+//! does not report whether 30 steps were enough, but the traces of the matrix and of its square show it.
 
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -24,10 +24,10 @@ pub struct NoConvergence;
 /// Eigenvalues and eigenvectors of a real matrix.
 #[derive(Debug)]
 pub struct RealEigen {
-    /// Conjugates are neighbours, the one with Im λ > 0 first.
+    /// Eigenvalues; conjugates are neighbours, the one with Im λ > 0 first.
     pub values: Vec<c64>,
-    /// The vector of a real λ in its column; of conjugates the real part of the first one in the first column, the
-    /// imaginary part in the second.
+    /// The vector of a real λ in its column; for conjugates the real part of the first vector in the first
+    /// column, its imaginary part in the second.
     columns: Mat<f64>,
 }
 
@@ -42,7 +42,7 @@ impl RealEigen {
         Ok(RealEigen { values, columns })
     }
 
-    /// An eigenvector.
+    /// The eigenvector of value `i`.
     pub fn vector(&self, i: usize) -> Col<c64> {
         joined(&self.halves_of(&[i]), 0)
     }
@@ -211,14 +211,15 @@ mod tests {
         }
     }
 
-    /// Rounding may turn two equal real eigenvalues into a complex pair.
+    /// An eigenvalue, and its conjugate if it is complex: rounding may turn two equal real ones into such a
+    /// pair.
     fn with_conjugate((lambda, _): Eigenpair) -> impl Iterator<Item = c64> {
         let conjugate = (lambda.im > 0.0).then(|| lambda.conj());
         [Some(lambda), conjugate].into_iter().flatten()
     }
 
     #[test]
-    fn values_that_are_none_are_noticed() {
+    fn wrong_eigenvalues_are_detected() {
         let matrix = Mat::from_fn(6, 6, |i, k| ((i * i + 3 * k * i + k) as f64).sin());
         let eigen = RealEigen::new(matrix.as_ref()).unwrap();
         assert!(are_all(matrix.as_ref(), &eigen.values));
@@ -240,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_finite_has_no_eigenvalues() {
+    fn a_matrix_that_is_not_finite_has_no_eigenvalues() {
         let matrix = Mat::from_fn(4, 4, |i, k| if i == k { f64::NAN } else { 1.0 });
         assert_eq!(real_eigenvalues(matrix.as_ref()), Err(NoConvergence));
     }

@@ -2,18 +2,17 @@
 //!
 //! Newton's method on L(λ)q = 0, qᴴδq = 0: δq = −L⁻¹r − δλ L⁻¹L′q, where r = L(λ)q is the residual with the
 //! matrices of the full model. The solves by blocks and columns neglect a part of the guides, which slows the
-//! convergence but does not limit it.
+//! convergence but does not limit the accuracy.
 
 use faer::{Col, Mat, c64};
 
 use super::derivative::with_lambda;
 use super::error::SpectrumError;
-use super::mode::Mode;
 use super::model::SpectralModel;
 use super::residual::Lifted;
-use super::vectors::{real_times, unit};
+use super::vectors::{real_times, smallest, unit};
 
-/// An eigenvalue and its accuracy.
+/// A refined eigenvalue with its backward error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RefinedPair {
     /// λ, in 1/s.
@@ -24,9 +23,10 @@ pub struct RefinedPair {
 
 /// Largest number of steps; one is usually enough.
 const STEPS: usize = 5;
-/// Backward error that is rounding.
+/// Backward error below which only rounding is left.
 const ROUNDING: f64 = 1e-15;
-/// An eigenvalue found at a distance of more than this share of that to the next one is another eigenvalue.
+/// The iteration has found another eigenvalue if it moves by more than this share of the distance to the next
+/// one.
 const SAME: f64 = 0.1;
 
 impl SpectralModel {
@@ -45,8 +45,7 @@ impl SpectralModel {
         }
         let modes = self.all_modes(speed_rad_per_s)?;
         let distance = |lambda: c64| (lambda - expected).norm();
-        let nearest = |x: &&Mode, y: &&Mode| distance(x.lambda).total_cmp(&distance(y.lambda));
-        let Some(mode) = modes.iter().min_by(nearest) else {
+        let Some(mode) = smallest(&modes, |mode| distance(mode.lambda)) else {
             return Ok(None);
         };
         let component = &self.components[mode.component];
@@ -85,7 +84,7 @@ impl SpectralModel {
             let Some(next) = corrected else { break };
             (lambda, shape) = next;
         }
-        // A real eigenvalue remains real.
+        // Rounding of the iteration must not turn a real eigenvalue into a complex one.
         if let (Some(best), true) = (&mut best, mode.lambda.im == 0.0) {
             best.lambda.im = 0.0;
         }
@@ -105,7 +104,7 @@ fn residual([stiffness, velocity]: &[Mat<f64>; 2], lambda: c64, q: &Col<c64>) ->
     })
 }
 
-/// One step.
+/// λ and q after one step. `None` if the elimination fails or a number is not finite.
 fn corrected(
     [_, velocity]: &[Mat<f64>; 2],
     full: &super::FullModel,

@@ -16,14 +16,14 @@ pub struct Lifted {
 /// ‖D‖ and ‖K‖ at any speed, from the products of their terms, for residuals.
 #[derive(Debug)]
 pub struct MatrixNorms {
-    /// Products of K₀, K_σ − N, K_circ and K_n, whose factors in K(Ω) are 1, Ω², Ω and 1.
+    /// Products Σ aᵢⱼbᵢⱼ of K₀, K_σ − N, K_circ and K_n, whose factors in K(Ω) are 1, Ω², Ω and 1.
     stiffness: [[f64; 4]; 4],
-    /// Products of G and C, whose factors in D(Ω) are 2Ω and 1.
+    /// Products Σ aᵢⱼbᵢⱼ of G and C, whose factors in D(Ω) are 2Ω and 1.
     velocity: [[f64; 2]; 2],
 }
 
 impl MatrixNorms {
-    /// The products of a system's terms.
+    /// Computes the products of the terms of a system.
     pub fn new(system: &GyroscopicSystem) -> Self {
         let stiffness = [
             Some(&system.stiffness),

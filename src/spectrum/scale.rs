@@ -2,7 +2,7 @@
 
 use crate::plate::Plate;
 
-/// √(D/ρh)/b² times five: near the lowest frequency of most blades.
+/// 5√(D/ρh)/b², in rad/s, near the lowest natural frequency of most blades.
 pub(crate) fn frequency_scale(plate: &Plate) -> f64 {
     let blade = &plate.blade;
     let specific = blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2();

@@ -7,27 +7,27 @@ use super::work::Cancellation;
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
 
-/// Below this order one dense factorization costs less.
+/// Below this order a dense factorization costs less than one by blocks and columns.
 pub const LARGE: usize = 200;
 
 /// Blocks and columns of K₀, and its factorization.
 #[derive(Debug)]
 pub struct StructuredStiffness {
-    /// Blocks and columns.
+    /// Blocks and columns of the full model.
     pub full: FullModel,
-    /// K₀, with few columns.
+    /// Factorization of K₀.
     pub at_rest: Elimination<f64>,
 }
 
 impl StructuredStiffness {
-    /// The structure of a plate held by guides; `None` if they need too many columns, if loads at the rim
+    /// The structure of a plate on guides; `None` if the guides need too many columns, if loads at the rim
     /// couple all waves, if K₀ is singular, or if the computation was cancelled.
     pub fn of(plate: &Plate) -> Option<Self> {
         Cancellation::current().check().ok()?;
         Self::by(FullModel::new(plate))
     }
 
-    /// As [`StructuredStiffness::of`], accurate to a millionth.
+    /// The structure as from [`StructuredStiffness::of`], accurate to a millionth.
     pub fn nearly(plate: &Plate) -> Option<Self> {
         Self::by(FullModel::nearly(plate))
     }

@@ -1,11 +1,11 @@
-//! Operations on complex vectors, real matrices, and eigenpairs.
+//! Operations on vectors and eigenpairs.
 
 use faer::{Col, ColRef, Mat, Scale, c64};
 
 /// λ, in 1/s, and q with (λ² + λD + K) q = 0.
 pub type Eigenpair = (c64, Col<c64>);
 
-/// Real and imaginary parts.
+/// Real and imaginary parts of a vector.
 pub fn split(q: &Col<c64>) -> (Col<f64>, Col<f64>) {
     (
         Col::from_fn(q.nrows(), |i| q[i].re),
@@ -13,14 +13,19 @@ pub fn split(q: &Col<c64>) -> (Col<f64>, Col<f64>) {
     )
 }
 
-/// A q for a real matrix.
+/// A real vector as a complex one.
+pub fn complex(x: &Col<f64>) -> Col<c64> {
+    Col::from_fn(x.nrows(), |i| c64::new(x[i], 0.0))
+}
+
+/// A q for a real matrix A.
 pub fn real_times(matrix: &Mat<f64>, q: &Col<c64>) -> Col<c64> {
     let (re, im) = split(q);
     let (re, im) = (matrix * re, matrix * im);
     Col::from_fn(matrix.nrows(), |i| c64::new(re[i], im[i]))
 }
 
-/// qᴴ A q for a real matrix.
+/// qᴴ A q for a real matrix A.
 pub fn quadratic_form(q: &Col<c64>, matrix: &Mat<f64>) -> c64 {
     q.adjoint() * real_times(matrix, q)
 }
@@ -51,7 +56,13 @@ pub fn unit(q: ColRef<'_, c64>) -> Col<c64> {
     Scale(c64::new(factor, 0.0)) * q
 }
 
-/// Ordered by |λ|.
+/// The item with the smallest value of a function; of equal ones the first.
+pub fn smallest<T>(items: impl IntoIterator<Item = T>, value: impl Fn(&T) -> f64) -> Option<T> {
+    let all = items.into_iter();
+    all.min_by(|x, y| value(x).total_cmp(&value(y)))
+}
+
+/// Sorts eigenpairs by |λ|, ascending.
 pub fn by_magnitude(mut pairs: Vec<Eigenpair>) -> Vec<Eigenpair> {
     pairs.sort_by(|x, y| x.0.norm().total_cmp(&y.0.norm()));
     pairs
@@ -61,8 +72,13 @@ pub fn by_magnitude(mut pairs: Vec<Eigenpair>) -> Vec<Eigenpair> {
 /// to the span of the others are omitted.
 pub fn orthonormal(rows: usize, vectors: &[Col<f64>], tolerance: f64) -> Mat<f64> {
     let matrix = Mat::from_fn(rows, vectors.len(), |i, k| vectors[k][i]);
-    let qr = matrix.col_piv_qr();
-    let rank = (0..rows.min(vectors.len()))
+    independent(&matrix, tolerance)
+}
+
+/// Orthonormal basis of the span of columns, as [`orthonormal`].
+pub fn independent(columns: &Mat<f64>, tolerance: f64) -> Mat<f64> {
+    let qr = columns.col_piv_qr();
+    let rank = (0..columns.nrows().min(columns.ncols()))
         .take_while(|&k| qr.thin_R()[(k, k)].abs() > tolerance)
         .count();
     qr.compute_thin_Q().subcols(0, rank).to_owned()

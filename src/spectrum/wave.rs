@@ -12,9 +12,9 @@ const CIRCLE: f64 = 0.03;
 
 /// One harmonic, as the sum of the two waves e^{i(ωt − nθ)} and e^{i(ωt + nθ)}.
 ///
-/// Their weight is the kinetic energy of the lateral motion, with the velocity Dw/Dt = (λ + Ω∂θ)w of the
-/// material. For a standing wave in space, where ∂w/∂t contributes nothing, this is the factor n², without
-/// which a rigid tilt would dominate.
+/// Each wave is weighted by the kinetic energy of the lateral motion, with the velocity Dw/Dt = (λ + Ω∂θ)w of
+/// the material. For a standing wave in space, where ∂w/∂t contributes nothing, this weight contains the factor
+/// n², without which a rigid tilt would dominate.
 pub struct Wave {
     pub diameters: usize,
     /// Frequency nΩ by which rotation carries the wave.
@@ -26,7 +26,8 @@ pub struct Wave {
 }
 
 impl Wave {
-    /// q_c cos nθ + q_s sin nθ has (q_c + i q_s)/2 on e^{−inθ}, (q_c − i q_s)/2 on e^{+inθ}.
+    /// The waves of a motion with the coordinates q in the basis of the plate: q_c cos nθ + q_s sin nθ has the
+    /// amplitudes (q_c + i q_s)/2 of e^{−inθ} and (q_c − i q_s)/2 of e^{+inθ}, here times √2.
     pub fn new(plate: &Plate, lambda: c64, q: &Col<c64>, diameters: usize, speed: f64) -> Self {
         let size = plate.basis.count();
         let offset = plate.offset(diameters);
@@ -42,9 +43,7 @@ impl Wave {
             (0..size).map(combine).collect::<Vec<c64>>()
         };
         let carried = diameters as f64 * speed;
-        let energy = |wave: &[c64], velocity: c64| {
-            velocity.norm_sqr() * wave.iter().map(|c| c.norm_sqr()).sum::<f64>()
-        };
+        let energy = |wave: &[c64], velocity: c64| velocity.norm_sqr() * square(wave);
         let (forward, backward) = (wave(1.0), wave(-1.0));
         Wave {
             diameters,
@@ -81,6 +80,11 @@ impl Wave {
             false => circles(plate, self.diameters, &self.backward),
         }
     }
+}
+
+/// Sum of the squared amplitudes of a wave.
+pub fn square(wave: &[c64]) -> f64 {
+    wave.iter().map(|c| c.norm_sqr()).sum()
 }
 
 /// Sign changes of a radial profile of n nodal diameters.

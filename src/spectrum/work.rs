@@ -1,4 +1,4 @@
-//! Work counters, and the cancellation flag.
+//! Work counters and the cancellation flag.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -7,12 +7,12 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use super::error::SpectrumError;
 use super::progress::{Progress, count_eigenproblem};
 
-/// Amount of work, with which tests detect a silent slow-down.
+/// Amount of work of a model, by which tests detect a slow-down.
 #[derive(Debug, Default)]
 pub struct WorkCounters {
     /// Eigenproblems solved on the projected matrices.
     pub reduced_solves: AtomicUsize,
-    /// Eigenproblems of the few states between two speeds.
+    /// Eigenproblems on the states of the modes at the ends of an interval of speeds.
     pub local_solves: AtomicUsize,
     /// Pairs of modes (single modes of a damped blade or in divergence) refined by inverse iteration on the
     /// projected matrices.
@@ -23,7 +23,7 @@ pub struct WorkCounters {
     pub structured_solves: AtomicUsize,
     /// Symmetric eigenproblems of the full model at other temperatures.
     pub heat_solves: AtomicUsize,
-    /// Flag that is read when work is counted.
+    /// Cancellation flag, which is read when work is counted.
     pub cancellation: Cancellation,
 }
 
@@ -73,6 +73,7 @@ impl Cancellation {
         }
     }
 
+    /// Runs a function on this thread with this flag and a progress callback.
     fn on_this_thread<T>(&self, progress: &Progress, work: impl FnOnce() -> T) -> T {
         let before = (CURRENT.replace(self.clone()), Progress::current());
         progress.enter();
@@ -82,7 +83,7 @@ impl Cancellation {
         done
     }
 
-    /// Threads of which this is the current flag, with the progress callback of this thread.
+    /// A pool of threads that read this flag and report to the progress callback of this thread.
     ///
     /// # Errors
     /// The error of starting a thread.
@@ -93,7 +94,7 @@ impl Cancellation {
         self.pool_with(&Progress::current(), threads)
     }
 
-    /// Threads that read this flag and report to a progress callback.
+    /// A pool of threads that read this flag and report to a progress callback.
     fn pool_with(
         &self,
         progress: &Progress,
@@ -144,16 +145,16 @@ mod tests {
     fn two_computations_are_stopped_apart() {
         let (first, second) = (Cancellation::default(), Cancellation::default());
         let seen = |stop: &Cancellation| {
-            let asked = || {
+            let flags = || {
                 (0..64)
                     .into_par_iter()
                     .map(|_| Cancellation::current().is_cancelled())
             };
-            stop.watched(|| asked().collect::<Vec<_>>()).unwrap()
+            stop.watched(|| flags().collect::<Vec<_>>()).unwrap()
         };
         first.cancel();
-        assert!(seen(&first).into_iter().all(|asked| asked));
-        assert!(!seen(&second).into_iter().any(|asked| asked));
+        assert!(seen(&first).into_iter().all(|is_set| is_set));
+        assert!(!seen(&second).into_iter().any(|is_set| is_set));
         assert!(!Cancellation::current().is_cancelled());
     }
 }

@@ -22,12 +22,12 @@ use crate::plate::StraightEdgeReading;
 use crate::scene::{Accuracy, Scene, SceneError, rad_per_s, rpm};
 use crate::spectrum::{DescribedMode, SpectralModel, SpectrumError, Strategy};
 
-/// Saw makers run a saw at no more than this share of its lowest critical speed.
+/// Largest share of the lowest critical speed at which saw makers run a saw.
 pub const OPERATING_LIMIT: f64 = 0.85;
-/// Speeds in the chart of a free blade, which cost almost nothing.
+/// Number of even speeds in the chart of a free blade, whose modes take little time.
 const FREE_CHART_SPEEDS: usize = 101;
 
-/// Speeds in the sketch of a free blade.
+/// Number of even speeds in the sketch of a guided blade.
 const SKETCH_SPEEDS: usize = 25;
 
 fn charted(
@@ -46,7 +46,7 @@ fn charted(
     }
 }
 
-/// Eigenvalues of the flutter band that begins at a speed; `None` with damping, where no pair coalesces.
+/// Root loci of the flutter band that begins at a speed; `None` with damping, where no pair coalesces.
 fn root_loci(
     model: &SpectralModel,
     chart: &StabilityChart,
@@ -62,7 +62,7 @@ fn root_loci(
     }
 }
 
-/// Modes at rest of a chart that begins at rest.
+/// Modes at rest, from the chart if it begins at rest.
 fn modes_at_rest(
     model: &SpectralModel,
     chart: &StabilityChart,
@@ -76,7 +76,7 @@ fn modes_at_rest(
 /// Stability of one saw: critical speeds, bands, estimated errors and certificate.
 #[derive(Debug)]
 pub struct Analysis {
-    /// The saw.
+    /// Scene that was analysed.
     pub scene: Scene,
     /// Model that gives the modes at any speed of the range.
     pub model: SpectralModel,
@@ -90,16 +90,16 @@ pub struct Analysis {
     pub first_merge_rad_per_s: Option<f64>,
     /// Eigenvalues of the band at the flutter speed, or of the first flutter band.
     pub root_loci: Option<RootLoci>,
-    /// Estimated relative error of the critical speeds within the range, from what a larger basis would change.
+    /// Estimated relative error of the critical speeds within the range, from the changes by a larger basis.
     pub estimated_relative_error: Option<f64>,
-    /// Estimated errors of single results.
+    /// Estimated error of each result.
     pub estimates: Option<Estimates>,
     /// Reason why the estimated errors exceed the tolerance of the scene, if they do and the chart is drawn
     /// in full.
     pub out_of_reach: Option<OutOfReach>,
     /// Oscillating modes at rest, ascending.
     pub modes_at_rest: Vec<DescribedMode>,
-    /// Number of overdamped modes at rest below the last of these.
+    /// Number of overdamped modes at rest, which are not among `modes_at_rest`.
     pub overdamped_at_rest: usize,
     /// λ of the fastest growing or slowest decaying mode at the operating speed, if that speed is within the
     /// sweep.
@@ -138,7 +138,7 @@ impl Analysis {
         Self::with_options(scene, AnalysisOptions::default())
     }
 
-    /// Analyses a saw with a progress callback and a chosen detail.
+    /// Analyses a saw over the speeds of its scene, with options.
     ///
     /// # Errors
     /// The errors of [`Analysis::new`].
@@ -146,7 +146,8 @@ impl Analysis {
         scene: &Scene,
         options: AnalysisOptions<'_>,
     ) -> Result<Self, AnalysisError> {
-        // Counting the critical speeds of such a sweep, for the expected work, would take minutes.
+        // Without this check, counting the critical speeds of such a sweep for the expected work would take
+        // minutes.
         if let Some(sweep) = scene.sweep() {
             check_stretch(scene.blade(), sweep.to_rad_per_s)?;
         }
@@ -239,7 +240,7 @@ impl Analysis {
         analysis.completed(detail, listed)
     }
 
-    /// Adds the results that belong to the whole analysis.
+    /// Adds the results that need the verdict or the estimated errors.
     fn completed(mut self, detail: Detail, listed: Option<Listed>) -> Result<Self, AnalysisError> {
         if let Some(speed) = self.scene.operating_rad_per_s() {
             self.look_at_operating(speed)?;
@@ -280,7 +281,7 @@ impl Analysis {
         }
     }
 
-    /// Refines the mode at the operating speed, the last eigenvalue listed.
+    /// Refines the eigenvalue at the operating speed, and stores the largest backward error of the list.
     fn close_list(&mut self, mut listed: Listed) -> Result<(), SpectrumError> {
         let operating = self.scene.operating_rad_per_s();
         if let Some((speed, lambda)) = operating.zip(self.fastest_operating) {
@@ -298,7 +299,7 @@ impl Analysis {
         }
         let modes = self.model.modes(speed_rad_per_s)?;
         self.chart
-            .hold_against(&self.model, speed_rad_per_s, &modes)?;
+            .compare_with_modes(&self.model, speed_rad_per_s, &modes)?;
         let growing = modes
             .iter()
             .map(|m| c64::new(m.growth_per_s(), m.lambda.im));

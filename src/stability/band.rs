@@ -27,18 +27,18 @@ pub struct Instability {
     pub kind: InstabilityKind,
     /// Speed at which the band begins.
     pub from_rad_per_s: f64,
-    /// End, or the end of the range.
+    /// Speed at which the band ends, or the end of the range inside it.
     pub to_rad_per_s: f64,
-    /// False when the range begins or ends inside the band.
+    /// Whether the band begins and ends within the range.
     pub closed: bool,
     /// Speed of largest growth.
     pub peak_rad_per_s: f64,
-    /// Largest growth rate.
+    /// Largest growth rate Re λ.
     pub peak_growth_per_s: f64,
-    /// Frequency at the peak.
+    /// Angular frequency at the peak; 0 for divergence.
     pub frequency_rad_per_s: f64,
-    /// The eigenvalue from the first to the last speed of a band of a damped blade, close
-    /// enough for cubics between the points; empty for an undamped blade.
+    /// The growing eigenvalue of a damped blade over the band, at points close enough for cubics between them;
+    /// empty for an undamped blade.
     pub curve: Vec<CurvePoint>,
 }
 
@@ -68,9 +68,9 @@ impl fmt::Display for Instability {
 pub struct CurvePoint {
     /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
-    /// λ, Im λ ≥ 0.
+    /// λ with Im λ ≥ 0, in 1/s.
     pub lambda: c64,
-    /// Derivative dλ/dΩ.
+    /// Derivative dλ/dΩ, dimensionless.
     pub slope: c64,
 }
 

@@ -14,16 +14,16 @@ use crate::spectrum::{
 };
 use crate::tuned::Tuned;
 
-/// Factor for the error that the larger basis leaves in its turn. On 120 random saws, 60 of which were not
-/// used to choose it, the true error was up to 1.9 times the estimate for critical speeds of the chosen basis
-/// and up to 2.3 times for frequencies at rest.
+/// Factor for the estimated errors, because the larger basis has an error too. On 120 random saws, 60 of
+/// which were not used to choose the factor, the true error was up to 1.9 times the estimate without it for
+/// critical speeds of the chosen basis, and up to 2.3 times for frequencies at rest.
 pub(super) const REMAINDER: Tuned = Tuned::new("stability/basis::REMAINDER", 2.5);
-/// Number of modes at rest that must keep the tolerance: those in a chart.
+/// Number of modes at rest whose frequencies must keep the tolerance, as many as a chart shows.
 pub(super) const MODES_AT_REST: usize = 12;
-/// One step of the ladder reduced the error by more than this factor in a quarter of all cases; sizes that
-/// would need more are skipped.
+/// Fall of the error in one step of the ladder. In a quarter of all cases it was larger; sizes at which the
+/// error would have to fall faster are skipped.
 const FALL: f64 = 4.0;
-/// Ten times the yield strain of the strongest steel.
+/// Strain of the rim above which a sweep is refused: ten times the yield strain of the strongest steel.
 const LARGEST_STRETCH: f64 = 0.1;
 /// Critical speeds are found up to this multiple of the end of the range, because the search near the end
 /// must keep its distance from those just above it.
@@ -36,20 +36,20 @@ const ROUNDING: f64 = 1e-10;
 pub struct ChosenBasis {
     /// The saw in this basis.
     pub saw: Assembled,
-    /// Critical speeds up to a little above the range, and the lowest; ascending.
+    /// Critical speeds up to slightly above the range, and at least the lowest one; ascending.
     pub critical: Vec<NamedCriticalSpeed>,
-    /// Speeds of the chart.
+    /// Range of speeds of the chart, from the scene or chosen by the program.
     pub range_rad_per_s: (f64, f64),
     /// Estimated relative error of the critical speeds within the range.
     pub estimated_relative_error: f64,
     /// Estimated relative error of the lowest frequencies at rest.
     pub estimated_resting_error: f64,
-    /// Functions outside this basis, for error estimates of other results.
+    /// Functions of a larger basis, for the estimated errors of other results.
     pub larger: LargerBasis,
 }
 
 impl ChosenBasis {
-    /// Finds the smallest basis within a tolerance, or else returns the largest.
+    /// Finds the smallest basis within a tolerance; the largest if none is.
     ///
     /// # Errors
     /// [`AnalysisError`] when an eigenproblem fails, when the blade would yield within the sweep, or when the
@@ -58,8 +58,8 @@ impl ChosenBasis {
         Self::at_least(scene, tolerance, resolution(LADDER[0]))
     }
 
-    /// Finds the smallest basis within a tolerance from a given size on, which a similar saw needed. Skipping
-    /// the smaller sizes halves the cost.
+    /// Finds the smallest basis within a tolerance that has at least a given size, which a similar saw needed.
+    /// Omitting the smaller sizes halves the time.
     ///
     /// # Errors
     /// The errors of [`ChosenBasis::new`].
@@ -94,7 +94,7 @@ impl ChosenBasis {
             let ((critical, resting), larger) = rayon::join(
                 || {
                     rayon::join(
-                        || held_critical_speeds(&saw, &top),
+                        || contained_critical_speeds(&saw, &top),
                         || saw.modes_at_rest(MODES_AT_REST),
                     )
                 },
@@ -130,8 +130,8 @@ impl ChosenBasis {
     }
 }
 
-/// First size that may reduce an error `excess` times too large enough. The largest size of the dense
-/// eigenproblems shows what sizes beyond it can reach.
+/// Index of the first size that may reduce an error of `excess` times the tolerance to the tolerance. The
+/// largest size of dense eigenproblems is not skipped, because larger sizes are not possible for all saws.
 fn next(rung: usize, excess: f64) -> usize {
     let steps = (excess.ln() / FALL.ln()).ceil().max(1.0) as usize;
     let dense = DENSE_LADDER.len() - 1;
@@ -167,7 +167,7 @@ pub(crate) fn resolved(
             continue;
         }
         let top = PAST_THE_RANGE * to_rad_per_s;
-        let critical = held_critical_speeds(&saw, &|_| top)?;
+        let critical = contained_critical_speeds(&saw, &|_| top)?;
         match (unresolved(&saw.plate, &critical, to_rad_per_s), next) {
             (Ok(()), _) => return Ok((saw, critical)),
             (Err(_), Some(size)) => resolution = size,
@@ -195,8 +195,12 @@ fn critical_error(
     (REMAINDER.get() * errors.fold(0.0, f64::max)).max(ROUNDING)
 }
 
-/// Past the critical speed of the waves with most nodal diameters, waves with more diameters would be
-/// reflected too. The basis does not contain them, so the chart would be wrong without warning.
+/// Refuses a basis for speeds above the critical speed of its waves with most nodal diameters: there, waves with
+/// more diameters would be reflected too. The basis does not contain them, so the chart would be wrong without
+/// a warning.
+///
+/// # Errors
+/// [`AnalysisError::Unresolved`].
 fn unresolved(
     plate: &Plate,
     critical: &[NamedCriticalSpeed],
@@ -217,15 +221,15 @@ fn unresolved(
     }
 }
 
-/// Whether more critical speeds lie below a speed than a basis may contain. The inertia of the stiffness
-/// gives their number; finding hundreds of them takes far longer.
+/// Whether more critical speeds are below a speed than a basis may contain. The inertia of the stiffness gives
+/// their number without computing hundreds of them, which takes far longer.
 fn is_too_small(saw: &Assembled, to_rad_per_s: f64) -> bool {
     let counted = saw.critical_speeds_below(to_rad_per_s);
     counted.is_some_and(|count| count > last_of_all_pairs(&saw.plate))
 }
 
-/// Critical speeds up to a limit that may depend on the lowest one, at most as many as the basis may contain.
-fn held_critical_speeds(
+/// Critical speeds up to a limit that may depend on the lowest one, hardly more than the basis may contain.
+fn contained_critical_speeds(
     saw: &Assembled,
     top_rad_per_s: &dyn Fn(Option<f64>) -> f64,
 ) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
@@ -237,15 +241,16 @@ fn held_critical_speeds(
     saw.critical_speeds(Some(&limit))
 }
 
-/// Index of the last critical speed that a basis may contain below the end of a range. Stiff guides mix the
-/// waves beyond recognition, but each n ≥ 2 has two, and the second of the most diameters is the last.
+/// Index of the last critical speed that a basis may contain below the end of a range. Stiff guides mix
+/// waves, so that a name gives no certainty, but each n ≥ 2 has two critical speeds, and the second one of
+/// the largest n is the last.
 pub(super) fn last_of_all_pairs(plate: &Plate) -> usize {
     (2 * plate.max_diameters()).saturating_sub(3)
 }
 
-/// Speed at which rotation stretches the rim of a free ring, by ρ(Ωb)²/E, beyond any linear elastic blade.
-/// Without this bound, the chart of a blade nearly as thick as wide would contain dozens of critical speeds
-/// that it cannot reach.
+/// Speed at which rotation stretches the rim of a free ring, by ρ(Ωb)²/E, more than any linear elastic blade
+/// tolerates. Without this bound, the chart of a blade nearly as thick as wide would contain dozens of critical
+/// speeds that the blade cannot reach.
 fn fastest_rad_per_s(blade: &Blade) -> f64 {
     let Material {
         youngs_modulus_pa,
@@ -255,7 +260,7 @@ fn fastest_rad_per_s(blade: &Blade) -> f64 {
     (LARGEST_STRETCH * youngs_modulus_pa / density_kg_per_m3).sqrt() / blade.outer_radius_m
 }
 
-/// Refuses a sweep that ends at a speed at which the blade would have yielded long before.
+/// Refuses a sweep that ends above [`fastest_rad_per_s`].
 ///
 /// # Errors
 /// [`AnalysisError::Overstretched`].
@@ -270,7 +275,7 @@ pub(super) fn check_stretch(blade: &Blade, to_rad_per_s: f64) -> Result<(), Anal
     }
 }
 
-/// End of the sweep in rad/s, from the scene or chosen by the program.
+/// End of the sweep, in rad/s, from the scene or chosen by the program.
 ///
 /// # Errors
 /// The errors of [`ChosenBasis::new`], if the program chooses the end.
@@ -284,8 +289,8 @@ pub(crate) fn end_of_sweep(scene: &Scene) -> Result<f64, AnalysisError> {
     }
 }
 
-/// End of the sweep in rad/s if the scene gives none: twice the lowest critical speed, or the speed at which
-/// the blade yields.
+/// End of the sweep, in rad/s, if the scene gives none: twice the lowest critical speed, but at most
+/// [`fastest_rad_per_s`].
 pub(crate) fn chosen_end(scene: &Scene, lowest_critical_rad_per_s: Option<f64>) -> f64 {
     default_top(lowest_critical_rad_per_s).min(fastest_rad_per_s(scene.blade()))
 }
@@ -296,7 +301,7 @@ pub(super) fn two_digits_down(rpm: f64) -> f64 {
     (rpm / digit).floor() * digit
 }
 
-/// Twice the lowest critical speed, rounded up to two digits.
+/// Twice the lowest critical speed, rounded up to two digits in rpm; 2000 rpm without a critical speed.
 fn default_top(lowest_rad_per_s: Option<f64>) -> f64 {
     let lowest = lowest_rad_per_s.map_or(1000.0, rpm);
     let digit = 10_f64.powf((2.0 * lowest).log10().floor() - 1.0);
@@ -309,8 +314,8 @@ mod tests {
     use crate::scene::SpeedRange;
     use crate::spectrum::SpectralModel;
 
-    /// A blade of an eighth of the thickness reflects waves of many more diameters below 1600 rpm than the
-    /// ten of the smallest basis; the inertia of the largest basis gives the number.
+    /// A blade of an eighth of the thickness has reflected waves of many more than the ten diameters of the
+    /// smallest basis below 1600 rpm. The inertia of the stiffness on the largest basis gives their number.
     #[test]
     fn a_basis_too_small_for_the_waves_below_a_speed_gives_way_to_a_larger_one() {
         let thin = Scene::paper().edited(|saw| saw.blade.thickness_m /= 8.0);

@@ -1,16 +1,16 @@
-//! Checks of a list of bands and the contradictions that they found.
+//! Results of the checks of a list of bands.
 
 use super::band::{Instability, InstabilityKind};
 use super::mode_counts::Miscount;
 use super::signature::Signature;
 
-/// Checks of a list of bands: Krein index against spectrum, mode counts on the full model, and the part of
-/// the range that is proven free of unlisted bands.
+/// Results of the checks of a list of bands: comparisons of the Krein index with the spectra, mode counts on the
+/// full model, and the part of the range that is proven to contain no unlisted band.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Certificate {
     /// Number of speeds at which the Krein index was compared.
     pub speeds_checked: usize,
-    /// Speeds at which it did not match even on the full model, in rad/s.
+    /// Speeds at which the Krein index contradicts the modes even on the full model, in rad/s.
     pub violations_rad_per_s: Vec<f64>,
     /// Speeds at which the bands contradict the eigenvalues.
     pub(crate) mismatches: Vec<Mismatch>,
@@ -18,20 +18,20 @@ pub struct Certificate {
     pub gave_up: bool,
     /// Number of conclusive mode counts on the full model.
     pub full_basis_counts: usize,
-    /// Number of inconclusive counts, because an eigenvalue lies on their path.
+    /// Number of inconclusive counts of a damped saw, because an eigenvalue is on their path.
     pub uncertain_counts: usize,
     /// Counts that contradict the spectra.
     pub(crate) miscounts: Vec<Miscount>,
     /// Whether counts contradicted the spectra at first, so that the bands were searched again on the full
     /// model.
     pub searched_again: bool,
-    /// Intervals of speed, in rad/s, that were searched but not proven free of unlisted bands; `None` if no
-    /// proof was tried.
+    /// Intervals of speed, in rad/s, that are not proven to contain no unlisted band; `None` if no proof was
+    /// tried.
     pub unproven_rad_per_s: Option<Vec<(f64, f64)>>,
 }
 
 impl Certificate {
-    /// Whether every check agrees.
+    /// Whether no check found a contradiction and the search was completed.
     pub fn is_clean(&self) -> bool {
         self.violations_rad_per_s.is_empty()
             && self.mismatches.is_empty()
@@ -45,23 +45,23 @@ impl Certificate {
 pub(crate) struct Mismatch {
     /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
-    /// Kind of the band.
+    /// Kind of the bands and modes that were compared.
     pub kind: InstabilityKind,
     /// Number of unstable modes of that kind; for divergence 1 or 0.
     pub unstable_modes: usize,
     /// Number of bands of that kind at that speed.
     pub bands: usize,
-    /// Growth rate of the fastest of the modes, in 1/s.
+    /// Growth rate of the fastest growing mode of that kind, in 1/s; 0 without one.
     pub growth_per_s: f64,
-    /// Largest peak of the bands, in 1/s.
+    /// Largest peak of the bands of that kind at that speed, in 1/s; 0 without one.
     pub peak_per_s: f64,
 }
 
-/// A speed this close to the edge of a band, relatively, may be on either side of it: the coarser models of
-/// search and chart shift edges by 1e-5.
+/// Relative distance from the edge of a band within which a speed may be on either side of it: the coarser
+/// models of search and chart shift edges by 1e-5.
 const EDGE_TOLERANCE: f64 = 5e-5;
-/// A mode may grow this much faster than the peak of its band, because the coarse models of the search have
-/// errors of this size, see `LIKENESS` of the continuation.
+/// Share by which a mode may grow faster than the peak of its band, because the coarse models of the search have
+/// such errors, see `LIKENESS` of the continuation.
 const PEAK_TOLERANCE: f64 = 0.03;
 
 /// Compares bands with the modes at a speed: each kind must have as many bands as unstable modes, and no mode
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn a_list_with_a_band_missing_open_doubled_or_too_low_is_refused() {
+    fn a_band_that_is_missing_never_closed_too_low_or_of_the_wrong_kind_is_found() {
         use InstabilityKind::{Divergence, Flutter};
         let right = [
             band(Flutter, 90.0, 110.0, 2.5),

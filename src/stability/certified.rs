@@ -1,4 +1,4 @@
-//! Bands of an undamped blade and their checks.
+//! Search for the bands of an undamped blade, with their checks.
 
 use super::band::{Instability, InstabilityKind};
 use super::certificate::{Certificate, Mismatch, mismatches};
@@ -18,32 +18,34 @@ use crate::spectrum::{SpectralModel, SpectrumError};
 pub(super) enum Depth {
     /// Krein index and bands at every speed, and counts on the full model at a few: for studies of many saws.
     Counts,
-    /// As `Counts`, plus counts beside and within every band and a proof for the speeds between.
+    /// The checks of `Counts`, further counts beside and within every band, and a proof for the speeds between.
     Proof,
 }
 
-/// Relative error allowed for the square of an eigenvalue between two speeds of the search, and for a growth
-/// rate. The bands themselves are then computed where the pieces locate them.
+/// Relative error allowed for the square of an eigenvalue between two speeds of the search, which only
+/// locates the bands.
 const SQUARE_TOLERANCE: f64 = 1e-3;
+/// Relative error allowed for a growth rate between two speeds of the search.
 const GROWTH_TOLERANCE: f64 = 0.05;
 /// Share of |ω| + Ω below which a growth rate is rounding.
 const GROWTH_NOISE: f64 = 1e-7;
-/// Number of even speeds at which modes are counted on the full model.
+/// Number of evenly spaced speeds of the search at which modes are counted on the full model.
 const ANCHORS: usize = 12;
-/// Number of such speeds that are drawn at random from a fixed seed, so that no rule of the search prefers them.
+/// Number of further speeds of counts, drawn at random from a fixed seed, so that they do not depend on the
+/// rules of the search.
 const DRAWN: u64 = 8;
-/// Number for dense factorizations, which cost a hundred times as much as counts by blocks.
+/// [`ANCHORS`] if a count needs a dense factorization, which takes a hundred times as long as one by blocks.
 const DENSE_ANCHORS: usize = 3;
 /// Distance from the edges of a band at which its modes are counted, as a share of the band's width.
 const BESIDE: f64 = 0.02;
-/// Least distance from an edge, as a share of its speed.
+/// Smallest such distance, as a share of the speed of the edge.
 const LEAST_BESIDE: f64 = 6e-5;
 /// Relative distance from a critical speed below which eigenvalues next to zero are rounding.
 const NEXT_TO_CRITICAL: f64 = 1e-4;
 
-/// Finds every band within a range by a search between the first and the last of `speeds`, which begin no
-/// later than the range or the lowest critical speed. Searches again on the full model if modes are
-/// miscounted.
+/// Finds every band within a range by a search between the first and the last of `speeds`, which should cover
+/// the range from the lowest critical speed on. Searches again on the full model if counts contradict the
+/// modes.
 pub(super) fn bands(
     model: &SpectralModel,
     range: (f64, f64),
@@ -71,6 +73,7 @@ pub(super) fn bands(
     Ok((instabilities, certificate))
 }
 
+/// Bands and certificate by one search.
 fn searched(
     model: &SpectralModel,
     evaluator: SignatureEvaluator<'_>,
@@ -80,8 +83,7 @@ fn searched(
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let Some(full) = full else {
         evaluator.at_all(speeds)?;
-        // The waves of a free blade are uncoupled, so they cross and never coalesce. In the frame of the
-        // blade each harmonic is a symmetric problem.
+        // The waves of a free blade are uncoupled, so they cross and never coalesce.
         let certificate = Certificate {
             unproven_rad_per_s: (depth == Depth::Proof).then(Vec::new),
             ..evaluator.certificate()
@@ -139,7 +141,8 @@ fn searched_pieces(
     search.pieces(&evaluator.with_ends_of_intervals(speeds))
 }
 
-/// Part of a range outside the speeds of a search. Below the lowest critical speed no search is needed.
+/// Parts of a range outside the speeds of a search, except below the lowest critical speed, where nothing is
+/// unstable. A part that ends before it begins is empty.
 fn unsearched(
     model: &SpectralModel,
     (from, to): (f64, f64),
@@ -173,7 +176,7 @@ fn clipped(stretches: &[(f64, f64)], range: (f64, f64)) -> Vec<(f64, f64)> {
     clipped
 }
 
-/// A list of bands with the data for its checks.
+/// A list of bands with the data for the checks of it.
 pub(super) struct Checks<'a> {
     pub evaluator: &'a SignatureEvaluator<'a>,
     pub full: &'a ModeCounts<'a>,
@@ -182,7 +185,7 @@ pub(super) struct Checks<'a> {
 }
 
 impl Checks<'_> {
-    /// Carries out the checks.
+    /// Results of the checks.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -218,7 +221,7 @@ impl Checks<'_> {
         })
     }
 
-    /// Counts at some of the speeds of the search.
+    /// Contradictions of counts at some speeds of the search.
     fn at_anchors(&self) -> Result<Vec<Miscount>, SpectrumError> {
         let signatures = self.signatures;
         let count = match self.full.is_dense() {
@@ -270,7 +273,8 @@ impl Checks<'_> {
     }
 }
 
-/// Number k of a sequence over 0 … 1 that is the same on every machine (Steele, Lea and Flood, OOPSLA 2014).
+/// Number k of a pseudo-random sequence between 0 and 1 that is the same on every machine (Steele, Lea and
+/// Flood, OOPSLA 2014).
 pub(super) fn drawn_share(k: u64) -> f64 {
     let mut z = (k + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

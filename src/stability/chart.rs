@@ -11,27 +11,26 @@ use super::undamped;
 use crate::campbell::{Campbell, Progress};
 use crate::spectrum::{Mode, SpectralModel, SpectrumError};
 
-/// Speeds of a chart, not counting those added at events.
+/// Number of even speeds of a chart, without those added at events.
 pub(super) const CHART_SPEEDS: usize = 51;
 
 /// Campbell diagram, bands of instability and certificate over a range of speeds.
 #[derive(Debug, Clone)]
 pub struct StabilityChart {
-    /// Modes and branches.
+    /// Modes at the speeds of the chart, and branches.
     pub campbell: Campbell,
     /// Bands by onset.
     pub instabilities: Vec<Instability>,
-    /// Checks of the bands.
+    /// Results of the checks of the bands.
     pub certificate: Certificate,
 }
 
 impl StabilityChart {
-    /// Compares the bands with the modes at one more speed: a growing mode outside all bands is a
-    /// contradiction.
+    /// Compares the bands with the modes at one more speed, and adds contradictions to the certificate.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
-    pub(super) fn hold_against(
+    pub(super) fn compare_with_modes(
         &mut self,
         model: &SpectralModel,
         speed_rad_per_s: f64,
@@ -53,7 +52,7 @@ impl StabilityChart {
     }
 }
 
-/// Charts a range of speeds, sampled at `count` even speeds and near events.
+/// Charts a range of speeds in full detail, sampled at `count` even speeds and near events.
 ///
 /// # Errors
 /// [`AnalysisError`] when an eigenproblem fails.

@@ -1,12 +1,13 @@
-//! Detail of a chart.
+//! Detail of a chart: full, or a quick preview.
 
 /// Detail of a chart. Critical speeds do not depend on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Detail {
-    /// Detail of the figures.
+    /// All speeds, checks and root loci that report and figures show.
     #[default]
     Full,
-    /// Fewer speeds, neither proof nor root loci, and bands with errors that no figure shows: for a quick preview.
+    /// Fewer speeds, neither proof nor root loci, and errors of the bands that are too small for a figure to
+    /// show: for a quick preview.
     Sketch,
 }
 
@@ -40,17 +41,17 @@ mod tests {
             assert_eq!(sketch.critical_rad_per_s(), full.critical_rad_per_s());
             assert!(sketch.chart.certificate.is_clean(), "{scene}");
             assert_eq!(sketch.bands().len(), full.bands().len(), "{scene}");
-            for (drafted, band) in sketch.bands().iter().zip(full.bands()) {
-                assert_eq!(drafted.kind, band.kind);
+            for (sketched, band) in sketch.bands().iter().zip(full.bands()) {
+                assert_eq!(sketched.kind, band.kind);
                 let ends = [
-                    (drafted.from_rad_per_s, band.from_rad_per_s),
-                    (drafted.to_rad_per_s, band.to_rad_per_s),
+                    (sketched.from_rad_per_s, band.from_rad_per_s),
+                    (sketched.to_rad_per_s, band.to_rad_per_s),
                 ];
                 for (found, expected) in ends {
                     let off = rpm((found - expected).abs());
                     assert!(off < 0.5, "{scene}: {off} rpm at {:.1}", rpm(expected));
                 }
-                let growth = drafted.peak_growth_per_s / band.peak_growth_per_s;
+                let growth = sketched.peak_growth_per_s / band.peak_growth_per_s;
                 assert!((growth - 1.0).abs() < 0.03, "{scene}: {growth}");
             }
         }

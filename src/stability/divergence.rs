@@ -3,13 +3,13 @@
 use super::band::{Instability, InstabilityKind};
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
 use super::found::Found;
-use super::maximum::{Sample, maximise};
+use super::maximum::{Sample, maximize};
 use super::pair_continuation::VICINITY;
 use super::signature::Signature;
-use crate::spectrum::{SpectralModel, SpectrumError};
+use crate::spectrum::{SpectralModel, SpectrumError, smallest};
 
-/// Intervals of speed with a real λ > 0, from signatures in ascending order. They begin and end at critical
-/// speeds or at `coalescences`, where two real λ coalesce and continue as flutter.
+/// Bands of divergence, from signatures in ascending order. They begin and end at critical speeds or at
+/// `coalescences`, speeds at which two real λ coalesce and continue as flutter.
 pub(super) fn divergence(
     model: &SpectralModel,
     evaluator: &SignatureEvaluator<'_>,
@@ -47,9 +47,9 @@ pub(super) fn divergence(
     Ok(bands)
 }
 
-/// Speeds at which divergence may pause between two signatures: two real λ coalesce, continue as flutter and
-/// split again, or pass zero before others do. The result has the middle between every two neighbouring edges
-/// without a signature between them.
+/// Speeds between two signatures at which divergence may be interrupted, because two real λ coalesce,
+/// continue as flutter and split again, or pass zero before others do. The result has the middle between
+/// every two neighbouring edges without a signature between them.
 fn unseen(signatures: &[Signature], critical: &[f64], coalescences: &[f64]) -> Vec<f64> {
     let mut edges: Vec<(f64, Edge)> = Vec::new();
     edges.extend(critical.iter().map(|&speed| (speed, Edge::Critical)));
@@ -70,9 +70,11 @@ fn unseen(signatures: &[Signature], critical: &[f64], coalescences: &[f64]) -> V
     unseen.map(|pair| 0.5 * (pair[0].0 + pair[1].0)).collect()
 }
 
-/// Parts of an interval that are sampled for its largest growth, in addition to the speeds of the search.
+/// Number of parts of a band whose ends are sampled for its largest growth, in addition to the speeds of the
+/// search.
 const PARTS: usize = 8;
 
+/// Band between two edges, clipped to the limits, with its largest growth.
 fn band(
     evaluator: &SignatureEvaluator<'_>,
     signatures: &[Signature],
@@ -98,7 +100,7 @@ fn band(
     for speed in parts.filter(is_clear) {
         samples.extend(at(speed)?);
     }
-    // λ² passes linearly through zero at a critical speed, so its chord gives the slope.
+    // At a critical speed λ² is zero; its slope is unknown, and the chord replaces it.
     let zero = |at: f64| Sample {
         at,
         value: 0.0,
@@ -113,7 +115,7 @@ fn band(
     }
     samples.retain(|sample| (from..=to).contains(&sample.at));
     samples.sort_by(|x, y| x.at.total_cmp(&y.at));
-    let found = maximise(samples, at)?;
+    let found = maximize(samples, at)?;
     // The few states between two speeds locate the largest growth; the projection gives its size.
     let peak_growth_per_s = match found {
         Some(found) if found.value > 0.0 => {
@@ -135,8 +137,8 @@ fn band(
     })
 }
 
-/// Divergence between two critical speeds that the search passes in one step. An odd number of negative
-/// directions of K(Ω) implies a real λ > 0.
+/// Bands of divergence between two critical speeds that the search passes in one step. An odd number of negative
+/// eigenvalues of K(Ω) implies a real λ > 0.
 pub(super) fn close_pairs(
     model: &SpectralModel,
     evaluator: &SignatureEvaluator<'_>,
@@ -157,7 +159,7 @@ pub(super) fn close_pairs(
         .collect()
 }
 
-/// Band between two such close critical speeds, clipped to the range. Its growth is nearly constant.
+/// Band between two close critical speeds, clipped to the limits. Its growth is nearly constant.
 fn between(
     evaluator: &SignatureEvaluator<'_>,
     critical: &[f64],
@@ -177,7 +179,7 @@ fn between(
     })
 }
 
-/// Begin or end of divergence.
+/// Kind of the begin or end of divergence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Edge {
     /// A critical speed: λ passes through zero.
@@ -194,14 +196,13 @@ fn edge(critical: &[f64], coalescences: &[f64], stable: Option<f64>, unstable: f
     let Some(stable) = stable else {
         return (unstable, Edge::Range);
     };
-    // Among several coalescences the one nearest to the divergence is taken. It may lie slightly beyond the
-    // stable speed, because its own speed has an error (`VICINITY`).
+    // Of several coalescences, the nearest to the divergence ends it. It may be slightly beyond the stable
+    // speed, because the speed of a coalescence has an error (`VICINITY`).
     let coalescence = |to: f64| {
         let beyond = stable + (stable - to).signum() * VICINITY * stable;
         let between = |speed: &&f64| (beyond.min(to)..=beyond.max(to)).contains(*speed);
-        let away = |x: &&f64| (*x - to).abs();
-        let nearest = coalescences.iter().filter(between);
-        nearest.min_by(|x, y| away(x).total_cmp(&away(y))).copied()
+        let possible = coalescences.iter().filter(between).copied();
+        smallest(possible, |speed| (speed - to).abs())
     };
     let (low, high) = (unstable.min(stable), unstable.max(stable));
     let critical = critical
@@ -223,9 +224,10 @@ mod tests {
     use super::*;
     use crate::stability::signature::{Sign, SignedMode};
 
-    /// Two real λ coalesce at 3 and split at 4, between the only two signatures: one more speed is examined.
+    /// Two real λ coalesce at 3 and split at 4, between the only two signatures, so that one more speed is
+    /// examined.
     #[test]
-    fn where_real_eigenvalues_coalesce_and_part_unseen_one_more_speed_is_looked_at() {
+    fn a_speed_is_added_where_real_eigenvalues_coalesce_and_split_between_two_signatures() {
         let diverging = |speed_rad_per_s: f64| {
             let real = SignedMode {
                 sign: Sign::Real,
@@ -255,20 +257,20 @@ mod tests {
     /// Flutter turns into two real λ at 3, one of which passes zero at 4: divergence lasts from 3 on, not
     /// from 4.
     #[test]
-    fn divergence_begins_where_two_real_eigenvalues_part() {
+    fn divergence_begins_where_two_real_eigenvalues_split() {
         let begin =
             |critical: &[f64], coalescences: &[f64]| edge(critical, coalescences, Some(2.0), 5.0);
         assert_eq!(begin(&[1.0, 4.0], &[3.0]), (3.0, Edge::Coalescence));
         assert_eq!(begin(&[4.0], &[]), (4.0, Edge::Critical));
         assert_eq!(begin(&[3.0], &[4.0]), (3.0, Edge::Critical));
         assert_eq!(begin(&[], &[3.0, 4.0]), (4.0, Edge::Coalescence));
-        // Same with falling speed, and without a speed at which nothing diverges.
+        // The end of divergence is found in the same way; without a stable speed it is that of the range.
         assert_eq!(
             edge(&[3.0], &[4.0], Some(5.0), 2.0),
             (4.0, Edge::Coalescence)
         );
         assert_eq!(edge(&[3.0], &[4.0], None, 2.0), (2.0, Edge::Range));
-        // A speed that the states place on the wrong side of the coalescence.
+        // The stable speed is slightly on the wrong side of the coalescence.
         assert_eq!(
             edge(&[], &[5.0001], Some(5.0), 2.0),
             (5.0001, Edge::Coalescence)

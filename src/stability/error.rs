@@ -12,10 +12,10 @@ pub enum AnalysisError {
     /// An eigenproblem failed.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
-    /// The saw without its cutting forces is refused.
+    /// A scene derived from the given one, such as that without cutting forces, is refused.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The chart does not fit into the allowed memory.
+    /// The chart exceeds the allowed memory.
     #[error(transparent)]
     Campbell(CampbellError),
     /// The blade would yield long before the end of the sweep.

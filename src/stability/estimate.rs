@@ -1,4 +1,4 @@
-//! Estimated errors of the results of an analysis, one by one.
+//! Estimated errors of each result of an analysis.
 
 mod damped;
 mod hump;
@@ -15,7 +15,7 @@ use super::chart::StabilityChart;
 use crate::campbell::SpeedSample;
 use crate::spectrum::{
     Cancellation, DescribedMode, LargerBasis, ModeKind, SpectralModel, SpectrumError, State, Work,
-    companion_eigenpairs, critical_speeds, orthonormal, split,
+    companion_eigenpairs, critical_speeds, orthonormal, smallest, split,
 };
 use crate::system::GyroscopicSystem;
 
@@ -33,19 +33,19 @@ pub struct Estimates {
     pub bands: Vec<BandError>,
 }
 
-/// Estimated errors of a band; `None` where the larger basis gives no estimate.
+/// Estimated errors of a band; `None` if the larger basis gives no estimate.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct BandError {
-    /// Relative error of its speeds.
+    /// Relative error of the onset and the end.
     pub speed: Option<f64>,
-    /// Relative error of its largest growth rate.
+    /// Relative error of the largest growth rate.
     pub growth: Option<f64>,
 }
 
 impl BandError {
-    /// Error of a band, from the changes that the larger basis makes. A band is the coalescence of two waves
-    /// whose errors may cancel by chance, so the error of the critical speeds is added. Its edges are no more
-    /// accurate than its growth, in units of its width.
+    /// Errors of a band, from the changes by the larger basis. A band is the coalescence of two waves whose
+    /// errors may cancel by chance, so the error of the critical speeds is added. Relative to the width of
+    /// the band, its edges are no more accurate than its growth.
     fn of(self, band: &Instability, critical: f64) -> Self {
         // A band may begin at rest but never ends there.
         let width = (band.to_rad_per_s - band.from_rad_per_s) / band.to_rad_per_s;
@@ -64,15 +64,14 @@ impl BandError {
     }
 }
 
-/// Factor for the error of growth rates that the larger basis leaves. Growth rates converge less evenly than
-/// speeds: on twelve random saws the true error was up to 2.9 times the estimate.
+/// Factor for the estimated errors of growth rates, which converge less evenly than speeds: on twelve random
+/// saws the true error was up to 2.9 times the estimate without the factor.
 const GROWTH_REMAINDER: f64 = 3.0;
-/// Share of the error of a critical speed that remains in the difference of two of them even if the estimates
-/// of both cancel. Of 176 bands of random saws, the growth of two (narrower than a hundredth of their speed)
-/// was wrong by 0.07 of it.
+/// Share of the error of a critical speed that the difference of two critical speeds has even if the
+/// estimated errors of both cancel. Of 176 bands of random saws, two (narrower than a hundredth of their
+/// speed) had errors of growth that correspond to a share of 0.07.
 const WIDTH_REMAINDER: f64 = 0.1;
-/// Speeds, as shares of the range, at which errors of drawn frequencies are estimated; every chart contains
-/// them.
+/// Speeds, as shares of the range, near which the errors of drawn frequencies are estimated.
 const LOOKS: [f64; 3] = [0.0, 0.5, 1.0];
 
 impl Estimates {
@@ -94,10 +93,9 @@ impl Estimates {
             .collect();
         let samples = &chart.campbell.samples;
         let looks = LOOKS.map(|share| range.0 + share * (range.1 - range.0));
-        let looks = looks.into_iter().filter_map(|speed| {
-            let away = |sample: &&SpeedSample| (sample.speed_rad_per_s - speed).abs();
-            samples.iter().min_by(|x, y| away(x).total_cmp(&away(y)))
-        });
+        let looks = looks
+            .into_iter()
+            .filter_map(|speed| smallest(samples, |sample| (sample.speed_rad_per_s - speed).abs()));
         let drawn = looks.flat_map(|sample| {
             larger.frequency_errors(&model.components, sample.speed_rad_per_s, &sample.modes)
         });
@@ -119,12 +117,12 @@ impl Estimates {
                 let at_peak = samples
                     .iter()
                     .find(|s| s.speed_rad_per_s == band.peak_rad_per_s);
-                let told = match at_peak {
+                let changes = match at_peak {
                     Some(sample) => estimates.band(model, band, sample)?,
                     None => BandError::default(),
                 };
                 step.advance();
-                Ok(told.of(band, least))
+                Ok(changes.of(band, least))
             })
             .collect();
         estimates.bands = bands?;
@@ -145,6 +143,7 @@ impl Estimates {
         errors.into_iter().map(with_remainder).collect()
     }
 
+    /// Changes of a band by the larger basis, from the modes at its peak.
     fn band(
         &self,
         model: &SpectralModel,
@@ -161,8 +160,8 @@ impl Estimates {
         }
     }
 
-    /// Projects a component at the peak of a band on some of its vectors, without and with the softening by
-    /// the larger basis. Returns the vectors too.
+    /// Projects a component on some vectors, without and with the softening by the larger basis at the peak
+    /// of a band. Returns an orthonormal basis of the vectors, and both projections.
     fn projected(
         &self,
         model: &SpectralModel,
@@ -202,7 +201,7 @@ impl Estimates {
     }
 
     /// Estimates growth of a damped blade on the growing mode and its neighbours. The larger basis shifts the
-    /// band, so the largest growth rates are compared wherever they occur.
+    /// band, so the largest growth rates are compared, each at its own speed.
     fn damped(
         &self,
         model: &SpectralModel,
@@ -224,7 +223,7 @@ impl Estimates {
         let [before, after] = systems.map(|system| fastest(&system, growing, band));
         Ok(BandError {
             speed: None,
-            growth: told(after? / before? - 1.0),
+            growth: magnitude(after? / before? - 1.0),
         })
     }
 
@@ -250,33 +249,34 @@ impl Estimates {
             return Ok(BandError::default());
         };
         Ok(BandError {
-            speed: told(after.from / before.from - 1.0),
-            growth: told(after.growth / before.growth - 1.0),
+            speed: magnitude(after.from / before.from - 1.0),
+            growth: magnitude(after.growth / before.growth - 1.0),
         })
     }
 }
 
-/// Magnitude of a relative difference, if it is a number.
-fn told(difference: f64) -> Option<f64> {
+/// Magnitude of a relative difference, if it is finite.
+fn magnitude(difference: f64) -> Option<f64> {
     difference.is_finite().then_some(difference.abs())
 }
 
 /// Divergence of a small system between two critical speeds.
 struct Lean {
+    /// Speed at which it begins, in rad/s.
     from: f64,
+    /// Largest growth rate, in 1/s.
     growth: f64,
 }
 
 impl Lean {
-    /// Band of a small system at the position of a known band.
+    /// The band of a small system that is nearest to a known band.
     fn new(system: &GyroscopicSystem, band: &Instability) -> Result<Option<Self>, SpectrumError> {
         let critical = critical_speeds(system)?;
         let speeds: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
         let middle = |pair: &&[f64]| {
             (0.5 * (pair[0] + pair[1]) - 0.5 * (band.from_rad_per_s + band.to_rad_per_s)).abs()
         };
-        let pairs = speeds.windows(2);
-        let Some(&[from, to]) = pairs.min_by(|x, y| middle(x).total_cmp(&middle(y))) else {
+        let Some(&[from, to]) = smallest(speeds.windows(2), middle) else {
             return Ok(None);
         };
         let mut growth = 0.0_f64;
@@ -290,22 +290,21 @@ impl Lean {
     }
 }
 
-/// Relative tolerance within which the end of a band is a critical speed.
+/// Relative distance within which the end of a band is a critical speed.
 const SAME_SPEED: f64 = 1e-6;
-/// Parts of a band of divergence in the search for its largest growth.
+/// Number of parts of a band of divergence in the search for its largest growth.
 const LEANING_LOOKS: usize = 16;
 /// Number of modes in the estimate for a damped band.
 const NEAR_MODES: usize = 6;
-/// Vectors closer than this to the span of the others are left out.
+/// Vectors closer than this to the span of the others are omitted.
 const INDEPENDENT: f64 = 1e-6;
 
-/// The growing mode of a band and the mode that it coalesced with or that is nearest to it.
+/// The growing mode of a band, and the mode with which it has coalesced; for a damped blade the mode of the
+/// nearest frequency, for divergence the same mode again.
 fn modes_of<'a>(band: &Instability, modes: &'a [DescribedMode]) -> Option<[&'a DescribedMode; 2]> {
     let distance =
         |m: &&DescribedMode| (m.mode.frequency_rad_per_s() - band.frequency_rad_per_s).abs();
-    let nearest = |modes: &mut dyn Iterator<Item = &'a DescribedMode>| {
-        modes.min_by(|x, y| distance(x).total_cmp(&distance(y)))
-    };
+    let nearest = |modes: &mut dyn Iterator<Item = &'a DescribedMode>| smallest(modes, distance);
     let close =
         |m: &&DescribedMode| (m.mode.growth_per_s() / band.peak_growth_per_s - 1.0).abs() < 0.1;
     let growing = nearest(&mut modes.iter().filter(close))?;

@@ -8,29 +8,29 @@ use rayon::prelude::*;
 use faer::c64;
 
 use super::certificate::Certificate;
-use super::partition::Sample;
+use super::partition::{BESIDES, Sample};
 use super::seen::Seen;
 use super::signature::{Signature, SignedMode};
 use crate::spectrum::{
-    Mode, ModeKind, ModePair, SearchModel, SpectralModel, SpectrumError, krein_index,
+    Mode, ModeKind, ModePair, SearchModel, SpectralModel, SpectrumError, krein_index, smallest,
 };
 use crate::tuned::Tuned;
 
-/// Relative distance kept from a critical speed: λ² passes through zero there and is accurate only to 1e-15
-/// of the stiffness.
+/// Relative distance of the search from critical speeds: λ² passes through zero there and is accurate only to
+/// 1e-15 of the stiffness.
 pub const CRITICAL_GAP: Tuned = Tuned::new("stability/evaluator::CRITICAL_GAP", 5e-6);
-/// Critical speeds closer than this are passed in one step. The divergence between them grows by less than
-/// 0.01 1/s; the inertia shows that it exists.
+/// Critical speeds at a smaller relative distance are passed in one step of the search. The divergence
+/// between them grows by less than 0.01 1/s; the inertia of the stiffness shows that it exists.
 pub const CRITICAL_GROUP: f64 = 2e-5;
-/// Largest number of speeds in a search: twenty times what a saw needs. It limits the time if modes cannot be
-/// distinguished.
+/// Largest number of speeds in a search, twenty times as many as usual saws need. It limits the time if modes
+/// cannot be distinguished.
 const MOST_SPEEDS: usize = 20_000;
 
-/// Largest number of solves on a full model of at most [`USUAL_ORDER`] functions. Each takes as long as a
-/// whole sweep on a reduced model; the saws of the tests need a tenth of this.
+/// Largest number of solves on a full model of at most [`USUAL_ORDER`] functions. Each takes as long as a whole
+/// sweep on a reduced model; the saws of the tests need a tenth of this number.
 const MOST_FULL_SOLVES: f64 = 200.0;
-/// The time of a solve grows with the cube of the order. Above this order fewer solves are allowed, and none
-/// on the largest basis, where one would take minutes.
+/// Order of the full model above which fewer solves are allowed, because the time of a solve grows with the
+/// cube of the order. On the largest basis, where a solve takes minutes, none is allowed.
 const USUAL_ORDER: f64 = 300.0;
 
 /// Number of solves allowed on the full model.
@@ -39,18 +39,18 @@ fn most_full_solves(model: &SpectralModel) -> usize {
     (MOST_FULL_SOLVES * smaller.powi(3)) as usize
 }
 
-/// Least number of allowed solves for a search on the full model.
+/// A second search, on the full model, needs more allowed solves than this.
 const LEAST_FOR_A_SEARCH: usize = 25;
-/// Relative distance from a speed at which the Krein index contradicts the modes to the speeds at which it is
-/// computed again. At a coalescence the Krein signs of the two modes are rounding: squares of frequencies
-/// that are accurate to 1e-15 of the highest differ by this little within 1e-9 of it (a pad of 100 N/m, bands
-/// of 2e-6 of the speed).
+/// If the Krein index contradicts the modes at a speed, it is compared again at this relative distance. At a
+/// coalescence the Krein signs of the two modes are rounding: for a pad of 100 N/m, with bands of a width of
+/// 2e-6 of the speed, this occurred within 1e-9 of the speed of the coalescence.
 const BESIDE_COALESCENCE: f64 = 1e-7;
 
-/// Speeds at which a search solves the full model; between two of them it uses their modes.
+/// Number of speeds at which a search on the full model solves it; between two of them the search uses their
+/// modes.
 const ANCHORS: usize = 13;
 
-/// Speeds at which the Krein index was compared and at which it did not match.
+/// Numbers of speeds and solves, and speeds at which the Krein index contradicts the modes.
 #[derive(Debug, Default)]
 struct Tally {
     checked: AtomicUsize,
@@ -58,16 +58,14 @@ struct Tally {
     violations: Mutex<Vec<f64>>,
 }
 
-/// Number of modes above the highest accurate frequency among which a search finds a gap to end in.
-const BESIDES: usize = 8;
-
 /// Evaluates signatures, checks the Krein index of each, and counts them.
 pub struct SignatureEvaluator<'a> {
     model: &'a SpectralModel,
+    /// Projections of the search; without them every speed is solved by the model.
     low: Option<SearchModel<'a>>,
     tally: Tally,
     seen: Seen,
-    /// Whether its solves replace an insufficient reduced model and are limited in number.
+    /// Whether this search repeats one on an insufficient reduced model; the number of its solves is limited.
     is_second_search: bool,
 }
 
@@ -123,7 +121,7 @@ impl<'a> SignatureEvaluator<'a> {
         all
     }
 
-    /// Checks of the speeds so far.
+    /// Results of the checks so far.
     pub fn certificate(&self) -> Certificate {
         let violations = self.tally.violations.lock();
         let mut violations =
@@ -143,8 +141,9 @@ impl<'a> SignatureEvaluator<'a> {
             || self.tally.solved_in_full.load(Ordering::Relaxed) > most_full_solves(self.model)
     }
 
-    /// Computes the signature at a speed. If it contradicts the Krein index, it is computed again on the full
-    /// model and the index beside it; a remaining contradiction is a violation.
+    /// Computes the signature at a speed. If it contradicts the Krein index, the modes are computed again on
+    /// the projection and on the full model, and compared beside the speed; a remaining contradiction is a
+    /// violation.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -197,8 +196,7 @@ impl<'a> SignatureEvaluator<'a> {
         }
     }
 
-    /// Signature of the smallest model, neither counted nor checked: a guess that other means prove or
-    /// refute.
+    /// Signature by the smallest model, neither counted nor checked, for proposals that a proof checks.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -230,7 +228,7 @@ impl<'a> SignatureEvaluator<'a> {
         Ok(Some(sample))
     }
 
-    /// λ² with slope and Krein sign for every mode up to a few above the highest frequency.
+    /// λ² with slope and Krein sign, for the modes up to the height of the search and [`BESIDES`] above.
     fn squares(&self, modes: &[Mode]) -> Vec<((c64, c64), i8)> {
         let mut followed: Vec<&Mode> = modes.iter().collect();
         followed.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
@@ -274,10 +272,8 @@ impl<'a> SignatureEvaluator<'a> {
             Some(known) => known,
             None => self.at(speed_rad_per_s)?,
         };
-        let away = |mode: &&SignedMode| (mode.lambda - expected).norm();
-        let quadruples = signature.quadruples.iter();
-        let nearest = quadruples.min_by(|x, y| away(x).total_cmp(&away(y)));
-        Ok(nearest.copied())
+        let away = |mode: &SignedMode| (mode.lambda - expected).norm();
+        Ok(smallest(signature.quadruples, away))
     }
 
     /// Frequency up to which signatures are complete.
@@ -308,13 +304,13 @@ impl<'a> SignatureEvaluator<'a> {
         }
     }
 
-    /// Follows a pair to another speed.
+    /// The pair at another speed; `None` if it is lost.
     pub fn moved(&self, pair: &ModePair, speed_rad_per_s: f64) -> Option<ModePair> {
         self.low.as_ref()?.moved(pair, speed_rad_per_s)
     }
 
-    /// Largest growth of a divergent mode next to a critical speed, where rounded eigenvalues do not give the
-    /// Krein index.
+    /// Largest growth rate of a divergent mode, in 1/s, without a check by the Krein index, which rounding
+    /// changes next to a critical speed; 0 without such a mode.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -328,7 +324,7 @@ impl<'a> SignatureEvaluator<'a> {
             .map_or(0.0, |mode| mode.lambda.re))
     }
 
-    /// The growth of a divergent mode that the states of an interval give approximately, without their error.
+    /// Growth rate of a divergent mode, in 1/s, by the projection, from the approximate rate by the states.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -348,8 +344,8 @@ impl<'a> SignatureEvaluator<'a> {
         below(from_rad_per_s) != below(to_rad_per_s)
     }
 
-    /// Compares the spectrum with the inertia of the stiffness, which comes from a separate symmetric
-    /// eigenproblem on the full model.
+    /// Whether the Krein index of modes equals the number of negative eigenvalues of the stiffness, which a
+    /// separate symmetric eigenproblem on the full model gives.
     fn match_index(&self, speed_rad_per_s: f64, modes: &[Mode]) -> bool {
         krein_index(modes) == self.model.negative_stiffness_directions(speed_rad_per_s)
     }

@@ -1,8 +1,8 @@
 //! Crossings of natural frequencies with excitation at multiples of the rotation frequency.
 //!
-//! On the line of order k, the frequency in the fixed frame is kΩ. If a branch lies on different sides of it
-//! at two speeds of the chart, the crossing is a root of ω(Ω) − kΩ, found on the modes at speeds between.
-//! There L(ikΩ) is singular: without damping K₀x = Ω²[k² − 2ikG − (K_σ − N)]x, which for k = 0 gives the
+//! On the line of order k, the frequency in space is kΩ. If a branch is on different sides of the line at two
+//! speeds of the chart, the crossing is a root of ω(Ω) − kΩ, with ω from the modes at speeds between. At the
+//! crossing L(ikΩ) is singular: without damping K₀x = Ω²[k² − 2ikG − (K_σ − N)]x, which for k = 0 gives the
 //! critical speeds.
 
 use rayon::prelude::*;
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::chart::StabilityChart;
 use super::root::{Look, bracketed};
 use crate::scene::ExcitationLine;
-use crate::spectrum::{SpectralModel, SpectrumError};
+use crate::spectrum::{SpectralModel, SpectrumError, smallest};
 
 /// A speed at which a mode has the frequency of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,8 +25,8 @@ pub struct Crossing {
 
 /// Relative error of a crossing's speed.
 const TOLERANCE: f64 = 1e-9;
-/// A branch that stays this close to a line coincides with it: a free rigid tilt turns with twice the
-/// rotation speed at every speed.
+/// A branch within this relative distance of a line coincides with the line: a free rigid tilt has twice the
+/// rotation frequency at every speed.
 const ON_THE_LINE: f64 = 1e-7;
 
 /// Crossings of the lines with the branches of a chart, by line and speed.
@@ -102,8 +102,7 @@ fn root(
         let modes = model.modes(speed)?;
         let own = modes.iter().filter(|mode| mode.component == component);
         let frequencies = own.map(|mode| mode.lambda.im.abs());
-        let far = |frequency: &f64| (frequency - expected).abs();
-        let nearest = frequencies.min_by(|x, y| far(x).total_cmp(&far(y)));
+        let nearest = smallest(frequencies, |frequency| (frequency - expected).abs());
         Ok::<_, SpectrumError>(seen((speed, nearest.unwrap_or(expected))))
     });
     found.map(|look| look.at)

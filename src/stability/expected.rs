@@ -8,20 +8,20 @@ use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
 use crate::spectrum::Assembled;
 
-/// Work that is announced to the user before it begins, in seconds of processor time.
+/// Work above this number of seconds of processor time is announced to the user before it begins.
 const LONG_S: f64 = 10.0;
-/// Processor time for ten critical speeds, and the power of their number by which it grows. Each pair of
-/// waves reflected within the sweep may couple; the order of the reduced model for a pair grows with their
-/// number, and the eigenproblem with the cube of this order. The guided saw of the paper took 7 s for 22
-/// critical speeds and 198 s for 42; these numbers give 8 s and 196 s.
+/// Processor time for ten critical speeds, in seconds, and the power of their number with which it grows.
+/// Each pair of waves reflected within the sweep may couple; the order of the reduced model for a pair grows
+/// with the number of waves, and the time of the eigenproblem with the cube of the order. The guided saw of
+/// the paper took 7 s for 22 critical speeds and 198 s for 42; these numbers give 8 s and 196 s.
 const GUIDED: (f64, i32) = (0.15, 2 + 3);
-/// Seconds for 10 critical speeds, and the power, of a damped saw: it took 67 s for 22 critical speeds.
+/// As [`GUIDED`] for a damped saw, which took 67 s for 22 critical speeds.
 const DAMPED: (f64, i32) = (1.3, 2 + 3);
-/// Waves of a free blade are uncoupled: the paper's took 0.5 s for 26 critical speeds, 2.5 s for 46 and 6.9 s
-/// for 68.
+/// As [`GUIDED`] for a free blade, whose waves are uncoupled: the blade of the paper took 0.5 s for 26 critical
+/// speeds, 2.5 s for 46 and 6.9 s for 68.
 const FREE: (f64, i32) = (0.022, 3);
 
-/// Expected work for a chart, as far as it is known before it begins.
+/// Work expected for a chart before it begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExpectedWork {
     /// Critical speeds within the sweep.
@@ -34,9 +34,9 @@ pub struct ExpectedWork {
 
 impl ExpectedWork {
     /// Expected work for the sweep of a scene, from the number of critical speeds in the first basis that
-    /// contains them. In large bases, the inertia of the stiffness gives this number, because finding
-    /// hundreds of them takes minutes. `None` if the smallest basis contains them all, so that the search is
-    /// short, and where they cannot be computed.
+    /// contains them. In large bases the inertia of the stiffness gives this number, because computing
+    /// hundreds of critical speeds takes minutes. `None` for a scene without a sweep, if the smallest basis
+    /// contains all critical speeds, so that the search is short, and if they cannot be computed.
     pub(super) fn of_sweep(scene: &Scene) -> Option<Self> {
         let to_rad_per_s = scene.sweep()?.to_rad_per_s;
         let mut counted = None;
@@ -71,7 +71,7 @@ impl ExpectedWork {
         })
     }
 
-    /// Whether to announce the work to the user.
+    /// Whether the work takes so long that a program should announce it.
     pub fn is_long(&self) -> bool {
         self.seconds > LONG_S
     }
@@ -105,8 +105,8 @@ mod tests {
     }
 
     #[test]
-    fn work_is_said_with_what_drives_it_and_the_key_that_shortens_it() {
-        let said = expected(42, 196.0).to_string();
+    fn the_message_names_the_work_its_cause_and_the_key_that_shortens_it() {
+        let message = expected(42, 196.0).to_string();
         for part in [
             "42 critical speeds",
             "10000 rpm",
@@ -114,7 +114,7 @@ mod tests {
             "estimate",
             "sweep.to_rpm",
         ] {
-            assert!(said.contains(part), "{said}");
+            assert!(message.contains(part), "{message}");
         }
         assert!(expected(23, 14.0).to_string().contains("10 seconds"));
         assert!(expected(90, 9000.0).to_string().contains("2 hours"));

@@ -6,21 +6,21 @@ use rayon::prelude::*;
 use super::band::{Instability, InstabilityKind};
 use super::evaluator::SignatureEvaluator;
 use super::found::Found;
-use super::maximum::{Sample, between, maximise};
+use super::maximum::{Sample, between, maximize};
 use super::pair_continuation::{Coalescence, Edge, PairContinuation, VICINITY};
 use super::pieces::Piece;
 use super::quadruples::{Bound, Stretch, stretches};
 use super::signature::SignedMode;
-use crate::spectrum::SpectrumError;
+use crate::spectrum::{SpectrumError, smallest};
 
-/// Distance from its end, as a share of a band's width, of a peak at the end.
+/// Distance of a peak at the end of a band from that end, as a share of the width.
 const BESIDE_END: f64 = 1e-3;
-/// Distance from its expected end, as a share of an interval, at which following a quadruple to its end
-/// starts.
+/// Distance from the expected end of a quadruple, as a share of the way to its nearest known speed, at which
+/// a second attempt to follow it to its end begins.
 const INSIDE: f64 = 0.02;
-/// An end further than this share of the way from the prediction belongs to another quadruple.
+/// An end whose distance from the expected end exceeds this share of the way belongs to another quadruple.
 const SAME_END: f64 = 0.1;
-/// An end nearer than this share of the way is certain.
+/// An end within this share of the way of the expected end is certain.
 const CERTAIN_END: f64 = 0.01;
 
 /// A quadruple followed over speed.
@@ -35,11 +35,11 @@ pub(super) struct Quadruple {
 /// Begin or end of a band.
 #[derive(Debug, Clone, Copy)]
 enum End {
-    /// A coalescence.
+    /// Coalescence of two waves or of two real λ.
     Edge(Edge),
     /// End of the range inside the band.
     Range(f64),
-    /// Unknown end: the quadruple could not be followed to it.
+    /// Estimated end of a quadruple that could not be followed to it.
     Unknown(f64),
 }
 
@@ -51,7 +51,7 @@ impl End {
         }
     }
 
-    /// σ² there, if no signature gives it.
+    /// σ² at the end, if it is a coalescence.
     fn sample(&self) -> Option<Sample> {
         match self {
             End::Edge(edge) => Some(edge.sample()),
@@ -77,7 +77,7 @@ pub(super) fn quadruples(
     Ok(found)
 }
 
-/// Bands in which a + and a − mode have coalesced.
+/// The flutter bands of quadruples.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -97,7 +97,7 @@ pub(super) fn flutter(
 struct Part {
     from: f64,
     to: f64,
-    /// Whether the part ends before the quadruple does, at each side.
+    /// Whether the quadruple continues below `from`, and above `to`.
     is_cut: [bool; 2],
 }
 
@@ -109,13 +109,14 @@ impl Part {
     }
 }
 
-/// A quadruple at a speed of a cut.
+/// A quadruple at the end of a part that cuts it.
 struct Cut {
     sample: Sample,
+    /// In 1/s and rad/s.
     growth_and_frequency: (f64, f64),
 }
 
-/// Quadruples that differ from the prediction by more than this share of its growth are others.
+/// A quadruple that differs from the expected one by more than this share of the growth is another quadruple.
 const SAME_QUADRUPLE: f64 = 0.7;
 
 fn is_expected(mode: &SignedMode, square: c64) -> bool {
@@ -125,7 +126,7 @@ fn is_expected(mode: &SignedMode, square: c64) -> bool {
 }
 
 impl Quadruple {
-    /// Quadruple of an interval; `None` if none was computed within it.
+    /// Follows the quadruple of an interval to both ends; `None` if no eigenproblem confirms it.
     fn new(
         evaluator: &SignatureEvaluator<'_>,
         stretch: &Stretch<'_>,
@@ -187,11 +188,11 @@ impl Quadruple {
         if let Some(edge) = from_inside.filter(is_certain) {
             return Ok(End::Edge(edge));
         }
-        // The nearest speed may be closer to the end than the error of the states that gave it.
+        // The nearest speed may be closer to the end than the error of its modes allows.
         if let (None, Some((speed, mode))) = (from_inside, inwards.get(1)) {
             from_inside = followed(*speed, mode)?;
         }
-        // On a long way the pair may be mistaken for another that ends next to it.
+        // Over a long way the continuation may change to another pair, which ends nearby.
         let beside = expected + INSIDE * (inside - expected);
         let near = match stretch.square(beside) {
             Some(square) => evaluator
@@ -201,7 +202,7 @@ impl Quadruple {
         };
         let from_beside = near.map_or(Ok(None), |near| followed(beside, &near))?;
         let both = [from_beside, from_inside].into_iter().flatten();
-        if let Some(edge) = both.min_by(|x, y| off(x).total_cmp(&off(y))) {
+        if let Some(edge) = smallest(both, off) {
             return Ok(End::Edge(edge));
         }
         let Some(square) = stretch.square(expected) else {
@@ -260,7 +261,7 @@ impl Quadruple {
         })
     }
 
-    /// Speed of the largest growth in a part, with growth rate and frequency.
+    /// Speed of the largest growth in a part, with growth rate and frequency, in rad/s, 1/s and rad/s.
     fn fastest(
         &self,
         evaluator: &SignatureEvaluator<'_>,
@@ -281,7 +282,7 @@ impl Quadruple {
         samples.extend(cuts.iter().map(|cut| cut.sample));
         samples.retain(|sample| (part.from..=part.to).contains(&sample.at));
         samples.sort_by(|x, y| x.at.total_cmp(&y.at));
-        let found = maximise(samples, |speed| {
+        let found = maximize(samples, |speed| {
             let Some(mode) = continued(evaluator, &known, speed)? else {
                 return Ok(None);
             };
@@ -293,7 +294,7 @@ impl Quadruple {
         if let Some(cut) = cuts.iter().find(|cut| cut.sample.at == at) {
             return Ok((at, cut.growth_and_frequency));
         }
-        // Where two real λ coalesce growth does not vanish and is often largest just inside.
+        // At the coalescence of two real λ growth is not zero and often largest, so the peak is slightly inside.
         for (end, other) in [(&self.begin, part.to), (&self.end, part.from)] {
             if let End::Edge(edge) = end
                 && edge.speed_rad_per_s == at
@@ -306,7 +307,7 @@ impl Quadruple {
             }
         }
         let (speed, mode) = nearest(&known, at);
-        // This pair is accurate to rounding, whereas the search uses coarser models.
+        // The continued pair is accurate to rounding, whereas the search uses coarser models.
         let sharp = PairContinuation::of_quadruple(evaluator, speed, &mode)?;
         let sharp = sharp.and_then(|pair| pair.growth_and_frequency());
         Ok((speed, sharp.unwrap_or((mode.lambda.re, mode.lambda.im))))
@@ -344,9 +345,8 @@ impl Quadruple {
 
 /// The quadruple at the known speed nearest to a given one.
 fn nearest(known: &[(f64, SignedMode)], speed: f64) -> (f64, SignedMode) {
-    let away = |x: &&(f64, SignedMode)| (x.0 - speed).abs();
-    let nearest = known.iter().min_by(|x, y| away(x).total_cmp(&away(y)));
-    nearest.copied().unwrap_or(known[0])
+    let nearest = smallest(known, |(at, _)| (at - speed).abs());
+    *nearest.unwrap_or(&known[0])
 }
 
 /// σ² of a quadruple at a speed.
@@ -358,7 +358,7 @@ fn sample((speed, mode): &(f64, SignedMode)) -> Sample {
     }
 }
 
-/// Quadruple at another speed, estimated from the neighbouring speeds.
+/// Quadruple at another speed, nearest to the estimate from neighbouring speeds.
 fn continued(
     evaluator: &SignatureEvaluator<'_>,
     known: &[(f64, SignedMode)],

@@ -1,19 +1,20 @@
-//! Bands of a search and their part within the requested range. The search goes slightly beyond the range, so
-//! that no event at an end of the range is an end of the search.
+//! Bands of a search and their parts within the requested range. The search extends slightly beyond the
+//! range, so that an event at an end of the range is not at an end of the search.
 
 use super::band::Instability;
 use crate::spectrum::SpectrumError;
 
-/// Band over all speeds of the search.
+/// A band of a search.
 #[derive(Debug, Clone)]
 pub(super) struct Found {
+    /// The band over all speeds of the search.
     pub whole: Instability,
     /// Part of the band within the requested range, if any.
     pub within: Option<Instability>,
 }
 
 impl Found {
-    /// A band, from a function that gives its part between two speeds with the largest growth there.
+    /// A band from a function that gives its part between two speeds, with the largest growth in that part.
     ///
     /// # Errors
     /// The errors of `part`.

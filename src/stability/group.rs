@@ -39,10 +39,8 @@ impl Cubic {
         let ([from, to], [first, last]) = (self.values, self.rises);
         (to - from) * (6.0 * t * s) + first * (s * (1.0 - 3.0 * t)) + last * (t * (3.0 * t - 2.0))
     }
-}
 
-impl Cubic {
-    /// The real parts.
+    /// The cubic of the real parts.
     fn real(&self) -> interpolation::Cubic {
         interpolation::Cubic {
             values: self.values.map(|z| z.re),
@@ -51,14 +49,14 @@ impl Cubic {
     }
 }
 
-/// A few neighbouring eigenvalues between two speeds.
+/// A few neighbouring eigenvalues over a piece, the interval between two speeds.
 #[derive(Debug, Clone)]
 pub struct Group {
     from_rad_per_s: f64,
     width_rad_per_s: f64,
     mean: Cubic,
-    /// Coefficients of ∏(x − λ_k), with x and λ_k measured from the mean, for x^(size−2) and below: that of
-    /// x^(size−1) is zero.
+    /// Coefficients of ∏(x − λ_k), with x and λ_k measured from the mean, of x^(size−2) and lower powers;
+    /// that of x^(size−1) is zero.
     coefficients: Vec<Cubic>,
 }
 
@@ -84,7 +82,7 @@ fn mean(eigenvalues: &[Sloped]) -> Sloped {
 }
 
 impl Group {
-    /// A group from the same eigenvalues at both ends, in any order.
+    /// A group from its eigenvalues at both ends, in any order.
     pub fn new((from, to): (f64, f64), ends: [&[Sloped]; 2]) -> Self {
         let width_rad_per_s = to - from;
         let cubic = |[first, last]: [Sloped; 2]| Cubic {
@@ -173,14 +171,16 @@ impl Group {
     }
 }
 
-/// Steps in which a group of more than two is searched for speeds at which two become complex.
+/// Number of steps in which a group of more than two numbers is searched for speeds at which a pair becomes
+/// complex.
 const STEPS: usize = 32;
-/// Share of the size of a group below which an imaginary part is rounding.
+/// Share of the largest number of a group below which an imaginary part is rounding.
 const REAL: f64 = 1e-9;
 
 impl Group {
-    /// Intervals of the piece, as shares from 0 to 1, over which the group has one pair of conjugates, then
-    /// those over which it has two, and so on. The numbers of the group must be real or conjugates.
+    /// Intervals of the piece, as shares from 0 to 1, over which the group has at least one pair of
+    /// conjugates, then those over which it has at least two, and so on. The numbers of the group must be
+    /// real or conjugates.
     pub fn complex_stretches(&self) -> Vec<Vec<(f64, f64)>> {
         let pairs = |t: f64| self.complex_pairs(t);
         let mut bounds = match self.coefficients.as_slice() {
@@ -230,7 +230,7 @@ impl Group {
 /// Roots of xⁿ + c₂xⁿ⁻² + … + c_n, as eigenvalues of the companion matrix.
 fn roots(coefficients: &[c64]) -> Vec<c64> {
     let size = coefficients.len() + 1;
-    // Scales the roots to about one.
+    // With this unit the roots are of size one.
     let unit = coefficients
         .iter()
         .enumerate()
@@ -255,7 +255,7 @@ mod tests {
     use super::*;
 
     /// Checks the interpolation of eigenvalues given in closed form.
-    fn assert_told(eigenvalues: impl Fn(f64) -> Vec<Sloped>, (from, to): (f64, f64)) {
+    fn assert_interpolated(eigenvalues: impl Fn(f64) -> Vec<Sloped>, (from, to): (f64, f64)) {
         let group = Group::new((from, to), [&eigenvalues(from), &eigenvalues(to)]);
         for k in 1..20 {
             let speed = from + (to - from) * f64::from(k) / 20.0;
@@ -283,7 +283,7 @@ mod tests {
                 (mean - root, 0.1 - 0.5 / root),
             ]
         };
-        assert_told(pair, (0.3, 1.9));
+        assert_interpolated(pair, (0.3, 1.9));
     }
 
     /// ±√(Ω − 1): from the imaginary axis through zero to the real axis.
@@ -293,7 +293,7 @@ mod tests {
             let root = c64::new(speed - 1.0, 0.0).sqrt();
             vec![(root, 0.5 / root), (-root, -0.5 / root)]
         };
-        assert_told(pair, (0.45, 1.7));
+        assert_interpolated(pair, (0.45, 1.7));
     }
 
     /// i plus the three cube roots of Ω − 1.
@@ -305,7 +305,7 @@ mod tests {
             let sloped = |x: c64| (x + c64::new(0.0, 1.0), 1.0 / (3.0 * x * x));
             (0..3).map(|k| sloped(turned(k))).collect()
         };
-        assert_told(three, (0.25, 1.77));
+        assert_interpolated(three, (0.25, 1.77));
     }
 
     /// Two waves with crossing frequencies: their mean and squared distance are enough.
@@ -317,6 +317,6 @@ mod tests {
                 (c64::new(-0.2, 5.0 - speed), c64::new(0.0, -1.0)),
             ]
         };
-        assert_told(waves, (0.2, 1.73));
+        assert_interpolated(waves, (0.2, 1.73));
     }
 }

@@ -1,4 +1,4 @@
-//! Growing modes at one speed, checked by counts on the full model: for a saw at a single speed, as in a cut.
+//! Growing modes at a single speed, such as that of a cut, with checks by counts on the full model.
 //!
 //! For an undamped saw the lowest modes are enough if the Krein index, with n₋(K) from a factorization, shows
 //! that no other mode grows, and the counts between modes of opposite sign show that none is missed. For
@@ -19,7 +19,7 @@ use crate::system::GyroscopicSystem;
 /// Growing modes of a plate at a speed, and their checks.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct GrowingModes {
-    /// Number of growing modes; a pair of conjugate eigenvalues is one mode.
+    /// Number of growing modes; two conjugate eigenvalues are one mode.
     pub modes: usize,
     /// Eigenvalue of largest real part, Im λ ≥ 0; `None` for an undamped saw without a growing mode.
     pub fastest: Option<c64>,
@@ -31,7 +31,7 @@ pub(crate) struct GrowingModes {
     pub miscounts: Vec<Miscount>,
 }
 
-/// Modes computed at first; a saw past more critical speeds needs more.
+/// Number of modes computed at first; above many critical speeds more are needed.
 const LOOKED_AT: usize = 16;
 
 impl GrowingModes {
@@ -155,7 +155,7 @@ mod tests {
     use crate::scene::{Accuracy, Scene, rad_per_s};
     use crate::spectrum::{ModeKind, companion_eigenpairs};
 
-    /// The paper's saw pushed at its rim, idling, and with a damper.
+    /// The paper's saw with a force at its rim, idling, and with a damper.
     fn plates() -> [Plate; 3] {
         let resolution = Resolution::of(Accuracy::Draft);
         let idle = Plate::new(&Scene::paper(), resolution);
@@ -168,7 +168,7 @@ mod tests {
         [pushed, idle, Plate::new(&damped.unwrap(), resolution)]
     }
 
-    /// Compares with all eigenvalues of the full model.
+    /// Reference: all eigenvalues of the full model.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
     fn growing_modes_of_a_speed_are_those_of_all_eigenvalues() {
@@ -195,10 +195,10 @@ mod tests {
         assert!(growing > 6, "{growing}");
     }
 
-    /// The index of an undamped saw and the count of a damped one reveal a missing growing mode; the counts
-    /// between other modes reveal a missing wave.
+    /// The index of an undamped saw and the count of a damped one detect a missing growing mode; the counts
+    /// between other modes detect a missing wave.
     #[test]
-    fn a_mode_that_is_left_out_is_noticed() {
+    fn a_missing_mode_is_detected() {
         let [pushed, idle, damped] = plates();
         for plate in [&pushed, &idle] {
             let lowest = LowestModes::new(plate);

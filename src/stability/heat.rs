@@ -1,10 +1,10 @@
 //! Temperature limits of a blade.
 //!
-//! Let K_T be the geometric stiffness per kelvin of the scene's temperature profile. The first critical speed
-//! has fallen to the operating speed at the lowest rise that makes K₀ + Ω²(K_σ − N) + rise K_T singular; the
-//! blade buckles at rest where K₀ + rise K_T is singular. Both are generalised symmetric eigenproblems in the
-//! rise. No other limit can lie between the two speeds, because the squared speeds and rises with positive
-//! definite K form a convex set.
+//! Let K_T be the geometric stiffness per kelvin of the scene's temperature profile. The lowest critical
+//! speed has fallen to the operating speed Ω at the smallest rise that makes K₀ + Ω²(K_σ − N) + rise K_T
+//! singular, and the blade buckles at rest at the smallest rise that makes K₀ + rise K_T singular. Both are
+//! generalized symmetric eigenproblems in the rise. The two limits suffice for all speeds between, because
+//! the squared speeds and rises with positive definite K form a convex set.
 
 use std::sync::atomic::Ordering;
 
@@ -14,18 +14,17 @@ use rayon::prelude::*;
 use crate::plate::{MembraneStress, membrane_stiffness};
 use crate::scene::{Scene, Temperature};
 use crate::spectrum::{
-    AddedStress, EventName, SingularStress, SpectralModel, SpectrumError, critical_speeds,
-    first_singular, standing_name,
+    AddedStress, EventName, NamedCriticalSpeed, SingularStress, SpectralModel, SpectrumError,
+    critical_speeds, first_singular, named,
 };
 use crate::system::spread;
 
-/// Temperature rise at which the blade buckles or its critical speed falls to a given speed, with the shape
-/// of the mode.
+/// Temperature rise at which the blade buckles, or its lowest critical speed falls to the operating speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatLimit {
-    /// Peak of the temperature profile.
+    /// Peak of the temperature profile, in K.
     pub rise_k: f64,
-    /// Waves in the shape.
+    /// Waves of the shape that buckles or stands still.
     pub name: EventName,
 }
 
@@ -34,9 +33,9 @@ pub struct HeatLimit {
 pub struct HeatCurve {
     /// Waves that stand still at the largest rise of the curve.
     pub name: EventName,
-    /// Peaks of the temperature profile.
+    /// Peaks of the temperature profile, in K.
     pub rise_k: Vec<f64>,
-    /// Critical speeds.
+    /// Critical speed at each peak.
     pub speed_rad_per_s: Vec<f64>,
 }
 
@@ -52,18 +51,19 @@ pub struct HeatLimits {
     pub buckling: Option<HeatLimit>,
     /// Whether the blade buckles before a critical speed falls to the operating speed.
     pub buckles_first: bool,
-    /// Limit above which a blade that is buckled when cold is flat; roll tension alone may buckle it.
+    /// Limit above which a blade that is buckled when cold is flat, as with much roll tension.
     pub flat_from: Option<HeatLimit>,
     /// Lowest critical speeds as functions of the peak of the profile.
     pub curves: Vec<HeatCurve>,
 }
 
-/// Number of peaks on the curves: the squares of critical speeds are nearly straight.
+/// Number of peaks on a curve; a few are enough, because squared critical speeds are nearly linear in the peak.
 const RISES: usize = 17;
+/// Largest number of curves.
 const CURVES: usize = 5;
 /// Factor by which the curves extend past the operating limit.
 const BEYOND: f64 = 1.25;
-/// Share of the buckling limit at which the curves end, because speeds tend to zero there.
+/// Share of the buckling limit at which the curves end; at the limit the lowest speed is zero.
 const BEFORE_BUCKLING: f64 = 1.0 - 1e-6;
 
 impl HeatLimits {
@@ -112,9 +112,9 @@ struct Heating<'a> {
     model: &'a SpectralModel,
     /// K_T per kelvin of the peak, for n = 0 … n_max.
     per_kelvin: Vec<DMatrix<f64>>,
-    /// The scene's peak.
+    /// Peak of the scene's profile, in K.
     now_k: f64,
-    /// Sign of the scene's peak.
+    /// Sign of the peak of the scene's profile.
     direction: f64,
 }
 
@@ -131,7 +131,10 @@ impl<'a> Heating<'a> {
         }
     }
 
-    /// Counts an eigenproblem, and fails once the analysis is cancelled.
+    /// Counts an eigenproblem.
+    ///
+    /// # Errors
+    /// [`SpectrumError::Cancelled`].
     fn count(&self) -> Result<(), SpectrumError> {
         let counters = &self.model.counters;
         counters.heat_solves.fetch_add(1, Ordering::Relaxed);
@@ -161,8 +164,8 @@ impl<'a> Heating<'a> {
         Ok(found.map(limit))
     }
 
-    /// Limit at the operating speed, and whether even the cold blade is past it. Starts from the scene's
-    /// temperature, or from the cold blade if the scene is past the limit already.
+    /// Limit at the operating speed, and whether this speed is above a critical speed even of the cold blade.
+    /// The search starts from the scene's temperature, or from the cold blade if the scene exceeds the limit.
     fn operating(&self, speed: f64) -> Result<(Option<HeatLimit>, bool), SpectrumError> {
         for from_k in [self.now_k, 0.0] {
             match self.limit(speed, from_k, self.direction) {
@@ -173,7 +176,8 @@ impl<'a> Heating<'a> {
         Ok((None, true))
     }
 
-    /// Peaks from zero to past the limits, denser towards the end, where speeds fall faster.
+    /// Peaks of the curves, in K, from zero to beyond the limits, denser towards the end, where speeds fall
+    /// faster.
     fn rises(&self, operating: Option<&HeatLimit>, buckling: Option<&HeatLimit>) -> Vec<f64> {
         let size = |limit: Option<&HeatLimit>| limit.map(|limit| limit.rise_k.abs());
         let shown = size(operating).map_or(0.0, |rise| BEYOND * rise);
@@ -196,7 +200,7 @@ impl<'a> Heating<'a> {
         buckling: Option<&HeatLimit>,
     ) -> Result<Vec<HeatCurve>, SpectrumError> {
         let rises = self.rises(operating, buckling);
-        let speeds: Result<Vec<Vec<Named>>, SpectrumError> = rises
+        let speeds: Result<Vec<Vec<NamedCriticalSpeed>>, SpectrumError> = rises
             .par_iter()
             .map(|rise_k| self.lowest_critical(*rise_k))
             .collect();
@@ -206,9 +210,9 @@ impl<'a> Heating<'a> {
         for (rise_k, found) in rises.iter().zip(speeds?) {
             for (place, wave) in found.into_iter().enumerate() {
                 let diameters = wave.name.diameters();
-                let named = |curve: &HeatCurve| curve.name.diameters() == diameters;
+                let is_same = |curve: &HeatCurve| curve.name.diameters() == diameters;
                 let index = match free {
-                    true => curves.iter().position(named),
+                    true => curves.iter().position(is_same),
                     false => (place < curves.len()).then_some(place),
                 };
                 let index = index.unwrap_or_else(|| {
@@ -230,7 +234,7 @@ impl<'a> Heating<'a> {
 
     /// Lowest critical speeds at a peak, for a free blade one for each number of diameters; none if the blade
     /// has buckled.
-    fn lowest_critical(&self, rise_k: f64) -> Result<Vec<Named>, SpectrumError> {
+    fn lowest_critical(&self, rise_k: f64) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
         self.count()?;
         let plate = &self.model.plate;
         let blocks: Vec<&DMatrix<f64>> = self.per_kelvin.iter().collect();
@@ -249,22 +253,10 @@ impl<'a> Heating<'a> {
                 Err(error) => return Err(error),
             };
             let kept = if free { 1 } else { CURVES };
-            lowest.extend(found.into_iter().take(kept).map(|critical| {
-                let speed_rad_per_s = critical.speed_rad_per_s;
-                let name = standing_name(plate, component.first, &critical.shape, speed_rad_per_s);
-                Named {
-                    speed_rad_per_s,
-                    name,
-                }
-            }));
+            lowest.push(found.into_iter().take(kept).collect());
         }
-        lowest.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+        let mut lowest = named(plate, &self.model.components, lowest);
         lowest.truncate(CURVES);
         Ok(lowest)
     }
-}
-
-struct Named {
-    speed_rad_per_s: f64,
-    name: EventName,
 }

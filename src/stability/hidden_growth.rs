@@ -1,4 +1,4 @@
-//! Growth rate that an unlisted band in an unproven interval could have.
+//! Estimated growth rate of an unlisted band in an unproven interval.
 
 use super::chart::StabilityChart;
 use crate::campbell::{Campbell, SpeedSample};
@@ -6,20 +6,21 @@ use crate::spectrum::DescribedMode;
 
 impl StabilityChart {
     /// Estimate of the largest growth rate, in 1/s, that an unlisted band could have in the unproven
-    /// intervals; `None` if no proof was tried, 0 if all is proven.
+    /// intervals; `None` if no proof was tried, 0 if the whole range is proven.
     ///
     /// Two waves of opposite Krein sign whose frequencies approach by s per unit of speed and that are
     /// coupled by κ have λ − iω = ±√(κ² − (sΔΩ/2)²): a band of width w = 4κ/s with growth up to κ = sw/4.
     /// Waves of n and m nodal diameters approach by at most n + m, apart from the stiffening by rotation. The
-    /// modes at drawn speeds are known, so a hidden band would lie between two of them. This is an estimate
-    /// and no proof, because it considers only the two waves.
+    /// modes at drawn speeds are known, so a hidden band would be between two drawn speeds. This is an
+    /// estimate and no proof, because it considers only the two waves.
     pub fn unproven_growth_per_s(&self) -> Option<f64> {
         let growth = self.hidden()?.into_iter().map(|(_, growth)| growth);
         Some(growth.fold(0.0, f64::max))
     }
 
-    /// Parts of the unproven intervals in which a band that grows at least as fast as the threshold could
-    /// hide, by the same estimate; merged where they touch.
+    /// Parts of the unproven intervals in which, by the estimate of
+    /// [`StabilityChart::unproven_growth_per_s`], an unlisted band could grow at least as fast as the
+    /// threshold; adjacent parts are merged.
     pub fn unproven_counting_rad_per_s(&self, threshold_per_s: f64) -> Vec<(f64, f64)> {
         let mut joined: Vec<(f64, f64)> = Vec::new();
         let hidden = self.hidden().unwrap_or_default().into_iter();
@@ -32,7 +33,7 @@ impl StabilityChart {
         joined
     }
 
-    /// Parts of the unproven intervals between drawn speeds, with the estimate for each.
+    /// Parts of the unproven intervals between drawn speeds, with the estimated growth rate for each, in 1/s.
     fn hidden(&self) -> Option<Vec<((f64, f64), f64)>> {
         let stretches = self.certificate.unproven_rad_per_s.as_ref()?;
         let drawn: Vec<f64> = self
@@ -53,8 +54,8 @@ impl StabilityChart {
 }
 
 /// Largest frequency of a wave that can coalesce with a reflected wave in an interval, relative to the
-/// highest reflected wave about it.
-const MEETING: f64 = 2.0;
+/// frequency of the highest reflected wave near the interval.
+const COALESCING: f64 = 2.0;
 
 /// Sum n + m for the waves of opposite sign with most nodal diameters that may coalesce in an interval.
 fn approach(campbell: &Campbell, from: f64, to: f64) -> f64 {
@@ -75,7 +76,7 @@ fn approach(campbell: &Campbell, from: f64, to: f64) -> f64 {
     let highest = reflected
         .map(|m| m.mode.frequency_rad_per_s())
         .fold(0.0, f64::max);
-    let pair = largest(-1, f64::INFINITY).zip(largest(1, MEETING * highest));
+    let pair = largest(-1, f64::INFINITY).zip(largest(1, COALESCING * highest));
     pair.map_or(0.0, |(n, m)| (n + m) as f64)
 }
 
@@ -84,13 +85,13 @@ mod tests {
     use crate::scene::{Scene, rad_per_s};
     use crate::stability::{Analysis, InstabilityKind};
 
-    /// The listed bands obey the estimate.
+    /// Reference: the growth and width of the listed bands, for which the same estimate holds.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "a chart: run it in release")]
     fn listed_bands_grow_no_faster_than_the_estimate_for_their_width() {
         let analysis = Analysis::new(&Scene::paper()).unwrap();
         let chart = &analysis.chart;
-        let mut looked_at = 0;
+        let mut compared = 0;
         for band in &chart.instabilities {
             if band.kind != InstabilityKind::Flutter || !band.closed {
                 continue;
@@ -98,20 +99,20 @@ mod tests {
             let (from, to) = (band.from_rad_per_s, band.to_rad_per_s);
             let largest = 0.25 * super::approach(&chart.campbell, from, to) * (to - from);
             assert!(band.peak_growth_per_s <= largest, "{band}: {largest}");
-            looked_at += 1;
+            compared += 1;
         }
-        assert!(looked_at >= 7);
+        assert!(compared >= 7);
         let hidden = chart.unproven_growth_per_s().unwrap();
         assert!(hidden > 0.0 && hidden < 4.0 * rad_per_s(1.0), "{hidden}");
-        // A band that counts can hide only where the estimate reaches the threshold, which takes a certain
+        // A band that counts is possible only if the estimate reaches the threshold, which needs a certain
         // width.
         assert!(chart.unproven_counting_rad_per_s(1.01 * hidden).is_empty());
         let unproven = chart.certificate.unproven_rad_per_s.iter().flatten();
         let counting = chart.unproven_counting_rad_per_s(0.5 * hidden);
         assert!(!counting.is_empty());
         for (from, to) in counting {
-            let mut holding = unproven.clone();
-            assert!(holding.any(|(x, y)| *x <= from && to <= *y));
+            let mut intervals = unproven.clone();
+            assert!(intervals.any(|(x, y)| *x <= from && to <= *y));
         }
     }
 }

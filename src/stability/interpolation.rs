@@ -12,7 +12,7 @@ pub struct Cubic {
 }
 
 impl Cubic {
-    /// Value of the cubic.
+    /// Value of the cubic at t.
     pub fn at(&self, t: f64) -> f64 {
         let ([f0, f1], [d0, d1]) = (self.values, self.slopes);
         let u = 1.0 - t;
@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_cubic_meets_its_ends() {
+    fn the_cubic_has_the_values_at_its_ends() {
         let line = Cubic {
             values: [2.0, 5.0],
             slopes: [1.0, 1.0],

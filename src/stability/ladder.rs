@@ -2,8 +2,8 @@
 
 use crate::plate::Resolution;
 
-/// (n_max, J), each about 1.5 times as large as the previous one. For smaller sizes a larger basis gives no
-/// reliable error.
+/// Sizes (n_max, J), each with about 1.5 times as many functions as the previous one. The errors of smaller
+/// sizes cannot be estimated reliably by a larger basis.
 pub(super) const LADDER: [(usize, usize); 11] = [
     (10, 6),
     (12, 7),
@@ -17,13 +17,13 @@ pub(super) const LADDER: [(usize, usize); 11] = [
     (56, 25),
     (70, 30),
 ];
-/// Sizes for which dense eigenproblems are affordable. The others use the structure of a guided blade or the
+/// Sizes for which dense eigenproblems are possible. Larger ones need the structure of a guided blade or the
 /// harmonics of a free one.
 pub(crate) const DENSE_LADDER: &[(usize, usize)] = LADDER.split_at(6).0;
 /// Sizes that only measure the error of the largest ones of the ladder.
 const BEYOND: [(usize, usize); 2] = [(80, 34), (90, 38)];
 
-/// Steps from a size to the one that measures its error: more for the small sizes, which are cheap and
+/// Steps from a size to the one that measures its error: more for small sizes, which need little time and
 /// converge slowly at first.
 const fn steps_ahead(rung: usize) -> usize {
     if rung <= 4 { 3 } else { 2 }
@@ -36,7 +36,7 @@ pub(super) fn ahead(rung: usize) -> Resolution {
     resolution(larger.unwrap_or(BEYOND[1]))
 }
 
-/// Sizes with more nodal diameters.
+/// Sizes with more nodal diameters than a given size, ascending.
 pub(super) fn larger_than(least: Resolution) -> impl Iterator<Item = Resolution> {
     let larger = LADDER.into_iter();
     let larger = larger.filter(move |(max_diameters, _)| *max_diameters > least.max_diameters);

@@ -1,5 +1,5 @@
-//! Listed eigenvalues other than those at rest, refined on the full model: at the peaks of bands, and the
-//! fastest growing or slowest decaying mode at the operating speed.
+//! Refinement on the full model of the eigenvalues that a report lists: those at the peaks of bands, and that
+//! of the fastest growing or slowest decaying mode at the operating speed.
 
 use faer::c64;
 use rayon::prelude::*;
@@ -7,14 +7,14 @@ use rayon::prelude::*;
 use super::band::Instability;
 use crate::spectrum::{DescribedMode, RefinedPair, SpectralModel, SpectrumError};
 
-/// Eigenvalues refined on the full model, and the largest backward error among them.
+/// Refinement of listed eigenvalues, with the largest backward error so far.
 pub(super) struct Listed {
     /// Largest backward error; `None` if an eigenvalue could not be refined.
     largest_error: Option<f64>,
 }
 
 impl Listed {
-    /// A list that begins with the modes at rest, which come from the full model.
+    /// A list that begins with the modes at rest, which are accurate without refinement.
     pub fn new(modes_at_rest: &[DescribedMode]) -> Self {
         let errors = modes_at_rest.iter().map(|mode| mode.backward_error);
         Listed {
@@ -22,7 +22,7 @@ impl Listed {
         }
     }
 
-    /// Refines growth and frequency at the peaks of bands.
+    /// Refines growth rate and frequency at the peaks of bands.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -48,7 +48,7 @@ impl Listed {
         Ok(())
     }
 
-    /// Refines an eigenvalue at a speed; a purely imaginary one stays so.
+    /// Refines an eigenvalue at a speed; a purely imaginary one remains purely imaginary.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -67,7 +67,7 @@ impl Listed {
         Ok(refined.map_or(lambda, |refined| c64::new(re(refined), refined.lambda.im)))
     }
 
-    /// Largest backward error in the list; `None` if an eigenvalue could not be refined.
+    /// Largest backward error of the list; `None` if an eigenvalue could not be refined.
     pub fn largest_error(&self) -> Option<f64> {
         self.largest_error
     }
@@ -136,12 +136,8 @@ mod tests {
                 assert_eq!(band.frequency_rad_per_s == 0.0, is_real);
                 let found = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
                 let exact = exact(system, band.peak_rad_per_s, found);
-                // For divergence rounding is that of λ² relative to the lowest frequency squared.
+                // For divergence the rounding of λ² is relative to the square of the lowest frequency.
                 let error = (found - exact).norm() / exact.norm().max(lowest);
-                println!(
-                    "{:.3} rpm {found}: {error:e}",
-                    crate::scene::rpm(band.peak_rad_per_s)
-                );
                 assert!(error < 1e-12, "{found}: {error:e}");
             }
             let speed = rad_per_s(1000.0);
@@ -153,7 +149,6 @@ mod tests {
                 assert!(error < 1e-12, "{found}: {error:e}");
             }
             let largest = listed.largest_error().unwrap();
-            println!("largest backward error {largest:e}");
             assert!(largest < 1e-13, "{largest:e}");
         }
     }

@@ -4,25 +4,28 @@ use faer::c64;
 
 use super::band::Instability;
 use crate::campbell::{Sighted, match_modes};
-use crate::spectrum::{Mode, ModeKind, SearchModel, SpectralModel, SpectrumError};
+use crate::spectrum::{Mode, ModeKind, SearchModel, SpectralModel, SpectrumError, smallest};
 
-/// Two eigenvalues over speed.
+/// Paths of two eigenvalues over speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RootLoci {
     /// Speeds, ascending, in rad/s.
     pub speeds: Vec<f64>,
-    /// For the mode of Krein sign +1 and that of −1: λ and Krein sign at each speed.
+    /// λ and Krein sign at each speed, of the mode with sign +1 beside the band, and of that with sign −1. In
+    /// the band the first grows, the second decays, and both signs are 0.
     pub paths: [Vec<(c64, i8)>; 2],
 }
 
-/// Intervals wider than this share of their end are too wide for interpolation from the modes at both ends.
+/// Largest width of an interval, as a share of its end, over which the modes at both ends represent those
+/// between.
 const NARROW: f64 = 0.04;
 /// Speeds of the loci on each side of the band and within each half of it.
 const SPEEDS: usize = 20;
 
 impl RootLoci {
-    /// Follows the pair of a band from its peak to one width below and above the band, inside a range, or
-    /// until one of the two coalesces with another mode.
+    /// Follows the pair of a band from its peak to one width below and above the band, within a range, or
+    /// until one of the two coalesces with another mode. `None` without a reduced model, and if the pair is
+    /// not found.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -53,7 +56,8 @@ impl RootLoci {
         };
         let outwards = |edge: f64, end: f64| {
             let inside = denser_at_ends(band.peak_rad_per_s, edge);
-            // At the end of the range growth of a band is not zero.
+            // At the end of a range that cuts the band, growth is not zero, so the end itself belongs to the
+            // path.
             let last = (end != band.peak_rad_per_s).then_some(end);
             inside.chain(denser_at_ends(edge, end)).chain(last)
         };
@@ -108,9 +112,8 @@ impl Pair {
         let modes = lowest_modes(modes_at, band.peak_rad_per_s)?;
         let nearest = |kind: ModeKind, growth: f64| {
             let wanted = c64::new(growth, band.frequency_rad_per_s);
-            let off = |i: &usize| (modes[*i].lambda - wanted).norm();
             let same = (0..modes.len()).filter(|i| modes[*i].kind == kind);
-            same.min_by(|x, y| off(x).total_cmp(&off(y)))
+            smallest(same, |i| (modes[*i].lambda - wanted).norm())
         };
         let growth = band.peak_growth_per_s;
         let growing = nearest(ModeKind::Flutter, growth);
@@ -127,8 +130,8 @@ impl Pair {
         (self.speed, self.chosen.map(of))
     }
 
-    /// Rows of the pair at successive speeds as long as it stays a pair: coalesced within the band, two waves
-    /// beside it, the one of sign +1 first.
+    /// Rows of the pair at successive speeds, as long as its modes are coalesced within the band and waves of
+    /// opposite sign beside it, the one of sign +1 first.
     fn followed(
         &self,
         modes_at: ModesAt<'_>,
@@ -156,7 +159,7 @@ impl Pair {
         Ok(rows)
     }
 
-    /// Follows the two modes to another speed.
+    /// The two modes at another speed; `None` if one has no match.
     fn to(&self, modes_at: ModesAt<'_>, speed: f64) -> Result<Option<Self>, SpectrumError> {
         let modes = lowest_modes(modes_at, speed)?;
         let highest = |modes: &[Mode]| modes.last().map_or(0.0, Mode::frequency_rad_per_s);
@@ -181,10 +184,10 @@ mod tests {
     use crate::spectrum::{Strategy, companion_eigenpairs};
     use crate::stability::{InstabilityKind, chart};
 
-    /// Compares a band that the end of the range cuts with a dense solve of the whole matrix there.
+    /// Reference: all eigenvalues of the whole matrix at the end of a range that cuts a band.
     #[test]
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
-    fn paths_go_on_to_the_end_of_a_range_that_cuts_their_band_short() {
+    fn paths_continue_to_the_end_of_a_range_that_cuts_their_band() {
         let plate = Plate::new(&Scene::paper(), Resolution::of(Accuracy::Draft));
         let range = (0.0, rad_per_s(2300.0));
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();

@@ -1,4 +1,4 @@
-//! A loss factor and measured damping ratios, as the modes of a saw show them.
+//! Modes of a saw with a loss factor and measured damping ratios.
 
 use std::f64::consts::TAU;
 
@@ -42,7 +42,8 @@ fn collar(saw: &mut SceneFile) {
     });
 }
 
-/// Independent value: λ² + 2ζωλ + ω² has |λ| = ω and the ratio ζ: half the loss factor, or what is listed.
+/// Independent value: λ² + 2ζωλ + ω² has |λ| = ω and the damping ratio ζ, half the loss factor or the
+/// measured ratio.
 #[test]
 fn modes_at_rest_have_the_ratio_that_was_given() {
     let analysis = Analysis::new(&scene(collar)).unwrap();
@@ -61,8 +62,8 @@ fn modes_at_rest_have_the_ratio_that_was_given() {
     }
 }
 
-/// Independent value: in the frame of the blade a wave with n diameters obeys μ² + C_i μ + K_b + Ω²K_σ, here one mode at a time
-/// by first-order perturbation; in space λ = μ ± inΩ.
+/// Independent value: in the frame of the blade a wave with n diameters obeys μ² + C_i μ + K_b + Ω²K_σ = 0,
+/// whose decay rate follows by first-order perturbation; in space λ = μ ± inΩ.
 #[test]
 fn turning_waves_decay_as_in_the_frame_of_the_blade() {
     let scene = scene(collar);
@@ -95,8 +96,8 @@ fn turning_waves_decay_as_in_the_frame_of_the_blade() {
     }
 }
 
-/// The certificate counts the modes of the guided saw with this damping too. Without guides nothing grows, because in the frame of
-/// the blade every wave loses energy.
+/// The certificate counts the modes of a guided saw with this damping too. Without guides nothing grows,
+/// because in the frame of the blade every wave loses energy.
 #[test]
 fn the_certificate_counts_a_saw_with_a_loss_factor() {
     let analysis = Analysis::new(&scene(|_| ())).unwrap();

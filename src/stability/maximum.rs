@@ -15,18 +15,18 @@ pub struct Sample {
     pub slope: f64,
 }
 
-/// The maximum is refined until the cubics promise an improvement below this share of it.
+/// Samples are added until the cubics predict an increase of the maximum below this share of it.
 const TOLERANCE: Tuned = Tuned::new("stability/maximum::TOLERANCE", 1e-5);
 /// Largest number of added samples.
 const MOST_SAMPLES: usize = 24;
 
-/// Sample of the largest f. Samples are added to the given ones, at ascending speeds, where the cubics
-/// between neighbours promise a larger value; this finds a narrow second hump if the slopes show it. `None`
-/// without samples.
+/// The sample of the largest value. Samples are added to the given ones, which are at ascending speeds, where
+/// the cubics between neighbours predict a larger value; this finds a narrow second hump if the slopes show
+/// it. `None` without samples.
 ///
 /// # Errors
 /// The errors of `f`.
-pub fn maximise(
+pub fn maximize(
     mut samples: Vec<Sample>,
     mut f: impl FnMut(f64) -> Result<Option<Sample>, SpectrumError>,
 ) -> Result<Option<Sample>, SpectrumError> {
@@ -38,12 +38,12 @@ pub fn maximise(
         let Some(best) = greatest(&samples) else {
             break;
         };
-        let promised = samples.windows(2).enumerate().map(|(place, ends)| {
-            let (share, value) = promise(ends);
+        let predicted = samples.windows(2).enumerate().map(|(place, ends)| {
+            let (share, value) = predicted_maximum(ends);
             (place, ends[0].at + share * (ends[1].at - ends[0].at), value)
         });
-        let promised = promised.max_by(|x, y| x.2.total_cmp(&y.2));
-        let Some((place, speed, value)) = promised else {
+        let predicted = predicted.max_by(|x, y| x.2.total_cmp(&y.2));
+        let Some((place, speed, value)) = predicted else {
             break;
         };
         if value <= best.value * (1.0 + TOLERANCE.get()) {
@@ -55,8 +55,8 @@ pub fn maximise(
     Ok(greatest(&samples))
 }
 
-/// Value at a speed by the cubic between its neighbours, or the value of the end sample outside the range;
-/// zero without samples.
+/// Value at a speed by the cubic between the neighbouring samples; beyond the samples the value of the last
+/// one, and zero without samples.
 pub fn between(samples: &[Sample], at: f64) -> f64 {
     let place = samples.partition_point(|sample| sample.at < at);
     match samples.get(place.saturating_sub(1)..=place) {
@@ -68,7 +68,7 @@ pub fn between(samples: &[Sample], at: f64) -> f64 {
     }
 }
 
-/// Cubic between two samples.
+/// Cubic between two samples; the secant replaces an unknown slope.
 fn cubic(ends: &[Sample]) -> Cubic {
     let width = ends[1].at - ends[0].at;
     let secant = ends[1].value - ends[0].value;
@@ -83,9 +83,9 @@ fn cubic(ends: &[Sample]) -> Cubic {
 }
 
 /// Position and value of the maximum of the cubic between two samples.
-fn promise(ends: &[Sample]) -> (f64, f64) {
+fn predicted_maximum(ends: &[Sample]) -> (f64, f64) {
     let (share, value) = cubic(ends).highest();
-    // A maximum so close to an end is no improvement on the sample there.
+    // A maximum so close to an end is hardly larger than the sample at that end.
     if (1e-6..=1.0 - 1e-6).contains(&share) {
         (share, value)
     } else {
@@ -103,7 +103,7 @@ mod tests {
             Sample { at, value, slope }
         };
         let samples = ends.iter().map(|at| sample(*at)).collect();
-        maximise(samples, |at| Ok(Some(sample(at))))
+        maximize(samples, |at| Ok(Some(sample(at))))
             .unwrap()
             .unwrap()
     }

@@ -3,8 +3,8 @@
 //! The input is a [`Scene`](crate::scene::Scene), the result an [`Analysis`]: critical speeds, every band of
 //! divergence and flutter with its edges (rad/s), its largest growth rate (1/s) and frequency (rad/s), the
 //! branches of the Campbell diagram, estimated errors, and a [`Certificate`] with the proven range.
-//! [`Onsets`] gives the same without a chart, for many saws; [`Analysis::verdict`] says whether a speed is
-//! stable.
+//! [`Onsets`] gives critical speeds and bands without a chart, for many saws; [`Analysis::verdict`] states
+//! whether the saw is stable at a speed.
 
 mod analysis;
 mod band;

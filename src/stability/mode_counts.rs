@@ -5,8 +5,8 @@
 //! n₋(L(iω)) = n₋(K) + p − m.
 //!
 //! A count between two modes of opposite sign therefore confirms both, and one above all of them confirms
-//! that none is missing. A coalesced pair does not change the count, and a + and a − mode side by side change
-//! only the count between them.
+//! that none is missing. A coalesced pair does not change the count. A + and a − mode that are neighbours
+//! change only the count between them.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -15,14 +15,14 @@ use rayon::prelude::*;
 use super::signature::{Sign, Signature};
 use crate::spectrum::{AtSpeed, FullModel, SpectralModel, SpectrumError};
 
-/// Mode counts of one saw.
+/// Mode counts on the full model of an undamped guided blade.
 pub struct ModeCounts<'a> {
     model: &'a SpectralModel,
     basis: &'a FullModel,
     counted: AtomicUsize,
 }
 
-/// A missing or surplus mode in the spectrum of a speed.
+/// A contradiction between a count and the modes of a speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Miscount {
     /// Rotation speed Ω.
@@ -35,22 +35,23 @@ pub(crate) struct Miscount {
     pub missing: isize,
 }
 
-/// Count at a frequency that the modes of a speed imply.
+/// Count at a frequency, as the modes of a speed imply it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Claim {
     /// ω, in rad/s.
     pub frequency_rad_per_s: f64,
-    /// p − m.
+    /// p − m of the modes below that frequency.
     pub net: isize,
 }
 
-/// Position of the last count in its gap: close below the upper mode, so that no mode hides above.
+/// Position of the last count in its gap, as a share: close below the upper mode, so that the count includes
+/// nearly all modes below.
 const BELOW_UPPER: f64 = 0.9;
-/// Least relative distance of a wave from a coalesced pair for which the count between them is meaningful.
+/// Smallest relative distance of all waves from a coalesced pair at whose frequency modes are counted.
 const CLEAR: f64 = 1e-3;
 
-/// Claims that confirm a signature: between modes of opposite sign, below and above all, and at the frequency
-/// of every coalesced pair. There are no claims about modes above `height_rad_per_s`.
+/// Claims that confirm a signature: below all modes, between modes of opposite sign, and at the frequency of
+/// every coalesced pair, ascending, and only below `height_rad_per_s`.
 pub(super) fn claims(signature: &Signature, height_rad_per_s: f64) -> Vec<Claim> {
     let waves = &signature.waves;
     let mut claims = Vec::new();
@@ -104,12 +105,12 @@ pub(super) struct Gap {
 }
 
 impl Gap {
-    /// Frequency in its middle, in rad/s.
+    /// Frequency in the middle of the gap, in rad/s.
     pub fn middle_rad_per_s(&self) -> f64 {
         0.5 * (self.sides[0].0 + self.sides[1].0)
     }
 
-    /// Width of the gap.
+    /// Width of the gap, in rad/s.
     pub fn width_rad_per_s(&self) -> f64 {
         self.sides[1].0 - self.sides[0].0
     }
@@ -134,6 +135,7 @@ pub(super) fn gaps(signature: &Signature, height_rad_per_s: f64) -> Vec<Gap> {
     gaps
 }
 
+/// Contribution of a mode to p − m.
 fn of_sign(sign: Sign) -> isize {
     match sign {
         Sign::Plus => 1,
@@ -143,7 +145,7 @@ fn of_sign(sign: Sign) -> isize {
 }
 
 impl<'a> ModeCounts<'a> {
-    /// Mode counts of a guided blade; the waves of a free one are known for each harmonic.
+    /// Mode counts of a guided blade; `None` for a free one, whose waves are known for each harmonic.
     pub fn new(model: &'a SpectralModel) -> Option<Self> {
         (!model.plate.is_axisymmetric()).then(|| ModeCounts {
             model,
@@ -174,17 +176,17 @@ impl<'a> ModeCounts<'a> {
         components.any(|component| !component.full.free_rigid.is_empty())
     }
 
-    /// Shared data of the counts at a speed.
+    /// Data common to the counts at a speed.
     pub fn at(&self, speed_rad_per_s: f64) -> AtSpeed {
         self.basis.at(speed_rad_per_s)
     }
 
-    /// Whether the count is constant along a line between two speeds.
+    /// Whether the count is proven to be `count` along a line between two speeds.
     pub fn is_count_along(&self, ends: [&AtSpeed; 2], line: [f64; 2], count: usize) -> bool {
         self.basis.is_count_along(ends, line, count)
     }
 
-    /// Miscounts at several speeds.
+    /// Contradictions between counts and signatures of several speeds, up to a height.
     ///
     /// # Errors
     /// [`SpectrumError::Cancelled`].

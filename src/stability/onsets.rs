@@ -14,7 +14,7 @@ use crate::spectrum::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
 /// Onset speeds, equal to those of an [`Analysis`](super::Analysis) to nine digits.
 #[derive(Debug)]
 pub struct Onsets {
-    /// Lowest critical speed, in rad/s.
+    /// Lowest critical speed, in rad/s, also above the range.
     pub lowest_critical_rad_per_s: Option<f64>,
     /// Critical speeds, ascending, in rad/s, including those next to the range.
     pub critical_rad_per_s: Vec<f64>,
@@ -22,9 +22,9 @@ pub struct Onsets {
     pub instabilities: Vec<Instability>,
     /// Lowest speed of flutter that counts, in rad/s, see [`Instability::counted`].
     pub flutter_speed_rad_per_s: Option<f64>,
-    /// Onset of the first flutter band, in rad/s.
+    /// Onset of the first flutter band, including bands that do not count, in rad/s.
     pub first_merge_rad_per_s: Option<f64>,
-    /// Proof that no band is missing; without comparisons for damped scenes.
+    /// Results of the checks of the bands; empty if no search was needed.
     pub certificate: Certificate,
     /// Number of functions of the basis.
     pub functions: usize,
@@ -33,7 +33,7 @@ pub struct Onsets {
 }
 
 impl Onsets {
-    /// Onsets of the idling saw over a range of speeds.
+    /// Onsets of the saw without cutting forces over a range of speeds, in rad/s.
     ///
     /// # Errors
     /// [`AnalysisError`] when an eigenproblem fails.
@@ -49,7 +49,8 @@ impl Onsets {
         Self::on(ChosenBasis::new(scene, scene.tolerance())?, scene)
     }
 
-    /// Finds the onsets on a basis no smaller than that of a similar saw, in three quarters of the time.
+    /// Finds the onsets on a basis that is at least as large as that of a similar saw, in three quarters of
+    /// the time.
     ///
     /// # Errors
     /// The errors of [`Onsets::new`].
@@ -92,8 +93,8 @@ impl Onsets {
     }
 }
 
-/// Finds every band of a plate whose critical speeds are known, with the proof that none is missing. It uses
-/// only the modes that can coalesce; a damped plate needs everything that a chart computes.
+/// Finds every band of a saw whose critical speeds are known, with the results of its checks. Without damping
+/// it uses only the modes that can coalesce; with damping it computes a whole chart.
 ///
 /// # Errors
 /// [`AnalysisError`] when an eigenproblem fails.

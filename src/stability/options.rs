@@ -9,11 +9,11 @@ use crate::spectrum::NamedCriticalSpeed;
 /// Options of an analysis.
 #[derive(Clone, Copy)]
 pub struct AnalysisOptions<'a> {
-    /// Detail of the chart.
+    /// Detail of the chart; full by default.
     pub detail: Detail,
-    /// Progress callback: number of speeds done and number of speeds in total.
+    /// Progress callback, which receives the number of finished speeds and of all speeds; none by default.
     pub progress: Progress<'a>,
-    /// Callback that receives the expected work of a long sweep before the analysis begins; none by default.
+    /// Callback that receives the expected work of a sweep before the analysis begins; none by default.
     pub expected: Option<&'a (dyn Fn(ExpectedWork) + Sync)>,
     /// Callback that receives the critical speeds, and later the bands, before the diagram is complete; none
     /// by default.
@@ -23,7 +23,7 @@ pub struct AnalysisOptions<'a> {
 /// Results that are known before the diagram.
 #[derive(Debug, Clone, Copy)]
 pub struct Interim<'a> {
-    /// Critical speeds up to a little above the range, and the lowest; ascending.
+    /// Critical speeds up to slightly above the range, and at least the lowest one; ascending.
     pub critical: &'a [NamedCriticalSpeed],
     /// Range of speeds, in rad/s.
     pub range_rad_per_s: (f64, f64),
@@ -32,6 +32,7 @@ pub struct Interim<'a> {
 }
 
 impl AnalysisOptions<'_> {
+    /// Calls the callback for interim results, if there is one.
     pub(super) fn report(&self, interim: Interim<'_>) {
         if let Some(receive) = self.interim {
             receive(interim);

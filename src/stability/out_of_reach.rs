@@ -6,7 +6,7 @@ use faer::{Col, Mat};
 use super::basis::{MODES_AT_REST, REMAINDER};
 use super::error::AnalysisError;
 use super::estimate::Estimates;
-use super::ladder::{DENSE_LADDER, LADDER, ahead, resolution};
+use super::ladder::{DENSE_LADDER, LADDER, ahead, resolution, rung_of};
 use crate::plate::{Contact, ContactTerms, Plate};
 use crate::scene::{Guide, Scene};
 use crate::spectrum::{Assembled, LargerBasis};
@@ -16,10 +16,11 @@ use crate::spectrum::{Assembled, LargerBasis};
 pub struct OutOfReach {
     /// Index of the guide that contributes most to the error.
     pub guide: Option<usize>,
-    /// Number of functions that would reach the tolerance if the error keeps falling by the same power as
-    /// over the last two sizes: accurate to a factor of two. `None` if it is far beyond reach.
+    /// Number of functions that would reach the tolerance if the error continues to fall with the same power
+    /// as over the last two sizes; accurate to a factor of two. `None` above a million.
     pub functions: Option<f64>,
-    /// Whether larger bases exist, but not for a saw with damping or forces at the rim.
+    /// Whether the basis is the largest one for a saw with damping or forces at the rim; other saws have
+    /// larger bases.
     pub is_dense: bool,
 }
 
@@ -29,8 +30,8 @@ const STEPS_BACK: usize = 2;
 const MOST_FUNCTIONS: f64 = 1e6;
 
 impl OutOfReach {
-    /// Reason for a saw in its chosen basis, with the largest estimated error that the tolerance limits;
-    /// `None` for a basis without one two sizes smaller.
+    /// Reason for a saw on its chosen basis, with the largest estimated error that the tolerance limits;
+    /// `None` if no basis is two sizes smaller.
     ///
     /// # Errors
     /// [`AnalysisError`] when an eigenproblem of a smaller basis fails.
@@ -41,8 +42,7 @@ impl OutOfReach {
         estimates: &Estimates,
         error: f64,
     ) -> Result<Option<Self>, AnalysisError> {
-        let is_own = |size: &(usize, usize)| resolution(*size) == plate.resolution;
-        let rung = LADDER.iter().position(is_own).unwrap_or(0);
+        let rung = rung_of(plate.resolution);
         if rung < STEPS_BACK {
             return Ok(None);
         }
@@ -61,15 +61,17 @@ impl OutOfReach {
     }
 }
 
-/// A saw in a smaller basis than the chosen one.
+/// A saw on a smaller basis than the chosen one.
 struct Smaller {
     plate: Plate,
+    /// The saw on the basis that measures the error.
     finer: Plate,
     larger: LargerBasis,
     /// Largest error of a critical speed within the range, or of a frequency at rest.
     error: f64,
     /// Component of the wave with this error.
     component: usize,
+    /// Unknowns of this wave in its component.
     shape: Col<f64>,
 }
 
@@ -104,7 +106,7 @@ impl Smaller {
         })
     }
 
-    /// Guide whose force on the missing functions contributes most.
+    /// Index of the guide whose force on the absent functions contributes most to the error.
     fn sharpest(&self, guides: &[Guide]) -> Option<usize> {
         let shape = Mat::from_fn(self.shape.nrows(), 1, |i, _| self.shape[i]);
         let share = |guide: &Guide| {

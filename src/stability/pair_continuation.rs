@@ -1,4 +1,4 @@
-//! Continuation of two modes over speed together: their invariant subspace is smooth where they coalesce and
+//! Continuation of a mode pair over speed: the invariant subspace of two modes is smooth where they coalesce and
 //! split, unlike their eigenvalues.
 //!
 //! For a quadruple ±σ ± iω, σ² passes linearly through zero where two waves of opposite Krein sign coalesce,
@@ -11,21 +11,22 @@ use self::looked::Looked;
 use super::evaluator::SignatureEvaluator;
 use super::maximum::Sample;
 use super::signature::SignedMode;
-use crate::spectrum::{ModePair, SpectrumError};
+use crate::spectrum::{ModePair, SpectrumError, smallest};
 
-/// Relative speed difference for the slope of σ²: rounding is 1e-15 of ω², and the pair is accurate to the
-/// square of the difference.
+/// Relative speed difference for the slopes of σ² and ω²: rounding is 1e-15 of ω², and the error of the pair
+/// is of the order of the square of the difference.
 const DIFFERENCE: f64 = 1e-6;
-/// After a last step of this relative length the error is its square times the ratio of speed to band width:
-/// below the required accuracy.
+/// Relative length of the last step. The error after it is the square of this length times the ratio of speed
+/// to band width, below the required accuracy.
 const NEWTON_TOLERANCE: f64 = 1e-8;
+/// Number of steps after which the continuation fails.
 const MAX_STEPS: usize = 40;
 /// Largest share of the way to the coalescence of two real λ in one step: beyond the coalescence the pair has
 /// no complex states to follow.
 const SHORT_OF_REAL: f64 = 0.999;
-/// Allowed relative error of σ² in the states of the search, and allowed shift of an edge relative to the
-/// speed.
+/// Allowed relative error of σ² in the models of the search.
 const LIKENESS: f64 = 0.05;
+/// Allowed shift of an edge in the models of the search, relative to the speed.
 pub const VICINITY: f64 = 3e-5;
 
 /// Kind of begin or end of a quadruple.
@@ -44,16 +45,16 @@ pub struct Edge {
     pub speed_rad_per_s: f64,
     /// Kind of coalescence.
     pub coalescence: Coalescence,
-    /// ω there, in rad/s.
+    /// ω at the edge, in rad/s.
     pub frequency_rad_per_s: f64,
-    /// σ² there, in 1/s².
+    /// σ² at the edge, in 1/s².
     pub growth_square: f64,
-    /// dσ²/dΩ there, in 1/s.
+    /// dσ²/dΩ at the edge, in 1/s.
     pub growth_square_slope: f64,
 }
 
 impl Edge {
-    /// σ² there with its slope.
+    /// σ² at the edge with its slope.
     pub fn sample(&self) -> Sample {
         Sample {
             at: self.speed_rad_per_s,
@@ -63,7 +64,7 @@ impl Edge {
     }
 }
 
-/// Pair of modes at a speed.
+/// A pair of modes at a speed, which can be followed to other speeds.
 pub struct PairContinuation<'a> {
     evaluator: &'a SignatureEvaluator<'a>,
     pair: ModePair,
@@ -109,7 +110,7 @@ impl<'a> PairContinuation<'a> {
         (growth > 0.0 && frequency >= 0.0).then(|| (growth.sqrt(), frequency.sqrt()))
     }
 
-    /// Whether a quadruple is this pair: on the way a pair may be mistaken for a neighbour.
+    /// Whether a quadruple is this pair: the refinement may have converged to a neighbour.
     fn is_mode(&self, mode: &SignedMode) -> bool {
         let [growth, frequency] = self.squares();
         let (sigma, omega) = (mode.lambda.re, mode.lambda.im);
@@ -128,7 +129,7 @@ impl<'a> PairContinuation<'a> {
         [0, 1].map(|k| (after[k] - before[k]) / (2.0 * h))
     }
 
-    /// σ² and ω² here with their slopes.
+    /// σ² and ω² at this speed with their slopes.
     fn looked(&self) -> Looked {
         Looked {
             speed: self.speed,
@@ -137,8 +138,8 @@ impl<'a> PairContinuation<'a> {
         }
     }
 
-    /// Estimated speed at which σ² or ω² is zero, upwards or downwards: from the cubic through this and the
-    /// previous speed, or from the tangent.
+    /// Estimated edge at which σ² or ω² is zero, the first in a direction of speed: from the cubic through
+    /// this and the previous speed, or from the tangent.
     fn root(here: &Looked, before: Option<&Looked>, direction: f64) -> Option<Edge> {
         let of = |k: usize, coalescence| {
             let left = before
@@ -155,28 +156,27 @@ impl<'a> PairContinuation<'a> {
         };
         let edges = [of(0, Coalescence::Waves), of(1, Coalescence::Real)];
         let away = |edge: &Edge| (edge.speed_rad_per_s - here.speed) * direction;
-        let edges = edges.into_iter().flatten();
-        edges.min_by(|x, y| away(x).total_cmp(&away(y)))
+        smallest(edges.into_iter().flatten(), away)
     }
 
-    /// Edge of the quadruple between here and `end`, a speed outside it. `None` if the pair is lost on the
-    /// way.
+    /// Edge of the quadruple between this speed and `end`, a speed outside it. `None` if the pair is lost on
+    /// the way.
     pub fn edge(&self, end: f64) -> Option<Edge> {
-        // Starts here, because the edge may lie slightly beyond `end`.
+        // The continuation starts at this speed, because the edge may be slightly beyond `end`.
         let direction = (end - self.speed).signum();
         let by_cubics = self.edge_by(end, |here, before| Self::root(here, before, direction));
         by_cubics.or_else(|| self.edge_by(end, |here, _| Self::root(here, None, direction)))
     }
 
-    /// Finds the edge from a guess based on this and the previous speed.
+    /// Finds the edge by a function that estimates it from this and the previous speed.
     fn edge_by(
         &self,
         end: f64,
         root: impl Fn(&Looked, Option<&Looked>) -> Option<Edge>,
     ) -> Option<Edge> {
         let (start, direction) = (self.speed, (end - self.speed).signum());
-        // These are the last speed known to be inside and the first known to be outside. Next to an end, a coarser
-        // model may have placed the edge on the other side.
+        // The edge is between `inside` and `outside`. The margin is needed because a coarser model may have
+        // placed the edge on the other side of the start or the end.
         let margin = direction * VICINITY * start;
         let (mut inside, mut outside) = (start - margin, end + margin);
         let mut followed: Option<Self> = None;
@@ -211,7 +211,8 @@ impl<'a> PairContinuation<'a> {
                 outside = next;
             }
             if frequency <= 0.0 {
-                // Two real λ have no complex states to follow, so the way continues from here.
+                // Two real λ have no complex states to follow, so the continuation returns to the previous
+                // speed.
                 before = Some(moved.looked());
                 continue;
             }

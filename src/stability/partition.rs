@@ -4,11 +4,14 @@ use faer::c64;
 
 use super::group::Sloped;
 
-/// Numbers closer than this share of the highest frequency (or its square) are not distinguished.
+/// Two numbers are not distinguished if they differ by less than this share of the highest frequency (or its
+/// square).
 const LEAST_STEP: f64 = 1e-9;
-/// Two eigenvalues may coalesce if their difference, continued by its slope, falls below this share of
-/// itself.
-const MEETING: f64 = 0.3;
+/// Two eigenvalues may coalesce if their difference, continued by its slope, falls below this share of its size.
+const COALESCING: f64 = 0.3;
+
+/// Number of modes above the highest accurate frequency among which a search finds a gap to end in.
+pub const BESIDES: usize = 8;
 
 /// Numbers that a search follows over speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,7 +25,7 @@ pub enum Plane {
 }
 
 impl Plane {
-    /// Re λ ≥ 0 for a number, or its decay rate if all its eigenvalues decay.
+    /// Growth rate Re λ of a number: for λ² that of the growing one of ±λ.
     pub fn growth_per_s(self, number: c64) -> f64 {
         match self {
             Plane::Eigenvalues => number.re,
@@ -30,7 +33,7 @@ impl Plane {
         }
     }
 
-    /// The number for an eigenvalue of a given size.
+    /// Size of the number of an eigenvalue of a given size.
     pub fn sized(self, size_rad_per_s: f64) -> f64 {
         match self {
             Plane::Eigenvalues => size_rad_per_s,
@@ -39,7 +42,7 @@ impl Plane {
     }
 }
 
-/// Low eigenvalues of a saw at a speed, or their squares.
+/// Numbers of the low eigenvalues of a saw at a speed.
 #[derive(Debug, Clone)]
 pub struct Sample {
     pub speed_rad_per_s: f64,
@@ -94,8 +97,8 @@ impl Sample {
 /// Indices of the eigenvalues of a group in the samples at both ends.
 pub type Places = [Vec<usize>; 2];
 
-/// Groups of all numbers up to a frequency, such that numbers of different groups stay apart by values and
-/// slopes from both ends. `None` if no gap exists above the highest frequency.
+/// Groups of all numbers up to a frequency. By values and slopes at both ends, numbers of different groups do
+/// not coalesce. `None` if there is no gap above the frequency.
 pub fn partition(plane: Plane, ends: [&Sample; 2], top_rad_per_s: f64) -> Option<Vec<Places>> {
     let [a, b] = ends.map(|end| end.speed_rad_per_s);
     let sides = [0, 1].map(|end| Side {
@@ -161,8 +164,8 @@ fn by_frequency(
     Some(parts)
 }
 
-/// Groups of the eigenvalues near the real axis, by growth. Those that decay faster than the highest
-/// frequency are left out.
+/// Groups of the eigenvalues near the real axis, by growth, without groups whose decay rates all exceed the
+/// highest frequency.
 fn about_the_axis(
     sides: &[Side<'_>; 2],
     ranges: [(usize, usize); 2],
@@ -203,9 +206,9 @@ struct Side<'a> {
 }
 
 impl Side<'_> {
-    /// Positions in an order at which it can be cut: over half of the piece, a part of the eigenvalues (real
-    /// or imaginary) and its slope keep those above apart from those below, and none may coalesce across the
-    /// cut.
+    /// Positions at which an order of the eigenvalues can be cut. Over half of the piece, the real or the
+    /// imaginary part and its slope must separate the eigenvalues above the cut from those below, and no two
+    /// may coalesce across it.
     fn cuts(&self, order: &[usize], part: fn(c64) -> f64) -> Vec<bool> {
         let count = order.len();
         let mut is_cut: Vec<bool> = (0..count).map(|place| place > 0).collect();
@@ -229,7 +232,7 @@ impl Side<'_> {
             // No boundary of groups lies between two numbers that may coalesce.
             let last = (first + 1..count)
                 .rev()
-                .find(|&k| self.meet(order[first], order[k]));
+                .find(|&k| self.may_coalesce(order[first], order[k]));
             is_cut[first + 1..=last.unwrap_or(first)].fill(false);
         }
         is_cut
@@ -237,10 +240,10 @@ impl Side<'_> {
 
     /// Whether the difference of two eigenvalues, continued by its slope over half of the piece, comes near
     /// zero in the complex plane. Two waves next to their coalescence may differ only in growth.
-    fn meet(&self, i: usize, k: usize) -> bool {
+    fn may_coalesce(&self, i: usize, k: usize) -> bool {
         let (difference, slope) = (self.z[i].0 - self.z[k].0, self.z[i].1 - self.z[k].1);
         let rate = slope.norm_sqr().max(f64::MIN_POSITIVE);
         let share = (-(difference * slope.conj()).re / rate / self.width).clamp(0.0, 0.5);
-        (difference + slope * (share * self.width)).norm() < MEETING * difference.norm()
+        (difference + slope * (share * self.width)).norm() < COALESCING * difference.norm()
     }
 }

@@ -1,8 +1,8 @@
 //! Pieces of the range of speeds, each with interpolated low eigenvalues.
 //!
-//! A piece is kept if it predicts the eigenvalues of one more eigenproblem, solved where two of them come
-//! nearest; otherwise it is divided at that speed. An event narrower than any grid, such as a short growth or
-//! a coalescence, is therefore found at the minimum of the discriminant of its group.
+//! A piece is kept if it predicts the eigenvalues of one more eigenproblem, at the speed at which two of them
+//! are nearest to each other; otherwise it is divided at that speed. An event narrower than any grid, such as
+//! a short growth or a coalescence, is therefore found at the minimum of the discriminant of its group.
 
 use std::sync::Arc;
 
@@ -11,14 +11,15 @@ use rayon::prelude::*;
 
 use super::group::{Group, Sloped};
 use super::partition::{Places, Plane, Sample, partition};
-use crate::spectrum::{SpectrumError, Work};
+use crate::spectrum::{SpectrumError, Work, smallest};
 
 /// A group between two samples.
 #[derive(Debug, Clone)]
 pub struct Grouped {
     pub group: Group,
+    /// Indices of its numbers in the two samples.
     pub places: Places,
-    /// Krein sign of the whole group, if it has one: then none of its waves coalesce.
+    /// Krein sign of all waves of the group; `None` for other groups, whose numbers may coalesce.
     sign: Option<i8>,
 }
 
@@ -26,21 +27,22 @@ pub struct Grouped {
 #[derive(Debug, Clone)]
 pub struct Piece {
     pub ends: [Arc<Sample>; 2],
-    /// Groups from the real axis upwards; none if the allowed number of speeds did not settle the piece.
+    /// Groups from the real axis upwards; empty if the piece was not settled, because it is too narrow or the
+    /// allowed number of speeds is used up.
     pub groups: Vec<Grouped>,
 }
 
-/// Largest group in a wide piece.
+/// Largest number of eigenvalues of a group in a wide piece.
 const USUAL: usize = 2;
-/// Largest group in a narrow piece, and of waves of one Krein sign.
+/// Largest number of eigenvalues of a group in a narrow piece, and of waves of one Krein sign.
 const LARGEST: usize = 4;
 /// Width of a narrow piece, as a share of the speed.
 const NARROW: f64 = 3e-4;
-/// Pieces below this share of the last speed are not divided.
+/// Pieces narrower than this share of the last speed are not divided.
 const LEAST_WIDTH: f64 = 1e-9;
-/// Least distance of a computed speed from the ends of its piece, as a share of the piece.
+/// Smallest distance of an added speed from the ends of its piece, as a share of the width.
 const MARGIN: f64 = 0.05;
-/// Steps in which a group is searched for hidden coalescences.
+/// Number of steps in which a group is searched for hidden coalescences.
 const STEPS: usize = 16;
 /// A discriminant that falls below this share of its end values may hide a coalescence.
 const DIP: f64 = 0.05;
@@ -49,7 +51,7 @@ const DEFINITE_TOLERANCE: f64 = 0.05;
 
 /// Accuracy and data of a search.
 pub struct Search<'a> {
-    /// Numbers to follow.
+    /// Kind of the numbers to follow.
     pub plane: Plane,
     /// Frequency up to which to follow, in rad/s.
     pub top_rad_per_s: f64,
@@ -64,8 +66,8 @@ pub struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Pieces that cover the range from the first to the last of ascending speeds. They do not depend on the
-    /// number of threads.
+    /// Pieces that cover the range from the first to the last of ascending speeds. The pieces do not depend
+    /// on the number of threads.
     ///
     /// # Errors
     /// The errors of the eigenproblems.
@@ -88,7 +90,7 @@ impl Search<'_> {
         Ok(pieces.into_iter().flatten().collect())
     }
 
-    /// Pieces between two samples, using groups that were already compared with a sample if available.
+    /// Pieces between two samples; `kept` are groups that were compared with a further sample already.
     fn between(
         &self,
         ends: [&Arc<Sample>; 2],
@@ -110,13 +112,13 @@ impl Search<'_> {
         let groups = kept.or_else(|| self.groups(ends));
         let place = groups
             .as_ref()
-            .and_then(|groups| self.place_to_ask(groups, (a, b)));
+            .and_then(|groups| self.doubtful_speed(groups, (a, b)));
         if let (true, None, Some(groups)) = (is_kept, place, &groups) {
             return Ok(alone(groups.clone()));
         }
-        let asked = place.unwrap_or(0.5 * (a + b));
-        let asked = asked.clamp(a + MARGIN * (b - a), b - MARGIN * (b - a));
-        let Some(found) = (self.solve)(asked)? else {
+        let speed = place.unwrap_or(0.5 * (a + b));
+        let speed = speed.clamp(a + MARGIN * (b - a), b - MARGIN * (b - a));
+        let Some(found) = (self.solve)(speed)? else {
             return Ok(alone(Vec::new()));
         };
         let found = Arc::new(found);
@@ -131,10 +133,10 @@ impl Search<'_> {
         });
         let misfit = predicted.iter().flatten().map(|group| group.misfit);
         let misfit = misfit.fold(0.0, f64::max);
-        let share = (asked - a) / (b - a);
+        let share = (speed - a) / (b - a);
         let mut pieces = Vec::new();
         for (end, half) in halves.into_iter().enumerate() {
-            // A half keeps the compared groups if they are close enough over all of it.
+            // A half keeps the compared groups if their error is small enough over the whole half.
             let is_close = left_by(misfit, share, [share, 1.0 - share][end]) <= 1.0;
             let kept = groups.as_ref().zip(predicted.as_ref()).filter(|_| is_close);
             let kept = kept.map(|(groups, predicted)| {
@@ -169,17 +171,17 @@ impl Search<'_> {
         Some(grouped_by(ends, &parts))
     }
 
-    /// Speed at which two eigenvalues of a group come nearest, or else at which one that decays at both ends
-    /// may grow.
-    fn place_to_ask(&self, groups: &[Grouped], (a, b): (f64, f64)) -> Option<f64> {
+    /// Speed at which two eigenvalues of a group are nearest to each other, or else at which one that decays
+    /// at both ends may grow; `None` without such a speed.
+    fn doubtful_speed(&self, groups: &[Grouped], (a, b): (f64, f64)) -> Option<f64> {
         let speed = |k: usize| a + (b - a) * k as f64 / STEPS as f64;
         let inner = |values: &[f64]| {
-            let least = (0..values.len()).min_by(|&i, &k| values[i].total_cmp(&values[k]))?;
+            let least = smallest(0..values.len(), |&place| values[place])?;
             let shift = parabola(values.get(least.checked_sub(1)?..=least + 1)?);
             Some((least, speed(least) + shift * (b - a) / STEPS as f64))
         };
-        let may_meet = |g: &&Grouped| g.group.size() > 1 && g.sign.is_none();
-        let dips = groups.iter().filter(may_meet).filter_map(|g| {
+        let may_coalesce = |g: &&Grouped| g.group.size() > 1 && g.sign.is_none();
+        let dips = groups.iter().filter(may_coalesce).filter_map(|g| {
             let sizes: Vec<f64> = (0..=STEPS)
                 .map(|k| g.group.discriminant(speed(k)).norm())
                 .collect();
@@ -205,7 +207,7 @@ impl Search<'_> {
         })
     }
 
-    /// Prediction of a sample by a group; `None` if the sample differs.
+    /// Prediction of a sample by a group; `None` if the sample contradicts it.
     fn predicted(
         &self,
         grouped: &Grouped,
@@ -214,9 +216,8 @@ impl Search<'_> {
     ) -> Option<Prediction> {
         let predicted = grouped.group.at(sample.speed_rad_per_s);
         let nearest = |z: &c64| {
-            let away = |&place: &usize| (sample.eigenvalues[place].0 - z).norm();
             let all = 0..sample.eigenvalues.len();
-            all.min_by(|x, y| away(x).total_cmp(&away(y)))
+            smallest(all, |&place| (sample.eigenvalues[place].0 - z).norm())
         };
         let places: Vec<usize> = predicted.iter().map(nearest).collect::<Option<_>>()?;
         let found: Vec<c64> = places
@@ -296,22 +297,22 @@ impl Search<'_> {
 
 /// Prediction that a sample confirmed.
 struct Prediction {
-    /// Indices of its eigenvalues.
+    /// Indices of the predicted eigenvalues in the sample.
     places: Vec<usize>,
     /// Error, as a share of the allowed error.
     misfit: f64,
 }
 
-/// Error of a cubic over a part of a piece, as a share of the allowed error there, if the cubic over the
-/// whole piece was wrong by `misfit` at a share of it. The error of Hermite's formula goes with t²(1 − t)²
-/// and the fourth power of the width. A region that is rarely sampled may have a quarter of the allowed
-/// error.
+/// Error of a cubic over a part of a piece, as a share of the error allowed there, from the error `misfit` of
+/// the cubic over the whole piece at a share of it. The error of Hermite's formula is in proportion to t²(1 −
+/// t)² and to the fourth power of the width. A quarter of the allowed error of a sample is allowed here,
+/// because the part is not sampled.
 fn left_by(misfit: f64, share: f64, part: f64) -> f64 {
     let of_whole = misfit / (16.0 * (share * (1.0 - share)).powi(2));
     4.0 * of_whole * part.powi(4)
 }
 
-/// Krein sign of a group, if at both ends it consists of waves of one sign.
+/// Krein sign of a group, if it consists of waves of one sign at both ends.
 fn definite_sign(places: &Places, ends: [&Arc<Sample>; 2]) -> Option<i8> {
     let mut signs = [0, 1].into_iter().flat_map(|end| {
         let places = places[end].iter();
@@ -345,7 +346,7 @@ fn grouped_by(ends: [&Arc<Sample>; 2], parts: &[Places]) -> Vec<Grouped> {
     parts.iter().map(of).collect()
 }
 
-/// Vertex of the parabola through three values at −1, 0 and 1.
+/// Position of the minimum of the parabola through three values at −1, 0 and 1; 0 without a minimum.
 fn parabola(values: &[f64]) -> f64 {
     let [x, y, z] = values else { return 0.0 };
     let curvature = x - 2.0 * y + z;

@@ -5,7 +5,7 @@
 //!
 //! k_real + 2 k_flutter ≤ n₋(K) − 2 Σ max(0, n₋(L(iωᵢ)) − n₋(L(iωᵢ₊₁))):
 //!
-//! the sum counts − modes that must exist. If the counts are constant along lines ωᵢ(Ω), which
+//! because the sum counts − modes that must exist. If the counts are constant along lines ωᵢ(Ω), which
 //! [`FullModel`](crate::spectrum::FullModel) decides by two factorizations, and no critical speed changes
 //! n₋(K), the bound holds at every speed of the interval. The spectra only propose the lines. Next to a
 //! crossing or the edge of a band the gap closes, and intervals are halved down to a least width; the rest is
@@ -21,20 +21,21 @@ use super::mode_counts::{Gap, ModeCounts, gaps};
 use super::signature::Signature;
 use crate::spectrum::{AtSpeed, Cancellation, SpectrumError, Work};
 
-/// Intervals below this share of the highest speed are not halved further.
+/// Intervals narrower than this share of the highest speed are not halved further.
 const LEAST_WIDTH: f64 = 1e-4;
-/// Data of a proof.
+
+/// A list of bands with the models for its proof.
 pub(super) struct Proof<'a> {
     pub full: &'a ModeCounts<'a>,
     pub evaluator: &'a SignatureEvaluator<'a>,
     pub bands: &'a [Instability],
 }
 
-/// Gaps that close to less than this share of themselves are not tried.
+/// A line is not tried if its gap is narrower at one end than this share of its width at the other.
 const CLOSING: f64 = 0.1;
 
-/// Lines longer than this multiple of the width of their gap are not tried: of 605 for the paper's saw, none
-/// longer than 0.45 gaps was free.
+/// A line is not tried if its speeds differ by more than this multiple of the width of its gap: of 605 lines
+/// for the paper's saw, none longer than 0.45 widths was free of modes.
 const LONGEST: f64 = 0.5;
 
 impl Proof<'_> {
@@ -76,8 +77,9 @@ impl Proof<'_> {
         }
     }
 
-    /// Unproven intervals from the first to the last of some speeds. If only two are given and more are
-    /// needed, they are computed.
+    /// Unproven intervals from the first to the last of some speeds; between the last two left, further
+    /// speeds are computed. `known` are lines that cross no mode, `least` is the smallest width of an
+    /// interval.
     fn within(
         &self,
         ends: &[End],
@@ -122,8 +124,8 @@ impl Proof<'_> {
         halves(&[a.clone(), middle.clone()], &[middle, b.clone()])
     }
 
-    /// Whether the listed bands account for all unstable modes between two speeds. Lines that are found to be
-    /// free join the known ones, even if they do not suffice.
+    /// Whether the listed bands account for all unstable modes between two speeds. Lines that cross no mode
+    /// are added to the known ones, even if they do not suffice.
     fn is_proven(&self, a: &End, b: &End, known: &mut Vec<Line>) -> bool {
         let negative = self.full.negative_stiffness(a.speed);
         let listed = self.listed([a.speed, b.speed]);
@@ -137,7 +139,7 @@ impl Proof<'_> {
         }
         let mut are_free = true;
         for (x, y) in a.alike(b) {
-            let covers = |line: &Line| line.net == x.net && line.leads_through([(a, x), (b, y)]);
+            let covers = |line: &Line| line.net == x.net && line.is_within([(a, x), (b, y)]);
             if known.iter().any(covers) {
                 continue;
             }
@@ -149,7 +151,7 @@ impl Proof<'_> {
         are_free && a.is_like(b) && negative.saturating_sub(2 * a.reflected()) <= listed
     }
 
-    /// Line through the middles of a gap, if its count is constant.
+    /// Line through the middle of a gap at both ends, if its count is proven to be constant.
     fn line(&self, ends: [&End; 2], gap: [&Gap; 2], negative: usize) -> Option<Line> {
         let [x, y] = gap.map(Gap::width_rad_per_s);
         let [from, to] = ends.map(|end| end.speed);
@@ -169,7 +171,7 @@ impl Proof<'_> {
         })
     }
 
-    /// k_real + 2 k_flutter of the bands that cover all speeds between two.
+    /// k_real + 2 k_flutter of the bands that cover the whole interval between two speeds.
     fn listed(&self, [from, to]: [f64; 2]) -> usize {
         let covers = |band: &&Instability| band.from_rad_per_s <= from && to <= band.to_rad_per_s;
         let index = |band: &Instability| match band.kind {
@@ -190,8 +192,8 @@ struct Line {
 }
 
 impl Line {
-    /// Whether it lies within a gap at two speeds of the line.
-    fn leads_through(&self, gap: [(&End, &Gap); 2]) -> bool {
+    /// Whether the line is within a gap at two of its speeds.
+    fn is_within(&self, gap: [(&End, &Gap); 2]) -> bool {
         let ([from, to], [low, high]) = (self.speeds, self.frequencies);
         gap.iter().all(|(end, gap)| {
             let at = low + (high - low) * (end.speed - from) / (to - from);
@@ -200,23 +202,23 @@ impl Line {
     }
 }
 
-/// End of an interval.
+/// End of an interval of speeds.
 #[derive(Clone)]
 struct End {
     speed: f64,
     gaps: Vec<Gap>,
-    /// Shared by the intervals on both sides.
+    /// Data of the counts, shared by the intervals on both sides.
     at: Arc<OnceLock<AtSpeed>>,
 }
 
 impl End {
-    /// Whether the same numbers of modes of each sign lie between the gaps.
+    /// Whether both ends have the same gaps, with the same p − m.
     fn is_like(&self, other: &End) -> bool {
         self.alike(other).count() == self.gaps.len().max(other.gaps.len())
     }
 
-    /// Estimate at the middle speed by cubics through both ends, if the modes keep their order. It proposes
-    /// lines and proves nothing.
+    /// Estimated gaps at the middle speed, by cubics through both ends, if both have the same gaps. The
+    /// estimate only proposes lines.
     fn halfway(&self, other: &End) -> Option<End> {
         if self.gaps.is_empty() || !self.is_like(other) {
             return None;
@@ -231,7 +233,7 @@ impl End {
             let gap = Gap { sides, net: x.net };
             let [narrow, wide] = [x, y].map(Gap::width_rad_per_s);
             let [narrow, wide] = [narrow.min(wide), narrow.max(wide)];
-            // Next to a coalescence slopes are unbounded and the cubic is useless.
+            // Next to a coalescence slopes are unbounded and the cubic is wrong.
             let is_sound = (0.5 * narrow..2.0 * wide).contains(&gap.width_rad_per_s());
             is_sound.then_some(gap)
         };
@@ -260,7 +262,7 @@ impl End {
         first.chain(last.zip(&theirs[theirs.len() - above..]))
     }
 
-    /// Number of − modes that the counts in the gaps show.
+    /// Smallest number of − modes that the counts in the gaps imply.
     fn reflected(&self) -> usize {
         let below = [0].into_iter().chain(self.gaps.iter().map(|gap| gap.net));
         let fewer = below

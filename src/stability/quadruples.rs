@@ -4,17 +4,19 @@ use faer::c64;
 
 use super::partition::{Plane, Sample};
 use super::pieces::{Grouped, Piece};
+use crate::spectrum::smallest;
 
 /// Begin or end of an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bound {
-    /// Two modes coalesce about here.
+    /// Coalescence of two modes.
     Coalescence {
+        /// Speed at which the interpolated modes coalesce.
         expected_rad_per_s: f64,
         /// Nearest speed of the search outside the interval.
         outside_rad_per_s: f64,
     },
-    /// End of the search, inside the interval.
+    /// End of the search inside the interval.
     Range(f64),
     /// Speed at which the quadruple crosses the highest frequency.
     Height(f64),
@@ -25,7 +27,7 @@ pub enum Bound {
 pub struct Stretch<'a> {
     pub begin: Bound,
     pub end: Bound,
-    /// Speeds of the search within, with the square at each.
+    /// Speeds of the search within the interval, with the square at each.
     pub points: Vec<(f64, c64)>,
     parts: Vec<Part<'a>>,
 }
@@ -40,11 +42,11 @@ struct Part<'a> {
     rank: usize,
 }
 
-/// Steps in which a part of an interval is searched for its largest growth.
+/// Number of steps in which a part of an interval is searched for its largest growth.
 const STEPS: usize = 16;
 
 impl Stretch<'_> {
-    /// Interpolated square at a speed.
+    /// Interpolated square (σ + iω)² at a speed, in 1/s²; `None` outside the interval.
     pub fn square(&self, speed_rad_per_s: f64) -> Option<c64> {
         let covers =
             |part: &&Part<'_>| (part.from_rad_per_s..=part.to_rad_per_s).contains(&speed_rad_per_s);
@@ -74,7 +76,7 @@ impl Stretch<'_> {
 /// An unfinished interval and the index of its square in the last sample.
 type Open<'a> = (Stretch<'a>, usize);
 
-/// Intervals in the order of their ends.
+/// Intervals of quadruples in the pieces of a search, in the order of their ends.
 pub fn stretches(pieces: &[Piece]) -> Vec<Stretch<'_>> {
     let mut ended: Vec<Stretch<'_>> = Vec::new();
     let mut open: Vec<Open<'_>> = Vec::new();
@@ -133,7 +135,7 @@ fn begun<'a>(begin: Bound, sample: &Sample, place: usize) -> Stretch<'a> {
     }
 }
 
-/// Updates the intervals by the quadruples of a group over a piece.
+/// Continues, begins and ends intervals by the quadruples of a group over a piece.
 fn across<'a>(
     piece: &'a Piece,
     grouped: &'a Grouped,
@@ -180,7 +182,8 @@ fn across<'a>(
             ended.push(stretch);
         }
     }
-    // Next to a coalescence a sample may be coalesced where the interpolated group is not.
+    // Next to a coalescence the modes of a sample may be coalesced while those of the interpolated group are
+    // not.
     ended.extend(firsts.filter_map(|place| {
         let end = coalescence(a, b);
         taken(open, place).map(|stretch| Stretch { end, ..stretch })
@@ -200,8 +203,8 @@ fn taken<'a>(open: &mut Vec<Open<'a>>, place: usize) -> Option<Stretch<'a>> {
     Some(open.swap_remove(known).0)
 }
 
-/// Links quadruples on both sides of an unsettled piece to the nearest; the others end or begin in its
-/// middle.
+/// Continues each quadruple over an unsettled piece by the nearest one at the other end; quadruples without a
+/// partner end or begin in the middle.
 fn across_unsettled<'a>(
     piece: &'a Piece,
     open: Vec<Open<'a>>,
@@ -213,9 +216,9 @@ fn across_unsettled<'a>(
     let mut left: Vec<usize> = quadruples_of(to).collect();
     let mut next = Vec::new();
     for (mut stretch, place) in open {
-        let away = |other: usize| (to.eigenvalues[other].0 - from.eigenvalues[place].0).norm();
-        let nearest = (0..left.len()).min_by(|&x, &y| away(left[x]).total_cmp(&away(left[y])));
-        if let Some(nearest) = nearest {
+        let last = from.eigenvalues[place].0;
+        let away = |&other: &usize| (to.eigenvalues[left[other]].0 - last).norm();
+        if let Some(nearest) = smallest(0..left.len(), away) {
             let place = left.swap_remove(nearest);
             stretch
                 .points

@@ -5,22 +5,22 @@ use std::convert::Infallible;
 /// Evaluation of the function: position, value, and anything else that the caller needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look<P> {
-    /// Position of the evaluation.
+    /// Argument of the function.
     pub at: f64,
-    /// Value f of the function there.
+    /// Value of the function.
     pub value: f64,
     /// Further result of the evaluation.
     pub point: P,
 }
 
-/// Bisection alone would reach any tolerance above rounding with a quarter of these.
+/// Largest number of evaluations; bisection alone would need a quarter of it for any tolerance above rounding.
 const MOST_LOOKS: usize = 4 * 53;
 
 /// Evaluation nearest to a zero, by Chandrupatla's method: inverse quadratic interpolation where the function
 /// looks smooth enough for it, bisection elsewhere (*A new hybrid quadratic/bisection algorithm for finding
 /// the zero of a nonlinear function without using derivatives*, Advances in Engineering Software 28, 1997).
-/// `look` receives the two ends and the share of the way from the first to the second. Ends of equal sign
-/// give the one with the smaller value.
+/// `look` receives the two ends and the share of the way from the first to the second. If both ends have the
+/// same sign, the one with the smaller magnitude is returned.
 ///
 /// Stops when the interval is below `tolerance`, relative to the position.
 ///
@@ -73,8 +73,8 @@ fn interpolated<P: Copy>(a: Look<P>, b: Look<P>, c: Look<P>) -> f64 {
     }
 }
 
-/// Zero on [0, 1], to rounding, of a function that is cheap to evaluate. Ends of equal sign give the end with
-/// the smaller value.
+/// Zero on [0, 1], to rounding, of a function whose evaluation takes little time. If both ends have the same
+/// sign, the one with the smaller magnitude is returned.
 pub fn share_of_zero(f: impl Fn(f64) -> f64) -> f64 {
     let at = |share: f64| Look {
         at: share,
@@ -88,7 +88,7 @@ pub fn share_of_zero(f: impl Fn(f64) -> f64) -> f64 {
     }
 }
 
-/// Zero between two points of a function that is cheap to evaluate, or the position of its jump.
+/// Zero between two points of a function whose evaluation takes little time, or the position of its jump.
 pub fn place_of_zero([from, to]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     let place = |share: f64| from + share * (to - from);
     place(share_of_zero(|share| f(place(share))))
@@ -111,7 +111,8 @@ mod tests {
         root(|x| x, 0.0);
     }
 
-    /// A step has no value near zero: the number of evaluations is limited and the search ends at the step.
+    /// A function with a jump has no value near zero: the number of evaluations is limited, and the search
+    /// ends at the jump.
     #[test]
     fn a_jump_is_found_like_a_zero() {
         let found = share_of_zero(|x| if x < 0.7 { -3.0 } else { 1.0 });

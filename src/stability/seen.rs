@@ -1,13 +1,13 @@
-//! Speeds of an undamped blade that a search has computed.
+//! Results at the speeds that a search has computed for an undamped blade.
 
 use std::sync::Mutex;
 
 use faer::c64;
 
 use super::signature::Signature;
-use crate::spectrum::Mode;
+use crate::spectrum::{Mode, smallest};
 
-/// Computed speeds of a search.
+/// Results at the computed speeds of a search.
 #[derive(Debug, Default)]
 pub struct Seen {
     speeds: Mutex<Vec<SeenSpeed>>,
@@ -31,18 +31,17 @@ impl Seen {
         }
     }
 
-    /// The signature of a speed.
+    /// The signature at a speed, if it was computed.
     pub fn signature(&self, speed_rad_per_s: f64) -> Option<Signature> {
         self.at(speed_rad_per_s, |seen| Some(seen.signature.clone()))
     }
 
-    /// Growing and decaying modes of a speed nearest to two eigenvalues.
+    /// The growing or decaying modes at a speed nearest to two eigenvalues, if the speed was computed.
     pub fn nearest(&self, speed_rad_per_s: f64, lambdas: [c64; 2]) -> Option<[Mode; 2]> {
         self.at(speed_rad_per_s, |seen| {
             let nearest = |lambda: c64| {
-                let away = |mode: &&Mode| (mode.lambda - lambda).norm();
-                let modes = seen.coalesced.iter();
-                modes.min_by(|x, y| away(x).total_cmp(&away(y))).cloned()
+                let modes = &seen.coalesced;
+                smallest(modes, |mode| (mode.lambda - lambda).norm()).cloned()
             };
             Some([nearest(lambdas[0])?, nearest(lambdas[1])?])
         })

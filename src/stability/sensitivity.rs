@@ -9,16 +9,18 @@ use super::analysis::Analysis;
 use super::band::{Instability, InstabilityKind};
 use crate::plate::Plate;
 use crate::scene::{Parameter, Quantity, Scene, SceneError, SceneFile};
-use crate::spectrum::{Differences, Mode, ModeKind, SpectrumError, derivative, matrix_slopes};
+use crate::spectrum::{
+    Differences, Mode, ModeKind, SpectrumError, complex, derivative, matrix_slopes, smallest,
+};
 use crate::system::GyroscopicSystem;
 
-/// Step of the differences as a share of the change, so 1e-3 of the number for a change of 1 %: truncation
-/// (1e-3)⁴ and rounding 1e-16/1e-3 are both below 1e-11 of it.
+/// Step of the differences as a share of the change, thus 1e-3 of the number for a change of 1 %: the
+/// truncation error (1e-3)⁴ and the rounding error 1e-16/1e-3 are both below 1e-11.
 const STEP: f64 = 0.1;
 
 /// Relative distance below the onset of a band at which the two coalescing modes are computed.
 const BELOW: f64 = 1e-8;
-/// An onset closer than this to a critical speed, relatively, equals it.
+/// Relative distance within which an onset is a critical speed.
 const SAME_SPEED: f64 = 1e-10;
 
 /// First-order effect of changing one number of the scene by 1 %, an angle by 1 degree, or a temperature rise
@@ -27,7 +29,7 @@ const SAME_SPEED: f64 = 1e-10;
 pub struct Sensitivity {
     /// JSON path of the number.
     pub parameter: String,
-    /// The change as text: "1 %".
+    /// The change as text: "1 %", "1 degree" or "1 K".
     pub change: &'static str,
     /// Relative change of each critical speed within the range.
     pub critical_speeds: Vec<f64>,
@@ -40,7 +42,7 @@ pub struct Sensitivity {
 /// Reason why no sensitivity could be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum SensitivityError {
-    /// A number is too close to its allowed limit to be changed.
+    /// A number is too close to the end of its allowed range to be changed.
     #[error(
         "a number of the scene cannot be moved by a tenth of a percent to differentiate by it: {0}"
     )]
@@ -50,12 +52,12 @@ pub enum SensitivityError {
     Spectrum(#[from] SpectrumError),
 }
 
-/// Change of a number.
+/// Change of a number for which effects are computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum By {
-    /// By one percent of the number.
+    /// One percent of the number.
     Percent,
-    /// By one unit, with its text.
+    /// One unit, with its text.
     One(&'static str),
 }
 
@@ -67,13 +69,13 @@ struct Variation {
 }
 
 impl Analysis {
-    /// Effects of each number of a scene on its critical speeds, on the onsets of its bands, and on the
-    /// eigenvalues at one speed; most influential on the lowest critical speed first.
+    /// Effects of each number of the scene on the critical speeds, on the onsets of the bands, and on the
+    /// eigenvalues at one speed. The number with the largest effect on the lowest critical speed is first.
     ///
-    /// dλ = −yᴴ(dL)x / yᴴ(∂L/∂λ)x with right and left eigenvectors x, y of L(λ) = λ² + λD(Ω) + K(Ω).
-    /// Critical speeds and the onsets of undamped bands move by dΩ = −yᴴ(dL)x / yᴴ(∂L/∂Ω)x, at λ = 0, at the λ = iω
-    /// where two waves coalesce, where y = x, and at the real λ where two real ones do (P. Lancaster, *Lambda-Matrices
-    /// and Vibrating Systems*, 1966).
+    /// dλ = −yᴴ(dL)x / yᴴ(∂L/∂λ)x with right and left eigenvectors x, y of L(λ) = λ² + λD(Ω) + K(Ω). Critical
+    /// speeds and the onsets of undamped bands change by dΩ = −yᴴ(dL)x / yᴴ(∂L/∂Ω)x, with λ = 0 for a
+    /// critical speed, with λ = iω and y = x where two waves coalesce, and with a real λ where two real ones
+    /// coalesce (P. Lancaster, *Lambda-Matrices and Vibrating Systems*, 1966).
     ///
     /// # Errors
     /// [`SensitivityError`].
@@ -134,12 +136,12 @@ impl Analysis {
 }
 
 impl Variation {
-    /// Variations of the blade, of every guide, and of the heat and roll tension of the scene.
+    /// Variations of blade, guides, temperature and roll tension, for the numbers that the scene contains.
     fn of_scene(scene: &SceneFile) -> Vec<Self> {
         let mut all = Vec::new();
         let mut add = |path: String| {
             let parameter = Parameter::new(&path);
-            // Keys that the scene omits have no number to vary.
+            // A key that the scene omits has no number to vary.
             if let Ok(value) = parameter.get(scene) {
                 let unit = Quantity::of(&path).map_or("", |quantity| quantity.unit);
                 let by = match unit {
@@ -181,7 +183,7 @@ impl Variation {
         all
     }
 
-    /// Full change of the number.
+    /// Full change of the number, in the unit of its key.
     fn change(&self) -> f64 {
         match self.by {
             By::Percent => 0.01 * self.value,
@@ -209,20 +211,19 @@ struct Merging {
     speed: f64,
     lambda: c64,
     x: Col<c64>,
-    /// Left vector, if it differs from the right one.
+    /// Left vector; `None` if it equals the right one.
     y: Option<Col<c64>>,
-    /// Whether the mode is damped: Re λ = 0 moves with the real part alone.
+    /// Whether the onset is the speed at which Re λ of a damped mode is zero.
     damped: bool,
 }
 
 impl Merging {
     fn standing(component: usize, speed: f64, shape: &Col<f64>) -> Self {
-        let x = Col::from_fn(shape.nrows(), |i| c64::new(shape[i], 0.0));
         Merging {
             component,
             speed,
             lambda: c64::new(0.0, 0.0),
-            x,
+            x: complex(shape),
             y: None,
             damped: false,
         }
@@ -249,7 +250,7 @@ impl Merging {
                 None => Self::of_real(analysis, band.from_rad_per_s),
             };
         }
-        // Just below the onset the two vectors are x ± εu: their mean is x to order ε².
+        // Just below the onset the two vectors are x ± εu, whose mean is x to order ε².
         let before = band.from_rad_per_s * (1.0 - BELOW);
         let modes = model.modes(before)?;
         let pair = closest_opposite(&modes);
@@ -274,20 +275,18 @@ impl Merging {
 
     /// Coalescence of two real λ at the end of a quadruple; `None` if no such mode is found.
     ///
-    /// Just below it the vector is x + iεu: its real part is x to order ε². For an undamped saw L(λ)ᵀ =
+    /// Just below it the vector is x + iεu, whose real part is x to order ε². For an undamped saw L(λ)ᵀ =
     /// L(−λ), so the left vector is that of the mirror image −λ.
     fn of_real(analysis: &Analysis, speed: f64) -> Result<Option<Self>, SpectrumError> {
         let model = &analysis.model;
         let before = speed * (1.0 - BELOW);
         let modes = model.modes(before)?;
         let nearest = |kind: ModeKind, expected: c64| {
-            let off = |mode: &&Mode| (mode.lambda - expected).norm();
             let alike = modes.iter().filter(|mode| mode.kind == kind);
-            alike.min_by(|x, y| off(x).total_cmp(&off(y)))
+            smallest(alike, |mode| (mode.lambda - expected).norm())
         };
         let slowest = modes.iter().filter(|mode| mode.kind == ModeKind::Flutter);
-        let slowest = slowest.min_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
-        let pair = slowest.and_then(|mode| {
+        let pair = smallest(slowest, |mode| mode.lambda.im).and_then(|mode| {
             let mirrored = nearest(ModeKind::Decaying, -mode.lambda.conj())?;
             Some((mode, mirrored))
         });
@@ -305,7 +304,8 @@ impl Merging {
         }))
     }
 
-    /// Onset with Re λ = 0; `None` if the band begins otherwise, at the end of the previous one.
+    /// Onset of a damped band with Re λ = 0; `None` if the band begins otherwise, at the end of the previous
+    /// one.
     fn damped(analysis: &Analysis, band: &Instability) -> Result<Option<Self>, SpectrumError> {
         const ONSET: f64 = 1e-6;
         let Some(onset) = band.curve.first().map(|point| point.lambda) else {
@@ -315,10 +315,7 @@ impl Merging {
             return Ok(None);
         }
         let modes = analysis.model.modes(band.from_rad_per_s)?;
-        let distance = |m: &&Mode| (m.lambda - onset).norm();
-        let nearest = modes
-            .iter()
-            .min_by(|x, y| distance(x).total_cmp(&distance(y)));
+        let nearest = smallest(&modes, |mode| (mode.lambda - onset).norm());
         Ok(nearest.map(|mode| Merging {
             component: mode.component,
             speed: band.from_rad_per_s,
@@ -330,7 +327,7 @@ impl Merging {
         }))
     }
 
-    /// dΩ for a change of the matrices.
+    /// Change of the speed, in rad/s, for a change of the matrices.
     fn change(&self, system: &GyroscopicSystem, change: &GyroscopicSystem) -> f64 {
         if self.damped {
             let moved = derivative::with_change(system, self.speed, self.lambda, &self.x, change);
@@ -338,7 +335,7 @@ impl Merging {
             return -moved.re / slope.re;
         }
         let left = self.y.as_ref().unwrap_or(&self.x);
-        derivative::of_merging(system, self.speed, self.lambda, [&self.x, left], change)
+        derivative::of_coalescence(system, self.speed, self.lambda, [&self.x, left], change)
     }
 }
 
@@ -349,11 +346,9 @@ fn real_part(vector: Col<c64>) -> Col<c64> {
     Col::from_fn(vector.nrows(), |i| c64::new((vector[i] / phase).re, 0.0))
 }
 
-/// The + and the − mode with the closest frequencies.
+/// The + and the − mode whose frequencies are nearest to each other.
 fn closest_opposite(modes: &[Mode]) -> Option<(&Mode, &Mode)> {
     let signed = |sign: i8| modes.iter().filter(move |m| m.krein_sign() == sign);
-    let gap = |pair: &(&Mode, &Mode)| (pair.0.lambda - pair.1.lambda).norm();
-    signed(1)
-        .flat_map(|plus| signed(-1).map(move |minus| (plus, minus)))
-        .min_by(|x, y| gap(x).total_cmp(&gap(y)))
+    let pairs = signed(1).flat_map(|plus| signed(-1).map(move |minus| (plus, minus)));
+    smallest(pairs, |(plus, minus)| (plus.lambda - minus.lambda).norm())
 }

@@ -43,7 +43,7 @@ pub struct Signature {
 }
 
 impl Signature {
-    /// Signature of the modes at a speed.
+    /// Signature of the modes of an undamped blade at a speed.
     pub fn new<'a>(speed_rad_per_s: f64, modes: impl Iterator<Item = &'a Mode>) -> Self {
         let mut signature = Signature {
             speed_rad_per_s,
@@ -86,12 +86,12 @@ impl Signature {
         signature
     }
 
-    /// Largest growth of a divergent mode.
+    /// The fastest growing divergent mode.
     pub fn divergence(&self) -> Option<SignedMode> {
         self.real.last().copied()
     }
 
-    /// Highest frequency considered, in rad/s.
+    /// Highest frequency of waves and quadruples, in rad/s.
     pub fn highest_rad_per_s(&self) -> f64 {
         let modes = self.waves.iter().chain(&self.quadruples);
         modes.fold(0.0, |top, mode| mode.lambda.im.max(top))

@@ -1,4 +1,4 @@
-//! Run time against true error, measured, of several methods and sizes of the basis.
+//! Measured run time against true error, for several methods and sizes of the basis.
 
 use std::time::Instant;
 
@@ -9,7 +9,7 @@ use super::band::InstabilityKind;
 use super::basis::{ChosenBasis, PAST_THE_RANGE};
 use super::chart::{StabilityChart, chart};
 use super::error::AnalysisError;
-use super::ladder::LADDER;
+use super::ladder::{LADDER, resolution};
 use crate::campbell::Progress;
 use crate::plate::{Plate, Resolution};
 use crate::scene::Scene;
@@ -21,7 +21,7 @@ use crate::spectrum::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
 pub enum Method {
     /// The whole chart on the reduced model, as in `analyze`.
     Reduced,
-    /// The whole chart by every eigenvalue of the full model at every speed.
+    /// The whole chart from all eigenvalues of the full model at every speed.
     Dense,
     /// Critical speeds alone.
     CriticalSpeeds,
@@ -41,7 +41,7 @@ pub struct Setting {
     pub functions: usize,
     /// Number of even speeds of the chart; 0 without a chart.
     pub speeds: usize,
-    /// Shortest of the measured times.
+    /// Shortest measured run time, in seconds.
     pub seconds: f64,
     /// Largest relative error of critical speeds and, in a chart, of flutter onsets, by comparison with the largest
     /// basis.
@@ -50,23 +50,24 @@ pub struct Setting {
     pub on_front: bool,
 }
 
-/// Sizes of the bases: all that a tolerance may choose, except the largest.
+/// Sizes of the basis that are measured: all that a tolerance may choose, except the largest.
 const SIZES: &[(usize, usize)] = LADDER.split_at(LADDER.len() - 1).0;
-/// The full model at every speed takes a hundred times as long, so only two sizes are measured.
+/// Number of sizes for [`Method::Dense`], which takes a hundred times as long as [`Method::Reduced`].
 const DENSE_SIZES: usize = 2;
-/// Reference: the largest basis.
+/// Size of the reference for errors: the largest basis.
 const TRUTH: (usize, usize) = LADDER[LADDER.len() - 1];
-/// Speeds of a chart; at one size other numbers are measured too.
+/// Number of even speeds of a chart.
 const SPEEDS: usize = 51;
+/// Other numbers of even speeds, measured at [`MIDDLE_SIZE`] alone.
 const OTHER_SPEEDS: [usize; 2] = [25, 201];
 const MIDDLE_SIZE: (usize, usize) = (14, 9);
 /// Errors within this factor are equal, because the number of speeds changes the last digits.
 const SAME_ERROR: f64 = 1.01;
-/// Times below this are measured several times, and the least is taken.
+/// Run times up to this, in seconds, are measured [`TIMES`] times, and the shortest counts.
 const SHORT_S: f64 = 1.0;
 const TIMES: usize = 3;
 
-/// Speeds of events, in rad/s.
+/// Critical speeds and flutter onsets of one method, in rad/s.
 struct Events {
     critical: Vec<f64>,
     onsets: Vec<f64>,
@@ -121,7 +122,7 @@ pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, A
     Ok(settings)
 }
 
-/// Cheapest chart within an error.
+/// Chart of shortest run time within an error.
 #[cfg(any(feature = "cli", test))]
 pub fn recommended(settings: &[Setting], error: f64) -> Option<&Setting> {
     settings
@@ -145,13 +146,6 @@ fn mark_front(settings: &mut [Setting]) {
                 && other.error < SAME_ERROR * settings[k].error
         });
         settings[k].on_front = settings[k].is_chart() && !beaten;
-    }
-}
-
-fn resolution((max_diameters, radial_functions): (usize, usize)) -> Resolution {
-    Resolution {
-        max_diameters,
-        radial_functions,
     }
 }
 
@@ -226,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn the_front_is_what_nothing_beats_twice() {
+    fn the_front_has_the_charts_that_no_other_beats_in_time_and_error() {
         let mut settings = [
             setting(Method::Reduced, 1.0, 1e-2),
             setting(Method::Reduced, 2.0, 1e-3),

@@ -1,4 +1,4 @@
-//! Bands of an undamped blade over a range of speeds, and the speeds to draw.
+//! Bands of an undamped blade over a range of speeds, and the speeds of its chart.
 
 use super::band::Instability;
 use super::certificate::Certificate;
@@ -31,7 +31,7 @@ pub(super) fn charted(
     let even = campbell::even_speeds(drawn, count);
     let speeds = match detail {
         Detail::Full => with_critical_speeds(model, drawn, even),
-        // A sketch follows curves through zero and needs no speeds beside critical ones.
+        // A sketch needs no speeds beside critical ones, because its branches are followed through zero.
         Detail::Sketch if !model.plate.is_axisymmetric() => away_from_critical(model, even),
         Detail::Sketch => with_critical_speeds(model, drawn, even),
     };
@@ -73,8 +73,8 @@ fn signature_of(sample: &SpeedSample) -> Signature {
     Signature::new(sample.speed_rad_per_s, modes)
 }
 
-/// Finds every band of an undamped blade in a range of speeds, searched from `count` even speeds and both
-/// sides of every critical speed, with the proof that none is missing. A band is cut at the ends of the
+/// Finds every band of an undamped blade in a range of speeds, with the results of its checks. The search
+/// begins with `count` even speeds and both sides of every critical speed. A band is cut at the ends of the
 /// range.
 ///
 /// # Errors
@@ -97,11 +97,11 @@ pub(super) fn search_speeds(model: &SpectralModel, range: (f64, f64), count: usi
 }
 
 /// Share of |ω| + Ω below which growth of a drawn mode is not compared with the bands: frequencies are
-/// accurate to 1e-5 of the chart's height, and growth next to a coalescence to the square root of that.
+/// accurate to 1e-5 of the chart's height, and growth next to a coalescence to the square root of 1e-5.
 const DRAWN_FLOOR: f64 = 1e-3;
 
-/// Ascending speeds without those below the lowest critical speed, where nothing can be unstable: K(Ω) is
-/// positive definite, no wave is reflected, and the Krein index is zero.
+/// Ascending speeds from the last one below the lowest critical speed on. Below it nothing can be unstable:
+/// K(Ω) is positive definite, no wave is reflected, and the Krein index is zero.
 fn from_lowest_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
     let lowest = model.critical.first();
     let lowest = lowest.map_or(f64::INFINITY, |c| c.speed_rad_per_s);
@@ -110,14 +110,14 @@ fn from_lowest_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64>
     speeds
 }
 
-/// Critical speeds closer than this, relatively, are one double critical speed, of a wave that can have any
+/// Two critical speeds within this relative distance are a double one, of a wave that can have any angular
 /// position, as on a free blade.
 const DOUBLE: f64 = 1e-9;
-/// Relative distance kept from a double critical speed. Both λ pass through zero in proportion to Ω − Ω_c
-/// there, not to its root, and exceed rounding only further away.
+/// Relative distance of the search from a double critical speed. Both λ pass through zero in proportion to Ω
+/// − Ω_c, not to its square root, and exceed rounding only at a larger distance.
 const DOUBLE_GAP: f64 = 1e-4;
 
-/// Relative distance to keep from a critical speed.
+/// Relative distance of the search from a critical speed.
 fn critical_gap(critical: &[f64], index: usize) -> f64 {
     let is_double = |other: Option<&f64>| {
         other.is_some_and(|other| (other / critical[index] - 1.0).abs() < DOUBLE)
@@ -138,10 +138,10 @@ pub(super) fn with_critical_speeds(
     range: (f64, f64),
     mut speeds: Vec<f64>,
 ) -> Vec<f64> {
+    let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
     if model.plate.is_axisymmetric() {
-        // A wave of the free blade passes through zero without diverging; a speed so close to that zero that
-        // its sign is rounding gives no information.
-        let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
+        // A wave of the free blade passes through zero without diverging. Next to this zero its sign is
+        // rounding, so no speed may be there.
         let clear = |s: &f64| {
             critical
                 .iter()
@@ -156,7 +156,6 @@ pub(super) fn with_critical_speeds(
         speeds.dedup_by(|x, y| (*x / *y - 1.0).abs() < 1e-9);
         return speeds;
     }
-    let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
     let mut sides: Vec<f64> = Vec::new();
     let mut previous: Option<f64> = None;
     for (index, &speed) in critical.iter().enumerate() {
@@ -186,7 +185,7 @@ pub(super) fn with_critical_speeds(
     speeds
 }
 
-/// Speeds without an eigenvalue next to zero.
+/// The speeds at which no eigenvalue is next to zero.
 fn away_from_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
     let is_clear = |speed: &f64| {
         let mut critical = model.critical.iter();
@@ -196,8 +195,8 @@ fn away_from_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
     speeds
 }
 
-/// Speeds inside and beside the bands, so that the narrowest one is drawn. With hundreds of bands, as many
-/// for each as there is room for, peaks first.
+/// Speeds inside and beside the bands, so that even the narrowest band is drawn. With hundreds of bands, each
+/// has only as many speeds as the allowed memory permits, peaks first.
 fn inside(
     instabilities: &[Instability],
     samples: &[SpeedSample],

@@ -1,4 +1,4 @@
-//! Verdict whether a saw can run at a speed, shared by check, summary, report, page and study.
+//! Verdict whether a saw can run at a speed, the same for check, summary, report, page and study.
 //!
 //! Divergence always counts. Flutter counts if it grows as fast as the threshold:
 //! - in an undamped blade a band counts as a whole, by its largest growth: growth rises with the square root
@@ -6,9 +6,9 @@
 //! - in a damped blade a band may grow imperceptibly over hundreds of rpm, so it counts only where its growth
 //!   reaches the threshold.
 //!
-//! A critical speed without a band is no instability, because nothing grows. But K(Ω) is singular there, and
-//! a constant side force deflects the wave without bound. A window without instability therefore ends before
-//! it.
+//! A critical speed without a band is no instability, because nothing grows. But K(Ω) is singular at this
+//! speed, and a constant side force deflects the wave without bound. A window without instability therefore
+//! ends before a critical speed.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -16,10 +16,11 @@ use serde::{Deserialize, Serialize};
 use super::band::{CurvePoint, Instability, InstabilityKind};
 use super::interpolation::Cubic;
 use super::root::share_of_zero;
+use crate::spectrum::smallest;
 
-/// A saw within this relative distance of a critical speed is considered to run at it. A side force fixed in space deflects the wave
-/// of the critical speed Ω_c, by K(Ω) = K₀ − Ω²B, by 1/|1 − (Ω/Ω_c)²| times its deflection at rest: ten times
-/// at this margin. The 85 % rule allows 3.6 times.
+/// Relative distance from a critical speed within which a saw is considered to run at it. Because of K(Ω) =
+/// K₀ − Ω²B, a side force fixed in space deflects the wave of the critical speed Ω_c by 1/|1 − (Ω/Ω_c)²|
+/// times its deflection at rest: ten times at this margin. The 85 % rule allows 3.6 times.
 pub const CRITICAL_MARGIN: f64 = 0.05;
 
 /// The answer to whether a saw is stable at one speed.
@@ -37,7 +38,8 @@ pub enum StabilityState {
 }
 
 impl StabilityState {
-    /// The state at a speed of the sweep at which bands of these kinds count: divergence takes precedence over flutter.
+    /// The state at a speed of the sweep at which bands of these kinds count; divergence takes precedence
+    /// over flutter.
     pub(crate) fn within(kinds: impl IntoIterator<Item = InstabilityKind>) -> Self {
         let states = kinds.into_iter().map(|kind| match kind {
             InstabilityKind::Divergence => StabilityState::Divergence,
@@ -53,34 +55,34 @@ impl StabilityState {
 /// Whether a saw is stable at one speed, and which band decides it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Verdict {
-    /// The answer.
+    /// State of the saw at the speed.
     pub state: StabilityState,
-    /// Index of the band that makes it unstable: divergence first, then the fastest growing.
+    /// Index of the band that makes the saw unstable: divergence first, then the fastest growing.
     pub band: Option<usize>,
-    /// The stretch around the speed in which that band counts, in rad/s.
+    /// Interval around the speed in which that band counts, in rad/s.
     pub stretch: Option<(f64, f64)>,
-    /// Index of the critical speed within 5 % of the speed; the nearest if there are several.
+    /// Index of the critical speed within 5 % of the speed; of several, the nearest.
     pub critical: Option<usize>,
 }
 
-/// Data for a verdict.
+/// Results from which a verdict follows.
 #[derive(Debug, Clone, Copy)]
 pub struct Evidence<'a> {
     /// Every band within the range.
     pub bands: &'a [Instability],
     /// Critical speeds, ascending, in rad/s, including those next to the range.
     pub critical_rad_per_s: &'a [f64],
-    /// Flutter counts from this growth rate on; divergence always counts.
+    /// Smallest growth rate of flutter that counts, in 1/s; divergence always counts.
     pub threshold_per_s: f64,
     /// Range of the search, in rad/s.
     pub range_rad_per_s: (f64, f64),
 }
 
-/// Place of the critical speed that a saw runs at, nearer than 5 %; the nearest of several. All speeds have one unit.
+/// Index of the critical speed within 5 % of a speed; of several, the nearest. All speeds have the same unit.
 pub(crate) fn critical_at(critical: &[f64], speed: f64) -> Option<usize> {
     let off = |place: usize| (speed / critical[place] - 1.0).abs();
     let near = (0..critical.len()).filter(|place| off(*place) <= CRITICAL_MARGIN);
-    near.min_by(|x, y| off(*x).total_cmp(&off(*y)))
+    smallest(near, |place| off(*place))
 }
 
 impl Evidence<'_> {
@@ -113,8 +115,8 @@ impl Evidence<'_> {
     }
 
     /// Range of speeds around a speed without an instability that counts, in rad/s, within the sweep and at
-    /// least 5 % away from critical speeds; `None` where the saw is unstable or at a critical speed, or
-    /// nothing was computed.
+    /// least 5 % away from critical speeds; `None` if the saw is unstable or at a critical speed, or if the
+    /// speed is outside the sweep.
     pub fn window_without_instability(&self, speed_rad_per_s: f64) -> Option<(f64, f64)> {
         let verdict = self.verdict(speed_rad_per_s);
         if verdict.state != StabilityState::Stable || verdict.critical.is_some() {
@@ -181,7 +183,7 @@ impl Instability {
         stretches
     }
 
-    /// Re λ of a damped blade at a speed within the band, in 1/s.
+    /// Re λ of a damped blade at a speed, in 1/s; `None` outside the band and for an undamped blade.
     pub fn growth_at(&self, speed_rad_per_s: f64) -> Option<f64> {
         let after = |p: &CurvePoint| p.speed_rad_per_s < speed_rad_per_s;
         let place = self.curve.partition_point(after).max(1);
@@ -193,6 +195,7 @@ impl Instability {
         inside.contains(&speed_rad_per_s).then(growth)
     }
 
+    /// Growth rate at a speed, or that of the peak for an undamped blade, in 1/s.
     fn growth_or_peak(&self, speed_rad_per_s: f64) -> f64 {
         self.growth_at(speed_rad_per_s)
             .unwrap_or(self.peak_growth_per_s)
@@ -204,7 +207,7 @@ pub(super) fn growth_between(pair: &[CurvePoint], share: f64) -> f64 {
     let width = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
     let [before, after] = [pair[0], pair[1]].map(|p| (p.lambda.re, p.slope.re * width));
     let straight = before.0 + share * (after.0 - before.0);
-    // At a coalescence slopes are infinite, and the points are so close that none is needed.
+    // At a coalescence slopes are unbounded; the points are so close that a straight line is accurate.
     let size = before.0.abs() + after.0.abs();
     let steepness = before.1.abs() + after.1.abs();
     if steepness.is_nan() || steepness > 8.0 * size {
@@ -307,7 +310,7 @@ mod tests {
         assert_eq!(flutter_onsets(&bands, 0.25), [Some(94.0), Some(94.0)]);
     }
 
-    /// No band opens at the critical speeds of a blade without guides, but windows still end before them.
+    /// There is no band at the critical speeds of a blade without guides, but windows end before them.
     #[test]
     fn windows_end_short_of_critical_speeds() {
         let bands = [band(InstabilityKind::Divergence, 240.0, 250.0, 1.0)];

@@ -1,4 +1,4 @@
-//! Trial of the tuned constants: effects of half and double their values.
+//! Trial of the tuned constants: effects of half and of double their values.
 
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard};
 use crate::scene::{Accuracy, Scene, rpm};
 use crate::stability::{Analysis, AnalysisError, Instability};
 
-/// Off in all other tests, so that they need no lock.
+/// Whether the trial runs; other tests need no lock.
 static ON: AtomicBool = AtomicBool::new(false);
 static TRIAL: Mutex<Trial> = Mutex::new(Trial {
     seen: BTreeSet::new(),
@@ -15,9 +15,9 @@ static TRIAL: Mutex<Trial> = Mutex::new(Trial {
 });
 
 struct Trial {
-    /// Constants that were used.
+    /// Names of the constants that were used.
     seen: BTreeSet<&'static str>,
-    /// Constant on trial, and its factor.
+    /// Name of the constant on trial, and its factor.
     scaled: Option<(&'static str, f64)>,
 }
 
@@ -46,7 +46,7 @@ struct Answer {
     /// Estimated error of critical speeds.
     estimate: f64,
     mismatches: usize,
-    /// Numbers of eigenproblems: full, projected, of few states, and of pairs.
+    /// Numbers of eigenproblems on the full model, on projections and on states, and of refined pairs.
     work: [usize; 4],
 }
 
@@ -121,9 +121,9 @@ fn saws() -> Vec<Scene> {
     .collect()
 }
 
-/// Prints a row for each constant and factor: the largest change over the saws, and the total work. A result
-/// is right if only its last digits change; a constant is well chosen if half or double its value costs more
-/// or changes the result.
+/// Prints a row for each constant and factor: the largest relative changes of the results over all saws, and the
+/// total work. A constant is accurate enough if only the last digits of results change, and well chosen if half
+/// or double its value takes longer or changes the results.
 #[test]
 #[ignore = "takes minutes: run it when a constant is changed"]
 fn constants() {

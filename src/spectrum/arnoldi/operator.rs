@@ -18,7 +18,7 @@ const SQUARED_STEPS_BEYOND: usize = 20;
 
 /// The operator of Arnoldi's iteration, in units of σ, and the relation of its eigenvalues to those of A.
 pub(super) trait Operator {
-    /// Number of rows.
+    /// Number of rows of the operator.
     fn order(&self) -> usize;
 
     /// Largest number of vectors of the iteration.
@@ -27,13 +27,14 @@ pub(super) trait Operator {
     /// Number of steps, beyond the number of requested eigenvalues, before the first check.
     fn steps_beyond() -> usize;
 
+    /// Product of the operator and a vector.
     fn apply(&self, z: ColRef<'_, f64>) -> Col<f64>;
 
-    /// Removes rounding errors from the next vector.
+    /// Removes rounding errors from the next vector of a basis.
     fn clear(&self, span: MatRef<'_, f64>, next: &mut Col<f64>);
 
-    /// λ in units of σ and q of the eigenvalues of A that belong to one of the operator, from the real and
-    /// the imaginary part of its vector; those with Im λ < 0 may be included.
+    /// Eigenpairs (λ, q) of A, λ in units of σ, that belong to an eigenvalue of the operator, from the real and
+    /// the imaginary part of its vector. Pairs with Im λ < 0 may be included.
     fn pairs(&self, eigenvalue: c64, re: Col<f64>, im: Col<f64>) -> Vec<Eigenpair>;
 }
 
@@ -44,12 +45,12 @@ pub(super) struct ShiftedInverse {
     velocity: Velocity,
 }
 
-/// (L(σ)/σ²)⁻¹.
+/// (L(σ)/σ²)⁻¹ in one of two representations.
 enum Inverse {
-    /// As an explicit inverse: applying it takes half the time of two triangular solves, which pays off for a
-    /// few dozen applications.
+    /// Explicit inverse: a product takes half the time of two triangular solves, which pays off for a few dozen
+    /// products.
     Dense(Mat<f64>),
-    /// By blocks and columns, with L(σ) and σ².
+    /// L(σ) eliminated by blocks and columns, and σ².
     Structured(Box<Elimination<f64>>, f64),
 }
 
@@ -80,11 +81,11 @@ impl Inverse {
     }
 }
 
-/// A matrix, sparse if possible.
+/// D/σ, sparse if possible.
 enum Velocity {
     /// Non-zero entries of the matrix: (row, column, value). Without dampers there are at most two in a row.
     Sparse(Vec<(usize, usize, f64)>),
-    /// A damper under the blade couples all unknowns.
+    /// All entries: a damper under the blade couples all unknowns.
     Dense(Mat<f64>),
 }
 
@@ -179,7 +180,7 @@ pub(super) struct SquaredInverse {
     shifted: ShiftedInverse,
 }
 
-/// A vector of A that is smaller than this share of its summands is rounding.
+/// An eigenvector of A that is smaller than this share of its summands is rounding.
 const CANCELLED: f64 = 1e-6;
 
 impl SquaredInverse {
@@ -239,7 +240,7 @@ impl Operator for SquaredInverse {
         }
     }
 
-    /// (A + λ)z of a vector z of A² belongs to λ, and (A − λ)z to −λ.
+    /// For an eigenvector z of A², (A + λ)z is one of A for λ, and (A − λ)z one for −λ.
     fn pairs(&self, eigenvalue: c64, re: Col<f64>, im: Col<f64>) -> Vec<Eigenpair> {
         let square = eigenvalue.inv() + 1.0;
         let root = match square.im == 0.0 {

@@ -5,7 +5,7 @@ use faer::{Accum, Col, Mat, MatRef, Par, Scale, c64};
 
 use super::Harmonic;
 
-/// The coupling of harmonics.
+/// Coupling matrix of the harmonics, of guides and edge loads.
 #[derive(Debug)]
 pub enum Coupling {
     /// PPᵀ with a negligible remainder.
@@ -14,14 +14,14 @@ pub enum Coupling {
     Dense(Mat<c64>),
 }
 
-/// The columns P.
+/// The columns P of a coupling matrix.
 #[derive(Debug)]
 pub struct Columns {
     /// P in the waves of the blade at rest, J rows for every n, those of cos nθ above those of sin nθ, which
     /// are zero for n = 0; both over √2 for n > 0. The wave e^{inθ} has the first − i times the second,
     /// e^{−inθ} their conjugates.
     pub resting: Mat<f64>,
-    /// Number of columns of each stage and of solves, with the ε of the remainder.
+    /// Number of columns in each stage and in solves, with the ε of the remainder.
     pub rests: [(usize, f64); LOOKS + 1],
     /// P in the unknowns of the plate, N × columns; more columns than in `resting`.
     pub unknowns: Mat<f64>,
@@ -38,7 +38,7 @@ pub enum Kept {
     Few,
 }
 
-/// Number of stages in which a line is examined; the later one is more accurate and costs more.
+/// Number of stages in which a line is examined; the second is more accurate and takes longer.
 pub const LOOKS: usize = 2;
 /// Trace of the remainder, relative to the weights, at which a stage, and finally a solve, needs no more
 /// columns.
@@ -106,7 +106,7 @@ impl Columns {
         self.unknowns.subcols(0, self.rests[LOOKS].0)
     }
 
-    /// From columns in the unknowns of the plate; those of the stages are converted to the waves at rest.
+    /// Columns from those in the unknowns of the plate; the ones for counts are converted to the waves at rest.
     fn of_unknowns(
         unknowns: Mat<f64>,
         is_exact: bool,
@@ -160,7 +160,7 @@ struct Relative<'a> {
 
 /// One block of F: the waves at rest, each times the root of its weight.
 struct Scaled {
-    /// Index of its first unknown.
+    /// Index of the first unknown of the block.
     first: usize,
     factor: Mat<f64>,
     inverse: Mat<f64>,
@@ -188,6 +188,7 @@ impl<'a> Relative<'a> {
         }
     }
 
+    /// Diagonal of F⁻¹ K F⁻ᵀ.
     fn diagonal(&self) -> Vec<f64> {
         let mut diagonal = Vec::with_capacity(self.coupling.nrows());
         for Scaled { first, inverse, .. } in &self.blocks {
@@ -199,7 +200,7 @@ impl<'a> Relative<'a> {
         diagonal
     }
 
-    /// F times columns.
+    /// F times columns: the inverse of the scaling.
     fn unscaled(&self, columns: MatRef<'_, f64>) -> Mat<f64> {
         let mut unscaled = Mat::zeros(columns.nrows(), columns.ncols());
         for Scaled { first, factor, .. } in &self.blocks {
@@ -211,6 +212,7 @@ impl<'a> Relative<'a> {
         unscaled
     }
 
+    /// Column `index` of F⁻¹ K F⁻ᵀ.
     fn column(&self, index: usize) -> Col<f64> {
         let place = self.blocks.partition_point(|block| block.first <= index);
         let Scaled { first, inverse, .. } = &self.blocks[place - 1];

@@ -10,18 +10,19 @@ use super::elimination::Shift;
 use super::harmonic::Harmonic;
 use crate::plate::Plate;
 
-/// Inertia, gyroscopic forces and damping; without damping the coefficients of the latter are zero.
+/// Inertia, gyroscopic forces and damping; without damping its coefficients are zero.
 #[derive(Debug)]
 pub struct Damping {
-    /// C_i of the material and the area on which air acts, for every harmonic; empty without damping of the blade.
+    /// C_i of the material and the area on which air acts, for every harmonic; empty without damping of the
+    /// blade.
     blade: Vec<[DMatrix<f64>; 2]>,
-    /// c over the mass per area.
+    /// Resistance c of the air over the mass per area.
     air_per_s: f64,
-    /// s.
+    /// Share s of the rotation speed with which the air turns.
     air_rotation_share: f64,
     /// τ of dampers proportional to the springs, such as those of a single guide: K_g + λC = (1 + τλ) K_g.
     guide_retardation_s: f64,
-    /// Other dampers.
+    /// Dampers that are not proportional to the springs.
     dampers: Option<Columns>,
 }
 
@@ -41,9 +42,8 @@ impl Damping {
         let unit = |size: usize| DMatrix::identity(size, size);
         let blocks = plate.damping.iter().flat_map(|_| &plate.harmonics);
         let blade = blocks.map(|block| {
-            let area = block.area.clone();
-            let area = area.unwrap_or_else(|| unit(block.bending.nrows()));
             let size = block.bending.nrows();
+            let area = block.area.clone().unwrap_or_else(|| unit(size));
             let material = block.material_damping.clone();
             [material.unwrap_or_else(|| DMatrix::zeros(size, size)), area]
         });
@@ -58,7 +58,8 @@ impl Damping {
         })
     }
 
-    /// The block of a wave, B_n + μ² + C_i μ + c(λ + insΩ), μ = λ + inΩ, from B_n; n is negative for the wave c + is.
+    /// The block of a wave, B_n + μ² + C_i μ + c(λ + insΩ), μ = λ + inΩ, from B_n; n is negative for the wave
+    /// c + is.
     pub fn dynamic(
         &self,
         harmonic: usize,
@@ -92,7 +93,7 @@ impl Damping {
     }
 }
 
-/// τ if C = τK.
+/// Retardation τ, in s, if C = τK; `None` otherwise.
 fn proportion(stiffness: Option<&Mat<f64>>, damping: Option<&Mat<f64>>) -> Option<f64> {
     const ROUNDING: f64 = 1e-12;
     let (stiffness, damping) = stiffness.zip(damping)?;

@@ -21,7 +21,7 @@ use nalgebra::DMatrix;
 
 use super::harmonic::Harmonic;
 
-/// λ, real or complex.
+/// Number type of λ: real or complex.
 pub trait Shift:
     ComplexField<Real = f64>
     + Copy
@@ -31,7 +31,7 @@ pub trait Shift:
     + Mul<Output = Self>
     + MulAssign
 {
-    /// Converts a number that is known to be of this kind.
+    /// Converts a complex number, which for a real type must be real.
     fn of(number: c64) -> Self;
 }
 
@@ -54,12 +54,12 @@ pub(super) struct PairInverse<T> {
     firsts: Vec<usize>,
     /// X and Y; without sines only X is used.
     halves: [Mat<T>; 2],
-    /// Argument of the determinant.
+    /// Argument of the determinant of both blocks, in rad.
     angle: f64,
 }
 
 impl<T: Shift> PairInverse<T> {
-    /// From the blocks of the waves of n and −n, the latter of c + is. `None` if one is singular.
+    /// Inverts the blocks that `wave` gives for n and for −n, the wave c + is. `None` if one is singular.
     pub fn new(harmonic: &Harmonic, wave: impl Fn(f64) -> DMatrix<c64>) -> Option<Self> {
         let inverted = |n: f64| {
             let factors = wave(n).lu();
@@ -108,7 +108,7 @@ impl<T: Shift> PairInverse<T> {
     }
 }
 
-/// L(λ) with its blocks eliminated.
+/// Factorization of L(λ) by its blocks and columns.
 #[derive(Debug)]
 pub struct Elimination<T: ComplexField> {
     blocks: Vec<PairInverse<T>>,
@@ -118,12 +118,13 @@ pub struct Elimination<T: ComplexField> {
     weights: Vec<T>,
     /// A⁻¹P.
     solved: Mat<T>,
-    /// S.
+    /// Factors of S.
     core: PartialPivLu<T>,
 }
 
 impl<T: Shift> Elimination<T> {
-    /// From inverted blocks, and columns with their weights. `None` if a value is not finite.
+    /// Factorizes L(λ) from its inverted blocks, and its columns with their weights. `None` if a value is not
+    /// finite.
     pub(super) fn new(blocks: Vec<PairInverse<T>>, parts: &[(MatRef<'_, f64>, T)]) -> Option<Self> {
         let (first, _) = parts.first()?;
         let count = parts.iter().map(|(columns, _)| columns.ncols()).sum();
@@ -185,7 +186,7 @@ impl<T: Shift> Elimination<T> {
         found
     }
 
-    /// Argument of det L, up to whole turns. `None` if it is not finite.
+    /// Argument of det L, in rad, up to whole turns. `None` if it is not finite.
     pub fn determinant_angle(&self) -> Option<f64> {
         let blocks: f64 = self.blocks.iter().map(|block| block.angle).sum();
         let swaps = match is_odd(self.core.P().arrays().0) {

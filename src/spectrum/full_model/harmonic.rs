@@ -9,31 +9,30 @@ use crate::plate::HarmonicBlock;
 pub struct Harmonic {
     /// Number n of nodal diameters.
     pub diameters: usize,
-    /// Index of its first unknown in the basis of the plate.
+    /// Index of the first unknown in the basis of the plate.
     pub first: usize,
     /// K_b + K_m.
     pub rest: DMatrix<f64>,
     /// Membrane stiffness K_σ.
     pub tension: DMatrix<f64>,
-    /// Largest negative eigenvalue of K_σ in magnitude, which is rounding.
+    /// Magnitude of the lowest eigenvalue of K_σ if it is negative, which is rounding; otherwise 0.
     pub shortfall: f64,
-    /// Weights of the waves at rest, in 1/s²: a term that is small compared with them is negligible.
-    /// T = B(0) + σ, which is positive, and more for waves so stiff that a large share of their stiffness
-    /// has no effect.
+    /// Weights of the waves at rest, in 1/s²: a term that is small compared with them is negligible. They are
+    /// T = B(0) + σ > 0, and more for waves so stiff that even a large change of their stiffness has no
+    /// effect.
     pub weights: Vec<f64>,
-    /// Shift σ.
+    /// Shift σ, in 1/s².
     pub shift: f64,
-    /// The waves at rest, of K_b + K_m, which approximate those at every speed.
+    /// Eigenvectors of K_b + K_m: the waves at rest, which approximate those at every speed.
     pub resting: SymmetricEigen<f64, Dyn>,
     /// K_σ in the waves at rest.
     pub resting_tension: DMatrix<f64>,
 }
 
-/// Most lines lie below this multiple of the blade's frequency scale; those above are counted with less
-/// certainty.
+/// Most lines lie below this multiple of the blade's frequency scale; lines above it are proven less often.
 const HIGH_LINE: f64 = 6.0;
-/// The weight of a wave with this ratio of its stiffness to that of the waves in question may be increased by
-/// a thousand times the share allowed for those, because its flexibility is negligible.
+/// Largest ratio of the weight of a wave to its T: the flexibility of so stiff a wave is negligible, so that a
+/// larger share of its stiffness may be neglected.
 const MOST_WEIGHT: f64 = 100.0;
 
 impl Harmonic {
@@ -83,18 +82,18 @@ impl Harmonic {
         (0..phases).map(move |phase| first + phase * radial)
     }
 
-    /// (ω + nΩ)² of a line at high frequency.
+    /// (ω + nΩ)² of a line at high frequency, in 1/s².
     pub fn fast_turning(&self, speed_rad_per_s: f64) -> f64 {
         (HIGH_LINE * self.shift.sqrt() + self.diameters as f64 * speed_rad_per_s).powi(2)
     }
 
-    /// Indices of its waves among e^{inθ} and e^{−inθ}; for n = 0 there is one.
+    /// Indices of the waves: 0 for e^{inθ}, 1 for e^{−inθ}, which is absent for n = 0.
     pub fn signs(&self) -> impl Iterator<Item = usize> + use<> {
         0..if self.diameters == 0 { 1 } else { 2 }
     }
 }
 
-/// Weight of a wave with T at rest.
+/// Weight of a wave with the stiffness T = `own` at rest.
 fn weight(own: f64, shift: f64) -> f64 {
     let stiffer = own / (HIGH_LINE.powi(2) * shift);
     own * stiffer.clamp(1.0, MOST_WEIGHT)

@@ -30,13 +30,14 @@ use crate::spectrum::hermitian::negative_eigenvalues;
 
 /// Share of T = B(0) + σ by which rounding may change L.
 const ROUNDING: f64 = 1e-11;
-/// A wave whose stiffness is this multiple of (ω + nΩ)² is treated as if it were at rest, for each stage.
+/// A wave is stiff, and treated as if it were at rest, if its stiffness is this multiple of (ω + nΩ)² of a
+/// line at high frequency, for each stage.
 const STIFF: [f64; LOOKS] = [1e2, 1e4];
-/// Relative length of a line in speed from which on more columns do not help.
+/// Length of a line in speed, relative to the speed, above which more columns do not help.
 const LONG: f64 = 1e-3;
 
 impl FullModel {
-    /// Number of waves of the undamped blade at rest below a frequency, if it is certain.
+    /// Number of modes of the undamped blade at rest below a frequency, if it is certain.
     pub fn modes_at_rest_below(&self, frequency_rad_per_s: f64) -> Option<usize> {
         let rest = self.at(0.0);
         self.count_along([&rest, &rest], [frequency_rad_per_s; 2])
@@ -67,14 +68,14 @@ impl FullModel {
         })
     }
 
-    /// Whether the number is `count` all along a line.
+    /// Whether the number of negative eigenvalues is proven to be `count` all along a line.
     pub fn is_count_along(&self, ends: [&AtSpeed; 2], line: [f64; 2], count: usize) -> bool {
         let is_count = |look, bound| self.bound(ends, line, bound, look) == Some(count);
         self.looks(ends)
             .any(|look| is_count(look, Bound::Low) && is_count(look, Bound::High))
     }
 
-    /// More columns help only a short line.
+    /// Stages in which a line is examined: one for a long line, for which more columns do not help.
     fn looks(&self, [a, b]: [&AtSpeed; 2]) -> Range<usize> {
         let is_long = b.speed_rad_per_s - a.speed_rad_per_s > LONG * b.speed_rad_per_s;
         match &self.coupling {
@@ -163,17 +164,17 @@ impl FullModel {
     }
 }
 
-/// A speed, with data common to its counts, computed when first needed.
+/// A speed with the data common to its counts, which are computed when first needed.
 #[derive(Debug)]
 pub struct AtSpeed {
     speed_rad_per_s: f64,
-    /// Free waves of every harmonic.
+    /// Waves of the free blade, for every harmonic.
     free: OnceLock<Vec<FreeWaves>>,
-    /// Waves for each stage.
+    /// Waves with the columns of each stage.
     waves: [OnceLock<Waves>; LOOKS],
 }
 
-/// Block of a bound, (1 + share) B_n + more − (ω ± nΩ)².
+/// Coefficients of a block of a bound, (1 + share) B_n + more − (ω ± nΩ)².
 struct BoundedBlock {
     share: f64,
     more: f64,
@@ -181,6 +182,7 @@ struct BoundedBlock {
     turning: [f64; 2],
 }
 
+/// Lower or upper bound of L along a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Bound {
     Low,
@@ -195,7 +197,7 @@ impl Bound {
         }
     }
 
-    /// Bound of the square of a number between two.
+    /// Value of the square, of a number between two, that gives this bound of L.
     fn of_square(self, ends: [f64; 2]) -> f64 {
         let [x, y] = ends.map(|end| end * end);
         match self {

@@ -40,7 +40,7 @@ impl FullModel {
         Some(GyroscopicSystem::undamped(stiffness, spin, gyroscopic))
     }
 
-    /// Non-zero entries of 2ΩG: (row, column, value).
+    /// Non-zero entries of 2ΩG, in 1/s: (row, column, value).
     pub fn turning(&self, speed_rad_per_s: f64) -> Vec<(usize, usize, f64)> {
         let turned = self.harmonics.iter().filter(|h| h.diameters > 0);
         let entries = turned.flat_map(|h| {

@@ -10,15 +10,15 @@ use faer::c64;
 use super::FullModel;
 use crate::spectrum::argument::turn_along;
 
-/// Number of points along each side of the path, besides those of the listed eigenvalues.
+/// Number of points along each side of the path, besides those at the frequencies of the listed eigenvalues.
 const PLACES: usize = 16;
 /// Frequency at which the path ends, relative to the window: at zero the block of a rigid motion is singular.
 const NEXT_TO_ZERO: f64 = 1e-5;
 
 impl FullModel {
-    /// Number of eigenvalues with 0 < Re λ < `growth` and |Im λ| < `frequency`, minus that of the listed
-    /// ones, whose conjugates are not listed. `None` if the path passes through an eigenvalue, and for a saw
-    /// that is not structured.
+    /// Number of eigenvalues with 0 < Re λ < `growth` and |Im λ| < `frequency`, minus the number of listed ones
+    /// there; conjugates are counted though not listed. `None` if the path passes through an eigenvalue, and for
+    /// a saw that is not structured.
     pub fn unlisted(
         &self,
         speed_rad_per_s: f64,
@@ -60,7 +60,7 @@ mod tests {
     use crate::spectrum::companion_eigenpairs;
     use crate::system::GyroscopicSystem;
 
-    /// A saw on guides with equal or with two different ratios of damping to stiffness.
+    /// A damped saw on one guide, or on two with different ratios of damping to stiffness.
     fn damped(guides: usize) -> Plate {
         let scene = Scene::paper().edited(|saw| {
             saw.guides = vec![saw.guides[0]; guides];

@@ -14,7 +14,7 @@ impl Builder<'_> {
     /// Largest estimated error of a frequency among the modes below the window. With the residual r on the
     /// full model, rᴴP⁻¹r is the amount by which the omitted functions reduce qᴴL(ω)q; P, the diagonal of K₀,
     /// approximates L, because r consists of high functions, which stiffness dominates. [`frequency_shift`]
-    /// gives the change of frequency.
+    /// gives the change of frequency. The error is in rad/s.
     pub(super) fn frequency_error(
         &self,
         projection: &Projection,
@@ -61,8 +61,8 @@ mod tests {
     use crate::spectrum::{WorkCounters, companion_eigenpairs, frequency_scale};
     use crate::system::GyroscopicSystem;
 
-    /// On too small a basis the estimate is compared with the frequencies of the full one, including that of
-    /// the lowest mode of the paper's saw at rest, a tenth of the window.
+    /// The estimate on too small a basis is compared with the frequencies on the full basis, including that
+    /// of the lowest mode of the paper's saw at rest, which is a tenth of the window.
     #[test]
     fn the_error_of_low_frequencies_is_not_estimated_too_small() {
         let resolution = Resolution {
@@ -94,8 +94,7 @@ mod tests {
             for ((found, q), (exact, _)) in found.into_iter().zip(exact).take(8) {
                 let error = (found - exact).norm();
                 let estimate = builder.frequency_error(&projection, speed, height, &[(found, q)]);
-                println!("{exact}: error {error:.2e}, estimated {estimate:.2e}");
-                // Below this, the reference contains rounding of the dense solver.
+                // Smaller errors are rounding of the dense solver that gives the reference.
                 if error > 1e-8 {
                     estimated += 1;
                     assert!(

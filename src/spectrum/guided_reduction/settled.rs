@@ -15,37 +15,41 @@ use crate::spectrum::projection::Projection;
 use crate::spectrum::vectors::{orthonormal, split};
 use crate::tuned::Tuned;
 
-/// Vectors closer than this to the span of the others are omitted. The error of eigenvalues of a projected
-/// symmetric problem is the square of it.
+/// Vectors closer than this to the span of the others are omitted. The error of the eigenvalues of a projected
+/// symmetric problem is the square of this distance.
 const SPAN_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction::SPAN_TOLERANCE", 1e-6);
-/// Largest estimated error of a projected frequency, relative to the height of the diagram.
+/// Largest estimated error of a projected frequency, relative to the window.
 const FREQUENCY_TOLERANCE: Tuned =
     Tuned::new("spectrum/guided_reduction::FREQUENCY_TOLERANCE", 1e-8);
-/// Largest estimated error of a frequency from the states of an interval's ends, relative to the highest of
-/// these. It suffices for diagrams; edges and peaks are computed from there on the projection.
+/// Largest estimated error of a frequency from the states of an interval's ends, relative to the height up to
+/// which they are used. It suffices for diagrams; edges and peaks are then computed on the projection.
 const STATES_TOLERANCE: Tuned = Tuned::new("spectrum/guided_reduction::STATES_TOLERANCE", 1e-5);
-/// Factors for these two tolerances in a preview: together they halve its cost for an undamped blade. The
-/// bands of the saws of the gallery then change by less than 0.1 rpm.
+/// Factors for [`FREQUENCY_TOLERANCE`] and [`STATES_TOLERANCE`] in a preview: together they halve its time
+/// for an undamped blade and change the bands of the saws of the gallery by less than 0.1 rpm.
 const SKETCHED: [f64; 2] = [100.0, 10.0];
-/// Number of times that the interval between a snapshot and its middle may be halved for these states.
+/// Number of times that the interval between a snapshot and the middle to the next one may be halved for the
+/// accuracy of states.
 const MOST_HALVINGS: usize = 3;
-/// Length given to vectors that must be represented completely.
+/// Length given to vectors that the basis must represent completely.
 const KEPT_WHOLE: f64 = 1e6;
 /// Largest number of speeds at which modes of the full model are computed.
 const MAX_SNAPSHOTS: usize = 33;
 
-/// A trial between two snapshots.
+/// The projection between two snapshots on trial.
 struct Tried {
+    /// Its intervals if it is kept, otherwise empty.
     intervals: Vec<Interval>,
+    /// Speed of the next snapshot if it is not kept.
     middle: f64,
     is_kept: bool,
+    /// Estimated error of a frequency that exceeds the tolerance, in rad/s; otherwise 0.
     unsettled_rad_per_s: f64,
 }
 
 impl Builder<'_> {
-    /// The modes at two snapshots, those modes of others that the search follows, and the standing waves of
-    /// the critical speeds in between: with these the projected K(Ω) is singular at exactly the same speeds
-    /// as that of the full model.
+    /// Orthonormal basis of the modes at two snapshots, of the modes of other snapshots that the search follows,
+    /// and of the standing waves of the critical speeds in between: because of these waves the projected K(Ω) is
+    /// singular at exactly the critical speeds of the full model.
     pub(super) fn basis(&self, [from, to]: [&Snapshot; 2]) -> Mat<f64> {
         let system = self.guided.system;
         let between = from.speed..=to.speed;
@@ -112,6 +116,7 @@ impl Builder<'_> {
         [usual[0] * factors[0], usual[1] * factors[1]]
     }
 
+    /// Projects between two snapshots and estimates the error in the middle.
     fn tried(&self, ends: [&Snapshot; 2]) -> Result<Tried, SpectrumError> {
         let Guided {
             system, structure, ..
@@ -160,8 +165,8 @@ impl Builder<'_> {
         let [from, to] = ends.map(|end| end.speed_rad_per_s);
         let middle = 0.5 * (from + to);
         let [_, tolerance] = self.tolerances();
-        // The flag states whether the states are accurate enough. They are not if their eigenproblem fails; that of
-        // the projection then replaces it.
+        // The flag is true if the states are accurate enough. It is false if their eigenproblem fails, so
+        // that the eigenproblem of the projection replaces it.
         let states_up_to = |height: f64| {
             let states = states_between(projection, ends, &self.standing, height)?;
             let pairs = states_at(&states, middle, self.counters);

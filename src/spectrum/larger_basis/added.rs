@@ -6,6 +6,7 @@ use faer::{Col, Mat, Par, Scale, Side};
 
 use crate::plate::Plate;
 use crate::spectrum::error::SpectrumError;
+use crate::spectrum::generalized::stiffened;
 use crate::spectrum::structured::{LARGE, StructuredStiffness};
 use crate::spectrum::work::Cancellation;
 use crate::system::GyroscopicSystem;
@@ -13,8 +14,9 @@ use crate::system::GyroscopicSystem;
 /// Functions that a component lacks.
 #[derive(Debug)]
 pub enum AddedFunctions {
+    /// For a small blade, and for one without such a structure.
     Dense(DenseFunctions),
-    /// For a large guided blade: the block of K₀⁻¹ of the larger basis between the new functions is S⁻¹.
+    /// For a large guided blade: S⁻¹ is the block of K₀⁻¹ of the larger basis between the new functions.
     Structured {
         larger: Box<StructuredStiffness>,
         /// Indices of the old functions.
@@ -46,7 +48,7 @@ impl AddedFunctions {
         let structured = is_large
             .then(|| StructuredStiffness::nearly(larger))
             .flatten();
-        // A blade that is not certain to be stable is treated by the dense method.
+        // The dense method reports an unstable blade, so it is used unless the count proves stability.
         let structured =
             structured.filter(|larger| larger.full.critical_speeds_below(0.0) == Some(0));
         if let Some(larger) = structured {
@@ -60,7 +62,7 @@ impl AddedFunctions {
         DenseFunctions::new(&system, &kept).map(AddedFunctions::Dense)
     }
 
-    /// QᵀK_cn S⁻¹ K_nc Q.
+    /// QᵀK_cn S⁻¹ K_nc Q, in 1/s², for the columns Q.
     pub fn softening(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Mat<f64> {
         match self {
             AddedFunctions::Dense(dense) => {
@@ -84,16 +86,16 @@ impl AddedFunctions {
             }
             AddedFunctions::Structured { larger, kept } => {
                 let force = force_on_new(larger, kept, speed_rad_per_s, columns);
-                let given_way = larger.at_rest.solve(force.as_ref());
+                let response = larger.at_rest.solve(force.as_ref());
                 places
-                    .map(|k| force.col(k).transpose() * given_way.col(k))
+                    .map(|k| force.col(k).transpose() * response.col(k))
                     .collect()
             }
         }
     }
 
-    /// The value of [`AddedFunctions::softened`] for one part of K_nc, given on the larger basis, and one column. `None` for a saw without
-    /// the structure of a guided blade.
+    /// The value of [`AddedFunctions::softened`] for one column and one part of K_nc, given on the larger basis.
+    /// `None` for a saw without the structure of a guided blade.
     pub fn softening_by(&self, part: &Mat<f64>, shape: &Mat<f64>) -> Option<f64> {
         let AddedFunctions::Structured { larger, kept } = self else {
             return None;
@@ -143,14 +145,10 @@ impl DenseFunctions {
                 matrix[(rows[i], columns[k])]
             })
         };
-        // Stiffening the free rigid motions, on which the new functions have no effect, makes K_cc definite
-        // and changes nothing else.
-        let mut old = block(&larger.stiffness, kept, kept);
-        let mean = old.norm_l2() / (kept.len() as f64).sqrt();
-        for z in &larger.free_rigid {
-            let z = Col::from_fn(kept.len(), |i| z[kept[i]]);
-            old += Scale(mean) * &z * z.transpose();
-        }
+        // The new functions have no effect on free rigid motions.
+        let on_old = |z: &Col<f64>| Col::from_fn(kept.len(), |i| z[kept[i]]);
+        let free: Vec<Col<f64>> = larger.free_rigid.iter().map(on_old).collect();
+        let old = stiffened(&block(&larger.stiffness, kept, kept), &free);
         let old = old.llt(Side::Lower).map_err(unstable)?;
         let mut whitened = block(&larger.stiffness, kept, &added);
         solve_lower_triangular_in_place(old.L(), whitened.as_mut(), Par::Seq);
@@ -162,7 +160,7 @@ impl DenseFunctions {
         })
     }
 
-    /// L⁻¹K_nc Q, S = LLᵀ.
+    /// L⁻¹K_nc Q with the Cholesky factor L of S = LLᵀ.
     fn whitened_force(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Mat<f64> {
         let mut force =
             &self.stiffness * columns + Scale(speed_rad_per_s.powi(2)) * &self.spin * columns;

@@ -7,7 +7,7 @@ use crate::spectrum::mode::{Mode, pairs_of};
 use crate::spectrum::mode_name::ModeName;
 
 impl SpectralModel {
-    /// Names and residuals of modes of one speed.
+    /// Modes of one speed with names, shapes and backward errors, in the order given.
     pub fn describe(&self, speed_rad_per_s: f64, modes: Vec<Mode>) -> Vec<DescribedMode> {
         let mut described: Vec<Option<DescribedMode>> = modes.iter().map(|_| None).collect();
         for (index, component) in self.components.iter().enumerate() {
@@ -39,7 +39,8 @@ impl SpectralModel {
         described.into_iter().flatten().collect()
     }
 
-    pub(super) fn embed(&self, first: usize, q: &Col<c64>) -> Col<c64> {
+    /// A vector of a component, whose first unknown has the index `first`, in the basis of the plate.
+    fn embed(&self, first: usize, q: &Col<c64>) -> Col<c64> {
         let range = first..first + q.nrows();
         Col::from_fn(self.plate.degrees_of_freedom(), |i| {
             if range.contains(&i) {

@@ -15,7 +15,7 @@ const MARGIN: f64 = 1.5;
 const STANDING: usize = 12;
 
 impl SpectralModel {
-    /// Removes the k-th oscillation at a speed from the projections.
+    /// Removes the oscillation at a `place` in the order of frequency, at a speed, from the projections.
     pub(crate) fn lose_wave(&mut self, speed_rad_per_s: f64, place: usize) {
         let modes = self.full_modes(speed_rad_per_s).unwrap();
         let mut waves = modes.iter().filter(|m| m.kind == ModeKind::Positive);
@@ -29,7 +29,7 @@ impl SpectralModel {
         });
     }
 
-    /// Projects on the modes at few speeds.
+    /// Replaces the projections by ones on the modes at few speeds.
     pub(crate) fn keep_modes_of(&mut self, speeds_rad_per_s: &[f64]) {
         let standing = self.critical.iter().take(STANDING);
         let vectors: Vec<Col<f64>> = standing.map(|c| c.shape.clone()).collect();
@@ -50,8 +50,8 @@ impl SpectralModel {
         });
     }
 
-    /// Replaces the projections by others on another basis, which is made from each and the height of the
-    /// search.
+    /// Replaces each projection by one on another basis, which a function gives for the old basis and the height
+    /// of the search.
     fn project_again(&mut self, mut basis: impl FnMut(&Mat<f64>, f64) -> Mat<f64>) {
         let height_rad_per_s = self.reflected_to_rad_per_s;
         let component = &mut self.components[0];

@@ -14,7 +14,7 @@ fn paper(accuracy: Accuracy) -> (SpectralModel, Vec<f64>) {
     (model, speeds)
 }
 
-/// The whole range of a search, so that no band is cut.
+/// Range from rest to the last speed of a search, so that no band is cut.
 fn whole(speeds: &[f64]) -> (f64, f64) {
     (0.0, speeds[speeds.len() - 1])
 }
@@ -38,12 +38,8 @@ static SOUND: LazyLock<Sound> = LazyLock::new(|| {
     }
 });
 
-/// Certificate of bands that may be wrong, with signatures that may be wrong.
-fn held_against(
-    sound: &Sound,
-    bands: &[Instability],
-    change: impl Fn(&mut Signature),
-) -> Certificate {
+/// Certificate of a list of bands, which may be wrong, with signatures that a function may make wrong.
+fn certified(sound: &Sound, bands: &[Instability], change: impl Fn(&mut Signature)) -> Certificate {
     let evaluator = SignatureEvaluator::new(&sound.model, &sound.speeds).unwrap();
     searched_pieces(&evaluator, &sound.speeds).unwrap();
     let mut signatures = evaluator.signatures();
@@ -58,6 +54,14 @@ fn held_against(
     checks.certificate(Depth::Proof).unwrap()
 }
 
+/// Bands and certificate without a second search.
+fn searched_once(model: &SpectralModel, speeds: &[f64]) -> (Vec<Instability>, Certificate) {
+    let evaluator = SignatureEvaluator::new(model, speeds).unwrap();
+    let full = ModeCounts::new(model);
+    let range = (whole(speeds), speeds);
+    searched(model, evaluator, &full, range, Depth::Counts).unwrap()
+}
+
 fn open_rad_per_s(certificate: &Certificate) -> f64 {
     let unproven = certificate.unproven_rad_per_s.iter().flatten();
     unproven.map(|(from, to)| to - from).sum()
@@ -69,9 +73,9 @@ fn flutter_bands(bands: &[Instability]) -> Vec<usize> {
 }
 
 #[test]
-fn nearly_all_speeds_are_proven_and_what_is_not_lies_at_edges() {
+fn nearly_all_speeds_are_proven_and_the_others_are_at_edges() {
     let sound = &*SOUND;
-    let certificate = held_against(sound, &sound.bands, |_| ());
+    let certificate = certified(sound, &sound.bands, |_| ());
     assert!(certificate.is_clean(), "{certificate:?}");
     let unproven = certificate.unproven_rad_per_s.unwrap();
     let open: f64 = unproven.iter().map(|(from, to)| to - from).sum();
@@ -81,14 +85,13 @@ fn nearly_all_speeds_are_proven_and_what_is_not_lies_at_edges() {
     }
 }
 
-/// Leaves out each pair of modes from the proof in turn, and compares the proven intervals with dense
-/// eigenvalues.
+/// Reference: dense eigenvalues at random speeds in the proven intervals.
 #[test]
 fn proven_speeds_have_no_unstable_mode_besides_the_bands() {
     let sound = &*SOUND;
-    let certificate = held_against(sound, &sound.bands, |_| ());
+    let certificate = certified(sound, &sound.bands, |_| ());
     let unproven = certificate.unproven_rad_per_s.unwrap();
-    let mut held = 0;
+    let mut compared = 0;
     for k in 0..120 {
         let speed = rad_per_s(1400.0 + 1600.0 * drawn_share(1000 + k));
         if unproven
@@ -107,9 +110,9 @@ fn proven_speeds_have_no_unstable_mode_besides_the_bands() {
             "{} rpm: {unstable} {listed}",
             rpm(speed)
         );
-        held += 1;
+        compared += 1;
     }
-    assert!(held > 100, "{held}");
+    assert!(compared > 100, "{compared}");
 }
 
 #[test]
@@ -119,16 +122,7 @@ fn a_missing_mode_is_found_and_the_search_repeated_without_it() {
     for (speed, place) in [(2265.0, 1), (2800.0, 2)] {
         let (mut model, speeds) = paper(Accuracy::Draft);
         model.lose_wave(rad_per_s(speed), place);
-        let evaluator = SignatureEvaluator::new(&model, &speeds).unwrap();
-        let full = ModeCounts::new(&model);
-        let (_, certificate) = searched(
-            &model,
-            evaluator,
-            &full,
-            (whole(&speeds), &speeds),
-            Depth::Counts,
-        )
-        .unwrap();
+        let (_, certificate) = searched_once(&model, &speeds);
         assert!(
             !certificate.miscounts.is_empty(),
             "{speed} {place}: {certificate:?}"
@@ -143,9 +137,9 @@ fn a_missing_mode_is_found_and_the_search_repeated_without_it() {
 }
 
 #[test]
-fn two_signs_that_changed_places_are_found() {
+fn two_exchanged_signs_are_found() {
     let sound = &*SOUND;
-    let certificate = held_against(sound, &sound.bands, |signature| {
+    let certificate = certified(sound, &sound.bands, |signature| {
         let opposite =
             |pair: &[crate::stability::signature::SignedMode]| pair[0].sign != pair[1].sign;
         if let Some(place) = signature.waves.windows(2).position(opposite) {
@@ -157,25 +151,16 @@ fn two_signs_that_changed_places_are_found() {
     assert!(!certificate.miscounts.is_empty());
 }
 
-/// Too few snapshots make the model of the search inaccurate between them.
+/// With too few snapshots the model of the search is inaccurate between them.
 #[test]
-fn a_projection_on_too_few_speeds_is_found_out() {
+fn a_projection_on_too_few_speeds_is_detected() {
     let sound = &*SOUND;
     let (first, last) = (sound.speeds[0], sound.speeds[sound.speeds.len() - 1]);
     let mut wrong = 0;
     for kept in [vec![first], vec![last], vec![first, last]] {
         let (mut model, speeds) = paper(Accuracy::Draft);
         model.keep_modes_of(&kept);
-        let evaluator = SignatureEvaluator::new(&model, &speeds).unwrap();
-        let full = ModeCounts::new(&model);
-        let (without, _) = searched(
-            &model,
-            evaluator,
-            &full,
-            (whole(&speeds), &speeds),
-            Depth::Counts,
-        )
-        .unwrap();
+        let (without, _) = searched_once(&model, &speeds);
         let is_wrong = !are_same(&without, &sound.bands, 1e-4);
         wrong += usize::from(is_wrong);
         let (found, certificate) = bands(&model, whole(&speeds), &speeds, Depth::Proof).unwrap();
@@ -186,7 +171,8 @@ fn a_projection_on_too_few_speeds_is_found_out() {
     assert!(wrong > 0, "the fault does no harm");
 }
 
-/// Compares edges, and peaks to a hundred times the tolerance.
+/// Whether two lists have the same edges within a relative tolerance, and the same peaks within a hundred
+/// times the tolerance.
 fn are_same(left: &[Instability], right: &[Instability], tolerance: f64) -> bool {
     let is_near = |x: f64, y: f64| (x / y - 1.0).abs() < tolerance;
     left.len() == right.len()
@@ -200,13 +186,13 @@ fn are_same(left: &[Instability], right: &[Instability], tolerance: f64) -> bool
 #[test]
 fn bands_that_are_shifted_open_missing_or_too_low_are_found() {
     let sound = &*SOUND;
-    let clean = open_rad_per_s(&held_against(sound, &sound.bands, |_| ()));
+    let clean = open_rad_per_s(&certified(sound, &sound.bands, |_| ()));
     for k in flutter_bands(&sound.bands) {
         let width = sound.bands[k].to_rad_per_s - sound.bands[k].from_rad_per_s;
         let changed = |change: &dyn Fn(&mut Instability)| {
             let mut bands = sound.bands.clone();
             change(&mut bands[k]);
-            held_against(sound, &bands, |_| ())
+            certified(sound, &bands, |_| ())
         };
         let shifted = changed(&|band| {
             band.from_rad_per_s += 0.3 * width;
@@ -221,80 +207,11 @@ fn bands_that_are_shifted_open_missing_or_too_low_are_found() {
         assert!(!low.is_clean(), "band {k} with half its peak");
         let mut bands = sound.bands.clone();
         bands.remove(k);
-        let missing = held_against(sound, &bands, |_| ());
+        let missing = certified(sound, &bands, |_| ());
         // A band missing from the list leaves its range unproven even where no speed was computed.
         assert!(
             open_rad_per_s(&missing) > clean + 0.9 * width,
             "band {k} missing"
         );
     }
-}
-
-#[test]
-#[ignore = "measurement"]
-fn cost_of_the_proof() {
-    for accuracy in [Accuracy::Design, Accuracy::Reference] {
-        let (model, speeds) = paper(accuracy);
-        for depth in [Depth::Counts, Depth::Proof] {
-            let all = || bands(&model, whole(&speeds), &speeds, depth).unwrap();
-            let (bands, certificate) = timed(&format!("{accuracy:?} {depth:?}"), all);
-            println!(
-                "{} bands, {} speeds, {} counts, mismatches {:?}, miscounts {:?}",
-                bands.len(),
-                certificate.speeds_checked,
-                certificate.full_basis_counts,
-                certificate.mismatches,
-                certificate.miscounts
-            );
-            print_steps(&model, &speeds, &bands);
-            let unproven = certificate.unproven_rad_per_s.unwrap_or_default();
-            let open: f64 = unproven.iter().map(|(a, b)| rpm(b - a)).sum();
-            println!("{} stretches, {open:.3} rpm open of 3000", unproven.len());
-            for (a, b) in unproven {
-                print!("{:.2}+{:.3} ", rpm(a), rpm(b - a));
-            }
-            println!();
-        }
-    }
-}
-
-/// Prints the time of each step of the proof.
-fn print_steps(model: &SpectralModel, speeds: &[f64], bands: &[Instability]) {
-    let full = timed("prepared", || ModeCounts::new(model).unwrap());
-    let evaluator = SignatureEvaluator::new(model, speeds).unwrap();
-    timed("pieces", || searched_pieces(&evaluator, speeds).unwrap());
-    let signatures = evaluator.signatures();
-    let checks = Checks {
-        evaluator: &evaluator,
-        full: &full,
-        bands,
-        signatures: &signatures,
-    };
-    timed("counts at anchors", || checks.at_anchors().unwrap());
-    let extra = timed("extra", || {
-        evaluator.at_all(&checks.chosen_speeds()).unwrap()
-    });
-    let extra: Vec<_> = extra.iter().collect();
-    let height = evaluator.height_rad_per_s();
-    timed("miscounts", || full.miscounts(&extra, height).unwrap());
-    let before = evaluator.certificate().speeds_checked;
-    let proof = Proof {
-        full: &full,
-        evaluator: &evaluator,
-        bands,
-    };
-    timed("lines", || proof.unproven(&signatures).unwrap());
-    println!(
-        "{} counts in all, {} speeds of the lines",
-        full.counted(),
-        evaluator.certificate().speeds_checked - before
-    );
-}
-
-/// Prints how long some work took.
-fn timed<T>(what: &str, work: impl FnOnce() -> T) -> T {
-    let start = std::time::Instant::now();
-    let done = work();
-    println!("{what}: {:?}", start.elapsed());
-    done
 }

@@ -10,21 +10,22 @@ use crate::stability::band::Instability;
 use crate::stability::certified::drawn_share;
 use crate::stability::mode_counts::Miscount;
 
-/// Bands, from the lowest, with counts on both sides of their onsets; each count takes some forty
+/// Number of bands, from the lowest, with counts on both sides of their onsets; each count takes about forty
 /// determinants.
 const MOST_BANDS: usize = 8;
-/// Speeds drawn at random from a fixed seed.
+/// Number of further speeds of counts, drawn at random from a fixed seed.
 const DRAWN: u64 = 4;
-/// Distance from an onset, as a share of the band's width; it is at least this share of the speed.
+/// Distance of a count from an onset, as a share of the band's width.
 const BESIDE: f64 = 0.02;
+/// Smallest such distance, as a share of the speed.
 const LEAST_BESIDE: f64 = 1e-4;
 /// The window ends in the widest gap above this share of the highest accurate frequency.
 const LEAST_WINDOW: f64 = 0.6;
 
-/// Results of the counts.
+/// Results of the counts; none for a free blade, free rigid motions, or a full model without structure.
 #[derive(Debug, Default)]
 pub struct Counts {
-    /// Number of counts.
+    /// Number of conclusive counts.
     pub made: usize,
     /// Counts that contradict the eigenvalues.
     pub miscounts: Vec<Miscount>,
@@ -84,12 +85,11 @@ fn speeds(bands: &[Instability], (from, to): (f64, f64)) -> Vec<f64> {
 }
 
 fn counted(full: &FullModel, spectrum: &Spectrum, highest: f64) -> Option<Option<Miscount>> {
-    let listed: Vec<c64> = spectrum.values.iter().map(|value| value.lambda).collect();
-    counted_in_window(full, spectrum.speed, &listed, highest)
+    counted_in_window(full, spectrum.speed, &spectrum.values, highest)
 }
 
-/// Compares a list with a count of the growing eigenvalues below the frequency up to which the list is
-/// complete. `None` if the count is inconclusive because an eigenvalue lies on the path.
+/// Compares a list of eigenvalues with a count of the growing ones below a frequency up to which the list is
+/// complete. `None` if the count is inconclusive because an eigenvalue is on the path.
 pub fn counted_in_window(
     full: &FullModel,
     speed_rad_per_s: f64,
@@ -108,7 +108,7 @@ pub fn counted_in_window(
     }))
 }
 
-/// The middle of the widest gap between frequencies below the highest.
+/// Upper end of the window of a count: the middle of the widest gap between frequencies.
 fn window(listed: &[c64], highest: f64) -> Option<f64> {
     let mut frequencies: Vec<f64> = listed.iter().map(|value| value.im).collect();
     frequencies.extend([LEAST_WINDOW * highest, highest]);
@@ -126,7 +126,7 @@ mod tests {
     use crate::scene::{Accuracy, Scene, rad_per_s};
     use crate::spectrum::Strategy;
 
-    /// A dropped growing eigenvalue and a wrong growing eigenvalue are found.
+    /// A count detects a growing eigenvalue that is absent from a list, and a listed one that does not exist.
     #[test]
     fn wrong_spectra_are_contradicted() {
         let scene = Scene::paper().edited(|saw| saw.guides[0].damping_n_s_per_m = 2.0);
@@ -139,23 +139,19 @@ mod tests {
         assert!(counts.miscounts.is_empty(), "{:?}", counts.miscounts);
         let full = model.full_model();
         let spectra = (0..40).map(|k| solver.at(rad_per_s(1540.0 + 25.0 * f64::from(k))).unwrap());
-        let grows = |s: &Spectrum| s.values.iter().any(|v| v.lambda.re > 0.01);
+        let grows = |s: &Spectrum| s.values.iter().any(|v| v.re > 0.01);
         let sound = spectra.into_iter().find(grows).unwrap();
         assert_eq!(counted(full, &sound, solver.highest()), Some(None));
-        let growing = sound
-            .values
-            .iter()
-            .position(|v| v.lambda.re > 0.01)
-            .unwrap();
+        let growing = sound.values.iter().position(|v| v.re > 0.01).unwrap();
         let mut missing = sound.clone();
         missing.values.remove(growing);
         let found = counted(full, &missing, solver.highest()).unwrap().unwrap();
         assert_eq!(found.missing, 1);
         let mut invented = sound.clone();
-        let decaying = &mut invented.values[usize::from(growing == 0)].lambda;
+        let decaying = &mut invented.values[usize::from(growing == 0)];
         decaying.re = decaying.re.abs() + 0.1;
         let found = counted(full, &invented, solver.highest()).unwrap();
-        let was_growing = sound.values[usize::from(growing == 0)].lambda.re > 0.0;
+        let was_growing = sound.values[usize::from(growing == 0)].re > 0.0;
         assert!(was_growing || found.unwrap().missing == -1);
     }
 }

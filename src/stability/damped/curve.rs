@@ -1,11 +1,13 @@
 //! Curves of the eigenvalues of a damped blade over speed, from the pieces of a search.
 //!
-//! Eigenvalues are simple except at single speeds where a complex pair turns into two real ones or back;
-//! curves end and begin there. Between such speeds each eigenvalue is a smooth function λ(Ω) with Im λ ≥ 0.
+//! Eigenvalues are simple except at single speeds, at which a complex pair turns into two real ones or back, and
+//! at which curves end and begin. Between such speeds each eigenvalue is a smooth function λ(Ω) with Im λ ≥ 0.
 //! Values and slopes identify it from one speed to the next if the step is short enough.
 
 use faer::c64;
 
+use super::spectrum::finite;
+use crate::spectrum::smallest;
 use crate::stability::band::CurvePoint;
 use crate::stability::group::Sloped;
 use crate::stability::pieces::{Grouped, Piece};
@@ -14,17 +16,17 @@ use crate::stability::verdict::growth_between;
 /// One eigenvalue over speed.
 pub type Curve = Vec<CurvePoint>;
 
-/// The error of a match must be below this share of that of the second best.
+/// The error of the best match must be below this share of the error of the second best.
 const STRICT: f64 = 0.25;
-/// Least number of steps over a piece for a group of several eigenvalues.
+/// Smallest number of steps over a piece for a group of several eigenvalues.
 const STEPS: usize = 8;
 /// Steps below this share of a piece are not divided further.
 const LEAST_STEP: f64 = 1e-10;
-/// Allowed error of the cubics through a curve, as a share of the growth in the middle of a step; points of a
-/// curve cost no eigenproblem.
+/// Allowed error of the growth between the points of a curve, as a share of the growth; points need no
+/// eigenproblem.
 const CURVE_TOLERANCE: f64 = 1e-3;
-/// Frequencies below this share of the highest belong to real eigenvalues: a double real one is accurate only
-/// to the square root of rounding.
+/// Frequencies below this share of the highest belong to real eigenvalues: a double real eigenvalue is
+/// accurate only to the square root of rounding.
 const REAL: f64 = 1e-10;
 
 /// An eigenvalue at the last speed up to which it was followed, with its curve.
@@ -95,12 +97,10 @@ fn begun(open: &mut Vec<Tip>, values: Vec<Sloped>, speed_rad_per_s: f64) -> Vec<
 }
 
 fn point(speed_rad_per_s: f64, (lambda, slope): Sloped) -> CurvePoint {
-    let is_finite = slope.re.is_finite() && slope.im.is_finite();
     CurvePoint {
         speed_rad_per_s,
         lambda,
-        // At the coalescence of two eigenvalues the slope is not finite.
-        slope: if is_finite { slope } else { c64::new(0.0, 0.0) },
+        slope: finite(slope),
     }
 }
 
@@ -109,11 +109,13 @@ fn extended((_, mut curve): Tip, value: Sloped, speed_rad_per_s: f64) -> Tip {
     (value, curve)
 }
 
-/// Eigenvalues of one group over a piece.
+/// Continues curves by the eigenvalues of one group over a piece.
 struct Follower<'a> {
     /// Eigenvalues with Im λ ≥ 0 at a speed.
     at: &'a dyn Fn(f64) -> Vec<Sloped>,
+    /// Smallest step.
     least_rad_per_s: f64,
+    /// Growth that is rounding.
     noise_per_s: f64,
     ended: Vec<Curve>,
 }
@@ -137,6 +139,7 @@ impl Follower<'_> {
         (tips, self.ended)
     }
 
+    /// Continues curves over a step, in halves if that is uncertain, to the eigenvalues `found`.
     fn step(&mut self, tips: Vec<Tip>, [a, b]: [f64; 2], found: Vec<Sloped>) -> Vec<Tip> {
         let matched = matched(&tips, &found, b - a);
         if b - a <= self.least_rad_per_s {
@@ -158,7 +161,7 @@ impl Follower<'_> {
         }
     }
 
-    /// Whether the growth in the middle of a step agrees with the interpolation from its ends.
+    /// Whether the growth within a step agrees with the interpolation from its ends.
     fn is_drawn(&self, tips: &[Tip], found: &[Sloped], places: &[usize], [a, b]: [f64; 2]) -> bool {
         let pairs = tips.iter().zip(places);
         let pairs = pairs.map(|((first, _), &place)| [point(a, *first), point(b, found[place])]);
@@ -169,9 +172,9 @@ impl Follower<'_> {
             || [0.5, 0.25, 0.75].into_iter().all(|share| {
                 let between = (self.at)(a + share * (b - a));
                 growing.iter().all(|pair| {
-                    let told = growth_between(pair, share);
-                    let off = between.iter().map(|(z, _)| (z.re - told).abs());
-                    let size = told.max(pair[0].lambda.re).max(pair[1].lambda.re);
+                    let expected = growth_between(pair, share);
+                    let off = between.iter().map(|(z, _)| (z.re - expected).abs());
+                    let size = expected.max(pair[0].lambda.re).max(pair[1].lambda.re);
                     let allowed = CURVE_TOLERANCE * size + self.noise_per_s;
                     off.fold(f64::INFINITY, f64::min) <= allowed
                 })
@@ -180,8 +183,8 @@ impl Follower<'_> {
 }
 
 /// Index of the eigenvalue that continues each curve. λ must change by the mean of both slopes, and the
-/// slopes must be alike, which distinguishes two paths that cross in the middle of the step. `None` if that
-/// is uncertain.
+/// slopes must be similar, which distinguishes two paths that cross in the middle of the step. `None` if the
+/// match is uncertain.
 fn matched(tips: &[Tip], found: &[Sloped], width: f64) -> Option<Vec<usize>> {
     if tips.len() != found.len() {
         return None;
@@ -198,7 +201,7 @@ fn matched(tips: &[Tip], found: &[Sloped], width: f64) -> Option<Vec<usize>> {
     let mut places = Vec::new();
     for (tip, _) in tips {
         let all: Vec<f64> = found.iter().map(|value| misfit(tip, value)).collect();
-        let best = (0..all.len()).min_by(|&i, &k| all[i].total_cmp(&all[k]))?;
+        let best = smallest(0..all.len(), |&place| all[place])?;
         let others = (0..all.len()).filter(|&k| k != best).map(|k| all[k]);
         let next = others.fold(f64::INFINITY, f64::min);
         let is_certain = all[best].is_finite() && (all[best] <= STRICT * next);
@@ -210,8 +213,8 @@ fn matched(tips: &[Tip], found: &[Sloped], width: f64) -> Option<Vec<usize>> {
     Some(places)
 }
 
-/// Continues curves by the nearest eigenvalues, real ones by real ones. Returns the curves without a
-/// continuation too; eigenvalues that are left begin new curves.
+/// Continues curves by the nearest eigenvalues, real ones by real ones; other eigenvalues begin new curves.
+/// Returns these curves, and those without a continuation.
 fn linked(tips: Vec<Tip>, found: Vec<Sloped>, speed_rad_per_s: f64) -> (Vec<Tip>, Vec<Tip>) {
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for (i, ((z, _), _)) in tips.iter().enumerate() {
@@ -250,10 +253,10 @@ mod tests {
 
     /// Curves of eigenvalues given in closed form over 0 to 10 rad/s, and the number of speeds computed.
     fn followed(eigenvalues: &(dyn Fn(f64) -> Vec<Sloped> + Sync)) -> (Vec<Curve>, usize) {
-        let asked = std::sync::atomic::AtomicUsize::new(0);
+        let solved = std::sync::atomic::AtomicUsize::new(0);
         let solve = |speed: f64| {
-            asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-            // One wave above all others.
+            solved.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+            // A wave above all others gives the search a gap to end in.
             let above = (c64::new(-1.0, 50.0), c64::new(0.0, 0.0));
             let all = eigenvalues(speed).into_iter().chain([above]);
             Ok(Some(Sample::new(speed, all.filter(|(z, _)| z.im >= 0.0))))
@@ -268,10 +271,10 @@ mod tests {
         };
         let speeds: Vec<f64> = (0..9).map(|k| 1.25 * f64::from(k)).collect();
         let curves = curves(&search.pieces(&speeds).unwrap(), 20.0, 1e-9);
-        (curves, asked.into_inner())
+        (curves, solved.into_inner())
     }
 
-    /// Onset and end of growth, by linear interpolation.
+    /// First and last point of growth of each curve that grows.
     fn growing(curves: &[Curve]) -> Vec<[f64; 2]> {
         let mut found = Vec::new();
         for curve in curves {
@@ -333,7 +336,7 @@ mod tests {
 
     /// Three waves cross in frequency and keep their decay rates: they stay separate, and nothing grows.
     #[test]
-    fn waves_that_only_cross_stay_themselves() {
+    fn waves_that_only_cross_keep_their_curves() {
         let waves = |speed: f64| {
             let wave = |decay: f64, from: f64, slope: f64| {
                 (c64::new(-decay, from + slope * speed), c64::new(0.0, slope))

@@ -11,20 +11,19 @@ use crate::tuned::Tuned;
 
 /// Relative accuracy in speed of onsets, peaks and minima of growth.
 const SPEED_TOLERANCE: f64 = 1e-12;
-/// Two humps of growth are separate bands if growth between them falls below this share of the lower one.
-/// Each coalescence of two modes gives a hump; growth by damping alone is slow and even in between.
+/// Two humps of growth are separate bands if growth between them falls below this share of the lower hump. Each
+/// coalescence of two modes gives a hump; growth by damping alone, between them, is slow and even.
 const VALLEY: Tuned = Tuned::new("stability/damped/hump::VALLEY", 0.5);
-/// A band narrower than this share of its speed is below the resolution of a complex pair that turns into two
-/// real eigenvalues.
+/// Smallest width of a band, as a share of its speed. Narrower ones are below the resolution of a complex
+/// pair that turns into two real eigenvalues.
 const LEAST_BAND: f64 = 1e-9;
 
 /// Interval of a curve with Re λ > 0.
 struct Stretch {
     curve: Vec<CurvePoint>,
-    /// Speeds of extrema at which the eigenvalue was computed; values between them are interpolated by the
-    /// search.
+    /// Speeds of the extrema of growth, at which the eigenvalue was computed; other points were interpolated.
     extrema: Vec<f64>,
-    /// Whether the range of speeds begins or ends inside it.
+    /// Whether the range of speeds begins, and whether it ends, inside the interval.
     cut: [bool; 2],
 }
 
@@ -72,7 +71,7 @@ fn onset(
     outside: CurvePoint,
     inside: CurvePoint,
 ) -> Result<CurvePoint, SpectrumError> {
-    // The eigenvalue still grows where it leaves the accurate frequency range.
+    // If the point outside still grows, the curve leaves the accurate range of frequencies there.
     if outside.lambda.re >= 0.0 {
         return Ok(outside);
     }
@@ -106,7 +105,7 @@ fn with_extrema(
     Ok((full, extrema))
 }
 
-/// Point between two points of a path at which some quantity is zero.
+/// Point between two points of a curve at which a number is zero.
 fn root(
     solver: &Solver<'_>,
     component: usize,
@@ -124,7 +123,7 @@ fn root(
     Ok(found.point)
 }
 
-/// Point of a path at a share of the way between two of its points.
+/// Point of a curve at a share of the way between two of its points.
 fn between_points(
     solver: &Solver<'_>,
     component: usize,
@@ -144,8 +143,8 @@ fn between_points(
     let found = solver.nearest(speed, component, expected)?;
     Ok(CurvePoint {
         speed_rad_per_s: speed,
-        lambda: found.map_or(expected, |f| f.lambda),
-        slope: found.map_or(points[0].slope, |f| f.slope),
+        lambda: found.map_or(expected, |(lambda, _)| lambda),
+        slope: found.map_or(points[0].slope, |(_, slope)| slope),
     })
 }
 
@@ -171,7 +170,7 @@ fn parted(stretch: Stretch, noise: f64) -> Vec<Instability> {
         .collect()
 }
 
-/// Lowest points between humps, deepest first.
+/// Adds the indices of the lowest points between humps, deepest first.
 fn valleys(curve: &[CurvePoint], (first, last): (usize, usize), found: &mut Vec<usize>) {
     let growth = |k: usize| curve[k].lambda.re;
     // Largest growth before and after each point.

@@ -1,9 +1,9 @@
 //! Bands of a damped blade: intervals of speed in which an eigenvalue has Re λ > 0.
 //!
 //! A damped blade has no Krein signs to count. Instead, every low eigenvalue is followed over speed as λ(Ω)
-//! ([`curve`]), on pieces that each predicted a computed eigenvalue. A band begins and ends where Re λ = 0,
-//! where a complex pair turns into two real eigenvalues or back, and at the least growth between two humps
-//! ([`hump`]).
+//! ([`curve`]), on pieces each of which predicted the eigenvalues of a further speed. A band begins and ends
+//! where Re λ = 0, where a complex pair turns into two real eigenvalues or back, and at the smallest growth
+//! between two humps ([`hump`]).
 
 mod counts;
 mod curve;
@@ -27,8 +27,8 @@ use counts::Counts;
 pub(super) use counts::counted_in_window;
 use spectrum::{Solver, Spectrum};
 
-/// A point is added to the drawn curve where a straight line misses it by more than this share of its peak,
-/// on a square-root scale that shows slow growth beside fast.
+/// Allowed distance of straight lines from a drawn curve of growth, as a share of its peak, both on a
+/// square-root scale, which shows slow growth beside fast growth.
 const DRAWN: Tuned = Tuned::new("stability/damped::DRAWN", 0.02);
 
 /// Subdivisions of a cubic between two points of a curve for the comparison with straight lines.
@@ -70,8 +70,8 @@ pub(super) fn charted(
 const SEARCH_SPEEDS: usize = 9;
 /// Relative error allowed for an eigenvalue between two speeds of the search, and for a growth rate.
 const SEARCH_TOLERANCE: f64 = 1e-3;
-/// The same for a preview, which takes half the time and changes the bands of the saws of the gallery by less
-/// than 0.1 rpm.
+/// [`SEARCH_TOLERANCE`] in a preview: it halves the time and changes the bands of the saws of the gallery by
+/// less than 0.1 rpm.
 const SKETCH_TOLERANCE: f64 = 1e-2;
 /// Factor for the distance of straight lines from a drawn curve in a preview.
 const SKETCH_LINES: f64 = 3.0;
@@ -79,9 +79,9 @@ const SKETCH_LINES: f64 = 3.0;
 /// Accuracy of search and drawing.
 #[derive(Clone, Copy)]
 struct Closeness {
-    /// Of the search.
+    /// Relative error allowed between two speeds of the search.
     tolerance: f64,
-    /// Of straight lines between drawn speeds.
+    /// Distance allowed of straight lines between drawn speeds, see [`DRAWN`].
     drawn: f64,
     /// Whether the bands are compared with counts on the full model.
     is_counted: bool,
@@ -176,7 +176,7 @@ fn searched(
     Ok((pieces, found?.into_iter().flatten().collect()))
 }
 
-/// The speed, if its number of growing modes differs from its number of bands.
+/// The speed, if the number of growing modes differs from the number of bands there; otherwise empty.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -204,7 +204,7 @@ fn mismatches(solver: &Solver<'_>, spectra: &[Spectrum], bands: &[Instability]) 
             .filter(|b| b.from_rad_per_s < speed && speed < b.to_rad_per_s);
         // Growth within rounding of zero may have either sign.
         let growing = |least: f64| {
-            let values = spectrum.values.iter().map(|v| v.lambda);
+            let values = spectrum.values.iter();
             let sound = values.filter(|l| l.im <= solver.highest());
             sound.filter(|l| l.re > least).count()
         };

@@ -1,11 +1,12 @@
-//! Flutter of two coalesced modes in small systems: change of onset and growth by a larger basis.
+//! Flutter of two coalesced modes in small systems: changes of onset and growth by a larger basis.
 
-use super::{BandError, told};
+use super::{BandError, magnitude};
 use crate::spectrum::{HamiltonianReduction, State};
 use crate::stability::band::Instability;
 use crate::system::GyroscopicSystem;
 
-/// Flutter of two coalesced modes: the discriminant of the pair is nearly a parabola in speed.
+/// Relative changes of onset and growth between two systems, in which σ² of the pair is nearly a parabola in
+/// speed.
 pub fn merged(
     systems: [&GyroscopicSystem; 2],
     states: &[State; 2],
@@ -23,12 +24,12 @@ pub fn merged(
         return BandError::default();
     };
     BandError {
-        speed: told((after.onset() - before.onset()) / band.from_rad_per_s),
-        growth: told(after.growth() / before.growth() - 1.0),
+        speed: magnitude((after.onset() - before.onset()) / band.from_rad_per_s),
+        growth: magnitude(after.growth() / before.growth() - 1.0),
     }
 }
 
-/// σ²(Ω) = height − curvature (Ω − top)², and σ² at the reported speed if that is an end of the range.
+/// σ²(Ω) = height − curvature (Ω − top)², and σ² at the peak of the band if the peak is at an end of the band.
 struct Hump {
     top: f64,
     height: f64,

@@ -11,15 +11,15 @@ pub struct Looked {
 }
 
 impl Looked {
-    /// Distance to the root of the tangent, if it falls in that direction. Past its root, Newton's method
-    /// comes back.
+    /// Distance to the root of the tangent, if the square falls in that direction; negative beyond the root.
     pub fn root_of_tangent(&self, k: usize, direction: f64) -> Option<f64> {
         let falls = self.slopes[k] * direction < 0.0;
         falls.then(|| -self.squares[k] / self.slopes[k])
     }
 
-    /// Distance to the root of the cubic through both speeds: ahead while the square is positive, behind past
-    /// its root. σ² over a band is nearly a parabola, for which a tangent is inaccurate.
+    /// Distance to the root of the cubic through both speeds: ahead if the square is positive, back if it is
+    /// negative. σ² over a band is nearly a parabola, for which a tangent is inaccurate. `None` if the root
+    /// is too far away.
     pub fn root_of_cubic(&self, other: &Looked, k: usize, direction: f64) -> Option<f64> {
         let width = other.speed - self.speed;
         let (value, slope) = (self.squares[k], self.slopes[k] * width);
@@ -44,20 +44,20 @@ impl Looked {
     }
 }
 
-/// Newton steps from the root of a parabola to that of a neighbouring cubic.
+/// Number of Newton steps from the root of the parabola to that of the cubic.
 const CUBIC_STEPS: usize = 4;
-/// Distance of a root, relative to that of the two speeds, beyond which the tangent is better than their
-/// cubic.
+/// Distance of a root, relative to the distance of the two speeds, beyond which the tangent is better than
+/// the cubic.
 const FARTHEST: f64 = 4.0;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// σ² = (Ω − 2)(7 − Ω), ω² far from zero: two speeds determine the parabola, ahead from within and behind
-    /// from beyond.
+    /// σ² = (Ω − 2)(7 − Ω), with ω² far from zero: two speeds determine the parabola, and its root is found
+    /// from both sides.
     #[test]
-    fn two_speeds_tell_where_a_parabola_ends() {
+    fn two_speeds_give_the_root_of_a_parabola() {
         let at = |speed: f64| Looked {
             speed,
             squares: [(speed - 2.0) * (7.0 - speed), 100.0],

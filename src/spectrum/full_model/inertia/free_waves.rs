@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::jacobi::Eigenvectors;
 use crate::spectrum::full_model::Harmonic;
 
-/// The waves of a harmonic at a speed, in those at rest.
+/// The waves of a harmonic at a speed, in coordinates of the waves at rest.
 #[derive(Debug)]
 pub struct FreeWaves {
     pub of: Eigenvectors,

@@ -5,7 +5,8 @@
 
 use nalgebra::DMatrix;
 
-/// Eigenvalues and eigenvectors of a symmetric matrix A: VᵀAV = diag(values) + R with |Rᵢⱼ| ≤ [`LEFT`] √|valuesᵢ valuesⱼ|.
+/// Eigenvalues and eigenvectors of a symmetric matrix A: VᵀAV = diag(values) + R with |Rᵢⱼ| ≤ [`LEFT`] √|valuesᵢ
+/// valuesⱼ|.
 #[derive(Debug)]
 pub struct Eigenvectors {
     pub values: Vec<f64>,
@@ -13,8 +14,8 @@ pub struct Eigenvectors {
     pub vectors: DMatrix<f64>,
 }
 
-/// Share of √|aᵢᵢaⱼⱼ| below which aᵢⱼ is neglected. Convergence is quadratic, so a smaller value would cost a
-/// further sweep and save no counts, which allow for a thousand times as much elsewhere.
+/// Share of √|aᵢᵢaⱼⱼ| below which aᵢⱼ is neglected. A smaller value would cost a further sweep and make no more
+/// counts certain, because they allow for errors a thousand times as large elsewhere.
 pub const LEFT: f64 = 1e-10;
 /// Number of sweeps after which the remainder is rounding of cancelling numbers.
 const MOST_SWEEPS: usize = 12;
@@ -85,7 +86,7 @@ mod tests {
     /// VᵀAV is as diagonal as documented and VᵀV = 1, for matrices that are nearly diagonal, far from
     /// diagonal, and graded.
     #[test]
-    fn the_vectors_diagonalise_the_matrix() {
+    fn the_vectors_diagonalize_the_matrix() {
         let mut state = 1.0_f64;
         let mut draw = || {
             state = (state * 997.0 + 0.123).fract();

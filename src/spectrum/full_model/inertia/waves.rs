@@ -27,28 +27,29 @@ pub struct Waves {
     least: Vec<f64>,
 }
 
-/// Some waves, and P in them.
+/// Some waves, and the columns P in their coordinates.
 #[derive(Debug)]
 struct Rows {
     waves: Vec<Row>,
-    /// Rows of the columns for cosines, and below them for sines.
+    /// The rows of P for cosines, and below them those for sines.
     both: Mat<f64>,
 }
 
 /// e^{inθ} and e^{−inθ} of one eigenvalue of a block.
 #[derive(Debug, Clone, Copy)]
 struct Row {
-    /// Index of its harmonic.
+    /// Index of the harmonic.
     harmonic: usize,
-    /// The eigenvalue.
+    /// Eigenvalue of the block, in 1/s².
     stiffness: f64,
     /// Weight, a share of which is added to the stiffness for the part that the columns neglect.
     weight: f64,
-    /// |p|², its squares in both rows of the columns.
+    /// |p|², the sum of squares of the wave's two rows of the columns.
     size: f64,
 }
 
 impl Row {
+    /// Stiffness in a bound of L, if the columns neglect a share `rest` of the weight.
     fn bounded(&self, bound: Bound, rest: f64) -> f64 {
         match bound {
             Bound::Low => self.stiffness,
@@ -92,6 +93,7 @@ impl Rows {
         Rows { waves, both }
     }
 
+    /// The waves at some places.
     fn picked(&self, places: &[usize]) -> Self {
         let (total, count) = (self.waves.len(), places.len());
         let mut both = Mat::zeros(2 * count, self.both.ncols());
@@ -156,8 +158,8 @@ impl Waves {
         }
     }
 
-    /// n₋(A + PPᴴ) of a bound from −1 − PᴴA⁻¹P over the eliminated waves, bordered by the resonant ones.
-    /// `None` if it is not certain.
+    /// n₋(A + PPᴴ) of a bound, from −1 − PᴴA⁻¹P over the eliminated waves, bordered by the resonant ones.
+    /// `None` if the number is not certain.
     pub fn count(
         &self,
         harmonics: &[Harmonic],
@@ -287,10 +289,12 @@ fn add_lower_product(sum: &mut Mat<f64>, left: &Mat<f64>, right: &Mat<f64>) {
     );
 }
 
-/// A resonant wave.
+/// A wave that is not eliminated, because d is small.
 struct Resonant {
+    /// Index of its row among the soft waves.
     row: usize,
     /// 1 for e^{inθ}, −1 for e^{−inθ}.
     turned: f64,
+    /// Diagonal element of A.
     d: f64,
 }
