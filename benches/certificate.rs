@@ -1,7 +1,7 @@
-//! Cost of the Krein certificate, beside the sweep that it certifies: `cargo bench`.
+//! Run times of the Krein certificate and of the sweep that it certifies: `cargo bench --bench certificate`.
 //!
-//! The certificate adds the symmetric eigenproblem of the critical speeds on the full model; comparing two counts at
-//! each speed costs nothing.
+//! The certificate adds the symmetric eigenproblem of the critical speeds on the full model; the comparison of two
+//! counts at each speed takes negligible time.
 
 mod timing;
 

@@ -1,4 +1,5 @@
-//! Cost of the potential of stretching on the basis of `design`, on 30 shapes, and of the analyses that use it.
+//! Run times of the potential of stretching on the basis of accuracy `design`, of its quartic form on 30 shapes, and of
+//! the analyses that use it.
 
 mod timing;
 
@@ -14,7 +15,7 @@ use timing::time;
 fn main() {
     let plate = Plate::new(&Scene::paper(), Resolution::of(Accuracy::Design));
     let order = plate.degrees_of_freedom();
-    // The cost does not depend on the shapes, as long as every harmonic takes part in each.
+    // The run time does not depend on the shapes, as long as each contains every harmonic.
     let shapes = Mat::from_fn(order, 30, |i, k| {
         ((1 + k) as f64 * (0.7 * i as f64 + 1.0)).sin()
     });

@@ -1,4 +1,4 @@
-//! Remakes `figures/`: `cargo run --release --example gallery`.
+//! Draws the files of `figures/` again: `cargo run --release --example gallery`.
 
 use std::path::Path;
 
@@ -42,7 +42,8 @@ fn main() -> anyhow::Result<()> {
         std::fs::write(figures.join(format!("paper-{name}")), content)?;
     }
     println!("paper, further commands");
-    // A thousand saws take minutes: docs/tutorials/thousand-saws.md describes how the report was made.
+    // A study of a thousand saws takes minutes. Its report is read; docs/tutorials/thousand-saws.md describes how it is
+    // computed.
     let report = std::fs::read_to_string(figures.join("paper-study.json"))?;
     let report: StudyReport = serde_json::from_str(&report)?;
     for (name, png) in pngs(&report)? {
@@ -52,13 +53,13 @@ fn main() -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The end of a file's name and the file's content.
+/// End of the name of a file, and its content.
 type Figure = (&'static str, Vec<u8>);
 
-/// The figures that a scene has data for.
+/// Draws the figures for which a scene has data.
 fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
     if scene.file().spline.is_some() {
-        // This scene is another scene's saw on its spline: only the orbit is new.
+        // The scene differs from another one by the spline alone, so that only the orbit is a new figure.
         let figures = pngs(&cut(scene)?)?.into_iter();
         let orbit = figures.filter(|(name, _)| *name == "spline-orbit.png");
         return Ok(orbit.map(|(_, png)| ("orbit.png", png)).collect());
@@ -86,7 +87,7 @@ fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
     Ok(figures)
 }
 
-/// `sawflutter cut --stretching`, `runup --stretching` and `deflect`, at `draft` where they take long.
+/// Draws the figures of `sawflutter cut --stretching` and `runup --stretching` with accuracy `draft`, and of `deflect`.
 fn stretched(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
     let draft = scene.edited(|saw| {
         saw.accuracy = Accuracy::Draft;
@@ -112,8 +113,9 @@ fn stretched(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
         .collect())
 }
 
-/// `sawflutter analyze --shapes --set sweep.to_rpm=2000`, `compare` with two pads, `response`, `gap` and `map` of the
-/// paper's saw, at `draft`. Shapes have so many areas that they are smaller as PNG.
+/// Draws the figures of `sawflutter analyze --shapes --set sweep.to_rpm=2000`, `compare` with two pads, `response`, `gap`
+/// and `map` of the saw of the paper, with accuracy `draft`. The figure of shapes has so many areas that its PNG is
+/// smaller than its SVG.
 fn further(root: &Path) -> anyhow::Result<Vec<Figure>> {
     let draft = |name: &str, change: &dyn Fn(&mut SceneFile)| {
         let scene = Scene::from_path(root.join(format!("scenes/{name}.json")))?;
@@ -169,7 +171,7 @@ fn further(root: &Path) -> anyhow::Result<Vec<Figure>> {
     Ok(figures)
 }
 
-/// `sawflutter cut`.
+/// Computes the report of `sawflutter cut`.
 fn cut(scene: &Scene) -> anyhow::Result<CutReport> {
     let cut = scene.cut().context("it has a cut")?;
     let cutting = Cutting::new(scene, &cut.runs, &|_, _| ())?;
@@ -190,7 +192,7 @@ fn svgs(report: &impl Figures) -> anyhow::Result<Vec<Figure>> {
         .collect()
 }
 
-/// `sawflutter check --operating-rpm 1250 --min-critical-rpm 1500 --min-flutter-rpm 2500`.
+/// Computes the report of `sawflutter check --operating-rpm 1250 --min-critical-rpm 1500 --min-flutter-rpm 2500`.
 fn check(scene: &Scene) -> anyhow::Result<CheckReport> {
     let limits = Limits {
         min_critical_rad_per_s: Some(rad_per_s(1500.0)),
@@ -201,7 +203,7 @@ fn check(scene: &Scene) -> anyhow::Result<CheckReport> {
     Ok(CheckReport::new(scene, &limits, &check))
 }
 
-/// `sawflutter fit --to-rpm 1250`.
+/// Computes the report of `sawflutter fit --to-rpm 1250` with radius and stiffness of the guide free.
 fn fit(scene: &Scene) -> anyhow::Result<FitReport> {
     let own = scene.file().measured.as_ref().context("it is measured")?;
     let measurement = Measurement::of_scene(own);
@@ -216,7 +218,7 @@ fn fit(scene: &Scene) -> anyhow::Result<FitReport> {
     Ok(FitReport::new(&fit))
 }
 
-/// `sawflutter place` with the pad's radius and angle free.
+/// Computes the report of `sawflutter place` with radius and angle of the first guide free.
 fn place(scene: &Scene) -> anyhow::Result<PlaceReport> {
     let radius = Freed::new(scene.file(), "guides[0].radius_m", 0.2, 0.3)?;
     let angle = Freed::new(scene.file(), "guides[0].angle_deg", -120.0, 0.0)?;

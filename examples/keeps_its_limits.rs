@@ -1,4 +1,4 @@
-//! Checks a saw against limits, as a test does: `cargo run --release --example keeps_its_limits`.
+//! Compares a saw with limits, as in a test: `cargo run --release --example keeps_its_limits`.
 
 use sawflutter::check::{Check, Limits};
 use sawflutter::scene::{Scene, rad_per_s};

@@ -1,7 +1,7 @@
-//! The Rust side of `benches/peer/run.sh`: times of charts, sketches, sweeps and saws, as JSON.
+//! Run times of charts, sketches, sweeps and saws of this crate as JSON, for `benches/peer/run.sh`.
 //!
-//! The times are minima over repeats, because other work on the machine can only lengthen them. `PLACE=1` adds a whole
-//! placement of the built-in saw, which takes a minute.
+//! Each time, in s, is the minimum over repeats (`REPEATS`, 5 by default), because other work on the machine can only
+//! lengthen it. `PLACE=1` adds a whole placement of the built-in saw, which takes a minute.
 
 use std::time::Instant;
 
@@ -18,18 +18,21 @@ use serde_json::json;
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-/// Tolerance of a study of the paper's saw.
+/// Relative error allowed in the study of the saw of the paper.
 const STUDY_TOLERANCE: f64 = 6e-3;
-/// Tolerance that the live page promises during a drag.
+/// Relative error that the live page allows while a number is dragged.
 const SKETCH_TOLERANCE: f64 = 2e-2;
-/// Saws of the study that are timed.
+/// Number of saws of the study that are timed.
 const STUDY_SAWS: usize = 20;
-/// Numbers of speeds in an analysis: the search for bands begins with the first, and a chart has at least the second.
+/// Number of evenly spaced speeds with which the search for bands begins.
 const EVEN_SPEEDS: usize = 25;
+/// Smallest number of speeds of a chart.
 const CHART_SPEEDS: usize = 51;
+/// Number of speeds of the sweep that is compared with SciPy.
 const SWEEP: usize = 201;
+/// Number of frequencies of each speed that are compared with SciPy.
 const LOW_MODES: usize = 6;
-/// (n_max, J) of 85 to 4230 functions.
+/// Largest numbers of nodal diameters and numbers of radial functions of bases with 85 to 4230 functions.
 const SIZES: [(usize, usize); 6] = [(8, 5), (16, 8), (24, 10), (38, 13), (56, 25), (70, 30)];
 
 fn main() {
@@ -104,7 +107,7 @@ fn measured(repeats: usize) -> Result<serde_json::Value, Failure> {
     }))
 }
 
-/// An analysis of the built-in saw after a change of its scene.
+/// A function that analyses the built-in saw with a change of its scene.
 fn analysed(
     change: impl FnOnce(&mut SceneFile),
     detail: Detail,
@@ -119,7 +122,7 @@ fn analysed(
     })
 }
 
-/// The paper's saw swept to 6000 rpm, past 22 critical speeds and 96 bands.
+/// The built-in saw with a sweep to 6000 rpm, which contains 22 critical speeds and 96 bands.
 fn to_6000_rpm() -> Result<Scene, Failure> {
     Ok(Scene::paper().edited(|saw| {
         saw.sweep = Some(SweepFile {
@@ -129,7 +132,7 @@ fn to_6000_rpm() -> Result<Scene, Failure> {
     })?)
 }
 
-/// The sample study. One of its saws is computed in advance, because it chooses the basis of all.
+/// The sample study. Its first saw is computed in advance, because the basis of all saws is chosen with it.
 fn study_of_the_paper() -> Result<Study, Failure> {
     let paper = Scene::paper().edited(|saw| saw.tolerance = Some(STUDY_TOLERANCE))?;
     let file = include_str!("../../scenes/studies/paper-tolerances.json");
@@ -138,8 +141,8 @@ fn study_of_the_paper() -> Result<Study, Failure> {
     Ok(study)
 }
 
-/// Prints the time of each stage of an analysis. The chart repeats the search for bands, so that the rest of its time
-/// is drawing and the proof between the speeds.
+/// Time of each stage of an analysis in s. The time of a chart contains that of the search for bands; the difference is
+/// the time of drawing and of the proof between the speeds.
 fn stages(repeats: usize, scene: &Scene) -> Result<serde_json::Value, Failure> {
     let chosen = || ChosenBasis::new(scene, scene.tolerance());
     let choice = fastest(repeats, || Ok(chosen().map(|_| ())?))?;
@@ -168,7 +171,7 @@ fn stages(repeats: usize, scene: &Scene) -> Result<serde_json::Value, Failure> {
     }))
 }
 
-/// The search for bands that `place` makes for each saw it tries, on the basis of its first search.
+/// Searches for bands as `sawflutter place` does for each saw of its first search, on the basis of that search.
 fn bands_of_a_place() -> Result<(), Failure> {
     let resolution = Resolution {
         max_diameters: 8,
@@ -180,7 +183,7 @@ fn bands_of_a_place() -> Result<(), Failure> {
     Ok(())
 }
 
-/// `sawflutter place` with its defaults.
+/// Places the guide of the built-in saw as `sawflutter place` does by default.
 fn placed() -> Result<(), Failure> {
     let scene = Scene::paper();
     let paths = ["radius_m", "angle_deg", "stiffness_n_per_m"];
@@ -191,7 +194,7 @@ fn placed() -> Result<(), Failure> {
     Ok(())
 }
 
-/// The largest memory that this process has used, if the system reports it.
+/// Largest memory that this process has used, in MiB, if the system reports it.
 fn peak_memory_mb() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
@@ -212,7 +215,7 @@ fn charted(resolution: Resolution) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The lowest |Im λ| at 201 speeds, from scene to numbers.
+/// Lowest values of |Im λ|, in rad/s, at each speed of a sweep of the built-in saw, computed from its scene.
 fn sweep() -> Result<Vec<Vec<f64>>, Failure> {
     use rayon::prelude::*;
     let resolution = Resolution {
@@ -229,6 +232,7 @@ fn sweep() -> Result<Vec<Vec<f64>>, Failure> {
     even_speeds(range(), SWEEP).par_iter().map(lowest).collect()
 }
 
+/// Shortest time of the work in s.
 fn fastest(repeats: usize, work: impl Fn() -> Result<(), Failure>) -> Result<f64, Failure> {
     let mut least = f64::INFINITY;
     for _ in 0..repeats {
@@ -239,6 +243,7 @@ fn fastest(repeats: usize, work: impl Fn() -> Result<(), Failure>) -> Result<f64
     Ok(least)
 }
 
+/// Does the work on a number of threads.
 fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
     pool.expect("a thread pool").install(work)

@@ -1,4 +1,4 @@
-"""The same matrices by SciPy and LAPACK, and the ratios: called by run.sh.
+"""Measures SciPy and LAPACK on the exported matrices and prints the ratios of run times; called by run.sh.
 
 usage: peer.py RUST.json MATRICES_DIR...   (OPENBLAS_NUM_THREADS=1)
 """
@@ -17,13 +17,12 @@ import scipy
 import scipy.linalg
 
 SWEEP = 201
-SAMPLED = 11  # speeds timed of the sweep; each costs the same
+SAMPLED = 11  # Number of speeds of the sweep at which errors are computed.
 REPEATS = 5
 
 
 def companion(folder, speed):
-    """Companion matrix of (q, q'/s) for q'' + 2 speed G q' + (K + speed^2 S) q = 0, in units of
-    s."""
+    """Companion matrix, divided by s, of the state (q, q'/s) of q'' + 2 speed G q' + (K + speed^2 S) q = 0; and s."""
     stiffness, spin, gyroscopic = (
         np.load(folder / f"{name}.npy") for name in ("stiffness", "spin", "gyroscopic")
     )
@@ -73,7 +72,7 @@ def whole_process(repeats):
 
 
 def table(rust, eigvals, whole):
-    """The measurements, as ratios to one eigvals of order 528 unless a unit is named."""
+    """Prints the measurements, as ratios to one eigvals of order 528 unless a unit is named."""
     chart, sweep = rust["chart_s"], rust["sweep_201_at_264_s"]
     sizes = [(row["functions"], row["seconds"]) for row in rust["chart_by_functions"]]
     (n0, t0), (n1, t1) = sizes[0], sizes[-1]
@@ -85,24 +84,24 @@ def table(rust, eigvals, whole):
         ("whole process with every picture", whole and whole / eigvals, "<= 1"),
         (f"exponent of time from {n0} to {n1} functions", math.log(t1 / t0) / math.log(n1 / n0), "< 1.1"),
         ("chart, one thread / two threads", chart["one_thread"] / chart["two_threads"], ">= 1.8"),
-        ("SciPy sweep / ours, 264 functions, one thread", SWEEP * eigvals / sweep["one_thread"], ">= 300"),
-        ("SciPy sweep / ours, 264 functions, two threads", SWEEP * eigvals / sweep["two_threads"], ">= 300"),
+        ("SciPy sweep / sawflutter, 264 functions, one thread", SWEEP * eigvals / sweep["one_thread"], ">= 300"),
+        ("SciPy sweep / sawflutter, 264 functions, two threads", SWEEP * eigvals / sweep["two_threads"], ">= 300"),
         ("sweep to 6000 rpm, s", rust["to_6000_rpm_s"], "<= 1"),
         ("saws of a study at 6e-3, 1/s", 1 / rust["study_saw_s"], ">= 60"),
         ("saws of a placement, first basis, 1/s", 1 / rust["place_saw_s"], ""),
         ("placement with defaults, s (PLACE=1)", rust["place_s"], "<= 8"),
         ("peak memory of all of this, MB", rust["peak_memory_mb"], ""),
     ]
-    print(f"\n{'against one eigvals of order 528':50}  reached   target")
-    for what, value, target in rows:
-        print(f"{what:50} {'-' if value is None else format(value, '.3g'):>8}   {target}")
+    print(f"\n{'relative to one eigvals of order 528':54}  reached   target")
+    for name, value, target in rows:
+        print(f"{name:54} {'-' if value is None else format(value, '.3g'):>8}   {target}")
     profile(rust["stages_s"])
-    print("\nours: " + ", ".join(f"{n} functions {1e3 * t:.0f} ms" for n, t in sizes) + " (chart, one thread)")
-    print(f"ours: chart at 1e-3 {1e3 * chart['one_thread']:.0f} ms, sweep {1e3 * sweep['one_thread']:.0f} ms (one thread)")
+    print("\nchart, one thread: " + ", ".join(f"{n} functions {1e3 * t:.0f} ms" for n, t in sizes))
+    print(f"chart at 1e-3 {1e3 * chart['one_thread']:.0f} ms, sweep {1e3 * sweep['one_thread']:.0f} ms (one thread)")
 
 
 def profile(stages_s):
-    """The run time of each stage."""
+    """Prints the run time of each stage."""
     names = list(next(iter(stages_s.values())))
     print("\n" + " " * 30 + "".join(f"{what:>20}" for what in stages_s))
     for name in names:
@@ -113,7 +112,7 @@ def profile(stages_s):
 
 
 def worst_error(folder, rust, speeds, sampled):
-    """Largest relative difference of the low frequencies, in units of the sixth at rest."""
+    """Largest relative difference of the low frequencies at the sampled speeds, except at rest."""
     worst = 0.0
     for index in sampled[1:]:
         matrix, scale = companion(folder, speeds[index])

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Both sides in one run on one machine: needs Python 3.11 or later and cargo.
+# Measures sawflutter and SciPy in one run on one machine. It needs Python 3.11 or later and cargo.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 work=$(mktemp -d)

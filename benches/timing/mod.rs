@@ -1,8 +1,9 @@
-//! Run times.
+//! Measurement of run times.
 
 use std::time::{Duration, Instant};
 
-/// Prints the shortest time and the median, because other work on the machine can only lengthen them.
+/// Runs `work` a number of times and prints the shortest time, which other work on the machine affects least, and the
+/// median.
 pub fn time(what: &str, samples: usize, work: impl Fn()) {
     let mut times: Vec<Duration> = (0..samples)
         .map(|_| {

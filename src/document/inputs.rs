@@ -1,10 +1,10 @@
-//! Numbers of a scene as rows of a table.
+//! The table of the numbers of a scene.
 
 use super::Table;
 use crate::scene::{Quantity, SceneFile, in_words};
 use crate::text::shown;
 
-/// Key, meaning, value with its unit.
+/// A table with the key, the meaning, and the value with its unit, of each number that the scene contains.
 pub fn inputs(scene: &SceneFile) -> Table {
     let rows = scene.inputs().into_iter().map(|(path, value)| {
         let quantity = Quantity::of(&path);

@@ -19,10 +19,10 @@ pre{font-size:.85em;overflow-x:auto;white-space:pre-wrap}\
 figure{margin:1em 0;break-inside:avoid}figure svg{width:100%;height:auto}tr{break-inside:avoid}\
 @media print{body{margin:0;max-width:none;font-size:11px}h2{break-after:avoid}}@page{margin:15mm}";
 
-/// The page of a report.
+/// Returns the page of a report as HTML.
 ///
 /// # Errors
-/// [`FigureError`] where a figure cannot be drawn.
+/// [`FigureError`] if a figure cannot be drawn.
 pub fn page(report: &impl Documented) -> Result<String, FigureError> {
     let figures = report.figures();
     let figures = figures.iter().map(|figure| figure.svg());
@@ -53,7 +53,7 @@ fn write_page(text: &mut String, document: &Document, figures: &[String]) -> std
     }
     writeln!(text, "<h2>Figures</h2>")?;
     for figure in figures {
-        // A drawing inside a page begins with its own tag, without the XML header.
+        // Inside HTML a drawing has no XML header.
         let drawing = figure.find("<svg").map_or("", |start| &figure[start..]);
         writeln!(text, "<figure>\n{drawing}\n</figure>")?;
     }
@@ -81,7 +81,7 @@ fn warnings(text: &mut String, warnings: &[String]) -> std::fmt::Result {
     writeln!(text, "</div>")
 }
 
-/// The answer, or the summary of a report whose summary contains it.
+/// Writes the answer, or the whole summary if the document has no answer of its own.
 fn verdict(text: &mut String, document: &Document) -> std::fmt::Result {
     writeln!(text, "<h2>Result</h2>")?;
     let Some((first, rest)) = document.answer.split_first() else {
@@ -113,7 +113,7 @@ fn write_table(text: &mut String, table: &Table) -> std::fmt::Result {
     writeln!(text, "</tbody>\n</table>")
 }
 
-/// Notes and numbers of the scene, and the scene as JSON for programs that read the page.
+/// Writes notes and numbers of the scene, and the scene as JSON for programs that read the page.
 fn scene(text: &mut String, scene: &SceneFile) -> std::fmt::Result {
     writeln!(text, "<h2>Inputs</h2>")?;
     paragraphs(text, &scene.notes)?;
@@ -127,7 +127,7 @@ fn scene(text: &mut String, scene: &SceneFile) -> std::fmt::Result {
     }
     write_table(text, &inputs(scene))?;
     let json = serde_json::to_string(scene).unwrap_or_default();
-    // A text may contain the tag that ends the element; JSON allows an escape for its first character.
+    // A text of the scene may contain the tag `</script>`; the escape of `<` is allowed in JSON.
     let json = json.replace('<', "\\u003c");
     writeln!(
         text,

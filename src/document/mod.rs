@@ -1,7 +1,7 @@
-//! Report as one page of HTML: verdict, warnings, tables, figures, inputs, certificate, version.
+//! A report as one page of HTML: verdict, warnings, tables, figures, inputs, certificate, version.
 //!
-//! The page is self-contained: it includes styles, figures and the scene. A browser prints it as PDF. It
-//! repeats the contents of the summary, the figures and the JSON.
+//! The page is self-contained: it includes styles, figures and the scene, and can be printed. Its contents are
+//! those of the summary, the figures and the JSON of the report.
 
 mod inputs;
 mod layout;
@@ -19,38 +19,38 @@ use crate::scene::SceneFile;
 /// Content of the page of a report.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Document<'a> {
-    /// Command that computes the report.
+    /// Command that computes the report, like `analyze`.
     pub command: &'static str,
-    /// Version of the program that wrote the report.
+    /// Version of sawflutter that computed the report.
     pub version: &'a str,
-    /// The scene.
+    /// Scene of the report; of a comparison, the first scene.
     pub scene: &'a SceneFile,
-    /// The answer by lines; empty if the summary contains it.
+    /// Lines of the answer; empty for reports whose page begins with the summary.
     pub answer: Vec<String>,
-    /// Implausible numbers of the scene, and remarks on the validity of the result.
+    /// Unusual numbers of the scene, and remarks on the validity of the result, one sentence each.
     pub warnings: Vec<String>,
-    /// Tables of the page.
+    /// Tables of results, in the order of the page.
     pub tables: Vec<Table>,
-    /// Checks of the result.
+    /// Sentences on the checks of the result and its accuracy.
     pub certificate: Vec<String>,
-    /// The report as text, as printed by the program.
+    /// The summary that the program prints.
     pub summary: String,
 }
 
 /// A table with a title.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// Title of the table.
+    /// Title above the table; empty if there is none.
     pub title: String,
-    /// Names of its columns, with units.
+    /// Headings of the columns, with units.
     pub columns: Vec<&'static str>,
-    /// Rows of the table.
+    /// Cells of each row; the last may be missing.
     pub rows: Vec<Vec<String>>,
 }
 
 /// A report that has a page.
 pub trait Documented: Figures {
-    /// Content of the page.
+    /// Returns the content of the page.
     fn document(&self) -> Document<'_>;
 }
 

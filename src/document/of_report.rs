@@ -5,7 +5,7 @@ use crate::report::{InstabilityKind, Report};
 use crate::summary::answer;
 use crate::text::shown_to;
 
-/// The answer without line breaks for a terminal.
+/// Lines of the answer, without the line breaks and indents of the summary.
 pub fn answer_lines(report: &Report) -> Vec<String> {
     let lines = answer(report).into_iter();
     lines
@@ -99,6 +99,7 @@ fn percent(error: Option<f64>) -> String {
     })
 }
 
+/// Sentences on the certificate, the backward errors, and the estimated error of the critical speeds.
 pub fn certificate(report: &Report) -> Vec<String> {
     let certificate = &report.certificate;
     let mut lines = vec![certificate.statement.clone()];

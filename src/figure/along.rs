@@ -4,25 +4,26 @@ use super::axis::{Axis, Spread};
 use super::written;
 use crate::scene::is_logarithmic;
 
-/// The axis of a number of the scene, in the unit in which it is written, logarithmic if its ends are decades apart.
+/// The axis of a number of the scene, in the unit in which figures write it, logarithmic if its ends are
+/// decades apart.
 pub struct Along {
-    /// The axis.
+    /// The axis, in the unit of the figure.
     pub axis: Axis,
-    /// Values in the unit of the axis.
+    /// Values of the saws, in the unit of the figure.
     pub values: Vec<f64>,
-    /// Name and unit.
+    /// Name of the number, with the unit of the figure.
     pub name: String,
-    /// Factor from the unit of the scene to the unit of the axis.
+    /// Factor from the unit of the scene to that of the figure.
     factor: f64,
 }
 
 impl Along {
-    /// From the first value to the last.
+    /// The axis from the first value to the last; the values are in the unit of the scene.
     pub fn between(path: &str, values: &[f64], places: [f64; 2]) -> Self {
         Along::longer(path, values, places, 0.0)
     }
 
-    /// Half a cell longer on either side, so that a cell at an end lies within.
+    /// The axis with cells around the values, which are in the unit of the scene, see [`Axis::of_cells`].
     pub fn of_cells(path: &str, values: &[f64], places: [f64; 2]) -> Self {
         Along::longer(path, values, places, 0.5)
     }
@@ -52,7 +53,7 @@ impl Along {
         }
     }
 
-    /// Position of a value in the unit of the scene.
+    /// Position on the sheet of a value in the unit of the scene.
     pub fn at(&self, value: f64) -> f64 {
         self.axis.at(self.factor * value)
     }

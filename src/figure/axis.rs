@@ -1,4 +1,4 @@
-//! Axes: conversion of values to positions on the sheet, and ticks.
+//! Axes: positions of values on the sheet, ticks, and numbers at the ticks.
 
 use serde::Serialize;
 
@@ -9,12 +9,12 @@ use super::style::{AXIS_SIZE, GRID, HAIRLINE, INK, QUIET};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Spread {
-    /// Linear scale.
+    /// Positions are proportional to the values.
     Linear,
-    /// Scale by the signed square root, which preserves zero and the sign and shows small values beside large
-    /// ones. Unlike a logarithm it needs no cut-off near zero.
+    /// Positions are proportional to the square roots of the values, with their signs. Small values are visible
+    /// beside large ones, and zero has a place.
     SignedRoot,
-    /// Logarithmic scale, for positive values over decades.
+    /// Positions are proportional to the logarithms of the values, which are positive.
     Logarithmic,
 }
 
@@ -37,8 +37,8 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis from the first value at the first position to the last at the last. An empty or non-finite
-    /// range is widened.
+    /// An axis from the first value at the first position to the last value at the last position. An empty or
+    /// non-finite range is replaced, see [`proper_range`].
     pub fn new(values: [f64; 2], places: [f64; 2], spread: Spread) -> Self {
         let values = proper_range(values);
         Self {
@@ -53,7 +53,7 @@ impl Axis {
         self.values
     }
 
-    /// Positions of the first and of the last value on the sheet.
+    /// Positions of these ends on the sheet, in figure units.
     pub fn places(&self) -> [f64; 2] {
         self.places
     }
@@ -68,14 +68,14 @@ impl Axis {
         self.values[0] <= value && value <= self.values[1]
     }
 
-    /// Position of a value.
+    /// Position of a value on the sheet, in figure units; a value beyond the ends has a position beyond them.
     pub fn at(&self, value: f64) -> f64 {
         let [from, to] = self.values.map(|v| self.spread.of(v));
         let share = (self.spread.of(value) - from) / (to - from);
         self.places[0] + share * (self.places[1] - self.places[0])
     }
 
-    /// Round values at a distance of at least `apart` on the sheet.
+    /// Round values at a distance of at least `apart` figure units, in ascending order.
     pub fn ticks(&self, apart: f64) -> Vec<f64> {
         match self.spread {
             Spread::Linear => self.even_ticks(apart),
@@ -84,7 +84,7 @@ impl Axis {
         }
     }
 
-    /// Text at a tick.
+    /// Number at a tick; on a logarithmic axis a very small or large one is a power of ten.
     pub fn label(&self, tick: f64) -> String {
         match self.spread {
             Spread::Logarithmic if !(1e-3..1e5).contains(&tick) => power_of_ten(tick),
@@ -92,12 +92,13 @@ impl Axis {
         }
     }
 
+    /// Multiples of 1, 2 or 5 times a power of ten.
     fn even_ticks(&self, apart: f64) -> Vec<f64> {
         let [from, to] = self.values;
         let most = ((self.places[1] - self.places[0]).abs() / apart).max(1.0);
         let step = round_up((to - from) / most);
         let (first, last) = ((from / step).ceil(), (to / step).floor());
-        // Rounding must not drop the tick at the end.
+        // Without this margin a rounding error may drop the tick at the end.
         let last = if (last + 1.0) * step <= to + 1e-9 * step {
             last + 1.0
         } else {
@@ -107,7 +108,7 @@ impl Axis {
         (0..=count).map(|i| (first + i as f64) * step).collect()
     }
 
-    /// 1, 2, 5, 10, … if there is room, otherwise powers of ten.
+    /// 1, 2, 5, 10, … if they have the required distance, otherwise powers of ten.
     fn decades(&self, apart: f64) -> Vec<f64> {
         let [from, to] = self.values.map(|value| self.spread.of(value));
         let decade = (self.places[1] - self.places[0]).abs() / (to - from);
@@ -123,7 +124,8 @@ impl Axis {
             .collect()
     }
 
-    /// 1, 3, 10, 30, … of either sign while there is room, the largest first.
+    /// Zero, and 1, 3, 10, 30, … of either sign. From the largest size downwards, a value without the required
+    /// distance is omitted.
     fn root_ticks(&self, apart: f64) -> Vec<f64> {
         let mut ticks = vec![0.0];
         for end in self.values {
@@ -175,7 +177,7 @@ pub fn proper_range([from, to]: [f64; 2]) -> [f64; 2] {
     [from - half, from + half]
 }
 
-/// The smallest of 1, 2, 5 times a power of ten that is not below `size`.
+/// The smallest number 1, 2 or 5 times a power of ten that is not below `size`, which is positive.
 pub fn round_up(size: f64) -> f64 {
     let ten = 10f64.powf(size.log10().floor());
     [1.0, 2.0, 5.0]
@@ -185,14 +187,14 @@ pub fn round_up(size: f64) -> f64 {
         .unwrap_or(10.0 * ten)
 }
 
-/// Text of a number at a tick, with no more decimals than necessary.
+/// A number with at most six decimals, without trailing zeros.
 pub fn tick_label(value: f64) -> String {
     let rounded = (value * 1e6).round() / 1e6;
     let rounded = if rounded == 0.0 { 0.0 } else { rounded };
     format!("{rounded}").replace('-', "\u{2212}")
 }
 
-/// A number as text, rounded to two significant digits.
+/// A number rounded to two significant digits; from ten on to a whole number.
 pub fn two_digits(value: f64) -> String {
     let magnitude = value.abs().max(1e-6).log10().floor();
     let decimals = (1.0 - magnitude).clamp(0.0, 8.0) as usize;
@@ -226,7 +228,7 @@ fn superscript(letter: char) -> char {
     }
 }
 
-/// Draws grid lines, ticks and numbers of a vertical axis.
+/// Draws grid lines, ticks, numbers and name of a vertical axis.
 pub fn draw_vertical(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str) {
     let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::End);
     let apart = match axis.spread() {
@@ -253,7 +255,7 @@ pub fn draw_vertical(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str) 
     sheet.text([28.0, middle], upright, name);
 }
 
-/// Draws the ticks of a horizontal axis, with numbers where `numbered`.
+/// Draws line and ticks of a horizontal axis, with numbers if `numbered`.
 pub fn draw_horizontal(sheet: &mut Sheet, axis: &Axis, y: f64, numbered: bool) {
     let [left, right] = axis.places();
     sheet.line([[left, y], [right, y]], Stroke::solid(QUIET, HAIRLINE));

@@ -1,4 +1,4 @@
-//! Bands of instability as shaded areas behind a panel.
+//! Bands of instability as shaded areas behind the curves of a panel.
 
 use super::axis::{Axis, two_digits};
 use super::canvas::{Frame, Sheet};
@@ -6,11 +6,13 @@ use super::chart_data::Band;
 use super::palette::Hue;
 use crate::report::{InstabilityEntry, InstabilityKind};
 
-/// Narrower bands are drawn in a stronger colour, and at least `STREAK_WIDTH` wide.
+/// Bands narrower than this, in figure units, are drawn in a stronger colour.
 pub const NARROW: f64 = 4.0;
+/// Smallest width of a band on the sheet, in figure units.
 const STREAK_WIDTH: f64 = 1.5;
 
-/// Left and right edge of a range of speeds on the sheet; `None` if it is off the axis.
+/// Left and right edge of a range of speeds in rpm on the sheet, at least 1.5 apart; `None` if no part of the range
+/// is on the axis.
 pub fn places(speed: &Axis, range: [f64; 2]) -> Option<[f64; 2]> {
     let [first, last] = speed.values();
     let (from, to) = (range[0].max(first), range[1].min(last));
@@ -22,18 +24,19 @@ pub fn places(speed: &Axis, range: [f64; 2]) -> Option<[f64; 2]> {
     Some([left - missing / 2.0, right + missing / 2.0])
 }
 
-/// Bands below the threshold that are wider than this share of the axis are not shaded.
+/// A band below the threshold that is wider than this share of the axis is not shaded: damping causes such bands,
+/// and their shade would cover the diagram.
 const WIDEST_WEAK: f64 = 0.03;
 
-/// Whether any part of a band is shaded on an axis of these speeds.
+/// Whether any part of a band is shaded on an axis between two speeds in rpm.
 pub fn is_shaded([first, last]: [f64; 2], band: &InstabilityEntry) -> bool {
     let is_wide = band.to_rpm - band.from_rpm > WIDEST_WEAK * (last - first);
     !(is_wide && band.counted_rpm.is_empty())
 }
 
 impl Band {
-    /// The shaded parts of a band: those where the growth exceeds the threshold. A band that never exceeds it
-    /// is shaded as a whole, unless it is wide and weak, as bands caused by damping are.
+    /// A band on an axis between two speeds in rpm. The parts where the growth exceeds the threshold are shaded; a
+    /// band without such parts is shaded as a whole, unless it is wide, see [`is_shaded`].
     pub(crate) fn new(band: &InstabilityEntry, speeds: [f64; 2]) -> Self {
         let whole = [band.from_rpm, band.to_rpm];
         let shaded = match band.counted_rpm.is_empty() {
@@ -60,6 +63,7 @@ impl Band {
     }
 }
 
+/// Kind and range of a band in rpm, and the amplitude of its flutter if the report contains it.
 fn label(band: &InstabilityEntry, [first, last]: [f64; 2]) -> String {
     let kind = match band.kind {
         InstabilityKind::Divergence => "divergence",

@@ -36,22 +36,24 @@ const GROWTH_HEIGHT: f64 = 236.0;
 /// Height of the lower panel if nothing grows.
 const EMPTY_GROWTH_HEIGHT: f64 = 48.0;
 
-/// Baselines of the two lines at the foot, measured from there.
+/// Distances of the baselines of the lines below the panels from the lower edge of the sheet.
 const LEGEND_ABOVE_FOOT: f64 = 70.0;
 const NOTES_ABOVE_FOOT: f64 = 51.0;
 const CERTIFICATE_ABOVE_FOOT: f64 = 32.0;
 const FACTS_ABOVE_FOOT: f64 = 14.0;
 
-/// Smaller growth rates are rounding errors of the eigenvalues.
+/// Growth rates up to this value, in 1/s, are drawn as zero: they are rounding errors of the eigenvalues.
 pub const NEGLIGIBLE_PER_S: f64 = 1e-3;
 
-/// Data that all parts of the figure use.
+/// Contents, axes and frames of the figure.
 struct Chart<'a> {
     report: &'a Report,
     data: ChartData,
     speed: Axis,
     frequency: Axis,
+    /// Panel of the frequencies.
     upper: Frame,
+    /// Panel of the growth rates.
     lower: Frame,
 }
 
@@ -88,7 +90,7 @@ pub fn sheet(report: &Report, view: CampbellView) -> Sheet {
     sheet
 }
 
-/// The whole sweep, as numbers. Texts for each point are most of the data and are included only if `said`.
+/// The whole sweep as numbers. Descriptions of the points, which are most of the data, are included only if `said`.
 pub fn chart(report: &Report, said: bool) -> ChartData {
     let whole = CampbellView {
         to_rpm: Some(f64::INFINITY),
@@ -125,11 +127,12 @@ impl<'a> Chart<'a> {
         }
     }
 
-    /// The panels, with that of the frequencies first.
+    /// Contents of the panel of the frequencies and of the panel of the growth rates.
     fn panels(&self) -> &[PanelData] {
         &self.data.panels
     }
 
+    /// Contents of the panel of the frequencies.
     fn items(&self) -> impl Iterator<Item = &Item> + Clone {
         self.data
             .panels
@@ -152,7 +155,7 @@ impl<'a> Chart<'a> {
         })
     }
 
-    /// The frequency curves.
+    /// Curves of the panel of the frequencies.
     fn lines(&self) -> impl Iterator<Item = &Line> {
         self.items().filter_map(|item| match item {
             Item::Line(line) => Some(line),
@@ -191,6 +194,7 @@ fn draw_axes(sheet: &mut Sheet, chart: &Chart, growth: Option<&Axis>) {
     sheet.text([middle, PLOT_BOTTOM + 37.0], letters, name);
 }
 
+/// Size of the saw, numbers of its events, and verdict on flutter.
 fn facts(report: &Report) -> Vec<String> {
     let blade = &report.scene.blade;
     let (least, largest) = blade.thickness_range_m();
@@ -236,6 +240,7 @@ fn verdict(report: &Report) -> String {
     }
 }
 
+/// Millimetres, rounded to two decimals.
 fn millimetres(metres: f64) -> f64 {
     (metres * 1e5).round() / 100.0
 }

@@ -1,6 +1,7 @@
-//! The sheet on which a figure is laid out: marks in figure units, with the origin at the upper left.
+//! The sheet on which a figure is laid out: marks in figure units, with the origin at the upper left and
+//! ordinates downwards. A figure unit is one pixel of the PNG.
 //!
-//! A list of marks looks the same in PNG and SVG, and tests can ask it whether two labels overlap.
+//! The same list of marks is rendered to PNG and SVG, and tests find in it whether two labels overlap.
 
 use super::style::{Colour, Weight, one_line, text_width};
 
@@ -18,11 +19,11 @@ pub enum Anchor {
 /// Style of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
-    /// Colour.
+    /// Colour of the line or of its dashes.
     pub colour: Colour,
-    /// Width.
+    /// Width in figure units.
     pub width: f64,
-    /// Lengths of dash and gap; `None` for a solid line.
+    /// Lengths of dash and gap in figure units; `None` for a solid line.
     pub dash: Option<[f64; 2]>,
 }
 
@@ -49,13 +50,13 @@ impl Stroke {
 /// Style of a text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lettering {
-    /// Height of an em.
+    /// Size of the font: height of an em, in figure units.
     pub em: f64,
-    /// Weight.
+    /// Weight of the font.
     pub weight: Weight,
-    /// Colour.
+    /// Colour of the letters.
     pub colour: Colour,
-    /// Alignment.
+    /// Position of the text relative to its point.
     pub anchor: Anchor,
     /// Whether the text is rotated and reads from below to above.
     pub upright: bool,
@@ -74,16 +75,16 @@ impl Lettering {
     }
 }
 
-/// A rectangle.
+/// A rectangle in figure units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// Left edge.
+    /// Abscissa of the left edge.
     pub left: f64,
-    /// Upper edge.
+    /// Ordinate of the upper edge.
     pub top: f64,
-    /// Right edge.
+    /// Abscissa of the right edge.
     pub right: f64,
-    /// Lower edge.
+    /// Ordinate of the lower edge.
     pub bottom: f64,
 }
 
@@ -131,17 +132,17 @@ impl Sheet {
         }
     }
 
-    /// Width and height.
+    /// Width and height in figure units.
     pub fn size(&self) -> (u32, u32) {
         (self.width, self.height)
     }
 
-    /// The marks.
+    /// The marks in drawing order.
     pub fn marks(&self) -> &[Mark] {
         &self.marks
     }
 
-    /// Draws a line; non-finite points are skipped.
+    /// Draws a line; non-finite points are skipped, and a line of fewer than two points is not drawn.
     pub fn line(&mut self, points: impl IntoIterator<Item = [f64; 2]>, stroke: Stroke) {
         let points: Vec<_> = points.into_iter().filter_map(|p| self.held(p)).collect();
         if points.len() >= 2 {
@@ -165,7 +166,7 @@ impl Sheet {
         }
     }
 
-    /// Fills a polygon; non-finite points are skipped.
+    /// Fills a polygon; non-finite points are skipped, and a polygon of fewer than three corners is not drawn.
     pub fn polygon(&mut self, points: impl IntoIterator<Item = [f64; 2]>, colour: Colour) {
         let points: Vec<_> = points.into_iter().filter_map(|p| self.held(p)).collect();
         if points.len() >= 3 {

@@ -1,7 +1,7 @@
 //! Contents of a figure, as numbers and text in the units of its axes.
 //!
-//! The figures of this crate, the live page and the Python package draw the same [`ChartData`]. Each of them
-//! decides where labels have room.
+//! The live page, the Python package and some figures of this crate draw [`ChartData`]; each of them decides where
+//! labels have room.
 
 use serde::Serialize;
 
@@ -12,31 +12,31 @@ use super::style::CURVE;
 /// Panels one above the other.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ChartData {
-    /// Title of the panel.
+    /// Title of the figure.
     pub title: String,
-    /// Lines below the title.
+    /// Statements below the title.
     pub facts: Vec<String>,
-    /// The panels, from top to bottom.
+    /// Panels from top to bottom.
     pub panels: Vec<PanelData>,
 }
 
-/// Axes of a panel, and its contents.
+/// Axes and contents of a panel.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PanelData {
-    /// Title; empty if there is none.
+    /// Title above the panel; empty if there is none.
     pub title: String,
-    /// The horizontal axis.
+    /// Horizontal axis.
     pub x: AxisData,
-    /// The vertical axis.
+    /// Vertical axis.
     pub y: AxisData,
     /// Height relative to that of the other panels.
     pub share: f64,
     /// Whether the panel shows frequencies over the rotation speed, so that multiples of the speed are
     /// straight lines.
     pub harmonics: bool,
-    /// Note to show if the panel is empty; otherwise empty.
+    /// Text inside the panel, for instance that no motion grows; empty if there is none.
     pub note: String,
-    /// Contents, in drawing order.
+    /// Contents in drawing order.
     pub items: Vec<Item>,
 }
 
@@ -55,23 +55,23 @@ impl PanelData {
     }
 }
 
-/// An axis.
+/// Quantity, range and scale of an axis.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AxisData {
     /// Name of the quantity.
     pub name: String,
-    /// Unit; empty if there is none.
+    /// Unit of the quantity; empty if it has none.
     pub unit: String,
     /// First and last value; `None` if the contents determine them.
     pub range: Option<[f64; 2]>,
     /// Scale of the axis.
     pub spread: Spread,
-    /// Names of the positions 1, 2, 3 … that replace numbers.
+    /// Names of the values 1, 2, 3, …, which are written in the place of numbers; empty if numbers are written.
     pub names: Vec<String>,
 }
 
 impl AxisData {
-    /// A linear axis whose range its contents determine.
+    /// A linear axis whose range is determined by its contents.
     pub(super) fn new(name: &str, unit: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -82,7 +82,7 @@ impl AxisData {
         }
     }
 
-    /// Sets the range.
+    /// The axis with a range.
     pub(super) fn within(self, range: [f64; 2]) -> Self {
         Self {
             range: Some(range),
@@ -90,22 +90,22 @@ impl AxisData {
         }
     }
 
-    /// Sets the scale.
+    /// The axis with a scale.
     pub(super) fn spread(self, spread: Spread) -> Self {
         Self { spread, ..self }
     }
 
-    /// The axis between two positions on a sheet.
+    /// The axis between two positions on a sheet, from 0 to 1 without a range.
     pub(super) fn placed(&self, places: [f64; 2]) -> Axis {
         Axis::new(self.range.unwrap_or([0.0, 1.0]), places, self.spread)
     }
 
-    /// Name and unit.
+    /// Name of the quantity with its unit, as written at the axis.
     pub(super) fn title(&self) -> String {
         format!("{}\u{2003}[{}]", self.name, self.unit)
     }
 
-    /// The axis of rotation speeds.
+    /// The axis of rotation speeds in rpm.
     pub(super) fn speed() -> Self {
         Self::new("rotation speed Ω", "rpm")
     }
@@ -115,36 +115,36 @@ impl AxisData {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "item", rename_all = "snake_case")]
 pub enum Item {
-    /// A range of speeds over the height of the panel.
+    /// Speeds of instability.
     Band(Band),
-    /// A vertical line over the height of the panel.
+    /// A vertical line at one value.
     Upright(Upright),
-    /// A curve.
+    /// A curve through points.
     Line(Line),
-    /// Dots or rings.
+    /// Dots or rings at points.
     Points(Points),
 }
 
 /// A band of instability: speeds that are shaded over the height of the panel.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Band {
-    /// First value.
+    /// First speed, in rpm.
     pub from: f64,
-    /// Last value.
+    /// Last speed, in rpm.
     pub to: f64,
-    /// Parts that are shaded.
+    /// Ranges of speed that are shaded, in rpm; empty for wide bands whose growth is below the threshold.
     pub shaded: Vec<[f64; 2]>,
     /// Colour of the shade.
     pub shade: Hue,
-    /// Colour of the shade of a band that is too narrow to be visible.
+    /// Colour of the shade if the band is so narrow that `shade` would not be visible.
     pub streak: Hue,
     /// Colour of the label.
     pub colour: Hue,
-    /// Label.
+    /// Kind and range of the band.
     pub label: String,
-    /// Description, shown at the pointer.
+    /// Description for the pointer: label and waves.
     pub name: String,
-    /// Largest growth rate. If there is no room for all labels, those of largest growth are written.
+    /// Largest growth rate. If there is no room for all labels, those of the bands with the largest growth are written.
     pub peak_growth_per_s: f64,
 }
 
@@ -163,22 +163,22 @@ pub enum Role {
 /// A vertical line over the height of the panel.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Upright {
-    /// Position.
+    /// Abscissa of the line.
     pub x: f64,
-    /// Meaning of the item.
+    /// Meaning of the line.
     pub role: Role,
-    /// Colour.
+    /// Colour of the line.
     pub colour: Hue,
-    /// Whether it is dashed.
+    /// Whether the line is dashed.
     pub dashed: bool,
-    /// Label at the upper end.
+    /// Label at the upper end; empty if there is none.
     pub label: String,
-    /// Description, shown at the pointer.
+    /// Description for the pointer.
     pub name: String,
 }
 
 impl Upright {
-    /// The line of a critical speed.
+    /// The line of a critical speed in rpm, with the name of its wave.
     pub(crate) fn critical(rpm: f64, wave: &str) -> Self {
         Upright {
             x: rpm,
@@ -191,28 +191,28 @@ impl Upright {
     }
 }
 
-/// A curve; a NaN interrupts it.
+/// A curve through points.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Line {
-    /// Abscissae.
+    /// Abscissae of the points; NaN interrupts the curve.
     pub x: Vec<f64>,
-    /// Ordinates.
+    /// Ordinates of the points; NaN interrupts the curve.
     pub y: Vec<f64>,
-    /// Colour.
+    /// Colour of the curve.
     pub colour: Hue,
-    /// Share of the colour in the mixture with that of the paper.
+    /// Share of the colour in a mixture with that of the paper, from 0 to 1.
     pub tint: f64,
     /// Width in a figure of width 1200.
     pub width: f64,
-    /// Whether it is dashed.
+    /// Whether the curve is dashed.
     pub dashed: bool,
-    /// Description, shown at the pointer.
+    /// Description for the pointer.
     pub name: String,
-    /// Description of each point, with line breaks; empty unless requested.
+    /// Description of each point for the pointer, with line breaks; empty if `name` describes all of them.
     pub said: Vec<String>,
     /// Label at the end; empty if there is none.
     pub end: String,
-    /// Number of its branch.
+    /// Number of the branch, from 1 on, if the curve is part of one.
     pub branch: Option<usize>,
 }
 
@@ -235,29 +235,29 @@ impl Line {
     }
 }
 
-/// Dots or rings.
+/// Dots or rings at points.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Points {
-    /// Abscissae.
+    /// Abscissae of the centres.
     pub x: Vec<f64>,
-    /// Ordinates.
+    /// Ordinates of the centres.
     pub y: Vec<f64>,
-    /// Colour.
+    /// Colour of the marks.
     pub colour: Hue,
-    /// Share of the colour in the mixture with that of the paper.
+    /// Share of the colour in a mixture with that of the paper, from 0 to 1.
     pub tint: f64,
     /// Diameter in a figure of width 1200.
     pub size: f64,
-    /// Whether they are rings.
+    /// Whether the marks are rings.
     pub hollow: bool,
-    /// Description, shown at the pointer.
+    /// Description for the pointer.
     pub name: String,
-    /// Description of each point; empty unless requested.
+    /// Description of each point for the pointer, with line breaks; empty if `name` describes all of them.
     pub said: Vec<String>,
 }
 
 impl Points {
-    /// Dots.
+    /// Dots at points, with a diameter of `size`.
     pub(super) fn new(
         points: impl IntoIterator<Item = [f64; 2]>,
         colour: Hue,
@@ -278,8 +278,8 @@ impl Points {
     }
 }
 
-/// Lines through samples, divided where the style changes. `look` returns the style between two samples, or
-/// `None` if nothing is drawn.
+/// Lines through samples, one for each style. `look` returns the style between a sample and the next, or `None` if
+/// no line is drawn there. The result lists for each style the numbers of the samples; `None` interrupts the line.
 pub(super) fn lines_by_look<L: PartialEq>(
     samples: usize,
     look: impl Fn(usize) -> Option<L>,

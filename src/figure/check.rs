@@ -39,8 +39,8 @@ pub fn sheet(report: &CheckReport) -> Sheet {
     sheet
 }
 
-/// End of the axis: it includes the sweep, every limit and every result, because the lowest critical speed
-/// may lie beyond the sweep.
+/// End of the axis in rpm. The axis includes the sweep, every limit and every result; the lowest critical speed may
+/// be beyond the sweep.
 fn last_shown_rpm(report: &CheckReport) -> f64 {
     let of_criterion = |c: &CriterionEntry| c.asked_rpm.max(c.found_rpm.unwrap_or(0.0));
     let criteria = report.criteria.iter().map(of_criterion);
@@ -74,6 +74,7 @@ fn draw_end_of_sweep(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, bott
     );
 }
 
+/// Frame of the row with the number `k`, from 0 on.
 fn row(k: usize) -> Frame {
     Frame {
         left: LEFT,
@@ -95,7 +96,7 @@ fn facts(report: &CheckReport) -> String {
     all.join(BETWEEN_FACTS)
 }
 
-/// Draws all bands and critical speeds, whatever the limits are.
+/// Draws all bands and critical speeds of the saw in the first row.
 fn draw_saw(sheet: &mut Sheet, report: &CheckReport, speed: &Axis) {
     let frame = row(0);
     bands::shade(sheet, speed, report.instabilities.iter(), &[frame]);
@@ -137,7 +138,7 @@ fn draw_criterion(sheet: &mut Sheet, criterion: &CriterionEntry, speed: &Axis, f
         false => (ALARM, "FAIL"),
     };
     let found = criterion.found_rpm;
-    // A band at the operating speed has no distance to a limit: it is there or not.
+    // The criterion of a band at the operating speed has no distance from a limit.
     let is_limit = criterion.key != "operating";
     let asked = criterion.asked_rpm;
     let above = format!("{word} {}", criterion.name);

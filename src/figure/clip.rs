@@ -17,7 +17,8 @@ pub fn clip(points: &[[f64; 2]], frame: &Frame) -> Vec<Vec<[f64; 2]>> {
     parts
 }
 
-/// The algorithm of Liang and Barsky; `None` outside and for non-finite coordinates.
+/// The part of a segment inside the frame, by the algorithm of Liang and Barsky; `None` if no part is inside
+/// or a coordinate is not finite.
 fn clip_segment(a: [f64; 2], b: [f64; 2], frame: &Frame) -> Option<[[f64; 2]; 2]> {
     if ![a, b].as_flattened().iter().all(|value| value.is_finite()) {
         return None;
@@ -38,7 +39,7 @@ fn clip_segment(a: [f64; 2], b: [f64; 2], frame: &Frame) -> Option<[[f64; 2]; 2]
         leaves = leaves.min(first.max(second));
     }
     let along = |t: f64| [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
-    // Ends that are not clipped remain exactly the same, so that parts join.
+    // Ends that are not clipped remain bit for bit the same, so that `clip` recognizes neighbouring segments.
     let start = if enters == 0.0 { a } else { along(enters) };
     let end = if leaves == 1.0 { b } else { along(leaves) };
     (enters < leaves).then_some([start, end])

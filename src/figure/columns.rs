@@ -4,18 +4,18 @@ use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::style::{ALARM, HAIRLINE, LABEL_SIZE, Weight, text_width};
 use super::{axis::Axis, axis::Spread, heading};
 
-/// Positions of the panels of a sheet.
+/// Positions of the panels of a sheet, in figure units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Columns {
-    /// Left edge of the panels of each column.
+    /// Left edges of the panels of the two columns.
     pub lefts: [f64; 2],
     /// Upper edge of the first row.
     pub top: f64,
-    /// Width of a panel with a neighbour.
+    /// Width of a panel on a sheet with several panels.
     pub width: f64,
-    /// Width of a single panel.
+    /// Width of the panel on a sheet with a single panel.
     pub alone: f64,
-    /// Height of a panel.
+    /// Height of each panel.
     pub height: f64,
     /// Distance of the upper edges of successive rows.
     pub row: f64,
@@ -27,7 +27,7 @@ const FOOT: f64 = 60.0;
 const WIDTH: f64 = 1200.0;
 
 impl Columns {
-    /// A sheet for this number of panels, with title.
+    /// A sheet for a number of panels, with title and subtitle.
     pub fn sheet(&self, panels: usize, title: &str, subtitle: &str) -> Sheet {
         let rows = panels.div_ceil(2).max(1);
         let beside = WIDTH - self.lefts[1] - self.width;
@@ -40,7 +40,7 @@ impl Columns {
         sheet
     }
 
-    /// The frame of the panel `index`, of `panels` in all.
+    /// The frame of the panel with the number `index`, from 0 on, of `panels` in all.
     pub fn panel(&self, index: usize, panels: usize) -> Frame {
         let width = if panels == 1 { self.alone } else { self.width };
         let (left, top) = (
@@ -56,7 +56,8 @@ impl Columns {
     }
 }
 
-/// The name of a vertical axis; it is empty in the second column, which shares the axis of the first.
+/// The name of the vertical axis of the panel with the number `index`; it is empty in the second column, whose
+/// axis is that of the first.
 pub fn name_of_row(index: usize, name: &str) -> &str {
     if index.is_multiple_of(2) { name } else { "" }
 }
@@ -74,7 +75,7 @@ pub fn draw_end_of_model(sheet: &mut Sheet, panel: &Frame, x: f64) {
     sheet.line(line, Stroke::solid(ALARM, 1.5 * HAIRLINE));
 }
 
-/// Labels this line.
+/// Writes a label to the right of the line of [`draw_end_of_model`], or to its left if it does not fit there.
 pub fn label_end_of_model(sheet: &mut Sheet, panel: &Frame, x: f64, text: &str) {
     let length = text_width(text, LABEL_SIZE, Weight::Regular) + 16.0;
     let (anchor, x) = match panel.right - x < length {

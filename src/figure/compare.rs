@@ -20,11 +20,13 @@ const FREQUENCIES: Frame = Frame {
     right: 1160.0,
     bottom: 560.0,
 };
-/// Space between the panels, height of a saw in the lower one, and space below.
+/// Space between the panels.
 const BETWEEN: f64 = 46.0;
+/// Height of the row of a saw in the lower panel.
 const ROW: f64 = 44.0;
+/// Space below the lower panel.
 const BELOW: f64 = 96.0;
-/// Colours of the saws. Further colours could not be distinguished.
+/// Colours of the saws, and their largest number: more colours could not be distinguished.
 const HUES: [Hue; 6] = [
     Hue::Ink,
     Hue::Forward,
@@ -33,13 +35,13 @@ const HUES: [Hue; 6] = [
     Hue::Divergence,
     Hue::Standing,
 ];
-/// The diagram ends above this many frequencies at the first speed, and above those of the bands.
+/// Number of frequencies at the first speed that the diagram includes, besides those of the bands.
 const SHOWN: usize = 6;
 const CRITICAL_SIZE: f64 = 7.0;
 /// Width of a band in the lower panel.
 const BAND: f64 = 9.0;
 
-/// The saws that are drawn, with their colours.
+/// The saws that are drawn, with their numbers from 0 on and their colours.
 fn drawn(report: &CompareReport) -> impl DoubleEndedIterator<Item = (usize, &ComparedEntry, Hue)> {
     let saws = report.saws.iter().take(HUES.len()).enumerate();
     saws.map(|(place, saw)| (place, saw, HUES[place]))
@@ -96,7 +98,7 @@ pub fn sheet(report: &CompareReport) -> Sheet {
     sheet
 }
 
-/// Frequencies over speed, and critical speeds and bands of each saw.
+/// Frequencies over speed, and critical speeds and bands of each saw, as numbers.
 pub fn chart(report: &CompareReport) -> ChartData {
     let ends = drawn(report).map(|(_, saw, _)| [saw.campbell.from_rpm, saw.campbell.to_rpm]);
     let ends = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[from, to], [a, b]| {
@@ -145,6 +147,7 @@ pub fn chart(report: &CompareReport) -> ChartData {
     }
 }
 
+/// Upper end of the frequencies of a saw in Hz.
 fn shown_hz(saw: &ComparedEntry) -> f64 {
     let branches = saw.campbell.branches.iter();
     let first = branches.filter_map(|branch| branch.frequency_hz.first());
@@ -175,7 +178,7 @@ fn curves(saw: &ComparedEntry, hue: Hue) -> Vec<Item> {
     items
 }
 
-/// Whether a branch grows, or is reflected, from one of its samples to the next.
+/// Whether a branch grows between one of its samples and the next, and whether it is reflected without growing.
 fn look(branch: &BranchEntry, i: usize) -> (bool, bool) {
     let ends = [i, i + 1];
     let grows = ends.map(|k| {
@@ -189,7 +192,7 @@ fn look(branch: &BranchEntry, i: usize) -> (bool, bool) {
     (grows, !grows && reflected.contains(&true))
 }
 
-/// Bands of a saw as strips in the colour of their kind, its critical speeds as dots, and the speed at which it runs as a ring.
+/// Bands of a saw as strips in the colour of their kind, its critical speeds as dots, and its operating speed as a ring.
 fn events(row: usize, saw: &ComparedEntry, hue: Hue) -> Vec<Item> {
     let y = 1.0 + row as f64;
     let strips = saw.instabilities.iter().map(|band| {

@@ -39,10 +39,13 @@ pub fn sheet(report: &CutReport) -> Sheet {
     sheet
 }
 
-/// The scale of deflections, common to all panels for comparison.
+/// The axis of deflections, common to all panels for comparison.
 struct Scale {
+    /// Name with unit.
     name: String,
+    /// Factor from metres to the unit of the axis.
     per_metre: f64,
+    /// End of the axis on either side of zero, in its unit.
     reach: f64,
 }
 
@@ -51,7 +54,7 @@ impl Scale {
         let largest_m = runs.iter().map(largest_m).fold(0.0, f64::max);
         let (unit, per_metre) = unit_of(largest_m);
         let reach = match largest_m > 0.0 {
-            // Below a nanometre the curve is flat, and ticks have neither room nor meaning.
+            // Deflections below a nanometre have no meaning, and their ticks would have too many digits.
             true => 1.12 * per_metre * largest_m.max(1e-9),
             false => 1.0,
         };
@@ -68,7 +71,7 @@ fn largest_m(run: &CutRunEntry) -> f64 {
     sizes.fold(0.0, f64::max)
 }
 
-/// Name and size of a unit in which the ticks of a record have few digits.
+/// Name of a unit in which a length has few digits, and factor from metres to this unit.
 fn unit_of(largest_m: f64) -> (&'static str, f64) {
     match largest_m {
         w if w >= 1e-5 || w == 0.0 => ("mm", 1e3),
@@ -88,7 +91,7 @@ fn draw_run(sheet: &mut Sheet, (panel, name): (&Frame, &str), run: &CutRunEntry,
     sheet.line(side, Stroke::solid(QUIET, HAIRLINE));
     draw_named(sheet, &time, panel.bottom, "time\u{2003}[s]");
     let place = |t: f64, w: f64| [time.at(t), deflection.at(scale.per_metre * w)];
-    // Stretching limits the growth, so that an envelope of constant growth would be wrong.
+    // Stretching limits the growth, so that an exponential envelope would be wrong.
     if run.stretching.is_none() {
         draw_envelope(sheet, panel, run, place);
     }
@@ -128,7 +131,7 @@ fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis)
     };
     sheet.fill(in_cut, shade);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
-    // The text is beside the line at which the model ends, if this is during the cut.
+    // If the model ends during the cut, the text is on the side of that line with more room.
     let end = run.ends_s().map_or(in_cut.right, |s| time.at(s));
     let end = end.clamp(in_cut.left, in_cut.right);
     let free = match end - in_cut.left < in_cut.right - end {
@@ -139,8 +142,8 @@ fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis)
     sheet.text(label, letters, "in the cut");
 }
 
-/// Draws the exponential of the eigenvalue through the largest deflection in the cut; with both signs if it
-/// oscillates.
+/// Draws the exponential growth by the eigenvalues through the largest deflection in the cut, with both signs if the
+/// motion oscillates. A stable cut has no envelope.
 fn draw_envelope(
     sheet: &mut Sheet,
     panel: &Frame,
@@ -183,6 +186,7 @@ fn draw_envelope(
     }
 }
 
+/// Writes verdict and facts above the panel.
 fn draw_verdict(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
     let (text, colour): (String, Colour) = match run.verdict {
         CutVerdict::Stable => (format!("{} rpm: {}", run.rpm, run.verdict), FORWARD),
@@ -209,11 +213,11 @@ fn draw_verdict(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
 
 /// The largest deflection, and the growth rate of each criterion.
 fn facts(run: &CutRunEntry) -> String {
-    // A growth rate of rounding size has no sign.
+    // A growth rate that is rounded to zero has no sign.
     let growth = |value: f64| if value.abs() < 5e-3 { 0.0 } else { value };
     let criteria = run.criteria.iter().map(|entry| {
         let name = entry.criterion;
-        // A line may break between two of them.
+        // Lines are broken at ordinary spaces, and so only between criteria.
         format!("{name} {:.2}", growth(entry.growth_per_s)).replace(' ', "\u{a0}")
     });
     let with = match run.stretching {

@@ -24,8 +24,9 @@ const SCALE: [f64; 2] = [1088.0, 1108.0];
 /// Name of the axis of the load.
 const LOAD: &str = "load\u{2003}[of the scene's]";
 
-/// Colours of stability, and from slow to fast growth: pale to dark, so that grey prints are legible too.
+/// Colour of stability.
 const STABLE: Colour = plotters::style::RGBColor(226, 234, 242);
+/// Colours from slow to fast growth: pale to dark, so that grey prints are legible too.
 const GROWING: [Colour; 4] = [
     plotters::style::RGBColor(255, 236, 190),
     plotters::style::RGBColor(240, 178, 62),
@@ -63,19 +64,19 @@ pub fn sheet(report: &CutReport) -> Sheet {
     sheet
 }
 
-/// Upper end of the scale of growth.
+/// Upper end of the scale of growth in 1/s, at least four times the threshold.
 fn fastest_growth(report: &CutReport) -> f64 {
     let maps = report.runs.iter().map(|run| &run.map.growth_per_s);
     let fastest = maps.flatten().flatten().copied().fold(0.0_f64, f64::max);
     fastest.max(4.0 * report.flutter_threshold_per_s)
 }
 
-/// Lower end of an axis of growth: negative if every motion decays.
+/// Lower end of the axis of growth in 1/s: negative if every motion decays at some load, otherwise zero.
 fn slowest_growth(report: &CutReport) -> f64 {
     let maps = report.runs.iter().map(|run| &run.map.growth_per_s);
     let own = report.runs.iter().map(|run| run.growth_per_s);
     let all = maps.flatten().flatten().copied().chain(own);
-    // The factor leaves room for the mark of the saw.
+    // The factor leaves room for the ring at the load of the scene.
     1.2 * all.fold(0.0, f64::min)
 }
 
@@ -128,7 +129,7 @@ fn draw_forces(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
     sheet.text([panel.left, panel.top - 14.0], title, &text);
 }
 
-/// The map of a saw without guides, for which only the load varies.
+/// Growth over the load, for a saw without guides.
 fn over_load(report: &CutReport) -> Sheet {
     let title = "Growth in the cut over the load";
     let panels = report.runs.len();
@@ -175,7 +176,7 @@ fn over_load(report: &CutReport) -> Sheet {
     sheet
 }
 
-/// Marks the scene itself, and the force that its power allows.
+/// Marks angle and load of the scene, and the load that the power of the saw allows.
 fn draw_own_point(sheet: &mut Sheet, panel: &Frame, report: &CutReport, run: &CutRunEntry) {
     let (angle, level) = axes(panel, run);
     let own_deg = report

@@ -10,7 +10,7 @@ use crate::scene::{Accuracy, CutRun, Scene, SceneFile};
 use crate::transient::{Cutting, RunningUp};
 use crate::washboarding::Washboard;
 
-/// A saw with a spline, at as many speeds as make two rows.
+/// A saw with a spline at three speeds, whose panels are in two rows.
 static THREE_SPEEDS: LazyLock<CutReport> = LazyLock::new(|| {
     let scene = draft();
     let cut = scene.cut().unwrap();

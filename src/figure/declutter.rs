@@ -5,7 +5,7 @@
 pub struct Wish {
     /// Preferred centre.
     pub centre: f64,
-    /// Length.
+    /// Length of the label, with the space at its ends.
     pub length: f64,
 }
 
@@ -84,19 +84,19 @@ impl Block {
     }
 }
 
-/// Neighbours with a common label.
+/// Values at neighbouring positions, with a common label.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cluster {
-    /// The values, ascending.
+    /// Values of the label, ascending.
     pub values: Vec<f64>,
-    /// Centre of the label.
+    /// Centre of the label on its line, in figure units.
     pub centre: f64,
-    /// The label.
+    /// Text of the label.
     pub label: String,
 }
 
-/// Joins labels of ascending values until none overlap. `width` measures a label; labels stay between `from`
-/// and `to`.
+/// Joins labels of ascending values until none overlap. `place` returns the position of a value, `width` the
+/// width of a label; labels stay between `from` and `to`.
 pub fn join_close(
     values: &[f64],
     place: impl Fn(f64) -> f64,
@@ -128,7 +128,8 @@ pub fn join_close(
     clusters
 }
 
-/// "1531 · 1552", or, for many values, the first, the last and their number.
+/// Label of several values: "1531 · 1552", or, for more than three values, the first, the last and their
+/// number.
 fn joined_label(values: &[f64]) -> String {
     match values {
         [first, .., last] if values.len() > 3 => {

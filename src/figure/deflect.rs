@@ -1,5 +1,4 @@
-//! Equilibria over speed, and the frequencies of small motions about them beside those of the linear Campbell
-//! diagram.
+//! Equilibria over speed, and the frequencies of small motions about them beside the frequencies of the flat blade.
 
 use super::axis::{Axis, draw_horizontal, draw_named, draw_vertical, proper_range};
 use super::canvas::{Frame, Sheet, Stroke};
@@ -32,14 +31,15 @@ const FREQUENCIES: Frame = Frame {
 };
 const UP: Hue = Hue::Forward;
 const DOWN: Hue = Hue::Backward;
-/// Size of the ring at a fold or bifurcation.
+/// Diameter of the ring at a fold or bifurcation.
 const TURN_SIZE: f64 = 6.0;
-/// Colour share of the branches of the flat blade.
+/// Share of the colour of the branches of the flat blade in a mixture with that of the paper.
 const FLAT_TINT: f64 = 0.6;
-/// Width of the curve for rising speed; both curves are visible where they coincide.
+/// Width of the curve for rising speed. It is wider than that for falling speed, so that both are visible where they
+/// coincide.
 const WIDER: f64 = STRONG_CURVE;
 const NARROWER: f64 = 1.4;
-/// The diagram ends above this many frequencies of the blade at rest.
+/// Number of frequencies at the first speed that the diagram includes.
 const SHOWN: usize = 6;
 
 pub fn sheet(report: &DeflectReport) -> Sheet {
@@ -90,7 +90,7 @@ pub fn sheet(report: &DeflectReport) -> Sheet {
     sheet
 }
 
-/// Equilibria, and the frequencies about them, as numbers.
+/// Equilibria, and the frequencies of small motions about them, as numbers.
 pub fn chart(report: &DeflectReport) -> ChartData {
     let speeds = proper_range([report.from_rpm, report.to_rpm]);
     let speed = AxisData::speed().within(speeds);
@@ -152,6 +152,7 @@ fn facts(report: &DeflectReport) -> Vec<String> {
     vec![force, probe, jumps]
 }
 
+/// Ends of the axis of deflections in millimetres.
 fn reach_mm(report: &DeflectReport) -> [f64; 2] {
     let of_curves = report.curves.iter().flat_map(|curve| &curve.deflection_m);
     let sweeps = [&report.up, &report.down];
@@ -205,7 +206,7 @@ fn leans(report: &DeflectReport) -> Vec<Item> {
     items
 }
 
-/// Lines of a curve: thin where stable, dashed where unstable.
+/// Lines of a curve of equilibria: solid where stable, dashed where unstable.
 fn curve_lines(curve: &EquilibriumCurveEntry) -> Vec<Item> {
     let is_stable = |k: usize| curve.negative_eigenvalues[k] == 0;
     let found = lines_by_look(curve.rpm.len(), |k| Some(is_stable(k)));
@@ -225,7 +226,7 @@ fn curve_lines(curve: &EquilibriumCurveEntry) -> Vec<Item> {
     lines.collect()
 }
 
-/// Draws the head of the arrow of a jump.
+/// Draws the head of the arrow of a jump, unless the jump is short on the sheet.
 fn draw_head(sheet: &mut Sheet, jump: &JumpEntry, (speed, lean): (&Axis, &Axis), colour: Colour) {
     let x = speed.at(jump.rpm);
     let [from, to] = [jump.from_m, jump.to_m].map(|m| lean.at(1e3 * m));
@@ -240,6 +241,7 @@ fn draw_head(sheet: &mut Sheet, jump: &JumpEntry, (speed, lean): (&Axis, &Axis),
     }
 }
 
+/// Ends of the axis of frequencies in Hz.
 fn shown_hz(report: &DeflectReport) -> [f64; 2] {
     let branches = report.campbell.branches.iter();
     let at_rest = branches.filter_map(|branch| branch.frequency_hz.first());

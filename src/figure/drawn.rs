@@ -15,7 +15,7 @@ use crate::report::{
 use crate::stability::Setting;
 use crate::study::StudyReport;
 
-/// A figure as a sheet.
+/// A figure: marks that are rendered on request, and file names.
 #[derive(Debug)]
 pub struct Figure {
     names: [&'static str; 2],
@@ -23,31 +23,31 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// File names, PNG and SVG.
+    /// File names of the PNG and of the SVG.
     pub fn names(&self) -> [&'static str; 2] {
         self.names
     }
 
-    /// The figure as PNG. Equal reports give equal bytes.
+    /// Renders the figure as PNG. Equal reports give equal bytes.
     ///
     /// # Errors
-    /// [`FigureError`].
+    /// [`FigureError`] if the figure cannot be drawn or encoded.
     pub fn png(&self) -> Result<Vec<u8>, FigureError> {
         render::png(&self.sheet)
     }
 
-    /// The figure as SVG. Equal reports give equal text.
+    /// Renders the figure as SVG. Equal reports give equal text.
     ///
     /// # Errors
-    /// [`FigureError`].
+    /// [`FigureError`] if the figure cannot be drawn.
     pub fn svg(&self) -> Result<String, FigureError> {
         render::svg(&self.sheet)
     }
 
-    /// The bytes of one of the files; `None` for another name.
+    /// Renders the file with one of the [`names`](Self::names); `None` for another name.
     ///
     /// # Errors
-    /// [`FigureError`].
+    /// [`FigureError`] if the figure cannot be drawn or encoded.
     pub fn file(&self, name: &str) -> Option<Result<Vec<u8>, FigureError>> {
         match self.names.iter().position(|own| *own == name)? {
             0 => Some(self.png()),
@@ -58,14 +58,14 @@ impl Figure {
 
 /// A report that can be drawn.
 pub trait Figures {
-    /// File names of every figure that such a report may have, PNG and SVG.
+    /// File names of the PNG and the SVG of every figure that such a report may have.
     const NAMES: &'static [[&'static str; 2]];
 
-    /// The figures for which this report has data.
+    /// Draws the figures for which this report has data.
     fn figures(&self) -> Vec<Figure>;
 
-    /// The contents, as numbers, of the figure with this name without extension, for other programs to draw.
-    /// `None` if the figure has no such description or the report has no data for it.
+    /// Returns the contents of a figure as numbers, for other programs that draw it; `name` is its file name without
+    /// extension. `None` if the figure has no such description or the report has no data for it.
     fn chart(&self, _name: &str) -> Option<ChartData> {
         None
     }
@@ -106,7 +106,7 @@ impl Figures for Report {
 }
 
 impl Report {
-    /// The figures for which this report has data; the Campbell diagram shows a part of the sweep.
+    /// Draws the figures for which this report has data, with a part of the sweep in the Campbell diagram.
     pub fn figures_within(&self, view: CampbellView) -> Vec<Figure> {
         let sheets = [
             Some(campbell::sheet(self, view)),
@@ -118,24 +118,24 @@ impl Report {
         named(Self::NAMES, sheets)
     }
 
-    /// The Campbell diagram as numbers, without texts for each point.
+    /// Returns the Campbell diagram as numbers, without descriptions of its points.
     #[cfg(feature = "page")]
     pub(crate) fn campbell_chart(&self) -> ChartData {
         campbell::chart(self, false)
     }
 
-    /// The Campbell diagram as SVG.
+    /// Renders the Campbell diagram as SVG.
     ///
     /// # Errors
-    /// [`FigureError`].
+    /// [`FigureError`] if the figure cannot be drawn.
     pub fn campbell_svg(&self) -> Result<String, FigureError> {
         render::svg(&campbell::sheet(self, CampbellView::default()))
     }
 
-    /// The Campbell diagram as PNG, 1200 × 900 pixels.
+    /// Renders the Campbell diagram as PNG of 1200 × 918 pixels.
     ///
     /// # Errors
-    /// [`FigureError`].
+    /// [`FigureError`] if the figure cannot be drawn or encoded.
     pub fn campbell_png(&self) -> Result<Vec<u8>, FigureError> {
         render::png(&campbell::sheet(self, CampbellView::default()))
     }
@@ -229,8 +229,8 @@ single! {
     StudyReport: "study", study::sheet;
 }
 
-/// The figure of a comparison of run time and accuracy, from [`tradeoff`](crate::stability::tradeoff): true
-/// error over time, both on logarithmic scales.
+/// Draws the run time of settings over their true error, both on logarithmic scales, as measured by
+/// [`tradeoff`](crate::stability::tradeoff); `scene` is the name of the scene.
 pub fn tradeoff(scene: &str, settings: &[Setting]) -> Figure {
     Figure {
         names: ["tradeoff.png", "tradeoff.svg"],

@@ -1,7 +1,7 @@
-//! Figures of random saws show what their reports contain, and no more.
+//! Curves, names and labels in the figures of random saws agree with the reports.
 //!
-//! Tolerances: curves connect samples of a diagram with three digits, so a curve may exceed a peak by 2 %,
-//! and a branch may end 2 % below the frequency up to which the diagram is complete.
+//! The samples of a diagram have three digits: a curve may exceed the largest growth of its band by 2 %, and a branch
+//! may end 2 % below the frequency up to which the diagram is complete.
 
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -86,7 +86,8 @@ fn assert_one_name(report: &Report) {
     }
 }
 
-/// The saws are the same in every run. Failing cases are not minimized, because each takes a second.
+/// Random saws, the same in every run, and ends of their sweeps relative to the lowest critical speed. Failing cases
+/// are not minimized, because each takes a second.
 fn drawn_saws(count: usize) -> impl Iterator<Item = (SceneFile, f64)> {
     let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
     let mut runner = TestRunner::new_with_rng(Config::default(), rng);

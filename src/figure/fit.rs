@@ -28,8 +28,8 @@ const LOWER: Frame = Frame {
 };
 const BEFORE: Colour = STANDING;
 const FITTED: Colour = FORWARD;
-/// Shape and colour for each position in a row, from the lowest frequency on; they repeat. Shapes distinguish
-/// where colours do not.
+/// Shapes and colours of the residuals of the lowest measured frequency of a speed, the second, and so on; from the
+/// fifth on they repeat. Shapes distinguish the marks in grey prints.
 const PLACES: [(Shape, Colour); 4] = [
     (Shape::Disc, FORWARD),
     (Shape::Ring, BACKWARD),
@@ -67,7 +67,7 @@ pub fn sheet(report: &FitReport) -> Sheet {
     );
     let off = |r: &ResidualEntry| r.fitted_hz - r.measured_hz;
     let largest = fitted().fold(1e-3_f64, |top, r| top.max(off(r).abs()));
-    // The axis ends at a round number, so that both signs have a tick.
+    // The axis ends at round numbers, so that both signs have a tick.
     let reach = round_up(1.05 * largest);
     let residual = Axis::new([-reach, reach], [LOWER.bottom, LOWER.top], Spread::Linear);
     draw_axes(&mut sheet, &speed, &frequency, &residual);
@@ -119,6 +119,8 @@ fn facts(report: &FitReport) -> String {
         .join(BETWEEN_FACTS)
 }
 
+/// Draws a curve through the lowest frequencies of all speeds, through the second ones, and so on. `rows` contains
+/// the frequencies of each speed in Hz, ascending.
 fn draw_curves(
     sheet: &mut Sheet,
     report: &FitReport,
@@ -138,7 +140,7 @@ fn draw_curves(
     }
 }
 
-/// Draws a measured point, the line to its computed one, and its residual.
+/// Draws a measured point, a line to the fitted frequency, and the residual.
 fn draw_pair(
     sheet: &mut Sheet,
     r: &ResidualEntry,

@@ -26,9 +26,9 @@ const DEFLECTION: Frame = Frame {
     right: 880.0,
     ..SPEEDS
 };
-/// Room at both ends of the amplitudes, and before the gaps, for what has no place on a logarithmic axis.
+/// Width beside a logarithmic axis for the free blade and for linear guides, which have no place on the axis.
 const BESIDE: f64 = 80.0;
-/// Every third force has a curve, and every third gap a label.
+/// Every third force has a curve, and every third gap has a label.
 const EVERY: usize = 3;
 /// Width of the stroke of a band.
 const BAND: f64 = 7.0;
@@ -64,7 +64,7 @@ fn facts(report: &GapReport) -> Vec<String> {
     [Some(gap), half, Some(map)].into_iter().flatten().collect()
 }
 
-/// The amplitude beyond the smallest gap, in µm.
+/// Difference of the amplitude and the smallest gap in µm; `None` without an amplitude.
 fn beyond_um(report: &GapReport, at: &AtAmplitudeEntry) -> Option<f64> {
     Some(1e6 * (at.amplitude_m? - report.smallest_gap_m))
 }
@@ -120,7 +120,7 @@ fn draw_speeds(sheet: &mut Sheet, report: &GapReport) {
                 InstabilityKind::Divergence => DIVERGENCE_STREAK,
             };
             let [from, to] = [band.from_rpm, band.to_rpm].map(|rpm| speed.at(rpm));
-            // A narrow band is one pixel high at least.
+            // A band is at least one pixel high.
             let half = (0.5 * (from - to)).max(0.5);
             let middle = 0.5 * (from + to);
             let ends = [[*x, middle - half], [*x, middle + half]];
@@ -213,7 +213,7 @@ fn draw_deflections(sheet: &mut Sheet, report: &GapReport) {
     label_forces(sheet, report, (&gap, &deflection));
 }
 
-/// The forces beside the ends of their curves, apart from each other.
+/// Writes the forces beside the ends of their curves, without overlap.
 fn label_forces(sheet: &mut Sheet, report: &GapReport, (gap, deflection): (&Axis, &Axis)) {
     let map = &report.deviation;
     let Some(last) = map.deflection_m.last() else {

@@ -20,15 +20,16 @@ const PANEL: Frame = Frame {
     right: 780.0,
     bottom: 430.0,
 };
-/// Line height of the list of pads, and the most of them that it names.
+/// Line height of the list of pads.
 const LINE: f64 = 19.0;
+/// Largest number of pads in this list; further pads are counted.
 const PADS: usize = 8;
 /// Space between the names of pads.
 const BETWEEN: f64 = 12.0;
-/// A point pad is as wide as this on the sheet.
+/// Smallest width of a pad on the sheet.
 const POINT: f64 = 3.0;
 
-/// `None` without friction.
+/// Draws the temperature rise over the radius; `None` without friction.
 pub fn sheet(report: &GapReport) -> Option<Sheet> {
     let heat = report.friction.as_ref()?;
     let lines = heat.pads.len().min(PADS + 1);
@@ -96,7 +97,7 @@ fn extents(pads: &[FrictionPadEntry]) -> Vec<Extent> {
     all
 }
 
-/// Shades the radii of the pads, and names them above.
+/// Shades the radii of the pads, and writes the numbers of their guides above.
 fn draw_pads(sheet: &mut Sheet, heat: &FrictionEntry, radius: &Axis) {
     let all = extents(&heat.pads);
     for extent in &all {
@@ -140,7 +141,7 @@ fn draw_pads(sheet: &mut Sheet, heat: &FrictionEntry, radius: &Axis) {
 
 fn label_peak(sheet: &mut Sheet, [x, y]: [f64; 2], rise_k: f64) {
     sheet.disc([x, y], 3.6, BACKWARD);
-    // The label is on that side of the hottest radius on which there is room for it.
+    // The label is on the side of the peak with more room.
     let is_right = x > 0.5 * (PANEL.left + PANEL.right);
     let anchor = if is_right { Anchor::End } else { Anchor::Start };
     let at = [x + if is_right { -10.0 } else { 10.0 }, y - 6.0];
@@ -150,7 +151,7 @@ fn label_peak(sheet: &mut Sheet, [x, y]: [f64; 2], rise_k: f64) {
     sheet.text(at, letters, &said);
 }
 
-/// Below the diagram, for each pad its place, what is left of its gap, and its force.
+/// Lists below the diagram, for each pad, its radii, the rest of its gap, and its force.
 fn list_pads(sheet: &mut Sheet, heat: &FrictionEntry) {
     let mut y = f64::from(HEIGHT) + 4.0;
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);

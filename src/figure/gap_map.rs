@@ -38,7 +38,7 @@ const SMALL_TO_LARGE: [Colour; 5] = [
 /// Colour of cells without a deflection.
 const LEANING: Colour = plotters::style::RGBColor(214, 216, 220);
 
-/// `None` if no deflection is known.
+/// Draws the two maps; `None` if no deflection is known.
 pub fn sheet(report: &GapReport) -> Option<Sheet> {
     let map = &report.deviation;
     let all = map.deflection_m.iter().skip(1).flatten();
@@ -110,8 +110,9 @@ fn facts(report: &GapReport) -> Vec<String> {
     .collect()
 }
 
-/// Colours between the smallest and the largest deflection.
+/// Colours of deflections, by their logarithm.
 struct Shade {
+    /// Smallest and largest deflection in mm.
     ends: [f64; 2],
 }
 
@@ -122,15 +123,17 @@ impl Shade {
     }
 }
 
-/// The deflection over the gap and something else.
+/// A map of the deflection over the gap and another quantity.
 struct Panel<'a> {
     title: String,
+    /// Name of the other quantity, with its unit.
     name: &'static str,
+    /// Values of the other quantity, ascending.
     values: &'a [f64],
     spread: Spread,
-    /// One row a gap.
+    /// Deflections in a row for each gap.
     deflection_m: &'a [Vec<Option<f64>>],
-    /// The largest value within the limit, for each gap.
+    /// Largest value, for each gap, at which the deflection is within the limit.
     within: &'a [Option<f64>],
 }
 

@@ -1,5 +1,5 @@
-//! Oscillation of the blade between guides with a gap: the parts of the motion at the probe over the speed, and the mean and the
-//! amplitude of the deflection at the cut.
+//! Oscillation of the blade between guides with a gap, over the speed: amplitudes of the harmonics at the probe, and
+//! mean and amplitude of the deflection at the cut.
 
 use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical};
 use super::canvas::{Frame, Sheet, Stroke};
@@ -28,14 +28,14 @@ const CUT: Frame = Frame {
 };
 /// Colour of speeds without a motion.
 const UNKNOWN: Colour = plotters::style::RGBColor(240, 241, 243);
-/// Colours of the parts.
+/// Colours of the harmonics.
 const COLOURS: [Colour; 6] = [FORWARD, BACKWARD, DIVERGENCE, FLUTTER, STANDING, INK];
-/// The axis of amplitudes spans at most these decades below the largest.
+/// Largest number of decades between the lower end of the axis of amplitudes and the largest amplitude.
 const DECADES: i32 = 4;
-/// Parts of one row of the key.
+/// Number of harmonics in a row of the key.
 const IN_A_ROW: usize = 3;
 
-/// `None` without an oscillation.
+/// Draws both panels; `None` without an oscillation.
 pub fn sheet(report: &GapReport) -> Option<Sheet> {
     let found = report.oscillation.as_ref()?;
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
@@ -98,7 +98,7 @@ fn shade_unknown(sheet: &mut Sheet, found: &OscillationEntry, speed: &Axis, pane
     }
 }
 
-/// Pieces of a series between speeds without a value.
+/// Points of a series, divided at speeds without a value; `of` returns the point of a speed.
 fn pieces(found: &OscillationEntry, of: impl Fn(usize) -> Option<[f64; 2]>) -> Vec<Vec<[f64; 2]>> {
     let mut all = vec![Vec::new()];
     for k in 0..found.rpm.len() {
@@ -110,6 +110,7 @@ fn pieces(found: &OscillationEntry, of: impl Fn(usize) -> Option<[f64; 2]>) -> V
     all
 }
 
+/// Draws the pieces of a series; a piece of one point is drawn as a dot.
 fn draw(sheet: &mut Sheet, panel: &Frame, pieces: &[Vec<[f64; 2]>], stroke: Stroke) {
     for piece in pieces {
         if let [point] = piece[..] {
@@ -144,7 +145,7 @@ fn draw_parts(sheet: &mut Sheet, found: &OscillationEntry, speed: &Axis) {
     draw_horizontal(sheet, speed, PARTS.bottom, false);
 }
 
-/// Parts that only contact causes are dashed.
+/// Style of a harmonic: dashed if it is caused by contact alone.
 fn stroke_of(line: &OscillationLineEntry, colour: Colour) -> Stroke {
     match line.name == "contact" {
         true => Stroke::dashed(colour, CURVE, DASH),

@@ -1,4 +1,4 @@
-//! Title and subtitle.
+//! Title and subtitle of a figure.
 
 use super::canvas::{Anchor, Lettering, Sheet};
 use super::style::{INK, MARGIN, QUIET, SUBTITLE_SIZE, TITLE_SIZE, Weight, shorten};

@@ -4,11 +4,11 @@ use super::axis::{Axis, Spread};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::style::{AXIS_SIZE, Colour, HAIRLINE, QUIET};
 
-/// Number of colours between those of a ramp. It is small enough for neighbouring cells to join, and large
-/// enough that steps are not visible.
+/// Number of steps of a ramp. It is so small that many neighbouring cells have the same colour and are joined, and so
+/// large that steps are not visible.
 const STEPS: f64 = 40.0;
 
-/// The colour at `share` of a ramp of evenly spaced colours.
+/// The colour at `share`, from 0 to 1, of a ramp between evenly spaced colours.
 pub fn ramp(colours: &[Colour], share: f64) -> Colour {
     let share = (share.clamp(0.0, 1.0) * STEPS).round() / STEPS;
     let place = share * (colours.len() - 1) as f64;
@@ -21,8 +21,9 @@ pub fn ramp(colours: &[Colour], share: f64) -> Colour {
     plotters::style::RGBColor(mix(low.0, high.0), mix(low.1, high.1), mix(low.2, high.2))
 }
 
-/// Fills a cell around each grid point, clipped at the ends of the axes. Equal neighbours along x are joined
-/// to one rectangle.
+/// Fills a cell around each point of a grid, which ends half way to the next points and at the ends of the axes.
+/// `colour` returns the colour of a column and a row; neighbours along x of the same colour are joined to one
+/// rectangle.
 pub fn draw_grid(
     sheet: &mut Sheet,
     (x_axis, x_values): (&Axis, &[f64]),
@@ -48,7 +49,7 @@ pub fn draw_grid(
     }
 }
 
-/// Positions halfway between the values, and the ends of the axis.
+/// Positions on the sheet of the edges of cells: the ends of the axis, and half way between the values.
 fn edges(axis: &Axis, values: &[f64]) -> Vec<f64> {
     let [first, last] = axis.places();
     let between = values
@@ -60,8 +61,8 @@ fn edges(axis: &Axis, values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Draws the vertical colour bar of a panel, from `below` its top down to its bottom, between two abscissae,
-/// with tick labels to its right.
+/// Draws the vertical colour bar of a panel between two abscissae, from the distance `below` under its top to its
+/// bottom, with numbers to its right.
 pub fn draw_scale(
     sheet: &mut Sheet,
     (panel, below, [left, right]): (&Frame, f64, [f64; 2]),

@@ -19,7 +19,7 @@ const ROW: f64 = 96.0;
 /// Distance of the shaded areas of the two rows.
 const GAP: f64 = 14.0;
 
-/// A row: the data of one of the two saws.
+/// Contents of the row of one of the two saws.
 struct Row<'a> {
     name: String,
     critical_rpm: Vec<f64>,
@@ -27,7 +27,7 @@ struct Row<'a> {
     flutter_rpm: Option<f64>,
 }
 
-/// `None` if the diagram is that of the idling saw.
+/// Draws both rows; `None` if the report contains no comparison with the idling saw.
 pub fn sheet(report: &Report) -> Option<Sheet> {
     let in_cut = report.in_cut.as_ref()?;
     let idling = in_cut.idling.as_ref()?;

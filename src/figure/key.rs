@@ -3,11 +3,12 @@
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::style::{Colour, LABEL_SIZE, PAPER, QUIET, Weight, text_width};
 
-/// Space after each word, and between a mark and its word.
+/// Space after each word.
 const AFTER_WORD: f64 = 24.0;
+/// Space between a mark and its word.
 const AFTER_MARK: f64 = 8.0;
 
-/// Marks and words from left to right.
+/// A line of marks and words, which is written from left to right.
 pub struct Key<'a> {
     sheet: &'a mut Sheet,
     left: f64,
@@ -15,7 +16,7 @@ pub struct Key<'a> {
 }
 
 impl<'a> Key<'a> {
-    /// Begins at the left end of a baseline.
+    /// Begins a key at the left end of a baseline.
     pub fn new(sheet: &'a mut Sheet, left: f64, baseline: f64) -> Self {
         Key {
             sheet,
@@ -24,14 +25,14 @@ impl<'a> Key<'a> {
         }
     }
 
-    /// Adds a mark of a given width. `draw` gets its left end, at half the height of the letters.
+    /// Adds a mark of a given width. `draw` receives the left end of the mark, at half the height of the letters.
     pub fn mark(&mut self, width: f64, draw: impl FnOnce(&mut Sheet, [f64; 2])) -> &mut Self {
         draw(self.sheet, [self.left, self.baseline - 4.0]);
         self.left += width + AFTER_MARK;
         self
     }
 
-    /// Adds a box of a colour.
+    /// Adds a filled box, for the meaning of an area.
     pub fn shade(&mut self, colour: Colour) -> &mut Self {
         let width = 16.0;
         self.mark(width, |sheet, [x, y]| {
@@ -59,7 +60,7 @@ impl<'a> Key<'a> {
         })
     }
 
-    /// Adds a ring on the background in the middle of a width.
+    /// Adds a ring in the middle of a width.
     pub fn ring(&mut self, width: f64, radius: f64, stroke: Stroke) -> &mut Self {
         self.mark(width, |sheet, [x, y]| {
             sheet.ring([x + 0.5 * width, y], radius, stroke, PAPER);

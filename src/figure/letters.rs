@@ -1,7 +1,7 @@
 //! Width and drawing of text in the built-in fonts.
 //!
-//! In a browser plotters measures text by the page and draws none into a picture. With these fonts a figure
-//! is the same, to the byte, wherever it is drawn.
+//! In a browser plotters measures text by the fonts of the page and cannot draw text into a PNG. With the built-in
+//! fonts a figure has the same bytes wherever it is drawn.
 
 use std::sync::OnceLock;
 
@@ -16,13 +16,13 @@ use plotters_backend::{
 
 use super::style::{Colour, Weight};
 
-/// Name of the fonts in an SVG, with fallbacks for systems without Inter.
+/// Names of the font in an SVG, with replacements for systems without Inter.
 const FAMILY: &str = "Inter, Helvetica, Arial, sans-serif";
 
-/// In plotters the size of a font is 1.24 em.
+/// Ratio of the size of a font in plotters to the em.
 const SIZE_PER_EM: f64 = 1.24;
 
-/// The built-in fonts; `None` if they cannot be read.
+/// The built-in font of a weight; `None` if it cannot be read.
 fn font(weight: Weight) -> Option<&'static FontRef<'static>> {
     static FONTS: OnceLock<[Option<FontRef<'static>>; 2]> = OnceLock::new();
     let [regular, semi_bold] = FONTS.get_or_init(|| {
@@ -38,17 +38,17 @@ fn font(weight: Weight) -> Option<&'static FontRef<'static>> {
     }
 }
 
-/// A built-in font could not be read.
+/// Error of reading a built-in font.
 #[derive(Debug, thiserror::Error)]
 #[error("a built-in font cannot be read")]
 pub struct UnreadableFont;
 
-/// A size of a font.
+/// The built-in font of a weight in a size.
 fn scaled(em: f64, weight: Weight) -> Option<PxScaleFont<&'static FontRef<'static>>> {
     Some(font(weight)?.as_scaled((em * SIZE_PER_EM) as f32))
 }
 
-/// Sum of the advances of the letters of a text, in the unit of `em`.
+/// Sum of the advances of the letters of a text with kerning, in the unit of `em`.
 fn advance(text: &str, em: f64, weight: Weight) -> Option<f32> {
     let font = scaled(em, weight)?;
     let mut width = 0.0;
@@ -64,7 +64,7 @@ fn advance(text: &str, em: f64, weight: Weight) -> Option<f32> {
 
 /// Width of a line of text in the unit of `em`.
 pub fn text_width(text: &str, em: f64, weight: Weight) -> f64 {
-    // Widths are multiples of a sixteenth, so that rounding of the sum has no effect.
+    // Widths are truncated to sixteenths, so that rounding errors of the sum do not change them.
     const FINE: f64 = 16.0;
     match advance(text, em * FINE, weight) {
         Some(width) => f64::from(width).trunc() / FINE,
@@ -72,10 +72,12 @@ pub fn text_width(text: &str, em: f64, weight: Weight) -> f64 {
     }
 }
 
-/// A text at a point.
+/// A text at a point, for plotters to draw.
 pub struct Written<'a> {
     pub text: &'a str,
+    /// Point in the pixels of the backend.
     pub at: BackendCoord,
+    /// Height of an em in the pixels of the backend.
     pub em: f64,
     pub weight: Weight,
     pub colour: Colour,

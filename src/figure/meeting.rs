@@ -1,16 +1,16 @@
 //! Interpolation of two modes near their coalescence, between computed speeds.
 //!
-//! The growth rate inside the band and half the difference of the frequencies outside are the same function:
-//! its square passes smoothly through zero at both ends of the band. Curves drawn through the square have the
-//! right shape, steep at the ends, even with few samples.
+//! The square of the growth rate inside the band, and minus the square of half the difference of the angular
+//! frequencies outside, are one function, which passes smoothly through zero at both ends of the band. Curves of
+//! the growth that are interpolated by its square are steep at the ends, as they should be, even with few samples.
 
-/// The square of the growth rate of a pair of modes, over rotation speed.
+/// The square of the growth rate of a pair of modes, over the rotation speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Meeting {
     ends: [f64; 2],
-    /// Ends at which the modes coalesce; the sweep may cut off the others.
+    /// Whether the modes coalesce at each end, so that the square is zero there.
     closed: [bool; 2],
-    /// Speed and square / `weight`, ascending by speed.
+    /// Speed and square divided by `weight`, ascending by speed.
     factors: Vec<[f64; 2]>,
 }
 
@@ -31,7 +31,7 @@ impl Meeting {
             closed,
             factors,
         };
-        // Near the ends the quotient would divide two rounding errors.
+        // Near the ends both square and weight are rounding errors.
         const CLOSE: f64 = 0.01;
         for [rpm, square] in squares {
             let weight = meeting.weight(rpm);
@@ -45,7 +45,7 @@ impl Meeting {
         (!meeting.factors.is_empty()).then_some(meeting)
     }
 
-    /// Positive within the band, negative outside.
+    /// A function of the speed that is zero at closed ends, positive within the band and negative outside.
     fn weight(&self, rpm: f64) -> f64 {
         let [from, to] = self.ends;
         let from_end = |closed: bool, way: f64| if closed { way / (to - from) } else { 1.0 };
@@ -57,14 +57,14 @@ impl Meeting {
         self.weight(rpm) * interpolate(&self.factors, rpm)
     }
 
-    /// Growth rate at speeds over the band, with the smallest distances at the ends.
+    /// Speeds in rpm from the first to the last of the band, with growth rates in 1/s.
     pub fn growth(&self) -> Vec<[f64; 2]> {
         let point = |rpm: f64| [rpm, self.square(rpm).max(0.0).sqrt()];
         between(self.ends).map(point).collect()
     }
 }
 
-/// Speeds from the first to the last, with the smallest distances at both ends.
+/// 65 speeds from the first to the last, with the smallest distances at both ends.
 fn between([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
     const STEPS: u32 = 64;
     let angle = |i: u32| std::f64::consts::PI * f64::from(i) / f64::from(STEPS);

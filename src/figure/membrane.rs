@@ -29,11 +29,13 @@ const SPEEDS: Frame = Frame {
 /// Line height of labels.
 const LINE: f64 = 16.0;
 
+/// Draws the stress, and the critical speeds over the temperature if the scene contains heat; `None` without stress
+/// and heat.
 pub fn sheet(report: &Report) -> Option<Sheet> {
     let membrane = report.membrane.as_ref()?;
     let heat = membrane.heat.as_ref();
     let heat = heat.filter(|heat| !heat.critical_speeds.is_empty());
-    // A scene may ask for the light gap of a blade without stress.
+    // The report of a blade without stress has this entry if the scene contains a straight edge.
     if heat.is_none() && membrane.hoop_pa.iter().all(|stress_pa| *stress_pa == 0.0) {
         return None;
     }
@@ -220,7 +222,7 @@ fn draw_limits(
         limit(found.rise_k, 0.0, ALARM, text);
         return;
     }
-    // The curves end before this temperature; the text at the respective side says so.
+    // The curves end before this temperature, so that the text is at that side with an arrow.
     let (anchor, x, text) = match found.rise_k > 0.0 {
         true => (Anchor::End, SPEEDS.right, format!("{text} →")),
         false => (Anchor::Start, SPEEDS.left + 8.0, format!("← {text}")),

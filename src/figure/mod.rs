@@ -1,9 +1,7 @@
 //! Figures, drawn from a [`report`](crate::report) alone.
 //!
-//! The [`Figures`] of a report, each as PNG bytes or as SVG text.
-//!
-//! A figure is laid out on a `Sheet`, a list of marks in figure units, and then rendered to PNG bytes or an
-//! SVG string. This module writes no files.
+//! [`Figures::figures`] returns the figures of a report. A [`Figure`] is a list of marks in figure units, which is
+//! rendered to PNG bytes or to SVG text. This module writes no files.
 
 mod along;
 mod axis;
@@ -82,7 +80,7 @@ fn is_damped(report: &Report) -> bool {
 /// Reason for which a figure could not be rendered.
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
-    /// The drawing library refused a mark.
+    /// The drawing library plotters returned an error for a mark.
     #[error("a figure cannot be drawn")]
     Draw(#[source] Box<dyn std::error::Error + Send + Sync>),
     /// The picture could not be encoded as PNG.

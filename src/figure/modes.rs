@@ -9,18 +9,20 @@ use super::style::{BETWEEN_FACTS, INK, LABEL_SIZE, MARGIN, QUIET, Weight, shorte
 use crate::report::{EventShapeEntry, Report, ShapeOccasion};
 use blade::{GUIDE_WIDTH, NODAL_WIDTH, colour};
 
-/// Number of panels side by side.
+/// Number of panels in a row.
 const COLUMNS: usize = 4;
 /// Largest number of panels of a figure.
 const MOST: usize = 16;
+/// Width and height of a panel.
 const PANEL: [f64; 2] = [266.0, 336.0];
 const TOP: f64 = 86.0;
 const BELOW: f64 = 56.0;
-/// Number of harmonics named below a shape.
+/// Largest number of harmonics listed below a shape.
 const NAMED: usize = 3;
-/// A harmonic with a smaller share is not named.
+/// Smallest share of a harmonic in this list.
 const LEAST_NAMED: f64 = 0.01;
 
+/// Draws a panel for each shape; `None` if the report contains no shapes.
 pub fn sheet(report: &Report) -> Option<Sheet> {
     let shown = shown(&report.shapes);
     if shown.is_empty() {
@@ -40,7 +42,8 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     Some(sheet)
 }
 
-/// The shapes that fit: requested speeds take precedence over other events.
+/// The shapes that fit into the figure. If not all of them fit, critical speeds and bands are omitted before the
+/// operating speed and requested speeds.
 fn shown(shapes: &[EventShapeEntry]) -> Vec<&EventShapeEntry> {
     let is_event = |shape: &&EventShapeEntry| {
         !matches!(
@@ -87,7 +90,7 @@ fn panel(sheet: &mut Sheet, [left, top]: [f64; 2], report: &Report, shape: &Even
     write(below, LABEL_SIZE, QUIET, Weight::Regular, &motion(shape));
 }
 
-/// Heading: "1531 rpm, critical", "2261 rpm, flutter".
+/// Speed and kind of a shape: "1531 rpm, critical", "2261 rpm, flutter".
 fn heading_of(shape: &EventShapeEntry) -> String {
     let what = match shape.occasion {
         ShapeOccasion::CriticalSpeed => "critical",
@@ -99,7 +102,7 @@ fn heading_of(shape: &EventShapeEntry) -> String {
     format!("{:.0} rpm, {what}", shape.rpm)
 }
 
-/// Frequency and growth: "6.0 Hz, +0.49 1/s"; empty for a wave that stands still.
+/// Frequency and growth: "6.01 Hz, +0.487 1/s"; empty for a wave that stands still.
 fn motion(shape: &EventShapeEntry) -> String {
     let mut parts = Vec::new();
     if shape.frequency_hz > 0.0 {
@@ -112,7 +115,7 @@ fn motion(shape: &EventShapeEntry) -> String {
     parts.join(", ")
 }
 
-/// Shares of harmonics: "n = 2: 78 %, 0: 15 %".
+/// Largest shares of harmonics: "n = 2: 78 %, 0: 15 %".
 fn shares(shape: &EventShapeEntry) -> String {
     let seen = shape.harmonics.iter().filter(|h| h.share >= LEAST_NAMED);
     let shares = seen

@@ -1,4 +1,4 @@
-//! Draws curves and dots of a panel on a sheet.
+//! Draws the curves, dots and rings of a panel on a sheet.
 
 use super::axis::Axis;
 use super::canvas::{Frame, Sheet, Stroke};
@@ -9,10 +9,13 @@ use super::style::{DASH, FINE_DASH, HAIRLINE, PAPER, tint};
 /// Width of the edge of a ring relative to its diameter.
 const EDGE: f64 = 0.2;
 
-/// Position of a panel on the sheet.
+/// A panel on a sheet: axes and frame.
 pub struct Ground<'a> {
+    /// Horizontal axis of the panel.
     pub x: &'a Axis,
+    /// Vertical axis of the panel.
     pub y: &'a Axis,
+    /// Frame to which curves are clipped.
     pub frame: &'a Frame,
 }
 
@@ -38,7 +41,7 @@ impl Ground<'_> {
         }
     }
 
-    /// Draws the dots and rings inside the panel.
+    /// Draws the dots and rings whose centres are inside the panel.
     pub fn draw_points(&self, sheet: &mut Sheet, items: &[Item]) {
         for item in items {
             if let Item::Points(points) = item {
@@ -63,7 +66,7 @@ impl Ground<'_> {
     }
 }
 
-/// Style of a curve; guide lines have finer dashes.
+/// Style of a curve; dashed lines no wider than a hairline have finer dashes.
 pub fn stroke(line: &Line) -> Stroke {
     let dash = if line.width > HAIRLINE {
         DASH

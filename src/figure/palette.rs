@@ -1,4 +1,4 @@
-//! The colours of the figures, for other programs that draw the same data.
+//! Names of the colours of the figures, for other programs that draw the same data.
 
 use serde::Serialize;
 
@@ -57,8 +57,8 @@ impl Hue {
         }
     }
 
-    /// Colours of a kind of instability: lines and text, bands, and bands too narrow for their shade to be
-    /// visible.
+    /// Colours of a kind of instability: for lines and text, for bands, and for bands so narrow that their shade
+    /// would not be visible.
     pub(super) fn of_kind(kind: InstabilityKind) -> [Self; 3] {
         match kind {
             InstabilityKind::Divergence => {

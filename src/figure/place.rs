@@ -10,6 +10,7 @@ use super::style::{ALARM, BETWEEN_FACTS, INK, PAPER, STRONG_CURVE};
 use super::written::in_words;
 use crate::report::{GoalEntry, MapEntry, PlaceReport};
 
+/// Draws the map; `None` if the report contains none.
 pub fn sheet(report: &PlaceReport) -> Option<Sheet> {
     let map = report.map.as_ref()?;
     let mut sheet = empty();
@@ -48,6 +49,7 @@ fn facts(report: &PlaceReport) -> String {
         .join(BETWEEN_FACTS)
 }
 
+/// Marks the scene, the fragile optimum and the best saw.
 fn draw_marks(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry, x: &Along, y: &Along) {
     let place = |value_of: &dyn Fn(usize) -> Option<f64>| {
         let number = |path: &str| {
@@ -73,13 +75,13 @@ fn draw_marks(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry, x: &Along
     }
 }
 
-/// Draws an open red ring.
+/// Draws a red ring on a white disc.
 fn draw_fragile(sheet: &mut Sheet, at: [f64; 2]) {
     sheet.disc(at, 8.0, PAPER);
     sheet.ring(at, 6.0, Stroke::solid(ALARM, 2.0), PAPER);
 }
 
-/// Draws a red cross in a ring on white.
+/// Draws a red cross in a ring on a white disc.
 fn draw_best(sheet: &mut Sheet, [x, y]: [f64; 2]) {
     sheet.disc([x, y], 11.0, PAPER);
     sheet.ring([x, y], 9.0, Stroke::solid(ALARM, 2.0), PAPER);

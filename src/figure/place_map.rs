@@ -32,6 +32,7 @@ pub fn empty() -> Sheet {
     Sheet::new(WIDTH, HEIGHT)
 }
 
+/// Title of the figure.
 pub fn title(goal: GoalEntry) -> &'static str {
     match goal {
         GoalEntry::FlutterSpeed => "Flutter speed over the position of the guide",
@@ -39,7 +40,7 @@ pub fn title(goal: GoalEntry) -> &'static str {
     }
 }
 
-/// Goals of the cells that keep the limit.
+/// Goals in rpm of the cells that keep the limit of the critical speed.
 pub fn goals(map: &MapEntry) -> impl Iterator<Item = f64> {
     let cells = (0..map.x.len() * map.y.len()).map(|k| (k % map.x.len(), k / map.x.len()));
     cells
@@ -47,13 +48,14 @@ pub fn goals(map: &MapEntry) -> impl Iterator<Item = f64> {
         .filter_map(|(column, row)| map.goal_rpm[row][column])
 }
 
-/// Colours of goals between the smallest and the largest shown.
+/// Colours of goals, between the smallest and the largest in rpm.
 pub struct Shades {
     low: f64,
     high: f64,
 }
 
 impl Shades {
+    /// Colours for goals in rpm; if all are equal, for a range around them.
     pub fn of(goals_rpm: impl Iterator<Item = f64>) -> Self {
         let (low, high) = goals_rpm.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), rpm| {
             (low.min(rpm), high.max(rpm))

@@ -1,4 +1,4 @@
-//! Renders a sheet to PNG bytes or to an SVG string. Equal sheets give equal bytes.
+//! Renders a sheet as PNG or SVG. Equal sheets give equal bytes.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -9,17 +9,20 @@ use super::canvas::{Anchor, Lettering, Mark, Sheet, Stroke};
 use super::letters::Written;
 use super::style::PAPER;
 
-/// plotters uses integer pixels. With this magnification lines of any slope are smooth: the PNG is averaged,
-/// the SVG has a view box.
+/// Pixels of plotters, whose coordinates are integers, in a figure unit. A PNG is the mean of so many pixels in both
+/// directions, and an SVG has a view box in them, so that lines of any slope are smooth.
 const FINE: u32 = 4;
 
 type Area<DB> = DrawingArea<DB, Shift>;
 
-/// Renders to PNG.
+/// Renders a sheet as PNG, with one pixel for each figure unit.
+///
+/// # Errors
+/// [`FigureError`] if plotters refuses a mark, or the picture cannot be encoded.
 pub fn png(sheet: &Sheet) -> Result<Vec<u8>, FigureError> {
     let (width, height) = sheet.size();
     let fine_size = (width * FINE, height * FINE);
-    // The buffer is created white, because filling so many pixels again would take a tenth of the time.
+    // The buffer is white from the start, because filling it by plotters would take a tenth of the time.
     let mut fine = vec![255; fine_size.0 as usize * fine_size.1 as usize * 3];
     {
         let area = BitMapBackend::with_buffer(&mut fine, fine_size).into_drawing_area();
@@ -32,7 +35,10 @@ pub fn png(sheet: &Sheet) -> Result<Vec<u8>, FigureError> {
     )
 }
 
-/// Renders to SVG.
+/// Renders a sheet as SVG.
+///
+/// # Errors
+/// [`FigureError`] if plotters refuses a mark.
 pub fn svg(sheet: &Sheet) -> Result<String, FigureError> {
     let (width, height) = sheet.size();
     let fine_size = (width * FINE, height * FINE);
@@ -45,15 +51,15 @@ pub fn svg(sheet: &Sheet) -> Result<String, FigureError> {
     Ok(finish_svg(&text, (width, height), fine_size))
 }
 
-/// Sets what plotters has no option for: size on the page, round joins, and the baseline and weight of the
-/// PNG. Names of scenes cannot contain these patterns, because their quotation marks are escaped.
+/// Sets properties for which plotters has no option: size on the page, round joins, baselines and weights as in the
+/// PNG. Names of scenes cannot contain the replaced patterns, because their quotation marks are escaped.
 fn finish_svg(text: &str, (width, height): (u32, u32), fine_size: (u32, u32)) -> String {
     let drawn_size = format!("<svg width=\"{}\" height=\"{}\"", fine_size.0, fine_size.1);
     let shown_size = format!(
         "<svg width=\"{width}\" height=\"{height}\" stroke-linejoin=\"round\" stroke-linecap=\"butt\""
     );
     text.replacen(&drawn_size, &shown_size, 1)
-        // Tiles that touch would show the paper between them.
+        // Without this, the paper would be visible between areas with a common edge.
         .replace("<polygon ", "<polygon shape-rendering=\"crispEdges\" ")
         .replace("dy=\"0.76em\"", "dy=\"0.62em\"")
         .replace("font-weight=\"bold\"", "font-weight=\"600\"")
@@ -65,7 +71,7 @@ fn pack(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, FigureError> 
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    // Files become half as large again, but each figure is some hundredths of a second faster.
+    // Files are half as large again as with the best compression, and each figure is some hundredths of a second faster.
     encoder.set_compression(png::Compression::Fast);
     let mut writer = encoder.write_header()?;
     writer.write_image_data(pixels)?;
@@ -73,7 +79,7 @@ fn pack(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, FigureError> 
     Ok(bytes)
 }
 
-/// Mean colour of each block of `FINE`² pixels. Columns are summed first, which vectorizes well.
+/// Mean colours of blocks of `FINE`² pixels. Columns are summed first, because that vectorizes well.
 fn average(fine: &[u8], width: usize, height: usize) -> Vec<u8> {
     let block = FINE as usize;
     let count = (FINE * FINE) as u16;
@@ -96,6 +102,7 @@ fn average(fine: &[u8], width: usize, height: usize) -> Vec<u8> {
     pixels
 }
 
+/// A function that draws a solid line.
 type DrawLine<DB> = fn(&Area<DB>, &[[f64; 2]], Stroke) -> Result<(), FigureError>;
 
 fn draw<DB>(area: &Area<DB>, sheet: &Sheet, draw_line: DrawLine<DB>) -> Result<(), FigureError>
@@ -143,6 +150,7 @@ where
     }
 }
 
+/// Draws a line as one path, for SVG.
 fn draw_in_one<DB>(area: &Area<DB>, points: &[[f64; 2]], stroke: Stroke) -> Result<(), FigureError>
 where
     DB: DrawingBackend,
@@ -153,8 +161,8 @@ where
     area.draw(&PathElement::new(points, style)).map_err(refused)
 }
 
-/// Draws each segment as a polygon, with discs at the joints, because the mitred outline that plotters makes
-/// of a whole curve has spikes at sharp turns.
+/// Draws a line for PNG: each segment as a polygon, with discs at the joints, because the outline with mitred corners
+/// that plotters fills for a whole curve has spikes at sharp turns.
 fn draw_by_segments<DB>(
     area: &Area<DB>,
     points: &[[f64; 2]],
@@ -179,7 +187,7 @@ where
     Ok(())
 }
 
-/// Corners of a line segment of the given width; `None` for zero length.
+/// Corners of a line segment of a given width; `None` for a segment of zero length.
 fn outline(a: [f64; 2], b: [f64; 2], width: f64) -> Option<[[f64; 2]; 4]> {
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
     let length = dx.hypot(dy);
@@ -202,8 +210,8 @@ where
     DB: DrawingBackend,
     DB::ErrorType: 'static,
 {
-    // In a bitmap plotters places the baseline 0.62 em below the upper anchor; `finish_svg` makes the SVG
-    // agree.
+    // In a bitmap plotters places the baseline 0.62 em below the upper anchor; `finish_svg` sets the same distance in
+    // the SVG.
     let above = 0.62 * lettering.em;
     let horizontal = match lettering.anchor {
         Anchor::Start => HPos::Left,
@@ -226,7 +234,7 @@ where
     area.draw(&written).map_err(refused)
 }
 
-/// Divides a line into dashes.
+/// Divides a line into dashes, with given lengths of dash and gap.
 fn dashes(points: &[[f64; 2]], [drawn, left_out]: [f64; 2]) -> Vec<Vec<[f64; 2]>> {
     let mut all = vec![points[..1].to_vec()];
     let (mut visible, mut remaining) = (true, drawn);
@@ -253,11 +261,13 @@ fn dashes(points: &[[f64; 2]], [drawn, left_out]: [f64; 2]) -> Vec<Vec<[f64; 2]>
     all
 }
 
+/// A point in the pixels of plotters.
 fn fine_point([x, y]: [f64; 2]) -> (i32, i32) {
     let fine = |value: f64| (value * f64::from(FINE)).round() as i32;
     (fine(x), fine(y))
 }
 
+/// A width in the pixels of plotters, at least one.
 fn fine_width(width: f64) -> u32 {
     (width * f64::from(FINE)).round().max(1.0) as u32
 }

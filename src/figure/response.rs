@@ -32,11 +32,13 @@ const BOARD: Frame = Frame {
     bottom: 900.0,
     ..AMPLITUDE
 };
+/// Height of the sheet of the frequency response.
 const POINTS_HEIGHT: u32 = 760;
-/// Colours of the lines.
+/// Colours of the excitations.
 const COLOURS: [Colour; 6] = [INK, FORWARD, BACKWARD, DIVERGENCE, FLUTTER, STANDING];
-/// The axis of amplitudes spans at most these decades below the largest.
+/// Largest number of decades between the lower end of an axis of amplitudes and the largest amplitude.
 const DECADES: i32 = 6;
+/// Ends of the axis of phases in degrees.
 const PHASES: [f64; 2] = [-180.0, 180.0];
 
 pub fn sheet(report: &ResponseReport) -> Sheet {
@@ -74,6 +76,7 @@ fn facts(report: &ResponseReport) -> String {
     [probe.as_str(), &cut, damping].join(BETWEEN_FACTS)
 }
 
+/// Shades the speeds at which a growth exceeds the threshold.
 fn shade_bands(sheet: &mut Sheet, report: &ResponseReport, speed: &Axis, panel: &Frame) {
     for band in &report.instabilities {
         let colour = match band.kind {
@@ -95,7 +98,7 @@ fn shade_bands(sheet: &mut Sheet, report: &ResponseReport, speed: &Axis, panel: 
     }
 }
 
-/// A logarithmic axis of amplitudes, over at most a few decades.
+/// A logarithmic axis for amplitudes, over at least one decade and at most [`DECADES`].
 fn amplitudes(values: impl Iterator<Item = f64>, panel: &Frame) -> Axis {
     let known = values.filter(|value| *value > 0.0);
     let (low, high) = known.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
@@ -124,7 +127,7 @@ fn draw_amplitudes(sheet: &mut Sheet, report: &ResponseReport, speed: &Axis) {
         let points = report.rpm.iter().zip(&line.amplitude_m);
         let stroke = Stroke::solid(colour, CURVE);
         draw_curve(sheet, points, (speed, &axis, 1e3), stroke, &AMPLITUDE);
-        // A resonance of unknown amplitude gets a mark at the upper edge.
+        // A resonance of unknown amplitude has a mark at the upper edge.
         let unknown = line.resonances.iter().filter(|r| r.amplitude_m.is_none());
         for resonance in unknown {
             let x = speed.at(resonance.rpm);
@@ -135,7 +138,7 @@ fn draw_amplitudes(sheet: &mut Sheet, report: &ResponseReport, speed: &Axis) {
     draw_horizontal(sheet, speed, AMPLITUDE.bottom, false);
 }
 
-/// Draws the values of a series that are known.
+/// Draws the known values of a series, multiplied by a factor.
 fn draw_curve<'a>(
     sheet: &mut Sheet,
     points: impl Iterator<Item = (&'a f64, &'a Option<f64>)>,
@@ -157,7 +160,7 @@ fn draw_curve<'a>(
     }
 }
 
-/// Draws the axis of phases, with ticks at quarters of a turn.
+/// Draws the axis of phases, with ticks at quarters of a turn, and returns it.
 fn phase_axis(sheet: &mut Sheet) -> Axis {
     let axis = Axis::new(PHASES, [PHASE.bottom, PHASE.top], Spread::Linear);
     let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::End);
@@ -180,7 +183,8 @@ fn phase_axis(sheet: &mut Sheet) -> Axis {
     axis
 }
 
-/// Draws phases; a line from one end of the axis to the other would be none.
+/// Draws the known phases of a series. Neighbours that differ by half a turn or more are not connected: the phase
+/// passes from one end of the axis to the other there.
 fn draw_phase<'a>(
     sheet: &mut Sheet,
     points: impl Iterator<Item = (&'a f64, &'a Option<f64>)>,
@@ -201,6 +205,7 @@ fn draw_phase<'a>(
     }
 }
 
+/// Draws the deviation of the board, and the operating speed in all panels.
 fn draw_board(sheet: &mut Sheet, report: &ResponseReport, speed: &Axis) {
     let known = report.board_deviation_m.iter().flatten().map(|m| 1e3 * m);
     let axis = amplitudes(known, &BOARD);
@@ -257,7 +262,7 @@ fn draw_key(sheet: &mut Sheet, report: &ResponseReport) {
     }
 }
 
-/// Amplitude and phase over the frequency at one speed.
+/// Draws amplitude and phase over the frequency at one speed; `None` if the report contains no frequency response.
 pub fn points_sheet(report: &ResponseReport) -> Option<Sheet> {
     let points = report.points.as_ref()?;
     let mut sheet = Sheet::new(WIDTH, POINTS_HEIGHT);

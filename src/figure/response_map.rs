@@ -31,7 +31,7 @@ const RESPONSE: [Colour; 5] = [
 ];
 const BRANCH: Colour = plotters::style::RGBColor(216, 96, 60);
 
-/// The response of the linear model.
+/// Draws the response of the linear model.
 pub fn sheet(report: &RunUpReport) -> Sheet {
     let response = &report.response;
     let map = Map {
@@ -44,7 +44,7 @@ pub fn sheet(report: &RunUpReport) -> Sheet {
     map.sheet(report)
 }
 
-/// The spectrum of the deflection of a blade that stretches; `None` without stretching.
+/// Draws the spectrum of the deflection of a blade that stretches; `None` without stretching.
 pub fn stretched_sheet(report: &RunUpReport) -> Option<Sheet> {
     let found = report.stretching.as_ref()?;
     let map = Map {
@@ -57,14 +57,14 @@ pub fn stretched_sheet(report: &RunUpReport) -> Option<Sheet> {
     Some(map.sheet(report))
 }
 
-/// Metres, or metres per unit of something, over speed and frequency.
+/// A map of a deflection, or of a deflection per unit of a load, over speed and frequency.
 struct Map<'a> {
     title: &'a str,
-    /// Unit of a thousand times the values.
+    /// Unit of the colour bar, in which the values are multiplied by 1000.
     unit: &'a str,
     rpm: &'a [f64],
     frequency_hz: &'a [f64],
-    /// One row for each speed.
+    /// Values in a row for each speed.
     rows: &'a [Vec<f64>],
 }
 
@@ -116,7 +116,7 @@ impl Map<'_> {
     }
 }
 
-/// Label of a power of ten; ticks in between have none.
+/// Number at a tick of the colour bar, if its level is that of a power of ten.
 fn decade(level: f64) -> Option<String> {
     let whole = level.round();
     ((level - whole).abs() < 1e-6).then(|| tick_label(10f64.powf(whole)))

@@ -1,6 +1,6 @@
 //! Root loci: the two eigenvalues that coalesce at the flutter onset, in the complex plane, and their
-//! frequencies over rotation speed. The figure shows computed values: dots, joined by straight lines in the
-//! order of the speeds.
+//! frequencies over the rotation speed. Dots are computed eigenvalues; straight lines connect them in the order of
+//! the speeds.
 
 use super::axis::{Axis, Spread, draw_named, draw_vertical, two_digits};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
@@ -30,8 +30,8 @@ const SPEED: Frame = Frame {
     right: 1152.0,
     ..PLANE
 };
-/// Purely imaginary eigenvalues of the two signs are drawn this far to the left and right of their common
-/// axis.
+/// Distance from the imaginary axis at which purely imaginary eigenvalues are drawn: to the left those of Krein sign
+/// +1, to the right those of Krein sign −1.
 const ASIDE: f64 = 3.5;
 /// Radius of the dot of a computed eigenvalue.
 const DOT: f64 = 2.2;
@@ -39,31 +39,33 @@ const DOT: f64 = 2.2;
 const LINE: f64 = 15.0;
 /// Distance of a label from the imaginary axis, and from a growing eigenvalue.
 const GAP: f64 = 14.0;
+/// Largest width of the name of an eigenvalue.
 const LONGEST: f64 = 210.0;
-/// A saw has no larger values, and labels have no room for them.
+/// Larger speeds, growth rates and frequencies are not drawn: no saw has them, and labels would have no room.
 const LARGEST: f64 = 1e9;
 
 /// A computed eigenvalue.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Sample {
     rpm: f64,
+    /// Growth rate in 1/s.
     growth: f64,
     hz: f64,
-    /// Krein sign; 0 where the two have coalesced.
+    /// Krein sign; 0 where the two eigenvalues have coalesced.
     sign: i8,
 }
 
-/// Data that all parts of the figure use.
+/// Eigenvalues and axes of the figure.
 struct Chart {
     paths: [Vec<Sample>; 2],
     growth: Axis,
     frequency: Axis,
     speed: Axis,
-    /// Decimals that distinguish the speeds.
+    /// Number of decimals that distinguishes the speeds.
     decimals: usize,
 }
 
-/// `None` if the report does not contain two paths.
+/// Draws both panels; `None` if the report does not contain two paths of finite eigenvalues.
 pub fn sheet(report: &Report) -> Option<Sheet> {
     let entry = report.root_loci.as_ref()?;
     let chart = Chart::new(entry)?;
@@ -75,8 +77,7 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     heading::draw(&mut sheet, &title, &report.scene.name);
     draw_axes(&mut sheet, &chart);
     draw_band(&mut sheet, &chart, entry);
-    // The growing eigenvalue is drawn last, so that it remains visible in the panel over speed, where both
-    // have the same frequency.
+    // The first path is drawn last, so that it is visible in the panel over speed, where both have the same frequency.
     for path in chart.paths.iter().rev() {
         draw_path(&mut sheet, path, |s| chart.in_plane(s));
         draw_path(&mut sheet, path, |s| chart.over_speed(s));
@@ -93,7 +94,7 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     Some(sheet)
 }
 
-/// The eigenvalues in the complex plane and over speed, as numbers.
+/// The eigenvalues in the complex plane and over speed, as numbers; `None` as for [`sheet`].
 pub fn chart(report: &Report) -> Option<ChartData> {
     let entry = report.root_loci.as_ref()?;
     let chart = Chart::new(entry)?;
@@ -124,7 +125,7 @@ pub fn chart(report: &Report) -> Option<ChartData> {
     })
 }
 
-/// Lines between successive computed eigenvalues, and a dot at each.
+/// Lines between successive computed eigenvalues, and a dot at each. `place` returns the coordinates of a dot.
 fn items(path: &[Sample], name: &str, place: impl Fn(&Sample) -> [f64; 2]) -> Vec<Item> {
     let say = |s: &Sample| {
         let growth = shown_to(3, s.growth);
@@ -158,7 +159,7 @@ fn items(path: &[Sample], name: &str, place: impl Fn(&Sample) -> [f64; 2]) -> Ve
     items
 }
 
-/// The eigenvalues of a path without unknown and impossible values.
+/// The eigenvalues of a path without values that are not finite or larger than [`LARGEST`].
 fn samples(entry: &RootLociEntry, path: &RootPathEntry) -> Vec<Sample> {
     let numbers = path.growth_per_s.iter().zip(&path.frequency_hz);
     let all = entry.rpm.iter().zip(numbers).zip(&path.krein_sign);
@@ -216,7 +217,7 @@ impl Chart {
     }
 }
 
-/// Colour and its share.
+/// Colour of an eigenvalue, and its share in a mixture with the colour of the paper.
 fn hue(s: &Sample) -> (Hue, f64) {
     match s.sign {
         1 => (Hue::Forward, 1.0),
@@ -259,7 +260,7 @@ fn draw_axes(sheet: &mut Sheet, chart: &Chart) {
     draw_named(sheet, &chart.speed, SPEED.bottom, name);
 }
 
-/// Draws the band as a shaded area over the speeds, with its ends.
+/// Shades the band over the speeds, and writes its ends in rpm above.
 fn draw_band(sheet: &mut Sheet, chart: &Chart, entry: &RootLociEntry) {
     let [first, last] = chart.speed.values();
     let ends = [entry.onset_rpm, entry.end_rpm].map(|rpm| rpm.clamp(first, last));
@@ -302,8 +303,8 @@ struct Label {
     y: f64,
 }
 
-/// Draws names and speeds at the ends of the paths, and the fastest growth: on the left for the first path,
-/// which decays within the band if the second grows, on the right for the other.
+/// Writes names and speeds at the ends of the paths, to the left of the imaginary axis for Krein sign +1 and to the right
+/// for −1, the largest growth to the right, and a note on its mirror image to the left.
 fn draw_labels(sheet: &mut Sheet, chart: &Chart, entry: &RootLociEntry) {
     for (text, x, anchor) in [
         ("← decaying", PLANE.left, Anchor::Start),
@@ -377,7 +378,7 @@ fn label_of_peak(chart: &Chart, peak: &Sample) -> Label {
     }
 }
 
-/// Writes the labels of one side without overlap, on a white ground behind which lines may pass.
+/// Writes the labels of one side without overlap.
 fn write(sheet: &mut Sheet, labels: &[Label], anchor: Anchor) {
     let wishes = labels.iter().map(|label| Wish {
         centre: label.y,

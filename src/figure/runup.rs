@@ -53,8 +53,8 @@ pub fn sheet(report: &RunUpReport) -> Sheet {
     sheet
 }
 
-/// Draws a record in which thousands of samples fall on one pixel: for each pixel, a stroke from the smallest
-/// to the largest sample shows the same as a line through all of them.
+/// Draws the deflection. Thousands of samples have the same pixel as abscissa; a stroke from the smallest to the
+/// largest of them looks like a line through all of them.
 fn draw_record(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis, deflection: &Axis) {
     let columns = (PANEL.right - PANEL.left) as usize;
     let mut extremes = vec![None::<[f64; 2]>; columns + 1];
@@ -85,6 +85,7 @@ fn draw_record(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis, deflection
     }
 }
 
+/// Draws the critical speeds as dashed lines, with their numbers above.
 fn label_critical_speeds(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis) {
     let labels: Vec<(f64, String)> = report
         .critical_speeds

@@ -1,4 +1,5 @@
-//! Synthetic reports for tests: waves with ω² = ω₀² + sΩ² on the blade, seen from space.
+//! Synthetic reports for tests. The frequencies ω of their waves on the blade are those of ω² = ω₀² + sΩ², with the
+//! rotation speed Ω.
 
 use crate::report::{
     AccuracyEntry, BranchEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, Direction,
@@ -8,7 +9,7 @@ use crate::scene::{
     Accuracy, BladeFile, GuideFile, Material, Measured, MeasuredRow, Mount, SceneFile,
 };
 
-/// Name and data of a blade of 864 mm, without results.
+/// A report of a blade of 864 mm without results.
 pub fn empty_report(name: &str) -> Report {
     let material = Material {
         youngs_modulus_pa: 210e9,
@@ -105,8 +106,8 @@ pub fn empty_report(name: &str) -> Report {
     }
 }
 
-/// A branch of `diameters` with the frequency `rest_hz` at rest, whose backward wave stands still at
-/// `critical_rpm`.
+/// A branch with a number of nodal diameters, the frequency `rest_hz` at rest, and a backward wave that stands still
+/// in space at `critical_rpm`.
 fn branch(
     diameters: usize,
     direction: Direction,
@@ -143,6 +144,7 @@ fn branch(
     }
 }
 
+/// A band between two speeds in rpm, with its largest growth in 1/s and its frequency in Hz.
 pub fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64, hz: f64) -> InstabilityEntry {
     InstabilityEntry {
         kind,
@@ -162,7 +164,7 @@ pub fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64, hz: f64) -> 
     }
 }
 
-/// A blade with everything that the figure can show.
+/// A report of a guided blade with branches, bands, critical speeds, an operating speed and measured frequencies.
 pub fn busy_report() -> Report {
     let mut report = empty_report("Guided blade, 864 mm");
     report.instabilities = bands();
@@ -236,6 +238,7 @@ fn branches(bands: &[InstabilityEntry]) -> Vec<BranchEntry> {
     branches
 }
 
+/// Makes a branch diverge within a band.
 fn let_diverge(branch: &mut BranchEntry, band: &InstabilityEntry) {
     let half = (band.to_rpm - band.from_rpm) / 2.0;
     for i in 0..branch.rpm.len() {
@@ -277,7 +280,8 @@ fn measured() -> Measured {
     }
 }
 
-/// Two modes of opposite sign that coalesce at 6 Hz; `drift` is the slope of their mean frequency in Hz/rpm.
+/// Two modes of opposite Krein sign that coalesce at about 6 Hz; `drift` is the slope of their mean frequency over the
+/// speed, in Hz/rpm.
 pub fn root_loci(drift: f64) -> RootLociEntry {
     let (onset, end, peak) = (2255.6, 2266.52, 0.53);
     let (middle, half) = ((onset + end) / 2.0, (end - onset) / 2.0);
@@ -288,7 +292,7 @@ pub fn root_loci(drift: f64) -> RootLociEntry {
         peak * square.abs().sqrt()
     };
     let path = |name: &str, side: f64| {
-        // The upper wave of one sign becomes the lower one.
+        // The frequencies of the two modes have another order above the band than below.
         let turned = |rpm: f64| if rpm < middle { side } else { -side };
         let hz = |&rpm: &f64| {
             let mean = 6.0 + drift * (rpm - middle);

@@ -10,7 +10,7 @@ use super::style::{
 };
 use crate::report::{CutReport, CutRunEntry, SplineEntry};
 
-/// Panels are square, with equal scales in x and y.
+/// Positions of the panels, which are square because both axes have the same scale.
 const PANELS: Columns = Columns {
     lefts: [120.0, 700.0],
     top: 140.0,
@@ -20,6 +20,7 @@ const PANELS: Columns = Columns {
     row: 560.0,
 };
 
+/// Draws a panel for each speed; `None` for a saw without spline.
 pub fn sheet(report: &CutReport) -> Option<Sheet> {
     let runs: Vec<(&CutRunEntry, &SplineEntry)> = report
         .runs
@@ -41,10 +42,12 @@ pub fn sheet(report: &CutReport) -> Option<Sheet> {
     Some(sheet)
 }
 
-/// The scale of all panels: it includes the arbor's centre and every orbit.
+/// The axes of all panels, which include the centre of the arbor and every orbit.
 struct Scale {
     unit: &'static str,
+    /// Factor from metres to the unit.
     per_metre: f64,
+    /// End of the axes on either side of zero, in the unit.
     reach: f64,
 }
 
@@ -114,7 +117,7 @@ fn draw_orbit(
     sheet.text([panel.left, panel.top - 12.0], letters, &text);
 }
 
-/// Draws the clearance that a blade without torque has, as a circle if it fits into the panel.
+/// Draws the circle in which the centre of a blade without torque can move, and writes the clearance.
 fn draw_clearance(
     sheet: &mut Sheet,
     (x, y): (&Axis, &Axis),

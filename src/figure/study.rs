@@ -24,14 +24,15 @@ const FLUTTERING: Frame = Frame {
     right: 960.0,
     bottom: 610.0,
 };
-/// Quantiles labelled above the bars if the report has them, in order of importance.
+/// Shares of saws whose quantiles have labels if the report contains them, in order of importance.
 const NAMED: [f64; 5] = [0.5, 0.05, 0.95, 0.01, 0.99];
-/// Space beside the outermost bars.
+/// Space beside the outermost bars and limits, relative to their distance.
 const ASIDE: f64 = 0.04;
 
-/// A limit and the quantity that it limits.
+/// A limit of a speed.
 struct Limit {
     rpm: f64,
+    /// Origin of the limit, written before its speed.
     word: &'static str,
 }
 
@@ -78,6 +79,7 @@ pub fn sheet(report: &StudyReport) -> Sheet {
     sheet
 }
 
+/// Share of the saws that keep all limits, with its confidence interval.
 fn verdict(passing: &Passing) -> String {
     let share = format!("{:.1} % pass", 100.0 * passing.probability);
     match passing.interval {
@@ -91,6 +93,7 @@ fn verdict(passing: &Passing) -> String {
     }
 }
 
+/// Note on the saws that do not flutter in the sweep; empty if there are none.
 fn beyond(report: &StudyReport) -> String {
     match report.all.flutter.beyond {
         0 => String::new(),
@@ -101,10 +104,12 @@ fn beyond(report: &StudyReport) -> String {
     }
 }
 
+/// A share in percent, rounded to four decimals.
 fn percent(share: f64) -> f64 {
     (1e6 * share).round() / 1e4
 }
 
+/// Limits of the criteria with given keys, with a word for each.
 fn limits(report: &StudyReport, keys: &[(&str, &'static str)]) -> Vec<Limit> {
     let criteria = report.all.passing.iter().flat_map(|p| &p.criteria);
     let limit = |key: &str, rpm| {
@@ -116,7 +121,8 @@ fn limits(report: &StudyReport, keys: &[(&str, &'static str)]) -> Vec<Limit> {
         .collect()
 }
 
-/// The axis of a panel: it includes all bars and limits nearby.
+/// The axis of speeds of a panel. It includes all bars, and limits that are no further from them than the bars are wide
+/// together.
 fn speed_axis(entry: &SpeedEntry, limits: &[Limit], panel: Frame) -> Axis {
     let bars = entry.histogram.as_ref().map(|b| (b.from_rpm, b.to_rpm));
     let near =
@@ -131,6 +137,7 @@ fn speed_axis(entry: &SpeedEntry, limits: &[Limit], panel: Frame) -> Axis {
     Axis::new([low - aside, high + aside], places, Spread::Linear)
 }
 
+/// Draws the histogram of a speed, and its quantiles and limits.
 fn draw_panel(
     sheet: &mut Sheet,
     entry: &SpeedEntry,
@@ -152,7 +159,7 @@ fn draw_panel(
             let (left, right) = (speed.at(from), speed.at(from + width));
             let bar = Frame {
                 left,
-                // Bars have a gap if there is room; if all saws are alike the bar is a thin line.
+                // A gap separates the bars if they are wide enough; very narrow bars are drawn as thin lines.
                 right: (right - 1.0).max(left + 1.0),
                 top: share.at(100.0 * *saws as f64 / total),
                 bottom: panel.bottom,

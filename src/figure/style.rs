@@ -4,49 +4,49 @@ use plotters::style::RGBColor;
 
 pub use super::letters::text_width;
 
-/// A colour of the palette.
+/// A colour: red, green and blue from 0 to 255.
 pub type Colour = RGBColor;
 
-/// Background.
+/// Background of a figure.
 pub const PAPER: Colour = RGBColor(255, 255, 255);
 /// Colour of titles, of the zero line and of important text.
 pub const INK: Colour = RGBColor(32, 36, 42);
-/// Axis lines, dashed guide lines and numbers at the ticks.
+/// Colour of axis lines, of dashed guide lines and of numbers at the ticks.
 pub const QUIET: Colour = RGBColor(105, 111, 120);
-/// Grid lines.
+/// Colour of grid lines.
 pub const GRID: Colour = RGBColor(233, 235, 238);
 
 // Blue and red, and violet and amber, are distinguishable with the common kinds of colour blindness; each
 // pair also differs in lightness.
-/// Waves that run with the rotation.
+/// Colour of waves that run with the rotation.
 pub const FORWARD: Colour = RGBColor(31, 95, 168);
-/// Waves that run against the rotation.
+/// Colour of waves that run against the rotation.
 pub const BACKWARD: Colour = RGBColor(192, 69, 45);
-/// Waves without direction.
+/// Colour of waves without direction.
 pub const STANDING: Colour = RGBColor(118, 124, 133);
-/// Growth without oscillation: lines and letters.
+/// Colour of lines and letters for growth without oscillation.
 pub const DIVERGENCE: Colour = RGBColor(104, 71, 153);
-/// Growing oscillation: lines and letters.
+/// Colour of lines and letters for growing oscillation.
 pub const FLUTTER: Colour = RGBColor(163, 98, 0);
 
-/// Colour of alarms.
+/// Colour of broken limits and of the ends of models.
 pub const ALARM: Colour = RGBColor(200, 16, 46);
 
-/// Bands of divergence.
+/// Colour of areas of divergence.
 pub const DIVERGENCE_SHADE: Colour = RGBColor(226, 217, 241);
-/// Bands of flutter.
+/// Colour of areas of flutter.
 pub const FLUTTER_SHADE: Colour = RGBColor(255, 229, 173);
-/// Bands of divergence too narrow for their shade to be seen.
+/// Stronger colour of areas of divergence, for bands so narrow that their shade would not be visible.
 pub const DIVERGENCE_STREAK: Colour = RGBColor(158, 132, 203);
-/// Bands of flutter too narrow for their shade to be seen.
+/// Stronger colour of areas of flutter, for bands so narrow that their shade would not be visible.
 pub const FLUTTER_STREAK: Colour = RGBColor(240, 178, 62);
 
-/// Space around the figure.
+/// Space at the edges of a figure, in figure units.
 pub const MARGIN: f64 = 28.0;
-/// Separator with wide spaces, which SVG does not collapse as it does ordinary ones.
+/// Separator of facts, with wide spaces, because SVG collapses ordinary ones.
 pub const BETWEEN_FACTS: &str = "\u{2002}·\u{2002}";
 
-/// Size of the title.
+/// Size of the title: height of an em, in figure units, as of the following sizes.
 pub const TITLE_SIZE: f64 = 20.0;
 /// Size of the line below the title.
 pub const SUBTITLE_SIZE: f64 = 13.0;
@@ -55,23 +55,23 @@ pub const AXIS_SIZE: f64 = 13.0;
 /// Size of labels within the plot and of notes below it.
 pub const LABEL_SIZE: f64 = 12.0;
 
-/// Width of thin straight lines.
+/// Width of thin straight lines, in figure units, as of the following widths.
 pub const HAIRLINE: f64 = 1.0;
 /// Width of curves.
 pub const CURVE: f64 = 1.6;
 /// Width of the most important parts of a curve.
 pub const STRONG_CURVE: f64 = 3.4;
-/// Dash and gap of curves.
+/// Lengths of dash and gap of curves, in figure units.
 pub const DASH: [f64; 2] = [6.0, 4.0];
-/// Dash and gap of guide lines.
+/// Lengths of dash and gap of guide lines, in figure units.
 pub const FINE_DASH: [f64; 2] = [4.0, 4.0];
 
 /// Weight of a font.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weight {
-    /// For most text.
+    /// Weight of most text.
     Regular,
-    /// For titles.
+    /// Weight of titles.
     SemiBold,
 }
 
@@ -118,7 +118,7 @@ pub fn shorten(text: &str, em: f64, weight: Weight, room: f64) -> String {
     cut(fits)
 }
 
-/// Removes control characters, which SVG does not allow, and line breaks, which it ignores.
+/// Replaces control characters, which SVG does not allow, and line breaks, which it ignores, by spaces.
 pub fn one_line(text: &str) -> String {
     text.chars()
         .map(|c| if is_printable(c) { c } else { ' ' })

@@ -1,9 +1,9 @@
-//! Requirements on every figure, for tests.
+//! Requirements on all figures, for tests.
 
 use super::canvas::{Frame, Mark, Sheet, text_frame};
 use super::style::PAPER;
 
-/// No text is truncated or overlaps another.
+/// Requires that every text is inside the sheet and overlaps no other.
 pub fn assert_tidy(sheet: &Sheet) {
     let (width, height) = sheet.size();
     let texts = texts(sheet);
@@ -19,7 +19,7 @@ pub fn assert_tidy(sheet: &Sheet) {
     }
 }
 
-/// No vertical line crosses a text, unless there is a white ground between them.
+/// Requires that no vertical line crosses a text, unless a white ground covers the line there.
 pub fn assert_unstruck(sheet: &Sheet) {
     let marks = sheet.marks();
     for (above, mark) in marks.iter().enumerate() {
@@ -52,7 +52,7 @@ pub fn assert_unstruck(sheet: &Sheet) {
     }
 }
 
-/// Position, upper and lower end of a vertical line between two points.
+/// Abscissa, upper and lower end of a vertical line between two points.
 fn upright(mark: &Mark) -> Option<[f64; 3]> {
     match mark {
         Mark::Line(points, _) => match points[..] {
@@ -63,7 +63,7 @@ fn upright(mark: &Mark) -> Option<[f64; 3]> {
     }
 }
 
-/// Texts with their frames.
+/// Texts of a sheet with their frames.
 pub fn texts(sheet: &Sheet) -> Vec<(Frame, &str)> {
     let text = |mark| match mark {
         &Mark::Text(at, letters, ref text) => Some((text_frame(at, &letters, text), text.as_str())),

@@ -1,4 +1,4 @@
-//! Run time and true error, both on logarithmic scales.
+//! Run time over true error, both on logarithmic scales.
 
 use super::axis::{Axis, Spread, tick_label};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
@@ -19,7 +19,7 @@ const PANEL: Frame = Frame {
     bottom: 560.0,
 };
 
-/// Smaller errors and times are rounding.
+/// Smallest relative error and smallest time in s on the axes; smaller values are rounding errors.
 const LEAST: f64 = 1e-12;
 
 const METHODS: [Method; 3] = [Method::Reduced, Method::Dense, Method::CriticalSpeeds];
@@ -41,7 +41,7 @@ pub fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
     draw_axes(&mut sheet, &error, &time);
     draw_front(&mut sheet, settings, &error, &time);
     draw_key(&mut sheet);
-    // The ground of the labels is drawn before the dots, because dashed lines of the accuracies pass there.
+    // The labels cover the dashed lines of the accuracies, but not the dots, so that their ground is drawn before these.
     for (at, letters, label) in labels(settings, &error, &time) {
         sheet.fill(text_frame(at, &letters, &label), PAPER);
     }
@@ -55,6 +55,7 @@ pub fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
     sheet
 }
 
+/// Position of a setting on the sheet.
 fn place(setting: &Setting, error: &Axis, time: &Axis) -> [f64; 2] {
     let percent = 100.0 * setting.error.max(LEAST);
     [error.at(percent), time.at(setting.seconds.max(LEAST))]
@@ -68,8 +69,8 @@ fn look(method: Method) -> (Colour, &'static str) {
     }
 }
 
-/// Numbers of functions above the dots of the diagrams. Those of the critical speeds alone are the same
-/// numbers in the same order.
+/// Labels of the complete charts at 51 speeds: numbers of functions above the dots. The dots of the critical speeds
+/// have the same numbers in the same order, and no labels.
 fn labels(settings: &[Setting], error: &Axis, time: &Axis) -> Vec<([f64; 2], Lettering, String)> {
     let charts = settings.iter().filter(|s| s.is_chart() && s.speeds == 51);
     let label = |setting: &Setting| {
@@ -89,6 +90,7 @@ fn labels(settings: &[Setting], error: &Axis, time: &Axis) -> Vec<([f64; 2], Let
     charts.map(label).collect()
 }
 
+/// Draws the dots of a method, connected for one number of speeds.
 fn draw_method(sheet: &mut Sheet, method: Method, own: &[&Setting], error: &Axis, time: &Axis) {
     let (colour, _) = look(method);
     for setting in own {
@@ -108,7 +110,7 @@ fn draw_key(sheet: &mut Sheet) {
     }
 }
 
-/// Draws the settings that no other one beats in both time and error.
+/// Connects the settings than which no other is both faster and more accurate.
 fn draw_front(sheet: &mut Sheet, settings: &[Setting], error: &Axis, time: &Axis) {
     let mut front: Vec<[f64; 2]> = settings
         .iter()
@@ -161,6 +163,7 @@ fn draw_axes(sheet: &mut Sheet, error: &Axis, time: &Axis) {
     }
 }
 
+/// A time in s, or in ms if it is shorter than a second.
 fn seconds(value: f64) -> String {
     match value < 1.0 {
         true => format!("{} ms", tick_label(1e3 * value)),

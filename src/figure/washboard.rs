@@ -27,9 +27,10 @@ const FREQUENCY: Frame = Frame {
 /// Diameter of the ring at the cut's own stiffness, and of the dots at frequencies.
 const OWN_SIZE: f64 = 12.0;
 const DOT_SIZE: f64 = 4.4;
-/// Largest number of decades above the cut's own stiffness, or above the smallest at which a motion grows.
+/// Largest number of decades by which the boundary that is shown exceeds the stiffness of the cut and the smallest
+/// stiffness of the boundary.
 const DECADES: f64 = 2.5;
-/// Space below and above, in decades.
+/// Space below and above the boundary, in decades.
 const ROOM: f64 = 0.3;
 
 pub fn sheet(report: &WashboardReport) -> Sheet {
@@ -130,7 +131,8 @@ pub fn chart(report: &WashboardReport) -> ChartData {
     }
 }
 
-/// The boundary; above the panel if there is none, below it if it is zero.
+/// The boundary in a panel between two stiffnesses. At speeds without growth it is above the panel, and where motions
+/// grow at any stiffness below it.
 fn boundary(report: &WashboardReport, [least, most]: [f64; 2]) -> Line {
     let lobes = &report.lobes;
     let points = lobes.rpm.iter().zip(&lobes.critical_stiffness_n_per_m);
@@ -141,7 +143,7 @@ fn boundary(report: &WashboardReport, [least, most]: [f64; 2]) -> Line {
     }
 }
 
-/// Description of each speed.
+/// Description of the boundary at each speed.
 fn said(report: &WashboardReport) -> Vec<String> {
     let lobes = &report.lobes;
     let at = lobes.rpm.iter().zip(&lobes.critical_stiffness_n_per_m);
@@ -172,7 +174,7 @@ fn facts(report: &WashboardReport) -> Vec<String> {
     all.into_iter().flatten().collect()
 }
 
-/// Whole decades that include the boundary and the stiffness of the cut.
+/// Ends of the axis of stiffness in N/m: whole decades that include the boundary and the stiffness of the cut.
 fn decades(report: &WashboardReport) -> [f64; 2] {
     let known = report.lobes.critical_stiffness_n_per_m.iter();
     let known = known.flatten().filter(|k| **k > 0.0).map(|k| k.log10());
@@ -183,7 +185,7 @@ fn decades(report: &WashboardReport) -> [f64; 2] {
     [(own.min(least) - ROOM).floor(), (most + ROOM).ceil()].map(|log| 10f64.powf(log))
 }
 
-/// Draws a column from the boundary upwards at every speed, half way to its neighbours.
+/// Shades the unstable stiffnesses: at each speed a column from the boundary upwards, half way to the next speeds.
 fn draw_unstable(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis, stiffness: &Axis) {
     let lobes = &report.lobes;
     let places: Vec<f64> = lobes.rpm.iter().map(|rpm| speed.at(*rpm)).collect();

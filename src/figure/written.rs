@@ -1,12 +1,12 @@
-//! Numbers of a scene in words, in workshop units.
+//! Numbers of a scene with their names, in millimetres and gigapascals where scenes have metres and pascals.
 
 use super::axis::raised;
 use crate::scene::Quantity;
 
-/// Units of the scene that are replaced, with replacement and factor.
+/// Units of a scene that figures replace, the units in their place, and the factors to these.
 const HANDY: [(&str, &str, f64); 2] = [("m", "mm", 1e3), ("Pa", "GPa", 1e-9)];
 
-/// Name of a number, from its path: "stiffness of guide 1".
+/// Name of a number with a given path: "stiffness of guide 1"; the path itself if it is unknown.
 pub fn name(path: &str) -> String {
     let Some(quantity) = Quantity::of(path) else {
         return path.to_owned();
@@ -23,14 +23,15 @@ pub fn name(path: &str) -> String {
     }
 }
 
-/// Unit in which a number is written, and the factor from the unit of the scene.
+/// Unit in which figures write a number with a given path, and the factor from the unit of the scene to it.
 pub fn unit(path: &str) -> (&'static str, f64) {
     let own = Quantity::of(path).map_or("", |quantity| quantity.unit);
     let handy = HANDY.iter().find(|(unit, ..)| *unit == own);
     handy.map_or((own, 1.0), |(_, unit, factor)| (unit, *factor))
 }
 
-/// Name, number and unit: "radius of guide 1: 250.3 mm".
+/// Name, value and unit of a number with a given path: "radius of guide 1: 250.3 mm". The value is in the unit of the
+/// scene.
 pub fn in_words(path: &str, value: f64) -> String {
     let (unit, factor) = unit(path);
     let space = if matches!(unit, "" | "°") { "" } else { " " };

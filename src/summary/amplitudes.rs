@@ -5,7 +5,7 @@ use std::fmt::{Result, Write};
 use super::{ROWS, more, wrapped};
 use crate::report::{InstabilityKind, Report};
 
-/// Writes a table of the flutter bands whose amplitude was requested.
+/// Writes a table of the flutter bands, in millimetres, if the report contains an amplitude.
 pub fn amplitudes(text: &mut String, report: &Report) -> Result {
     let bands = report.instabilities.iter();
     let flutter = bands.filter(|band| band.kind == InstabilityKind::Flutter);

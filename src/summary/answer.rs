@@ -1,4 +1,4 @@
-//! The answer, and its accuracy.
+//! The answer whether a saw can run at its operating speed, and the accuracy of a Campbell diagram.
 
 use std::fmt::{Result, Write};
 
@@ -12,11 +12,11 @@ use crate::text::shown_to;
 #[cfg_attr(feature = "page", derive(serde::Serialize))]
 #[cfg_attr(feature = "page", serde(rename_all = "snake_case"))]
 pub enum Answer {
-    /// The saw is stable and keeps the 85 % rule.
+    /// The saw is stable and keeps the 85 % rule, or has no critical speed.
     Runs,
-    /// The saw is stable but breaks the rule.
+    /// The saw is stable but breaks the 85 % rule.
     PastRule,
-    /// The saw is stable but runs at a critical speed.
+    /// The saw is stable, but its speed is within 5 % of a critical speed.
     AtCritical,
     /// The saw diverges.
     Divergence,
@@ -27,7 +27,7 @@ pub enum Answer {
 }
 
 impl Answer {
-    /// The answer for an operating speed.
+    /// Derives the answer from the verdict at the operating speed.
     pub fn new(operating: &OperatingEntry) -> Self {
         match operating.verdict {
             StabilityState::Divergence => Answer::Divergence,
@@ -63,8 +63,8 @@ impl Answer {
     }
 }
 
-/// The answer whether a saw can run at its operating speed, and the speeds at which it can, line by line. The
-/// first line is the answer; reasons follow. A line may contain breaks, after which it is indented.
+/// The answer whether a saw can run at its operating speed, and the speeds at which it can. The first line is
+/// the answer; reasons follow. A line may contain line breaks, each followed by an indent.
 pub fn answer(report: &Report) -> Vec<String> {
     let mut lines = match &report.operating {
         Some(operating) => at_operating_speed(report, operating),
@@ -117,6 +117,7 @@ fn inside(band: &InstabilityEntry) -> String {
     )
 }
 
+/// Describes the motion with the largest growth rate, in 1/s, at the operating speed.
 fn fastest(report: &Report, growth: f64, hz: f64) -> String {
     let threshold = report.flutter_threshold_per_s;
     if growth > 0.0 {
@@ -141,6 +142,7 @@ fn fastest(report: &Report, growth: f64, hz: f64) -> String {
     }
 }
 
+/// Warns of the critical speed close to the operating speed, if there is one.
 fn at_critical_speed(report: &Report, operating: &OperatingEntry) -> Option<String> {
     let rpm = operating.at_critical_rpm?;
     let critical = report.critical_speeds.iter().find(|c| c.rpm == rpm);
@@ -152,7 +154,7 @@ fn at_critical_speed(report: &Report, operating: &OperatingEntry) -> Option<Stri
     Some(wrapped(&line))
 }
 
-/// The 85 % rule.
+/// Compares the operating speed with the 85 % rule; `None` without a critical speed.
 fn rule(operating: &OperatingEntry) -> Option<String> {
     let ratio = operating.of_lowest_critical?;
     let verdict = match operating.within_limit {
@@ -167,6 +169,7 @@ fn rule(operating: &OperatingEntry) -> Option<String> {
     ))
 }
 
+/// The answer for a scene without operating speed: the speed up to which the saw is stable.
 fn up_to(report: &Report) -> Vec<String> {
     let counted = report.instabilities.iter().flat_map(|b| &b.counted_rpm);
     let first = counted.map(|stretch| stretch[0]).reduce(f64::min);
@@ -192,6 +195,7 @@ fn up_to(report: &Report) -> Vec<String> {
     lines.into_iter().flatten().collect()
 }
 
+/// Flutter speed, and onset of the first flutter band of any growth.
 fn flutter(report: &Report) -> Vec<String> {
     let threshold = report.flutter_threshold_per_s;
     let speed = match report.flutter_speed_rpm {
@@ -216,7 +220,7 @@ fn flutter(report: &Report) -> Vec<String> {
     [Some(speed), first].into_iter().flatten().collect()
 }
 
-/// Describes the end of a window.
+/// States why the window without instability ends at a speed; empty if a band begins there.
 fn end_of_window(report: &Report, rpm: f64) -> &'static str {
     let counted = |band: &InstabilityEntry| band.counted_rpm.iter().any(|[from, _]| *from == rpm);
     match report.instabilities.iter().any(counted) {
@@ -226,8 +230,8 @@ fn end_of_window(report: &Report, rpm: f64) -> &'static str {
     }
 }
 
-/// Whether growth above the threshold is possible in unproven intervals where it would change an answer:
-/// below the flutter speed, or at the operating speed.
+/// States whether growth above the threshold is possible in unproven intervals of speed that matter for the
+/// answer: below the flutter speed, or at the operating speed.
 fn hidden(
     stretches_rpm: &[[f64; 2]],
     threshold_per_s: f64,
@@ -256,7 +260,7 @@ fn hidden(
     format!("Unproven speeds may have a {growth} at {from:.1} to {to:.1} rpm{more} (estimated)")
 }
 
-/// Writes certificate, estimated error and warnings.
+/// Writes certificate, backward errors, estimated error of the critical speeds, and warnings.
 pub fn trust(text: &mut String, report: &Report) -> Result {
     writeln!(text)?;
     let certificate = &report.certificate;

@@ -1,11 +1,11 @@
-//! The table of bands.
+//! The table of bands of instability.
 
 use std::fmt::{Result, Write};
 
 use super::{ROWS, more, shortened};
 use crate::report::{InstabilityEntry, InstabilityKind, Report};
 
-/// Width of the waves at the end of a line.
+/// Longest name, in characters, that has room at the end of a row; a longer one is on a line of its own.
 const WAVES: usize = 29;
 
 /// Writes every band of instability, and whether its growth exceeds the threshold.
@@ -78,7 +78,7 @@ fn row(text: &mut String, report: &Report, band: &InstabilityEntry) -> Result {
     partly(text, band)
 }
 
-/// The range in which the growth exceeds the threshold, unless it is the whole band.
+/// Writes the ranges of speed in which the growth exceeds the threshold, unless they are the whole band.
 fn partly(text: &mut String, band: &InstabilityEntry) -> Result {
     let [stretches @ .., last] = band.counted_rpm.as_slice() else {
         return Ok(());

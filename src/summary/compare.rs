@@ -56,7 +56,8 @@ fn lowest(saw: &ComparedEntry) -> Option<f64> {
     saw.critical_speeds.first().map(|critical| critical.rpm)
 }
 
-/// Writes the differences of a saw from the first.
+/// Writes the relative differences of the speeds and the stiffness of a saw from those of the first, and the
+/// difference of the numbers of bands.
 fn changes(text: &mut String, first: &ComparedEntry, saw: &ComparedEntry) -> std::fmt::Result {
     let percent = |value: fn(&ComparedEntry) -> Option<f64>| {
         let change = value(first)

@@ -30,7 +30,7 @@ pub fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
     Ok(())
 }
 
-/// The verdict at a speed.
+/// The verdict at a speed; `linear_limit_m` is the largest deflection of the linear model.
 fn in_one_line(run: &CutRunEntry, linear_limit_m: f64) -> String {
     let rpm = run.rpm;
     match run.verdict {
@@ -46,7 +46,7 @@ fn in_one_line(run: &CutRunEntry, linear_limit_m: f64) -> String {
     }
 }
 
-/// Growth rate and frequency, and the criterion that gives them.
+/// The verdict on an unstable cut: growth rate, frequency, and the criterion that decides.
 fn unstable(run: &CutRunEntry) -> String {
     let decisive = run.criteria.iter().find(|c| c.criterion == run.decided_by);
     let Some(entry) = decisive else {
@@ -105,7 +105,7 @@ fn in_capitals(verdict: Verdict) -> &'static str {
     }
 }
 
-/// Remark on a criterion.
+/// Remark after the verdict of a criterion.
 fn remark(run: &CutRunEntry, criterion: CutCriterion) -> String {
     match criterion {
         CutCriterion::TimeHistory => match run.agree {
@@ -123,6 +123,7 @@ fn remark(run: &CutRunEntry, criterion: CutCriterion) -> String {
     }
 }
 
+/// Largest deflections at the probe in the cut and after it, in millimetres.
 fn deflections(run: &CutRunEntry) -> String {
     let millimetres = |metres: f64| format!("{:.2} mm", 1e3 * metres);
     let (in_cut, after) = (

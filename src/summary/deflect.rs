@@ -36,7 +36,7 @@ pub fn of_report(text: &mut String, report: &DeflectReport) -> std::fmt::Result 
 
 const MEANING: &str = "With any damping fixed in space every motion ends in a stable equilibrium. Damping that turns with the blade may stabilize the flat blade, and a fast run-up may end before the blade leaves the flat state. Curves of equilibria may exist to which neither a sweep, nor its mirror image, nor a critical speed leads.";
 
-/// The deflection of the blade.
+/// Speed from which the deflection exceeds the thickness, and the largest deflection while the speed rises.
 fn verdict(report: &DeflectReport) -> String {
     let force = format!(
         "Under {} N at the rim at {}°",
@@ -74,6 +74,7 @@ fn critical(report: &DeflectReport) -> String {
     }
 }
 
+/// Writes the considerable jumps of a sweep; `word` states whether its speed rises or falls.
 fn jumps(
     text: &mut String,
     sweep: &SlowSweepEntry,
@@ -163,7 +164,8 @@ fn table(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
 const FREQUENCIES: usize = 4;
 
 impl SlowSweepEntry {
-    /// Values at a speed, by linear interpolation between two equilibria of one arc.
+    /// Values at a speed, by linear interpolation between two equilibria of one arc; `None` if no arc contains
+    /// the speed.
     fn at<const N: usize>(
         &self,
         rpm: f64,
@@ -183,7 +185,7 @@ impl SlowSweepEntry {
     }
 }
 
-/// The largest force of each pad that lifts off, for rising speed.
+/// Largest force on the blade, while the speed rises, of each pad that can lift off; `None` without such pads.
 fn pads(report: &DeflectReport) -> Option<String> {
     let guides = report.scene.guides.iter().enumerate();
     let lifting = guides.filter(|(_, guide)| guide.contact == ContactLaw::OneSided);
@@ -234,7 +236,6 @@ fn millimetres(metres: f64) -> String {
     format!("{} mm", in_mm(metres))
 }
 
-/// Millimetres with three decimals; zero has no sign.
 fn in_mm(metres: f64) -> String {
     // The sum of minus zero and zero is zero.
     format!("{:.3}", (1e6 * metres).round() / 1e3 + 0.0)

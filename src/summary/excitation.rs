@@ -1,11 +1,11 @@
-//! The table of crossings.
+//! The table of the crossings of multiples of the rotation speed with natural frequencies.
 
 use std::fmt::{Result, Write};
 
 use super::{ROWS, more, numbered, shortened};
 use crate::report::Report;
 
-/// Writes the crossings of multiples of the rotation speed with natural frequencies.
+/// Writes speed, order and frequency of each crossing, if the scene requests multiples of the speed.
 pub fn crossings(text: &mut String, report: &Report) -> Result {
     let Some(excitation) = &report.excitation else {
         return Ok(());

@@ -66,8 +66,9 @@ pub fn of_report(text: &mut String, report: &FitReport) -> std::fmt::Result {
     )
 }
 
-/// Largest number of lines and columns of the table; the rest is only counted.
+/// Largest number of rows of the table of residuals; further rows are counted.
 const ROWS: usize = 20;
+/// Largest number of frequencies in a row of this table; the report contains all.
 const COLUMNS: usize = 7;
 
 fn residuals(text: &mut String, report: &FitReport) -> std::fmt::Result {
@@ -95,7 +96,7 @@ fn residuals(text: &mut String, report: &FitReport) -> std::fmt::Result {
     }
 }
 
-/// A fitted number with its significant digits.
+/// A fitted number with five significant digits.
 fn short(value: f64) -> String {
     shown_to(5, value)
 }

@@ -1,4 +1,4 @@
-//! Guides with a gap in words.
+//! The summary of guides with a gap.
 
 use std::fmt::Write;
 
@@ -137,6 +137,7 @@ fn oscillation(
     writeln!(text, "{}", wrapped(&told))
 }
 
+/// Stability of the oscillation: largest growth rate of small motions about it.
 fn decay(at: &OscillationAtEntry) -> String {
     match at.growth_per_s {
         None => "unknown".to_owned(),
@@ -251,10 +252,10 @@ fn row(name: &str, at: &AtAmplitudeEntry) -> String {
     )
 }
 
-/// Every third force and gap is in the table; the report has all.
+/// The tables list every third force and gap; the report contains all of them.
 const EVERY: usize = 3;
 
-/// Whether a gap is in the table: linear guides, which come first, and every third gap.
+/// Whether a row is in the tables: the first, which is that of linear guides, and every third gap.
 fn is_shown(row: usize) -> bool {
     row == 0 || (row - 1).is_multiple_of(EVERY)
 }

@@ -1,11 +1,11 @@
-//! Effects of the forces of the cut.
+//! Effects of the forces of the cut on the important speeds.
 
 use std::fmt::{Result, Write};
 
 use super::wrapped;
 use crate::report::Report;
 
-/// Writes the forces of the diagram, and the important speeds with and without them.
+/// Writes the forces of the diagram, and critical speed, flutter speed and growth with and without them.
 pub fn in_cut(text: &mut String, report: &Report) -> Result {
     let Some(in_cut) = &report.in_cut else {
         return Ok(());

@@ -1,11 +1,11 @@
-//! Effects of heat and of the numbers of the scene.
+//! Rolled bands, light gap, limits of heat, and effects of the numbers of the scene on the speeds.
 
 use std::fmt::{Result, Write};
 
 use crate::report::{HeatLimitEntry, InstabilityEntry, Report};
 use crate::text::shown_to;
 
-/// Writes the rolled bands, by strain and by groove.
+/// Writes position and width of the rolled bands, their eigenstrain, and the equivalent depth of a groove.
 pub fn rolled(text: &mut String, report: &Report) -> Result {
     for band in report.membrane.iter().flat_map(|m| &m.roll_bands) {
         writeln!(
@@ -20,7 +20,7 @@ pub fn rolled(text: &mut String, report: &Report) -> Result {
     Ok(())
 }
 
-/// Writes the light gap under the straight edge, and the roll tension of a measured one.
+/// Writes the computed light gap under the straight edge, and the rolling that follows from a measured one.
 pub fn straight_edge(text: &mut String, report: &Report) -> Result {
     let membrane = report.membrane.as_ref();
     let Some(edge) = membrane.and_then(|m| m.straight_edge.as_ref()) else {
@@ -66,7 +66,8 @@ pub fn straight_edge(text: &mut String, report: &Report) -> Result {
     Ok(())
 }
 
-/// Writes the limits of temperature, for the scene's temperature profile.
+/// Writes the peak temperature rises at which the operating speed becomes critical and the blade buckles, for
+/// the temperature profile of the scene.
 pub fn heat(text: &mut String, report: &Report) -> Result {
     let heat = report.membrane.as_ref().and_then(|m| m.heat.as_ref());
     let Some(heat) = heat else {
@@ -112,7 +113,8 @@ pub fn heat(text: &mut String, report: &Report) -> Result {
     }
 }
 
-/// Writes the changes of speeds with the numbers of the scene.
+/// Writes the relative changes of the first critical speed and of the flutter speed by a change of each number
+/// of the scene.
 pub fn sensitivity(text: &mut String, report: &Report) -> Result {
     if report.sensitivities.is_empty() {
         return Ok(());

@@ -8,7 +8,7 @@ use crate::report::{MapAxisEntry, MapReport, MappedSawEntry, StabilityState};
 use crate::stability::CRITICAL_MARGIN;
 use crate::text::{shown, shown_to};
 
-/// A speed of a saw.
+/// A function that returns a speed of a saw in rpm; `None` if the saw has no such speed in the sweep.
 type Speed = fn(&MappedSawEntry) -> Option<f64>;
 
 pub fn of_report(text: &mut String, report: &MapReport) -> std::fmt::Result {
@@ -26,6 +26,7 @@ pub fn of_report(text: &mut String, report: &MapReport) -> std::fmt::Result {
     remarks(text, report)
 }
 
+/// Key and name of a number, its range, and its value in the scene.
 fn range(axis: &MapAxisEntry) -> String {
     let ends = [axis.values.first(), axis.values.last()].map(|end| end.copied().unwrap_or(0.0));
     let [from, to] = ends.map(|value| shown_to(6, value));
@@ -132,6 +133,7 @@ fn speeds(text: &mut String, report: &MapReport) -> std::fmt::Result {
     }
 }
 
+/// Writes a table of at most [`ROWS`] evenly spaced saws, with the first and the last.
 fn table(text: &mut String, report: &MapReport) -> std::fmt::Result {
     let key = report.x.path.rsplit('.').next().unwrap_or(&report.x.path);
     writeln!(
@@ -139,7 +141,6 @@ fn table(text: &mut String, report: &MapReport) -> std::fmt::Result {
         "\n  {:<24} critical   flutter   bands   state",
         shortened(key, 24)
     )?;
-    // Evenly spaced rows, with the first and the last.
     let last = report.saws.len().saturating_sub(1);
     let rows = ROWS.min(report.saws.len());
     let shown_rows = (0..rows).map(|k| k * last / rows.saturating_sub(1).max(1));

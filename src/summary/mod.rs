@@ -1,6 +1,6 @@
 //! Summaries of reports, which the program prints and the live page and Python show.
 //!
-//! `summary()` of a report is plain text with 80 columns, with the verdict first.
+//! `summary()` of a report returns plain text of at most 80 columns, with the answer in the first lines.
 
 mod amplitudes;
 mod answer;
@@ -40,7 +40,7 @@ use textwrap::{Options, WordSeparator, WordSplitter};
 macro_rules! summaries {
     ($($report:ty: $module:ident,)*) => {$(
         impl $report {
-            /// The summary, 80 columns wide, with the answer first.
+            /// Returns the report as text of at most 80 columns, with the answer in the first lines.
             pub fn summary(&self) -> String {
                 let mut text = String::new();
                 // Writing to a string cannot fail.
@@ -67,18 +67,18 @@ summaries! {
     WashboardReport: washboard,
 }
 
-/// Largest number of lines of a table; the rest is only counted.
+/// Largest number of rows of a table; further rows are counted.
 const ROWS: usize = 12;
-/// Number of columns.
+/// Largest number of characters of a line.
 const WIDTH: usize = 80;
 
-/// Whether the scene has damping, so that every mode at rest has a damping ratio.
+/// Whether the modes at rest have damping ratios.
 pub fn is_damped(report: &Report) -> bool {
     let mut modes = report.modes_at_rest.iter();
     modes.any(|mode| mode.damping_ratio.is_some())
 }
 
-/// Number and name of a branch, as in the Campbell diagram.
+/// Number and name of a branch, "4: 2 forward", as in the Campbell diagram; the name alone without a number.
 pub fn numbered(branch: Option<usize>, name: &str) -> String {
     match branch {
         Some(number) => format!("{number}: {name}"),
@@ -101,7 +101,7 @@ fn unusual_numbers(text: &mut String, sentences: &[String]) -> std::fmt::Result 
     Ok(())
 }
 
-/// The line, shortened with an ellipsis if it is too long.
+/// The line, cut off with an ellipsis if it has more characters than `width`.
 pub fn shortened(line: &str, width: usize) -> String {
     if line.chars().count() <= width {
         return line.to_owned();
@@ -109,7 +109,7 @@ pub fn shortened(line: &str, width: usize) -> String {
     line.chars().take(width - 1).chain(['…']).collect()
 }
 
-/// Breaks a sentence into lines at spaces.
+/// Breaks a sentence at spaces into lines of at most 80 characters; all but the first are indented.
 pub fn wrapped(sentence: &str) -> String {
     let at_spaces = Options::new(WIDTH)
         .subsequent_indent("  ")

@@ -94,6 +94,7 @@ pub fn of_report(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
     )
 }
 
+/// Writes the goal with each number changed by its tolerance, and the worst case of the tolerances.
 fn neighbours(text: &mut String, report: &PlaceReport, goal: &str) -> std::fmt::Result {
     writeln!(
         text,
@@ -137,7 +138,7 @@ fn told_beside(report: &PlaceReport, fragile: &FragileOptimumEntry, goal: &str) 
     )
 }
 
-/// A placed number with its significant digits.
+/// A placed number with four significant digits.
 fn short(value: f64) -> String {
     shown_to(4, value)
 }

@@ -35,6 +35,7 @@ pub fn of_report(text: &mut String, report: &Report) -> std::fmt::Result {
     trust(text, report)
 }
 
+/// Writes name and size of the saw, and the range of speeds.
 fn header(text: &mut String, report: &Report) -> std::fmt::Result {
     let blade = &report.scene.blade;
     writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
@@ -49,6 +50,7 @@ fn header(text: &mut String, report: &Report) -> std::fmt::Result {
     )
 }
 
+/// The thickness in millimetres, or its smallest and largest value.
 fn thickness(blade: &BladeFile) -> String {
     let (least, largest) = blade.thickness_range_m();
     let [least, largest] = [least, largest].map(|thickness_m| 1e3 * thickness_m);
@@ -86,6 +88,7 @@ fn modes(text: &mut String, report: &Report) -> std::fmt::Result {
     }
 }
 
+/// Damping ratio in percent and logarithmic decrement; empty without damping.
 fn damping(mode: &RestMode) -> String {
     let Some(ratio) = mode.damping_ratio else {
         return String::new();

@@ -26,7 +26,7 @@ pub fn of_report(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
     Ok(())
 }
 
-/// How far the run-up remains within the model, and the largest deflection until then.
+/// Speed up to which the model is valid, and the largest deflection at the probe.
 fn verdict(report: &RunUpReport) -> String {
     let stretched = report.stretching.as_ref();
     let end = match (report.linear_until_rpm, stretched) {
@@ -68,6 +68,7 @@ fn first_doubling(report: &RunUpReport) -> String {
     }
 }
 
+/// Writes for each band the time spent in it, the exponent, and predicted and computed amplification.
 fn bands(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
     writeln!(
         text,
@@ -97,7 +98,8 @@ fn bands(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
     writeln!(text, "{}", wrapped(meaning))
 }
 
-/// With a larger amplification any motion, however small, exceeds the linear model.
+/// Amplifications above this factor are not distinguished: motions of practical size then exceed the linear
+/// model.
 const MOST_TIMES: f64 = 1e3;
 
 fn times(factor: f64) -> String {

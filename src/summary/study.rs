@@ -7,9 +7,9 @@ use crate::text::{shown, shown_to};
 
 use super::{WIDTH, shortened, unusual_numbers};
 
-/// Largest number of lines of a table; the rest is only counted.
+/// Largest number of rows of the table of a grid; further rows are counted.
 const ROWS: usize = 24;
-/// Number of quantiles in a line.
+/// Largest number of quantiles in a row; the report contains all.
 const COLUMNS: usize = 7;
 
 pub fn of_report(text: &mut String, report: &StudyReport) -> std::fmt::Result {
@@ -48,6 +48,7 @@ fn header(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     Ok(())
 }
 
+/// Writes the quantiles of the lowest critical speed and of the flutter speed.
 fn quantiles(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     let all = &report.all;
     let columns = all.lowest_critical.quantiles.iter().take(COLUMNS);
@@ -84,7 +85,7 @@ fn quantiles(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     Ok(())
 }
 
-/// Writes the quantiles of guides with a gap below those of the speeds.
+/// Writes the quantiles of deflection, pad force and critical speed of guides with a gap.
 fn numbers(text: &mut String, gap: &GapStatistics) -> std::fmt::Result {
     let mut row = |name: &str, factor: f64, entry: &NumberEntry| -> std::fmt::Result {
         write!(text, "\n  {name:<21}")?;
@@ -104,6 +105,7 @@ fn numbers(text: &mut String, gap: &GapStatistics) -> std::fmt::Result {
     Ok(())
 }
 
+/// Writes the probability that a saw keeps all limits, and the share that keeps each.
 fn limits(text: &mut String, passing: &Passing, saws: usize) -> std::fmt::Result {
     let Passing { passed, .. } = passing;
     writeln!(
@@ -127,7 +129,7 @@ fn limits(text: &mut String, passing: &Passing, saws: usize) -> std::fmt::Result
     Ok(())
 }
 
-/// Writes the highest operating speeds for shares of the saws.
+/// Writes the highest operating speeds at which given shares of the saws run without instability.
 fn reliability(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     let Some(reliability) = &report.reliability else {
         return Ok(());
@@ -148,7 +150,7 @@ fn reliability(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     )
 }
 
-/// Writes the saw with the lowest speed of each kind.
+/// Writes the saws with the lowest critical speed and with the lowest flutter speed.
 fn worst(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     let speeds = [
         ("first critical", &report.worst_lowest_critical),
@@ -209,7 +211,7 @@ fn groups(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     Ok(())
 }
 
-/// The accuracy of many saws: the largest estimated error, and the number of those whose Krein index is wrong.
+/// Writes the largest estimated error of the saws, and the number of saws whose Krein index does not match.
 pub(super) fn accuracy_of_saws(
     text: &mut String,
     largest_error: f64,

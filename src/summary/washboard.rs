@@ -47,6 +47,7 @@ fn verdict(report: &WashboardReport) -> String {
     }
 }
 
+/// Smallest cutting stiffness at which a motion grows, and its frequency.
 fn boundary(report: &WashboardReport) -> String {
     match (
         report.critical_stiffness_n_per_m,
@@ -101,6 +102,7 @@ fn row(mode: &WashboardModeEntry) -> String {
     .to_owned()
 }
 
+/// A length below a metre in millimetres, otherwise in metres.
 fn length(metres: f64) -> String {
     match metres < 1.0 {
         true => format!("{:.1} mm", 1e3 * metres),

@@ -5,7 +5,8 @@ use std::fmt::{Result, Write};
 use crate::report::{Report, StabilityState, WhirlMode};
 use crate::text::shown_to;
 
-/// Writes frequency, direction, name, growth, damping and Krein sign of the modes at one speed.
+/// Writes the verdict at one speed, and the frequencies, growth rates and names of its modes: with damping ratio
+/// and logarithmic decrement if the scene has damping, otherwise with Krein sign.
 pub fn whirl(text: &mut String, report: &Report) -> Result {
     let Some(whirl) = &report.whirl else {
         return Ok(());
@@ -38,6 +39,7 @@ pub fn whirl(text: &mut String, report: &Report) -> Result {
     Ok(())
 }
 
+/// Growth rate in 1/s, and damping ratio in percent with logarithmic decrement, or Krein sign.
 fn numbers(mode: &WhirlMode) -> String {
     let growth = shown_to(3, mode.growth_per_s);
     let Some(ratio) = mode.damping_ratio else {

@@ -1,20 +1,22 @@
-//! Error of reading a JSON text, and its position.
+//! Errors of reading JSON.
 
-/// Error of reading a JSON text.
+/// Error of reading a JSON text, for the user.
 #[derive(Debug)]
 pub(crate) struct KeyedError {
-    /// JSON path of the key, or the name of the whole.
+    /// JSON path of the key with the error, or the name of the whole text.
     pub key: String,
-    /// Description of the error, with remedy.
+    /// Description of the error, and remedy.
     pub message: String,
-    /// Whether a list of the known keys is helpful.
+    /// Whether a list of the known keys helps to correct the error: a key is missing or unknown, or the text
+    /// ends too early.
     pub of_keys: bool,
 }
 
-/// Message and position of the parser.
+/// Error of the parser.
 pub(super) struct Fault {
-    /// JSON path given by the parser; empty for the whole text.
+    /// JSON path of the value at which the parser stopped; empty for the whole text.
     pub path: String,
+    /// Message of the parser, with line and column.
     pub error: serde_json::Error,
 }
 

@@ -1,4 +1,4 @@
-//! Reads files as Unicode text, whatever program wrote them.
+//! Reads files in UTF-8, UTF-16 or, for tables, ISO 8859-1, and recognizes files that are not text.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ pub enum FileError {
         /// Path of the directory.
         path: PathBuf,
     },
-    /// The file is too large.
+    /// The file is larger than its kind allows.
     #[error(
         "{} is larger than {limit} bytes; it should be a page of text, so this is probably another file",
         path.display()
@@ -28,15 +28,15 @@ pub enum FileError {
     TooLarge {
         /// Path of the file.
         path: PathBuf,
-        /// Largest number of bytes.
+        /// Largest number of bytes that is allowed.
         limit: u64,
     },
-    /// The file does not contain text.
+    /// The file does not contain text, or contains text in an encoding that is refused.
     #[error("{} is {kind}", path.display())]
     NotText {
         /// Path of the file.
         path: PathBuf,
-        /// Kind of the file, and remedy.
+        /// Contents of the file, and remedy.
         kind: &'static str,
     },
 }
@@ -44,26 +44,26 @@ pub enum FileError {
 /// Handling of text that is neither UTF-8 nor UTF-16.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OtherEncodings {
-    /// It is refused, because JSON is Unicode.
+    /// The text is refused, as is right for JSON, which is Unicode.
     Refused,
-    /// It is read as ISO 8859-1, for tables: numbers and separators are ASCII in all encodings, so that at
-    /// most the name of a column is wrong.
+    /// The text is read as ISO 8859-1, for tables: numbers and separators are ASCII in all common encodings, so that
+    /// at most the name of a column is wrong.
     AsLatin1,
 }
 
 /// Expected properties of a file.
 #[derive(Debug, Clone, Copy)]
 pub struct Kind {
-    /// Largest number of bytes.
+    /// Largest number of bytes that is allowed.
     pub limit: u64,
-    /// Handling of other encodings.
+    /// Handling of text that is neither UTF-8 nor UTF-16.
     pub other_encodings: OtherEncodings,
 }
 
-/// The text of a file.
+/// Reads a file as text.
 ///
 /// # Errors
-/// [`FileError`] with the path.
+/// [`FileError`] if the file cannot be read, is a directory, is too large, or is not text.
 pub fn read_path(path: &Path, kind: Kind) -> Result<String, FileError> {
     let unreadable = |source| FileError::Read {
         path: path.to_owned(),
@@ -78,10 +78,10 @@ pub fn read_path(path: &Path, kind: Kind) -> Result<String, FileError> {
     read_stream(file, path, kind)
 }
 
-/// The text of a stream; errors name it `path`.
+/// Reads a stream as text; `path` is its name in errors.
 ///
 /// # Errors
-/// [`FileError`] with the name.
+/// [`FileError`] if the stream cannot be read, is too large, or is not text.
 pub fn read_stream(stream: impl Read, path: &Path, kind: Kind) -> Result<String, FileError> {
     let path = || path.to_owned();
     let limit = kind.limit;
@@ -103,7 +103,7 @@ pub fn read_stream(stream: impl Read, path: &Path, kind: Kind) -> Result<String,
     decode(&bytes, kind.other_encodings).map_err(|kind| FileError::NotText { path: path(), kind })
 }
 
-/// First bytes of files that are confused with tables or scenes.
+/// First bytes and descriptions of files that users give in the place of tables or scenes.
 const FOREIGN: [(&[u8], &str); 6] = [
     (
         b"PK\x03\x04",
@@ -129,7 +129,7 @@ const BINARY: &str = "not text, but binary; give a file of plain text";
 const UNKNOWN_ENCODING: &str = "not UTF-8 or UTF-16 text; save it as UTF-8";
 const LONE_SURROGATE: &str = "broken UTF-16 text; save it as UTF-8";
 
-/// Decodes UTF-8 or UTF-16 and removes the byte order mark, or returns the reason for failure.
+/// Decodes text and removes the byte order mark, or returns the description of a file that is not text.
 fn decode(bytes: &[u8], other_encodings: OtherEncodings) -> Result<String, &'static str> {
     if let Some((_, kind)) = FOREIGN.iter().find(|(magic, _)| bytes.starts_with(magic)) {
         return Err(kind);

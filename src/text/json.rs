@@ -1,4 +1,4 @@
-//! JSON with comments and other deviations that are unambiguous.
+//! Reads JSON with comments and with other deviations from the standard that are unambiguous.
 
 use serde::de::DeserializeOwned;
 
@@ -6,8 +6,11 @@ use super::fault::{Fault, KeyedError, offset};
 use super::problem;
 use super::token::{Part, tokens, without_comments};
 
-/// Reads JSON without trailing text; errors point at the key, or at the `whole` by its name. Comments, commas
-/// before a closing bracket, and quoted numbers where only a number is allowed are accepted.
+/// Reads JSON. Comments, commas before a closing bracket, and quoted numbers where only a number is allowed are
+/// accepted; text after the last bracket is refused. `whole` is the name of the text in errors without a key.
+///
+/// # Errors
+/// [`KeyedError`] if the text is not JSON, or not that of a `T`.
 pub(crate) fn from_keyed_json<T: DeserializeOwned>(
     text: &str,
     whole: &str,
@@ -37,7 +40,7 @@ fn strict<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
     Ok(value)
 }
 
-/// The path of the key, without parts that the parser marks as unknown.
+/// The path of a key without its last part if the parser marks that as unknown.
 fn known_path(path: &str) -> String {
     let path = path.trim_end_matches('?').trim_end_matches('.');
     path.trim_end_matches("[?]").to_owned()
@@ -62,8 +65,8 @@ fn unquoted(text: &str, error: &serde_json::Error) -> Option<String> {
         .into_iter()
         .filter(|token| token.part == Part::Quoted && token.text == found)
         .collect();
-    // The token is the one that the parser has just read, except for variants, which it reads as a whole
-    // first.
+    // The parser stops at the end of the token that it refuses, except in an enum with data, which it reads to its
+    // end first; there a single token with this text is taken.
     if let Some(place) = same.iter().position(|token| token.end() == end) {
         same = vec![same[place]];
     }

@@ -1,7 +1,5 @@
-//! Input and output of text: files of any editor or spreadsheet, JSON with comments, and text that is safe to
-//! show on a terminal.
-//!
-//! The bytes of a file become text, or an error that names line and column.
+//! Input and output of text: files of any editor or spreadsheet, JSON with comments, numbers in messages, and
+//! text that is safe to show on a terminal.
 
 mod fault;
 mod file;
@@ -33,12 +31,12 @@ pub fn printable(text: &str) -> String {
     shown
 }
 
-/// As [`printable`], on one line.
+/// Makes a text [`printable`], with its line breaks as `\n`, on one line.
 pub fn printable_line(text: &str) -> String {
     printable(text).replace('\n', "\\n")
 }
 
-/// As [`printable`], within an element or a quoted attribute of HTML and XML.
+/// Makes a text [`printable`] within an element or a quoted attribute of HTML and XML.
 pub(crate) fn escaped(text: &str) -> String {
     let text = printable(text).replace('&', "&amp;").replace('<', "&lt;");
     text.replace('>', "&gt;").replace('"', "&quot;")

@@ -1,17 +1,18 @@
-//! Format of numbers in all messages.
+//! Format of numbers in messages and summaries.
 
-/// Digits of a number in a message: sufficient for typed numbers, and few enough to hide rounding errors (0.1
-/// + 0.2 is 0.3).
+/// Number of significant digits in a message: sufficient for typed numbers, and few enough to hide rounding errors
+/// (0.1 + 0.2 is 0.3).
 const DIGITS: usize = 12;
-/// Range of numbers that are written without an exponent.
+/// Range of absolute values that are always written without an exponent.
 const PLAIN: std::ops::Range<f64> = 1e-4..1e6;
 
-/// A number in a message: 2750, 0.0028, 2.1e11.
+/// A number with at most 12 significant digits, for a message: 2750, 0.0028, 2.1e11.
 pub fn shown(value: f64) -> String {
     shown_to(DIGITS, value)
 }
 
-/// A number with the given number of digits, at least one.
+/// A number rounded to a number of significant digits, at least one, without trailing zeros. Very small and
+/// large numbers have an exponent if this is shorter.
 pub fn shown_to(digits: usize, value: f64) -> String {
     let rounded = format!("{value:.*e}", digits.saturating_sub(1));
     let rounded: f64 = rounded.parse().unwrap_or(value);
@@ -26,7 +27,7 @@ pub fn shown_to(digits: usize, value: f64) -> String {
     }
 }
 
-/// A number with the given number of decimals; a zero has no sign, because that is rounding.
+/// A number with the given number of decimals. A number that is rounded to zero has no sign.
 pub fn fixed(decimals: usize, value: f64) -> String {
     let text = format!("{value:.decimals$}");
     let is_zero = text.bytes().all(|byte| b"-0.".contains(&byte));

@@ -3,7 +3,7 @@
 use super::fault::{Fault, KeyedError, offset};
 use super::token::{Part, Token, tokens};
 
-/// Cause and remedy of an error of the parser.
+/// Finds the key and the cause of an error of the parser, and a remedy.
 pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
     let Fault { path, error } = fault;
     let said = error.to_string();
@@ -30,6 +30,7 @@ pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
     }
 }
 
+/// Message for a text that does not begin with a brace.
 fn no_object(text: &str) -> String {
     match text.trim_start().starts_with('[') {
         true => "it is a list in brackets [ ], but must be an object in braces { }".into(),
@@ -39,6 +40,7 @@ fn no_object(text: &str) -> String {
     }
 }
 
+/// Message for a text that ends before its last bracket or quotation mark.
 fn unfinished(text: &str) -> String {
     let mut open: Vec<Token> = Vec::new();
     for token in tokens(text) {
@@ -61,11 +63,12 @@ fn unfinished(text: &str) -> String {
     )
 }
 
+/// Number of the line, from one on, of a byte.
 fn line_of(text: &str, offset: usize) -> usize {
     1 + text[..offset].matches('\n').count()
 }
 
-/// The path of a key below another one.
+/// The path of a key in the object with a given path, which may already end with the key.
 fn below(path: &str, key: &str) -> String {
     match path {
         "" => key.to_owned(),
@@ -74,7 +77,7 @@ fn below(path: &str, key: &str) -> String {
     }
 }
 
-/// The text is JSON, but not what is expected.
+/// Path and message for a text that is JSON, but has another structure than expected.
 fn of_data(path: &str, said: &str, line: usize) -> (String, String) {
     let names: Vec<&str> = said.split('`').skip(1).step_by(2).collect();
     let (subject, known) = (names.first().copied().unwrap_or_default(), names.get(1..));
@@ -112,7 +115,7 @@ fn of_data(path: &str, said: &str, line: usize) -> (String, String) {
     (path.to_owned(), format!("{message} (line {line})"))
 }
 
-/// A value has the wrong type.
+/// Message for a value of the wrong type.
 fn of_type(found: &str, expected: &str) -> String {
     let (kind, value) = found.split_once(' ').unwrap_or((found, ""));
     let is = match kind {
@@ -145,7 +148,7 @@ fn of_type(found: &str, expected: &str) -> String {
     format!("must be {must}, but is {is}{remedy}")
 }
 
-/// Units in which people write numbers, with their conversion to the unit of a key.
+/// Units that users write at the end of a key, the unit of the true key, and the factor between them.
 const UNITS: [(&str, &str, &str); 13] = [
     ("mm", "m", "0.001"),
     ("cm", "m", "0.01"),
@@ -162,10 +165,10 @@ const UNITS: [(&str, &str, &str); 13] = [
     ("m_per_min", "m_per_s", "1/60"),
 ];
 
-/// Smallest similarity of a misspelt name.
+/// Smallest similarity, from 0 to 1, at which a known name is suggested for a misspelt one.
 const LIKENESS: f64 = 0.75;
 
-/// The known name that was probably meant, or all known names.
+/// Suggests the known name that was probably meant, or lists all known names.
 fn meant(subject: &str, known: &[&str]) -> String {
     for (unit, own, factor) in UNITS {
         let stem = subject
@@ -192,7 +195,8 @@ fn meant(subject: &str, known: &[&str]) -> String {
     }
 }
 
-/// The text is not JSON: reports the first common mistake up to where the parser stopped.
+/// Path and message of the first common mistake before the place at which the parser stopped, for a text that is
+/// not JSON.
 fn of_syntax(text: &str, path: &str, error: &serde_json::Error) -> Option<(String, String)> {
     let stopped = offset(text, error);
     let all = tokens(text);
@@ -231,7 +235,8 @@ fn of_syntax(text: &str, path: &str, error: &serde_json::Error) -> Option<(Strin
     of_parser(error).map(|message| (path.to_owned(), message))
 }
 
-/// `0,0028` where a key should follow the comma, or a number that begins with 0.
+/// A number with a decimal comma, like `0,0028`. In a list, where two whole numbers may follow each other, the part
+/// after the comma must begin with 0.
 fn decimal_comma(
     token: &Token,
     comma: Option<&Token>,
@@ -255,7 +260,7 @@ fn decimal_comma(
     found.then(|| format!("{},{}", token.text, after.text))
 }
 
-/// A word that is not a number, `true`, `false` or `null`.
+/// Message for a word that is not a number, `true`, `false` or `null`.
 fn of_word(token: &Token, begins_key: bool) -> Option<String> {
     let text = token.text;
     if token.part != Part::Word || serde_json::from_str::<serde_json::Value>(text).is_ok() {
@@ -295,7 +300,7 @@ fn of_word(token: &Token, begins_key: bool) -> Option<String> {
     })
 }
 
-/// Errors of the parser with a common cause.
+/// Message for an error of the parser that has a common cause.
 fn of_parser(error: &serde_json::Error) -> Option<String> {
     let (said, line) = (error.to_string(), error.line());
     let message = [

@@ -1,4 +1,4 @@
-//! Tokens of JSON, for removing comments and for finding the cause of a syntax error.
+//! Tokens of JSON, with which comments are removed and causes of syntax errors are found.
 
 /// Kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -7,7 +7,7 @@ pub enum Part {
     Mark,
     /// Text in double quotation marks.
     Quoted,
-    /// Anything else without white space: a number, `true`, or text without quotation marks.
+    /// Other text without white space: a number, `true`, or text without quotation marks.
     Word,
     /// `// …` or `/* … */`.
     Comment,
@@ -16,20 +16,22 @@ pub enum Part {
 /// A token and its position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Token<'a> {
+    /// Kind of the token.
     pub part: Part,
+    /// Characters of the token, with its quotation marks.
     pub text: &'a str,
-    /// Offset in bytes.
+    /// Offset of the first character in the whole text, in bytes.
     pub start: usize,
 }
 
 impl Token<'_> {
-    /// Offset of its end.
+    /// Offset after the last character in the whole text, in bytes.
     pub fn end(&self) -> usize {
         self.start + self.text.len()
     }
 }
 
-/// Every token of a text.
+/// Divides a text, which need not be JSON, into tokens.
 pub fn tokens(text: &str) -> Vec<Token<'_>> {
     let mut found = Vec::new();
     let mut start = 0;
@@ -57,7 +59,7 @@ pub fn tokens(text: &str) -> Vec<Token<'_>> {
     found
 }
 
-/// Length of a quoted text; without a closing mark it ends with the line.
+/// Length in bytes of the quoted text at the beginning; without a closing quotation mark it ends with the line.
 fn quoted(rest: &str) -> usize {
     let mut escaped = false;
     for (offset, character) in rest.char_indices().skip(1) {
@@ -70,6 +72,7 @@ fn quoted(rest: &str) -> usize {
     rest.len()
 }
 
+/// Length in bytes of the comment at the beginning; `None` if no comment begins there, or it is not closed.
 fn comment(rest: &str) -> Option<usize> {
     if rest.starts_with("//") {
         return Some(rest.find('\n').unwrap_or(rest.len()));
@@ -78,6 +81,7 @@ fn comment(rest: &str) -> Option<usize> {
     inside.find("*/").map(|length| length + 4)
 }
 
+/// Length in bytes of the word at the beginning.
 fn word(rest: &str) -> usize {
     let ends = |(offset, character): &(usize, char)| {
         let mark = matches!(character, '{' | '}' | '[' | ']' | ':' | ',' | '"');
@@ -87,8 +91,8 @@ fn word(rest: &str) -> usize {
     end.map_or(rest.len(), |(offset, _)| offset)
 }
 
-/// Replaces comments, and commas before a closing bracket, by spaces. All other characters keep their
-/// positions.
+/// Replaces comments, and commas before a closing bracket, by as many spaces as they have bytes. All other
+/// characters keep their positions.
 pub fn without_comments(text: &str) -> String {
     let all = tokens(text);
     let mut blanks: Vec<&Token> = all.iter().filter(|t| t.part == Part::Comment).collect();
@@ -124,7 +128,6 @@ mod tests {
         assert_eq!(without_comments(plain), plain);
     }
 
-    /// Any text is divided into tokens without a panic.
     #[test]
     fn broken_text_has_tokens_too() {
         for text in ["\"open", "/* open", "{,,}]", "ä/b//c", "\\\"\\", "/"] {

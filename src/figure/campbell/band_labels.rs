@@ -7,9 +7,10 @@ use super::super::style::{HAIRLINE, LABEL_SIZE, MARGIN, PAPER};
 use super::speeds::operating_place;
 use super::{Chart, WIDTH};
 
+/// Largest number of rows of labels.
 const ROWS: usize = 5;
 const ROW_HEIGHT: f64 = 16.0;
-/// Space between a band and its label, bridged by a short line.
+/// Space between a band and its label, in which a short line connects them.
 const FLAG_GAP: f64 = 8.0;
 
 /// A label and its position.
@@ -26,7 +27,8 @@ struct Placed {
 /// Positions of the labels of the bands.
 pub struct BandLabels {
     placed: Vec<Placed>,
-    /// Thin lines that must not cross the labels of other bands.
+    /// Left and right edge of narrow bands and of the line of the operating speed. Where a label crosses one of
+    /// them, it has a ground in the colour of the paper.
     thin: Vec<[f64; 2]>,
 }
 
@@ -51,7 +53,8 @@ impl BandLabels {
         labels
     }
 
-    /// The best free position: it crosses few thin lines, is high up, and is next to its band.
+    /// The best position without overlap with other labels: it crosses few thin lines, is in a high row, and is next
+    /// to its band. `None` if there is no such position.
     fn best_place(&self, chart: &Chart, band: &Band) -> Option<Placed> {
         let own = places(&chart.speed, [band.from, band.to])?;
         let free = |place: &Placed| {
@@ -77,12 +80,13 @@ impl BandLabels {
         self.placed.len()
     }
 
-    /// Height that the labels take at the top of the panel.
+    /// Height of the rows of labels at the top of the panel.
     pub fn height(&self) -> f64 {
         let rows = self.placed.iter().map(|place| place.row + 1).max();
         8.0 + rows.unwrap_or(0) as f64 * ROW_HEIGHT
     }
 
+    /// Draws the labels, with short lines to their bands.
     pub fn draw(&self, sheet: &mut Sheet) {
         for Placed {
             at,
@@ -120,7 +124,7 @@ fn crosses([left, right]: &[f64; 2], frame: &Frame) -> bool {
     *left < frame.right && frame.left < *right
 }
 
-/// Positions to the right of the band, to its left, or across it.
+/// Positions in a row of labels: to the right of the band, to its left, and across it.
 fn places_in_row(chart: &Chart, band: &Band, [left, right]: [f64; 2], row: usize) -> [Placed; 3] {
     let baseline = chart.lower.top + 13.0 + row as f64 * ROW_HEIGHT;
     let sides = [

@@ -1,4 +1,4 @@
-//! The lines at the foot on the accuracy of the figure.
+//! The lines below the figure on its accuracy.
 
 use super::super::axis::{raised, two_digits};
 use super::super::canvas::{Anchor, Lettering, Sheet};
@@ -6,7 +6,7 @@ use super::super::style::{ALARM, BETWEEN_FACTS, LABEL_SIZE, MARGIN, QUIET, Weigh
 use super::{CERTIFICATE_ABOVE_FOOT, FACTS_ABOVE_FOOT, HEIGHT, PLOT_LEFT, WIDTH};
 use crate::report::Report;
 
-/// Writes both lines.
+/// Writes the statement of the certificate, in red if a comparison fails, and a line on errors and size of the model.
 pub fn draw(sheet: &mut Sheet, report: &Report) {
     let write = |sheet: &mut Sheet, above_foot: f64, text: &str, colour| {
         let width = f64::from(WIDTH) - MARGIN - PLOT_LEFT;
@@ -46,7 +46,7 @@ fn facts(report: &Report) -> Vec<String> {
     facts
 }
 
-/// A number rounded up to one digit: "2·10⁻⁸".
+/// A positive number rounded up to one digit: "2·10⁻⁸"; `None` for other numbers.
 fn power_of_ten_above(value: f64) -> Option<String> {
     if !(value.is_finite() && value > 0.0) {
         return None;
@@ -64,6 +64,7 @@ fn power_of_ten_above(value: f64) -> Option<String> {
     })
 }
 
+/// A share in percent with two digits, at least 0.001 %.
 fn percent(share: f64) -> String {
     format!("{} %", two_digits((100.0 * share.abs()).max(0.001)))
 }

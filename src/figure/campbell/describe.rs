@@ -1,4 +1,4 @@
-//! The contents of the diagram, as numbers.
+//! The contents of the Campbell diagram, as numbers.
 
 use super::super::chart_data::{
     AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright, lines_by_look,
@@ -11,19 +11,18 @@ use super::{facts, growth};
 use crate::report::{BranchEntry, Direction, Report};
 use crate::text::shown_to;
 
-/// Name of the line along the axis.
+/// Name of the line along the axis of speeds between the ends of the window around the operating speed.
 pub const WINDOW: &str = "window without instability";
 const WINDOW_TINT: f64 = 0.35;
-/// Half of this width is visible where a painter clips at the axis.
+/// Width of this line; half of it is visible where curves are clipped at the axis.
 const WINDOW_WIDTH: f64 = 7.0;
 const CRITICAL_SIZE: f64 = 7.0;
 const CROSSING_SIZE: f64 = 5.0;
 const MEASURED_SIZE: f64 = 6.0;
-/// Size of a branch that exists at a single speed.
+/// Diameter of the dot of a branch that exists at a single speed.
 const DOT_SIZE: f64 = 4.0 * CURVE;
 
-/// Frequencies over speed, and growth rates below. Texts for each point are most of the data and are included
-/// only on request.
+/// Frequencies over speed, and growth rates below. Descriptions of the points are included only if `said`.
 pub fn describe(report: &Report, shown: &Shown, said: bool) -> ChartData {
     let speed = AxisData::speed().within(shown.rpm);
     let bands = report.instabilities.iter();
@@ -56,7 +55,7 @@ pub fn describe(report: &Report, shown: &Shown, said: bool) -> ChartData {
     }
 }
 
-/// Names of the excitation lines, for figures without room for labels.
+/// Names of the excitation lines as a statement below the title, because the live page has no room for labels.
 fn names_of_lines(report: &Report) -> Option<String> {
     let lines = report.excitation.as_ref()?.lines.iter();
     let names: Vec<&str> = lines.map(|line| line.name.as_str()).collect();
@@ -89,7 +88,7 @@ fn safe_window(report: &Report) -> Option<Item> {
     }))
 }
 
-/// A curve of a branch through some of its samples; `values` are its ordinates.
+/// A curve of a branch through the samples with given numbers; `values` are the ordinates of all its samples.
 pub fn line_through(
     branch: &BranchEntry,
     values: &[f64],
@@ -111,7 +110,7 @@ pub fn line_through(
     }
 }
 
-/// Description of a branch at one of its speeds.
+/// Description of a branch at one of its samples.
 fn say(branch: &BranchEntry, i: usize) -> String {
     let hz = branch.frequency_hz.get(i).copied().unwrap_or(f64::NAN);
     let growth = branch.growth_per_s.get(i).copied().unwrap_or(f64::NAN);
@@ -138,10 +137,10 @@ fn way(direction: Direction) -> &'static str {
     }
 }
 
-/// Solid for waves of positive energy, dashed for reflected waves, thick where unstable.
+/// Curves of the branches: solid for waves of Krein sign +1, dashed for reflected waves, thick where unstable.
 fn branches(report: &Report, said: bool) -> Vec<Item> {
     let mut items = Vec::new();
-    // Branches are drawn from the highest to the lowest, so that the lowest lie on top.
+    // The lowest branches are the most important, and are drawn last, on top of the others.
     for branch in report.campbell.branches.iter().rev() {
         if let ([rpm], [hz]) = (&branch.rpm[..], &branch.frequency_hz[..]) {
             let colour = Hue::of_direction(direction_at(branch, 0));
@@ -155,7 +154,7 @@ fn branches(report: &Report, said: bool) -> Vec<Item> {
             }));
         }
         let samples = branch.rpm.len().min(branch.frequency_hz.len());
-        // With guides the modes at rest are standing waves, whatever they are at other speeds.
+        // The direction is that at the end of a segment, because with guides all modes at rest are standing waves.
         let look = |i| {
             (
                 look_of_segment(report, branch, i),
@@ -192,7 +191,7 @@ fn excitation(report: &Report, shown: &Shown) -> Vec<Item> {
     let [first, last] = [report.campbell.from_rpm, report.campbell.to_rpm];
     let lines = excitation.lines.iter().filter_map(|line| {
         let per_rpm = f64::from(line.order) / 60.0;
-        // A line ends at the edge of the panel, where there is no room for its name.
+        // A line that ends at the upper edge of the panel has no label at its end, because there is no room.
         let end = last.min(shown.hz / per_rpm);
         let ends = [first, end];
         (first < end).then(|| {

@@ -5,9 +5,9 @@ use super::super::chart_data::Line;
 use super::super::style::{INK, LABEL_SIZE, PAPER};
 use super::Chart;
 
-/// Distance of the baseline of a label from the upper edge.
+/// Distance of the baseline of a label from the upper end of its line or the upper edge of the panel.
 const LABEL_DROP: f64 = 34.0;
-/// Distance of the end of a label from the right edge, if the line ends there.
+/// Distance of a label from its line.
 const LABEL_INSET: f64 = 8.0;
 
 /// Labels every line near its upper end.

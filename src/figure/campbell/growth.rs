@@ -14,7 +14,7 @@ use super::{Chart, NEGLIGIBLE_PER_S};
 use crate::report::{BranchEntry, InstabilityEntry, InstabilityKind, Report};
 use crate::text::shown_to;
 
-/// Width of growth curves.
+/// Width of curves of growing motions.
 const WIDE: f64 = 1.25 * CURVE;
 const PEAK_SIZE: f64 = 5.5;
 /// Factor by which the axis exceeds the largest growth rate, so that its dot is complete.
@@ -31,6 +31,7 @@ fn no_growth(report: &Report, [from, to]: [f64; 2]) -> &'static str {
     }
 }
 
+/// Largest growth rate at the speeds shown, in 1/s, at least zero.
 fn greatest_growth(report: &Report, [from, to]: [f64; 2]) -> f64 {
     let shown = |rpm: f64| from <= rpm && rpm <= to;
     let bands = report.instabilities.iter();
@@ -55,9 +56,9 @@ fn grows(report: &Report) -> bool {
     !report.instabilities.is_empty() || greatest_growth(report, sweep(report)) > NEGLIGIBLE_PER_S
 }
 
-/// Lower end of the axis. Without damping the decaying eigenvalues mirror the growing ones and would fill
-/// half of the panel with no information. With damping the least damped branches determine it; strongly
-/// damped ones may leave the panel.
+/// Largest decay rate on the axis, in 1/s. It is zero without damping, because the decaying eigenvalues are then
+/// mirror images of the growing ones and give no information. With damping the weakly damped branches determine
+/// it; strongly damped ones may leave the panel.
 fn greatest_decay(report: &Report) -> f64 {
     if !is_damped(report) {
         return 0.0;
@@ -73,6 +74,7 @@ fn greatest_decay(report: &Report) -> f64 {
     most.min(4.0 * greatest_growth(report, sweep(report)).max(least))
 }
 
+/// Whether the panel shows a curve: a motion grows, or damping makes one decay.
 pub fn is_worth_showing(report: &Report) -> bool {
     grows(report) || greatest_decay(report) > NEGLIGIBLE_PER_S
 }
@@ -82,7 +84,7 @@ pub fn hides_decay(report: &Report) -> bool {
     grows(report) && !is_damped(report)
 }
 
-/// Range and scale of the growth axis, if there is anything to show.
+/// Range in 1/s and scale of the axis; `None` if the panel shows no curve.
 fn range(report: &Report, shown: [f64; 2]) -> Option<([f64; 2], Spread)> {
     if !is_worth_showing(report) {
         return None;
@@ -98,15 +100,15 @@ fn range(report: &Report, shown: [f64; 2]) -> Option<([f64; 2], Spread)> {
     Some(([-decay, growth], spread(report, growth.max(decay))))
 }
 
-/// The growth axis below the labels of the bands, if there is anything to show.
+/// The axis of growth rates below the labels of the bands; `None` if the panel shows no curve.
 pub fn axis(chart: &Chart, labels_height: f64) -> Option<Axis> {
     let (range, spread) = range(chart.report, chart.speed.values())?;
     let places = [chart.lower.bottom, chart.lower.top + labels_height];
     Some(Axis::new(range, places, spread))
 }
 
-/// Divergence often grows thirty times as fast as flutter beside it, which would be invisible on a linear
-/// axis.
+/// Scale of the axis: by square roots if the largest growth of a band would be invisible on a linear axis.
+/// Divergence often grows thirty times as fast as flutter.
 fn spread(report: &Report, greatest: f64) -> Spread {
     const SEEN: f64 = 0.12;
     let unseen = |band: &InstabilityEntry| band.peak_growth_per_s < SEEN * greatest;
@@ -138,6 +140,7 @@ pub fn draw(sheet: &mut Sheet, chart: &Chart, axis: &Axis) {
     write_stable(sheet, chart, [chart.lower.left + 10.0, zero - 7.0]);
 }
 
+/// Writes the note of a panel without curves.
 pub fn say_stable(sheet: &mut Sheet, chart: &Chart) {
     let middle = (chart.lower.top + chart.lower.bottom) / 2.0;
     write_stable(
@@ -158,10 +161,10 @@ fn write_stable(sheet: &mut Sheet, chart: &Chart, at: [f64; 2]) {
     sheet.text(at, letters, text);
 }
 
-/// The curves of the panel; the caller adds the shading of bands and the lines at critical speeds. For an
-/// undamped saw these are only the growth rates within the bands, because nothing grows outside of them and
-/// decaying eigenvalues mirror the growing ones. For a damped saw they are those of all branches, and an
-/// estimated curve for each band without a sample near its largest growth.
+/// The panel with its curves; the caller adds the bands and the lines at critical speeds. The curves of an undamped
+/// saw are the growth rates within the bands, because no motion grows outside of them and decaying eigenvalues are
+/// mirror images of growing ones. A damped saw has curves for all branches, and an estimated curve for each band
+/// without a sample near its largest growth.
 pub fn describe(report: &Report, shown: [f64; 2], speed: AxisData, said: bool) -> PanelData {
     let mut items = Vec::new();
     let mut bands: Vec<&InstabilityEntry> = report.instabilities.iter().collect();
@@ -186,8 +189,8 @@ pub fn describe(report: &Report, shown: [f64; 2], speed: AxisData, said: bool) -
     }
 }
 
-/// The growing or the decaying parts of a branch. Parts that neither grow nor decay would only thicken the
-/// zero line.
+/// Curves of the growing or of the decaying parts of a branch. Parts that neither grow nor decay lie on the zero
+/// line and are omitted.
 fn lines(report: &Report, branch: &BranchEntry, growing: bool, said: bool) -> Vec<Item> {
     let growth = &branch.growth_per_s;
     let look = |i: usize| {
@@ -211,6 +214,7 @@ fn lines(report: &Report, branch: &BranchEntry, growing: bool, said: bool) -> Ve
     lines.collect()
 }
 
+/// Colour of the band that contains a sample of its branch; that of flutter if there is none.
 fn growth_hue(report: &Report, branch: &BranchEntry, sample: usize) -> Hue {
     let rpm = branch.rpm.get(sample).copied().unwrap_or(f64::NAN);
     let mut bands = report.instabilities.iter();
@@ -233,6 +237,7 @@ fn band_line(report: &Report, band: &InstabilityEntry, said: bool) -> Item {
     })
 }
 
+/// A dot at the largest growth of a band.
 fn peak(band: &InstabilityEntry, said: bool) -> Points {
     let name = kind(band);
     let waves = band
@@ -278,7 +283,7 @@ pub fn curve(report: &Report, band: &InstabilityEntry) -> Vec<[f64; 2]> {
     let growing = samples.iter().filter(inside).filter(|s| s[1] > 0.0);
     let peak = [band.peak_rpm, band.peak_growth_per_s];
     let squares = growing.chain([&peak]).map(|[rpm, g]| [*rpm, g * g]);
-    // Growth begins at zero where two waves coalesce or a wave stands still. Where two real λ meet, it
+    // Growth begins at zero where two waves coalesce or a wave stands still. Where two real eigenvalues coalesce, it
     // continues beyond the band.
     let next = [
         samples.iter().rfind(|s| s[0] <= ends[0]),
@@ -292,6 +297,7 @@ pub fn curve(report: &Report, band: &InstabilityEntry) -> Vec<[f64; 2]> {
     meeting.map_or(Vec::new(), |meeting| meeting.growth())
 }
 
+/// Whether a branch has a sample within a band with more than half of its largest growth.
 fn is_sampled(report: &Report, band: &InstabilityEntry) -> bool {
     report.campbell.branches.iter().any(|branch| {
         let mut samples = branch.rpm.iter().zip(&branch.growth_per_s);

@@ -1,4 +1,4 @@
-//! The lines at the foot that explain what has no label.
+//! The lines below the figure that explain colours and styles, and state which contents have no label.
 
 use super::super::canvas::{Anchor, Lettering, Sheet, Stroke};
 use super::super::chart_data::Line;
@@ -14,10 +14,10 @@ use super::view::left_out;
 use super::waves::{draw_measured_mark, measured_source};
 use super::{Chart, HEIGHT, LEGEND_ABOVE_FOOT, NOTES_ABOVE_FOOT, PLOT_LEFT, WIDTH, growth};
 
-/// Length of a sample line in the legend.
+/// Length of a line in the legend.
 const SAMPLE: f64 = 22.0;
 
-/// Writes both lines.
+/// Writes the legend of the colours and styles that the figure contains, and a line of notes.
 pub fn draw(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
     let ground = chart.upper_ground();
     let branches = chart.lines().filter(|line| line.branch.is_some());
@@ -50,7 +50,7 @@ pub fn draw(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
     draw_notes(sheet, chart, labels);
 }
 
-/// The stroke of a line without direction.
+/// The style of a line, in the colour of waves without direction.
 fn grey(line: &Line) -> Stroke {
     Stroke {
         colour: STANDING,

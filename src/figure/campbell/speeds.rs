@@ -1,4 +1,4 @@
-//! Marks at single speeds: bands, critical speeds, operating speed.
+//! Lines and labels of the critical speeds and of the operating speed.
 
 use super::super::bands::places;
 use super::super::canvas::{Anchor, Frame, Lettering, Mark, Sheet, Stroke, text_frame};
@@ -10,14 +10,16 @@ use super::super::style::{
 use super::{Chart, WIDTH, waves};
 use crate::report::CriticalSpeedEntry;
 
-/// Baselines of the critical speeds and of the names of their waves, and the upper end of their lines.
+/// Baseline of the critical speeds above the diagram.
 const CRITICAL_BASELINE: f64 = 83.0;
+/// Baseline of the names of their waves.
 const WAVES_BASELINE: f64 = 97.0;
+/// Upper end of their dashed lines.
 const CRITICAL_TOP: f64 = 101.0;
-/// Smallest width for the waves of a single speed.
+/// Smallest width of a label, which the name of the wave needs.
 const LEAST_WIDTH: f64 = 44.0;
 
-/// Critical speeds within the sweep, ascending.
+/// Critical speeds on the axis in rpm, ascending.
 fn critical_shown(chart: &Chart) -> Vec<f64> {
     let all = chart.uprights(Role::Critical).map(|upright| upright.x);
     let mut shown: Vec<f64> = all.filter(|rpm| chart.speed.shows(*rpm)).collect();
@@ -72,7 +74,8 @@ fn label_critical(sheet: &mut Sheet, chart: &Chart, speeds: &[f64]) {
     }
 }
 
-/// The waves that stand still at some critical speeds, in their order: "n = 2", "n = 3 · 2", "n = 2 … 13".
+/// Names of the waves that stand still at some critical speeds, in the order of the speeds: "n = 2", "n = 3 · 2",
+/// "n = 2 … 13".
 fn waves_at(chart: &Chart, speeds: &[f64]) -> String {
     let entries = || chart.report.critical_speeds.iter();
     let at = |rpm: &f64| entries().find(|entry| entry.rpm == *rpm);
@@ -86,7 +89,7 @@ fn waves_at(chart: &Chart, speeds: &[f64]) -> String {
     }
 }
 
-/// A wave: "2", "2/1" with a nodal circle, "4+3" if no wave dominates.
+/// Nodal diameters of a wave: "2", with nodal circles "2/1", or, if no wave dominates, "4+3".
 fn wave(entry: &CriticalSpeedEntry) -> String {
     let shares = entry.name.split(" + ");
     let first = |share: &str| share.split(' ').next().unwrap_or_default().to_owned();
@@ -97,14 +100,14 @@ fn wave(entry: &CriticalSpeedEntry) -> String {
     }
 }
 
-/// The operating speed and its position on the sheet, if it is shown.
+/// The operating speed and its position on the sheet, if it is on the axis.
 fn operating<'a>(chart: &'a Chart) -> Option<(&'a Upright, f64)> {
     let upright = chart.uprights(Role::Operating).next()?;
     let is_shown = chart.speed.shows(upright.x);
     is_shown.then(|| (upright, chart.speed.at(upright.x)))
 }
 
-/// Position of the operating speed on the sheet.
+/// Position of the operating speed on the sheet, if it is on the axis.
 pub fn operating_place(chart: &Chart) -> Option<f64> {
     operating(chart).map(|(_, x)| x)
 }
@@ -118,7 +121,8 @@ pub fn draw_operating(sheet: &mut Sheet, chart: &Chart) {
     }
 }
 
-/// Writes the operating speed at the upper end of its line, or beside the line at the highest free position.
+/// Writes the operating speed above its line, or beside the line at the highest position that is free of other text
+/// and of curves.
 pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
     let Some((Upright { label, .. }, x)) = operating(chart) else {
         return;
@@ -149,7 +153,7 @@ pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
     sheet.text(at, letters, label);
 }
 
-/// Whether the frame already contains text.
+/// Whether the frame overlaps a text of the sheet.
 fn hides_text(sheet: &Sheet, frame: &Frame) -> bool {
     sheet.marks().iter().any(|mark| match mark {
         Mark::Text(at, letters, text) => text_frame(*at, letters, text).overlaps(frame),
@@ -159,7 +163,7 @@ fn hides_text(sheet: &Sheet, frame: &Frame) -> bool {
 
 /// Whether the frame overlaps a band or the dashed line of a critical speed.
 fn is_on_upright(chart: &Chart, frame: &Frame) -> bool {
-    // Lines of critical speeds begin above the panel, bands at its upper edge.
+    // Bands begin at the upper edge of the panel, lines of critical speeds above it.
     let within = frame.bottom > chart.upper.top;
     let bands = chart.bands().filter(|_| within);
     let bands = bands.filter_map(|band| places(&chart.speed, [band.from, band.to]));

@@ -5,26 +5,28 @@ use super::super::bands::is_shaded;
 use super::waves;
 use crate::report::{InstabilityEntry, Report};
 
-/// The part of the Campbell diagram that its figure shows. An end that is `None` is chosen automatically: the
-/// whole sweep, or, with very many bands, as much as can be read.
+/// The part of a Campbell diagram that its figure shows. With the default values the figure shows the whole sweep, or,
+/// if it has more than 40 bands, the speeds up to the 41st, the operating speed and the flutter speed.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct CampbellView {
-    /// First rotation speed.
+    /// First rotation speed; `None` for the start of the sweep.
     pub from_rpm: Option<f64>,
-    /// Last rotation speed.
+    /// Last rotation speed; `None` if it is chosen automatically.
     pub to_rpm: Option<f64>,
-    /// Highest frequency.
+    /// Highest frequency; `None` if the contents determine it.
     pub to_hz: Option<f64>,
 }
 
-/// Largest number of bands that can be distinguished: a few have labels, all have visible growth curves.
+/// Largest number of bands whose growth curves can be distinguished; only some of them have labels.
 const MOST_BANDS: usize = 40;
-/// Factor by which the axis exceeds the last important speed.
+/// Factor by which the axis exceeds the operating speed and the flutter speed.
 const BEYOND: f64 = 1.1;
 
-/// First and last rotation speed, and highest frequency.
+/// Ranges of the axes.
 pub struct Shown {
+    /// First and last rotation speed.
     pub rpm: [f64; 2],
+    /// Highest frequency.
     pub hz: f64,
 }
 
@@ -35,7 +37,6 @@ impl CampbellView {
         let to = self
             .to_rpm
             .map_or_else(|| last_readable(report, from), |rpm| rpm.min(sweep[1]));
-        // An axis cannot be empty.
         let [from, to] = proper_range([from, to]);
         let hz = self.to_hz;
         let hz = hz.unwrap_or_else(|| waves::highest_shown_hz(report, [from, to]));
@@ -47,8 +48,8 @@ impl CampbellView {
     }
 }
 
-/// The end of the sweep, or, with too many bands, the onset of the first one that exceeds their largest
-/// number; but at least the operating speed and the flutter speed.
+/// The end of the sweep in rpm; with more than [`MOST_BANDS`] bands the onset of the next one, but at least
+/// [`BEYOND`] times the operating speed and the flutter speed.
 fn last_readable(report: &Report, from_rpm: f64) -> f64 {
     let end = report.campbell.to_rpm;
     let later = report.instabilities.iter().filter(|b| b.to_rpm >= from_rpm);
@@ -62,7 +63,7 @@ fn last_readable(report: &Report, from_rpm: f64) -> f64 {
     marks.fold(*onset, f64::max).min(end)
 }
 
-/// Sentence on what the figure omits, if only `labelled` bands have labels.
+/// Notes on contents that the figure omits between two speeds in rpm; `labelled` is the number of bands with labels.
 pub fn left_out(report: &Report, [from, to]: [f64; 2], labelled: usize) -> Vec<String> {
     let mut notes = Vec::new();
     let [first, last] = [report.campbell.from_rpm, report.campbell.to_rpm];
@@ -81,7 +82,7 @@ pub fn left_out(report: &Report, [from, to]: [f64; 2], labelled: usize) -> Vec<S
         1 => format!("1 wide band that grows by less than {threshold} 1/s: not shaded"),
         _ => format!("{weak} wide bands that grow by less than {threshold} 1/s: not shaded"),
     };
-    // A band without shade has no label.
+    // Bands without shade, which have no labels, are counted in the note before.
     let others = shown.saturating_sub(labelled + weak);
     let of_others = match others {
         0 => String::new(),

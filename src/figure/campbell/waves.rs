@@ -1,4 +1,4 @@
-//! The upper panel: branches with their labels, and measured points.
+//! The branches of the upper panel with their labels, and measured points.
 
 use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::super::clip::clip;
@@ -15,12 +15,13 @@ use crate::scene::MeasuredRow;
 const LABEL_GAP: f64 = 16.0;
 const LONGEST_LABEL: f64 = 150.0;
 const LINE_HEIGHT: f64 = 15.0;
-/// A label further from its branch would seem to belong to another, even with a leader.
+/// Largest distance of a label from the end of its branch: further away it would seem to belong to another branch,
+/// even with a leader.
 const FARTHEST_LABEL: f64 = 72.0;
-/// Largest distance of a label above the panel, which has no leader, from its branch.
+/// Largest distance of a label above the panel, which has no leader, from the end of its branch.
 const FARTHEST_EXIT_LABEL: f64 = 36.0;
 
-/// Direction of a branch at one of its speeds.
+/// Direction of a branch at one of its samples; standing if the report does not contain it.
 pub fn direction_at(branch: &BranchEntry, sample: usize) -> Direction {
     let direction = branch.direction.get(sample);
     direction.copied().unwrap_or(Direction::Standing)
@@ -36,7 +37,7 @@ fn short_label(branch: &BranchEntry) -> String {
     shorten(&branch.label, LABEL_SIZE, Weight::Regular, LONGEST_LABEL)
 }
 
-/// Width to the right of the plot.
+/// Width of the labels to the right of the panel, with the gap before them.
 pub fn end_label_room(report: &Report) -> f64 {
     let widths = report
         .campbell
@@ -46,8 +47,8 @@ pub fn end_label_room(report: &Report) -> f64 {
     LABEL_GAP + widths.fold(40.0, f64::max)
 }
 
-/// Upper end of the frequency axis over a range of speeds: it includes the lowest branches at its beginning,
-/// reflected waves, bands and measured points, and no more, because important events happen at low
+/// Upper end of the frequency axis, in Hz, over a range of speeds in rpm. The axis includes the six lowest branches at
+/// the first speed, reflected waves, bands and measured points, and no more, because the important events have low
 /// frequencies.
 pub fn highest_shown_hz(report: &Report, [from, to]: [f64; 2]) -> f64 {
     const HEADROOM: f64 = 1.1;
@@ -58,7 +59,7 @@ pub fn highest_shown_hz(report: &Report, [from, to]: [f64; 2]) -> f64 {
         .iter()
         .filter_map(|branch| {
             let at = branch.rpm.iter().rposition(|rpm| *rpm <= from)?;
-            // A branch that ends earlier does not begin here.
+            // A branch that ends before this speed does not count.
             let goes_on = branch.rpm[at] == from || at + 1 < branch.rpm.len();
             branch.frequency_hz.get(at).copied().filter(|_| goes_on)
         })
@@ -81,7 +82,7 @@ pub fn highest_shown_hz(report: &Report, [from, to]: [f64; 2]) -> f64 {
     let wanted = HEADROOM * greatest(lowest.chain(reflected).chain(bands).chain(measured));
 
     let complete = report.campbell.complete_to_hz;
-    // Curves end slightly below the frequency up to which the diagram is complete.
+    // Branches may end slightly below the frequency up to which the diagram is complete.
     let bound = if complete > 0.0 {
         0.985 * complete
     } else {
@@ -95,14 +96,18 @@ fn greatest(values: impl Iterator<Item = f64>) -> f64 {
     values.filter(|v| v.is_finite()).fold(0.0, f64::max)
 }
 
-/// Part of a branch.
+/// Kind of a segment of a branch, which determines its style.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stretch {
+    /// The wave neither grows nor is reflected.
     Plain,
+    /// The wave is reflected and does not grow.
     Reflected,
+    /// The motion grows.
     Unstable,
 }
 
+/// Kind of the segment between the sample `i` of a branch and the next.
 pub fn look_of_segment(report: &Report, branch: &BranchEntry, i: usize) -> Stretch {
     let at_an_end = |holds: &dyn Fn(usize) -> bool| holds(i) || holds(i + 1);
     let grows = |i: usize| {
@@ -112,8 +117,8 @@ pub fn look_of_segment(report: &Report, branch: &BranchEntry, i: usize) -> Stret
             .is_some_and(|&g| g > NEGLIGIBLE_PER_S)
     };
     let reflected = |i: usize| branch.krein_sign.get(i) == Some(&-1);
-    // A segment that leads to a band has one end at the edge of the band. Even if the branch grows there, the
-    // middle of the segment is outside the band.
+    // A segment before or after a band has one end at the edge of the band, where the branch may grow; its middle is
+    // outside the band.
     let middle = (branch.rpm[i] + branch.rpm[i + 1]) / 2.0;
     let mut bands = report.instabilities.iter();
     let in_band = bands.any(|band| band.from_rpm <= middle && middle <= band.to_rpm);
@@ -173,6 +178,7 @@ pub fn label_branches(sheet: &mut Sheet, chart: &Chart) {
     label_exits(sheet, chart, &above);
 }
 
+/// Labels, to the right of the panel, of branches that end there at given heights.
 fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[(&BranchEntry, f64)]) {
     let wish = |&(_, centre): &(_, f64)| Wish {
         centre,
@@ -197,7 +203,7 @@ fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[(&BranchEntry, f64)]) {
     }
 }
 
-/// Labels, above the upper edge, of branches that cross it.
+/// Labels, above the panel, of branches that leave it through its upper edge at given abscissae.
 fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchEntry, f64)]) {
     let wish = |&(branch, centre): &(&BranchEntry, f64)| {
         let length = text_width(&short_label(branch), LABEL_SIZE, Weight::Regular) + 8.0;
@@ -219,10 +225,12 @@ fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchEntry, f64)]) 
     }
 }
 
+/// Draws the ring of a measured frequency.
 pub fn draw_measured_mark(sheet: &mut Sheet, at: [f64; 2]) {
     sheet.ring(at, 3.0, Stroke::solid(INK, 1.2), PAPER);
 }
 
+/// Positions on the sheet of the measured frequencies on both axes.
 fn measured_places(chart: &Chart) -> Vec<[f64; 2]> {
     let rows = chart.report.scene.measured.iter().flat_map(|m| &m.rows);
     let points = rows.flat_map(|row| row.seen_hz().map(|hz| (row.rpm, hz)));

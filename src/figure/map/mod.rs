@@ -15,7 +15,7 @@ const PANEL: Frame = Frame {
     right: 1064.0,
     bottom: 650.0,
 };
-/// Baselines of the keys.
+/// Baselines of the two lines of the key.
 const KEYS: [f64; 2] = [734.0, 758.0];
 /// Colour of saws that were not analysed.
 const BLANK: Colour = plotters::style::RGBColor(214, 216, 220);

@@ -14,7 +14,7 @@ use crate::figure::style::{
 use crate::report::{ContourEntry, ContouredEntry, MapAxisEntry, MapReport, MappedSawEntry};
 use crate::stability::{CRITICAL_MARGIN, StabilityState};
 
-/// Colour of stable saws at a critical speed.
+/// Colour of stable saws within 5 % of a critical speed.
 const AT_CRITICAL: Colour = plotters::style::RGBColor(196, 216, 232);
 /// Colour of stable saws, lighter than those of instability in grey prints too.
 const STABLE: Colour = plotters::style::RGBColor(228, 240, 228);
@@ -63,7 +63,7 @@ fn stroke(quantity: ContouredEntry) -> Stroke {
     }
 }
 
-/// Draws contours, and the speed beside the middle of each where there is room for it.
+/// Draws contours, and writes on each its speed in rpm, as close to its middle as there is room.
 fn draw_contours(sheet: &mut Sheet, contours: &[ContourEntry], x: &Along, y: &Along) {
     let lines: Vec<(Vec<[f64; 2]>, &ContourEntry)> = contours
         .iter()
@@ -89,7 +89,7 @@ fn draw_contours(sheet: &mut Sheet, contours: &[ContourEntry], x: &Along, y: &Al
             }
         };
         let long = places.len() >= 3;
-        // Places of the label are tried from the middle of the line to its ends.
+        // Points are tried from the middle of the line to its ends.
         let middle = places.len() / 2;
         let tried = (0..middle).flat_map(|off| [middle + off, middle - off]);
         let free = tried

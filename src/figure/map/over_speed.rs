@@ -21,24 +21,28 @@ const JUMP: f64 = 0.08;
 const WIDEST_WEAK: f64 = 0.03;
 const THINNEST: f64 = 1.5;
 
-/// A speed of a saw.
+/// A function that returns a speed of a saw in rpm; `None` if the saw has no such speed in the sweep.
 type Speed = fn(&MappedSawEntry) -> Option<f64>;
 
-/// An area of a column: kind, and range of speed.
+/// A band of a saw, or a part of one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Area {
     look: Look,
     rpm: [f64; 2],
 }
 
+/// Kind of an area.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Look {
     Divergence,
+    /// Flutter whose growth reaches the threshold.
     Flutter,
+    /// Instability below the threshold.
     Weak,
 }
 
 impl Look {
+    /// Kinds in drawing order.
     const ALL: [Look; 3] = [Look::Weak, Look::Flutter, Look::Divergence];
 
     fn colour(self) -> Colour {
@@ -75,6 +79,7 @@ pub fn sheet(report: &MapReport) -> Sheet {
     sheet
 }
 
+/// The areas of a saw in a sweep up to `to_rpm`.
 fn areas(saw: &MappedSawEntry, to_rpm: f64) -> Vec<Area> {
     let mut areas = Vec::new();
     for band in &saw.instabilities {
@@ -93,12 +98,14 @@ fn areas(saw: &MappedSawEntry, to_rpm: f64) -> Vec<Area> {
     areas
 }
 
-/// Pairs of areas of two neighbouring saws that are the same area: in the same order, with the smallest distances. `scale` is
-/// the ratio by which speeds are expected to change from the left saw to the right one.
+/// Pairs of areas of two neighbouring saws that are joined. Their order is kept, and the sum of the distances of their
+/// middle speeds is as small as possible. `scale` is the ratio of the speeds of the right saw to those of the left one,
+/// and `farthest` the largest distance of a pair in rpm.
 fn pairs(left: &[Area], right: &[Area], scale: f64, farthest: f64) -> Vec<(usize, usize)> {
     let middle = |area: &Area| 0.5 * (area.rpm[0] + area.rpm[1]);
     let (rows, columns) = (left.len() + 1, right.len() + 1);
-    // Smallest sum of distances of the first areas, where an area without a partner costs half of the largest distance.
+    // Smallest sums of distances for the first `i` and `j` areas; an area without a partner counts as half of the largest
+    // distance.
     let mut cost = vec![vec![0.0; columns]; rows];
     let distance = |i: usize, j: usize| (scale * middle(&left[i]) - middle(&right[j])).abs();
     let alone = 0.5 * farthest;
@@ -166,7 +173,7 @@ fn draw_areas(sheet: &mut Sheet, report: &MapReport, x: &Along, speed: &Axis) {
     }
 }
 
-/// Draws an area between two abscissae, from its range of speed at one to that at the other.
+/// Draws an area between two abscissae, from its range of speeds at the left one to that at the right one.
 fn draw_area(sheet: &mut Sheet, speed: &Axis, ([left, right], areas): ([f64; 2], [Area; 2])) {
     let colour = areas[0].look.colour();
     let [a, b] = areas.map(|area| area.rpm.map(|rpm| speed.at(rpm)));
@@ -224,7 +231,7 @@ fn draw_blank(sheet: &mut Sheet, report: &MapReport, x: &Along) {
     }
 }
 
-/// Marks the scene's own number and the speed at which the saws are judged.
+/// Draws lines at the number of the scene and at the speed at which the saws are judged.
 fn draw_marks(sheet: &mut Sheet, report: &MapReport, x: &Along, speed: &Axis) {
     let dashed = Stroke::dashed(INK, HAIRLINE, FINE_DASH);
     if x.shows(report.x.of_scene) {

@@ -1,4 +1,4 @@
-//! One deflected blade: tiles between levels of the deflection, nodal lines, edges and guides.
+//! A deflected blade: areas between levels of the deflection, nodal lines, edges and guides.
 
 use std::f64::consts::TAU;
 
@@ -7,20 +7,20 @@ use crate::figure::style::{BACKWARD, Colour, FORWARD, HAIRLINE, INK, PAPER, QUIE
 use crate::report::{EventShapeEntry, Report};
 use crate::scene::GuideFile;
 
-/// Outer radius on the sheet.
+/// Outer radius of the blade on the sheet.
 pub const RADIUS: f64 = 108.0;
 pub const NODAL_WIDTH: f64 = 1.3;
 pub const GUIDE_WIDTH: f64 = 2.2;
-/// Number of angles of the tiles.
+/// Number of tiles around the blade.
 pub const ANGLES: usize = 72;
-/// One in this number of radii of a report is a corner of tiles.
+/// Tiles have corners at every fourth radius of a report.
 const STRIDE: usize = 4;
-/// Number of levels on either side of zero.
+/// Number of levels of the deflection on either side of zero.
 const LEVELS: i32 = 6;
-/// A guide smaller than this on the sheet is drawn as a point.
+/// A guide with both sides shorter than this on the sheet is drawn as a ring.
 const SMALL: f64 = 5.0;
 
-/// A corner of a tile and the deflection there.
+/// A corner of a tile on the sheet, and the deflection there relative to its largest absolute value.
 type Corner = ([f64; 2], f64);
 
 pub fn draw(sheet: &mut Sheet, centre: [f64; 2], report: &Report, shape: &EventShapeEntry) {
@@ -69,11 +69,11 @@ pub fn draw(sheet: &mut Sheet, centre: [f64; 2], report: &Report, shape: &EventS
     }
 }
 
-/// Share of the deflection of the next ring below which that of the innermost one is rounding.
+/// A smaller deflection of the innermost ring, relative to that of the next, is zero but for rounding errors.
 const CLAMPED: f64 = 1e-3;
 
-/// A clamped bore does not deflect, so that nodal lines would end there where rounding changes its sign. They
-/// go on at the angles at which they cross the next ring.
+/// Continues nodal lines to the bore. A clamped bore does not deflect, and the signs of rounding errors would
+/// give false nodal lines there; it gets the signs of the next ring.
 fn continue_to_clamp(rings: &mut [Vec<Corner>]) {
     let [bore, next, ..] = rings else { return };
     for (corner, beside) in bore.iter_mut().zip(next) {
@@ -83,7 +83,7 @@ fn continue_to_clamp(rings: &mut [Vec<Corner>]) {
     }
 }
 
-/// Colour of a deflection.
+/// Colour of a deflection between −1, away from the viewer, and 1.
 pub fn colour(deflection: f64) -> Colour {
     let hue = if deflection < 0.0 { FORWARD } else { BACKWARD };
     tint(hue, 0.06 + 0.84 * deflection.abs().min(1.0))
@@ -118,7 +118,7 @@ fn draw_tile(sheet: &mut Sheet, tile: &[Corner; 4]) {
     }
 }
 
-/// The part of a polygon on one side of a level; the deflection is linear along its sides.
+/// The part of a polygon above a level, or below it if `side` is −1; the deflection is linear along its sides.
 fn clipped(polygon: &[Corner], level: f64, side: f64) -> Vec<Corner> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     let next = polygon.iter().cycle().skip(1);
@@ -134,6 +134,7 @@ fn clipped(polygon: &[Corner], level: f64, side: f64) -> Vec<Corner> {
     kept
 }
 
+/// The point at a share of the way from `a` to `b`.
 fn between(a: [f64; 2], b: [f64; 2], share: f64) -> [f64; 2] {
     [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])]
 }
@@ -148,7 +149,7 @@ fn crossings(tile: &[Corner; 4]) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Draws the outline of a pad, or a point.
+/// Draws the outline of a pad, or a ring for a small one.
 fn draw_guide(sheet: &mut Sheet, guide: &GuideFile, scale: f64, centre: [f64; 2]) {
     let at = |[x, y]: [f64; 2]| [centre[0] + scale * x, centre[1] - scale * y];
     let stroke = Stroke::solid(INK, GUIDE_WIDTH);
@@ -159,6 +160,6 @@ fn draw_guide(sheet: &mut Sheet, guide: &GuideFile, scale: f64, centre: [f64; 2]
         return;
     }
     let outline: Vec<_> = guide.outline_m().into_iter().map(at).collect();
-    // The first side is drawn twice, so that the last corner is joined like the others.
+    // The first side is drawn twice, because only corners inside a line are joined.
     sheet.line(outline.iter().chain(&outline[..2]).copied(), stroke);
 }
