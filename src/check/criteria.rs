@@ -40,7 +40,7 @@ impl Limits {
         criteria
     }
 
-    /// The ratio of the operating speed to the lowest critical speed.
+    /// Criterion of the ratio of the operating speed to the lowest critical speed.
     fn of_margin(&self, lowest_critical: Option<f64>) -> Criterion {
         let (operating, margin) = (self.operating_rad_per_s, self.margin);
         let asked = operating / margin;
@@ -68,7 +68,7 @@ impl Limits {
         }
     }
 
-    /// Stability at the operating speed.
+    /// Criterion of stability at the operating speed.
     fn of_operation(&self, found: &Evidence<'_>) -> Criterion {
         let operating = self.operating_rad_per_s;
         let verdict = found.verdict(operating);
@@ -94,7 +94,7 @@ impl Limits {
         }
     }
 
-    /// The speed at which the rim reaches its limit.
+    /// Criterion of the rim speed, with the rotation speed at which the rim reaches its limit.
     pub(super) fn of_rim(&self, rim_radius_m: f64) -> Criterion {
         let found = self.max_rim_m_per_s / rim_radius_m;
         let operating = self.operating_rad_per_s;
@@ -114,7 +114,8 @@ impl Limits {
 const AT_AN_EDGE: f64 = std::f64::consts::SQRT_2;
 
 impl Limits {
-    /// The first flutter band whose amplitude exceeds its limit.
+    /// Criterion of the amplitude of flutter, with the first band whose amplitude exceeds the limit; `None` without a
+    /// limit.
     pub(super) fn of_amplitude(
         &self,
         analysis: &Analysis,
@@ -160,12 +161,12 @@ impl Limits {
     }
 }
 
-/// A speed as typed, without the rounding error of conversion to rad/s and back.
+/// A speed in rpm with six digits, so that the rounding error of conversion to rad/s and back is not visible.
 fn typed_rpm(rad_per_s: f64) -> String {
     shown_to(6, rpm(rad_per_s))
 }
 
-/// A speed that is not reached within the sweep exceeds every limit.
+/// Criterion of a lower limit of a speed. A speed that is not reached within the sweep exceeds every limit.
 fn at_least(
     key: &'static str,
     name: &str,
@@ -201,7 +202,7 @@ fn apart(first: f64, second: f64) -> (String, String) {
 /// Differences beyond the third decimal are rounding.
 const MOST_DECIMALS: usize = 4;
 
-/// A criterion that no speed keeps, because nothing holds the blade against a side force.
+/// A criterion that is not kept at any speed, because nothing restrains a rigid motion of the blade.
 pub(super) fn without_stiffness(operating: f64) -> Criterion {
     Criterion {
         key: "held",
@@ -213,8 +214,9 @@ pub(super) fn without_stiffness(operating: f64) -> Criterion {
     }
 }
 
-/// For every guide with a gap, the speed at which the lateral forces of the cut close it. Beyond the lowest
-/// critical speed a blade has no static deflection to compare.
+/// For every guide with a gap, the criterion that the lateral forces of the cut do not close it up to the operating
+/// speed. The static deflection exists only below the lowest critical speed. Without lateral forces, or if nothing
+/// restrains the blade, there is no criterion.
 pub(super) fn of_gaps(
     scene: &Scene,
     plate: &Plate,

@@ -79,9 +79,9 @@ pub const RIM_LIMIT_M_PER_S: f64 = 100.0;
 
 /// Factor by which the sweep exceeds the speeds of the limits.
 const BEYOND: f64 = 1.02;
-/// At a larger amplitude the slopes of any saw would exceed the validity of the model.
+/// Largest limit of the amplitude: at a larger amplitude the slopes of any saw exceed the range of the model.
 const MAX_AMPLITUDE_MM: f64 = 1e3;
-/// This exceeds the speed of sound in steel.
+/// Largest limit of the rim speed; it exceeds the speed of sound in steel.
 const MAX_RIM_M_PER_S: f64 = 1e4;
 
 impl Limits {
@@ -122,7 +122,7 @@ impl Limits {
         Err(RefusedValue::new(key, given, allowed, remedy))
     }
 
-    /// The 85 % rule and the usual rim speed at an operating speed, without other limits.
+    /// The 85 % rule and the usual limit of the rim speed for an operating speed, without other limits.
     pub fn at(operating_rad_per_s: f64) -> Self {
         Limits {
             operating_rad_per_s,

@@ -38,7 +38,7 @@ use static_deflection::StaticDeflection;
 /// Reason for which a check failed to run.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckError {
-    /// No sweep extends as far as the limits require.
+    /// The scene refuses the sweep that the limits require.
     #[error("the limits were refused: {0}")]
     Scene(#[from] SceneError),
     /// An eigenproblem failed.
@@ -61,9 +61,10 @@ pub struct Criterion {
     pub name: String,
     /// Result, as text.
     pub finding: String,
-    /// Value found, in rad/s; `None` if it exceeds the sweep.
+    /// Speed that was found, in rad/s: the critical or flutter speed itself, or the speed from which on another limit is
+    /// exceeded; `None` if it exceeds the sweep.
     pub found: Option<f64>,
-    /// Value required, in rad/s.
+    /// Speed with which the found one is compared, in rad/s.
     pub asked: f64,
     /// Whether the limit is kept.
     pub passed: bool,
@@ -72,10 +73,10 @@ pub struct Criterion {
 /// Result of comparing a saw with limits.
 #[derive(Debug)]
 pub struct Check {
-    /// Limits of speeds, which studies use as well.
+    /// Limits of speeds, which studies evaluate as well, and their results.
     pub criteria: Vec<Criterion>,
-    /// Limits of the rim speed, the amplitude of flutter and the gaps of guides, and, for a blade that
-    /// nothing holds, its missing stiffness.
+    /// Limits of the rim speed, the amplitude of flutter and the gaps of guides with their results, and a failed
+    /// criterion if a rigid motion of the blade is free.
     pub of_rim_and_gaps: Vec<Criterion>,
     /// Speeds in rad/s up to the lowest critical one, and the lateral stiffness in N/m of the rim at the
     /// middle of the cut; empty if rigid motions are free.
@@ -85,7 +86,7 @@ pub struct Check {
     /// Lateral stiffness of this point at the operating speed; `None` from the first critical speed on, because
     /// K(Ω) is not positive definite there and the ratio of force to deflection may have any value and sign.
     pub rim_stiffness_n_per_m: Option<f64>,
-    /// Amplitude to which the flutter of each band rises; empty if it has no limit.
+    /// Amplitude to which the flutter of each band rises; empty if the amplitude has no limit.
     pub saturations: Vec<Option<Saturation>>,
     /// Unusual numbers of the scene and of the limits.
     pub unusual_numbers: Vec<String>,
@@ -103,8 +104,8 @@ const POINT_LOAD_BASIS: Resolution = Resolution {
 };
 
 impl Check {
-    /// Analyses a saw from rest to the end of its sweep, or further if the limits require it, and compares.
-    /// The results equal those of an [`Analysis`] of the scene.
+    /// Analyses a saw from rest to the end of its sweep, or further if the limits require it, and compares the
+    /// results with the limits. They equal those of an [`Analysis`] of the scene.
     ///
     /// # Errors
     /// [`CheckError`] when the saw cannot be analysed that far.
@@ -199,7 +200,7 @@ impl std::fmt::Display for Criterion {
     }
 }
 
-/// Lateral stiffness of a point of the rim at the middle of the cut, at rest; `None` if nothing holds the blade.
+/// Lateral stiffness of a point of the rim at the middle of the cut, at rest, in N/m; `None` if rigid motions are free.
 pub(crate) fn rim_stiffness_at_rest_n_per_m(scene: &Scene) -> Option<f64> {
     let angle = scene.cut_angle_rad();
     let plate = Plate::new(scene, POINT_LOAD_BASIS);

@@ -12,22 +12,22 @@ use crate::stability::{Look, bracketed};
 use crate::system::GyroscopicSystem;
 use crate::transient::at_point;
 
-/// Squared speeds, relative to that of the lowest critical speed, at which the response is solved on the full
-/// model. In between it is a rational function of the squared speed, which the projection on these responses
-/// represents.
+/// Squared speeds, relative to the squared lowest critical speed, at which the response is solved on the full
+/// model. The response is a rational function of the squared speed, which the reduced model on these responses
+/// interpolates.
 const SOLVED_AT: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 0.9, 0.97];
 /// Number of evenly spaced speeds of the curve.
 const SPEEDS: usize = 41;
 /// End of the curve relative to the lowest critical speed, at which the deflection is unbounded.
 const LAST_SHARE: f64 = 0.99;
-/// Directions of the responses that are shorter than this share of the longest are rounding.
+/// Directions of the responses that are shorter than this share of the longest are rounding errors.
 const LEAST: f64 = 1e-12;
 /// Relative error of the speed at which a gap closes.
 const SPEED_TOLERANCE: f64 = 1e-12;
 
 /// Static response of the blade to forces fixed in space.
 pub struct StaticDeflection {
-    /// System projected on the responses.
+    /// Reduced model on the responses.
     system: GyroscopicSystem,
     basis: Mat<f64>,
     /// Load of one newton on the rim at the middle of the cut.
@@ -107,7 +107,7 @@ impl StaticDeflection {
         Some(reading.transpose() * self.answer(load, speed_rad_per_s))
     }
 
-    /// Lowest speed, in rad/s, at which this deflection equals a gap; `None` if it remains smaller.
+    /// Lowest speed, in rad/s, at which the deflection at a point equals a gap; `None` if it remains smaller.
     pub fn fills_gap_at(&self, point: &Col<f64>, gap_m: f64) -> Option<f64> {
         let look = |speed: f64| Look {
             at: speed,

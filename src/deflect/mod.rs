@@ -44,7 +44,7 @@ pub enum DeflectError {
     /// The force or the speed is out of range.
     #[error(transparent)]
     Refused(#[from] RefusedValue),
-    /// No sweep extends as far as requested.
+    /// The scene refuses the requested range of speeds.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// The saw could not be analysed.
@@ -62,19 +62,19 @@ const MODES: usize = 24;
 const MOST_MODES: usize = 54;
 /// Relative change of the deflection, with half as many modes more, that is small enough.
 const CLOSE: f64 = 1e-2;
-/// Number of equilibria of a sweep that are computed with more modes.
+/// Number of equilibria of a sweep that are computed with more modes, or from their mirror images.
 const COMPARED: usize = 9;
 
 /// A blade that stretches, and its equilibria over speed.
 #[derive(Debug)]
 pub struct Deflecting {
-    /// The saw.
+    /// The scene, as given.
     pub scene: Scene,
     /// The side force.
     pub force: SideForce,
     /// The linear analysis over the same speeds.
     pub analysis: Analysis,
-    /// Number of shapes.
+    /// Number of shapes of the reduced basis.
     pub shapes: usize,
     /// Largest relative change of the deflection with half as many modes more; `None` if the blade remains
     /// flat.
@@ -91,7 +91,7 @@ impl Deflecting {
     /// Follows the equilibria over the scene's sweep, or up to the requested speed.
     ///
     /// # Errors
-    /// [`DeflectError`].
+    /// [`DeflectError`] if an option is refused, the saw cannot be analysed, or no equilibrium is found.
     pub fn new(scene: &Scene, options: &Options) -> Result<Self, DeflectError> {
         let force = options.side_force(scene)?;
         let idling = scene.idling()?;
@@ -140,8 +140,8 @@ impl Deflecting {
 /// Number of parts: the sweep up, the sweep down, the other curves, and their evaluation.
 const PARTS: usize = 4;
 
-/// A blade with so many shapes that more of them hardly change the deflection, with its sweep for rising
-/// speed, and that change.
+/// A blade with so many shapes that half as many modes more hardly change the deflection, its sweep for rising speed,
+/// and the relative change with more modes; `None` for the change if the blade remains flat.
 fn resolved(
     force: &SideForce,
     plate: &Plate,
@@ -162,7 +162,8 @@ fn resolved(
     }
 }
 
-/// The largest change with more shapes, over equilibria distributed over a sweep.
+/// Largest relative change of the deflection with more shapes, over equilibria distributed over a sweep; `None` if all
+/// are flat.
 fn change(
     blade: &StretchedBlade,
     finer: &StretchedBlade,
@@ -187,8 +188,9 @@ fn change(
     Ok(largest)
 }
 
-/// The curves that the blade follows from one jump to the next, through their folds; those through its mirror
-/// images; and those that branch from the flat blade at its critical speeds, on both sides.
+/// The curves that the blade follows from one jump to the next, continued through their folds; the curves through
+/// mirror images of its equilibria; and the curves that branch from the flat blade at its critical speeds, on both
+/// sides.
 fn curves(
     blade: &StretchedBlade,
     range: (f64, f64),
@@ -204,8 +206,8 @@ fn curves(
         add_curve(blade, &mut curves, (&start, &[true, false]), range)?;
     }
     if blade.lifts_off() {
-        // The matrices of the blade contain only the films of pads that lift off, so that their pitchforks are
-        // not those of the blade in contact with these pads.
+        // The matrices of the blade contain only the films of pads that lift off, so that the pitchforks of the
+        // matrices are not those of the blade in contact with these pads.
         return Ok(curves);
     }
     let unforced = blade.clone().unforced();
@@ -227,7 +229,7 @@ fn curves(
     Ok(curves)
 }
 
-/// Equilibria that the blade reaches from mirror images of those of the sweeps, at some speeds. A side force
+/// Equilibria that the blade reaches from mirror images of the equilibria of the sweeps, at some speeds. A side force
 /// splits each pitchfork, and the curve on its other side begins at a fold beyond the critical speed, to
 /// which no sweep leads.
 fn mirrored(
@@ -250,8 +252,8 @@ fn mirrored(
     Ok(found)
 }
 
-/// Distance above a critical speed, as a share of the range of speeds, at which the branching curve is
-/// searched for.
+/// Distance above a critical speed, as a share of the range of speeds, at which the search for the branching curve
+/// begins.
 const ABOVE: f64 = 2e-3;
 /// Largest number of curves; far beyond its critical speeds a blade has hundreds of unstable ones.
 const MOST_CURVES: usize = 24;

@@ -18,23 +18,24 @@ pub struct Options {
 /// A constant lateral force at the rim, fixed in space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SideForce {
-    /// Magnitude, with the sign of the deflection.
+    /// Force in the direction of positive deflections.
     pub force_n: f64,
     /// Angle, positive in the direction of rotation.
     pub angle_rad: f64,
 }
 
-/// Default for a scene without a run-up.
+/// Side force for a scene without a run-up.
 const USUAL_FORCE_N: f64 = 1.0;
-/// A larger force would deflect any saw beyond the validity of the model.
+/// Largest side force: a larger one deflects any saw beyond the range of the model.
 const MAX_FORCE_N: f64 = 1e6;
+/// Largest angle of the force, ten turns.
 const MAX_ANGLE_DEG: f64 = 3600.0;
 
 impl Options {
     /// Checks the options.
     ///
     /// # Errors
-    /// [`RefusedValue`].
+    /// [`RefusedValue`] that names the option.
     pub fn checked(&self, scene: &Scene) -> Result<(), RefusedValue> {
         self.side_force(scene).map(|_| ())
     }
@@ -67,7 +68,8 @@ impl Options {
 }
 
 impl SideForce {
-    /// A blade under this force, for equilibria up to a speed.
+    /// A blade under this force, on a reduced basis of `modes` modes at rest and the shapes needed for equilibria up to
+    /// a speed.
     pub(super) fn on(
         &self,
         plate: &Plate,

@@ -17,13 +17,14 @@ pub struct Reading {
     pub deflection_m: f64,
     /// Largest magnitude of the deflection over the blade.
     pub largest_m: f64,
-    /// Largest slope.
+    /// Largest slope of the blade.
     pub largest_slope: f64,
-    /// Force of each pad that lifts off on the blade beyond its gap, in the order of the scene's guides.
+    /// Force of each pad that lifts off on the blade beyond its gap, without that of its film, in the order of the
+    /// scene's guides.
     pub pad_forces_n: Vec<f64>,
     /// Number of negative eigenvalues of ∂²V/∂q²; zero if the equilibrium is stable.
     pub negative_eigenvalues: usize,
-    /// Eigenvalues of small motions about it, with Im λ ≥ 0, by magnitude; empty for curves.
+    /// Eigenvalues of small motions about the equilibrium, with Im λ ≥ 0, by magnitude; empty for curves.
     pub eigenvalues_per_s: Vec<c64>,
 }
 
@@ -47,8 +48,8 @@ pub struct SlowSweep {
     pub arcs: Vec<Vec<Reading>>,
     /// Jumps at the ends of all arcs but the last.
     pub jumps: Vec<Jump>,
-    /// Ω from which on slopes exceed 0.1, where von Kármán's strains are not valid; equilibria beyond are
-    /// omitted.
+    /// Speed Ω from which on slopes exceed 0.1, where von Kármán's strains are not valid; equilibria beyond it are
+    /// omitted. `None` if no slope exceeds 0.1.
     pub valid_until_rad_per_s: Option<f64>,
 }
 
@@ -68,6 +69,7 @@ pub struct Curve {
     pub turns: Vec<(TurnKind, f64, f64)>,
 }
 
+/// Evaluates equilibria of a blade.
 pub(super) struct Reader<'a> {
     blade: &'a StretchedBlade,
     sites: Sites,

@@ -6,11 +6,11 @@ use crate::spectrum::Work;
 use crate::stability::{Analysis, Instability, InstabilityKind};
 use crate::stretched::{FlutterRise, Saturation, StretchedError};
 
-/// Amplitude to which the flutter of each band rises at its largest growth; `None` for divergence, and if the
-/// blade without damping does not flutter.
+/// Amplitude to which the flutter of each band rises at the speed of its largest growth; `None` for divergence, and if
+/// the blade without damping does not flutter there.
 ///
 /// # Errors
-/// [`StretchedError`].
+/// [`StretchedError`] if the amplitude of a band cannot be computed.
 pub fn saturations(analysis: &Analysis) -> Result<Vec<Option<Saturation>>, StretchedError> {
     let bands = &analysis.chart.instabilities;
     let flutters = |band: &&Instability| band.kind == InstabilityKind::Flutter;

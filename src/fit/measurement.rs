@@ -19,22 +19,22 @@ pub struct Measurement {
 pub struct Row {
     /// Rotation speed.
     pub rpm: f64,
-    /// (k, frequency in Hz): corresponds to the k-th lowest computed frequency, k from 0.
+    /// Pairs (k, measured frequency in Hz), each compared with the k-th lowest computed frequency, k from 0.
     pub pairs: Vec<(usize, f64)>,
 }
 
-/// A table with more rows or frequencies was not measured by a person.
+/// Largest numbers of rows and of frequencies in a row; larger tables are not measured by a person.
 const MAX_ROWS: usize = 1000;
 const MAX_COLUMNS: usize = 24;
-/// Smallest range of speeds; frequencies measured at rest need a range too.
+/// End of the range of speeds for frequencies measured at rest only, because the choice of a basis needs a range.
 const LEAST_RPM: f64 = 100.0;
 /// Largest frequency in Hz, as in scenes.
 const MAX_HZ: f64 = 1e9;
 
 impl Row {
-    /// Assigns the columns that hold a number to the computed frequencies of these columns. The numbers of a
-    /// row are sorted first, because a spectrum does not show which waves have crossed. A blank third column
-    /// means that the third lowest frequency was not measured.
+    /// Pairs the numbers of a row, in ascending order, with the columns that contain a number: the number of the k-th
+    /// column is compared with the k-th lowest computed frequency. Numbers are sorted because a spectrum does not
+    /// show which waves have crossed. A blank third column means that the third lowest frequency was not measured.
     pub fn new(rpm: f64, columns: &[Option<f64>]) -> Self {
         let places = columns.iter().enumerate().filter(|(_, hz)| hz.is_some());
         let mut numbers: Vec<f64> = columns.iter().copied().flatten().collect();
@@ -121,7 +121,7 @@ impl Measurement {
         }
     }
 
-    /// Number of lowest computed frequencies that the rows need.
+    /// Largest number of lowest computed frequencies with which a row is compared.
     pub fn depth(&self) -> usize {
         self.rows.iter().map(Row::depth).max().unwrap_or(0)
     }

@@ -3,8 +3,8 @@
 //! The sum of squares is minimized within bounds by the trust-region reflective method from several starts,
 //! which are spread over the bounds. The search uses a coarse basis; the best results are refined on the
 //! basis that the scene's tolerance requires. Frequencies are |Im λ|/2π in space, and zero for a wave that
-//! diverges. The numbers of a row, sorted, correspond to the lowest computed ones, as in the calibration of
-//! the paper's saw with its Table 5.
+//! diverges. The measured frequencies of a row, sorted, are compared with the lowest computed ones, as in the
+//! calibration of the paper's saw with its Table 5.
 //!
 //! ```
 //! use sawflutter::fit::{Fit, Measurement, Options};
@@ -56,7 +56,7 @@ pub struct Options {
     pub starts: usize,
     /// Seed of the other starts.
     pub seed: u64,
-    /// Rows beyond this speed are not fitted.
+    /// Speed in rpm up to which rows are fitted.
     pub to_rpm: f64,
     /// A basis to use instead of the one that the tolerance of the scene requires.
     pub resolution: Option<Resolution>,
@@ -74,7 +74,7 @@ impl Default for Options {
     }
 }
 
-/// Largest number of starts; more never found another minimum.
+/// Largest number of starts, far more than are needed to find the lowest minimum.
 const MAX_STARTS: usize = 1000;
 
 impl Options {
@@ -128,7 +128,7 @@ pub struct Fit {
     pub before: Scene,
     /// The measurement.
     pub measurement: Measurement,
-    /// Rows beyond this speed were not fitted.
+    /// Speed in rpm up to which rows were fitted.
     pub to_rpm: f64,
     /// Probability that an interval contains the true value.
     pub confidence: f64,
@@ -143,7 +143,7 @@ pub struct Fit {
     pub degrees_of_freedom: usize,
     /// Root mean square of computed minus measured frequencies.
     pub rms_hz: f64,
-    /// This value before the fit.
+    /// Root mean square of computed minus measured frequencies before the fit.
     pub rms_before_hz: f64,
     /// Basis of the fit.
     pub resolution: Resolution,
@@ -157,9 +157,9 @@ pub struct Fit {
 
 /// Shares at which the effect of a number is examined.
 const LOOKED_AT: [f64; 3] = [0.1, 0.37, 0.83];
-/// Smaller changes of frequencies, in Hz, are no effect.
+/// A number whose changes move every measured frequency by less than this, in Hz, has no effect.
 const IDLE_HZ: f64 = 1e-5;
-/// This tolerance suffices to compare starts and to find numbers without effect.
+/// Tolerance that suffices to compare starts and to find numbers without effect.
 const COARSE_TOLERANCE: f64 = 1e-2;
 
 impl Fit {
@@ -288,6 +288,7 @@ fn parameters(
     numbers.collect()
 }
 
+/// Root mean square of residuals.
 fn rms(residuals: &[f64]) -> f64 {
     (residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len() as f64).sqrt()
 }

@@ -20,8 +20,8 @@ pub struct Model<'a> {
     pub resolution: Resolution,
 }
 
-/// Step of the differences as a share of the bounds: the truncation error is of fourth order, the rounding
-/// error of the matrices 1e-16/1e-3.
+/// Step of the differences as a share of the bounds. The truncation error is of fourth order in this step, and the
+/// rounding error of the matrices is 1e-16/1e-3.
 const STEP: f64 = 1e-3;
 
 impl Model<'_> {
@@ -45,8 +45,8 @@ impl Model<'_> {
         self.residuals_of(&lowest, |_, _| ())
     }
 
-    /// As [`Model::residuals_hz`], with the derivative by every share, which is exact for the eigenvalues,
-    /// see [`matrix_slopes`].
+    /// Computes the residuals as [`Model::residuals_hz`] does, and their derivatives by every share. The derivative of
+    /// an eigenvalue by the matrices is exact; [`matrix_slopes`] gives that of the matrices.
     pub fn residuals_and_slopes(
         &self,
         shares: &[f64],

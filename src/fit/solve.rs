@@ -11,7 +11,7 @@ use crate::spectrum::SpectrumError;
 
 use super::model::Model;
 
-/// Result of a start.
+/// Shares at a minimum, and the root mean square of the residuals there.
 #[derive(Debug, Clone)]
 pub struct Found {
     pub shares: Vec<f64>,
@@ -57,14 +57,15 @@ impl Jacobian for Problem<'_> {
     }
 }
 
-/// The search ends at steps smaller than this share of the distance between the bounds, and when the sum of
-/// squares falls by less than this share.
+/// Step, as a share of the distance between the bounds, below which the search ends.
 const STEP_TOLERANCE: f64 = 1e-8;
+/// Relative decrease of the sum of squares below which the search ends.
 const COST_TOLERANCE: f64 = 1e-12;
+/// Largest number of steps.
 const MAX_STEPS: u64 = 100;
 
-/// The minimum reached from a start (trust-region reflective method, as in SciPy). `None` if the start itself
-/// is refused.
+/// The minimum reached from a start (trust-region reflective method, as in SciPy). `None` if the start is not a valid
+/// saw, or the search fails.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -97,7 +98,7 @@ pub fn minimum(model: &Model<'_>, start: &[f64]) -> Result<Option<Found>, Spectr
     }))
 }
 
-/// Accuracy of the fitted numbers, from the Jacobian at the minimum.
+/// Confidence intervals and correlations of the fitted numbers.
 #[derive(Debug)]
 pub struct Spread {
     /// Half width of the interval of each share; `None` at a bound, and if the data do not distinguish the
@@ -120,8 +121,9 @@ pub fn at_bound(share: f64) -> bool {
     !(AT_BOUND..=1.0 - AT_BOUND).contains(&share)
 }
 
-/// Linear theory at the minimum: s² (JᵀJ)⁻¹ with s² = ‖r‖²/(m − p), and Student's distribution of m − p
-/// degrees of freedom (Seber and Wild, *Nonlinear Regression*, 1989, §5.1). Shares at a bound count as known.
+/// Intervals and correlations by linear theory at the minimum: the covariance s² (JᵀJ)⁻¹ with s² = ‖r‖²/(m − p), and
+/// Student's distribution of m − p degrees of freedom (Seber and Wild, *Nonlinear Regression*, 1989, §5.1). Shares
+/// at a bound count as known.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.

@@ -19,14 +19,17 @@ pub struct Start {
     pub from: Vec<f64>,
     /// Final values; null for a start that is not a valid saw.
     pub to: Option<Vec<f64>>,
-    /// Root mean square of the residuals at the final values.
+    /// Root mean square of the residuals at the final values; null without them.
     pub rms_hz: Option<f64>,
 }
 
 /// Largest number of starts with different results that are refined.
 const REFINED: usize = 3;
 
-/// Minimizes from every start; returns the best few of different results, best first.
+/// Minimizes from every start. Returns all starts, and the best few of different results, best first.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
 pub fn search(
     model: &Model<'_>,
     options: &Options,
@@ -72,7 +75,10 @@ pub fn search(
     Ok((starts, distinct))
 }
 
-/// The best result of refining candidates on a finer basis.
+/// The best result of minimizing from candidates on a finer basis; `None` if none of them is a valid saw.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
 pub fn refined(model: &Model<'_>, candidates: &[Found]) -> Result<Option<Found>, SpectrumError> {
     let refined: Vec<Option<Found>> = candidates
         .par_iter()

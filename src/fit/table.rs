@@ -70,8 +70,8 @@ fn is_comment(line: &str) -> bool {
 }
 
 impl Separator {
-    /// The separator that occurs least often outside quotation marks has precedence: beside a semicolon or a
-    /// tab a comma may be decimal, but not the other way round.
+    /// The first of semicolon, tab and comma that occurs outside quotation marks; blanks if none does. In a table with
+    /// semicolons or tabs a comma may be decimal, but not the other way round.
     fn of(text: &str) -> Self {
         let mut quoted = false;
         let mut seen = [false; 3];
@@ -121,7 +121,7 @@ impl Separator {
                 }
             }
         }
-        // Some spreadsheets write the separator into the first line.
+        // Some spreadsheets write a first line such as "sep=;".
         let blank = |record: &Record| record.cells.is_empty();
         let hint = |record: &Record| record.cells[0].starts_with("sep=");
         records.retain(|record| !blank(record) && !hint(record));
@@ -129,12 +129,12 @@ impl Separator {
     }
 }
 
-/// Whether a text is meant as a number, with either decimal mark.
+/// The value of a number with a decimal point or a decimal comma; `None` for other text.
 fn number(cell: &str) -> Option<f64> {
     cell.replace(',', ".").parse().ok()
 }
 
-/// Column of the speed, and order of the frequencies.
+/// Number of names, column of the speed, and columns of the frequencies in their order.
 struct Header {
     names: usize,
     speed: usize,
@@ -220,7 +220,7 @@ impl Header {
     }
 }
 
-/// Whether a name means the speed, in languages of saw manufacturers.
+/// Whether the name of a column means the speed, in the languages of saw manufacturers.
 fn is_speed(name: &str) -> bool {
     let small = name.to_lowercase();
     let words = [
@@ -230,7 +230,7 @@ fn is_speed(name: &str) -> bool {
     words.iter().any(|word| small.contains(word)) || small == "n" || name.contains('Ω')
 }
 
-/// Whether a name in small letters means a frequency: `f1`, `mode 2`, `frequency`, `(0,2)`, `3`.
+/// Whether the name of a column, in small letters, means a frequency: `f1`, `mode 2`, `frequency`, `(0,2)`, `3`.
 fn is_frequency(small: &str) -> bool {
     let words = [
         "hz", "freq", "fréq", "mode", "peak", "wave", "eigen", "diameter",

@@ -3,9 +3,9 @@
 /// A line of equal speed over the two numbers of a map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contour {
-    /// The speed.
+    /// Speed along the line.
     pub rpm: f64,
-    /// Points of the line, as places in the grid: column and row, with shares of the way to the next.
+    /// Points of the line in the grid: column and row, counted from 0, with fractions between two of them.
     pub places: Vec<[f64; 2]>,
 }
 
@@ -105,7 +105,7 @@ fn cell(corners: [f64; 4], [x, y]: [f64; 2], level: f64, segments: &mut Vec<Segm
     }
 }
 
-/// Lines of segments that share their ends.
+/// Joins segments that share their ends to lines.
 fn joined(mut segments: Vec<Segment>) -> Vec<Vec<[f64; 2]>> {
     let mut lines = Vec::new();
     while let Some([from, to]) = segments.pop() {

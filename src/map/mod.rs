@@ -54,11 +54,11 @@ pub struct Range {
 pub struct Options {
     /// The number along the horizontal axis.
     pub x: Range,
-    /// The number along the vertical axis; the speed without it.
+    /// The number along the vertical axis; without it, the vertical axis is the speed.
     pub y: Option<Range>,
-    /// Points along each axis of a number.
+    /// Number of points along each axis of a number; 41 over one number and 17 over two by default.
     pub points: Option<usize>,
-    /// Speed at which the areas of a map over two numbers apply; the operating speed by default.
+    /// Speed at which the saws are judged; the operating speed by default.
     pub rpm: Option<f64>,
     /// Last speed; the end of the scene's sweep by default.
     pub to_rpm: Option<f64>,
@@ -93,7 +93,7 @@ pub struct Along {
     pub path: String,
     /// Values, ascending; on a logarithmic scale if the last is at least ten times the first.
     pub values: Vec<f64>,
-    /// Value of the scene.
+    /// Value in the scene.
     pub of_scene: f64,
 }
 
@@ -234,12 +234,13 @@ impl Along {
     }
 }
 
-/// The number with the digits of a message, so that 0.66 is not 0.6599999999999999.
+/// Rounds a number to the digits of a message, so that 0.66 is not 0.6599999999999999.
 fn rounded(value: f64) -> f64 {
     shown(value).parse().unwrap_or(value)
 }
 
-/// Whether a saw with these bands is stable at a speed within its sweep, as [`Evidence::verdict`] does it for an analysis.
+/// Whether a saw with these bands is stable at a speed within its sweep, decided as [`Evidence::verdict`] does for an
+/// analysis.
 ///
 /// [`Evidence::verdict`]: crate::stability::Evidence::verdict
 pub fn state_at(bands: &[FoundBand], rpm: f64) -> StabilityState {

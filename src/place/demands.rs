@@ -1,4 +1,4 @@
-//! The goal of a placement, its limit, and the extent of the search.
+//! The goal of a placement, its limits, and the extent of the search.
 
 use crate::gap::{self, GapCase};
 use crate::plate::Resolution;
@@ -13,13 +13,13 @@ pub enum Goal {
     /// Width of the window without instability around a speed, from the end of the last band below it to the
     /// onset of the first above it.
     StableWindow {
-        /// The speed inside the window.
+        /// Speed inside the window.
         around_rad_per_s: f64,
     },
 }
 
 impl Goal {
-    /// The goal of the widest window around the operating speed of a scene.
+    /// The widest window around the operating speed of a scene as goal.
     ///
     /// # Errors
     /// [`RefusedValue`] if the scene has no operating speed.
@@ -49,8 +49,9 @@ pub struct GapDemands {
 }
 
 impl GapDemands {
-    /// Bands and critical speeds with the mean stiffness of the guides over an oscillation of an amplitude, and a limit of
-    /// the deflection at the cut under a side force at the operating speed; `None` without either.
+    /// Demands that bands and critical speeds are those with the mean stiffness of the guides over an oscillation of an
+    /// amplitude, and that the deflection at the cut under a side force at the operating speed keeps a limit; `None`
+    /// without amplitude and limit.
     ///
     /// # Errors
     /// [`RefusedValue`] if no guide is one-sided, a number is invalid, or a side force has no limit.
@@ -82,7 +83,7 @@ impl GapDemands {
 }
 
 impl Demands {
-    /// A goal, with a limit in rpm.
+    /// A goal with a lower limit of the first critical speed in rpm.
     ///
     /// # Errors
     /// [`RefusedValue`] if the limit is not a valid speed.
@@ -116,7 +117,7 @@ pub struct Options {
     /// Number of steps of each refinement. A step computes a saw and those of its neighbours that are needed
     /// to find its worst case.
     pub refine: u64,
-    /// Number of points of the map along each axis; 0 for no map.
+    /// Number of points of the map along each axis; the search draws no map if it is 0.
     pub map: usize,
     /// A basis to use instead of the one chosen by the tolerance of the scene.
     pub resolution: Option<Resolution>,
@@ -206,9 +207,9 @@ impl Default for Options {
     }
 }
 
-/// A search with more samples takes longer than a day.
+/// Largest number of samples: with more a search takes longer than a day.
 const MAX_SAMPLES: usize = 100_000;
-/// A finer map exceeds the resolution of its picture.
+/// Largest number of points along an axis of the map: a finer one exceeds the resolution of its picture.
 const MAX_MAP: usize = 400;
 
 impl Options {

@@ -7,8 +7,8 @@ use super::Progress;
 use super::outcome::Outcome;
 use super::search::{Search, Tried};
 
-/// The goal over two freed numbers; the others have their best values at the time of drawing. The saws are
-/// computed on the coarse basis of the search.
+/// The goal over two freed numbers; the others have the values of the best saw of the coarse search. The saws are
+/// computed on its basis.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Map {
     /// JSON path of the number along the first axis.
@@ -17,24 +17,25 @@ pub(crate) struct Map {
     pub x: Vec<f64>,
     /// JSON path of the number along the second axis; `None` if only one number is free.
     pub y_path: Option<String>,
-    /// Values along the second axis.
+    /// Values along the second axis; a single 0 without one.
     pub y: Vec<f64>,
     /// Results, one row for each value of y; `None` if there is no such saw.
     pub outcomes: Vec<Vec<Option<Outcome>>>,
     shares: [Vec<f64>; 2],
     axes: (usize, Option<usize>),
-    /// Shares of all numbers; those of the axes are replaced.
+    /// Shares of all numbers; each cell replaces those of the axes.
     at: Vec<f64>,
 }
 
-/// The numbers of the axes: radius and angle of a pad if both are free, otherwise others.
+/// Indices of the numbers along the axes: radius and angle of a pad if both are free, otherwise others.
 fn axes(paths: &[&str]) -> (usize, Option<usize>) {
     let mut order: Vec<usize> = (0..paths.len()).collect();
     order.sort_by_key(|&i| (Quantity::kind_of(paths[i]), i));
     (order[0], next(paths, &order))
 }
 
-/// The second axis belongs to the same pad as the first if possible.
+/// Index of the number along the second axis: the next of the order that belongs to the pad of the first, or else the
+/// next of all.
 fn next(paths: &[&str], order: &[usize]) -> Option<usize> {
     let pad = |i: usize| paths[i].split('.').next();
     let (first, rest) = order.split_first()?;
@@ -43,8 +44,7 @@ fn next(paths: &[&str], order: &[usize]) -> Option<usize> {
 }
 
 impl Map {
-    /// Computes the map with so many points along each axis; numbers off the axes have the shares of another
-    /// saw.
+    /// Computes the map with `points` points along each axis; the other numbers have the shares `at`.
     pub(super) fn through(
         search: &Search<'_>,
         at: &[f64],

@@ -98,7 +98,7 @@ pub struct PlacedParameter {
 pub struct Placement {
     /// The best saw, or the original scene if no saw within the bounds is better.
     pub scene: Scene,
-    /// Whether the saw is better than the original scene, both in the worst case of their tolerances. It may
+    /// Whether the saw is better than the original scene, both in the worst case of their tolerances. The saw may
     /// be worse if the original scene lies outside the bounds.
     pub improved: bool,
     /// The free numbers and their best values.
@@ -139,14 +139,15 @@ pub(crate) struct FragileOptimum {
 /// Progress callback: name of the step, number of its finished saws, number of all its saws.
 pub type Progress<'a> = &'a (dyn Fn(&'static str, usize, usize) + Sync);
 
-/// Tolerance of the coarse search. The best saws are compared and refined with the tolerance of the scene.
+/// Tolerance that determines the basis of the coarse search. The best saws are compared and refined with the
+/// tolerance of the scene.
 const COARSE_TOLERANCE: f64 = 5e-2;
 /// Smallest distance between samples that are refined, as a share of the bounds.
 const APART: f64 = 0.08;
 /// First and last step of a refinement, as shares of the bounds.
 const COARSE_STEPS: (f64, f64) = (0.08, 5e-3);
-/// Factor by which the refinement on the fine basis is shorter: it moves an optimum only a little, and each
-/// saw costs ten times as much.
+/// Factor by which the refinement on the fine basis has fewer steps: it moves an optimum only a little, and each
+/// saw takes ten times as long.
 const SETTLED: u64 = 3;
 /// Number of samples, and of cells of the map, best at their nominal numbers, that are compared on the finer
 /// basis too.
@@ -159,9 +160,9 @@ const LOOKED_AT: [f64; 2] = [0.23, 0.71];
 const IDLE: f64 = 1e-7;
 
 impl Placement {
-    /// Searches for the saw that is best in the worst case of its tolerances: even samples of the bounds,
-    /// direct search (MADS) from the best of them, a map through the result, and refinement on the basis that
-    /// the tolerance of the scene requires.
+    /// Searches for the saw that is best in the worst case of its tolerances: it computes even samples of the
+    /// bounds, refines the best of them by direct search (MADS), draws a map through the result, and refines the
+    /// best saws on the basis that the tolerance of the scene requires.
     ///
     /// # Errors
     /// [`PlaceError`] if no free number has an effect, or no saw can be analysed.
@@ -234,6 +235,7 @@ impl Placement {
     }
 }
 
+/// Goal of a saw, in rad/s; zero for a saw that could not be computed.
 fn value(saw: &Neighbour) -> f64 {
     saw.outcome.as_ref().map_or(0.0, |o| o.value_rad_per_s)
 }

@@ -32,7 +32,7 @@ pub(crate) struct Neighbours {
     pub along: Vec<[Option<Neighbour>; 2]>,
     /// The worst of the saw itself, these neighbours and the corners of the tolerances.
     pub worst: Neighbour,
-    /// Ratio of the goal of the worst to that of the saw itself.
+    /// Ratio of the goal of the worst to that of the saw itself; 1 if the latter is 0.
     pub worst_share: f64,
     /// Bands of the saw that lie slightly below the threshold and before the flutter speed. If their growth
     /// rose above it, the flutter speed would fall to their onset.
@@ -43,7 +43,7 @@ pub(crate) struct Neighbours {
 const FRAGILE: f64 = 0.05;
 /// Share of the threshold from which on the growth of a band is close to it.
 const NEAR: f64 = 0.5;
-/// With more numbers the corners are too many to compute.
+/// Largest number of free numbers for which the corners of the tolerances are computed; with more they are too many.
 const MAX_CORNERS: usize = 4;
 /// Number of neighbours that are computed before the worst of them is determined.
 const AT_A_TIME: usize = 4;
@@ -68,8 +68,8 @@ fn directions(numbers: usize) -> Vec<Vec<f64>> {
     all
 }
 
-/// Values and shares of the neighbour in a direction. It may lie outside the bounds of the search, but it has
-/// to be a valid saw: a pad cannot be beyond the rim.
+/// Values and shares of the neighbour in a direction. The neighbour may lie outside the bounds of the search.
+/// `None` if it is not a valid saw: a pad cannot be beyond the rim.
 fn moved(search: &Search<'_>, shares: &[f64], direction: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
     let numbers = search.freed.iter().zip(shares).zip(direction);
     let values = numbers.map(|((freed, share), direction)| {
@@ -146,17 +146,18 @@ impl Neighbours {
         self.worst.cost()
     }
 
-    /// Whether every neighbour keeps the limit.
+    /// Whether every neighbour keeps the limits.
     pub fn keep_limit(&self) -> bool {
         self.worst.outcome.as_ref().is_some_and(Outcome::is_kept)
     }
 
-    /// Whether a small change of a number reduces the goal considerably.
+    /// Whether the worst neighbour loses a considerable share of the goal.
     pub fn are_fragile(&self) -> bool {
         self.worst_share < 1.0 - FRAGILE
     }
 }
 
+/// Flutter bands before the flutter speed whose growth is close to the threshold.
 fn almost(best: &Outcome, threshold_per_s: f64) -> Vec<Instability> {
     let before = best.flutter_rad_per_s.unwrap_or(f64::INFINITY);
     let near = |b: &&Instability| {

@@ -18,8 +18,8 @@ pub struct Outcome {
     pub flutter_rad_per_s: Option<f64>,
     /// Lowest critical speed, if the blade has one.
     pub critical_rad_per_s: Option<f64>,
-    /// Window without instability around the operating speed, if it is the goal; `None` if the operating
-    /// speed lies in a band or within 5 % of a critical speed.
+    /// Window without instability around the operating speed, in rad/s, if it is the goal; `None` if the operating
+    /// speed lies in a band that counts or within 5 % of a critical speed.
     pub window: Option<(f64, f64)>,
     /// Deflection at the cut, if it has a limit; `None` also where the model is not valid.
     pub deflection_m: Option<f64>,
@@ -31,7 +31,7 @@ pub struct Outcome {
     pub certificate: Certificate,
 }
 
-/// The computation that every saw of a search goes through.
+/// Goal, limits, speeds and basis with which every saw of a search is computed.
 #[derive(Debug, Clone)]
 pub struct Question {
     pub goal: Goal,
@@ -55,7 +55,8 @@ impl Question {
     /// Analyses a saw.
     ///
     /// # Errors
-    /// [`GapError`] when an eigenproblem fails, no basis represents the waves of the sweep, or no deflection is found.
+    /// [`GapError`] if an eigenproblem fails, no basis represents the waves of the sweep, or the deflection cannot be
+    /// computed.
     pub fn ask(&self, scene: &Scene) -> Result<Outcome, GapError> {
         let charted = match &self.gap {
             Some(gap) => &gap.case.at_amplitude(scene)?,
@@ -113,8 +114,8 @@ impl Question {
 }
 
 impl Outcome {
-    /// The cost to minimize: the share by which limits are missed, which is positive, or, if they are kept, the
-    /// negative goal.
+    /// The cost to minimize: the negative goal in rad/s if the limits are kept, otherwise the share by which they are
+    /// missed, which is positive.
     pub(crate) fn cost(&self) -> f64 {
         match self.is_kept() {
             true => -self.value_rad_per_s,

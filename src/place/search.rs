@@ -1,9 +1,9 @@
 //! Search for the shares of the free numbers that are best in the worst case of their tolerances.
 //!
-//! The flutter speed jumps where a band passes the threshold and is smooth elsewhere. A saw next to a jump
-//! has the value of the other side, because its numbers are never met exactly; it is rated by the worst of
-//! itself and its neighbours within the tolerances. This rating never exceeds the nominal value, so a few
-//! neighbours suffice to exclude a saw. The box of bounds is sampled evenly, and the best samples are refined
+//! The flutter speed jumps where the growth of a band passes the threshold and is smooth elsewhere. A saw is
+//! rated by the worst of itself and its neighbours within the tolerances, because no number is produced
+//! exactly and a saw next to a jump may have the value of its other side. This rating never exceeds the nominal
+//! value, so a few neighbours suffice to exclude a saw. The box of bounds is sampled evenly, and the best samples are refined
 //! by mesh adaptive direct search, which needs no derivative and whose theory allows jumps (Audet and Dennis,
 //! SIAM J. Optim. 17, 2006). Both are deterministic.
 
@@ -46,7 +46,7 @@ pub struct Tried {
 /// Called with the number of finished saws of a batch after each of them, on the thread that has computed it.
 pub type See<'a> = &'a (dyn Fn(usize) + Sync);
 
-/// Number of saws computed, number of failures, and the message of one failure.
+/// Number of saws computed, number of failures, and the message of the first failure in alphabetical order.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Tally {
     pub saws: usize,
@@ -132,7 +132,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The saw within the bounds whose nominal cost is least.
+    /// The saw within the bounds whose nominal cost is smallest, among those computed so far.
     pub fn cheapest(&self) -> Option<Tried> {
         let known = self.known();
         let all = known.iter().filter_map(|(key, found)| {
@@ -148,7 +148,8 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Results of `count` saws in their order, computed on all threads.
+    /// Computes `count` saws on all threads and returns, in their order, the values that `kept` makes of shares and
+    /// result.
     pub fn outcomes<T: Send>(
         &self,
         count: usize,
@@ -166,7 +167,7 @@ impl<'a> Search<'a> {
         (0..count).into_par_iter().map(one).collect()
     }
 
-    /// `count` samples of the box, the original scene first, sorted by nominal cost.
+    /// The original scene and `count - 1` samples of the box, sorted by nominal cost.
     pub fn sample(&self, own: &[f64], count: usize, see: See<'_>) -> Vec<Tried> {
         let shares_of = |index: usize| match index.checked_sub(1) {
             None => own.to_vec(),
@@ -180,8 +181,8 @@ impl<'a> Search<'a> {
         tried
     }
 
-    /// A few saws, at a distance from each other, that cost least in the worst case of their tolerances.
-    /// `tried` is sorted by nominal cost.
+    /// The `count` saws of smallest cost in the worst case of their tolerances that are at a distance, in shares,
+    /// from each other. `tried` is sorted by nominal cost.
     pub fn most_robust(&self, tried: &[Tried], count: usize, distance: f64) -> Vec<Tried> {
         let mut chosen: Vec<Tried> = Vec::new();
         while chosen.len() < count {
@@ -205,8 +206,8 @@ impl<'a> Search<'a> {
         chosen
     }
 
-    /// Refines a saw by direct search for the least cost in the worst case of its tolerances, between two
-    /// step sizes, which are shares of the box. `see` is called after each saw.
+    /// Refines a saw by direct search for the smallest cost in the worst case of its tolerances, with steps between
+    /// two sizes, which are shares of the box. `see` is called after each saw.
     pub fn refine(
         &self,
         start: &Tried,
@@ -240,7 +241,7 @@ impl<'a> Search<'a> {
 
 struct Boxed<'a> {
     search: &'a Search<'a>,
-    /// Least cost so far.
+    /// Smallest cost so far.
     least: Mutex<f64>,
     see: &'a (dyn Fn() + Sync),
     lower: Vec<f64>,
@@ -262,7 +263,7 @@ impl CostFunction for Boxed<'_> {
 
     fn cost(&self, shares: &Vec<f64>) -> Result<f64, Infallible> {
         let least = || self.least.lock().unwrap_or_else(PoisonError::into_inner);
-        // A cost above the least may be inexact, because direct search only compares it with the least.
+        // A cost above the smallest one may be inexact, because direct search only compares the two.
         let limit = *least();
         let cost = worst_cost(self.search, shares, limit);
         *least() = limit.min(cost);

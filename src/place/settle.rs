@@ -17,7 +17,7 @@ use super::{IDLE, PlaceError, Progress, cheapest};
 /// First and last step of the refinement on the final basis, as shares of the bounds.
 const FINE_STEPS: (f64, f64) = (0.02, 1e-3);
 
-/// A saw with its neighbours.
+/// A saw with its result and its neighbours.
 #[derive(Clone)]
 pub struct Weighed {
     pub shares: Vec<f64>,
@@ -43,8 +43,8 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// The best saw, or the original scene if it lies within the bounds and no saw is better in the worst
-    /// case of its tolerances.
+    /// The saw found, or the original scene if that lies within the bounds and the saw found is not better in the
+    /// worst case of its tolerances.
     pub fn between(
         search: &Search<'_>,
         scene: &Scene,
@@ -107,8 +107,9 @@ pub fn basis_of_all(
         .unwrap_or(own))
 }
 
-/// Compares the candidates on the final basis in the worst case of their tolerances. It refines the best, and
-/// also the one that is best at its nominal numbers, because a robust position may lie next to it.
+/// Compares the candidates on the final basis in the worst case of their tolerances. Refines the best of them,
+/// and also the one that is best at its nominal numbers, because a robust saw may lie next to it. `None` without
+/// candidates.
 pub fn settle(
     search: &Search<'_>,
     candidates: &[Tried],

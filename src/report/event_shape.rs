@@ -203,6 +203,7 @@ struct Found<'a> {
 }
 
 impl Found<'_> {
+    /// The entry of this shape, normalized.
     fn entry(self, plate: &Plate) -> EventShapeEntry {
         let mut entry = EventShapeEntry {
             occasion: self.occasion,

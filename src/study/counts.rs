@@ -13,7 +13,7 @@ use super::saw::{Outcome, Saw};
 use super::statistics::interval;
 use crate::scene::rpm;
 
-/// More bars of a histogram cannot be distinguished.
+/// Largest number of bars of a histogram; more cannot be distinguished.
 const MOST_BARS: usize = 40;
 
 /// A group of saws.
@@ -28,8 +28,9 @@ pub(super) struct Counts<'a> {
     flutter: Values,
     passed: usize,
     kept: Vec<usize>,
-    /// Numbers of guides with a gap.
+    /// Deflections, pad forces and critical speeds of guides with a gap.
     gap: Vec<Values>,
+    /// Number of saws that keep the limit of the deflection at the cut.
     within: usize,
 }
 
@@ -53,6 +54,9 @@ impl<'a> Counts<'a> {
     }
 
     /// Adds a saw.
+    ///
+    /// # Errors
+    /// The error of writing values that do not fit into memory.
     pub fn add(&mut self, saw: &Saw) -> io::Result<()> {
         self.saws += 1;
         let found = match &saw.outcome {
@@ -99,6 +103,9 @@ impl<'a> Counts<'a> {
     }
 
     /// The statistics of the group.
+    ///
+    /// # Errors
+    /// The error of reading values that did not fit into memory.
     pub fn report(mut self) -> io::Result<Group> {
         let (analysed, shares) = (self.analysed(), &self.study.file().quantiles);
         let passing = self.study.limits().map(|_| self.passing());
@@ -130,7 +137,7 @@ impl<'a> Counts<'a> {
         })
     }
 
-    /// Largest deflection at the cut that is allowed.
+    /// Upper limit of the deflection at the cut.
     fn limit_m(&self) -> Option<f64> {
         let asked = self.study.file().gap?;
         asked.max_deviation_mm.map(|mm| 1e-3 * mm)
@@ -189,7 +196,8 @@ fn speed(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<Spe
     })
 }
 
-/// The number of bars is twice the cube root of the number of saws (Rice's rule).
+/// A histogram of values; `None` without values. The number of bars is twice the cube root of the number of values
+/// (Rice's rule).
 fn histogram(values: &mut Values) -> io::Result<Option<Histogram>> {
     let Some((from, to)) = values.range() else {
         return Ok(None);

@@ -71,7 +71,7 @@ pub(super) fn columns(study: &Study) -> Vec<String> {
         .collect()
 }
 
-/// The cells of a saw. Numbers have as many digits as reading the same bits back requires.
+/// The cells of a saw. Numbers have so many digits that the same bits are read back.
 pub(super) fn record(study: &Study, saw: &Saw) -> Vec<String> {
     let mut cells = vec![saw.index.to_string()];
     cells.extend(saw.values.iter().map(f64::to_string));
@@ -102,7 +102,7 @@ pub(super) fn record(study: &Study, saw: &Saw) -> Vec<String> {
     cells
 }
 
-/// The saw of a row; `None` if the row does not belong to this study.
+/// The saw of a row; `None` if the row does not have the cells of this study.
 pub(super) fn saw(study: &Study, cells: &mut dyn Iterator<Item = &str>) -> Option<Saw> {
     let index: usize = cells.next()?.parse().ok()?;
     let mut values = Vec::new();
@@ -168,6 +168,7 @@ fn found(study: &Study, cells: &[&str]) -> Option<Found> {
     })
 }
 
+/// Numbers as text, separated by spaces.
 pub(super) fn numbers_in_words(numbers: &[f64]) -> String {
     let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
     numbers.join(" ")
@@ -178,7 +179,8 @@ fn numbers_of(text: &str) -> Option<Vec<f64>> {
     numbers.map(|number| number.parse().ok()).collect()
 }
 
-/// Bands as text: "divergence 1500 1560 0.4 1500 1560;flutter 2255.9 2266.1 0.1".
+/// Bands as text, each with kind, onset and end in rpm, largest growth in 1/s and the ranges in which it counts:
+/// "divergence 1500 1560 0.4 1500 1560;flutter 2255.9 2266.1 0.1".
 pub(super) fn bands_in_words(bands: &[FoundBand]) -> String {
     let band = |band: &FoundBand| {
         let kind = match band.kind {

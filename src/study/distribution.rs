@@ -6,17 +6,18 @@ use super::file::{DistributionFile, StudyError};
 use crate::scene::RefusedValue;
 use crate::text::shown;
 
-/// A narrower truncation makes a normal distribution nearly uniform; a wider one has no effect.
+/// Range of the truncation, in standard deviations: a smaller one makes a normal distribution nearly uniform, a larger
+/// one has no effect.
 const TRUNCATION: (f64, f64) = (0.1, 8.0);
 /// Largest number of listed values.
 const MAX_VALUES: usize = 10_000;
 
-/// A distribution whose nominal value is known.
+/// A validated distribution of a number, in the unit of the number.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Distribution {
     /// Uniform between two values.
     Uniform(f64, f64),
-    /// Truncated normal: mean, standard deviation, share of the untruncated distribution below the lower
+    /// Normal and truncated: mean, standard deviation, share of the untruncated distribution below the lower
     /// limit.
     Normal(f64, f64, f64),
     /// Every value of a list.

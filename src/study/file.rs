@@ -12,7 +12,7 @@ use crate::text::{KeyedError, from_keyed_json};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StudyFile {
-    /// Title of reports and figures.
+    /// Name of the study: the title of reports and figures.
     pub name: String,
     /// Origin of the numbers: measured, assumed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -26,7 +26,7 @@ pub struct StudyFile {
     /// Seed of the random saws.
     #[serde(default)]
     pub seed: u32,
-    /// Last speed of the sweep; by default the end of the scene's sweep. Limits extend it.
+    /// Last speed of the sweep; by default the end of the scene's sweep. Limits at higher speeds extend the sweep.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to_rpm: Option<f64>,
     /// Limits of each saw, as for `sawflutter check`.
@@ -53,10 +53,10 @@ pub struct StudyFile {
 pub struct GapFile {
     /// Side force at the rim at the cut.
     pub force_n: f64,
-    /// Speed; by default the operating speed of the scene.
+    /// Rotation speed; by default the operating speed of the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rpm: Option<f64>,
-    /// Largest deflection at the cut that is allowed: the saws that keep it are counted.
+    /// Upper limit of the deflection at the cut; the saws that keep it are counted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_deviation_mm: Option<f64>,
     /// Amplitude of an oscillation at the guides, with whose mean stiffness the first critical speed is computed.
@@ -138,7 +138,7 @@ impl std::fmt::Display for ParameterFile {
     }
 }
 
-/// The limits that 0.3 % of the saws exceed.
+/// Limits at three standard deviations, which 0.3 % of the untruncated values exceed.
 fn default_truncation() -> f64 {
     3.0
 }
@@ -165,7 +165,7 @@ pub enum StudyError {
         /// The error of the scene.
         source: SceneError,
     },
-    /// The saw without deviations cannot be analysed.
+    /// The scene itself, without deviations, cannot be analysed.
     #[error("the saw of the scene itself: {0}")]
     Nominal(#[from] AnalysisError),
 }

@@ -91,7 +91,8 @@ impl Finished {
         })
     }
 
-    /// The first run of consecutive unfinished saws from number `from` on, of at most `most` saws.
+    /// The first consecutive unfinished saws from number `from` on, at most `most` of them; `None` if all of these
+    /// saws are finished.
     pub fn missing(&self, from: usize, most: usize) -> Option<Range<usize>> {
         let mut first = from;
         while first < self.count && self.has(first) {

@@ -7,7 +7,7 @@ use super::file::StudyFile;
 use super::plan::Study;
 use crate::scene::SceneFile;
 
-/// Everything on which the result of a saw depends.
+/// The scene, the study and the version of the program, on which the result of a saw depends.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Inputs {

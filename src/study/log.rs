@@ -1,6 +1,6 @@
 //! The log of a study: it lists every finished saw, so that a stopped run can be resumed.
 //!
-//! The first line holds the inputs of the study ([`Inputs`]), the second the names of the columns. Each
+//! The first line contains the inputs of the study ([`Inputs`]), the second the names of the columns. Each
 //! further line is a saw, written in one piece when it is finished, or the kind of a processor that has
 //! computed saws. A last line without line end was truncated when the run stopped, and is ignored.
 
@@ -17,7 +17,7 @@ use super::inputs::Inputs;
 use super::plan::{Shard, Study};
 use super::saw::Saw;
 
-/// Time after which new lines are forced to the disk; a power failure loses only those of this time.
+/// Time after which new lines are forced to the disk; a power failure loses only the lines written within it.
 const UNSYNCED: Duration = Duration::from_secs(1);
 
 /// Reason for which a log was refused.
@@ -121,7 +121,7 @@ impl Log {
     /// logs of parts; a part reads only its own, because other parts may be running.
     ///
     /// # Errors
-    /// [`LogError`] if a log belongs to another study, or another run writes to it.
+    /// [`LogError`] if a log cannot be read or written, belongs to another study, or another run writes to it.
     pub fn open(folder: &Path, shard: Shard, study: &Study) -> Result<Self, LogError> {
         let path = folder.join(Self::name(shard));
         let mut options = OpenOptions::new();
@@ -175,7 +175,7 @@ impl Log {
     /// Adds a saw unless it is in the log already.
     ///
     /// # Errors
-    /// [`LogError::Io`].
+    /// [`LogError::Io`] if the line cannot be written, and [`LogError::NoRow`] if the saw does not belong to the study.
     pub fn append(&mut self, study: &Study, saw: &Saw) -> Result<(), LogError> {
         self.append_rows(study, &line(&record(study, saw)))
             .map(|_| ())
@@ -185,8 +185,8 @@ impl Log {
     /// of added rows.
     ///
     /// # Errors
-    /// [`LogError::Io`]; [`LogError::NoRow`] if a row does not belong to this study, and then no row is
-    /// added.
+    /// [`LogError::Io`] if the rows cannot be written; [`LogError::NoRow`] if a row does not belong to this study, and
+    /// then no row is added.
     pub fn append_rows(&mut self, study: &Study, rows: &[u8]) -> Result<usize, LogError> {
         let mut saws = Vec::new();
         for line in rows.split_inclusive(|byte| *byte == b'\n') {
@@ -209,7 +209,7 @@ impl Log {
     /// Records the kind of processor that computes saws of this log, once.
     ///
     /// # Errors
-    /// [`LogError::Io`].
+    /// [`LogError::Io`] if the line cannot be written.
     pub fn append_processor(&mut self, name: &str) -> Result<(), LogError> {
         let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
         if self.processors.contains(&name) {
@@ -236,7 +236,7 @@ impl Log {
 /// Reads the inputs of the study to which a log belongs.
 ///
 /// # Errors
-/// [`LogError`] where it is none.
+/// [`LogError`] if the file cannot be read or is not a log.
 pub fn read_inputs(path: &Path) -> Result<Inputs, LogError> {
     let mut first = Vec::new();
     let file = File::open(path).map_err(io(path))?;
@@ -252,7 +252,7 @@ pub fn read_inputs(path: &Path) -> Result<Inputs, LogError> {
         })
 }
 
-/// Longer than the first line of any log, which holds a scene with its tables.
+/// Largest length of the first line, in bytes; it contains a scene with its tables and is shorter in any log.
 const LONGEST_LINE: u64 = 1 << 28;
 
 pub(super) fn io(path: &Path) -> impl Fn(std::io::Error) -> LogError {
@@ -295,7 +295,7 @@ fn begin(file: &mut File, study: &Study) -> std::io::Result<u64> {
     Ok(header.len() as u64)
 }
 
-/// Calls a function with every complete line, and its position, of a log that is only read.
+/// Calls a function with the position and the content of every complete line of a log, which is only read.
 pub(super) fn read(
     path: &Path,
     study: &Study,
@@ -305,8 +305,8 @@ pub(super) fn read(
     scan(path, &file, study, visit).map(|_| ())
 }
 
-/// Calls a function with every complete line after the header, and its position. Returns the end of the last
-/// complete line, or `None` if the header is incomplete.
+/// Calls a function with the position and the content of every complete line after the header. Returns the end of the
+/// last complete line, or `None` if the header is incomplete.
 fn scan(
     path: &Path,
     file: &File,
@@ -319,7 +319,7 @@ fn scan(
     let mut limited = file.by_ref().take(header.len() as u64);
     limited.read_to_end(&mut begun).map_err(io(path))?;
     if begun != header.as_bytes() {
-        // The header is complete if anything follows the inputs.
+        // A log whose content is a part of the header belongs to a run that stopped while it wrote the header.
         return match header.as_bytes().starts_with(&begun) {
             true => Ok(None),
             false => Err(differing(path, study)),

@@ -11,8 +11,8 @@ const KEPT: usize = 1 << 20;
 /// Bits of a value that one pass over the file resolves.
 const DIGIT: u32 = 8;
 
-/// A list of values. In memory it is sorted; on disk, passes over the file determine the wanted values digit
-/// by digit. The results are identical.
+/// A list of values. A list in memory is sorted; for a list on disk, passes over the file determine the requested values
+/// digit by digit. The results are identical.
 #[derive(Debug)]
 pub(super) struct Values {
     memory: Vec<f64>,
@@ -37,6 +37,9 @@ impl Values {
     }
 
     /// Adds a value, which must be finite.
+    ///
+    /// # Errors
+    /// The error of writing to the disk.
     pub fn push(&mut self, value: f64) -> io::Result<()> {
         self.count += 1;
         let (low, high) = self.range.unwrap_or((value, value));
@@ -53,7 +56,7 @@ impl Values {
         self.count
     }
 
-    /// Smallest and largest value.
+    /// Smallest and largest value; `None` without values.
     pub fn range(&self) -> Option<(f64, f64)> {
         self.range
     }
@@ -89,7 +92,8 @@ impl Values {
         Ok(())
     }
 
-    /// The quantiles of `shares`, where the list is extended by `beyond` values larger than any.
+    /// The quantiles of `shares`, where the list is extended by `beyond` values that are larger than any; `None` for a
+    /// quantile among these.
     pub fn quantiles(&mut self, beyond: usize, shares: &[f64]) -> io::Result<Vec<Option<f64>>> {
         let total = self.count + beyond;
         let ranks: Vec<_> = shares.iter().map(|share| rank(total, *share)).collect();
@@ -162,7 +166,7 @@ fn above(key: u64, shift: u32) -> u64 {
     key.checked_shr(shift).unwrap_or(0)
 }
 
-/// Maps values to integers of the same order as `f64::total_cmp`.
+/// Maps values to integers whose order is that of `f64::total_cmp`.
 fn key(value: f64) -> u64 {
     let bits = value.to_bits();
     match bits >> 63 {

@@ -17,7 +17,7 @@ use super::plan::Study;
 use super::saw::{Found, Outcome, Saw};
 use super::table::Table;
 
-/// A column; the values of saws that were not analysed are missing.
+/// A column of values; saws that were not analysed have `None`.
 enum Column {
     Integers(Vec<Option<i64>>),
     Numbers(Vec<Option<f64>>),
@@ -25,7 +25,7 @@ enum Column {
     Texts(Vec<Option<String>>),
 }
 
-/// The saws as an Apache Parquet file, whose metadata holds scene and study under `sawflutter`. Saws that are
+/// The saws as an Apache Parquet file, whose metadata contain scene and study under `sawflutter`. Saws that are
 /// added together form a row group.
 pub struct ParquetTable<'a, W: Write + Send> {
     study: &'a Study,
@@ -72,7 +72,7 @@ impl<W: Write + Send> Table for ParquetTable<'_, W> {
     }
 }
 
-/// The columns, in the order of their names.
+/// The columns in the order of [`columns`].
 fn values(study: &Study, saws: &[Saw]) -> Vec<Column> {
     let numbers = |of: &dyn Fn(&Saw) -> Option<f64>| Column::Numbers(saws.iter().map(of).collect());
     let speeds = |of: fn(&Found) -> Option<f64>| numbers(&|saw| saw.found().and_then(of));

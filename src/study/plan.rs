@@ -18,13 +18,13 @@ use crate::scene::{Given, Parameter, RefusedValue, Scene, SceneFile, SpeedRange,
 use crate::spectrum::SpectrumError;
 use crate::stability::{AnalysisError, ChosenBasis, Evidence, end_of_sweep};
 
-/// Largest number of saws; their log has about 600 GB.
+/// Largest number of saws; their log has a size of about 600 GB.
 const MAX_SAWS: usize = u32::MAX as usize;
 /// Largest number of quantiles in a report.
 const MAX_QUANTILES: usize = 100;
-/// Range of the confidence: below it, an interval says nothing; above it, a study has too few saws.
+/// Range of the confidence: at a lower one an interval has no meaning, for a higher one a study has too few saws.
 const CONFIDENCE: (f64, f64) = (0.5, 0.999_999);
-/// Columns of guides with a gap; the last needs an amplitude.
+/// Names of the columns of guides with a gap; the last exists only if the study has an amplitude.
 const GAP_COLUMNS: [&str; 3] = [
     "deflection_at_cut_m",
     "largest_pad_force_n",

@@ -10,15 +10,15 @@ use crate::scene::SceneFile;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StudyReport {
-    /// Version of the program.
+    /// Version of the program that wrote the report.
     pub sawflutter: String,
-    /// The saw without deviations.
+    /// The scene without deviations, as typed.
     pub scene: SceneFile,
     /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
     /// numbers as typed.
     #[serde(default)]
     pub unusual_numbers: Vec<String>,
-    /// The study.
+    /// The study, as typed.
     pub study: StudyFile,
     /// Last speed of the sweep.
     pub swept_to_rpm: f64,
@@ -28,7 +28,7 @@ pub struct StudyReport {
     pub saws_with_krein_violations: usize,
     /// All saws together.
     pub all: Group,
-    /// Saws of each point of the grid, if there are random saws too and at most 10 000 points.
+    /// Saws of each point of the grid, if the study has random saws and at most 10 000 points.
     pub groups: Vec<Group>,
     /// The first saws that were not analysed.
     pub not_analysed: Vec<Refusal>,
@@ -79,7 +79,7 @@ pub struct ReliabilityPoint {
 pub struct WorstSaw {
     /// Number of the saw in the study.
     pub saw: usize,
-    /// Lowest speed of the saw.
+    /// Lowest critical speed or flutter speed of the saw.
     pub rpm: f64,
     /// Values of the varying numbers, in the order of the study.
     pub values: Vec<f64>,
@@ -103,7 +103,7 @@ pub struct Group {
     pub flutter: SpeedEntry,
     /// Share of saws that keep the limits, if the study has any.
     pub passing: Option<Passing>,
-    /// Guides with a gap, if the study asks for them.
+    /// Numbers of guides with a gap, if the study has a block `gap`.
     #[serde(default)]
     pub gap: Option<GapStatistics>,
 }
@@ -118,7 +118,7 @@ pub struct GapStatistics {
     pub largest_pad_force: NumberEntry,
     /// First critical speed at the amplitude of the study, in rpm; null without an amplitude.
     pub critical_at_amplitude: Option<NumberEntry>,
-    /// Number of saws whose deflection is allowed; null without a limit.
+    /// Number of saws whose deflection keeps its limit; null without a limit.
     pub saws_within: Option<usize>,
 }
 
@@ -126,7 +126,8 @@ pub struct GapStatistics {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NumberEntry {
-    /// Number of saws whose number is known. That of the others, where slopes of the blade exceed 0.1, counts as larger.
+    /// Number of saws whose number is known. The number of the other analysed saws counts as larger than any: the
+    /// deflection is not known where slopes of the blade exceed 0.1.
     pub saws: usize,
     /// Median; null if it is not known.
     pub median: Option<f64>,
@@ -150,7 +151,7 @@ pub struct NumberQuantile {
 pub struct GridEntry {
     /// JSON path in the scene.
     pub parameter: String,
-    /// Its value.
+    /// Value of the number.
     pub value: f64,
 }
 
@@ -160,7 +161,7 @@ pub struct GridEntry {
 pub struct SpeedEntry {
     /// Number of saws with such a speed.
     pub saws: usize,
-    /// Number of saws without one within the speeds of the study.
+    /// Number of analysed saws without such a speed within the speeds of the study.
     pub beyond: usize,
     /// Median; null if it exceeds the speeds of the study.
     pub median_rpm: Option<f64>,
@@ -198,13 +199,13 @@ pub struct Histogram {
 pub struct Passing {
     /// Number of saws that keep every limit.
     pub passed: usize,
-    /// Share of these saws among all.
+    /// Share of these saws among all saws of the group.
     pub probability: f64,
     /// Confidence of the interval.
     pub confidence: f64,
     /// Interval of the probability (by Clopper and Pearson for independent saws; scrambled Sobol points are
-    /// more even). Null for a grid, whose share is exact, and for all of several groups, which have the same
-    /// deviations.
+    /// more even). Null for a grid, whose share is exact, and for all saws of several groups, because the groups have
+    /// the same deviations.
     pub interval: Option<[f64; 2]>,
     /// Number of saws that keep each limit.
     pub criteria: Vec<CriterionEntry>,
@@ -220,7 +221,7 @@ pub struct CriterionEntry {
     pub name: String,
     /// Speed required.
     pub asked_rpm: f64,
-    /// Number of saws that keep it.
+    /// Number of saws that keep the limit.
     pub passed: usize,
 }
 
@@ -230,6 +231,6 @@ pub struct CriterionEntry {
 pub struct Refusal {
     /// Number of the saw in the study.
     pub saw: usize,
-    /// Reason of the failure.
+    /// Reason for which it was not analysed.
     pub reason: String,
 }

@@ -1,4 +1,4 @@
-//! Reads the rows of logs in the order of the saws, in whatever order they were written.
+//! Reads the rows of logs in the order of the saws; the rows may have been written in any order.
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -21,8 +21,8 @@ pub struct Rows<'a> {
     blocks: Vec<Vec<Extent>>,
 }
 
-/// Consecutive rows of a log that belong to one block of saws. Saws are started in the order of their
-/// numbers, so there are few of these.
+/// Position of consecutive rows of a log that belong to one block of saws. Saws are started in the order of their
+/// numbers, so a block has few such positions.
 struct Extent {
     log: usize,
     place: Range<u64>,
@@ -32,7 +32,7 @@ impl<'a> Rows<'a> {
     /// Indexes logs. If a saw is in several of them, its first row counts.
     ///
     /// # Errors
-    /// [`LogError`] where one cannot be read, or belongs to another study.
+    /// [`LogError`] if a log cannot be read, or belongs to another study.
     pub fn of(study: &'a Study, logs: Vec<PathBuf>) -> Result<Self, LogError> {
         let mut rows = Rows {
             study,
@@ -68,7 +68,7 @@ impl<'a> Rows<'a> {
     /// Indexes every log in a folder.
     ///
     /// # Errors
-    /// [`LogError`].
+    /// [`LogError`] if the folder or a log cannot be read, or a log belongs to another study.
     pub fn in_folder(study: &'a Study, folder: &Path) -> Result<Self, LogError> {
         Self::of(study, Log::all_in(folder)?)
     }
@@ -78,7 +78,7 @@ impl<'a> Rows<'a> {
         &self.finished
     }
 
-    /// The study.
+    /// The study to which the rows belong.
     pub fn study(&self) -> &'a Study {
         self.study
     }
@@ -91,7 +91,7 @@ impl<'a> Rows<'a> {
     /// Calls a function with the saws in the order of their numbers, block by block.
     ///
     /// # Errors
-    /// [`LogError`], and what `visit` raises.
+    /// [`LogError`] if a log cannot be read, and the errors of `visit`.
     pub fn each_block(
         &self,
         visit: &mut dyn FnMut(&[Saw]) -> Result<(), LogError>,

@@ -8,9 +8,9 @@ use super::saw::Saw;
 use crate::spectrum::Cancellation;
 
 impl Study {
-    /// Analyses saws on some threads, by default those of the current pool, and passes each to `done` when it
-    /// is finished: in the order of `indices` on one thread, in any order on several. Each thread computes a
-    /// whole saw, because a second thread speeds up a single saw by a factor of only 1.3.
+    /// Analyses saws on `threads` threads, by default as many as the current pool has, and passes each saw to `done`
+    /// when it is finished: in the order of `indices` on one thread, in any order on several. Each thread computes
+    /// whole saws, because a second thread speeds up a single saw by a factor of only 1.3.
     ///
     /// # Errors
     /// The first error that `done` returns; it ends the run.

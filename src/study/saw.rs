@@ -43,8 +43,8 @@ pub struct Found {
     pub first_merge_rpm: Option<f64>,
     /// Whether each limit is kept, in the order of the limits; empty without limits.
     pub kept: Vec<bool>,
-    /// Numbers of guides with a gap: deflection at the cut in m, largest force of a pad in N, and with an amplitude the
-    /// critical speed there in rpm; empty if the study does not ask for them.
+    /// Numbers of guides with a gap: deflection at the cut in m, largest force of a pad in N, and, if the study has an
+    /// amplitude, the first critical speed at this amplitude in rpm; empty if the study has no block `gap`.
     #[serde(default)]
     pub gap: Vec<Option<f64>>,
     /// Number of basis functions.
@@ -53,8 +53,8 @@ pub struct Found {
     pub estimated_relative_error: f64,
     /// Number of speeds at which the Krein index disagrees; 0 is expected.
     pub krein_violations: usize,
-    /// Critical speeds at which a saw at some speed of the study runs, ascending: those within these speeds, and up to
-    /// 5 % beyond them; empty in a study that does not list bands.
+    /// Critical speeds within the speeds of the study, and beyond them those of which the last speed is within 5 %,
+    /// ascending; empty in a study that does not list bands.
     #[serde(default)]
     pub critical_rpm: Vec<f64>,
     /// Bands of instability by onset; empty in a study that does not list them.
@@ -71,7 +71,7 @@ pub struct FoundBand {
     pub kind: InstabilityKind,
     /// Speed at which the band begins.
     pub from_rpm: f64,
-    /// End, or the end of the sweep.
+    /// Speed at which the band ends, or the end of the sweep.
     pub to_rpm: f64,
     /// Largest growth rate.
     pub peak_growth_per_s: f64,
@@ -188,7 +188,7 @@ impl Study {
     }
 }
 
-/// Joins lines, because a row of the log is a single line.
+/// Replaces line ends by spaces, because a row of the log is a single line.
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

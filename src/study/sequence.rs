@@ -17,8 +17,9 @@ const POINTS: u64 = 1 << 32;
 /// Half a step of the sequence's 24 bits. It shifts the coordinates, which begin at 0, into the open interval
 /// from 0 to 1.
 const HALF_STEP: f64 = 1.0 / (1u64 << 25) as f64;
-/// 2³² over the golden ratio. Its multiples up to 2¹⁶ are as far as possible from each other and from 0
-/// modulo 2³², so that studies whose seeds differ by less than 25 000 share no block.
+/// Difference of the seeds of successive blocks: 2³² divided by the golden ratio. Its multiples up to 2¹⁶ are as far
+/// as possible from each other and from 0 modulo 2³², so that studies whose seeds differ by less than 25 000 share no
+/// block.
 const SEED_STEP: u32 = 0x9E37_79B9;
 
 /// A coordinate of a point, between 0 and 1, both excluded.

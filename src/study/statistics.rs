@@ -1,4 +1,4 @@
-//! Quantiles of speeds of which some exceed the sweep, and confidence intervals of a probability.
+//! Quantiles of speeds, some of which may exceed the sweep, and confidence intervals of a probability.
 
 use statrs::distribution::{Beta, ContinuousCDF};
 

@@ -14,11 +14,11 @@ use super::saw::{Found, Outcome, Saw};
 use crate::scene::rpm;
 use crate::stability::OPERATING_LIMIT;
 
-/// Number of failed saws that the report lists; the table contains all.
+/// Largest number of saws that were not analysed in the list of the report; the table contains all.
 const LISTED: usize = 20;
 /// Number of saws listed with the lowest speeds.
 const WORST: usize = 10;
-/// Largest number of points of the grid for which the report has statistics of their own.
+/// Largest number of points of the grid for which the report contains the statistics of each point.
 const MAX_GROUPS: usize = 10_000;
 /// Number of points of the curve of reliability.
 const CURVE: usize = 61;
@@ -32,6 +32,7 @@ pub(super) struct Tally<'a> {
     all: Counts<'a>,
     group: Option<Counts<'a>>,
     groups: Vec<Group>,
+    /// Highest operating speed of each saw, unless it exceeds the speeds of the study.
     allowed: Values,
     lowest_critical: Lowest,
     flutter: Lowest,
@@ -136,7 +137,7 @@ impl<'a> Tally<'a> {
         })
     }
 
-    /// The curve of reliability; `None` if every saw may run at any speed of the study.
+    /// The curve of reliability; `None` if every analysed saw can run at any speed of the study.
     fn reliability(&mut self) -> io::Result<Option<Reliability>> {
         let Some((from, to)) = self.allowed.range() else {
             return Ok(None);
@@ -242,8 +243,8 @@ fn place(study: &Study, saw: &Saw) -> Vec<GridEntry> {
 }
 
 impl StudyReport {
-    /// The report of saws given in the order of their numbers. [`super::sum_up`] reads saws from logs without
-    /// holding them in memory.
+    /// The report of saws given in the order of their numbers. [`super::sum_up`] reads saws from logs, a block at a
+    /// time.
     ///
     /// # Errors
     /// With more than a million saws, the error of writing temporary files.
