@@ -21,7 +21,7 @@ from ._result import Result
 from ._scene_types import SceneDict, StudyDict
 from .checks import CheckResults
 from .compared import CompareResults, compare
-from .designs import FitResults, PlaceResults, TradeoffResults
+from .designs import FitResults, PlaceResults, StiffnessMap, TradeoffResults
 from .errors import (
     AnalysisError,
     ArgumentError,
@@ -42,7 +42,6 @@ from .results import CampbellResults, load
 from .scene import Scene
 from .spectra import Spectrum, read_frf
 from .state_space import StateSpace
-from .stiffness import StiffnessMap
 from .studies import StudyResults
 from .study import Study
 from .waterfalls import Waterfall

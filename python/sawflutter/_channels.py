@@ -12,9 +12,10 @@ from typing import Any, TypeVar
 import numpy as np
 
 from . import _columns
+from ._columns import Channel
 from ._entry import ComplexArray, FloatArray
 from ._extras import extra
-from .errors import ArgumentError, InputError
+from .errors import InputError, refused
 
 T = TypeVar("T")
 
@@ -23,24 +24,9 @@ T = TypeVar("T")
 _UNEVEN = 0.3
 _TIMES = {"t", "time", "zeit", "temps", "tiempo", "tid"}
 _SECONDS = {"": 1.0, "s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6}
-_SPEEDS = {"rpm", "speed", "drehzahl", "n", "vitesse", "varvtal"}
-_PER_MINUTE = {"rpm", "1/min", "min-1", "min^-1", "min⁻¹", "u/min", "r/min", "rev/min", "tr/min"}
 # Numbers of a data set 58 of a universal file.
 _TIME_RESPONSE, _RESPONSE_FUNCTION, _GENERAL = 1, 4, 0
 _OF_RPM = 19
-
-
-@dataclass(frozen=True)
-class Channel:
-    """Samples with their name and unit."""
-
-    name: str
-    unit: str
-    samples: FloatArray
-
-    def is_speed(self) -> bool:
-        """Whether it is a rotation speed in rpm, by its unit, or without one by its name."""
-        return self.unit.lower() in _PER_MINUTE or (not self.unit and self.name.lower() in _SPEEDS)
 
 
 @dataclass(frozen=True)
@@ -60,12 +46,6 @@ class Channels:
             return self.channels[key]
         allowed = ", ".join(f"{number} ({name})" for number, name in enumerate(names))
         raise refused(argument, key, f"a channel of {self.file}", f"it has {allowed}")
-
-
-def refused(key: str, value: object, allowed: str, remedy: str) -> ArgumentError:
-    """The error of an argument."""
-    message = f"{key} is {value!r}, but must be {allowed}; {remedy}"
-    return ArgumentError(message, key, str(value), allowed, remedy)
 
 
 @dataclass(frozen=True)
@@ -129,6 +109,7 @@ def _wav(path: str | os.PathLike[str]) -> Channels:
 def _table(path: str | os.PathLike[str]) -> Channels:
     columns = _columns.read(path)
     times = [column for column in columns if column.name.lower() in _TIMES]
+    others = tuple(column for column in columns if column.name.lower() not in _TIMES)
     if len(times) > 1:
         names = ", ".join(column.name for column in times)
         raise InputError(f"{path} has {len(times)} columns of time ({names}); keep one")
@@ -136,10 +117,8 @@ def _table(path: str | os.PathLike[str]) -> Channels:
     for column in times:
         if column.unit.lower() not in _SECONDS:
             raise InputError(f"the times of {path} are in {column.unit!r}; give them in s or ms")
-        rate = _rate(path, _SECONDS[column.unit.lower()] * column.numbers)
-    others = (column for column in columns if column not in times)
-    channels = tuple(Channel(column.name, column.unit, column.numbers) for column in others)
-    return Channels(str(path), rate, channels)
+        rate = _rate(path, _SECONDS[column.unit.lower()] * column.samples)
+    return Channels(str(path), rate, others)
 
 
 def _rate(path: str | os.PathLike[str], times: FloatArray) -> float:
@@ -162,11 +141,11 @@ def _table_of_response(path: str | os.PathLike[str]) -> list[ResponseFunction]:
             "real and imaginary part, or 2, frequency and magnitude; remove the others"
         )
     frequency, real = columns[:2]
-    imaginary = columns[2].numbers if len(columns) == 3 else 0.0
+    imaginary = columns[2].samples if len(columns) == 3 else 0.0
     if frequency.unit.lower() not in ("", "hz"):
         raise InputError(f"the frequencies of {path} are in {frequency.unit!r}; give them in Hz")
-    response = np.asarray(real.numbers + 1j * imaginary, np.complex128)
-    return [ResponseFunction(Path(path).name, real.unit, frequency.numbers, response, None)]
+    response = np.asarray(real.samples + 1j * imaginary, np.complex128)
+    return [ResponseFunction(Path(path).name, real.unit, frequency.samples, response, None)]
 
 
 def _sets(path: str | os.PathLike[str], kinds: tuple[int, ...], wanted: str) -> Iterator[dict[str, Any]]:

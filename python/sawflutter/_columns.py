@@ -18,18 +18,24 @@ _LOOKED_AT = 50
 _MARKS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
 # Units as the end of a name, like deflection_mm.
 _ENDINGS = ("rpm", "hz", "khz", "s", "ms", "us", "m", "mm", "um", "µm", "v", "mv", "pa", "n", "g")
+_SPEEDS = {"rpm", "speed", "drehzahl", "n", "vitesse", "varvtal"}
+_PER_MINUTE = {"rpm", "1/min", "min-1", "min^-1", "min⁻¹", "u/min", "r/min", "rev/min", "tr/min"}
 
 
 @dataclass(frozen=True)
-class Column:
-    """Numbers with a name and a unit, which may be blank."""
+class Channel:
+    """Samples with a name and a unit, which may be blank."""
 
     name: str
     unit: str
-    numbers: FloatArray
+    samples: FloatArray
+
+    def is_speed(self) -> bool:
+        """Whether it is a rotation speed in rpm, by its unit, or without one by its name."""
+        return self.unit.lower() in _PER_MINUTE or (not self.unit and self.name.lower() in _SPEEDS)
 
 
-def read(path: str | os.PathLike[str]) -> list[Column]:
+def read(path: str | os.PathLike[str]) -> list[Channel]:
     """The columns of a table. Lines that begin with # and blank lines are ignored; names, and units
     below them, are optional."""
     lines = [
@@ -113,11 +119,11 @@ def _fault(
     return InputError(f"{path} is no table of numbers; separate its columns by commas or tabs")
 
 
-def _column(number: int, titles: list[list[str]], numbers: FloatArray) -> Column:
+def _column(number: int, titles: list[list[str]], numbers: FloatArray) -> Channel:
     texts = [title[number - 1] if number <= len(title) else "" for title in titles]
     name, unit = split_unit(texts[0]) if texts else ("", "")
     below = texts[1].strip("[]() ") if len(texts) > 1 else ""
-    return Column(name or f"column {number}", below or unit, np.ascontiguousarray(numbers))
+    return Channel(name or f"column {number}", below or unit, np.ascontiguousarray(numbers))
 
 
 def split_unit(text: str) -> tuple[str, str]:

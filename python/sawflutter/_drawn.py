@@ -34,7 +34,13 @@ class Drawn:
     __slots__ = ()
 
     def chart(self) -> Chart:
-        """Contents of the figures: lines, points and bands as numbers.
+        """Contents of the figures as lines, points and bands. A Campbell diagram shows frequencies
+        over speed with growth rates below; a check the required and the computed speeds; a cut the
+        deflection at the probe over time, in one panel for each speed; a run-up and a slow sweep
+        this deflection over speed; a washboard the lowest cutting stiffness at which a motion
+        grows, and its frequency, over speed; a fit measured and computed frequencies; a place the
+        goal over one or two numbers; a study the shares of saws below a speed and of saws that can
+        run at a speed; a tradeoff errors over time; a stiffness map speeds over the stiffness.
 
         Returns
         -------
@@ -47,6 +53,9 @@ class Drawn:
         >>> [panel.y_name for panel in chart.panels]
         ['Im λ / 2π [Hz]', 'Re λ [1/s], square root scale']
         """
+        return self._chart()
+
+    def _chart(self) -> Chart:
         raise NotImplementedError
 
     def plot(self, fig: Figure | None = None, **look: Unpack[Look]) -> Figure:

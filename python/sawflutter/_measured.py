@@ -26,13 +26,18 @@ def table(measured: Measured) -> tuple[str, str] | None:
     if isinstance(measured, (str, os.PathLike)):
         return Path(measured).name, _native.read_text(measured, True)
     try:
-        cells = [["" if np.isnan(hz) else repr(hz) for hz in row] for row in _rows(measured)]
+        return "measured", lines(measured)
     except (TypeError, ValueError, IndexError):
         raise TypeError(
             "measured must be a file, a DataFrame with a column or an index rpm, rows of a speed in "
             "rpm and frequencies in Hz, or the frequencies at rest alone"
         ) from None
-    return "measured", "".join(f"{','.join(row)}\n" for row in cells)
+
+
+def lines(measured: Any) -> str:
+    """Lines of a table of frequencies, with blanks for NaN."""
+    cells = [["" if np.isnan(hz) else repr(hz) for hz in row] for row in _rows(measured)]
+    return "".join(f"{','.join(row)}\n" for row in cells)
 
 
 def _rows(measured: Any) -> list[list[float]]:

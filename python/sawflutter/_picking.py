@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import SupportsFloat
+
 import numpy as np
 
 from ._entry import FloatArray
@@ -20,14 +23,26 @@ def lowest_hz(resolution_hz: float) -> float:
     return 2.0 * resolution_hz
 
 
-def order_of(frequency_hz: float, rpm: float, orders: FloatArray, resolution_hz: float) -> float:
-    """The multiple of the rotation speed that is so near that it is, or shifts, the peak; NaN if
-    none is."""
-    near = np.abs(orders * rpm / 60.0 - frequency_hz) <= _NEAR * resolution_hz
-    return float(orders[near][0]) if near.any() else np.nan
+def rows(
+    frequency_hz: FloatArray,
+    spectra: Iterable[tuple[float, FloatArray]],
+    resolution_hz: float,
+    orders: Iterable[SupportsFloat],
+    above_db: SupportsFloat,
+) -> list[tuple[float, float, float, float, int]]:
+    """Rows of :meth:`sawflutter.Peaks.of` for spectra at speeds. The order of a peak is the multiple
+    of the speed that is so near that it is, or shifts, the peak; NaN if none is."""
+    multiples = np.array([float(order) for order in orders])
+    found = list[tuple[float, float, float, float, int]]()
+    for number, (rpm, amplitude) in enumerate(spectra):
+        for hz, size in zip(*_picked(frequency_hz, amplitude, resolution_hz, float(above_db))):
+            near = np.abs(multiples * rpm / 60.0 - hz) <= _NEAR * resolution_hz
+            order = float(multiples[near][0]) if rpm > 0.0 and near.any() else np.nan
+            found.append((float(rpm), float(hz), float(size), order, number))
+    return found
 
 
-def picked(
+def _picked(
     frequency_hz: FloatArray, amplitude: FloatArray, resolution_hz: float, above_db: float
 ) -> tuple[FloatArray, FloatArray]:
     """Frequencies and amplitudes of the peaks that exceed the median of their surroundings by so

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from functools import partial
 from typing import Any, SupportsFloat, overload
 
 import numpy as np
@@ -96,13 +95,15 @@ class Questions(Searches):
             shapes_at_rpm = [] if shapes else None
         else:
             shapes_at_rpm = [float(rpm) for rpm in shapes]
-        ask = partial(
-            _native.analyze,
+        return scene._asked(
+            CampbellResults,
+            accuracy,
+            tolerance,
+            progress,
             sensitivity=sensitivity,
             amplitude=amplitude,
             shapes_at_rpm=shapes_at_rpm,
         )
-        return scene._asked(CampbellResults, ask, "speeds", accuracy, tolerance, progress)
 
     @overload
     def modes(self, rpm: SupportsFloat) -> tuple[Mode, ...]: ...
@@ -139,7 +140,8 @@ class Questions(Searches):
         [7.7, 5.2, 2.6]
         """
         speeds = np.asarray(rpm, float)
-        found = json.loads(_native.modes(self._text, speeds.ravel().tolist()))
+        options = {"at_rpm": speeds.ravel().tolist()}
+        found = json.loads(_native.run("modes", self._text, options))
         if speeds.ndim == 0:
             return tuple(Mode.from_dict(mode) for mode in found[0])
         return Modes.of(speeds.ravel(), found)
@@ -196,8 +198,11 @@ class Questions(Searches):
         >>> saw.check(operating_rpm=1400, accuracy="draft").failures
         ('85 % rule',)
         """
-        ask = partial(
-            _native.check,
+        return self._asked(
+            CheckResults,
+            accuracy,
+            tolerance,
+            None,
             operating_rpm=operating_rpm,
             margin=margin,
             min_flutter_rpm=min_flutter_rpm,
@@ -206,7 +211,6 @@ class Questions(Searches):
             max_amplitude_mm=max_amplitude_mm,
             accept_unusual=accept_unusual,
         )
-        return self._asked(CheckResults, ask, "speeds", accuracy, tolerance, None)
 
     def run_cut(
         self,
@@ -242,8 +246,7 @@ class Questions(Searches):
         'unstable'
         """
         speeds = np.atleast_1d(np.asarray(rpm, float)).tolist()
-        ask = partial(_native.cut, rpm=speeds)
-        return self._asked(CutResults, ask, "points of the map", accuracy, tolerance, progress)
+        return self._asked(CutResults, accuracy, tolerance, progress, rpm=speeds)
 
     def run_up(
         self,
@@ -275,7 +278,7 @@ class Questions(Searches):
         >>> up.bands[0].band.kind, up.rpm.shape == up.deflection_m.shape
         ('divergence', True)
         """
-        return self._asked(RunUpResults, _native.runup, "steps", accuracy, tolerance, progress)
+        return self._asked(RunUpResults, accuracy, tolerance, progress)
 
     def run_deflect(
         self,
@@ -319,8 +322,8 @@ class Questions(Searches):
         >>> found.beyond_thickness_rpm is None
         True
         """
-        ask = partial(_native.deflect, force_n=force_n, angle_deg=angle_deg, to_rpm=to_rpm)
-        return self._asked(DeflectResults, ask, "equilibria", accuracy, tolerance, progress)
+        force = {"force_n": force_n, "angle_deg": angle_deg}
+        return self._asked(DeflectResults, accuracy, tolerance, progress, **force, to_rpm=to_rpm)
 
     def run_response(
         self,
@@ -363,8 +366,7 @@ class Questions(Searches):
         >>> [line.name for line in r.lines]
         ['side force, static']
         """
-        ask = partial(_native.response, rpm=rpm, to_hz=to_hz)
-        return self._asked(ResponseResults, ask, "speeds", accuracy, tolerance, progress)
+        return self._asked(ResponseResults, accuracy, tolerance, progress, rpm=rpm, to_hz=to_hz)
 
     def run_gap(
         self,
@@ -429,8 +431,11 @@ class Questions(Searches):
         >>> bool(r.free.critical_rpm[0] < r.linear.critical_rpm[0])
         True
         """
-        ask = partial(
-            _native.gap,
+        return self._asked(
+            GapResults,
+            accuracy,
+            tolerance,
+            progress,
             force_n=force_n,
             rpm=rpm,
             max_deviation_mm=max_deviation_mm,
@@ -441,7 +446,6 @@ class Questions(Searches):
             convection_w_per_m2_k=convection_w_per_m2_k,
             conductivity_w_per_m_k=conductivity_w_per_m_k,
         )
-        return self._asked(GapResults, ask, "amplitudes", accuracy, tolerance, progress)
 
     def run_washboard(
         self,
@@ -483,5 +487,4 @@ class Questions(Searches):
         >>> saw.run_washboard(600, accuracy="draft").verdict
         'unstable'
         """
-        ask = partial(_native.washboard, rpm=rpm)
-        return self._asked(WashboardResults, ask, "speeds", accuracy, tolerance, progress)
+        return self._asked(WashboardResults, accuracy, tolerance, progress, rpm=rpm)

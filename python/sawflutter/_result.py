@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import os
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from . import _native
 from ._drawn import Drawn
 from ._entry import Entry
-from ._table import entries
-from ._view import html
+from ._extras import entries
 from .errors import InputError
 
 if TYPE_CHECKING:
@@ -55,7 +56,8 @@ class Report(Drawn):
         return self._text
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the report, the same bytes as the program; :func:`sawflutter.load` reads it.
+        """Writes the report, the same bytes as the program; :func:`sawflutter.load` reads it. A study
+        also writes the table of its saws, to the file of the same name with the ending .csv.
 
         Parameters
         ----------
@@ -78,11 +80,19 @@ class Report(Drawn):
         True
         """
         Path(path).write_bytes(self._text.encode())
+        self._save_beside(Path(path))
+
+    def _save_beside(self, path: Path) -> None:
+        """Writes the other files of a report."""
 
     def to_dataframe(self) -> pd.DataFrame:
         """The results as a table, which needs pandas. It has one row for each limit of a check,
-        number of a fit or a place, setting of a tradeoff, speed of a cut (without histories and
-        maps), or mode of a washboard. :attr:`table` names the attribute with the rows as objects.
+        number of a fit or a place, setting of a tradeoff, saw of a comparison or a map, speed of a
+        cut (without histories and maps), or mode of a washboard; :attr:`table` names the attribute
+        with these rows as objects. A run-up has a row for each sample (``rpm``, ``deflection_m``);
+        a response for each speed, with a column for the amplitude at the probe in m of each line; a
+        slow sweep for each stable equilibrium, without its frequencies; guides with a gap for each
+        ``gap_factor`` and ``force_n``, with the deflections at the cut.
 
         Returns
         -------
@@ -100,6 +110,9 @@ class Report(Drawn):
         >>> bool(check.to_dataframe()["passed"].all())
         False
         """
+        return self._rows()
+
+    def _rows(self) -> pd.DataFrame:
         return entries(getattr(self, self.table))
 
     def __eq__(self, other: object) -> bool:
@@ -117,6 +130,9 @@ class Result(Report, Entry):
 
     command: ClassVar[str] = ""
     """The command of the program that reports it."""
+
+    _steps: ClassVar[str] = "speeds"
+    """Name of its steps, for the progress bar."""
 
     @classmethod
     def from_json(cls: type[R], text: str) -> R:
@@ -160,7 +176,8 @@ class Result(Report, Entry):
 
     @classmethod
     def load(cls: type[R], path: str | os.PathLike[str]) -> R:
-        """Reads a report of this kind that the program or :meth:`save` has written.
+        """Reads a report of this kind that the program or :meth:`save` has written, and for a study
+        the table of its saws in the same folder.
 
         Parameters
         ----------
@@ -189,7 +206,12 @@ class Result(Report, Entry):
         >>> sf.CampbellResults.load(path) == r
         True
         """
-        return cls.from_json(Path(path).read_text(encoding="utf-8"))
+        result = cls.from_json(Path(path).read_text(encoding="utf-8"))
+        result._load_beside(Path(path))
+        return result
+
+    def _load_beside(self, path: Path) -> None:
+        """Remembers where the other files of a report are."""
 
     def _read(self) -> None:
         """Completes a result after all of it was read."""
@@ -317,29 +339,12 @@ class Result(Report, Entry):
         warned = "".join(f"WARNING: {warning}; " for warning in self._warnings())
         return f"<{type(self).__name__} {self.raw['scene']['name']!r}: {warned}{self._facts()}>"
 
-    def chart(self) -> Chart:
-        """Contents of the figures as lines, points and bands. A Campbell diagram shows frequencies
-        over speed with growth rates below; a check the required and the computed speeds; a cut the
-        deflection at the probe over time, in one panel for each speed; a run-up and a slow sweep
-        this deflection over speed; a washboard the lowest cutting stiffness at which a motion
-        grows, and its frequency, over speed; a fit measured and computed frequencies; a place the
-        goal over one or two numbers; a study the shares of saws below a speed and of saws that can
-        run at a speed.
+    def _chart(self) -> Chart:
+        from .plot.described import OWN
 
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> check = sf.Scene.paper().check(operating_rpm=1400, accuracy="draft")
-        >>> check.chart().panels[0].y_names[-1]
-        '85 % rule'
-        """
-        return self._chart(self._facts())
-
-    def _chart(self, facts: str) -> Chart:
+        facts, own = self._facts(), OWN.get(self.command)
+        if own is not None:
+            return own(self, facts)
         return self._described(self.figure_names[0].partition(".")[0], facts)
 
     def _facts(self) -> str:
@@ -349,5 +354,11 @@ class Result(Report, Entry):
     def _repr_html_(self) -> str:
         """The answer and the program's figure, for a notebook."""
         name = next((name for name in self.figure_names if name.endswith(".svg")), None)
-        picture = self.figure(name) if name is not None else None
-        return html(self.summary(), None if picture is None else picture.decode())
+        picture = None if name is None else self.figure(name)
+        text = f"<pre style='line-height:1.25;margin:0'>{escape(self.summary())}</pre>"
+        if picture is not None:
+            # An image, so that its styles and scripts and those of the page do not affect each other.
+            source = f"data:image/svg+xml;base64,{base64.b64encode(picture).decode()}"
+            text += f"<img alt='' style='width:34em;max-width:100%' src='{source}'>"
+        style = "display:flex;flex-wrap:wrap;gap:1.5em;align-items:flex-start"
+        return f"<div style='{style}'>{text}</div>"

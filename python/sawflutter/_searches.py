@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import os
+import tempfile
 import warnings
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
-from functools import partial
-from typing import TYPE_CHECKING, Literal, SupportsFloat, SupportsIndex, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, Literal, SupportsFloat, SupportsIndex, TypeAlias, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -20,11 +21,10 @@ from ._result import R
 from ._scene_data import Number, SceneData
 from ._scene_types import Accuracy
 from ._values import whole
-from .designs import FitResults, PlaceResults, TradeoffResults
+from .designs import FitResults, PlaceResults, StiffnessMap, TradeoffResults
 from .errors import ModelWarning
 from .matrices import Matrices
 from .results import CampbellResults
-from .stiffness import StiffnessMap
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -44,20 +44,16 @@ class Searches(SceneData):
     def _asked(
         self,
         kind: type[R],
-        ask: Callable[..., str],
-        what: str,
         accuracy: Accuracy | None,
         tolerance: Number,
         progress: Progress,
+        **options: Any,
     ) -> R:
         """The library's report of this scene at another accuracy, with its warnings."""
         scene = self.with_accuracy(accuracy, tolerance)
-        with reporting(progress, what) as told:
-            result = kind.from_json(ask(scene._text, progress=told))
-        for warning in result._warnings():
-            # The warning names the line that calls the method.
-            warnings.warn(warning, ModelWarning, stacklevel=3)
-        return result
+        with reporting(progress, kind._steps) as told:
+            result = kind.from_json(_native.run(kind.command, scene._text, options, told))
+        return _warned(result, 4)
 
     def fit(
         self,
@@ -115,8 +111,11 @@ class Searches(SceneData):
         >>> found.parameters[0].path
         'guides[0].stiffness_n_per_m'
         """
-        ask = partial(
-            _native.fit,
+        return self._asked(
+            FitResults,
+            accuracy,
+            tolerance,
+            progress,
             measured=table(measured),
             free=_bounds(free),
             to_rpm=to_rpm,
@@ -124,7 +123,6 @@ class Searches(SceneData):
             starts=whole("starts", starts),
             seed=whole("seed", seed),
         )
-        return self._asked(FitResults, ask, "starts", accuracy, tolerance, progress)
 
     def place(
         self,
@@ -198,8 +196,11 @@ class Searches(SceneData):
         >>> [parameter.path for parameter in found.parameters]
         ['guides[0].radius_m']
         """
-        ask = partial(
-            _native.place,
+        return self._asked(
+            PlaceResults,
+            accuracy,
+            tolerance,
+            progress,
             free=_bounds(free),
             goal=goal,
             min_critical_rpm=min_critical_rpm,
@@ -214,7 +215,6 @@ class Searches(SceneData):
             guide_tolerance_share=guide_tolerance_share,
             other_tolerance_share=other_tolerance_share,
         )
-        return self._asked(PlaceResults, ask, "saws", accuracy, tolerance, progress)
 
     def run_map(
         self,
@@ -272,19 +272,26 @@ class Searches(SceneData):
         >>> [round(1e3 * value, 3) for value in found.x.values.tolist()]
         [2.5, 2.75, 3.0]
         """
-        from .maps import run_map
+        from .maps import MapResults, axis
+        from .study import Study
 
-        return run_map(
-            cast("Scene", self.with_accuracy(accuracy, tolerance)),
-            x,
-            y,
-            points=points,
+        scene = self.with_accuracy(accuracy, tolerance)
+        native = _native.Map(
+            scene._text,
+            axis(x),
+            None if y is None else axis(y),
+            points=None if points is None else whole("points", points),
             rpm=rpm,
             to_rpm=to_rpm,
-            folder=folder,
-            executor=executor,
-            progress=progress,
         )
+        study = Study(cast("Scene", scene), json.loads(native.study))
+        with tempfile.TemporaryDirectory() as temporary:
+            place = temporary if folder is None else os.fspath(folder)
+            study._compute(place, executor, progress)
+            result = MapResults.from_json(native.report(place))
+        if folder is not None:
+            result.save(os.path.join(place, "map.json"))
+        return _warned(result)
 
     def tradeoff(self, *, progress: Progress = None) -> TradeoffResults:
         """Measures computing time against true error, for bases of several sizes.
@@ -312,7 +319,7 @@ class Searches(SceneData):
         True
         """
         with reporting(progress, "settings") as told:
-            text = _native.tradeoff(self._text, progress=told)
+            text = _native.run("tradeoff", self._text, {}, told)
         return TradeoffResults.from_json(text, self.name)
 
     def matrices(
@@ -391,15 +398,23 @@ class Searches(SceneData):
         chosen = range(len(self.guides)) if guide is None else [whole("guide", guide)]
         stiffness = array(np.ravel(stiffness_n_per_m).tolist())
         saw = self.with_accuracy(accuracy, tolerance)
+        plain = {"sensitivity": False, "amplitude": False, "shapes_at_rpm": None}
         reports = []
         with reporting(progress, "saws") as told:
             for done, value in enumerate(stiffness.tolist(), start=1):
                 saw = saw.replace({f"guides[{at}].stiffness_n_per_m": value for at in chosen})
-                reports.append(CampbellResults.from_json(_native.analyze(saw._text)))
+                reports.append(CampbellResults.from_json(_native.run("analyze", saw._text, plain)))
                 if told is not None:
                     told(done, len(stiffness), "")
         critical = array([report.critical_rpm.tolist() for report in reports])
         return StiffnessMap(self.name, stiffness, critical, array([r.flutter_rpm for r in reports]))
+
+
+def _warned(result: R, stacklevel: int = 3) -> R:
+    """A result, after its warnings, which name the line that calls the method of the scene."""
+    for warning in result._warnings():
+        warnings.warn(warning, ModelWarning, stacklevel=stacklevel)
+    return result
 
 
 def _bounds(free: Free) -> list[tuple[str, tuple[float, float] | None]]:

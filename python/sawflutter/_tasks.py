@@ -80,7 +80,7 @@ def rows(text: Text, saws: Range) -> Rows:
         # The time of a saw excludes the study, which a worker reads once.
         study = _study(text)
         begun = time.monotonic()
-        found = study.rows([saws])
+        found = study.rows(*saws)
     except Exception as error:  # noqa: BLE001 whatever it is, it goes back
         return Rows(b"", 0.0, who(), f"{type(error).__name__}: {error}")
     return Rows(found, time.monotonic() - begun, who())

@@ -9,7 +9,7 @@ from typing import Any, SupportsIndex
 
 import numpy as np
 
-from .errors import ArgumentError
+from .errors import refused
 
 # Units by the end of a key.
 _NAMES = ("deg", "Hz", "K", "kg", "m", "N", "Pa", "rpm", "s", "W")
@@ -24,8 +24,7 @@ def whole(name: str, value: SupportsIndex) -> int:
     number = index(value)
     if not 0 <= number < 2**64:
         allowed, remedy = "0 or more and below 2**64", "give such a number, or leave it out"
-        message = f"{name} is {number}, but must be {allowed}; {remedy}"
-        raise ArgumentError(message, name, str(number), allowed, remedy)
+        raise refused(name, number, allowed, remedy)
     return number
 
 

@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from ._report_types import CheckReport
 from ._result import Result, pictures
-
-if TYPE_CHECKING:
-    from .plot.chart import Chart
 
 
 class CheckResults(Result, CheckReport):
@@ -35,11 +30,6 @@ class CheckResults(Result, CheckReport):
         """
         unusual = () if self.accept_unusual else self.unusual_numbers
         return unusual + tuple(c.name for c in self.criteria if not c.passed)
-
-    def _chart(self, facts: str) -> Chart:
-        from .plot.design import check
-
-        return check(self, facts)
 
     def _facts(self) -> str:
         # In the words of the program.

@@ -1,11 +1,15 @@
-"""Results of searches over many saws: fits, places, and computing time against accuracy."""
+"""Results of searches over many saws: fits, places, computing time against accuracy, and critical
+speeds over the stiffness of the guides."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from ._drawn import Drawn
+from ._entry import Entry, FloatArray
 from ._report_types import FitReport, PlaceReport, Setting
 from ._result import Report, Result, pictures
 
@@ -16,13 +20,8 @@ if TYPE_CHECKING:
 class FitResults(Result, FitReport):
     """A saw fitted to measured frequencies; :attr:`saw` is the calibrated scene."""
 
-    command, table = "fit", "parameters"
+    command, table, _steps = "fit", "parameters", "starts"
     figure_names = pictures("fit")
-
-    def _chart(self, facts: str) -> Chart:
-        from .plot.design import fit
-
-        return fit(self, facts)
 
     def _facts(self) -> str:
         found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
@@ -33,13 +32,8 @@ class PlaceResults(Result, PlaceReport):
     """The best place found for the guides; :attr:`saw` is the scene with it. Its chart has no
     panel without a map."""
 
-    command, table = "place", "parameters"
+    command, table, _steps = "place", "parameters", "saws"
     figure_names = pictures("place")
-
-    def _chart(self, facts: str) -> Chart:
-        from .plot.design import place
-
-        return place(self, facts)
 
     def _facts(self) -> str:
         found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
@@ -110,19 +104,7 @@ class TradeoffResults(Report):
         charts = [s for s in self.settings if s.speeds > 0 and s.error <= error]
         return min(charts, key=lambda setting: setting.seconds, default=None)
 
-    def chart(self) -> Chart:
-        """Error over time.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> sf.TradeoffResults.from_json("[]").chart().panels[0].y_name
-        'time [s]'
-        """
+    def _chart(self) -> Chart:
         from .plot.design import tradeoff
 
         return tradeoff(self.settings, self.name)
@@ -132,3 +114,27 @@ class TradeoffResults(Report):
 
     def __repr__(self) -> str:
         return f"<TradeoffResults {self.name!r}: {len(self.settings)} settings>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class StiffnessMap(Drawn, Entry):
+    """Critical speeds of a saw over the stiffness of its guides, like the critical speed map of
+    rotor dynamics over bearing stiffness. :meth:`sawflutter.Scene.run_stiffness_map` returns
+    it."""
+
+    name: str
+    """Title of the scene."""
+
+    stiffness_n_per_m: FloatArray
+    """Stiffness of each guide that is varied."""
+
+    critical_rpm: FloatArray
+    """Critical speeds within the sweep, ascending, a row each; NaN where there are fewer."""
+
+    flutter_rpm: FloatArray
+    """Flutter speed of each; NaN where there is none within the sweep."""
+
+    def _chart(self) -> Chart:
+        from .plot.design import stiffness
+
+        return stiffness(self)

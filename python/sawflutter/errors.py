@@ -60,6 +60,16 @@ class ArgumentError(InputError):
     """An argument of a method that is out of range."""
 
 
+def refused(key: str, value: object, allowed: str, remedy: str) -> ArgumentError:
+    """The error of an argument.
+
+    >>> refused("speeds", 0, "at least 1", "20 is usual")
+    ArgumentError('speeds is 0, but must be at least 1; 20 is usual')
+    """
+    message = f"{key} is {value!r}, but must be {allowed}; {remedy}"
+    return ArgumentError(message, key, str(value), allowed, remedy)
+
+
 class AnalysisError(RuntimeError):
     """A computation that failed; the message states the reason and gives advice."""
 

@@ -2,30 +2,19 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
-import warnings
-from concurrent.futures import Executor
-from typing import TYPE_CHECKING, SupportsFloat, SupportsIndex, TypeAlias
+from typing import TYPE_CHECKING, SupportsFloat, TypeAlias
 
 import numpy as np
 
 from . import _native
 from ._entry import FloatArray, array
-from ._grids import of_map
-from ._progress import Progress
+from ._extras import extra
 from ._report_types import MapReport
 from ._result import Result, pictures
-from ._scene_data import Number
-from ._values import plain, whole
-from .errors import ModelWarning
-from .study import Study
+from ._values import plain
 
 if TYPE_CHECKING:
     import xarray as xr
-    from distributed import Client
-
-    from .scene import Scene
 
 Along: TypeAlias = "tuple[str, SupportsFloat | str, SupportsFloat | str]"
 """Path of a number in the scene, and the ends of its axis."""
@@ -100,7 +89,25 @@ class MapResults(Result, MapReport):
         >>> found.lowest_critical_rpm.dims
         ('blade.thickness_m',)
         """
-        return of_map(self)
+        with extra("xarray"):
+            import xarray as xr
+
+        axes = [self.x] if self.y is None else [self.y, self.x]
+        names = [axis.path for axis in axes]
+        states = [saw.state or "" for saw in self.saws]
+        variables = {
+            "lowest_critical_rpm": (names, self.lowest_critical_rpm, {"units": "rpm"}),
+            "flutter_rpm": (names, self.flutter_rpm, {"units": "rpm"}),
+            "state": (names, np.reshape(np.array(states), self.shape)),
+        }
+        coordinates = {
+            axis.path: (axis.path, axis.values, {"units": axis.unit, "long_name": axis.name})
+            for axis in axes
+        }
+        attributes = {"scene": self.scene["name"], "to_rpm": self.to_rpm}
+        if self.rpm is not None:
+            attributes["rpm"] = self.rpm
+        return xr.Dataset(variables, coordinates, attributes)
 
     def _speeds(self, speeds: list[float | None]) -> FloatArray:
         return np.reshape(array(speeds), self.shape)
@@ -113,41 +120,8 @@ class MapResults(Result, MapReport):
         return f"{len(self.saws)} saws over {over}{judged}"
 
 
-def run_map(
-    scene: Scene,
-    x: Along,
-    y: Along | None,
-    *,
-    points: SupportsIndex | None,
-    rpm: Number,
-    to_rpm: Number,
-    folder: str | os.PathLike[str] | None,
-    executor: Executor | Client | None,
-    progress: Progress,
-) -> MapResults:
-    """A map of a scene: a study of a grid, and its report."""
-    native = _native.Map(
-        scene.to_json(),
-        _range(x),
-        y if y is None else _range(y),
-        points=points if points is None else whole("points", points),
-        rpm=rpm,
-        to_rpm=to_rpm,
-    )
-    study = Study._of(scene, native.study)
-    with tempfile.TemporaryDirectory() as temporary:
-        place = temporary if folder is None else os.fspath(folder)
-        study._compute(place, executor, progress)
-        result = MapResults.from_json(native.report(place))
-    if folder is not None:
-        result.save(os.path.join(place, "map.json"))
-    for warning in result._warnings():
-        # At the line that has called the method of the scene.
-        warnings.warn(warning, ModelWarning, stacklevel=3)
-    return result
-
-
-def _range(along: Along) -> tuple[str, float, float]:
+def axis(along: Along) -> tuple[str, float, float]:
+    """The path of a number, and the ends of its axis in the unit of the path."""
     path, *ends = along
 
     def number(end: SupportsFloat | str) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from typing import Any, SupportsFloat, SupportsIndex
 
@@ -77,8 +76,9 @@ class Matrices(Entry):
         4
         """
         found, diameters, functions = _native.matrices(scene, basis=basis)
-        names = ("stiffness", "spin", "gyroscopic", "damping", "circulatory")
-        arrays: dict[str, Any] = {name: _square(found.get(name)) for name in names}
+        arrays: dict[str, Any] = {"damping": None, "circulatory": None}
+        for name, values in found.items():
+            arrays[name] = np.frombuffer(values, "<f8").reshape((2 * diameters + 1) * functions, -1)
         return cls(**arrays, max_diameters=diameters, radial_functions=functions, scene=scene)
 
     @property
@@ -166,7 +166,6 @@ class Matrices(Entry):
             position = position + speed * self.circulatory
         return np.block([[np.zeros((size, size)), np.eye(size)], [-position, -velocity]])
 
-
     def state_space(
         self,
         rpm: SupportsFloat,
@@ -212,10 +211,3 @@ class Matrices(Entry):
         )
         whole = StateSpace.of(float(rpm), self.companion(rpm), forces, probes)
         return whole if to_hz is None else whole.reduced(float(to_hz))
-
-
-def _square(values: bytes | None) -> FloatArray | None:
-    if values is None:
-        return None
-    array = np.frombuffer(values, "<f8")
-    return array.reshape(math.isqrt(len(array)), -1)

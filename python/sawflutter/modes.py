@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ._entry import Entry, FloatArray, IntArray, array
+from ._extras import entries
 from ._report_types import Mode
-from ._table import entries
 
 if TYPE_CHECKING:
     import pandas as pd

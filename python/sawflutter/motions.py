@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ._extras import frame
 from ._report_types import CutReport, DeflectReport, GapReport, ResponseReport, RunUpReport, WashboardReport
 from ._result import Result, pictures
-from ._table import frame
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -17,13 +17,8 @@ if TYPE_CHECKING:
 class CutResults(Result, CutReport):
     """A saw in a cut, at one or several speeds."""
 
-    command, table = "cut", "runs"
+    command, table, _steps = "cut", "runs", "points of the map"
     figure_names = pictures("cut", "cut-map", "spline-orbit")
-
-    def _chart(self, facts: str) -> Chart:
-        from .plot.histories import cut
-
-        return cut(self, facts)
 
     def map_chart(self, run: int = 0) -> Chart:
         """Growth over guide angle and load for one of the runs.
@@ -64,35 +59,11 @@ class CutResults(Result, CutReport):
 class RunUpResults(Result, RunUpReport):
     """A run-up under a lateral force."""
 
-    command = "runup"
+    command, _steps = "runup", "steps"
     figure_names = pictures("runup", "response-map", "runup-map")
 
-    def to_dataframe(self) -> pd.DataFrame:
-        """Speed and deflection, one row for each sample; needs pandas.
-
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ImportError
-            If pandas is missing; the message says how to install it.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> short = {"runup.to_rpm": 500, "runup.duration_s": 5}
-        >>> up = sf.Scene.paper().replace(short).run_up(accuracy="draft")
-        >>> list(up.to_dataframe())
-        ['rpm', 'deflection_m']
-        """
+    def _rows(self) -> pd.DataFrame:
         return frame({"rpm": self.rpm, "deflection_m": self.deflection_m})
-
-    def _chart(self, facts: str) -> Chart:
-        from .plot.histories import run_up
-
-        return run_up(self, facts)
 
     def response_chart(self) -> Chart:
         """Deflection per newton over speed and frequency, with the branches on top.
@@ -129,28 +100,10 @@ class RunUpResults(Result, RunUpReport):
 class DeflectResults(Result, DeflectReport):
     """Equilibrium deflection of the blade while its speed slowly rises and falls."""
 
-    command = "deflect"
+    command, _steps = "deflect", "equilibria"
     figure_names = pictures("deflect")
 
-    def to_dataframe(self) -> pd.DataFrame:
-        """Stable equilibria without their frequencies, one row for each; needs pandas.
-
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ImportError
-            If pandas is missing; the message says how to install it.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> found = sf.Scene.paper().run_deflect(to_rpm=1000, accuracy="draft")
-        >>> sorted(set(found.to_dataframe()["direction"]))
-        ['down', 'up']
-        """
+    def _rows(self) -> pd.DataFrame:
         names = ("rpm", "deflection_m", "largest_deflection_m", "largest_slope")
         rows = [
             {"direction": direction, "arc": number, **dict(zip(names, point))}
@@ -171,26 +124,7 @@ class ResponseResults(Result, ResponseReport):
     command = "response"
     figure_names = pictures("response", "frequency-response")
 
-    def to_dataframe(self) -> pd.DataFrame:
-        """Amplitudes at the probe in m, one row for each speed and one column for each line; needs
-        pandas.
-
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ImportError
-            If pandas is missing; the message says how to install it.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper().replace({"response": {"force_n": 2.0}})
-        >>> saw.run_response(accuracy="draft").to_dataframe().columns.tolist()
-        ['rpm', 'side force, static', 'board_deviation_m']
-        """
+    def _rows(self) -> pd.DataFrame:
         columns = {line.name: line.amplitude_m for line in self.lines}
         table = {"rpm": self.rpm, **columns, "board_deviation_m": self.board_deviation_m}
         return frame([dict(zip(table, row)) for row in zip(*table.values())])
@@ -206,29 +140,10 @@ class ResponseResults(Result, ResponseReport):
 class GapResults(Result, GapReport):
     """Guides with a gap: the chart over the amplitude, and the deflection at the cut."""
 
-    command = "gap"
+    command, _steps = "gap", "amplitudes"
     figure_names = pictures("gap")
 
-    def to_dataframe(self) -> pd.DataFrame:
-        """Deflections at the cut, one row for each gap and side force; needs pandas.
-
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ImportError
-            If pandas is missing; the message says how to install it.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> pad = {"guides[0].contact": "one_sided", "guides[0].gap_m": 4e-5}
-        >>> saw = sf.Scene.paper().replace({**pad, "sweep.to_rpm": 1700, "operating_rpm": 1000})
-        >>> list(saw.run_gap(accuracy="draft").to_dataframe())
-        ['gap_factor', 'force_n', 'deflection_m', 'largest_deflection_m']
-        """
+    def _rows(self) -> pd.DataFrame:
         found = self.deviation
         rows = [
             {"gap_factor": factor, "force_n": force, "deflection_m": at, "largest_deflection_m": most}

@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING, SupportsFloat
 
 import numpy as np
 
-from ._channels import refused
 from ._entry import Entry, FloatArray, IntArray, array
-from ._extras import extra
-from ._table import frame
-from .errors import ArgumentError
+from ._extras import extra, frame
+from ._measured import lines
+from .errors import ArgumentError, refused
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -190,11 +189,8 @@ class Peaks(Entry):
         'rpm,f1,f2,f3\\n0.0,7.9,,25.9\\n'
         """
         most = max((len(hz) for _, hz in rows), default=0)
-        lines = [",".join(["rpm", *(f"f{place}" for place in range(1, most + 1))])]
-        for rpm, frequencies in rows:
-            cells = ["" if np.isnan(hz) else f"{hz!r}" for hz in map(float, frequencies)]
-            lines.append(",".join([f"{float(rpm)!r}", *cells]))
-        text = "".join(f"{line}\n" for line in lines)
+        names = ",".join(["rpm", *(f"f{place}" for place in range(1, most + 1))])
+        text = f"{names}\n{lines(rows)}"
         Path(path).write_text(text, encoding="utf-8", newline="\n")
 
     def to_dataframe(self) -> pd.DataFrame:

@@ -8,8 +8,8 @@ from typing import SupportsFloat
 import numpy as np
 import numpy.typing as npt
 
-from ._channels import refused
 from ._entry import Entry, FloatArray, array
+from .errors import refused
 from .motions import RunUpResults
 from .spectra import Spectrum, after_tap
 from .waterfalls import Waterfall, sliding_spectra
@@ -195,12 +195,8 @@ class Record(Entry):
         >>> w.frequency_hz[w.amplitude[0].argmax()].round(), w.amplitude.max().round(3)
         (np.float64(40.0), np.float64(1.0))
         """
-        return sliding_spectra(
-            (self.samples, self.rate_hz, self.rpm),
-            None if resolution_hz is None else float(resolution_hz),
-            self._highest(to_hz),
-            (self.unit, self.name),
-        )
+        resolution = None if resolution_hz is None else float(resolution_hz)
+        return sliding_spectra(self, resolution, self._highest(to_hz))
 
     def spectrum(self, *, to_hz: SupportsFloat | None = None) -> Spectrum:
         """Spectrum of a free decay at a constant speed, such as that of a tap test at rest: of the
@@ -231,12 +227,10 @@ class Record(Entry):
         >>> tap.spectrum().peaks().frequency_hz.round(1).tolist()
         [25.0]
         """
-        mean, spread = float(self.rpm.mean()), float(np.ptp(self.rpm))
-        if spread > max(5.0, 0.01 * mean):
+        if np.ptp(self.rpm) > max(5.0, 0.01 * self.rpm.mean()):
             ends = f"{self.rpm.min():.0f} to {self.rpm.max():.0f} rpm"
             raise refused("rpm", ends, "constant", "use waterfall(), or a part by between()")
-        named = (self.unit, self.name)
-        return after_tap(self.samples, self.rate_hz, self._highest(to_hz), mean, named)
+        return after_tap(self, self._highest(to_hz))
 
     def _highest(self, to_hz: SupportsFloat | None) -> float:
         highest = 0.4 * self.rate_hz

@@ -7,13 +7,14 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
+import numpy as np
+
 from . import _native
 from ._entry import FloatArray, array
-from ._grids import of_chart
+from ._extras import entries, extra, read
 from ._methods import know_bands
 from ._report_types import Branch, CampbellReport, Instability, Mode
 from ._result import Result, pictures
-from ._table import entries, read
 from .designs import TradeoffResults
 from .errors import InputError
 
@@ -193,7 +194,24 @@ class CampbellResults(Result, CampbellReport):
         >>> chart.frequency_hz.dims
         ('branch', 'rpm')
         """
-        return of_chart(self)
+        with extra("xarray"):
+            import xarray as xr
+
+        branches = self.branches
+        rpm = np.unique(np.concatenate([branch.rpm for branch in branches] or [np.empty(0)]))
+        units = {"frequency_hz": "Hz", "body_frequency_hz": "Hz", "growth_per_s": "1/s", "krein_sign": ""}
+        variables = {}
+        for name, unit in units.items():
+            table = np.full((len(branches), len(rpm)), np.nan)
+            for row, branch in zip(table, branches):
+                row[np.searchsorted(rpm, branch.rpm)] = getattr(branch, name)
+            variables[name] = (("branch", "rpm"), table, {"units": unit})
+        coordinates = {
+            "branch": [branch.branch for branch in branches],
+            "rpm": ("rpm", rpm, {"units": "rpm"}),
+            "name": ("branch", [branch.name for branch in branches]),
+        }
+        return xr.Dataset(variables, coordinates, {"scene": self.scene["name"]})
 
     def to_dataframe(self, of: Table = "branches") -> pd.DataFrame:
         """Part of the results as a table; needs pandas.

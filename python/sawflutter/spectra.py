@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, SupportsFloat
 import numpy as np
 
 from . import _channels
-from ._channels import refused
 from ._drawn import Drawn
 from ._entry import ComplexArray, Entry, FloatArray, array
 from ._extras import extra
-from ._picking import order_of, picked
-from .errors import InputError
+from ._picking import rows
+from .errors import InputError, refused
 from .peaks import Peaks
 
 if TYPE_CHECKING:
     from .plot.chart import Chart
+    from .records import Record
     from .scene import Scene
 
 # The exponential window falls to this value at its end.
@@ -88,13 +88,9 @@ class Spectrum(Drawn, Entry):
         >>> tap.spectrum().peaks().rpm.tolist()
         [0.0]
         """
-        found = picked(self.frequency_hz, np.abs(self.response), self.resolution_hz, float(above_db))
-        multiples = np.array([float(order) for order in orders if self.rpm > 0.0])
-        rows = [
-            (self.rpm, float(hz), float(size), order_of(hz, self.rpm, multiples, self.resolution_hz), 0)
-            for hz, size in zip(*found)
-        ]
-        return Peaks.of(rows, self.resolution_hz, _APART, self.unit, self.name)
+        spectra = [(self.rpm, np.abs(self.response))]
+        found = rows(self.frequency_hz, spectra, self.resolution_hz, orders, above_db)
+        return Peaks.of(found, self.resolution_hz, _APART, self.unit, self.name)
 
     def chart(self, saw: Scene | None = None, peaks: Peaks | None = None) -> Chart:
         """Level over frequency, with the computed frequencies of a saw and the picked peaks.
@@ -193,14 +189,13 @@ def read_frf(
     return Spectrum(array(of.frequency_hz), response, speed, width, of.unit, of.name)
 
 
-def after_tap(
-    samples: FloatArray, rate_hz: float, to_hz: float, rpm: float, named: tuple[str, str]
-) -> Spectrum:
+def after_tap(record: Record, to_hz: float) -> Spectrum:
     """The spectrum of a record from its largest deflection on."""
     with extra("records"):
         from scipy.fft import next_fast_len, rfft
 
-    from_mean = samples - np.median(samples)
+    rate_hz = record.rate_hz
+    from_mean = record.samples - np.median(record.samples)
     begin = int(np.abs(from_mean).argmax())
     decay = from_mean[begin:]
     if len(decay) < _FEWEST:
@@ -215,5 +210,10 @@ def after_tap(
     # A decay by σ has a peak of the width √3 σ/π at half its height.
     width = np.sqrt(3.0) / np.pi * -np.log(_END) * rate_hz / len(decay)
     return Spectrum(
-        array(frequency_hz[:kept]), array(response, np.complex128), rpm, float(width), *named
+        array(frequency_hz[:kept]),
+        array(response, np.complex128),
+        float(record.rpm.mean()),
+        float(width),
+        record.unit,
+        record.name,
     )

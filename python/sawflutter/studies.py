@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ._extras import extra
+from ._extras import extra, read
 from ._report_types import StudyReport
 from ._result import Result, pictures
-from ._table import read
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -28,75 +26,13 @@ class StudyResults(Result, StudyReport):
     _table: Path | str | None = None
     """``study.csv``: where it is, or what is in it."""
 
-    @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> StudyResults:
-        """Reads a report that the program or :meth:`save` wrote, and the table of the saws in the
-        same folder: the file of the same name with the ending .csv.
+    def _load_beside(self, path: Path) -> None:
+        object.__setattr__(self, "_table", path.with_suffix(".csv").absolute())
 
-        Parameters
-        ----------
-        path : str or path
-            The file.
-
-        Returns
-        -------
-        StudyResults
-
-        Raises
-        ------
-        InputError
-            If the file is a report of another kind.
-        OSError
-            If the file cannot be read.
-
-        Examples
-        --------
-        >>> import pathlib, tempfile
-        >>> import sawflutter as sf
-        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
-        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
-        >>> folder = pathlib.Path(tempfile.mkdtemp())
-        >>> study.run(folder) == sf.StudyResults.load(folder / "study.json")
-        True
-        """
-        result = super().load(path)
-        object.__setattr__(result, "_table", _beside(path).absolute())
-        return result
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the report with the same bytes as the program, and the table of the saws to the
-        same folder: the file of the same name with the ending .csv. :func:`sawflutter.load` reads
-        both.
-
-        Parameters
-        ----------
-        path : str or path
-            The file.
-
-        Raises
-        ------
-        OSError
-            If the file cannot be written.
-
-        Examples
-        --------
-        >>> import pathlib, tempfile
-        >>> import sawflutter as sf
-        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
-        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
-        >>> folder = pathlib.Path(tempfile.mkdtemp())
-        >>> study.run(folder / "runs").save(folder / "thin.json")
-        >>> sorted(path.name for path in folder.glob("thin*"))
-        ['thin.csv', 'thin.json']
-        """
-        table = self._csv()
-        super().save(path)
-        if table is not None and self._table != _beside(path).absolute():
-            _beside(path).write_bytes(table.encode())
+    def _save_beside(self, path: Path) -> None:
+        table, beside = self._csv(), path.with_suffix(".csv")
+        if table is not None and self._table != beside.absolute():
+            beside.write_bytes(table.encode())
 
     def to_dataframe(self) -> pd.DataFrame:
         """One row for each saw, from the table beside the report; needs pandas.
@@ -248,18 +184,9 @@ class StudyResults(Result, StudyReport):
         rows = self.to_dataframe()[[*paths, speed]].to_numpy(dtype=float)
         return grid(self, rows, (paths[0], paths[1]), speed)
 
-    def _chart(self, facts: str) -> Chart:
-        from .plot.design import study
-
-        return study(self, facts)
-
     def _facts(self) -> str:
         passing = self.all.passing
         kept = "" if passing is None else f", {1e2 * passing.probability:.2f} % keep the limits"
         lost = ((self.all.refused, "refused"), (self.all.failed, "failed"))
         said = "".join(f", {count} {word}" for count, word in lost if count)
         return f"{self.all.saws} saws{said}{kept}"
-
-
-def _beside(path: str | os.PathLike[str]) -> Path:
-    return Path(path).with_suffix(".csv")

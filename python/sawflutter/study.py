@@ -55,18 +55,8 @@ class Study:
             text = _native.read_text(study, False)
         else:
             text = _values.to_json(study)
-        self._setup(scene, text)
-
-    def _setup(self, scene: Scene, text: str) -> None:
         self.scene, self._native = scene, _native.Study(scene.to_json(), text)
         self._text = json.dumps(json.loads(text))
-
-    @classmethod
-    def _of(cls, scene: Scene, text: str) -> Study:
-        """The study of a JSON text."""
-        study = cls.__new__(cls)
-        study._setup(scene, text)
-        return study
 
     @property
     def count(self) -> int:

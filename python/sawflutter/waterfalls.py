@@ -9,15 +9,16 @@ from typing import TYPE_CHECKING, SupportsFloat
 
 import numpy as np
 
-from ._channels import refused
 from ._drawn import Drawn
 from ._entry import Entry, FloatArray, array
 from ._extras import extra
-from ._picking import order_of, picked
+from ._picking import rows
+from .errors import refused
 from .peaks import Peaks
 
 if TYPE_CHECKING:
     from .plot.chart import Chart
+    from .records import Record
     from .results import CampbellResults
 
 # Standard deviations in a window: at its ends a Gaussian is 0.03 % of its middle.
@@ -89,14 +90,9 @@ class Waterfall(Drawn, Entry):
         >>> np.abs(w.peaks().frequency_hz - 40.0).max() < 0.01
         np.True_
         """
-        multiples = np.array([float(order) for order in orders])
-        rows = list[tuple[float, float, float, float, int]]()
-        for number, (rpm, amplitude) in enumerate(zip(self.rpm, self.amplitude)):
-            found = picked(self.frequency_hz, amplitude, self.resolution_hz, float(above_db))
-            for hz, size in zip(*found):
-                order = order_of(hz, rpm, multiples, self.resolution_hz)
-                rows.append((float(rpm), float(hz), float(size), order, number))
-        return Peaks.of(rows, self.resolution_hz, self.hop, self.unit, self.name)
+        spectra = zip(self.rpm, self.amplitude)
+        found = rows(self.frequency_hz, spectra, self.resolution_hz, orders, above_db)
+        return Peaks.of(found, self.resolution_hz, self.hop, self.unit, self.name)
 
     def chart(
         self,
@@ -150,19 +146,14 @@ class Waterfall(Drawn, Entry):
         return f"<Waterfall {self.name!r}: {speeds}, up to {self.frequency_hz[-1]:.0f} Hz, {self.resolution_hz:.2g} Hz wide>"
 
 
-def sliding_spectra(
-    record: tuple[FloatArray, float, FloatArray],
-    resolution_hz: float | None,
-    to_hz: float,
-    named: tuple[str, str],
-) -> Waterfall:
+def sliding_spectra(record: Record, resolution_hz: float | None, to_hz: float) -> Waterfall:
     """Spectra of a Gaussian window that moves by one standard deviation. They are computed one by
     one, because only the frequencies up to a limit are kept."""
     with extra("records"):
         from scipy.fft import next_fast_len, rfft
         from scipy.signal import detrend
 
-    samples, rate_hz, rpm = record
+    samples, rate_hz, rpm = record.samples, record.rate_hz, record.rpm
     deviation_s = _deviation_s(record, resolution_hz)
     half = round(0.5 * _DEVIATIONS * deviation_s * rate_hz)
     places = np.arange(-half, half + 1)
@@ -187,14 +178,15 @@ def sliding_spectra(
         array(np.array(spectra)[ascending]),
         WIDTH / deviation_s,
         hop / (deviation_s * rate_hz),
-        *named,
+        record.unit,
+        record.name,
     )
 
 
-def _deviation_s(record: tuple[FloatArray, float, FloatArray], resolution_hz: float | None) -> float:
+def _deviation_s(record: Record, resolution_hz: float | None) -> float:
     """Standard deviation of the window."""
-    samples, rate_hz, rpm = record
-    duration_s = len(samples) / rate_hz
+    rpm = record.rpm
+    duration_s = len(rpm) / record.rate_hz
     rises, total = float(rpm[-1] - rpm[0]), float(np.abs(np.diff(rpm)).sum())
     if np.ptp(rpm) < 1.0 or abs(rises) < 0.5 * total:
         speeds = f"from {rpm[0]:.0f} to {rpm[-1]:.0f} rpm, between {rpm.min():.0f} and {rpm.max():.0f} rpm"

@@ -1,6 +1,8 @@
-//! Arguments of methods, checked by the library: the messages name them as Python does.
+//! Arguments of Python's methods.
 
-use sawflutter::place::{Demands, Goal};
+use pyo3::conversion::FromPyObjectOwned;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use sawflutter::scene::Scene;
 
 use crate::failure::Failure;
@@ -10,24 +12,18 @@ pub fn scene(text: &str) -> Result<Scene, Failure> {
     Ok(Scene::from_json(text)?)
 }
 
-/// The target of a search for a place.
-pub fn demands(
-    scene: &Scene,
-    goal: &str,
-    min_critical_rpm: Option<f64>,
-) -> Result<Demands, Failure> {
-    let goal = match goal {
-        "flutter" => Goal::FlutterSpeed,
-        "window" => Goal::window_of(scene)?,
-        _ => {
-            let (value, allowed) = (format!("{goal:?}"), "\"flutter\" or \"window\"".to_owned());
-            return Err(Failure::argument(
-                "goal",
-                value,
-                allowed,
-                "name one of them",
-            ));
-        }
-    };
-    Ok(Demands::new(goal, min_critical_rpm)?)
+/// Options of a command by their names.
+pub struct Options<'py>(pub Bound<'py, PyDict>);
+
+impl<'py> Options<'py> {
+    /// The option of a name. Its error names the option in a note, as PyO3 does for arguments of functions.
+    pub fn get<T: FromPyObjectOwned<'py>>(&self, name: &str) -> PyResult<T> {
+        let item = self.0.as_any().get_item(name)?;
+        let found: PyResult<T> = item.extract().map_err(Into::into);
+        found.inspect_err(|error| {
+            let (py, note) = (self.0.py(), format!("while processing '{name}'"));
+            // Python 3.10 has no notes.
+            let _ = error.value(py).call_method1("add_note", (note,));
+        })
+    }
 }

@@ -12,9 +12,10 @@ use sawflutter::study::StudyReport;
 
 use crate::failure::Failure;
 
-/// Reads a report of the command of this name and applies a function to it.
+/// Reads a report of the command of this name and applies a function to it. Callers add the kinds of reports that not
+/// every function accepts.
 macro_rules! read {
-    ($command:expr, |$report:ident| $answer:expr) => {{
+    ($command:expr, |$report:ident| $answer:expr $(, $also:literal => $more:ty)?) => {{
         macro_rules! of {
             ($kind:ty) => {
                 serde_json::from_str::<$kind>($report).map(|$report| $answer)
@@ -32,7 +33,7 @@ macro_rules! read {
             "fit" => of!(FitReport),
             "map" => of!(MapReport),
             "place" => of!(PlaceReport),
-            "study" => of!(StudyReport),
+            $($also => of!($more),)?
             _ => of!(Report),
         };
         read.map_err(Failure::from)?
@@ -47,8 +48,9 @@ pub fn picture(
     name: &str,
     report: &str,
 ) -> PyResult<Option<Py<PyBytes>>> {
-    let bytes =
-        py.detach(|| -> Result<_, Failure> { read!(command, |report| drawn(&report, name)) })?;
+    let bytes = py.detach(|| -> Result<_, Failure> {
+        read!(command, |report| drawn(&report, name), "study" => StudyReport)
+    })?;
     Ok(bytes.map(|bytes| PyBytes::new(py, &bytes).unbind()))
 }
 
@@ -68,39 +70,23 @@ fn drawn<R: Figures>(report: &R, name: &str) -> Result<Option<Vec<u8>>, Failure>
 /// The summary that the program prints for a report of the command of this name.
 #[pyfunction]
 pub fn summary(command: &str, report: &str) -> PyResult<String> {
-    Ok(read!(command, |report| report.summary()))
+    Ok(read!(command, |report| report.summary(), "study" => StudyReport))
 }
 
 /// The page of a report of the command of this name; `None` if reports of this kind have none.
 #[pyfunction]
 pub fn page(command: &str, report: &str) -> PyResult<Option<String>> {
-    macro_rules! of {
-        ($kind:ty) => {{
-            let report: $kind = serde_json::from_str(report).map_err(Failure::from)?;
-            document::page(&report).map_err(Failure::from)?
-        }};
+    if command == "study" {
+        return Ok(None);
     }
-    Ok(Some(match command {
-        "analyze" => of!(Report),
-        "check" => of!(CheckReport),
-        "compare" => of!(CompareReport),
-        "cut" => of!(CutReport),
-        "response" => of!(ResponseReport),
-        "runup" => of!(RunUpReport),
-        "deflect" => of!(DeflectReport),
-        "gap" => of!(GapReport),
-        "washboard" => of!(WashboardReport),
-        "fit" => of!(FitReport),
-        "map" => of!(MapReport),
-        "place" => of!(PlaceReport),
-        _ => return Ok(None),
-    }))
+    let page = read!(command, |report| document::page(&report));
+    Ok(Some(page.map_err(Failure::from)?))
 }
 
 /// The description of a figure of this name, as JSON; `None` if the report has no data for it.
 #[pyfunction]
 pub fn chart(command: &str, name: &str, report: &str) -> PyResult<Option<String>> {
-    let chart = read!(command, |report| report.chart(name));
+    let chart = read!(command, |report| report.chart(name), "study" => StudyReport);
     let text = chart.map(|chart| serde_json::to_string(&chart));
     Ok(text.transpose().map_err(Failure::from)?)
 }

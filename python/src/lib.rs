@@ -11,15 +11,15 @@ mod study;
 mod watch;
 
 use pyo3::prelude::*;
+use sawflutter::scene::{MAX_SCENE_BYTES, Quantity, Scene, SceneError, number_of};
 use sawflutter::text::{Kind, OtherEncodings, read_path};
+
+use crate::failure::Failure;
 
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use super::commands::{
-        analyze, check, compare, cut, deflect, fit, gap, modes, place, response, runup, tradeoff,
-        washboard,
-    };
+    use super::commands::{compare, run};
     #[pymodule_export]
     use super::figures::{campbell_csv, chart, page, palette, picture, summary, vtk_files};
     #[pymodule_export]
@@ -35,8 +35,11 @@ mod _native {
 /// The scene of a JSON text, validated, as JSON.
 #[pyfunction]
 fn scene(text: &str) -> PyResult<String> {
-    let scene = arguments::scene(text)?;
-    Ok(serde_json::to_string(scene.file()).map_err(failure::Failure::from)?)
+    written(&arguments::scene(text)?)
+}
+
+fn written(scene: &Scene) -> PyResult<String> {
+    Ok(serde_json::to_string(scene.file()).map_err(Failure::from)?)
 }
 
 /// Corners of the guides of a scene in metres, each as x and y.
@@ -50,26 +53,23 @@ fn outlines(text: &str) -> PyResult<Vec<Vec<[f64; 2]>>> {
 /// The number of a text like `2.6mm` in the unit of a path of a scene; none if the path is not that of a number.
 #[pyfunction]
 fn number(path: &str, text: &str) -> PyResult<Option<f64>> {
-    if sawflutter::scene::Quantity::of(path).is_none() {
+    if Quantity::of(path).is_none() {
         return Ok(None);
     }
-    let refused = |error| failure::Failure::from(sawflutter::scene::SceneError::Value(error));
-    let found = sawflutter::scene::number_of(path, text).map_err(refused)?;
-    Ok(Some(found))
+    let found = number_of(path, text).map_err(SceneError::Value);
+    Ok(Some(found.map_err(Failure::from)?))
 }
 
 /// The scene that comes with the program.
 #[pyfunction]
 fn paper() -> PyResult<String> {
-    let scene = sawflutter::scene::Scene::paper();
-    Ok(serde_json::to_string(scene.file()).map_err(failure::Failure::from)?)
+    written(&Scene::paper())
 }
 
 /// The scene of a file, validated, as JSON.
 #[pyfunction]
 fn read_scene(path: std::path::PathBuf) -> PyResult<String> {
-    let scene = sawflutter::scene::Scene::from_path(&path).map_err(failure::Failure::from)?;
-    Ok(serde_json::to_string(scene.file()).map_err(failure::Failure::from)?)
+    written(&Scene::from_path(&path).map_err(Failure::from)?)
 }
 
 /// The text of the file of a study, or of a table of frequencies, whatever its encoding.
@@ -80,11 +80,10 @@ fn read_text(path: std::path::PathBuf, table: bool) -> PyResult<String> {
         false => ("StudyError", OtherEncodings::Refused),
     };
     let kind = Kind {
-        limit: sawflutter::scene::MAX_SCENE_BYTES,
+        limit: MAX_SCENE_BYTES,
         other_encodings,
     };
-    let text = read_path(&path, kind).map_err(|error| failure::file(class, error))?;
-    Ok(text)
+    Ok(read_path(&path, kind).map_err(|error| failure::file(class, error))?)
 }
 
 /// JSON schemas of scenes, studies and reports, as one JSON object.

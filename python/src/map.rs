@@ -8,6 +8,7 @@ use sawflutter::report::MapReport;
 use sawflutter::study::Rows;
 
 use crate::arguments;
+use crate::commands::json;
 use crate::failure::Failure;
 use crate::watch::compute;
 
@@ -54,15 +55,10 @@ impl Map {
 
     /// `map.json` of the saws in the logs of a folder.
     fn report(&self, py: Python<'_>, folder: PathBuf) -> PyResult<String> {
-        let report = py.detach(|| self.reported(&folder))?;
-        Ok(report)
-    }
-}
-
-impl Map {
-    fn reported(&self, folder: &std::path::Path) -> Result<String, Failure> {
-        let rows = Rows::in_folder(self.0.study(), folder)?;
-        let report = MapReport::of_rows(&self.0, &rows)?;
-        Ok(serde_json::to_string_pretty(&report)?)
+        let report = || {
+            let rows = Rows::in_folder(self.0.study(), &folder)?;
+            json(&MapReport::of_rows(&self.0, &rows)?)
+        };
+        Ok(py.detach(report)?)
     }
 }

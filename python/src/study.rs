@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::{Arc, Mutex};
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -47,35 +47,27 @@ impl Study {
         Err(Failure::argument("index", index, allowed, remedy).into())
     }
 
-    /// Analyses the saws of ranges on a thread of its own and gives their rows in the format of a log.
-    #[pyo3(signature = (ranges, *, progress=None))]
+    /// Analyses the saws from one up to another, which is not among them, on a thread of its own, and gives their rows
+    /// in the format of a log.
     fn rows<'py>(
         &self,
         py: Python<'py>,
-        ranges: Vec<(usize, usize)>,
-        progress: Option<Bound<'_, PyAny>>,
+        first: usize,
+        last: usize,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        for (from, to) in &ranges {
-            if from >= to || *to > self.0.count() {
-                let allowed = format!("within 0 and {}", self.0.count());
-                let value = format!("from {from} up to {to}");
-                let remedy = "saws are numbered from 0, and the last of a range is not in it";
-                return Err(Failure::argument("ranges", value, allowed, remedy).into());
-            }
+        if first >= last || last > self.0.count() {
+            let allowed = format!("within 0 and {}", self.0.count());
+            let value = format!("from {first} up to {last}");
+            let remedy = "saws are numbered from 0, and the last one is not computed";
+            return Err(Failure::argument("saws", value, allowed, remedy).into());
         }
         let study = self.0.clone();
-        let rows = compute(py, progress, move |meter| {
-            let of = ranges.iter().map(|(from, to)| to - from).sum();
-            let (indices, saws) = (
-                ranges.iter().flat_map(|(from, to)| *from..*to),
-                Mutex::default(),
-            );
-            study.run(Some(1), indices, &|saw| {
+        let rows = compute(py, None, move |_| {
+            let saws = Mutex::<Vec<Saw>>::default();
+            study.run(Some(1), first..last, &|saw| {
                 // A saw whose computation was stopped has no row.
                 stopped()?;
-                let mut saws: MutexGuard<'_, Vec<Saw>> = lock(&saws);
-                saws.push(saw);
-                meter.show(saws.len(), of);
+                lock(&saws).push(saw);
                 Ok::<(), Failure>(())
             })?;
             let saws = lock(&saws);

@@ -96,7 +96,8 @@ def test_run_up_crosses_bands(draft: sf.Scene) -> None:
     response = up.response
     shape = (len(response.rpm), len(response.frequency_hz))
     assert response.receptance_m_per_n.shape == shape
-    assert len(up.to_dataframe()) == len(up.rpm)
+    table = up.to_dataframe()
+    assert len(table) == len(up.rpm) and list(table) == ["rpm", "deflection_m"]
     with pytest.raises(sf.ArgumentError, match="runup"):
         draft.replace({"runup": None}).run_up()
 

@@ -36,6 +36,7 @@ def test_the_public_interface_is_walked() -> None:
     names = {name for name, _, _ in MEMBERS}
     assert {"Scene.run_campbell", "Branch.at", "CampbellResults.bands", "load.load"} <= names
     assert len(names) > 80
+    assert all(getattr(sf, name).__doc__ for name in sf.__all__)
 
 
 @pytest.mark.parametrize(("name", "function", "is_property"), MEMBERS, ids=lambda v: str(v)[:60])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -310,11 +309,3 @@ def test_bad_arguments_are_refused_with_a_remedy(draft: sf.Scene, ramp: Array) -
     ):
         with pytest.raises(sf.InputError, match=said):
             call()
-
-
-def test_a_missing_package_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for module, name in (("pyuff", "a.uff"), ("scipy.io", "a.wav")):
-        monkeypatch.setitem(sys.modules, module, None)
-        (tmp_path / name).write_text("")
-        with pytest.raises(ImportError, match=r"sawflutter\[records\]"):
-            sf.read_record(tmp_path / name, rpm=0)

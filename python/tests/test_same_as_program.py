@@ -20,14 +20,20 @@ def same(folder: Path, name: str, content: bytes) -> None:
     assert (folder / name).read_bytes() == content, f"{name} differs"
 
 
-def same_report(program: str, found: sf.Result, folder: Path, *arguments: object) -> None:
+def same_report(programs: list[str], found: sf.Result, folder: Path, *arguments: object) -> None:
     """The command of a result prints its summary, and writes its report and its figures."""
-    done = ran(program, found.command, *arguments, "--accuracy", "draft", "--out", folder)
-    assert done.returncode == 0, done.stderr
-    assert done.stdout.decode().startswith(found.summary())
-    same(folder, f"{found.command}.json", found.to_json().encode())
-    for picture in found.figure_names:
-        assert (folder / picture).read_bytes() == found.figure(picture), picture
+    name = "report" if found.command == "analyze" else found.command
+    for number, program in enumerate(programs):
+        out = folder / str(number)
+        done = ran(program, found.command, *arguments, "--accuracy", "draft", "--out", out)
+        assert done.returncode == 0, done.stderr
+        assert done.stdout.decode().startswith(found.summary())
+        same(out, f"{name}.json", found.to_json().encode())
+        for picture in found.figure_names:
+            content = found.figure(picture)
+            assert (out / picture).exists() == (content is not None), picture
+            if content is not None:
+                same(out, picture, content)
 
 
 @pytest.mark.parametrize("scene", ["paper", "collar-400mm-tensioned", "free-blade", "two-pads"])
@@ -36,45 +42,27 @@ def test_the_report_of_a_chart(
 ) -> None:
     path = scenes / f"{scene}.json"
     r = sf.Scene.load(path).run_campbell(accuracy="draft")
-    for number, program in enumerate(programs):
-        out = tmp_path / str(number)
-        done = ran(program, "analyze", path, "--accuracy", "draft", "--out", out)
-        assert done.returncode == 0, done.stderr
-        r.save(tmp_path / "ours.json")
-        same(out, "report.json", (tmp_path / "ours.json").read_bytes())
-        r.to_csv(tmp_path / "ours.csv")
-        same(out, "campbell.csv", (tmp_path / "ours.csv").read_bytes())
-        for name in r.figure_names:
-            picture = r.figure(name)
-            assert (out / name).exists() == (picture is not None), name
-            if picture is not None:
-                same(out, name, picture)
-        assert done.stdout.decode().startswith(r.summary())
+    same_report(programs, r, tmp_path, path)
+    r.save(tmp_path / "ours.json")
+    same(tmp_path, "ours.json", r.to_json().encode())
+    r.to_csv(tmp_path / "ours.csv")
+    for number in range(len(programs)):
+        same(tmp_path / str(number), "campbell.csv", (tmp_path / "ours.csv").read_bytes())
 
 
 def test_the_reports_of_cut_and_run_up(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     path = scenes / "paper.json"
-    saw = sf.Scene.load(path)
-    results: list[tuple[str, str, sf.Result]] = [
-        ("cut", "cut.json", saw.run_cut(accuracy="draft")),
-        ("runup", "runup.json", saw.run_up(accuracy="draft")),
-    ]
-    for program in programs:
-        for command, name, result in results:
-            done = ran(program, command, path, "--accuracy", "draft", "--out", tmp_path)
-            assert done.returncode == 0, done.stderr
-            same(tmp_path, name, result.to_json().encode())
-            for picture in result.figure_names:
-                content = result.figure(picture)
-                assert content is None or (tmp_path / picture).read_bytes() == content, picture
+    saw = sf.Scene.load(path).with_accuracy("draft")
+    for result in (saw.run_cut(), saw.run_up()):
+        same_report(programs, result, tmp_path, path)
 
 
 def test_the_report_of_deflect(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     path = scenes / "paper.json"
     found = sf.Scene.load(path).run_deflect(force_n=2.0, to_rpm=1600, accuracy="draft")
-    for program in programs:
-        same_report(program, found, tmp_path, path, "--force-n", 2, "--to-rpm", 1600)
-    assert len(found.to_dataframe()) > 20
+    same_report(programs, found, tmp_path, path, "--force-n", 2, "--to-rpm", 1600)
+    table = found.to_dataframe()
+    assert len(table) > 20 and set(table["direction"]) == {"up", "down"}
 
 
 def test_the_report_of_a_response(programs: list[str], scenes: Path, tmp_path: Path) -> None:
@@ -85,9 +73,10 @@ def test_the_report_of_a_response(programs: list[str], scenes: Path, tmp_path: P
     path = tmp_path / "saw.json"
     saw.save(path)
     found = saw.run_response(rpm=900, to_hz=50, accuracy="draft")
-    for program in programs:
-        same_report(program, found, tmp_path, path, "--rpm", 900, "--to-hz", 50)
-    assert len(found.to_dataframe()) == len(found.rpm)
+    same_report(programs, found, tmp_path, path, "--rpm", 900, "--to-hz", 50)
+    table = found.to_dataframe()
+    assert len(table) == len(found.rpm)
+    assert list(table) == ["rpm", *(line.name for line in found.lines), "board_deviation_m"]
 
 
 def test_the_report_of_gap(programs: list[str], scenes: Path, tmp_path: Path) -> None:
@@ -97,20 +86,19 @@ def test_the_report_of_gap(programs: list[str], scenes: Path, tmp_path: Path) ->
     saw.save(path)
     found = saw.run_gap(force_n=2.0, rpm=1000, max_deviation_mm=0.3, accuracy="draft")
     options = ["--force-n", 2, "--rpm", 1000, "--max-deviation-mm", 0.3]
-    for program in programs:
-        same_report(program, found, tmp_path, path, *options)
+    same_report(programs, found, tmp_path, path, *options)
     assert found.oscillation is None and found.friction is None
     rows = found.deviation.deflection_m
-    assert len(found.to_dataframe()) == sum(len(row) for row in rows)
+    table = found.to_dataframe()
+    assert len(table) == sum(len(row) for row in rows)
+    assert list(table) == ["gap_factor", "force_n", "deflection_m", "largest_deflection_m"]
 
 
 def test_the_report_of_washboarding(
     programs: list[str], scenes: Path, resaw: sf.Scene, tmp_path: Path
 ) -> None:
     found = resaw.run_washboard(2300.0)
-    path = scenes / "gallery/washboarding.json"
-    for program in programs:
-        same_report(program, found, tmp_path, path, "--rpm", 2300)
+    same_report(programs, found, tmp_path, scenes / "gallery/washboarding.json", "--rpm", 2300)
 
 
 def test_the_report_of_a_check(programs: list[str], scenes: Path, tmp_path: Path) -> None:
@@ -130,9 +118,8 @@ def test_the_report_of_a_comparison(programs: list[str], scenes: Path, tmp_path:
     saw = sf.Scene.load(path).with_accuracy("draft")
     thin = saw.replace({"blade.thickness_m": "2.6 mm"})
     found = sf.compare(saw, thin, labels=["paper", "thickness_m=2.6mm"])
-    for program in programs:
-        same_report(program, found, tmp_path, path, "--variant", "blade.thickness_m=2.6mm")
-    assert sf.load(tmp_path / "compare.json") == found
+    same_report(programs, found, tmp_path, path, "--variant", "blade.thickness_m=2.6mm")
+    assert sf.load(tmp_path / "0" / "compare.json") == found
     chart = saw.run_campbell()
     by_charts = sf.compare(chart, thin.run_campbell())
     assert by_charts.saws[1].critical_speeds[0].rpm == found.saws[1].critical_speeds[0].rpm
@@ -156,13 +143,12 @@ def test_the_report_of_a_map(programs: list[str], scenes: Path, tmp_path: Path) 
     x = ("blade.thickness_m", "2.6 mm", 0.003)
     found = saw.run_map(x, points=3, rpm=1800, folder=tmp_path / "own")
     options = ["--x", "blade.thickness_m=2.6mm..3mm", "--points", 3, "--rpm", 1800]
-    for program in programs:
-        path = scenes / "paper.json"
-        same_report(program, found, tmp_path, path, *options)
-    assert sf.load(tmp_path / "map.json") == found
-    # The log of the program holds the saws of the same study.
-    (tmp_path / "map.json").unlink()
-    assert saw.run_map(x, points=3, rpm=1800, folder=tmp_path) == found
+    same_report(programs, found, tmp_path, scenes / "paper.json", *options)
+    out = tmp_path / "0"
+    assert sf.load(out / "map.json") == found
+    # The log of the program has the saws of the same study.
+    (out / "map.json").unlink()
+    assert saw.run_map(x, points=3, rpm=1800, folder=out) == found
     two = saw.run_map(x, ("guides[0].stiffness_n_per_m", 1e6, 1e8), points=2)
     assert two.shape == (2, 2)
     assert (two.lowest_critical_rpm[1] > two.lowest_critical_rpm[0]).all()

@@ -51,23 +51,22 @@ def alone(
 ) -> dict[str, bytes]:
     """The files of a run of the program on one thread."""
     folder = tmp_path_factory.mktemp("alone")
-    study.scene.save(folder / "scene.json")
-    (folder / "tolerances.json").write_text(json.dumps(STUDY))
-    arguments = [
-        "study",
-        folder / "scene.json",
-        folder / "tolerances.json",
-        "--out",
-        folder / "out",
-    ]
     done = subprocess.run(
-        [programs[0], *map(str, arguments)],
+        [programs[0], "study", *inputs(study, folder), "--out", str(folder / "out")],
         env={**os.environ, "RAYON_NUM_THREADS": "1"},
         check=False,
         capture_output=True,
     )
     assert done.returncode == 0, done.stderr
     return files(folder / "out")
+
+
+def inputs(study: sf.Study, folder: Path) -> list[str]:
+    """The files of the scene and the study, for the program."""
+    paths = [folder / "scene.json", folder / "tolerances.json"]
+    study.scene.save(paths[0])
+    paths[1].write_text(json.dumps(STUDY))
+    return [str(path) for path in paths]
 
 
 def files(folder: Path) -> dict[str, bytes]:
@@ -155,9 +154,9 @@ from sawflutter import _tasks
 read = _tasks.__dict__.setdefault("_read", _tasks._study)
 class Slow:
     def __init__(self, study): self.study = study
-    def rows(self, ranges):
-        time.sleep(0.004 * sum(last - first for first, last in ranges))
-        return self.study.rows(ranges)
+    def rows(self, first, last):
+        time.sleep(0.004 * (last - first))
+        return self.study.rows(first, last)
 _tasks._study = lambda text: Slow(read(_tasks.Text(*text)))
 """
 
@@ -220,10 +219,10 @@ from sawflutter import _tasks
 read = _tasks.__dict__.setdefault("_read", _tasks._study)
 class Poisoned:
     def __init__(self, study): self.study = study
-    def rows(self, ranges):
-        if any(first <= 37 < last for first, last in ranges):
+    def rows(self, first, last):
+        if first <= 37 < last:
             os.kill(os.getpid(), signal.SIGKILL)
-        return self.study.rows(ranges)
+        return self.study.rows(first, last)
 _tasks._study = lambda text: Poisoned(read(_tasks.Text(*text)))
 """
 
@@ -268,15 +267,13 @@ def test_workers_without_this_version_are_refused_before_the_first_task(
 def test_the_program_computes_on_a_scheduler(
     study: sf.Study, alone: dict[str, bytes], programs: list[str], tmp_path: Path
 ) -> None:
-    study.scene.save(tmp_path / "scene.json")
-    (tmp_path / "tolerances.json").write_text(json.dumps(STUDY))
-    out = [str(tmp_path / name) for name in ("scene.json", "tolerances.json")]
+    given = inputs(study, tmp_path)
     with cluster(tmp_path, 1) as (one, _):
         address = json.loads(one.file.read_text())["address"]
         for number, program in enumerate(programs):
             folder = tmp_path / str(number)
             done = subprocess.run(
-                [program, "study", *out, "--out", str(folder), "--scheduler", address],
+                [program, "study", *given, "--out", str(folder), "--scheduler", address],
                 env={**os.environ, "SAWFLUTTER_PYTHON": sys.executable},
                 check=False,
                 capture_output=True,
@@ -344,10 +341,8 @@ with ThreadPoolExecutor(2) as threads:
 
 def client(study: sf.Study, folder: Path, *more: str) -> subprocess.Popen[str]:
     """A client that computes on threads of its own, as a process."""
-    study.scene.save(folder / "scene.json")
-    (folder / "tolerances.json").write_text(json.dumps(STUDY))
-    inputs = [str(folder / name) for name in ("scene.json", "tolerances.json", "out")]
-    command = [sys.executable, "-c", CLIENT, *inputs, *more]
+    given = [*inputs(study, folder), str(folder / "out")]
+    command = [sys.executable, "-c", CLIENT, *given, *more]
     return subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
 
 

@@ -30,7 +30,8 @@ def test_python_runs_while_a_chart_is_computed(draft: sf.Scene) -> None:
     counting.start()
     # One call of the compiled part: if it held the lock, there would be no beat during it.
     before = beats
-    _native.analyze(sf.Scene.paper().with_accuracy("reference").to_json())
+    options = {"sensitivity": False, "amplitude": False, "shapes_at_rpm": None}
+    _native.run("analyze", sf.Scene.paper().with_accuracy("reference").to_json(), options)
     after = beats
     done.set()
     counting.join()

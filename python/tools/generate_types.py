@@ -35,6 +35,7 @@ METHODS = {
 RENAMED = {"from": "from_", ("RestMode", "shape"): "profiles"}
 
 Schema = dict[str, Any]
+PLAIN = {"number": "float", "integer": "int", "string": "str", "boolean": "bool"}
 
 
 def documented(text: str, indent: str) -> list[str]:
@@ -105,8 +106,7 @@ class SceneTypes:
         kind = schema["type"]
         if kind == "array":
             return f"list[{self.type_of(schema['items'])}]" + ending
-        plain = {"number": "float", "integer": "int", "string": "str", "boolean": "bool"}
-        return plain[kind] + ending
+        return PLAIN[kind] + ending
 
     def named(self, definition: str) -> str:
         """Writes a definition once and gives its name."""
@@ -120,9 +120,8 @@ class SceneTypes:
             union = []
             for option in schema["oneOf"]:
                 kind = option["properties"]["kind"]["const"]
-                union.append(
-                    self.typed_dict(name.removesuffix("Dict") + kind.title() + "Dict", option)
-                )
+                title = f"{name.removesuffix('Dict')}{kind.title()}Dict"
+                union.append(self.typed_dict(title, option))
             self.written[name] = [f"{name}: TypeAlias = {' | '.join(union)}"]
         else:
             self.typed_dict(name, schema)
@@ -132,23 +131,19 @@ class SceneTypes:
         if any(keyword.iskeyword(key) for key in schema["properties"]):
             self.written[name] = self.functional(name, schema)
             return name
-        lines: list[str] = []
-        for always, base in ((True, "TypedDict"), (False, f"_{name}")):
-            parts = [(key, of) for key, of, there in ordered(schema) if there == always]
-            if always and not parts:
-                continue
-            last = not always or not any(not there for _, _, there in ordered(schema))
-            title = name if last else f"_{name}"
-            if not always and not any(there for _, _, there in ordered(schema)):
-                base = "TypedDict"
-            if not always and not parts:
-                continue
-            ending = "" if always else ", total=False"
+        keys = ordered(schema)
+        always = [(key, of) for key, of, there in keys if there]
+        optional = [(key, of) for key, of, there in keys if not there]
+        groups = [(of, end) for of, end in ((always, ""), (optional, ", total=False")) if of]
+        lines, base = list[str](), "TypedDict"
+        for place, (parts, ending) in enumerate(groups, start=1):
+            title = name if place == len(groups) else f"_{name}"
             lines += ["", "", f"class {title}({base}{ending}):"]
             lines += documented(schema.get("description", name), "    ")
             for key, of in parts:
                 lines += ["", f"    {key}: {self.type_of(of)}"]
                 lines += documented(of.get("description", "Which kind it is."), "    ")
+            base = title
         self.written[name] = lines
         return name
 
@@ -209,21 +204,16 @@ class ReportTypes:
         kind = schema["type"]
         if kind == "array":
             return self.array(command, schema) + ending
-        plain = {"number": "float", "integer": "int", "string": "str", "boolean": "bool"}
-        return plain[kind] + ending
+        return PLAIN[kind] + ending
 
     def array(self, command: str, schema: Schema) -> str:
         items, _ = split_null(schema["items"])
         inner = items
         while inner.get("type") == "array":
             inner, _ = split_null(inner["items"])
-        kind = inner.get("type")
-        if kind == "number":
-            return "FloatArray"
-        if kind == "integer":
-            return "IntArray"
-        if kind == "boolean":
-            return "BoolArray"
+        arrays = {"number": "FloatArray", "integer": "IntArray", "boolean": "BoolArray"}
+        if (kind := inner.get("type")) in arrays:
+            return arrays[kind]
         return f"tuple[{self.type_of(command, items)}, ...]"
 
     def named(self, command: str, definition: str) -> str:

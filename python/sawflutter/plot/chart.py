@@ -8,11 +8,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from types import MappingProxyType
-from typing import TypeAlias
+from typing import Any, TypeAlias
+
+import numpy as np
 
 from .. import _native
 from .._drawn import Drawn
 from .._entry import FloatArray
+from .._report_types import Instability
 
 # Width of curves and of the stretches that matter most, in the units of the program's figures.
 CURVE = 1.6
@@ -145,13 +148,7 @@ class Chart(Drawn):
     facts: str
     panels: Sequence[Panel] = field(default_factory=tuple)
 
-    def chart(self) -> Chart:
-        """The chart itself.
-
-        Returns
-        -------
-        Chart
-        """
+    def _chart(self) -> Chart:
         return self
 
     def lines(self) -> list[str]:
@@ -165,6 +162,12 @@ class Chart(Drawn):
     def together(self) -> bool:
         """Whether the panels share their x axis."""
         return len({panel.x_name for panel in self.shown()}) == 1
+
+
+def shade(band: Instability) -> Shade:
+    """A band of instability."""
+    name = f"{band.kind} {band.from_rpm:.0f}–{band.to_rpm:.0f} rpm"
+    return Shade(band.from_rpm, band.to_rpm, colours()[f"{band.kind}_shade"], name)
 
 
 def end_labels(panel: Panel, apart: float) -> list[tuple[Line, float]]:
@@ -181,6 +184,11 @@ def end_labels(panel: Panel, apart: float) -> list[tuple[Line, float]]:
             placed.append((line, place))
             lowest = place + apart * (high - low)
     return placed
+
+
+def signed_root(values: Any) -> Any:
+    """Positions on an axis of signed square roots."""
+    return np.sign(values) * np.sqrt(np.abs(values))
 
 
 def root_ticks(low: float, high: float) -> list[float]:

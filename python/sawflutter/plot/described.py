@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 
 from .. import _native
 from .chart import Chart, Item, Line, Panel, Points, Shade, Upright, colours
+from .design import check, fit, place, study
+from .histories import cut, run_up
 
+# Charts of commands whose figures the program does not describe: of a report and its answer in one line.
+OWN: dict[str, Callable[[Any, str], Chart]] = {
+    "check": check,
+    "cut": cut,
+    "fit": fit,
+    "place": place,
+    "runup": run_up,
+    "study": study,
+}
 # Narrower bands, as a share of the axis, get a stronger colour.
 NARROW = 0.004
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._entry import FloatArray
+from .._entry import FloatArray, array
 from .._report_types import CheckReport, FitReport, PlaceReport, Setting, Speed, StudyReport
 from .._values import unit
 from .chart import (
@@ -19,13 +19,13 @@ from .chart import (
     Line,
     Panel,
     Points,
-    Shade,
     Upright,
     colours,
+    shade,
 )
 
 if TYPE_CHECKING:
-    from ..stiffness import StiffnessMap
+    from ..designs import StiffnessMap
 
 
 def named(path: str) -> str:
@@ -45,24 +45,24 @@ def check(r: CheckReport, facts: str) -> Chart:
     items: list[Item] = []
     for band in r.instabilities:
         if band.peak_growth_per_s >= r.flutter_threshold_per_s or band.kind == "divergence":
-            name = f"{band.kind} {band.from_rpm:.0f}–{band.to_rpm:.0f} rpm"
-            items.append(Shade(band.from_rpm, band.to_rpm, colours()[f"{band.kind}_shade"], name))
+            items.append(shade(band))
     items.append(
         Upright(r.operating_rpm, colours()["ink"], False, f"operating {r.operating_rpm:.0f} rpm")
     )
     for place, criterion in enumerate(reversed(r.criteria), start=1):
         word = "kept" if criterion.passed else "NOT kept"
         colour = colours()["forward" if criterion.passed else "alarm"]
-        level = np.array([float(place)])
-        asked = np.array([criterion.asked_rpm])
-        said = [f"{criterion.name}: asked {criterion.asked_rpm:.1f} rpm, {word}"]
-        items.append(Points(asked, level, colours()["ink"], "asked", hollow=True, hover=said))
+        level = np.full(2, float(place))
+        rpm = array([criterion.asked_rpm, criterion.found_rpm])
+        said = [
+            f"{criterion.name}: {name} {of:.1f} rpm, {word}"
+            for name, of in zip(("asked", "found"), rpm)
+        ]
+        ink = colours()["ink"]
+        items.append(Points(rpm[:1], level[:1], ink, "asked", hollow=True, hover=said[:1]))
         if criterion.found_rpm is not None:
-            found = np.array([criterion.found_rpm])
-            said = [f"{criterion.name}: found {criterion.found_rpm:.1f} rpm, {word}"]
-            ends = np.array([criterion.asked_rpm, criterion.found_rpm])
-            items.append(Line(ends, np.full(2, float(place)), colour, criterion.name))
-            items.append(Points(found, level, colour, criterion.name, hover=said))
+            items.append(Line(rpm, level, colour, criterion.name))
+            items.append(Points(rpm[1:], level[1:], colour, criterion.name, hover=said[1:]))
     names = [criterion.name for criterion in reversed(r.criteria)]
     limits = (0.0, len(names) + 1.0)
     panel = Panel("rotation speed [rpm]", "", items, y_range=limits, y_names=names)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from .._report_types import CutReport, RunUpReport
-from .chart import Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
+from .chart import Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours, shade
 
 
 def cut(r: CutReport, facts: str) -> Chart:
@@ -38,11 +38,7 @@ def cut_map(r: CutReport, run: int) -> Chart:
 
 def run_up(r: RunUpReport, facts: str) -> Chart:
     """Deflection at the probe over speed, on a scale of signed roots."""
-    shades: list[Item] = []
-    for entry in r.bands:
-        band = entry.band
-        name = f"{band.kind} {band.from_rpm:.0f}–{band.to_rpm:.0f} rpm"
-        shades.append(Shade(band.from_rpm, band.to_rpm, colours()[f"{band.kind}_shade"], name))
+    shades = [shade(entry.band) for entry in r.bands]
     critical = [Upright(c.rpm, colours()["divergence"]) for c in r.critical_speeds]
     millimetres = 1e3 * r.deflection_m
     hover = [f"{rpm:.1f} rpm<br>{w:.4g} mm" for rpm, w in zip(r.rpm, millimetres)]

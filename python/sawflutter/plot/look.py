@@ -43,12 +43,12 @@ def with_harmonics(panels: Sequence[Panel], orders: Sequence[float]) -> Sequence
             "harmonics are lines of frequency over the rotation speed, which this figure does not "
             "show; leave the argument out"
         )
-    lines = [
+    return [
         replace(panel, items=[*panel.items, *(_harmonic(panel, order) for order in orders)])
-        for panel in panels
         if panel.harmonics
+        else panel
+        for panel in panels
     ]
-    return [lines.pop(0) if panel.harmonics else panel for panel in panels]
 
 
 def _harmonic(panel: Panel, order: float) -> Line:

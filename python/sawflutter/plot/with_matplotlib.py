@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from .._extras import extra
 from .chart import Bars, Chart, Heat, Item, Panel, Points, Shade, Upright, colours
-from .chart import end_labels, root_ticks
+from .chart import end_labels, root_ticks, signed_root
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -50,8 +49,7 @@ def draw(chart: Chart, ax: Axes | Sequence[Axes] | None = None) -> Axes:
     axes[0, 0].annotate(
         above, (0.0, 1.0), (0, 8), "axes fraction", "offset points", fontsize=10, color=quiet
     )
-    first: Axes = axes[0, 0]
-    return first
+    return axes[0, 0]  # type: ignore[no-any-return]
 
 
 def _panel(ax: Axes, panel: Panel, last: bool) -> None:
@@ -70,7 +68,7 @@ def _panel(ax: Axes, panel: Panel, last: bool) -> None:
     if panel.x_range is not None:
         ax.set_xlim(*panel.x_range)
     if panel.y_root and panel.y_range is not None:
-        ax.set_yscale("function", functions=(_root, _square))
+        ax.set_yscale("function", functions=(signed_root, lambda root: np.abs(root) * root))
         ax.set_yticks(root_ticks(*panel.y_range))
         ax.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
     if panel.y_range is not None:
@@ -90,14 +88,6 @@ def _panel(ax: Axes, panel: Panel, last: bool) -> None:
     if not any(isinstance(item, Heat) for item in panel.items):
         ax.grid(axis="y", color=colours()["grid"])
     ax.set_axisbelow(True)
-
-
-def _root(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    return np.sign(values) * np.sqrt(np.abs(values))
-
-
-def _square(values: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    return np.sign(values) * np.square(values)
 
 
 def _add(ax: Axes, item: Item) -> None:

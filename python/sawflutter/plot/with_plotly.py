@@ -8,7 +8,7 @@ import numpy as np
 
 from .._extras import extra
 from .chart import Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
-from .chart import end_labels, root_ticks
+from .chart import end_labels, root_ticks, signed_root
 
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure
@@ -97,7 +97,7 @@ def _panel(figure: Figure, panel: Panel, at: dict[str, int], last: bool) -> None
 def _scaled(values: Any, panel: Panel) -> Any:
     """Positions on the y axis."""
     values = np.asarray(values, float)
-    return np.sign(values) * np.sqrt(np.abs(values)) if panel.y_root else values
+    return signed_root(values) if panel.y_root else values
 
 
 def _add(figure: Figure, item: Item, panel: Panel, at: dict[str, int]) -> None:
