@@ -1,4 +1,4 @@
-"""Writes `_generated/`: the tables of the reference, which are made of what the program says.
+"""Writes `_generated/`: the tables of the reference, from the output of the program.
 
 Commands and options come from `--help`, keys from the JSON schemas and the classes of reports.
 They are kept in the repository, so that a checkout has a reference to read. A build of the pages
@@ -33,7 +33,7 @@ def said(*arguments: str) -> str:
 
 
 def command_line() -> str:
-    """What every command says of itself, after the program."""
+    """Help texts of the program and of every command."""
     parts = []
     waiting: list[list[str]] = [[]]
     while waiting:
@@ -48,7 +48,7 @@ def command_line() -> str:
 
 
 def rust_example() -> str:
-    """The example of the crate's first page, as it stands there; hidden lines are left out."""
+    """The example on the first page of the crate, without its hidden lines."""
     text = (ROOT / "src/lib.rs").read_text(encoding="utf-8")
     begin = text.index("//! ```\n") + len("//! ```\n")
     lines = text[begin : text.index("//! ```", begin)].splitlines()
@@ -57,7 +57,7 @@ def rust_example() -> str:
 
 
 def generate() -> list[str]:
-    """Names of the tables that were out of date, and are not any more."""
+    """Writes the tables that are out of date, and returns their names."""
     pages = {
         "reports.md": report_tables(),
         "rust-example.md": rust_example(),
@@ -77,7 +77,7 @@ def generate() -> list[str]:
 
 
 def keep_up_to_date(app: Any) -> None:
-    """A warning is an error of the gate."""
+    """Warns of tables that were out of date; the gate treats a warning as an error."""
     from sphinx.util import logging
 
     stale = generate()

@@ -1,7 +1,7 @@
 """Tables of the keys of a scene or a study: units, defaults, ranges, meanings.
 
-Keys, defaults and meanings come from the JSON schema, ranges from what the program answers to a
-value that it refuses, values that saws have from the library's table of quantities.
+Keys, defaults and meanings come from the JSON schema, ranges from the error messages of the program
+for refused values, and usual ranges from the library's table of quantities.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def unit(key: str) -> str:
 
 
 def usual() -> dict[str, tuple[str, float, float]]:
-    """Unit of each number and the values that saws have: the library's own table."""
+    """Unit and usual range of each number, from the table of the library."""
     line = re.compile(r'q\("([^"]+)", "[^"]+", "([^"]*)", ([^,]+), ([^)]+)\)')
     sources = (path.read_text(encoding="utf-8") for path in (ROOT / "src").rglob("*.rs"))
     rows = [row for source in sources for row in line.findall(source)]
@@ -37,7 +37,7 @@ def usual() -> dict[str, tuple[str, float, float]]:
 
 
 def typical() -> str:
-    """The library's own table of typical values, with their ranges and sources."""
+    """The library's table of typical values, with their ranges and sources."""
     line = re.compile(r't\("([^"]+)", ([^,]+), "([^"]*)", ([^,]+), ([^,]+), "([^"]+)"\)')
     source = (ROOT / "src/scene/typical.rs").read_text(encoding="utf-8")
     rows = line.findall(source)
@@ -72,7 +72,7 @@ def properties(
 
 
 def resolved(value: Schema, defs: Schema) -> tuple[Schema, bool]:
-    """What a key holds, and whether it holds a list of it."""
+    """The schema of the value of a key, and whether the value is a list of such values."""
     if "items" in value:
         return resolved(value["items"], defs)[0], True
     for option in [value, *value.get("anyOf", [])]:
@@ -94,8 +94,8 @@ def scene_of(name: str) -> dict[str, Any]:
 
 
 def refusal(scene: dict[str, Any]) -> tuple[str, str] | None:
-    """Key that the program refuses, and what it allows. A cut at rest is refused anyhow, so that
-    nothing is computed."""
+    """The key that the program refuses, and its allowed values. A cut at rest is always refused, so
+    that nothing is computed."""
     done = subprocess.run(
         [os.environ["SAWFLUTTER_PROGRAM"], "cut", "-", "--rpm", "0"],
         input=json.dumps(scene), capture_output=True, text=True, check=False,
@@ -104,8 +104,8 @@ def refusal(scene: dict[str, Any]) -> tuple[str, str] | None:
     return (found[1], found[2]) if found else None
 
 
-# A scene in which every block is there, so that one value at a time can be put wrong.
 def full_scene() -> dict[str, Any]:
+    """A scene with every block, in which one value at a time is made invalid."""
     data: dict[str, Any] = scene_of("paper")
     data["spline"] = scene_of("paper-spline")["spline"]
     data["membrane"] = {
@@ -120,7 +120,7 @@ def full_scene() -> dict[str, Any]:
 
 
 def allowed(path: str, kind: str | None) -> str:
-    """What the library answers to a value that no saw has."""
+    """The allowed values of a key, from the error message for an impossible value."""
     data = full_scene()
     if kind == "collar":
         data["mount"] = {"kind": "collar", "diameter_m": 0.25, "in_plane": "free"}
@@ -146,7 +146,7 @@ def allowed(path: str, kind: str | None) -> str:
 
 
 def tidy(text: str) -> str:
-    """Numbers as people write them; what saws have stands in a column of its own."""
+    """The allowed values with short numbers, without the usual range, which has its own column."""
     text = text.partition("; saws have")[0]
     text = re.sub(r"-?\d[\d.]*(e-?\d+)?", lambda found: f"{float(found[0]):g}", text)
     return text.replace("greater than", "above").replace("less than", "below")

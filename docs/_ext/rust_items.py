@@ -1,6 +1,6 @@
 """The role `rust`: the name of an item of the library, and the file that defines it.
 
-Builds fail where the item does not exist, so that pages do not name what is gone.
+A build fails if the item does not exist, so that pages name no item that was removed.
 """
 
 from __future__ import annotations

@@ -90,7 +90,7 @@ def _wav(path: str | os.PathLike[str]) -> Channels:
         from scipy.io import wavfile
     try:
         with warnings.catch_warnings():
-            # Blocks beside the samples, such as notes of the recorder.
+            # SciPy warns of blocks beside the samples, such as notes of the recorder.
             warnings.simplefilter("ignore", wavfile.WavFileWarning)
             rate, numbers = wavfile.read(path)
     except (ValueError, EOFError) as error:

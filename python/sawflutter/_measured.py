@@ -51,5 +51,5 @@ def _rows(measured: Any) -> list[list[float]]:
     if rows and not any(isinstance(row, Iterable) for row in rows):
         # Frequencies without a speed are those at rest.
         rows = [[0.0, *rows]]
-    # Frequencies come one by one or as a list of their own.
+    # A row has its frequencies one by one, or as a list.
     return [[float(row[0]), *np.array(row[1:], float).ravel().tolist()] for row in rows]

@@ -10,11 +10,11 @@ import numpy as np
 from ._entry import FloatArray
 from ._extras import extra
 
-# Weaker peaks than the largest one by so many decibels are not reported: they may be leakage.
+# Peaks that are weaker than the largest one by more decibels may be leakage, and are not reported.
 _RANGE_DB = 60.0
-# Peaks so near to a multiple of the speed, in widths of a peak, are shifted by its line.
+# Peaks within this distance of a multiple of the speed, in widths of a peak, are shifted by its line.
 _NEAR = 2.0
-# The floor is the median over so many widths of a peak, or over this share of the spectrum.
+# The floor is the median over this number of widths of a peak, or over this share of the spectrum.
 _FLOOR_WIDTHS, _FLOOR_SHARE = 20.0, 0.1
 
 

@@ -217,7 +217,7 @@ class Result(Report, Entry):
         """Completes a result after all of it was read."""
 
     def _warnings(self) -> tuple[str, ...]:
-        """Warns of numbers that no saw has, and of a result outside the validity of the model."""
+        """Warnings of implausible numbers, and of a result outside the validity of the model."""
         return (*getattr(self, "unusual_numbers", ()), *getattr(self, "warnings", ()))
 
     @property

@@ -1,7 +1,7 @@
 """Saws on an executor: a task computes a range of them, and its result is their rows.
 
-A saw depends on its number alone. Whoever computes it gives the same row, and the log takes the
-first: a task may be done twice or not at all, and each saw is in the log once.
+A saw depends on its number alone, so that every process computes the same row for it, and the log
+keeps the first one. A task may be done twice or not at all, and each saw is in the log once.
 """
 
 from __future__ import annotations
@@ -143,7 +143,7 @@ class Cluster(Place):
     def _ask(self, *question: Any) -> list[Any]:
         """The answers of all workers to a question."""
         said: dict[str, Any] = {}
-        # Workers of a moment ago may be gone.
+        # The workers may have ended since the scheduler named them.
         while not said:
             self.executor.wait_for_workers(1)
             said = self.executor.run(*question, on_error="return")
@@ -161,7 +161,7 @@ class Cluster(Place):
         from distributed import KilledWorker
 
         # The names of workers are left out: a row does not depend on its worker.
-        ended = "it has ended every worker that it was given to, without a word"
+        ended = "it has ended every worker that it was given to, without an error message"
         return ended if isinstance(error, KilledWorker) else None
 
     def look(self) -> None:
@@ -172,7 +172,7 @@ class Cluster(Place):
 def place(executor: Any, text: Text) -> Place:
     """The place where an executor, or a client of Dask, computes."""
     if (distributed := sys.modules.get("distributed")) is not None:
-        # The executor of a client.
+        # An executor of Dask refers to its client.
         client = getattr(executor, "_client", executor)
         if isinstance(client, distributed.Client):
             return Cluster(client, text)
@@ -190,7 +190,7 @@ class Run:
     def __init__(self, study: _native.Study, log: _native.StudyLog, place: Place) -> None:
         self.study, self.log, self.place = study, log, place
         self.next = 0
-        # Results of the tasks.
+        # Numbers of finished tasks and of their saws, and the time of these.
         self.tasks, self.saws, self.seconds = 0, 0, 0.0
         self.again: deque[Range] = deque()
         self.suspects: deque[Range] = deque()

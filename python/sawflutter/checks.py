@@ -32,7 +32,7 @@ class CheckResults(Result, CheckReport):
         return unusual + tuple(c.name for c in self.criteria if not c.passed)
 
     def _facts(self) -> str:
-        # In the words of the program.
+        # The wording is that of the program.
         broken = "; ".join(f"{c.name}: {c.finding}" for c in self.criteria if not c.passed)
         found = "passed" if self.passed else f"failed: {broken}"
         return f"{found}, at {self.operating_rpm:.0f} rpm"

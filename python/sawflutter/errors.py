@@ -48,7 +48,7 @@ class SceneError(InputError):
 class PathError(SceneError, KeyError):
     """A path that the scene does not have."""
 
-    # That of KeyError shows its message in quotes.
+    # KeyError would show the message in quotes.
     __str__ = Exception.__str__
 
 

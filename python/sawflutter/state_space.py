@@ -105,7 +105,7 @@ class StateSpace(Entry):
         True
         """
         values, vectors = np.linalg.eig(self.A)
-        # Speeds are deflections times frequencies: without that factor they are of one size.
+        # Velocities are deflections times frequencies; without this factor both are of one size.
         size = len(self.A) // 2
         scaled = np.vstack([vectors[:size], vectors[size:] / np.maximum(abs(values), 1.0)])
         if np.linalg.cond(scaled / np.linalg.norm(scaled, axis=0)) > _LARGEST_CONDITION:

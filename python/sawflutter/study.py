@@ -197,7 +197,7 @@ class Study:
         try:
             _tasks.Run(self._native, log, _tasks.place(executor, text))(told)
         finally:
-            # An exception keeps what it has passed through, and other runs have to go on.
+            # A stored exception keeps the log alive, and other runs must be able to open it.
             log.close()
 
     def _sum_up(self, folder: Path) -> None:

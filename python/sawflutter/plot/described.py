@@ -13,7 +13,8 @@ from .chart import Chart, Item, Line, Panel, Points, Shade, Upright, colours
 from .design import check, fit, place, study
 from .histories import cut, run_up
 
-# Charts of commands whose figures the program does not describe: of a report and its answer in one line.
+# The program does not describe the figures of these commands. A function makes the chart of a report
+# and of its answer in one line.
 OWN: dict[str, Callable[[Any, str], Chart]] = {
     "check": check,
     "cut": cut,

@@ -207,7 +207,7 @@ def grid(r: StudyReport, rows: FloatArray, names: tuple[str, str], speed: str) -
     z = np.full((len(y), len(x)), np.nan)
     for row, column in ((row, column) for row in range(len(y)) for column in range(len(x))):
         of = rows[(rows[:, 0] == x[column]) & (rows[:, 1] == y[row]), 2]
-        # Of several saws in a point of the grid, the one in the middle.
+        # The median represents several random saws of one point of the grid.
         z[row, column] = np.median(of) if len(of) else np.nan
     label = speed.removesuffix("_rpm").replace("_", " ") + " speed [rpm]"
     panel = Panel(named(names[0]), named(names[1]), [Heat(x, y, z, label)])

@@ -44,7 +44,7 @@ def run_up(r: RunUpReport, facts: str) -> Chart:
     hover = [f"{rpm:.1f} rpm<br>{w:.4g} mm" for rpm, w in zip(r.rpm, millimetres)]
     line = Line(r.rpm, millimetres, colours()["forward"], "deflection at the probe", hover=hover)
     largest = float(np.nanmax(np.abs(millimetres), initial=0.0))
-    # Past this a linear plate is no guide: the axis ends a little beyond.
+    # The linear plate is invalid beyond this deflection, so that the axis ends a little above it.
     limit = math.inf if r.stretching is not None else 1.2e3 * r.linear_limit_m
     top = max(min(largest, limit), 1e-9)
     panel = Panel(

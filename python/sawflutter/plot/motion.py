@@ -26,7 +26,7 @@ else:
 GRID = (16, 121)
 # Height of the largest deflection, as a share of the radius.
 HEIGHT = 0.25
-# A mode of so low a frequency stands still: its deflection is shown once around.
+# Time between two frames.
 INTERVAL_MS = 50
 
 

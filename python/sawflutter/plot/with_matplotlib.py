@@ -14,7 +14,7 @@ from .chart import end_labels, root_ticks, signed_root
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# The program's figures are 1200 units wide, matplotlib's 12 inches.
+# Width of a figure, where those of the program are 1200 units wide.
 WIDTH_INCHES = 10.0
 FONTS = ["Inter", "Helvetica", "Arial", "DejaVu Sans"]
 

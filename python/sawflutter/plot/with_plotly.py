@@ -28,7 +28,7 @@ def draw(chart: Chart, fig: Figure | None = None) -> Figure:
 
 
 def _rows(fig: Figure) -> int:
-    """Rows of a figure of ``make_subplots``; None for another figure."""
+    """Rows of a figure of ``make_subplots``; zero for another figure."""
     rows = 0
     try:
         while fig.get_subplot(rows + 1, 1) is not None:
@@ -103,8 +103,8 @@ def _scaled(values: Any, panel: Panel) -> Any:
 def _add(figure: Figure, item: Item, panel: Panel, at: dict[str, int]) -> None:
     import plotly.graph_objects as go
 
-    # Plotly leaves out what is drawn into panels that are still empty, and its template draws the
-    # rest with an opacity of 30 %, which narrow bands are not seen with.
+    # Plotly skips shapes in panels that are still empty, and its template draws shapes with an
+    # opacity of 30 %, so faint that narrow bands are invisible.
     opaque: dict[str, Any] = {**at, "opacity": 1.0}
     if at:
         opaque["exclude_empty_subplots"] = False
@@ -165,7 +165,7 @@ def _axes(figure: Figure, panel: Panel, at: dict[str, int], last: bool) -> None:
     )  # fmt: skip
     if panel.y_range is not None:
         low, high = panel.y_range
-        # Plotly has the logarithms of the ends of a logarithmic axis.
+        # The range of a logarithmic axis of plotly is given by logarithms.
         ends = np.log10([low, high]) if panel.y_log else _scaled([low, high], panel)
         figure.update_yaxes(range=ends.tolist(), **at)
         if panel.equal:
