@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::charts::drafted;
+use super::charts::{Charts, Fidelity, drafted};
 use super::refusal::Refusal;
 use super::told::{Fact, of_bands, of_critical};
 use crate::figure::{Band, Item, Upright};
@@ -86,13 +86,14 @@ impl Ahead {
     }
 }
 
-/// Critical speeds of a scene with the accuracy of a draft.
+/// Critical speeds of a page's scene with the accuracy of a draft.
 ///
 /// # Errors
 /// [`Refusal`] if the scene is refused or the computation fails or is cancelled.
-pub fn critical_speeds(scene: &str) -> Result<Ahead, Refusal> {
+pub fn critical_speeds(charts: &Charts, page: &str, scene: &str) -> Result<Ahead, Refusal> {
     let scene = drafted(&Scene::from_json(scene)?)?;
-    let chosen = ChosenBasis::new(&scene, scene.tolerance())?;
+    let least = charts.least_size(page, Fidelity::Draft);
+    let chosen = ChosenBasis::at_least(&scene, scene.tolerance(), least)?;
     let interim = Interim {
         critical: &chosen.critical,
         range_rad_per_s: chosen.range_rad_per_s,
@@ -108,7 +109,6 @@ mod tests {
     use serde_json::Value;
 
     use super::*;
-    use crate::explore::charts::{Charts, Fidelity};
 
     /// Items of the first panel of a diagram whose `key` has this value, without their names.
     fn drawn(chart: &Value, key: &str, value: &str) -> Vec<Value> {
@@ -137,10 +137,12 @@ mod tests {
         let damped = paper.edited(|file| file.guides[0].damping_n_s_per_m = 50.0);
         for scene in [paper, slow.unwrap(), damped.unwrap()] {
             let scene = serde_json::to_string(scene.file()).unwrap();
-            let alone = serde_json::to_value(critical_speeds(&scene).unwrap()).unwrap();
+            let charts = Charts::new(|| 0.0);
+            let alone = critical_speeds(&charts, "one", &scene).unwrap();
+            let alone = serde_json::to_value(alone).unwrap();
             let lines = Mutex::new(Vec::new());
             let tell = |line: String| lines.lock().unwrap().push(line);
-            let chart = Charts::new(|| 0.0).chart("one", &scene, Fidelity::Draft, &tell);
+            let chart = charts.chart("one", &scene, Fidelity::Draft, &tell);
             let chart: Value = serde_json::from_str(&chart.unwrap()).unwrap();
             let lines = lines.into_inner().unwrap();
             let stages: Vec<Value> = lines

@@ -158,7 +158,7 @@ impl Backend {
                 }
                 None => Answer::empty(BAD_REQUEST),
             },
-            "critical" => Answer::json(&ahead::critical_speeds(body)?),
+            "critical" => Answer::json(&ahead::critical_speeds(&self.charts, &asked.page, body)?),
             "mode" => Answer::json(&mode::answer(&self.charts, body)?),
             "influence" => Answer::json(&self.charts.influence(body)?),
             "save" => match SavedFile::named(name) {

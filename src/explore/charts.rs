@@ -13,6 +13,7 @@ use super::reply::SavedFile;
 use super::told::Told;
 use super::under_way::UnderWay;
 use crate::figure::ChartData;
+use crate::plate::Resolution;
 use crate::report::{Report, SensitivityEntry};
 use crate::scene::{Accuracy, Scene, SceneError};
 use crate::stability::{Analysis, AnalysisOptions, Detail, Interim};
@@ -134,6 +135,7 @@ impl Charts {
         };
         let options = AnalysisOptions {
             detail,
+            least_size: self.least_size(page, fidelity),
             interim: Some(&interim),
             ..AnalysisOptions::default()
         };
@@ -182,6 +184,18 @@ impl Charts {
         let known = self.find(chart, |kept| kept.report.clone());
         let known = known.flatten().filter(|known| known.scene == *scene.file());
         kind.content(&scene, known)
+    }
+
+    /// Size at which the search for the basis of a page's next draft begins. The saw of the last draft is similar.
+    /// Diagrams with the accuracy of the scene do not depend on earlier ones.
+    pub fn least_size(&self, page: &str, fidelity: Fidelity) -> Resolution {
+        let kept = self.kept();
+        let mut latest = kept.latest.iter().rev();
+        let draft = latest.find(|chart| chart.page == page && chart.report.is_none());
+        match draft {
+            Some(chart) if fidelity == Fidelity::Draft => chart.analysis.size_for_similar(),
+            _ => AnalysisOptions::default().least_size,
+        }
     }
 
     fn kept(&self) -> MutexGuard<'_, Kept> {
@@ -268,6 +282,37 @@ mod tests {
             [1, 2, 3, 4, 5].map(is_kept),
             [true, false, false, false, false]
         );
+    }
+
+    /// A draft begins with the size of the last draft of its page, and returns to a smaller one when the saw needs
+    /// no more. The first draft of a page and diagrams with the accuracy of the scene begin with the smallest.
+    #[test]
+    fn a_draft_begins_with_the_size_of_the_last_one() {
+        let charts = Charts::new(|| 0.0);
+        let draw = |page: &str, to_rpm: f64, fidelity: Fidelity| {
+            let scene = Scene::paper().edited(|file| {
+                file.accuracy = Accuracy::Draft;
+                file.sweep.as_mut().unwrap().to_rpm = to_rpm;
+            });
+            let scene = serde_json::to_string(scene.unwrap().file()).unwrap();
+            let chart = charts.chart(page, &scene, fidelity, &drop).unwrap();
+            let chart: serde_json::Value = serde_json::from_str(&chart).unwrap();
+            let name = chart["chart"].as_u64().unwrap() as usize;
+            charts.named(name).unwrap().model.plate.resolution
+        };
+        let small = draw("one", 3000.0, Fidelity::Draft);
+        let large = draw("one", 6000.0, Fidelity::Draft);
+        assert!(large.max_diameters > small.max_diameters);
+        assert_eq!(draw("another", 3000.0, Fidelity::Draft), small);
+        assert_eq!(
+            draw("one", 3000.0, Fidelity::Scene),
+            draw("another", 3000.0, Fidelity::Scene)
+        );
+        let sizes: Vec<usize> = (0..8)
+            .map(|_| draw("one", 3000.0, Fidelity::Draft).max_diameters)
+            .collect();
+        assert!(sizes.is_sorted_by(|x, y| x >= y), "{sizes:?}");
+        assert!(sizes[7] < large.max_diameters, "{sizes:?}");
     }
 
     /// The file of a kept diagram equals that of a new computation, and solves nothing.

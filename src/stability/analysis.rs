@@ -3,7 +3,7 @@
 use faer::c64;
 
 use super::band::{Instability, InstabilityKind};
-use super::basis::{ChosenBasis, check_stretch, two_digits_down};
+use super::basis::{ChosenBasis, FALL, check_stretch, two_digits_down};
 use super::chart::{CHART_SPEEDS, StabilityChart, drawn};
 use super::detail::Detail;
 use super::error::AnalysisError;
@@ -11,6 +11,7 @@ use super::estimate::Estimates;
 use super::excitation::{Crossing, crossings};
 use super::expected::ExpectedWork;
 use super::heat::HeatLimits;
+use super::ladder::next_smaller;
 use super::listed::Listed;
 use super::loci::RootLoci;
 use super::onsets::Onsets;
@@ -18,7 +19,7 @@ use super::options::{AnalysisOptions, Interim};
 use super::out_of_reach::OutOfReach;
 use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
 use crate::campbell::CampbellError;
-use crate::plate::StraightEdgeReading;
+use crate::plate::{Resolution, StraightEdgeReading};
 use crate::scene::{Accuracy, Scene, SceneError, rad_per_s, rpm};
 use crate::spectrum::{DescribedMode, SpectralModel, SpectrumError, Strategy};
 
@@ -154,7 +155,7 @@ impl Analysis {
         if let Some(tell) = options.expected {
             ExpectedWork::of_sweep(scene).into_iter().for_each(tell);
         }
-        let chosen = ChosenBasis::new(scene, scene.tolerance())?;
+        let chosen = ChosenBasis::at_least(scene, scene.tolerance(), options.least_size)?;
         let least = chosen.saw.plate.resolution;
         let end_rad_per_s = match Self::on_basis(scene, chosen, options) {
             // The scene gives no end of the sweep, so the program chooses one that it can chart.
@@ -266,6 +267,17 @@ impl Analysis {
     pub fn reaches_tolerance(&self) -> bool {
         let error = self.promised_error();
         error.is_some_and(|error| error <= self.scene.tolerance())
+    }
+
+    /// Size at which the search for the basis of a similar saw may begin: that of this saw, or the next smaller
+    /// one if the errors of this saw leave room for it.
+    pub(crate) fn size_for_similar(&self) -> Resolution {
+        let size = self.model.plate.resolution;
+        let error = self.promised_error().unwrap_or(f64::INFINITY);
+        match FALL * error <= self.scene.tolerance() {
+            true => next_smaller(size),
+            false => size,
+        }
     }
 
     fn explained(&self) -> Result<Option<OutOfReach>, AnalysisError> {

@@ -22,7 +22,7 @@ pub(super) const REMAINDER: Tuned = Tuned::new("stability/basis::REMAINDER", 2.5
 pub(super) const MODES_AT_REST: usize = 12;
 /// Fall of the error in one step of the ladder. In a quarter of all cases it was larger; sizes at which the
 /// error would have to fall faster are skipped.
-const FALL: f64 = 4.0;
+pub(super) const FALL: f64 = 4.0;
 /// Strain of the rim above which a sweep is refused: ten times the yield strain of the strongest steel.
 const LARGEST_STRETCH: f64 = 0.1;
 /// Critical speeds are found up to this multiple of the end of the range, because the search near the end

@@ -43,6 +43,11 @@ pub(super) fn larger_than(least: Resolution) -> impl Iterator<Item = Resolution>
     larger.map(resolution)
 }
 
+/// The next smaller size of the ladder, if there is one.
+pub(super) fn next_smaller(size: Resolution) -> Resolution {
+    resolution(LADDER[rung_of(size).saturating_sub(1)])
+}
+
 /// Index of a size in the ladder; 0 for any other size.
 pub(super) fn rung_of(size: Resolution) -> usize {
     let place = LADDER.iter().position(|rung| resolution(*rung) == size);

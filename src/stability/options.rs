@@ -3,7 +3,9 @@
 use super::band::Instability;
 use super::detail::Detail;
 use super::expected::ExpectedWork;
+use super::ladder::{LADDER, resolution};
 use crate::campbell::Progress;
+use crate::plate::Resolution;
 use crate::spectrum::NamedCriticalSpeed;
 
 /// Options of an analysis.
@@ -15,6 +17,9 @@ pub struct AnalysisOptions<'a> {
     pub progress: Progress<'a>,
     /// Callback that receives the expected work of a sweep before the analysis begins; none by default.
     pub expected: Option<&'a (dyn Fn(ExpectedWork) + Sync)>,
+    /// Size at which the search for the basis begins, from [`Analysis::size_for_similar`](super::Analysis::size_for_similar)
+    /// of a similar saw; the smallest by default.
+    pub least_size: Resolution,
     /// Callback that receives the critical speeds, and later the bands, before the diagram is complete; none
     /// by default.
     pub interim: Option<&'a (dyn Fn(Interim<'_>) + Sync)>,
@@ -46,6 +51,7 @@ impl Default for AnalysisOptions<'_> {
             detail: Detail::Full,
             progress: &|_, _| (),
             expected: None,
+            least_size: resolution(LADDER[0]),
             interim: None,
         }
     }
