@@ -186,8 +186,8 @@ function onAhead(found, request) {
   const counted = request.counted[kind] ?? 0;
   request.counted[kind] = request.stamps.length;
   painted(() => {
-    const now = performance.now();
-    seen.latencies[kind].push(...request.stamps.slice(counted).map((stamp) => now - stamp));
+    const painting = performance.now();
+    seen.latencies[kind].push(...request.stamps.slice(counted).map((stamp) => painting - stamp));
   });
 }
 

@@ -59,7 +59,7 @@ async function lastLine(answer, isLast, onLine) {
 // then the bands before the chart is complete.
 export async function chart(text, draft, signal, onAhead) {
   const answer = await post(draft ? "chart/draft" : "chart/scene", text, signal);
-  return lastLine(answer, ({ chart }) => chart !== undefined, ({ ahead }) => onAhead(ahead));
+  return lastLine(answer, ({ figure }) => figure !== undefined, ({ ahead }) => onAhead(ahead));
 }
 
 // Computes the critical speeds of a scene alone, with the accuracy of a draft.

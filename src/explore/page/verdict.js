@@ -5,10 +5,10 @@ import { node } from "./dom.js";
 // Shows the answer of the program and its reasons.
 export function verdict(place, { answer, lines }) {
   place.className = answer ?? "";
-  const [headline, ...reasons] = lines;
+  const [line, ...reasons] = lines;
   if (place.textContent.trim() === lines.join(" ")) return;
   place.replaceChildren(
-    node("strong", { textContent: headline }), " ",
+    node("strong", { textContent: line }), " ",
     node("span", { className: "reasons" }, ...reasons.flatMap((reason) => [node("span", { textContent: reason }), " "])));
 }
 
