@@ -119,10 +119,10 @@ impl RunUpReport {
         let bands: Vec<RunUpBand> = chart
             .instabilities
             .into_iter()
-            .zip(&found.growths)
-            .map(|(band, growth)| RunUpBand {
+            .zip(&found.growth_exponents)
+            .map(|(band, growth_exponent)| RunUpBand {
                 time_s: (band.to_rpm - band.from_rpm) / rate_rpm_per_s,
-                growth_exponent: growth.exponent,
+                growth_exponent: *growth_exponent,
                 seen_amplification: within(&band)
                     .then(|| seen_amplification(&speeds, &history.deflection_m, &band))
                     .flatten(),

@@ -10,13 +10,6 @@ use crate::stability::{CurvePoint, Instability, InstabilityKind};
 
 use super::TransientError;
 
-/// Effect of a band of instability on a run-up.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BandGrowth {
-    /// ∫ Re λ dt of the band's eigenvalue while the speed is within the band.
-    pub exponent: f64,
-}
-
 /// Number of quadrature points over a band.
 const BAND_POINTS: usize = 24;
 
@@ -24,11 +17,11 @@ const BAND_POINTS: usize = 24;
 ///
 /// # Errors
 /// [`TransientError::Spectrum`].
-pub fn band_growths(
+pub fn band_exponents(
     model: &SpectralModel,
     bands: &[Instability],
     rate_rad_per_s2: f64,
-) -> Result<Vec<BandGrowth>, TransientError> {
+) -> Result<Vec<f64>, TransientError> {
     bands
         .par_iter()
         .map(|band| {
@@ -36,14 +29,12 @@ pub fn band_growths(
                 true => followed(model, band)?,
                 false => of_curve(&band.curve),
             };
-            Ok(BandGrowth {
-                exponent: integral / rate_rad_per_s2,
-            })
+            Ok(integral / rate_rad_per_s2)
         })
         .collect()
 }
 
-/// ∫ Re λ dΩ of the cubics through the points of a damped band.
+/// ∫ Re λ dΩ of the cubics through the points of a damped band, which have its slopes.
 fn of_curve(curve: &[CurvePoint]) -> f64 {
     let pairs = curve.windows(2);
     let parts = pairs.map(|pair| {
@@ -77,8 +68,8 @@ fn followed(model: &SpectralModel, band: &Instability) -> Result<f64, SpectrumEr
     for way in ways {
         let mut last = at_peak;
         for (speed, weight) in way {
-            // Near an edge of the band the growth may be as small as rounding errors: then no growing mode is
-            // found, and this speed contributes nothing.
+            // Near an edge of the band the growth may be as small as rounding errors. Then no growing mode is
+            // found, and the speed contributes nothing.
             let Some(next) = last.at(*speed, &model.modes(*speed)?, band.kind) else {
                 continue;
             };
@@ -95,7 +86,7 @@ struct Growing {
     speed: f64,
     lambda: c64,
     slope: c64,
-    /// `None` at the peak, where it is not known yet.
+    /// Component of the mode; `None` at the peak, where it is not known yet.
     component: Option<usize>,
 }
 
@@ -130,7 +121,7 @@ impl Growing {
         })
     }
 
-    /// Extrapolates σ² and ω, which are smooth over the speed; σ is not where growth starts.
+    /// Extrapolates σ² and ω to a speed. They are smooth over the speed, unlike σ where growth starts.
     fn expected(&self, speed: f64) -> c64 {
         let step = speed - self.speed;
         let (sigma, omega) = (self.lambda.re, self.lambda.im);

@@ -1,7 +1,5 @@
 //! The saw before, during and after a cut at one speed.
 
-use std::collections::VecDeque;
-
 use faer::{Col, c64};
 
 use crate::plate::Plate;
@@ -11,16 +9,18 @@ use crate::stability::GrowingModes;
 use crate::system::GyroscopicSystem;
 
 use super::linear::Gauge;
+use super::propagator::Propagator;
 use super::saw_in_cut::{MODES, SawInCut, lateral_load};
 use super::sinusoids::{SAMPLES, Sinusoid, damped_sinusoids, fitted_growth};
-use super::{CutStretching, Integrator, Propagator, State, TransientError, stretched_cut};
+use super::stretched_cut::stretched_cut;
+use super::{CutStretching, Integrator, State, TransientError};
 
 /// Growth rate and frequency of the fastest growing motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Growth {
     /// Re λ; zero for a stable undamped saw, negative for a stable damped one.
     pub growth_per_s: f64,
-    /// Im λ of the same motion.
+    /// Im λ of this motion.
     pub frequency_rad_per_s: f64,
 }
 
@@ -61,7 +61,7 @@ pub(crate) struct CutHistory {
     pub idle: Growth,
     /// Eigenvalues in the cut.
     pub in_cut: Growth,
-    /// Comparison of the growing modes with counts on the full model, without the forces and in the cut.
+    /// Growing modes compared with counts on the full model, without the forces and in the cut.
     pub growing: [GrowingModes; 2],
     /// Eigenvalues in a cut with the tangential force that follows from the power.
     pub in_cut_by_power: Option<Growth>,
@@ -73,7 +73,7 @@ pub(crate) struct CutHistory {
     pub forces_s: (f64, f64),
     /// Time at which the deflection exceeds the linear model, and the record ends; `None` if it does not.
     pub linear_until_s: Option<f64>,
-    /// Results with stretching, if the scene requests it.
+    /// Results with stretching; `None` unless the scene has `cut.stretching`.
     pub stretched: Option<CutStretching>,
     /// Times of the record.
     pub time_s: Vec<f64>,
@@ -81,13 +81,14 @@ pub(crate) struct CutHistory {
     pub deflection_m: Vec<f64>,
 }
 
-/// Sampling interval of a record; sufficient for a figure.
+/// Sampling interval of a record, which is short enough for a figure.
 pub(super) const SAMPLE_S: f64 = 1e-3;
+/// Largest number of samples of a record; longer ones have a longer sampling interval.
 pub(super) const MAX_SAMPLES: f64 = 20_000.0;
 /// Largest exponent by which a motion grows between two samples.
 const GROWTH_A_SAMPLE: f64 = 0.1;
 
-/// Computes one speed of a cut.
+/// Computes eigenvalues and time history at one speed of a cut.
 ///
 /// # Errors
 /// [`TransientError`].
@@ -190,7 +191,7 @@ fn record(
             if let Some(propagator) = &propagator {
                 state = propagator.step(&state, [&[force_n], &[force_n]])?;
             }
-            let deflection = gauge.at_probe(|i| state.displacement[i]);
+            let deflection = gauge.at_probe(&state.displacement);
             if gauge.beyond(finite(deflection, run.rpm, time_s)?) {
                 record.linear_until_s = Some(time_s);
                 return Ok(record);
@@ -202,6 +203,7 @@ fn record(
     Ok(record)
 }
 
+/// Length of a step that resolves a growth rate.
 pub(super) fn longest_step_s(growth: Growth) -> f64 {
     GROWTH_A_SAMPLE / growth.growth_per_s.max(f64::MIN_POSITIVE)
 }
@@ -217,13 +219,14 @@ fn propagator(
     Propagator::new(&system, saw.run.speed_rad_per_s, &[load], step_s)
 }
 
-/// Number of samples per period of the fastest mode that the fit has to resolve.
+/// Number of samples per period of the fastest mode that the fit resolves.
 const SAMPLES_A_PERIOD: f64 = 5.0;
 /// Deflection in metres at which the record for the fit ends. It may be this large because growth in a linear
 /// model does not depend on the size of the force.
 const FITTED_UP_TO_M: f64 = 1e30;
 
-/// Sinusoids of the deflection in the cut, sampled finely enough to prevent aliasing.
+/// Sinusoids of the deflection in the cut, sampled finely enough to prevent aliasing; none without a lateral
+/// force.
 fn sinusoids_in_cut(
     saw: &SawInCut<'_>,
     gauge: &Gauge,
@@ -233,7 +236,9 @@ fn sinusoids_in_cut(
     if run.lateral_n == 0.0 {
         return Ok(Vec::new());
     }
-    let fastest = fastest_mode_rad_per_s(saw)?.max(in_cut.frequency_rad_per_s);
+    let system = saw.blade.system(&saw.cutting_system);
+    let fastest = fastest_mode_rad_per_s(&system, run.speed_rad_per_s, MODES)?;
+    let fastest = fastest.max(in_cut.frequency_rad_per_s);
     let longest_s = (std::f64::consts::TAU / (SAMPLES_A_PERIOD * fastest))
         .min(longest_step_s(in_cut))
         .min(run.duration_s / (SAMPLES - 1) as f64);
@@ -242,43 +247,37 @@ fn sinusoids_in_cut(
     let propagator = propagator(saw, &saw.cutting_system, step_s)?;
     let mut state = State::rest(saw.blade.order());
     let force = [run.lateral_n];
-    let mut first = vec![0.0];
-    let mut last = VecDeque::from([0.0]);
+    let mut record = vec![0.0];
     for _ in 0..count as u64 {
         state = propagator.step(&state, [&force, &force])?;
-        let deflection = gauge.at_probe(|i| state.displacement[i]);
-        if first.len() < SAMPLES {
-            first.push(deflection);
+        let deflection = gauge.at_probe(&state.displacement);
+        record.push(deflection);
+        // The fit uses only the first and the last samples, so that a long record need not be kept as a whole.
+        if record.len() == 3 * SAMPLES {
+            record.drain(SAMPLES..2 * SAMPLES);
         }
-        if last.len() == SAMPLES {
-            last.pop_front();
-        }
-        last.push_back(deflection);
         if !deflection.is_finite() || deflection.abs() > FITTED_UP_TO_M {
             break;
         }
     }
-    let loudness =
-        |samples: &mut dyn Iterator<Item = &f64>| samples.fold(0.0_f64, |max, x| max.max(x.abs()));
-    let louder = match loudness(&mut first.iter()) > loudness(&mut last.iter()) {
-        true => first,
-        false => last.into(),
-    };
-    Ok(damped_sinusoids(&louder, step_s)?)
+    Ok(damped_sinusoids(&record, step_s)?)
 }
 
-/// The highest frequency among the modes that represent the motion in the cut. The shapes that represent
-/// static deflections are not excited.
-fn fastest_mode_rad_per_s(saw: &SawInCut<'_>) -> Result<f64, TransientError> {
-    let system = saw.blade.system(&saw.cutting_system);
-    let pairs = companion_eigenpairs(&system, saw.run.speed_rad_per_s)?;
+/// The highest frequency among the `modes` lowest modes of a reduced system, which represent its motion. The
+/// shapes that represent static deflections are not excited.
+pub(super) fn fastest_mode_rad_per_s(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+    modes: usize,
+) -> Result<f64, TransientError> {
+    let pairs = companion_eigenpairs(system, speed_rad_per_s)?;
     let mut frequencies: Vec<f64> = pairs.iter().map(|(lambda, _)| lambda.im.abs()).collect();
     frequencies.sort_by(f64::total_cmp);
-    let highest = frequencies.get(MODES - 1).or(frequencies.last());
+    let highest = frequencies.get(modes - 1).or(frequencies.last());
     Ok(highest.copied().unwrap_or_default())
 }
 
-/// The value, or the error with the time at which it overflowed.
+/// Refuses a deflection that has overflowed at a time.
 pub(super) fn finite(value: f64, rpm: f64, time_s: f64) -> Result<f64, TransientError> {
     match value.is_finite() {
         true => Ok(value),

@@ -1,7 +1,9 @@
 //! Validity of the linear model.
 //!
 //! A plate whose deflection exceeds its thickness also stretches, which makes it stiffer; the linear model
-//! neglects this. The growth rate of small motions remains right, but large amplitudes do not.
+//! neglects this. Its growth rates are those of small motions; its large amplitudes are not valid.
+
+use faer::Col;
 
 use crate::plate::Plate;
 use crate::scene::{Blade, Probe};
@@ -11,31 +13,30 @@ use super::reduced::{ReducedBlade, at_point};
 /// Deflections beyond this many thicknesses of the blade are not reported.
 pub const LINEAR_THICKNESSES: f64 = 5.0;
 
-/// Largest deflection that is reported, from the smallest thickness of the blade.
+/// Largest deflection that is reported: [`LINEAR_THICKNESSES`] times the smallest thickness of the blade.
 pub fn linear_limit_m(blade: &Blade) -> f64 {
     LINEAR_THICKNESSES * blade.thickness_range_m().0
 }
 
-/// Evaluates the deflection at the probe.
+/// Deflection at the probe of a motion on a reduced basis, and the limit of the linear model.
 #[derive(Debug)]
 pub(super) struct Gauge {
-    probe: Vec<f64>,
+    probe: Col<f64>,
     limit_m: f64,
 }
 
 impl Gauge {
     pub(super) fn new(plate: &Plate, blade: &ReducedBlade, probe: &Probe) -> Self {
-        let reading = blade.vector(&at_point(plate, probe.radius_m, probe.angle_rad));
         Gauge {
-            probe: reading.iter().copied().collect(),
+            probe: blade.vector(&at_point(plate, probe.radius_m, probe.angle_rad)),
             limit_m: linear_limit_m(&plate.blade),
         }
     }
 
-    /// Deflection of a motion given by its coordinates.
-    pub(super) fn at_probe(&self, motion: impl Fn(usize) -> f64) -> f64 {
-        let coordinates = self.probe.iter().enumerate();
-        coordinates.map(|(i, c)| c * motion(i)).sum()
+    /// Deflection at the probe in m, from the coordinates on the basis.
+    pub(super) fn at_probe(&self, displacement: &Col<f64>) -> f64 {
+        let pairs = self.probe.iter().zip(displacement.iter());
+        pairs.map(|(c, q)| c * q).sum()
     }
 
     /// Whether a deflection is outside the linear model.

@@ -28,30 +28,19 @@ mod stretching;
 mod teeth;
 mod verdict_map;
 
-pub(crate) use band_growth::{BandGrowth, band_growths};
-pub(crate) use cut::CutHistory;
-pub(crate) use cut::{Growth, cut_history};
+pub(crate) use cut::{CutHistory, Growth};
 pub(crate) use linear::{LINEAR_THICKNESSES, linear_limit_m};
 pub(crate) use motion::{Force, Integrator, State};
 pub(crate) use newmark::Newmark;
-pub(crate) use on_spline::{OnSpline, on_spline};
-pub(crate) use propagator::Propagator;
+pub(crate) use on_spline::OnSpline;
 pub(crate) use reduced::at_point;
-pub(crate) use response::ResponseMap;
-pub(crate) use response::response_map;
-pub(crate) use runup::RunUpHistory;
-pub(crate) use runup::run_up;
-pub(crate) use saw_in_cut::SawInCut;
 pub(crate) use scenario::CuttingRun;
 pub use scenario::{Cutting, RunningUp};
 pub use sinusoids::FitError;
 pub use stretched_cut::CutStretching;
-pub(crate) use stretched_cut::stretched_cut;
-pub(crate) use stretched_runup::{StretchedRunUp, stretched_run_up};
 pub(crate) use stretching::system as reduced_system;
-pub(crate) use teeth::{ToothPassing, tooth_passing};
+pub(crate) use teeth::ToothPassing;
 pub(crate) use verdict_map::VerdictMap;
-pub(crate) use verdict_map::verdict_map;
 
 use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
@@ -62,7 +51,7 @@ use crate::stretched::{LARGEST_SLOPE, StretchedError};
 /// Reason for which a time history could not be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum TransientError {
-    /// No sweep extends as far as the time history.
+    /// The scene lacks the block `cut` or `runup`, or no sweep can reach its speeds.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// An eigenproblem failed.
@@ -77,7 +66,7 @@ pub enum TransientError {
     /// The computation of a blade that stretches failed.
     #[error(transparent)]
     Stretched(#[from] StretchedError),
-    /// Sinusoids could not be fitted to a record.
+    /// The deflection in the cut could not be decomposed into sinusoids.
     #[error("{0}; the scene's numbers differ too much in size")]
     Fit(#[from] FitError),
     /// The deflection overflowed.
@@ -87,23 +76,23 @@ pub enum TransientError {
     Overflow {
         /// Rotation speed.
         rpm: f64,
-        /// Time from the beginning.
+        /// Time from the beginning of the record.
         time_s: f64,
     },
-    /// The force is too large for the linear model.
+    /// The force of a run-up deflects the blade beyond the linear model at once.
     #[error(
         "runup.force_n is {force_n}, which alone bends the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses, where the linear model ends; give a smaller force"
     )]
     BentByForce {
-        /// The force.
+        /// Lateral force at the rim.
         force_n: f64,
     },
-    /// The force is too large for von Kármán's strains.
+    /// The force of a run-up causes slopes at once for which von Kármán's strains are not valid.
     #[error(
         "runup.force_n is {force_n}, which alone bends the blade to slopes of more than {LARGEST_SLOPE}, where the model with stretching ends; give a smaller force"
     )]
     SteepByForce {
-        /// The force.
+        /// Lateral force at the rim.
         force_n: f64,
     },
     /// Newton's method did not converge in a step.
@@ -116,7 +105,7 @@ pub enum TransientError {
         /// Length of the step.
         step_s: f64,
     },
-    /// The matrix exponential overflowed.
+    /// The exponential of the state matrix, or a product of such matrices, overflowed.
     #[error(
         "within {step_s:e} s at {rpm:.0} rpm the motion overflows; the forces or other numbers of the scene are too large"
     )]

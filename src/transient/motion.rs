@@ -8,7 +8,7 @@ use faer::{Col, Mat, Scale};
 
 use super::TransientError;
 
-/// Displacement and velocity.
+/// Displacement and velocity of the reduced blade.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     /// q, in √kg·m.
@@ -49,7 +49,7 @@ pub trait Force {
         *force += Scale(0.5) * sum;
     }
 
-    /// Adds minus the derivative of that mean by d to `stiffness`.
+    /// Adds −∂/∂d of ∫₀¹ f(q + s d) ds to `stiffness`, in 1/s².
     fn add_mean_stiffness(
         &self,
         displacement: &Col<f64>,
@@ -64,14 +64,14 @@ pub trait Force {
     }
 }
 
-/// Gauss points of the straight line from 0 to 1, each of the weight ½.
+/// Gauss points of the straight line from 0 to 1, each with the weight ½.
 const ON_LINE: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 /// An integrator with steps of one length at one speed.
 pub trait Integrator {
-    /// One step, with the magnitudes of the loads at its beginning and at its end.
+    /// Returns the state after one step, from the magnitudes of the loads at its beginning and at its end.
     ///
     /// # Errors
-    /// [`TransientError::NotBalanced`] if no state at the end of the step was found.
+    /// [`TransientError::NotBalanced`] if no state was found that balances the forces.
     fn step(&self, state: &State, sizes: [&[f64]; 2]) -> Result<State, TransientError>;
 }

@@ -3,7 +3,8 @@
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Cut, CutRun, Scene};
 use crate::system::GyroscopicSystem;
-use crate::transient::{SawInCut, tooth_passing};
+use crate::transient::saw_in_cut::SawInCut;
+use crate::transient::teeth::tooth_passing;
 use faer::{Mat, Scale};
 
 const SMALL: Resolution = Resolution {
@@ -11,7 +12,7 @@ const SMALL: Resolution = Resolution {
     radial_functions: 4,
 };
 
-/// The paper's saw with few teeth, of which one at a time cuts.
+/// The paper's saw with few teeth, of which one is in the cut at a time.
 fn saw_with_teeth(teeth: u32, tangential_n: f64) -> Scene {
     let mut file = Scene::paper().file().clone();
     file.blade.teeth = Some(teeth);

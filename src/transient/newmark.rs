@@ -40,17 +40,17 @@ pub struct Newmark<'a> {
 
 /// Largest number of iterations of Newton's method; a step that resolves the motion takes two to four.
 const ITERATIONS: usize = 30;
-/// Relative size of the last correction with quadratic convergence: the next would be its square.
+/// Relative size of the last correction of Newton's method: the next one would be of the order of its square.
 const LAST: f64 = 1e-9;
-/// Relative size of the last correction with linear convergence.
+/// Relative size of the last correction with a fixed matrix, which converges linearly.
 const CLOSEST: f64 = 1e-13;
-/// Share of a correction below which it is accepted; the remainder is rounding.
+/// Share of a correction that is applied even if the residual does not fall, which rounding may prevent.
 const SHORTEST: f64 = 0.01;
-/// If corrections decrease by less than this factor, Newton's method takes over.
+/// Ratio of a correction to the preceding one from which on Newton's method replaces the fixed matrix.
 const QUICK: f64 = 0.3;
 
 impl<'a> Newmark<'a> {
-    /// Steps of `step_s` at Ω and Ω̇ under loads Σ sₖ(t) bₖ; the columns of `loads` are bₖ.
+    /// Steps of `step_s` at Ω and Ω̇ under loads Σ sₖ(t) bₖ; `loads` are the bₖ.
     pub fn new(
         system: &GyroscopicSystem,
         (speed_rad_per_s, rate_rad_per_s2): (f64, f64),
@@ -80,9 +80,12 @@ impl<'a> Newmark<'a> {
         Newmark { forces, ..self }
     }
 
-    /// Solves E d = r + 2 ∫f(q₀ + s d) ds: with the factors of E, or of the last tangent if E converged too slowly
-    /// before, as long as this converges fast, which it does in steps that resolve the motion; otherwise by Newton's
-    /// method.
+    /// Solves E d = r + 2 ∫f(q₀ + s d) ds for the change d of the displacement. The iterations use the factors of
+    /// one matrix, E or the last tangent, as long as they converge fast, which they do in steps that resolve the
+    /// motion; otherwise Newton's method follows.
+    ///
+    /// # Errors
+    /// [`TransientError::NotBalanced`].
     fn balanced(&self, state: &State, right: &Col<f64>) -> Result<Col<f64>, TransientError> {
         let q = &state.displacement;
         let begun = Scale(self.step_s) * &state.velocity;
@@ -109,7 +112,7 @@ impl<'a> Newmark<'a> {
         self.by_newton(q, right, change)
     }
 
-    /// Residual of the equation of the step.
+    /// Residual of the equation that [`Newmark::balanced`] solves.
     fn left(&self, q: &Col<f64>, right: &Col<f64>, change: &Col<f64>) -> Col<f64> {
         right + self.twice_mean(q, change) - &self.effective * change
     }
@@ -123,8 +126,8 @@ impl<'a> Newmark<'a> {
         Scale(2.0) * mean
     }
 
-    /// Each correction as long as, or a part of, that of Newton's method, so that what is left falls: where a pad
-    /// begins to touch, a whole one may go too far.
+    /// Solves as [`Newmark::balanced`] by Newton's method. Each correction is halved until the residual falls,
+    /// because a whole one may go too far where a pad begins to touch.
     fn by_newton(
         &self,
         q: &Col<f64>,
@@ -219,7 +222,7 @@ mod tests {
         0.5 * v * v + 0.5 * STIFFNESS * q * q + 0.25 * CUBIC * q.powi(4)
     }
 
-    /// The state after a period of `steps` steps, and the largest change of energy.
+    /// The state after a period of `steps` steps, and the largest relative change of energy.
     fn after_a_period(steps: u32) -> (State, f64) {
         let force = Hardening(CUBIC);
         let forces: [&dyn Force; 1] = [&force];

@@ -5,8 +5,8 @@ use crate::scene::{Cut, CutRun, Scene};
 use crate::spline::{self, SplineRun, reaction_effect};
 use crate::system::GyroscopicSystem;
 
+use super::Growth;
 use super::TransientError;
-use super::cut::Growth;
 use super::reduced::{ReducedBlade, Snapshot};
 use super::saw_in_cut::MODES;
 
@@ -21,7 +21,7 @@ pub struct OnSpline {
     pub in_cut: Growth,
 }
 
-/// Simulates the spline in a cut; `None` unless the scene requests it.
+/// Simulates the spline in a cut; `None` unless the scene has the block `spline`.
 ///
 /// # Errors
 /// [`TransientError`].

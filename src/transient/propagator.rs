@@ -6,7 +6,7 @@
 //!
 //! where E, Γ₀ and Γ₁ are the first rows of exp [[ΔA, ΔB, 0], [0, 0, 1], [0, 0, 0]] (C. F. Van Loan,
 //! *Computing integrals involving the matrix exponential*, IEEE Trans. Automatic Control 23 (1978) 395–404).
-//! Accuracy and stability do not limit the step.
+//! The step is limited neither by accuracy nor by stability.
 
 use faer::{Col, Mat, Scale};
 use nalgebra::DMatrix;
@@ -17,7 +17,7 @@ use crate::system::GyroscopicSystem;
 
 use super::{Integrator, State, TransientError};
 
-/// Steps of one length at one speed.
+/// Exact steps of one length at one speed.
 #[derive(Debug, Clone)]
 pub struct Propagator {
     transition: Mat<f64>,
@@ -27,11 +27,11 @@ pub struct Propagator {
 }
 
 impl Propagator {
-    /// Steps of `step_s` at a speed, under loads Σ fₖ(t) bₖ; the columns of `loads` (order × count, in the
-    /// unknowns of the system) are bₖ.
+    /// Steps of `step_s` at a speed, under loads Σ fₖ(t) bₖ; `loads` are the bₖ in the unknowns of the system.
     ///
     /// # Errors
-    /// [`TransientError::NotFinite`]; [`TransientError::Spectrum`] if the computation was cancelled.
+    /// [`TransientError::NotFinite`] if the exponential overflows; [`TransientError::Spectrum`] if the
+    /// computation was cancelled.
     pub fn new(
         system: &GyroscopicSystem,
         speed_rad_per_s: f64,
@@ -82,12 +82,12 @@ impl Propagator {
         })
     }
 
-    /// E, for x = (q, q̇/s) with the scale s of this propagator.
+    /// The matrix E of x = (q, q̇/s), with the time scale s of this propagator.
     pub fn transition(&self) -> &Mat<f64> {
         &self.transition
     }
 
-    /// s, in 1/s.
+    /// Time scale s, in 1/s.
     pub fn scale_per_s(&self) -> f64 {
         self.scale_per_s
     }
@@ -129,7 +129,7 @@ mod tests {
         }
     }
 
-    /// The result is exact for any step.
+    /// A force that changes linearly gives an exact result for any step.
     #[test]
     fn a_ramp_on_one_mode_is_exact() {
         let omega: f64 = 7.0;

@@ -1,7 +1,7 @@
 //! The reduced basis of a time history.
 //!
-//! It contains the lowest modes at some speeds, and the static responses to the loads, so that a load on a
-//! region where no low mode bends still meets the right stiffness.
+//! It contains the lowest modes at some speeds, and the static responses to the loads, so that the stiffness
+//! against a load is right also where no low mode bends.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, MatRef, Scale, Side};
@@ -15,7 +15,7 @@ use crate::system::GyroscopicSystem;
 pub struct Snapshot<'a> {
     /// The full model.
     pub system: &'a GyroscopicSystem,
-    /// Rotation speed Ω.
+    /// Rotation speed Ω of the modes.
     pub speed_rad_per_s: f64,
 }
 
@@ -25,7 +25,7 @@ pub struct ReducedBlade {
     basis: Mat<f64>,
 }
 
-/// Directions closer to the span of the others are omitted.
+/// Distance of a unit vector from the span of the others below which the basis omits it.
 const INDEPENDENT: f64 = 1e-7;
 
 impl ReducedBlade {
@@ -46,7 +46,7 @@ impl ReducedBlade {
         } in snapshots
         {
             vectors.extend(system.free_rigid.iter().cloned());
-            // If these modes cannot be computed, all functions are kept.
+            // If the modes cannot be computed, the basis consists of all functions.
             let Ok(lowest) = lowest_eigenpairs(system, *speed_rad_per_s, modes, shift) else {
                 return Self::whole(plate);
             };
@@ -111,7 +111,7 @@ impl ReducedBlade {
         }
     }
 
-    /// The full model, for comparison.
+    /// The basis of all functions, which gives the full model.
     pub fn whole(plate: &Plate) -> Self {
         let order = plate.degrees_of_freedom();
         ReducedBlade {
@@ -119,7 +119,7 @@ impl ReducedBlade {
         }
     }
 
-    /// The basis rotated by an angle.
+    /// The basis of the same motions rotated around the axis by an angle.
     pub fn turned(&self, plate: &Plate, angle_rad: f64) -> Self {
         let mut basis = self.basis.clone();
         let size = plate.basis.count();
@@ -137,7 +137,7 @@ impl ReducedBlade {
         ReducedBlade { basis }
     }
 
-    /// V, orthonormal.
+    /// The matrix V, whose columns are orthonormal.
     pub fn basis(&self) -> MatRef<'_, f64> {
         self.basis.as_ref()
     }
@@ -147,7 +147,7 @@ impl ReducedBlade {
         self.basis.ncols()
     }
 
-    /// VᵀMV = 1, VᵀKV, …
+    /// The system on the basis, with the matrices VᵀMV = 1, VᵀKV and so on.
     pub fn system(&self, full: &GyroscopicSystem) -> GyroscopicSystem {
         full.project(self.basis.as_ref())
     }
@@ -157,14 +157,13 @@ impl ReducedBlade {
         self.basis.transpose() * full * &self.basis
     }
 
-    /// Projection Vᵀb of a vector.
+    /// Projection Vᵀb of a load.
     pub fn vector(&self, full: &Col<f64>) -> Col<f64> {
         self.basis.transpose() * full
     }
 }
 
-/// Every basis function at a point, as a vector: the load of a unit force there, and the weights of a probe
-/// there.
+/// Values of all basis functions at a point: the load of a unit force there, and the weights of a probe there.
 pub fn at_point(plate: &Plate, radius_m: f64, angle_rad: f64) -> Col<f64> {
     let values = plate.functions_at(radius_m, angle_rad);
     Col::from_fn(values.len(), |i| values[i])

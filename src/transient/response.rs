@@ -1,4 +1,4 @@
-//! Harmonic response at the probe, over frequency and speed.
+//! Response at the probe to a harmonic force at the rim, over frequency and speed.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, c64};
@@ -11,7 +11,7 @@ use crate::system::GyroscopicSystem;
 use super::reduced::at_point;
 use super::runup::reduced_blade;
 
-/// |w/F| over speed and frequency.
+/// Receptance |w/F| at the probe over speed and frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ResponseMap {
     /// Rotation speeds.
@@ -24,9 +24,9 @@ pub(crate) struct ResponseMap {
 
 /// Computes |cᵀ L(s)⁻¹ b| on s = iω + Δω/2.
 ///
-/// The response of an undamped saw at its natural frequencies is unbounded. Half a pixel off the imaginary
-/// axis, which corresponds to a window of 2/Δω seconds, every mode has a finite peak that is at least a pixel
-/// wide.
+/// The response of an undamped saw at its natural frequencies is unbounded. At a distance of Δω/2 from the
+/// imaginary axis, which corresponds to a window of 2/Δω seconds, every mode has a finite peak that is at least
+/// one frequency step Δω wide.
 pub fn response_map(
     plate: &Plate,
     runup: &RunUp,

@@ -1,8 +1,9 @@
 //! The saw during a run-up under a constant lateral force.
 
 use faer::Col;
+use faer::linalg::solvers::Solve;
 
-use crate::campbell::Progress;
+use crate::campbell::{Progress, even_speeds};
 use crate::plate::Plate;
 use crate::scene::{Probe, RunUp, rpm};
 use crate::spectrum::Cancellation;
@@ -28,11 +29,11 @@ pub(crate) struct RunUpHistory {
 
 /// Number of speeds whose modes form the basis.
 const SNAPSHOTS: usize = 7;
-/// Number of modes of each; the probe responds to few modes under a slow force.
+/// Number of modes at each of these speeds; under a slow force the probe responds to few modes.
 const MODES: usize = 6;
 /// Number of steps per period of the highest frequency in the record.
 const STEPS_A_PERIOD: f64 = 24.0;
-/// Number of steps at the same speed.
+/// Number of consecutive steps for which one speed is used.
 const HELD_STEPS: usize = 8;
 /// Largest number of samples of the record.
 pub(super) const MAX_SAMPLES: usize = 30_000;
@@ -40,21 +41,22 @@ pub(super) const MAX_SAMPLES: usize = 30_000;
 /// The basis of a run-up: modes at a few speeds, and static responses to the force.
 pub(super) fn reduced_blade(plate: &Plate, runup: &RunUp) -> ReducedBlade {
     let system = GyroscopicSystem::of_plate(plate);
-    let (from, to) = (runup.speeds.from_rad_per_s, runup.speeds.to_rad_per_s);
-    let snapshots: Vec<Snapshot<'_>> = (0..SNAPSHOTS)
-        .map(|k| Snapshot {
+    let range = (runup.speeds.from_rad_per_s, runup.speeds.to_rad_per_s);
+    let snapshots: Vec<Snapshot<'_>> = even_speeds(range, SNAPSHOTS)
+        .into_iter()
+        .map(|speed_rad_per_s| Snapshot {
             system: &system,
-            speed_rad_per_s: from + (to - from) * k as f64 / (SNAPSHOTS - 1) as f64,
+            speed_rad_per_s,
         })
         .collect();
     let force = at_point(plate, plate.blade.outer_radius_m, runup.angle_rad);
     ReducedBlade::new(plate, &snapshots, MODES, &[force])
 }
 
-/// Integrates the run-up, with steps that resolve `highest_rad_per_s`.
+/// Integrates the run-up, with steps that resolve the frequency `highest_rad_per_s`.
 ///
 /// # Errors
-/// [`TransientError::BentByForce`] if the force alone deflects the blade beyond the linear model,
+/// [`TransientError::BentByForce`] if the static deflection is beyond the linear model,
 /// [`TransientError::Overflow`] if a growing motion overflows.
 pub fn run_up(
     plate: &Plate,
@@ -68,7 +70,7 @@ pub fn run_up(
     let force = at_point(plate, plate.blade.outer_radius_m, runup.angle_rad);
     let load = faer::Scale(runup.force_n) * blade.vector(&force);
     let gauge = Gauge::new(plate, &blade, probe);
-    // The force acts from the beginning: the blade starts in its static deflection, unless nothing holds it.
+    // The force acts from the beginning, so that the blade starts in its static deflection, if it has one.
     let from = runup.speeds.from_rad_per_s;
     let begun = State::still(static_deflection(&system, from, &load));
     let steps = Steps::new(runup, highest_rad_per_s);
@@ -84,7 +86,7 @@ pub fn run_up(
         load,
         forces: &[],
     };
-    steps.taken(&moving, begun, (stride, progress), |state, at| {
+    steps.integrate(&moving, begun, (stride, progress), |state, at| {
         history.take(&gauge, state, at)
     })?;
     if history.deflection_m.is_empty() {
@@ -97,11 +99,11 @@ pub fn run_up(
 
 /// A blade under a constant load, with forces that depend on its deflection.
 pub(super) struct Moving<'a> {
-    /// Matrices of the blade.
+    /// Matrices of the reduced blade.
     pub system: &'a GyroscopicSystem,
     /// Load in N/√kg.
     pub load: Col<f64>,
-    /// Nonlinear forces.
+    /// Forces that depend on the deflection.
     pub forces: &'a [&'a dyn Force],
 }
 
@@ -117,7 +119,7 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// Steps that resolve a frequency.
+    /// Steps that resolve a frequency, at least 100 and at most 10⁷.
     pub(super) fn new(runup: &RunUp, highest_rad_per_s: f64) -> Self {
         let longest_s = std::f64::consts::TAU / (STEPS_A_PERIOD * highest_rad_per_s);
         let count = (runup.duration_s / longest_s).ceil().clamp(100.0, 1e7) as usize;
@@ -133,9 +135,9 @@ impl Steps {
         self.from_rad_per_s + self.rate_rad_per_s2 * step as f64 * self.step_s
     }
 
-    /// Integrates from a state and calls `visit` with every `stride`-th state, its speed and its time, until
-    /// it returns false.
-    pub(super) fn taken(
+    /// Integrates from a state and calls `show` with every `stride`-th state, its speed in rad/s and its time in
+    /// s, until `show` returns false.
+    pub(super) fn integrate(
         &self,
         moving: &Moving<'_>,
         mut state: State,
@@ -144,8 +146,8 @@ impl Steps {
     ) -> Result<(), TransientError> {
         let (rate, step_s) = (self.rate_rad_per_s2, self.step_s);
         let loads = [moving.load.clone()];
-        // For a few steps the speed is that of their middle. They are so short that the error remains of
-        // second order, and one factorization serves all of them.
+        // A few steps use the speed in their middle, so that they share one factorization. The error remains of
+        // second order.
         let held = |step: usize| {
             let middle = self.speed_at(step) + 0.5 * rate * step_s * HELD_STEPS as f64;
             let newmark = Newmark::new(moving.system, (middle, rate), &loads, step_s);
@@ -178,7 +180,7 @@ impl RunUpHistory {
         state: &State,
         (speed_rad_per_s, time_s): (f64, f64),
     ) -> Result<bool, TransientError> {
-        let deflection = gauge.at_probe(|i| state.displacement[i]);
+        let deflection = gauge.at_probe(&state.displacement);
         let deflection = finite(deflection, rpm(speed_rad_per_s), time_s)?;
         if gauge.beyond(deflection) {
             self.linear_until_rad_per_s = Some(speed_rad_per_s);
@@ -190,9 +192,8 @@ impl RunUpHistory {
     }
 }
 
-/// K⁻¹f if K is positive definite, otherwise zero, because nothing holds the blade.
+/// K⁻¹f if K is positive definite; otherwise zero, because the blade has no stable static deflection.
 fn static_deflection(system: &GyroscopicSystem, speed_rad_per_s: f64, load: &Col<f64>) -> Col<f64> {
-    use faer::linalg::solvers::Solve;
     let stiffness = system.stiffness_at(speed_rad_per_s);
     match stiffness.llt(faer::Side::Lower) {
         Ok(factors) => factors.solve(load),

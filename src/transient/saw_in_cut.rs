@@ -12,15 +12,15 @@ use super::reduced::{ReducedBlade, Snapshot, at_point};
 /// The saw with and without the forces at one speed, and its reduced basis.
 #[derive(Debug)]
 pub struct SawInCut<'a> {
-    /// The plate without the forces.
+    /// The plate without the forces of the cut.
     pub plate: &'a Plate,
-    /// The positions of the teeth.
+    /// Positions of the teeth.
     pub cut: &'a Cut,
-    /// Speed and forces.
+    /// Speed and forces of the cut.
     pub run: &'a CutRun,
     /// The plate under its in-plane forces.
     pub cutting: Plate,
-    /// K_e of these forces.
+    /// Stiffness K_e of the in-plane forces.
     pub edge_stiffness: Mat<f64>,
     /// The matrices of `plate`.
     pub idle_system: GyroscopicSystem,
@@ -33,7 +33,7 @@ pub struct SawInCut<'a> {
 /// Number of modes of the idle and of the cutting saw in the basis.
 pub(super) const MODES: usize = 14;
 
-/// Σ φ(b, θ_k) over the teeth: the load of one newton across the blade on each.
+/// Load of one newton across the blade on each tooth, Σ φ(b, θ_k), with the cut rotated by an angle.
 pub fn lateral_load(plate: &Plate, cut: &Cut, turn_rad: f64) -> Col<f64> {
     let mut load = Col::zeros(plate.degrees_of_freedom());
     for angle in cut.tooth_angles_rad() {

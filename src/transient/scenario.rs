@@ -1,27 +1,32 @@
-//! Complete computations of a cut and of a run-up, for the commands.
+//! Complete computations of a cut and of a run-up.
 
-use crate::campbell::Progress;
+use crate::campbell::{Progress, even_speeds};
 use crate::plate::Plate;
 use crate::scene::{Accuracy, Cut, CutRun, RunUp, Scene, SceneError, SpeedRange};
 use crate::spectrum::{Mode, Work};
 use crate::stability::{Analysis, ChosenBasis};
 
-use super::{
-    BandGrowth, CutHistory, OnSpline, ResponseMap, RunUpHistory, SawInCut, StretchedRunUp,
-    ToothPassing, TransientError, VerdictMap, band_growths, cut_history, on_spline, response_map,
-    run_up, stretched_run_up, tooth_passing, verdict_map,
-};
+use super::band_growth::band_exponents;
+use super::cut::cut_history;
+use super::on_spline::on_spline;
+use super::response::{ResponseMap, response_map};
+use super::runup::{RunUpHistory, run_up};
+use super::saw_in_cut::SawInCut;
+use super::stretched_runup::{StretchedRunUp, stretched_run_up};
+use super::teeth::tooth_passing;
+use super::verdict_map::verdict_map;
+use super::{CutHistory, OnSpline, ToothPassing, TransientError, VerdictMap};
 
 /// A cut at some speeds.
 #[derive(Debug)]
 pub struct Cutting {
-    /// The saw.
+    /// Scene of the saw.
     pub scene: Scene,
-    /// The saw without the forces.
+    /// The saw without the forces of the cut, on a basis that satisfies the tolerance of the scene.
     pub plate: Plate,
-    /// The cut.
+    /// Teeth and times of the cut.
     pub cut: Cut,
-    /// One entry for each speed.
+    /// Results, one entry for each speed.
     pub(crate) runs: Vec<CuttingRun>,
 }
 
@@ -34,19 +39,17 @@ pub(crate) struct CuttingRun {
     pub passing: ToothPassing,
     /// Growth over guide angle and load.
     pub map: VerdictMap,
-    /// Reaction of the spline teeth, if the scene requests it.
+    /// Reaction of the spline teeth; `None` unless the scene has the block `spline`.
     pub spline: Option<OnSpline>,
 }
 
-/// Smallest number of tooth positions within a pitch, and largest angle between them. With 42 teeth the
-/// growth rate changes by 0.03 % from 8 to 16 positions, with 4 teeth by up to 0.5 % from 32 on.
+/// Smallest number of tooth positions within a pitch. With 42 teeth the growth rate changes by 0.03 % from 8 to
+/// 16 positions.
 const STAGES: usize = 8;
+/// Largest angle between tooth positions. With 4 teeth the growth rate changes by up to 0.5 % from 32 positions
+/// on.
 const STAGE_DEG: f64 = 1.1;
-
-fn stages(cut: &Cut) -> usize {
-    STAGES.max((cut.pitch_rad.to_degrees() / STAGE_DEG).ceil() as usize)
-}
-/// Extent of the map on both sides of the guides.
+/// Largest angle by which the map moves the guides to either side.
 const MAP_TURN_DEG: f64 = 30.0;
 /// Highest load level of the map.
 const MAP_LOAD: f64 = 1.5;
@@ -60,11 +63,11 @@ fn map_steps(accuracy: Accuracy) -> (f64, f64) {
     }
 }
 
-/// Number of parts: the saw under the forces, time history, teeth and map.
+/// Number of parts of the computation at one speed: the saw under the forces, time history, teeth and map.
 const PARTS: usize = 4;
 
 impl Cutting {
-    /// Computes the scene's cut at some speeds, see [`Cut::runs_at`].
+    /// Computes the scene's cut at the speeds and under the forces of `runs`, see [`Cut::runs_at`].
     ///
     /// # Errors
     /// [`TransientError`].
@@ -77,13 +80,16 @@ impl Cutting {
         let plate = chosen_plate(scene, runs)?;
         let (turn_deg, level) = map_steps(scene.accuracy());
         let turns: Vec<f64> = match scene.guides().is_empty() {
-            // A saw without guides is axisymmetric, so a rotation has no effect.
+            // A saw without guides is axisymmetric, so that a rotation has no effect.
             true => vec![0.0],
             false => even(-MAP_TURN_DEG, MAP_TURN_DEG, turn_deg)
+                .into_iter()
                 .map(f64::to_radians)
                 .collect(),
         };
-        let levels: Vec<f64> = even(0.0, MAP_LOAD, level).collect();
+        let levels = even(0.0, MAP_LOAD, level);
+        let stage_count = (cut.pitch_rad.to_degrees() / STAGE_DEG).ceil() as usize;
+        let stages = STAGES.max(stage_count);
         let points = turns.len() * levels.len();
         let parts = Work::of("parts of the cut", PARTS * runs.len());
         let runs = runs
@@ -95,7 +101,7 @@ impl Cutting {
                 parts.advance();
                 let history = cut_history(&saw, scene.probe())?;
                 parts.advance();
-                let passing = tooth_passing(&saw, scene.probe(), stages(cut))?;
+                let passing = tooth_passing(&saw, scene.probe(), stages)?;
                 parts.advance();
                 let spline = on_spline(scene, &plate, cut, run)?;
                 let map = verdict_map(&saw, (&turns, &levels), &of)?;
@@ -131,28 +137,28 @@ fn chosen_plate(scene: &Scene, runs: &[CutRun]) -> Result<Plate, TransientError>
     Ok(ChosenBasis::new(&swept, scene.tolerance())?.saw.plate)
 }
 
-/// A run-up.
+/// A run-up through a range of speeds.
 #[derive(Debug)]
 pub struct RunningUp {
-    /// The saw.
+    /// Scene of the saw.
     pub scene: Scene,
-    /// Speeds and force of the run-up.
+    /// Speeds, duration and force of the run-up.
     pub runup: RunUp,
     /// Modes and bands over the speeds of the run-up.
     pub analysis: Analysis,
     /// Deflection at the probe.
     pub(crate) history: RunUpHistory,
-    /// Results with stretching, if the scene requests it.
+    /// Results with stretching; `None` unless the scene has `runup.stretching`.
     pub(crate) stretched: Option<StretchedRunUp>,
-    /// Effect of each band of the analysis.
-    pub growths: Vec<BandGrowth>,
-    /// Response over speed and frequency.
+    /// Exponent ∫ Re λ dt of each band of the analysis, over the time in the band.
+    pub growth_exponents: Vec<f64>,
+    /// Receptance over speed and frequency.
     pub(crate) response: ResponseMap,
 }
 
 /// Number of speeds and of frequencies of the response map.
 const MAP_SIZE: (usize, usize) = (200, 150);
-/// Number of modes at rest that the steps resolve and the map shows.
+/// Number of modes at the first speed that the steps resolve and the map shows.
 const SHOWN_MODES: usize = 6;
 
 impl RunningUp {
@@ -183,7 +189,7 @@ impl RunningUp {
             }
         };
         let rate = runup.acceleration_rad_per_s2();
-        let growths = band_growths(model, &analysis.chart.instabilities, rate)?;
+        let growth_exponents = band_exponents(model, &analysis.chart.instabilities, rate)?;
         let (from, to) = (runup.speeds.from_rad_per_s, runup.speeds.to_rad_per_s);
         let share = |k: usize, of: usize| k as f64 / (of - 1) as f64;
         let speeds: Vec<f64> = (0..MAP_SIZE.0)
@@ -198,14 +204,14 @@ impl RunningUp {
             runup: *runup,
             history,
             stretched,
-            growths,
+            growth_exponents,
             response,
             analysis,
         })
     }
 }
 
-fn even(from: f64, to: f64, step: f64) -> impl Iterator<Item = f64> {
-    let count = ((to - from) / step).round() as usize;
-    (0..=count).map(move |k| from + (to - from) * k as f64 / count as f64)
+/// Evenly spaced values over a range with its ends, a step apart.
+fn even(from: f64, to: f64, step: f64) -> Vec<f64> {
+    even_speeds((from, to), 1 + ((to - from) / step).round() as usize)
 }

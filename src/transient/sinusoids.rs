@@ -31,20 +31,20 @@ pub struct FitError {
     pub samples: usize,
 }
 
-/// Singular values below this share of the largest are rounding.
+/// Share of the largest singular value below which others are rounding.
 const RANK_TOLERANCE: f64 = 1e-10;
 /// Largest number of samples used: the cost grows with its cube.
 pub(super) const SAMPLES: usize = 801;
-/// Smaller sinusoids, relative to the record, are rounding.
+/// Share of the largest sample below which a sinusoid is rounding.
 const AUDIBLE: f64 = 1e-3;
-/// A sinusoid that changes by less than this within the record is the static response.
+/// Largest |λ| times the duration of the record for which a sinusoid is the static response.
 const STATIC: f64 = 1e-2;
 
 /// The sinusoids of an evenly sampled record, in descending order of magnitude; empty if the record is zero
 /// or too short.
 ///
-/// A long record is not thinned, which would alias its frequencies. Its louder end is used: growth appears at
-/// the end, decay at the beginning.
+/// A long record is not thinned, which would alias its frequencies. Its first or its last samples are used,
+/// whichever are larger: growth appears at the end, decay at the beginning.
 ///
 /// # Errors
 /// [`FitError`] if the record is not finite or the decomposition fails.
@@ -56,7 +56,7 @@ pub fn damped_sinusoids(record: &[f64], step_s: f64) -> Result<Vec<Sinusoid>, Fi
     if !record.iter().all(|x| x.is_finite()) {
         return Err(failed);
     }
-    let loudest = loudness(samples);
+    let loudest = largest(samples);
     if samples.len() < 8 || loudest == 0.0 {
         return Ok(Vec::new());
     }
@@ -81,21 +81,22 @@ pub fn damped_sinusoids(record: &[f64], step_s: f64) -> Result<Vec<Sinusoid>, Fi
     Ok(found)
 }
 
+/// The first or the last samples of a record, whichever have the larger magnitude.
 fn louder_end(record: &[f64]) -> &[f64] {
     let count = record.len().min(SAMPLES);
     let (first, last) = (&record[..count], &record[record.len() - count..]);
-    match loudness(first) > loudness(last) {
+    match largest(first) > largest(last) {
         true => first,
         false => last,
     }
 }
 
-fn loudness(samples: &[f64]) -> f64 {
+fn largest(samples: &[f64]) -> f64 {
     samples.iter().fold(0.0_f64, |max, x| max.max(x.abs()))
 }
 
-/// The fastest growth among the sinusoids of a record, and its frequency in rad/s; zero growth if only the
-/// static response remains.
+/// λ of the sinusoid that grows fastest, in 1/s. The static response counts only if nothing moves. `None`
+/// without sinusoids.
 pub fn fitted_growth(sinusoids: &[Sinusoid]) -> Option<c64> {
     let fastest = |x: &&Sinusoid, y: &&Sinusoid| x.lambda.re.total_cmp(&y.lambda.re);
     let moving = sinusoids.iter().filter(|s| s.moves).max_by(fastest);
@@ -107,12 +108,8 @@ pub fn fitted_growth(sinusoids: &[Sinusoid]) -> Option<c64> {
 /// leading singular vectors.
 fn pencil_roots(samples: &[f64]) -> Option<Vec<c64>> {
     let width = samples.len() / 2;
-    let height = samples.len() - width;
-    let hankel = Mat::from_fn(height, width + 1, |i, k| {
-        samples.get(i + k).copied().unwrap_or(0.0)
-    });
-    // The last row would exceed the record.
-    let hankel = hankel.subrows(0, height - 1).to_owned();
+    let height = samples.len() - width - 1;
+    let hankel = Mat::from_fn(height, width + 1, |i, k| samples[i + k]);
     let svd = hankel.thin_svd().ok()?;
     let largest = svd.S()[0];
     let rank = (0..hankel.nrows().min(hankel.ncols()))
@@ -125,8 +122,8 @@ fn pencil_roots(samples: &[f64]) -> Option<Vec<c64>> {
     real_eigenvalues(step.as_ref()).ok()
 }
 
-/// Least squares for a in samples Σ a zᵏ: amplitudes at the beginning of the record for decay, at its end for
-/// growth, so that no power overflows and each amplitude is the largest.
+/// Least squares for a in samples Σ a zᵏ. The amplitude of a decaying sinusoid is that at the beginning of the
+/// record, the amplitude of a growing one that at its end, so that no power overflows and each is the largest.
 fn amplitudes(samples: &[f64], roots: &[c64]) -> Vec<c64> {
     if roots.is_empty() || roots.len() > samples.len() {
         return Vec::new();
@@ -204,7 +201,7 @@ mod tests {
         assert_eq!(damped_sinusoids(&[1.0; 3], 1e-3), Ok(Vec::new()));
     }
 
-    /// An overflow is not taken for a zero record.
+    /// A record that has overflowed is not taken for a zero record.
     #[test]
     fn what_is_not_a_number_is_refused() {
         for x in [f64::NAN, f64::INFINITY] {

@@ -7,18 +7,18 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::Probe;
-use crate::spectrum::{Cancellation, companion_eigenpairs};
+use crate::spectrum::Cancellation;
 use crate::stretched::StretchedBlade;
 use crate::system::GyroscopicSystem;
 
-use super::cut::{MAX_SAMPLES, Record, SAMPLE_S, longest_step_s};
+use super::cut::{MAX_SAMPLES, Record, SAMPLE_S, fastest_mode_rad_per_s, longest_step_s};
 use super::reduced::{ReducedBlade, Snapshot};
 use super::saw_in_cut::{SawInCut, lateral_load};
 use super::stretched_probe::StretchedProbe;
 use super::stretching::{forces, system};
 use super::{Growth, Integrator, Newmark, State, TransientError};
 
-/// A cut with stretching.
+/// Numbers of a time history in the cut with stretching.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CutStretching {
@@ -26,7 +26,7 @@ pub struct CutStretching {
     pub shapes: usize,
     /// Longest step of the integration.
     pub step_s: f64,
-    /// Largest slope of the blade.
+    /// Largest slope of the blade in the time history.
     pub largest_slope: f64,
     /// Time at which slopes exceed 0.1 and the record ends; null if they do not.
     pub valid_until_s: Option<f64>,
@@ -34,7 +34,7 @@ pub struct CutStretching {
 
 /// Number of modes of the idle and of the cutting saw in the basis.
 const MODES: usize = 8;
-/// Number of steps per period of the highest of these modes.
+/// Number of steps per period of the highest of the modes in the basis.
 const STEPS_A_PERIOD: f64 = 24.0;
 /// Time between evaluations of the slopes.
 const LOOK_S: f64 = 0.01;
@@ -43,7 +43,8 @@ const LOOK_S: f64 = 0.01;
 /// is valid. The steps conserve the energy of an undamped blade.
 ///
 /// # Errors
-/// [`TransientError::Stretched`] if nothing holds the blade, [`TransientError::NotBalanced`].
+/// [`TransientError::Stretched`] if nothing holds the blade, [`TransientError::NotBalanced`] if a step has no
+/// solution.
 pub fn stretched_cut(
     saw: &SawInCut<'_>,
     probe: &Probe,
@@ -99,17 +100,13 @@ fn basis(saw: &SawInCut<'_>, modes: usize) -> ReducedBlade {
     ReducedBlade::new(saw.plate, &snapshots, modes, &[load])
 }
 
-/// A step that resolves the modes in the basis, which are fewer than its shapes, and their growth.
+/// Length of a step that resolves the modes in the basis, which are fewer than its shapes, and their growth.
 fn longest_s(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
     growth: Growth,
 ) -> Result<f64, TransientError> {
-    let pairs = companion_eigenpairs(system, speed_rad_per_s)?;
-    let mut frequencies: Vec<f64> = pairs.iter().map(|(lambda, _)| lambda.im.abs()).collect();
-    frequencies.sort_by(f64::total_cmp);
-    let highest = frequencies.get(MODES - 1).or(frequencies.last());
-    let highest = highest.copied().unwrap_or_default().max(f64::MIN_POSITIVE);
+    let highest = fastest_mode_rad_per_s(system, speed_rad_per_s, MODES)?.max(f64::MIN_POSITIVE);
     Ok((TAU / (STEPS_A_PERIOD * highest)).min(longest_step_s(growth)))
 }
 
@@ -118,7 +115,7 @@ struct Phase<'a> {
     system: &'a GyroscopicSystem,
     load: &'a Col<f64>,
     longest_s: f64,
-    /// Start and duration.
+    /// Start and duration of the interval.
     span_s: (f64, f64),
 }
 
@@ -212,7 +209,7 @@ mod tests {
     use super::*;
     use crate::plate::{Plate, Resolution};
     use crate::scene::{Cut, CutRun, Scene, rad_per_s};
-    use crate::transient::cut_history;
+    use crate::transient::cut::cut_history;
 
     fn plate() -> Plate {
         let resolution = Resolution {
@@ -262,8 +259,8 @@ mod tests {
         }
     }
 
-    /// ½ q̇ᵀq̇ + ½ qᵀKq + U₄ − fᵀq of a blade without damping, under the forces of the cut; K includes the
-    /// in-plane forces.
+    /// ½ q̇ᵀq̇ + ½ qᵀKq + U₄ − fᵀq of a blade without damping is conserved under the forces of the cut; K includes
+    /// the in-plane forces.
     #[test]
     fn the_energy_of_an_undamped_blade_in_the_cut_is_kept() {
         let plate = plate().conservative();
@@ -292,13 +289,13 @@ mod tests {
         let linear = q.transpose() * system.stiffness_at(speed) * q;
         let stored = blade.stretching().energy_j(q).unwrap();
         let energy = 0.5 * (v.transpose() * v + linear) + stored - load.transpose() * q;
-        // From rest it is zero.
+        // The energy is zero at rest, where the motion starts.
         let moving = 0.5 * (v.transpose() * v);
         assert!(stored > 1e-3 * moving, "{stored:e} {moving:e}");
         assert!(energy.abs() < 1e-8 * moving, "{energy:e} {moving:e}");
     }
 
-    /// A small lateral force without in-plane forces, in a flutter band: the amplitude rises to the value of
+    /// In a flutter band, under a small lateral force without in-plane forces, the amplitude rises to the value of
     /// the normal form of two waves and no further.
     #[test]
     fn flutter_in_the_cut_rises_to_its_saturated_amplitude() {

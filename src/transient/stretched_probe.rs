@@ -1,4 +1,4 @@
-//! The probe of a moving blade that stretches.
+//! Readings of a moving blade that stretches.
 
 use crate::scene::Probe;
 use crate::stretched::{Equilibrium, LARGEST_SLOPE, StretchedBlade};
@@ -14,7 +14,7 @@ pub(super) struct StretchedProbe<'a> {
 }
 
 impl<'a> StretchedProbe<'a> {
-    /// The probe of a blade, without samples.
+    /// The probe before the first sample.
     pub fn new(blade: &'a StretchedBlade, probe: &'a Probe) -> Self {
         StretchedProbe {
             blade,
@@ -23,14 +23,14 @@ impl<'a> StretchedProbe<'a> {
         }
     }
 
-    /// Whether slopes are within the model.
+    /// Whether the slopes of the blade are within the model, in which case the model holds.
     pub fn holds(&mut self, state: &State, speed_rad_per_s: f64) -> bool {
         let slope = self.blade.largest_slope(&shape(state, speed_rad_per_s));
         self.largest_slope = self.largest_slope.max(slope);
         slope <= LARGEST_SLOPE
     }
 
-    /// Deflection at the probe.
+    /// Deflection at the probe, in m.
     pub fn deflection_m(&self, state: &State, speed_rad_per_s: f64) -> f64 {
         let at = shape(state, speed_rad_per_s);
         let Probe {

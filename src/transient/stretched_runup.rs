@@ -9,21 +9,21 @@ use crate::plate::Plate;
 use crate::scene::{Probe, RunUp};
 use crate::stretched::StretchedBlade;
 
-use super::runup::{MAX_SAMPLES, Moving, Steps};
+use super::runup::{MAX_SAMPLES, Moving, RunUpHistory, Steps};
 use super::stretched_probe::StretchedProbe;
 use super::stretching::{forces, system};
-use super::{RunUpHistory, State, TransientError};
+use super::{State, TransientError};
 
 /// Results of a run-up with stretching.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct StretchedRunUp {
     /// Deflection at the probe while the model is valid.
     pub history: RunUpHistory,
-    /// Number of shapes.
+    /// Number of shapes of the reduced basis.
     pub shapes: usize,
-    /// Largest slope of the blade.
+    /// Largest slope of the blade in the run-up.
     pub largest_slope: f64,
-    /// Ω from which on slopes exceed 0.1.
+    /// Speed at which slopes exceed 0.1 and the record ends; `None` if they do not.
     pub valid_until_rad_per_s: Option<f64>,
     /// Spectrum of the deflection over the speed.
     pub spectrum: Spectrum,
@@ -40,23 +40,23 @@ pub(crate) struct Spectrum {
     pub amplitude_m: Vec<Vec<f64>>,
 }
 
-/// Number of modes at rest in addition to the shapes that diverge and the static deflection.
+/// Number of modes at rest in the basis, beside the shapes that diverge and the static deflection.
 pub(super) const MODES: usize = 14;
 /// Number of steps per sample of the spectrum, which gives three samples per period of the highest frequency.
 const STRIDE: usize = 8;
-/// Number of samples between evaluations of the slopes.
+/// Number of samples from one evaluation of the slopes to the next.
 const LOOKED: usize = 16;
 /// Number of speeds and of frequencies of the spectrum.
 const SPECTRUM: (usize, usize) = (240, 180);
-/// Smallest and largest length of a window.
+/// Smallest and largest duration of a window.
 const WINDOW_S: (f64, f64) = (1.5, 6.0);
 
-/// Integrates the run-up with the potential of stretching. The steps conserve the energy of an undamped
-/// blade.
+/// Integrates the run-up with the potential of stretching, with steps that resolve the frequency
+/// `highest_rad_per_s` and conserve the energy of an undamped blade.
 ///
 /// # Errors
-/// [`TransientError::Stretched`] if nothing holds the blade, [`TransientError::SteepByForce`],
-/// [`TransientError::NotBalanced`].
+/// [`TransientError::Stretched`] if nothing holds the blade, [`TransientError::SteepByForce`] if the static
+/// deflection is too steep, [`TransientError::NotBalanced`] if a step has no solution.
 pub fn stretched_run_up(
     plate: &Plate,
     runup: &RunUp,
@@ -83,7 +83,7 @@ pub fn stretched_run_up(
         deflection_m: Vec::new(),
         valid_until_rad_per_s: None,
     };
-    steps.taken(&moving, begun, (STRIDE, progress), |state, (speed, _)| {
+    steps.integrate(&moving, begun, (STRIDE, progress), |state, (speed, _)| {
         Ok(samples.take(state, speed))
     })?;
     if samples.deflection_m.is_empty() {
@@ -130,8 +130,8 @@ impl Samples<'_> {
         true
     }
 
-    /// Short-time Fourier transforms with Hann's window. A straight line is subtracted first, because the
-    /// slowly changing mean deflection would conceal everything else.
+    /// Short-time Fourier transforms with Hann's window, up to a frequency. A straight line is subtracted first,
+    /// because the slowly changing mean deflection would conceal all oscillations.
     fn spectrum(&self, sample_s: f64, highest_rad_per_s: f64) -> Spectrum {
         let count = self.deflection_m.len();
         let duration_s = sample_s * count as f64;
@@ -194,6 +194,7 @@ mod tests {
     use crate::plate::Resolution;
     use crate::scene::Scene;
     use crate::stretched::LARGEST_SLOPE;
+    use crate::transient::runup::run_up;
 
     fn plate() -> Plate {
         let resolution = Resolution {
@@ -215,10 +216,10 @@ mod tests {
             }
         });
         let scene = scene.unwrap();
+        let (plate, probe, highest) = (plate(), scene.probe(), TAU * 45.0);
         let runup = scene.runup().unwrap();
-        let asked = (&plate(), runup, scene.probe(), TAU * 45.0);
-        let stretched = stretched_run_up(asked.0, asked.1, asked.2, asked.3, &|_, _| ());
-        let linear = super::super::run_up(asked.0, asked.1, asked.2, asked.3, &|_, _| ());
+        let stretched = stretched_run_up(&plate, runup, probe, highest, &|_, _| ());
+        let linear = run_up(&plate, runup, probe, highest, &|_, _| ());
         (stretched.unwrap(), linear.unwrap())
     }
 

@@ -1,4 +1,4 @@
-//! Stretching and pads that lift off as forces in a time history: −∂U₄/∂q and −∂V/∂q.
+//! Forces of stretching and of pads that lift off in a time history: −∂U₄/∂q and −∂V/∂q.
 
 use faer::{Col, Mat};
 
@@ -28,7 +28,7 @@ impl Force for ReducedStretching {
     fn add_to(&self, displacement: &Col<f64>, force: &mut Col<f64>) {
         match self.gradient(displacement) {
             Ok(gradient) => *force -= gradient,
-            // A deflection of another basis gives NaN, which no step can balance.
+            // For a deflection of another basis the force becomes NaN, which no step can balance.
             Err(_) => force.fill(f64::NAN),
         }
     }
@@ -130,7 +130,7 @@ mod tests {
         );
     }
 
-    /// A guided blade without damping that deflects by several thicknesses.
+    /// A guided blade without damping deflects by several thicknesses.
     #[test]
     fn a_large_motion_keeps_its_energy() {
         let plate = Plate::new(&Scene::paper(), SMALL).conservative();
@@ -171,8 +171,8 @@ mod tests {
         Plate::new(&scene.unwrap(), SMALL).conservative()
     }
 
-    /// The blade as a rigid body of one degree of freedom: it heaves. Steps from the flat blade with a speed of
-    /// 0.3 m/s, until it has come through there upwards again; the time that this takes.
+    /// Period of the blade as a rigid body that only heaves. It starts at zero deflection with 0.3 m/s, and the
+    /// period ends when it passes zero again in the same direction. The energy is checked at every step.
     fn heaving_period_s(plate: &Plate, steps_in_s: f64) -> f64 {
         let order = plate.degrees_of_freedom();
         let heave = Mat::from_fn(order, 1, |i, _| if i == 0 { 1.0 } else { 0.0 });
@@ -218,9 +218,9 @@ mod tests {
         assert!(coarse.abs() < 2e-2, "{fine:e} {coarse:e}");
     }
 
-    /// A pad on one side that begins to touch at once, before a film on both: the bilinear oscillator, of the period π√(m/k) +
-    /// π√(m/k_f) (S. W. Shaw & P. J. Holmes, *A periodically forced piecewise linear oscillator*, J. Sound Vib. 90 (1983),
-    /// 129–155).
+    /// A pad on one side with almost no gap, and a film on both sides, make a bilinear oscillator with the period
+    /// π√(m/k) + π√(m/k_f) (S. W. Shaw & P. J. Holmes, *A periodically forced piecewise linear oscillator*, J. Sound
+    /// Vib. 90 (1983), 129–155).
     #[test]
     fn a_pad_on_one_side_makes_a_bilinear_oscillator() {
         for side in [GuideSide::Left, GuideSide::Right] {
@@ -237,8 +237,7 @@ mod tests {
         }
     }
 
-    /// A guided blade of many modes that rattles within the gap of its pad while it rotates: its energy is
-    /// conserved.
+    /// A rotating blade of many modes that touches its pad again and again conserves its energy.
     #[test]
     fn a_blade_that_rattles_keeps_its_energy() {
         let scene = Scene::paper().edited(|saw| {

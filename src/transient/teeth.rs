@@ -14,16 +14,17 @@ use crate::system::GyroscopicSystem;
 
 use super::cut::finite;
 use super::linear::Gauge;
+use super::propagator::Propagator;
 use super::reduced::ReducedBlade;
 use super::saw_in_cut::{SawInCut, lateral_load};
-use super::{Growth, Integrator, Propagator, State, TransientError};
+use super::{Growth, Integrator, State, TransientError};
 
-/// Effect of the passing teeth.
+/// Growth rates and deflections under stationary and under moving tooth loads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToothPassing {
     /// Tooth passing frequency.
     pub tooth_frequency_rad_per_s: f64,
-    /// Growth under stationary loads, one pitch apart.
+    /// Growth under stationary loads one pitch apart.
     pub standing_growth_per_s: f64,
     /// Growth under the mean of the moving loads.
     pub mean_growth_per_s: f64,
@@ -32,14 +33,14 @@ pub struct ToothPassing {
     /// Largest deflection at the probe in the cut under stationary loads; `None` if the linear model ends
     /// before the cut does.
     pub standing_deflection_m: Option<f64>,
-    /// Largest deflection at the probe in the cut under moving loads.
+    /// Largest deflection at the probe in the cut under moving loads; `None` as above.
     pub passing_deflection_m: Option<f64>,
 }
 
-/// Moving loads couple two modes whose frequencies add up to that of the teeth or differ by it, so shapes up
-/// to this multiple of the tooth passing frequency are included. With fewer, the highest frequencies would be
-/// wrong and could cause false resonances at any speed. On the saw with two pads (410 functions, 1800 rpm)
-/// the growth is 0.25 1/s with 1.5, 2, 3 and 4 times.
+/// Multiple of the tooth passing frequency up to which shapes are in the basis. Moving loads couple two modes
+/// whose frequencies add up to that of the teeth or differ by it. With fewer shapes the highest frequencies would
+/// be wrong and could cause false resonances at any speed. On the saw with two pads (410 functions, 1800 rpm) the
+/// growth is 0.25 1/s for multiples of 1.5, 2, 3 and 4.
 const SHAPES_UP_TO: f64 = 2.0;
 
 /// Compares stationary, mean and moving loads, with `stages` positions of the teeth within a pitch and
@@ -99,12 +100,13 @@ impl<'a> MovingLoads<'a> {
         pitch_s / self.turns_rad.len() as f64
     }
 
-    /// Rotating the loads by α is equivalent to rotating the blade by −α.
+    /// K_e of the loads rotated by α, on the basis: that of the loads on the basis rotated by −α.
     fn edge_at(&self, turn_rad: f64) -> Mat<f64> {
         let turned = self.blade.turned(self.saw.plate, -turn_rad);
         turned.matrix(&self.saw.edge_stiffness)
     }
 
+    /// Mean of K_e over the positions.
     fn mean(&self) -> Mat<f64> {
         let order = self.blade.order();
         let mut mean = Mat::zeros(order, order);
@@ -145,7 +147,7 @@ impl<'a> MovingLoads<'a> {
         Ok(logarithm / (self.step_s() * stages.len() as f64))
     }
 
-    /// Largest deflection at the probe while the cut lasts.
+    /// Largest deflection at the probe in m while the cut lasts; `None` if it is beyond the linear model.
     fn largest_deflection(
         &self,
         stages: &[Propagator],
@@ -158,7 +160,7 @@ impl<'a> MovingLoads<'a> {
         let mut largest = 0.0_f64;
         for step in 0..steps {
             state = stages[step % stages.len()].step(&state, [&force, &force])?;
-            let deflection = gauge.at_probe(|i| state.displacement[i]);
+            let deflection = gauge.at_probe(&state.displacement);
             let time_s = (step + 1) as f64 * self.step_s();
             if gauge.beyond(finite(deflection, run.rpm, time_s)?) {
                 return Ok(None);
@@ -169,7 +171,7 @@ impl<'a> MovingLoads<'a> {
     }
 }
 
-/// Relative accuracy of multipliers, some thousand roundings.
+/// Largest ln|μ| that is rounding: the accuracy of a product of some transitions and of its eigenvalues.
 const MULTIPLIER_NOISE: f64 = 1e-11;
 
 /// ln max|μ| over the eigenvalues μ of the product of the stages. The product is scaled by powers of two,
@@ -198,7 +200,7 @@ fn largest_multiplier_ln(
     let order = product.nrows();
     let not_converged = || SpectrumError::NoConvergence { order, rpm };
     let multipliers = real_eigenvalues(product.as_ref()).map_err(|_| not_converged())?;
-    // A maximum would ignore NaN.
+    // A maximum ignores NaN, so that multipliers that are not finite are refused before.
     if !multipliers.iter().all(|z| z.is_finite()) {
         return Err(not_converged().into());
     }
@@ -210,8 +212,8 @@ fn largest_multiplier_ln(
     }
 }
 
-/// Converts a transition to x = (q, q̇/s) with another scale s: the stiffness of the stages differs slightly,
-/// so their scales may differ by a factor two.
+/// Transition of x = (q, q̇/s) with another time scale s. The stiffness of the stages differs slightly, so that
+/// their scales may differ by a factor of two.
 fn rescaled(propagator: &Propagator, scale_per_s: f64) -> Mat<f64> {
     let mut transition = propagator.transition().clone();
     let factor = propagator.scale_per_s() / scale_per_s;

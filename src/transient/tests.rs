@@ -7,10 +7,14 @@ use crate::plate::{Plate, Resolution};
 use crate::scene::{Cut, CutRun, RunUp, Scene, SpeedRange, rad_per_s, rpm};
 use crate::spectrum::{fastest_growing, lowest_eigenpairs, orthonormal, split};
 use crate::system::GyroscopicSystem;
-use crate::transient::{
-    Integrator, Newmark, Propagator, SawInCut, State, cut_history, run_up, tooth_passing,
-    verdict_map,
-};
+use crate::transient::cut::cut_history;
+use crate::transient::propagator::Propagator;
+use crate::transient::runup::{RunUpHistory, run_up};
+use crate::transient::saw_in_cut::SawInCut;
+use crate::transient::teeth::{ToothPassing, tooth_passing};
+use crate::transient::verdict_map::verdict_map;
+use crate::transient::{Integrator, Newmark, State, at_point};
+use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale};
 
 const SMALL: Resolution = Resolution {
@@ -48,7 +52,7 @@ fn bent(order: usize) -> Col<f64> {
     })
 }
 
-/// The speed is below the first critical speed, where every mode has positive energy.
+/// The speed is below the first critical one, where every mode has positive energy.
 #[test]
 fn an_undamped_unloaded_saw_keeps_its_energy() {
     let plate = paper_plate(Resolution {
@@ -69,7 +73,7 @@ fn an_undamped_unloaded_saw_keeps_its_energy() {
     };
     let lost = kept(&Propagator::new(&system, speed, &[], 2e-3).unwrap());
     assert!(lost < 1e-10, "{lost:e}");
-    // Each step solves with a matrix of condition number about 1e4, and rounding errors accumulate.
+    // Each step solves with a matrix whose condition number is about 1e4, and rounding errors accumulate.
     let lost = kept(&Newmark::new(&system, (speed, 0.0), &[], 2e-3));
     assert!(lost < 1e-8, "{lost:e}");
 }
@@ -87,7 +91,7 @@ fn low_modes(system: &GyroscopicSystem, speed: f64) -> Mat<f64> {
     orthonormal(system.order(), &vectors, 1e-9)
 }
 
-/// Both integrators on the saw in the paper's cut at 2800 rpm, under a load that grows with time: half of
+/// Both integrators compute the saw in the paper's cut at 2800 rpm under a load that grows with time. Half of
 /// Newmark's step gives a quarter of its error.
 #[test]
 fn newmark_tends_to_the_exact_answer_in_second_order() {
@@ -98,8 +102,7 @@ fn newmark_tends_to_the_exact_answer_in_second_order() {
     // The basis contains few modes, because the stiffest would require steps of a microsecond.
     let basis = low_modes(&system, speed);
     let system = system.project(basis.as_ref());
-    let rim = plate.functions_at(plate.blade.outer_radius_m, 0.3);
-    let loads = [basis.transpose() * Col::from_fn(rim.len(), |i| rim[i])];
+    let loads = [basis.transpose() * at_point(&plate, plate.blade.outer_radius_m, 0.3)];
     let end_s = 0.2;
     let exact = Propagator::new(&system, speed, &loads, end_s)
         .unwrap()
@@ -128,20 +131,17 @@ fn newmark_tends_to_the_exact_answer_in_second_order() {
 fn the_paper_saw_is_stable_at_1800_and_flutters_at_2800() {
     let plate = paper_plate(DESIGN);
     let probe = *Scene::paper().probe();
-    let quiet = cut_history(
-        &SawInCut::new(&plate, &paper_cut(), &run_at(1800.0)).unwrap(),
-        &probe,
-    )
-    .unwrap();
+    let history_at = |rpm: f64| {
+        let (cut, run) = (paper_cut(), run_at(rpm));
+        let saw = SawInCut::new(&plate, &cut, &run).unwrap();
+        cut_history(&saw, &probe).unwrap()
+    };
+    let quiet = history_at(1800.0);
     assert_eq!(quiet.in_cut.growth_per_s, 0.0);
     let fitted = quiet.fitted.unwrap().growth_per_s;
     assert!(fitted.abs() < 1e-3, "{fitted:e}");
 
-    let loud = cut_history(
-        &SawInCut::new(&plate, &paper_cut(), &run_at(2800.0)).unwrap(),
-        &probe,
-    )
-    .unwrap();
+    let loud = history_at(2800.0);
     let growth = loud.in_cut.growth_per_s;
     let hertz = loud.in_cut.frequency_rad_per_s / TAU;
     assert!((growth - 6.0).abs() < 0.05, "{growth}");
@@ -168,15 +168,11 @@ fn few_motions_make_the_record_of_the_full_model() {
     let probe = *Scene::paper().probe();
     let history = cut_history(&SawInCut::new(&plate, &cut, &run).unwrap(), &probe).unwrap();
     let system = GyroscopicSystem::of_plate(&plate.in_cut(&cut, &run));
-    let point = |radius, angle| {
-        let values = plate.functions_at(radius, angle);
-        Col::from_fn(values.len(), |i| values[i])
-    };
     let mut load: Col<f64> = Col::zeros(system.order());
     for angle in cut.tooth_angles_rad() {
-        load += point(plate.blade.outer_radius_m, angle);
+        load += at_point(&plate, plate.blade.outer_radius_m, angle);
     }
-    let read = point(probe.radius_m, probe.angle_rad);
+    let read = at_point(&plate, probe.radius_m, probe.angle_rad);
     let propagator =
         Propagator::new(&system, run.speed_rad_per_s, &[load], run.duration_s).unwrap();
     let force = [run.lateral_n];
@@ -196,30 +192,20 @@ fn few_motions_make_the_record_of_the_full_model() {
 fn passing_teeth_act_like_their_mean() {
     let plate = paper_plate(DESIGN);
     let probe = *Scene::paper().probe();
-    let passing = tooth_passing(
-        &SawInCut::new(&plate, &paper_cut(), &run_at(2800.0)).unwrap(),
-        &probe,
-        8,
-    )
-    .unwrap();
+    let passing_at = |rpm: f64, stages: usize| -> ToothPassing {
+        let (cut, run) = (paper_cut(), run_at(rpm));
+        let saw = SawInCut::new(&plate, &cut, &run).unwrap();
+        tooth_passing(&saw, &probe, stages).unwrap()
+    };
+    let passing = passing_at(2800.0, 8);
     let of_mean = passing.passing_growth_per_s / passing.mean_growth_per_s - 1.0;
     assert!(of_mean.abs() < 1e-3, "{passing:?}");
     let of_standing = passing.passing_growth_per_s / passing.standing_growth_per_s - 1.0;
     assert!((-0.04..-0.02).contains(&of_standing), "{passing:?}");
-    let finer = tooth_passing(
-        &SawInCut::new(&plate, &paper_cut(), &run_at(2800.0)).unwrap(),
-        &probe,
-        16,
-    )
-    .unwrap();
+    let finer = passing_at(2800.0, 16);
     let change = finer.passing_growth_per_s / passing.passing_growth_per_s - 1.0;
     assert!(change.abs() < 1e-3, "{change:e}");
-    let quiet = tooth_passing(
-        &SawInCut::new(&plate, &paper_cut(), &run_at(1800.0)).unwrap(),
-        &probe,
-        8,
-    )
-    .unwrap();
+    let quiet = passing_at(1800.0, 8);
     // On an undamped saw moving loads couple two high modes wherever their frequencies add up to a multiple
     // of the tooth passing frequency. One such resonance, 0.07 rpm wide, is near 1800 rpm; its position
     // depends on the basis. Its growth stays below the threshold of flutter.
@@ -227,7 +213,7 @@ fn passing_teeth_act_like_their_mean() {
     assert!(quiet.passing_growth_per_s < threshold, "{quiet:?}");
 }
 
-/// A point of the map between its snapshots, compared with a saw whose guides are moved and whose loads are
+/// Points of the map between its snapshots equal the growth of saws whose guides are moved and whose loads are
 /// scaled, on the full model.
 #[test]
 fn the_map_holds_what_moved_guides_and_scaled_loads_do() {
@@ -292,7 +278,7 @@ fn a_run_up_converges_and_is_static_when_slow() {
         run_up(&plate, &runup, &probe, TAU * highest_hz, &|_, _| ()).unwrap()
     };
     let (coarse, fine) = (record(50.0, 20.0), record(100.0, 20.0));
-    let at = |history: &crate::transient::RunUpHistory, at_rpm: f64| {
+    let at = |history: &RunUpHistory, at_rpm: f64| {
         let place = history
             .speed_rad_per_s
             .partition_point(|s| rpm(*s) < at_rpm);
@@ -307,15 +293,10 @@ fn a_run_up_converges_and_is_static_when_slow() {
         assert!(change.abs() < 1e-2, "{speed}: {change:e}");
     }
     let system = GyroscopicSystem::of_plate(&plate);
-    let point = |radius, angle| {
-        let values = plate.functions_at(radius, angle);
-        Col::<f64>::from_fn(values.len(), |i| values[i])
-    };
-    let force = Scale(5.0) * point(plate.blade.outer_radius_m, 0.0);
-    let read = point(probe.radius_m, probe.angle_rad);
+    let force = Scale(5.0) * at_point(&plate, plate.blade.outer_radius_m, 0.0);
+    let read = at_point(&plate, probe.radius_m, probe.angle_rad);
     let slow = record(50.0, 60.0);
     for speed in [300.0, 900.0] {
-        use faer::linalg::solvers::Solve;
         let held = system.stiffness_at(rad_per_s(speed));
         let fixed = read.transpose() * held.partial_piv_lu().solve(&force);
         let seen = at(&slow, speed);

@@ -26,7 +26,7 @@ pub(crate) struct VerdictMap {
 
 /// Number of angles at which the modes in the cut are added to the basis.
 const SNAPSHOTS: usize = 3;
-/// Number of modes of each; flutter in the cut has low frequencies.
+/// Number of modes at each of these angles; flutter in the cut has low frequencies.
 const MODES: usize = 8;
 
 /// Computes the map at one speed.

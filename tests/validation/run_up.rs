@@ -43,7 +43,7 @@ fn overlapping_bands_divide_the_growth_of_all_modes() {
         });
         let found = RunningUp::new(&scene.unwrap(), &|_, _| ()).unwrap();
         let bands = &found.analysis.chart.instabilities;
-        let exponents: Vec<f64> = found.growths.iter().map(|growth| growth.exponent).collect();
+        let exponents = &found.growth_exponents;
         let overlap = bands
             .windows(2)
             .any(|pair| pair[1].from_rad_per_s < pair[0].to_rad_per_s);
