@@ -1,4 +1,4 @@
-//! The chart of a saw whose blade oscillates at its guides with a given amplitude.
+//! Charts of a saw whose blade oscillates at its guides with a given amplitude.
 
 use std::f64::consts::PI;
 
@@ -20,15 +20,15 @@ pub struct AmplitudeChart {
     pub amplitudes: Vec<AtAmplitude>,
     /// The linear chart of the scene, with guides of their full stiffness.
     pub linear: AtAmplitude,
-    /// Amplitude at which the first critical speed lies half way between that of the free blade and that of the linear
-    /// chart; `None` if the two differ by less than 0.1 %.
+    /// Amplitude at which the first critical speed is the mean of that of the free blade and that of the linear chart;
+    /// `None` if the two differ by less than 0.1 %, or one of the saws has none.
     pub half_way_m: Option<f64>,
 }
 
 /// A saw at one amplitude.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AtAmplitude {
-    /// Amplitude at the guides; `None` of the free blade and of the linear chart.
+    /// Amplitude at the guides; `None` for the free blade and for the linear chart.
     pub amplitude_m: Option<f64>,
     /// Mean stiffness of each one-sided guide over the oscillation, relative to its full stiffness.
     pub shares: Vec<f64>,
@@ -36,7 +36,7 @@ pub struct AtAmplitude {
     pub critical_rad_per_s: Vec<f64>,
     /// Bands within the sweep.
     pub instabilities: Vec<Instability>,
-    /// Flutter speed.
+    /// Flutter speed; `None` if no band within the sweep reaches the threshold.
     pub flutter_speed_rad_per_s: Option<f64>,
 }
 
@@ -45,11 +45,11 @@ pub struct AtAmplitude {
 const SHARES: [f64; 11] = [
     3e-4, 1e-3, 3e-3, 6e-3, 0.012, 0.025, 0.05, 0.1, 0.2, 0.45, 0.9,
 ];
-/// Amplitudes of the smallest gap within which shares are looked for.
+/// Largest amplitude of the searches, relative to the smallest gap.
 const FARTHEST: f64 = 1e3;
-/// Halvings of an interval of the logarithm of amplitudes.
+/// Number of times that the search for the amplitude half way halves its interval of logarithms.
 const HALVINGS: usize = 24;
-/// A difference of critical speeds that is none.
+/// Relative difference below which two critical speeds are taken to be equal.
 const SAME: f64 = 1e-3;
 
 /// Equivalent stiffness of a spring that acts beyond a gap on both sides, relative to its stiffness, for a sinusoidal
@@ -64,14 +64,14 @@ pub fn equivalent_share(amplitude_over_gap: f64) -> f64 {
     share_beyond(1.0 / amplitude_over_gap)
 }
 
-/// The same over the gap in amplitudes; a pad that presses on the flat blade has a negative one, and twice the stiffness, that
-/// of a contact on both sides that is never lost.
+/// As [`equivalent_share`], from the gap relative to the amplitude. It is negative for pads that press on the flat blade:
+/// the share then exceeds one, and is two for contact on both sides that is never lost.
 fn share_beyond(gap_over_amplitude: f64) -> f64 {
     let gap = gap_over_amplitude.clamp(-1.0, 1.0);
     1.0 - 2.0 / PI * (gap.asin() + gap * (1.0 - gap * gap).sqrt())
 }
 
-/// The mean stiffness of a guide over an oscillation.
+/// Mean stiffness of a one-sided guide over an oscillation, in N/m; at zero amplitude that of contact with the flat blade.
 pub(super) fn equivalent_stiffness(guide: &GuideFile, amplitude_m: f64) -> f64 {
     let gap_m = guide.gap_m.unwrap_or_default();
     let share = |side: f64| 0.5 * share_beyond((gap_m + side * guide.offset_m) / amplitude_m);
@@ -88,16 +88,34 @@ pub(super) fn equivalent_stiffness(guide: &GuideFile, amplitude_m: f64) -> f64 {
     film + shares * (stiffness - film)
 }
 
-/// The scene with one-sided guides replaced by linear ones of their mean stiffness.
+/// The scene with one-sided guides replaced by linear ones of their mean stiffness, and the ratio of each to the full
+/// stiffness.
+///
+/// # Errors
+/// [`GapError::Scene`].
 pub(super) fn at_amplitude(scene: &Scene, amplitude_m: f64) -> Result<(Scene, Vec<f64>), GapError> {
     let mut shares = Vec::new();
-    let linear = scene.edited(|file| {
+    let linear = with_linear_guides(scene, |guide| {
+        let mean = equivalent_stiffness(guide, amplitude_m);
+        shares.push(mean / guide.stiffness_n_per_m);
+        mean
+    })?;
+    Ok((linear, shares))
+}
+
+/// The scene with one-sided guides replaced by linear ones of the given stiffness, in N/m.
+///
+/// # Errors
+/// [`GapError::Scene`].
+pub(super) fn with_linear_guides(
+    scene: &Scene,
+    mut stiffness_n_per_m: impl FnMut(&GuideFile) -> f64,
+) -> Result<Scene, GapError> {
+    Ok(scene.edited(|file| {
         let guides = file.guides.iter_mut();
         for guide in guides.filter(|guide| guide.contact == ContactLaw::OneSided) {
-            let mean = equivalent_stiffness(guide, amplitude_m);
-            shares.push(mean / guide.stiffness_n_per_m);
             *guide = GuideFile {
-                stiffness_n_per_m: mean,
+                stiffness_n_per_m: stiffness_n_per_m(guide),
                 contact: ContactLaw::Linear,
                 side: GuideSide::Both,
                 film_stiffness_n_per_m: 0.0,
@@ -105,11 +123,10 @@ pub(super) fn at_amplitude(scene: &Scene, amplitude_m: f64) -> Result<(Scene, Ve
                 ..*guide
             };
         }
-    })?;
-    Ok((linear, shares))
+    })?)
 }
 
-/// The amplitude at which a guide has a share of its stiffness, relative to its gap.
+/// The amplitude, relative to the gap, at which a guide has a share of its stiffness.
 fn amplitude_over_gap(share: f64) -> f64 {
     let (mut low, mut high) = (1.0_f64, FARTHEST);
     for _ in 0..60 {
@@ -146,19 +163,17 @@ impl AmplitudeChart {
             .iter()
             .map(|share| at(Some(smallest_gap_m * amplitude_over_gap(*share))));
         let amplitudes = amplitudes.collect::<Result<Vec<_>, _>>()?;
-        let count = free.shares.len();
-        let linear_row = read(linear, None, vec![1.0; count]);
-        let half_way_m = half_way(linear, smallest_gap_m)?;
         Ok(AmplitudeChart {
             smallest_gap_m,
-            free,
             amplitudes,
-            linear: linear_row,
-            half_way_m,
+            linear: read(linear, None, vec![1.0; free.shares.len()]),
+            half_way_m: half_way(linear, smallest_gap_m)?,
+            free,
         })
     }
 }
 
+/// The results of an analysis at an amplitude.
 fn read(analysis: &Analysis, amplitude_m: Option<f64>, shares: Vec<f64>) -> AtAmplitude {
     let (from, to) = analysis.range_rad_per_s;
     let critical = analysis.model.critical.iter().map(|c| c.speed_rad_per_s);
@@ -175,8 +190,7 @@ fn read(analysis: &Analysis, amplitude_m: Option<f64>, shares: Vec<f64>) -> AtAm
 
 /// The amplitude at which the first critical speed is the mean of that of the free blade and that of the linear chart.
 fn half_way(analysis: &Analysis, smallest_gap_m: f64) -> Result<Option<f64>, GapError> {
-    // All amplitudes use the same basis, so that their critical speeds differ only by the stiffness of the
-    // guides.
+    // All amplitudes use one basis, so that their critical speeds differ only by the stiffness of the guides.
     let resolution = analysis.model.plate.resolution;
     let at = |amplitude_m: f64| first_critical(&analysis.scene, resolution, amplitude_m);
     let linear = analysis.model.critical.first();

@@ -2,8 +2,8 @@
 //!
 //! q(t) = a₀ + Σ (aₖ cos kωt + bₖ sin kωt), k = 1 … H, in a frame fixed in space. The coefficients balance those of the loads,
 //! of the linear terms and of the forces f(q): the latter are evaluated at many times of a period and expanded in the same
-//! functions (alternating frequency/time method). The equations are solved by Newton's method; corrections are shortened
-//! until the next simplified one is smaller, a test that does not depend on the scaling of the equations.
+//! functions (alternating frequency/time method). The equations are solved by Newton's method. A correction is shortened until
+//! the following one, from the same derivatives, is smaller: this test does not depend on the scaling of the equations.
 //!
 //! The exponents of small motions about a periodic one are those of its monodromy matrix.
 //!
@@ -23,19 +23,19 @@ use crate::transient::Force;
 pub(super) struct Term<'a> {
     /// The force.
     pub force: &'a dyn Force,
-    /// Whether it changes so little over a period that its derivative at the mean deflection is good enough for Newton's
+    /// Whether the force changes so little over a period that its derivative at the mean deflection suffices for Newton's
     /// method, and a few times of the period for its harmonics.
     pub is_smooth: bool,
 }
 
-/// The balance of a system at one speed.
+/// The equations of the balance of a system at one speed.
 pub(super) struct Balance<'a> {
     stiffness: Mat<f64>,
     velocity: Mat<f64>,
     frequency_rad_per_s: f64,
     harmonics: usize,
     terms: &'a [Term<'a>],
-    /// Norm of small coordinates.
+    /// Norm of coordinates relative to which small motions converge.
     size: f64,
 }
 
@@ -46,34 +46,38 @@ pub(super) struct Periodic(Mat<f64>);
 /// Fastest growth of a small motion about a periodic one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Growth {
-    /// Re of its exponent.
+    /// Growth rate, the real part of the exponent.
     pub per_s: f64,
-    /// Smallest frequency of this motion, at most half of that of the periodic one.
+    /// Smallest frequency of the small motion, at most half of that of the periodic one.
     pub frequency_rad_per_s: f64,
 }
 
-/// Times of a period for each coefficient: contact begins and ends within two of them.
+/// Number of times in a period for each coefficient under forces of contact; the beginning and the end of a contact are
+/// resolved to the distance of two times.
 const TIMES: usize = 16;
-/// Smallest number of these times.
+/// Smallest number of times in a period under forces of contact.
 const LEAST_TIMES: usize = 192;
-/// The same for smooth forces, whose third power has no more than three times the harmonics.
+/// Number of times in a period for each coefficient under smooth forces. As polynomials of third degree they have at most
+/// three times the harmonics of the motion, which then do not alias into those of the motion.
 const TIMES_OF_SMOOTH: usize = 2;
-/// Largest number of iterations.
+/// Largest number of iterations of Newton's method.
 const ITERATIONS: usize = 30;
 /// Relative size of the last correction.
 const LAST: f64 = 1e-8;
-/// Smallest share of a correction, which is taken in any case: where a pad begins to touch the test may fail in all directions.
+/// Smallest share of a correction. It is applied in any case, because where a pad begins to touch the test may fail in all
+/// directions.
 const SHORTEST: f64 = 1.0 / 16.0;
-/// If Newton's method fails, contact is at first softer by this factor, and then stiffer by at most the next and at least the last
-/// one from step to step.
+/// Factor of the stiffness of contact with which the search starts again if Newton's method fails.
 const SOFTEST: f64 = 1.0 / 4096.0;
+/// Largest factor by which contact then becomes stiffer from one motion to the next.
 const STIFFER: f64 = 4.0;
+/// Smallest such factor, below which the search ends without a motion.
 const LEAST_STIFFER: f64 = 1.05;
-/// Steps of a period of the monodromy matrix.
+/// Number of steps of a period for the monodromy matrix.
 const STEPS: usize = 256;
 
 impl<'a> Balance<'a> {
-    /// The balance at a speed, for motions of a frequency and some multiples of it.
+    /// The balance at a speed, for motions with a frequency in rad/s and its multiples up to a number of harmonics.
     pub fn new(
         system: &GyroscopicSystem,
         speed_rad_per_s: f64,
@@ -100,13 +104,13 @@ impl<'a> Balance<'a> {
         1 + 2 * self.harmonics
     }
 
-    /// Loads without any force: an order × width matrix of zeros.
+    /// Coefficients of loads, all zero: a row for each coordinate, a column for each coefficient.
     pub fn no_load(&self) -> Mat<f64> {
         Mat::zeros(self.order(), self.width())
     }
 
-    /// Motion under constant and alternating loads, from a deflection at rest or, if none is found, from that between soft pads
-    /// that become stiffer in steps. `None` if none is found.
+    /// Motion under constant and alternating loads. The search starts from a deflection at rest; if it fails, it starts again
+    /// between soft pads that become stiffer in steps. `None` if that fails too.
     pub fn motion(&self, rest: &Col<f64>, load: &Mat<f64>) -> Option<Periodic> {
         let mut still = self.no_load();
         still.col_mut(0).copy_from(rest);
@@ -131,7 +135,7 @@ impl<'a> Balance<'a> {
         Some(Periodic(motion))
     }
 
-    /// The motion from one that is close, also with another number of harmonics.
+    /// Motion that is close to a given one, which may have another number of harmonics; `None` if Newton's method fails.
     pub fn refined(&self, near: &Periodic, load: &Mat<f64>) -> Option<Periodic> {
         let mut motion = self.no_load();
         let known = near.0.ncols().min(self.width());
@@ -141,7 +145,7 @@ impl<'a> Balance<'a> {
         self.solved(&motion, load, 1.0).map(Periodic)
     }
 
-    /// The motion with contact that has a share of its stiffness.
+    /// Motion between pads that have a share of their stiffness; `None` if Newton's method fails.
     fn solved(&self, from: &Mat<f64>, load: &Mat<f64>, share: f64) -> Option<Mat<f64>> {
         let mut motion = from.clone();
         let mut rest = self.residual(&motion, load, share);
@@ -175,7 +179,7 @@ impl<'a> Balance<'a> {
         Mat::from_fn(order, self.width(), |i, k| vector[k * order + i])
     }
 
-    /// Elastic, viscous, inertial and given forces of each coefficient.
+    /// Residual of each coefficient: elastic, viscous and inertial forces minus loads and nonlinear forces.
     fn residual(&self, motion: &Mat<f64>, load: &Mat<f64>, share: f64) -> Mat<f64> {
         let elastic = &self.stiffness * motion;
         let viscous = &self.velocity * motion;
@@ -205,7 +209,7 @@ impl<'a> Balance<'a> {
         rest
     }
 
-    /// The functions of time at the times of a period, and their weights in the sums of the coefficients.
+    /// Values of the functions of time at the times of a period, and the weights of these times in the coefficients.
     fn times(&self, is_smooth: bool) -> (Mat<f64>, Mat<f64>) {
         let width = self.width();
         let count = match is_smooth {
@@ -222,7 +226,7 @@ impl<'a> Balance<'a> {
         (at, back)
     }
 
-    /// Stiffness of the linear terms and of smooth forces at the mean deflection.
+    /// Stiffness matrix of the linear terms and of smooth forces at the mean deflection.
     fn elastic(&self, motion: &Mat<f64>) -> Mat<f64> {
         let mean = motion.col(0).to_owned();
         let mut elastic = self.stiffness.clone();
@@ -260,7 +264,7 @@ impl<'a> Balance<'a> {
         jacobian
     }
 
-    /// Adds the derivatives of the coefficients of a force that is not smooth.
+    /// Adds the derivatives of the coefficients of a force of contact, which has a share of its stiffness.
     fn add_contact(
         &self,
         (force, share): (&dyn Force, f64),
@@ -334,7 +338,7 @@ impl<'a> Balance<'a> {
     }
 }
 
-/// 1, cos, sin, cos 2, sin 2, … of a phase.
+/// The k-th of the functions 1, cos φ, sin φ, cos 2φ, sin 2φ, … at a phase φ.
 fn function(k: usize, phase: f64) -> f64 {
     let (sin, cos) = (k.div_ceil(2) as f64 * phase).sin_cos();
     match k {
@@ -344,7 +348,7 @@ fn function(k: usize, phase: f64) -> f64 {
     }
 }
 
-/// The columns below each other.
+/// The columns of a matrix, one below the other.
 fn flat(matrix: &Mat<f64>) -> Col<f64> {
     let rows = matrix.nrows();
     Col::from_fn(rows * matrix.ncols(), |i| matrix[(i % rows, i / rows)])

@@ -1,4 +1,4 @@
-//! Motions that are known: made ones, the describing function, and the growth of linear motions.
+//! The balance compared with chosen motions, with the describing function, and with eigenvalues of linear motions.
 
 use faer::mat;
 
@@ -61,8 +61,8 @@ fn pair() -> GyroscopicSystem {
 
 const SPEED: f64 = 3.0;
 
-/// A motion is chosen, and the loads that it needs are integrated over fine steps of time: its mean and its harmonics must
-/// come back.
+/// A motion is chosen, and its loads are integrated over fine steps of time: under these loads the balance gives the chosen
+/// mean and harmonics.
 #[test]
 fn a_motion_that_is_chosen_comes_back_from_its_loads() {
     let (harmonics, frequency) = (4, 7.0);
@@ -143,7 +143,7 @@ fn one_harmonic_is_the_describing_function() {
     for force in [3.0, 10.0, 60.0] {
         let mut load = balance.no_load();
         load[(0, 1)] = force;
-        // Inside the gap the mass moves against the force, which no motion beyond it does.
+        // The search starts beyond the gap, because inside it the mass moves against the force.
         let near = Periodic(mat![[0.0, 2.0 * gap, 0.0]]);
         let found = balance.refined(&near, &load).unwrap();
         let amplitude = found.harmonic(1, &Col::full(1, 1.0)).re;

@@ -1,60 +1,66 @@
 //! The deflection at the cut, and the forces of the pads, over gap, side force and speed.
 
+use crate::campbell::even_speeds;
 use crate::scene::Scene;
 use crate::spectrum::Work;
 use crate::stability::Analysis;
 
 use super::GapError;
-use super::pressed::{Deviation, PressedBlade, with_linear_guides};
+use super::amplitude::with_linear_guides;
+use super::pressed::{Deviation, PressedBlade};
 
 /// Deflections at the cut under a side force there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeviationMap {
-    /// Angle of the force and of the deflection: that of the cut.
+    /// Angle of the force and of the deflection, which is that of the cut.
     pub angle_rad: f64,
     /// Speed of the map over gap and force.
     pub rpm: f64,
-    /// Gaps, relative to those of the scene; zero stands for guides that are linear.
+    /// Gaps, relative to those of the scene; zero for guides that are linear.
     pub gap_factors: Vec<f64>,
     /// Side forces.
     pub forces_n: Vec<f64>,
-    /// One row for each gap, one entry for each force; `None` where slopes exceed 0.1 and the model is not valid.
+    /// Deflections, one row for each gap, one entry for each force; `None` where slopes exceed 0.1 and the model is not
+    /// valid.
     pub over_gap: Vec<Vec<Option<Deviation>>>,
     /// Side force of the map over gap and speed.
     pub force_n: f64,
-    /// Speeds of this map.
+    /// Speeds of the map over gap and speed.
     pub speeds_rpm: Vec<f64>,
-    /// One row for each gap, one entry for each speed; `None` where the blade leans by more than its thickness.
+    /// Deflections, one row for each gap, one entry for each speed; `None` where the blade deflects by more than its
+    /// thickness or the model is not valid.
     pub over_speed: Vec<Vec<Option<Deviation>>>,
     /// Estimated error of the deflections over gap and force.
     pub basis_error: Option<BasisError>,
 }
 
-/// Largest relative change of the deflections at the cut in a larger basis.
+/// Largest relative change of the deflections at the cut on a larger basis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BasisError {
-    /// The change.
+    /// The relative change.
     pub share: f64,
-    /// Factor of the gaps at which it occurs.
+    /// Factor of the gaps at which the change occurs.
     pub gap_factor: f64,
-    /// Side force at which it occurs.
+    /// Side force at which the change occurs.
     pub force_n: f64,
     /// Numbers of modes at rest in the two bases.
     pub modes: [usize; 2],
 }
 
-/// Gaps and forces relative to those given, each times the cube root of two of the one before.
+/// Number of gaps and of forces. Each is the cube root of two times the preceding one.
 const FACTORS: usize = 13;
+/// Smallest gap and force, relative to the given ones.
 const LEAST_FACTOR: f64 = 0.25;
-/// The estimated error is that of every third gap and force.
+/// Distance, in gaps and in forces of the map, between the deflections whose error is estimated.
 const ESTIMATED_EVERY: usize = 3;
-/// Speeds of the map over gap and speed, from rest to the end of the sweep.
+/// Number of speeds of the map over gap and speed, from rest to the end of the sweep.
 const SPEEDS: usize = 13;
-/// Modes at rest in the basis.
+/// Number of modes at rest in the basis.
 pub(super) const MODES: usize = 24;
-/// Modes at rest in the larger basis with which the deflections are compared.
+/// Number of modes at rest in the larger basis, with which the deflections are compared.
 const MORE_MODES: usize = 36;
 
+/// Gaps and forces of the maps, relative to the given ones.
 fn factors() -> impl Iterator<Item = f64> {
     (0..FACTORS).map(|k| LEAST_FACTOR * (k as f64 / 3.0).exp2())
 }
@@ -72,7 +78,6 @@ impl DeviationMap {
             PressedBlade::new(scene, resolution, end_rpm.max(rpm), modes)
         };
         let thickness_m = scene.blade().thickness_m;
-        let last = (SPEEDS - 1) as f64;
         let mut map = DeviationMap {
             angle_rad: scene.cut_angle_rad(),
             rpm,
@@ -80,12 +85,13 @@ impl DeviationMap {
             forces_n: factors().map(|factor| factor * force_n).collect(),
             over_gap: Vec::new(),
             force_n,
-            speeds_rpm: (0..SPEEDS).map(|k| end_rpm * k as f64 / last).collect(),
+            speeds_rpm: even_speeds((0.0, end_rpm), SPEEDS),
             over_speed: Vec::new(),
             basis_error: None,
         };
         let work = Work::of("gaps", map.gap_factors.len() + 1);
-        let linear = blade_of(&with_linear_guides(scene)?, MODES)?;
+        let linear_scene = with_linear_guides(scene, |guide| guide.stiffness_n_per_m)?;
+        let linear = blade_of(&linear_scene, MODES)?;
         let lifting = blade_of(scene, MODES)?;
         for factor in &map.gap_factors {
             let own = (*factor > 0.0).then(|| lifting.with_gaps(*factor));
@@ -106,7 +112,7 @@ impl DeviationMap {
         Ok(map)
     }
 
-    /// The largest change of the deflections over gap and force in a larger basis.
+    /// The largest change of the deflections over gap and force on a larger basis; `None` if none of them is known.
     fn compared(
         &self,
         blade: &PressedBlade,
@@ -132,16 +138,16 @@ impl DeviationMap {
         Ok(largest)
     }
 
-    /// The largest side force at each gap that keeps the deflection at the cut within a limit, interpolated; `None` where the
-    /// smallest force of the map exceeds it.
+    /// The largest side force at each gap under which the deflection at the cut stays within a limit, interpolated; `None`
+    /// where the deflection under the smallest force of the map exceeds the limit.
     pub fn force_within_n(&self, limit_m: f64) -> Vec<Option<f64>> {
         let forces: Vec<f64> = self.forces_n.iter().map(|force| force.abs()).collect();
         let rows = self.over_gap.iter();
         rows.map(|row| within(&forces, row, limit_m)).collect()
     }
 
-    /// The largest speed at each gap up to which the deflection at the cut keeps within a limit, interpolated; `None`
-    /// where that at rest exceeds it.
+    /// The largest speed at each gap up to which the deflection at the cut stays within a limit, interpolated; `None`
+    /// where the deflection at rest exceeds the limit.
     pub fn speed_within_rpm(&self, limit_m: f64) -> Vec<Option<f64>> {
         let rows = self.over_speed.iter();
         rows.map(|row| within(&self.speeds_rpm, row, limit_m))
@@ -149,8 +155,8 @@ impl DeviationMap {
     }
 }
 
-/// Where the deflections at ascending places first exceed a limit, interpolated; the place before if the deflection there
-/// is not known; the last place if none exceeds it.
+/// The place at which the deflections at ascending places first exceed a limit, interpolated; the preceding place if a
+/// deflection is not known; the last place if none exceeds the limit; `None` if the first one does.
 fn within(places: &[f64], row: &[Option<Deviation>], limit_m: f64) -> Option<f64> {
     let mut before: Option<(f64, f64)> = None;
     for (place, found) in places.iter().zip(row) {

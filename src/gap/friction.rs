@@ -1,9 +1,9 @@
-//! Heat of friction at the pads, and what it does to the blade that causes it.
+//! Heat of friction at the pads, and its effect on the deflection of the blade.
 //!
 //! A pad that presses with N on the blade at a radius r, with a coefficient of friction μ, has the power μ N Ω r. A share of
-//! it enters the blade, and heats it along a circle. The temperature over the radius changes the stress in the plane, thus the
-//! deflection under the side force and the forces of the pads: the loop is repeated until the temperature no longer changes.
-//! The friction itself has no effect on the motion, as its moment in the plane is small.
+//! the power enters the blade and heats it along a circle. The temperature over the radius changes the stress in the plane, thus
+//! the deflection under the side force and the forces of the pads: the loop is repeated until the temperature no longer
+//! changes. The effect of the force of friction on the motion is neglected.
 
 use crate::scene::{RefusedValue, Scene, TemperatureFile, TemperatureRow, rad_per_s};
 use crate::spectrum::{SpectrumError, Work};
@@ -22,17 +22,17 @@ use super::pressed::{Deviation, PressedBlade};
 pub struct Friction {
     /// Coefficient of friction of dry contact.
     pub coefficient: f64,
-    /// Share of the power that enters the blade.
+    /// Share of the power of friction that enters the blade.
     pub heat_share: f64,
-    /// Heat transfer coefficient of each face.
+    /// Heat transfer coefficient of each face of the blade.
     pub convection_w_per_m2_k: f64,
-    /// Conductivity of the blade.
+    /// Thermal conductivity of the blade.
     pub conductivity_w_per_m_k: f64,
 }
 
 impl Friction {
-    /// Friction with a coefficient; all heat enters a blade of steel, of whose faces each square metre gives off 60 W for each
-    /// kelvin.
+    /// Friction with a coefficient, where all heat enters a blade of steel, whose faces have a heat transfer coefficient of
+    /// 60 W/(m²·K).
     pub const fn of(coefficient: f64) -> Self {
         Friction {
             coefficient,
@@ -46,7 +46,7 @@ impl Friction {
     ///
     /// # Errors
     /// [`RefusedValue`].
-    pub fn checked(self) -> Result<Self, RefusedValue> {
+    pub fn checked(self) -> Result<(), RefusedValue> {
         let all = [
             (
                 "friction",
@@ -79,14 +79,14 @@ impl Friction {
                 return Err(RefusedValue::new(key, value, allowed, remedy));
             }
         }
-        Ok(self)
+        Ok(())
     }
 }
 
 /// The heat of friction at one speed under one side force, with the gaps of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrictionHeat {
-    /// Friction and cooling.
+    /// Friction of the pads, and cooling of the blade.
     pub friction: Friction,
     /// Coefficient of linear thermal expansion: that of the scene's temperature, or that of steel.
     pub expansion_per_k: f64,
@@ -98,29 +98,30 @@ pub struct FrictionHeat {
     pub rise_k: Vec<f64>,
     /// Deflection and pad forces without friction; `None` where the model is not valid.
     pub cold: Option<Deviation>,
-    /// Deflection and pad forces with it.
+    /// Deflection and pad forces with friction; `None` where the model is not valid.
     pub hot: Option<Deviation>,
-    /// First critical speed of the linear chart without and with this heat; `None` if the blade buckles.
+    /// First critical speed of the linear chart without and with the heat of friction; `None` if there is none, or if the
+    /// blade buckles.
     pub critical_rad_per_s: [Option<f64>; 2],
     /// Last change of the temperature, relative to its largest value.
     pub change: f64,
     /// Number of repetitions of the loop.
     pub repetitions: usize,
-    /// Whether this heat buckles the blade at rest with its guides in contact.
+    /// Whether the heat of friction buckles the blade at rest with its guides in contact.
     pub buckles: bool,
 }
 
-/// Thermal expansion of steel.
+/// Coefficient of linear thermal expansion of steel.
 const STEEL_EXPANSION_PER_K: f64 = 1.2e-5;
-/// The loop ends at this relative change of the temperature.
+/// Relative change of the temperature at which the loop ends.
 const CONVERGED: f64 = 1e-4;
-/// The loop ends without convergence after this number of repetitions.
+/// Number of repetitions after which the loop ends without convergence.
 const MOST: usize = 25;
-/// No blade survives a larger rise; the loop ends there.
+/// Temperature rise beyond which the loop ends, because no blade survives it.
 const RUNAWAY_K: f64 = 1000.0;
 
 impl FrictionHeat {
-    /// Whether the temperature has settled.
+    /// Whether the loop has converged.
     pub fn has_settled(&self) -> bool {
         self.change <= CONVERGED
     }
@@ -209,7 +210,7 @@ impl FrictionHeat {
     }
 }
 
-/// `None` in the place of the error that the blade is not stable at rest.
+/// Replaces the error that the blade is not stable at rest by `None`.
 fn unless_buckled<T>(found: Result<T, GapError>) -> Result<Option<T>, GapError> {
     use SpectrumError::{Buckled, UnstableAtRest};
     match found {
@@ -221,7 +222,7 @@ fn unless_buckled<T>(found: Result<T, GapError>) -> Result<Option<T>, GapError> 
     }
 }
 
-/// The scene with another temperature.
+/// The scene with a table of temperature rises in place of its own temperature.
 fn heated(
     scene: &Scene,
     expansion_per_k: f64,

@@ -2,11 +2,12 @@
 //!
 //! A point of the blade passes a pad once a turn, which is short against the seconds in which its temperature changes: the
 //! temperature is uniform around and over the thickness. With a heat transfer coefficient α on both faces, conductivity k and no
-//! heat through bore and rim, (k h r T′)′ − 2α r T + q/2π = 0, q the power for each unit of the radius. It is solved by linear
-//! finite elements, whose sum of equations is the balance of power.
+//! heat through bore and rim, (k h r T′)′ − 2α r T + q/2π = 0, where q is the power per unit of the radius. The equation is
+//! solved by linear finite elements; the sum of their equations is the balance of power.
 
 use std::f64::consts::TAU;
 
+use crate::campbell::even_speeds;
 use crate::scene::Blade;
 
 /// Conduction and convection of a blade.
@@ -21,14 +22,12 @@ pub(super) struct Cooling {
 /// Number of elements. With it the temperature of the built-in blade is that of the closed form to 0.2 %.
 const ELEMENTS: usize = 60;
 
-/// The radii of the elements' ends.
+/// Radii of the nodes, at the ends of the elements.
 pub(super) fn radii_m(blade: &Blade) -> Vec<f64> {
-    let (from, to) = (blade.inner_radius_m, blade.outer_radius_m);
-    let at = |k: usize| from + (to - from) * k as f64 / ELEMENTS as f64;
-    (0..=ELEMENTS).map(at).collect()
+    even_speeds((blade.inner_radius_m, blade.outer_radius_m), ELEMENTS + 1)
 }
 
-/// Temperature rises at these radii under powers emitted at some radii.
+/// Temperature rises at [`radii_m`] in K, under sources of a power in W at a radius in m.
 pub(super) fn rises_k(blade: &Blade, cooling: &Cooling, sources: &[(f64, f64)]) -> Vec<f64> {
     let radii = radii_m(blade);
     let nodes = radii.len();
@@ -109,7 +108,7 @@ mod tests {
         }
     }
 
-    /// The faces of a blade with a step give off what the sources emit.
+    /// The faces emit the power of the sources.
     #[test]
     fn the_power_is_that_of_convection() {
         let scene = Scene::paper();

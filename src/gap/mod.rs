@@ -1,7 +1,7 @@
 //! Guides with a gap: the Campbell diagram at an amplitude, and the deflection at the cut over the gap.
 //!
-//! A one-sided guide has no stiffness inside its gap, so that the linear chart of a scene is that of large amplitudes. Two
-//! results describe what lies between:
+//! A one-sided guide has no stiffness inside its gap, so that the linear chart of a scene is valid for large amplitudes only.
+//! These results describe smaller amplitudes and stationary deflections:
 //!
 //! * [`AmplitudeChart`]: critical speeds, bands and flutter speed with the stiffness that the guides have on average
 //!   over an oscillation of a given amplitude.
@@ -36,7 +36,7 @@ use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError};
 use crate::stretched::StretchedError;
 
-/// Why the gaps of a saw could not be evaluated.
+/// Reason for which the guides of a saw could not be evaluated.
 #[derive(Debug, thiserror::Error)]
 pub enum GapError {
     /// An option was refused, or the scene has no one-sided guide.
@@ -72,16 +72,16 @@ pub struct Options {
     pub friction: Option<Friction>,
 }
 
-/// Guides with a gap.
+/// Results for a saw whose guides have a gap.
 #[derive(Debug)]
 pub struct GuideGaps {
-    /// The saw.
+    /// Scene of the saw.
     pub scene: Scene,
     /// Its linear analysis, with guides of their full stiffness.
     pub analysis: Analysis,
-    /// The chart over the amplitude.
+    /// Charts over the amplitude at the guides.
     pub amplitude: AmplitudeChart,
-    /// The deflection at the cut.
+    /// Stationary deflections at the cut.
     pub deviation: DeviationMap,
     /// Oscillations, if something causes them.
     pub oscillation: Option<Oscillation>,
@@ -91,7 +91,7 @@ pub struct GuideGaps {
     pub max_deviation_m: Option<f64>,
 }
 
-/// A limit beyond any saw.
+/// Largest limit of the deflection that is accepted; no blade deflects as far.
 const MAX_DEVIATION_MM: f64 = 1e3;
 
 impl Options {
@@ -138,6 +138,7 @@ impl Options {
         }
     }
 
+    /// The side force in N: that of the options, of the scene, or the usual one.
     fn force(&self, scene: &Scene) -> Result<f64, RefusedValue> {
         let options = deflect::Options {
             force_n: self.force_n,
@@ -162,12 +163,13 @@ impl GuideGaps {
             .or(scene.operating_rad_per_s())
             .or(first.map(|critical| 0.5 * critical.speed_rad_per_s))
             .unwrap_or(analysis.range_rad_per_s.1);
-        let case = (options.force(scene)?, rpm(speed));
-        let deviation = DeviationMap::new(&analysis, case.1, case.0)?;
+        let (force_n, speed_rpm) = (options.force(scene)?, rpm(speed));
+        let deviation = DeviationMap::new(&analysis, speed_rpm, force_n)?;
         let oscillators = Oscillators::of(scene, options.oscillating);
-        let oscillation = oscillators.map(|all| Oscillation::new(&analysis, all, case.0, speed));
+        let oscillation = oscillators.map(|all| Oscillation::new(&analysis, all, force_n, speed));
         let friction = options.friction;
-        let friction = friction.map(|friction| FrictionHeat::new(&analysis, friction, case));
+        let friction =
+            friction.map(|friction| FrictionHeat::new(&analysis, friction, (force_n, speed_rpm)));
         Ok(GuideGaps {
             scene: scene.clone(),
             analysis,

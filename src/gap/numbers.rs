@@ -9,7 +9,7 @@ use super::deviation::MODES;
 use super::pressed::{Deviation, PressedBlade};
 use super::{GapError, Options};
 
-/// The force, the speed and the amplitude of [`GapNumbers`].
+/// Side force, speed and amplitude for which [`GapNumbers`] are computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct GapCase {
     force_n: f64,
@@ -20,15 +20,16 @@ pub(crate) struct GapCase {
 /// A saw under a side force at the cut.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct GapNumbers {
-    /// Deflection of the rim at the cut, as an absolute value; `None` where the model is not valid.
+    /// Deflection of the rim at the cut, as an absolute value; `None` if the model is not valid.
     pub deflection_m: Option<f64>,
-    /// Largest force of a pad, as an absolute value.
+    /// Largest force of a pad, as an absolute value; `None` if the model is not valid.
     pub largest_pad_force_n: Option<f64>,
-    /// First critical speed with the mean stiffness of the guides over an oscillation of the amplitude.
+    /// First critical speed with the mean stiffness of the guides over an oscillation of the amplitude; `None` without
+    /// an amplitude or without a critical speed.
     pub critical_at_amplitude_rpm: Option<f64>,
 }
 
-/// An amplitude beyond any saw.
+/// Largest amplitude that is accepted; no blade oscillates as far.
 const MAX_AMPLITUDE_MM: f64 = 1e3;
 
 impl GapCase {
@@ -66,7 +67,8 @@ impl GapCase {
         })
     }
 
-    /// The scene with guides of their mean stiffness over an oscillation of the amplitude; itself without one.
+    /// The scene with guides of their mean stiffness over an oscillation of the amplitude; the scene itself without an
+    /// amplitude.
     ///
     /// # Errors
     /// [`GapError::Scene`].
@@ -77,17 +79,17 @@ impl GapCase {
         }
     }
 
-    /// The amplitude.
+    /// Amplitude at the guides, in m; `None` if guides have their full stiffness.
     pub fn amplitude_m(&self) -> Option<f64> {
         self.amplitude_m
     }
 
-    /// The side force.
+    /// Side force at the rim at the cut, in N.
     pub fn force_n(&self) -> f64 {
         self.force_n
     }
 
-    /// Deflection at the cut, as an absolute value; `None` where the model is not valid.
+    /// Deflection at the cut in m, as an absolute value; `None` if the model is not valid.
     ///
     /// # Errors
     /// [`GapError`].

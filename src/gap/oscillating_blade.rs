@@ -16,29 +16,29 @@ use super::GapError;
 use super::balance::{Balance, Growth, Periodic, Term};
 use super::oscillators::Oscillators;
 
-/// A periodic deflection at a point.
+/// Periodic deflection at a point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
-    /// Mean.
+    /// Mean over a period.
     pub mean_m: f64,
     /// Half of the difference between the largest and the smallest value.
     pub amplitude_m: f64,
     /// Largest absolute value.
     pub largest_m: f64,
-    /// W of each part Re W e^{ikωt}, k = 1, 2, …
+    /// Complex amplitude W of each harmonic Re W e^{ikωt}, k = 1, 2, …
     pub harmonics_m: Vec<c64>,
 }
 
-/// A pad over a period.
+/// Force and contact of a pad over a period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PadMotion {
     /// Index among the guides of the scene.
     pub guide: usize,
-    /// Mean of its force on the blade beyond its gap.
+    /// Mean of the force on the blade beyond the gap.
     pub mean_n: f64,
-    /// Largest absolute value of this force.
+    /// Largest absolute value of the force beyond the gap.
     pub largest_n: f64,
-    /// Share of the period in which it touches the blade.
+    /// Share of the period in which the pad touches the blade.
     pub contact_share: f64,
 }
 
@@ -51,28 +51,29 @@ pub struct AtSpeed {
     pub probe: Motion,
     /// Deflection of the rim at the cut.
     pub cut: Motion,
-    /// One-sided pads.
+    /// Forces and contact of the one-sided pads.
     pub pads: Vec<PadMotion>,
     /// Largest deflection of the blade, as an absolute value.
     pub largest_m: f64,
-    /// Fastest growth of small motions about it, in 1/s, and their smallest frequency, in rad/s.
+    /// Fastest growth of small motions about the periodic one, in 1/s, and their smallest frequency, in rad/s; `None` if the
+    /// eigenvalues were not found.
     pub growth: Option<(f64, f64)>,
 }
 
-/// Harmonics of the motion. With more of them amplitudes of the saws of the tests change by less than a percent.
+/// Number of harmonics of the motion. With more of them the amplitude of the saw of the tests changes by less than 2 %.
 pub(super) const HARMONICS: usize = 6;
-/// More harmonics, with which the amplitude is compared.
+/// Number of harmonics of the motion with which the amplitude is compared.
 const MORE_HARMONICS: usize = 10;
-/// Phases at which a motion is read.
+/// Number of phases at which a motion is evaluated at the probe, at the cut and at the pads.
 const PHASES: usize = 96;
-/// Every so many phases the whole blade is looked at.
+/// Number of these phases from one evaluation of the whole blade to the next.
 const EVERY: usize = 6;
 
 /// A blade in a basis for its oscillations at some speed.
 pub(super) struct OscillatingBlade {
     pub(super) blade: StretchedBlade,
     pub(super) system: GyroscopicSystem,
-    /// The alternating loads, and each of them on the shapes.
+    /// The alternating loads, each with its projection on the shapes.
     loads: Vec<(Load, Col<c64>)>,
     probe: Col<f64>,
     pub(super) cut: Col<f64>,
@@ -84,7 +85,11 @@ pub(super) struct OscillatingBlade {
 
 impl OscillatingBlade {
     /// The blade of a scene under a steady side force at the rim at the cut. The basis has the modes of
-    /// [`StretchedBlade::up_to`], and the linear responses to the loads at a speed with and without contact.
+    /// [`StretchedBlade::up_to`], and the linear responses to the alternating loads at `speed_rad_per_s`, with and without
+    /// contact.
+    ///
+    /// # Errors
+    /// [`GapError`].
     pub(super) fn new(
         scene: &Scene,
         resolution: Resolution,
@@ -172,7 +177,7 @@ impl OscillatingBlade {
         std::iter::once(stretching).chain(gaps).collect()
     }
 
-    /// Coefficients of all loads at a speed: the steady force, and the alternating ones.
+    /// Coefficients of the steady and the alternating loads at a speed, added to zero coefficients.
     pub(super) fn load(&self, zero: Mat<f64>, speed_rad_per_s: f64, base_order: u32) -> Mat<f64> {
         let mut load = zero;
         load.col_mut(0).copy_from(self.blade.force());
@@ -187,7 +192,11 @@ impl OscillatingBlade {
         load
     }
 
-    /// The motion at a speed, its stability if asked for, and the deflection at rest without oscillation.
+    /// The motion at a speed with its stability, `None` if it is not found, and the deflection at the cut in m without
+    /// oscillation.
+    ///
+    /// # Errors
+    /// [`GapError`] if the computation was cancelled or no equilibrium is found.
     pub(super) fn at(
         &self,
         speed_rad_per_s: f64,
@@ -203,7 +212,7 @@ impl OscillatingBlade {
         Ok((found, still_m))
     }
 
-    /// Looks for the motions that were not found from those at neighbouring speeds, upwards and downwards.
+    /// Searches the motions that were not found, starting from those at neighbouring speeds, upwards and then downwards.
     pub(super) fn follow(&self, motions: &mut [Option<Found>], speeds: &[f64], base_order: u32) {
         let last = motions.len().saturating_sub(1);
         let upwards = (1..=last).map(|k| (k - 1, k));
@@ -219,7 +228,7 @@ impl OscillatingBlade {
         }
     }
 
-    /// A motion with more harmonics.
+    /// The motion that is close to a given one and has more harmonics; `None` if it is not found.
     pub(super) fn refined(
         &self,
         near: &Periodic,
@@ -232,7 +241,7 @@ impl OscillatingBlade {
         })
     }
 
-    /// The solution of the balance of some harmonics at a speed, under all loads.
+    /// Solves the balance of a number of harmonics at a speed, under all loads.
     fn balanced<T>(
         &self,
         speed_rad_per_s: f64,
@@ -312,7 +321,7 @@ fn motion_at(motion: &Periodic, states: &[Col<f64>], place: &Col<f64>) -> Motion
     }
 }
 
-/// Amplitude at a place, to compare two motions.
+/// Amplitude in m of a motion at a place, for comparisons.
 pub(super) fn amplitude_m(motion: &Periodic, place: &Col<f64>) -> f64 {
     let phases = (0..PHASES).map(|k| TAU * k as f64 / PHASES as f64);
     let states: Vec<Col<f64>> = phases.map(|phase| motion.at(phase)).collect();
@@ -320,7 +329,7 @@ pub(super) fn amplitude_m(motion: &Periodic, place: &Col<f64>) -> f64 {
 }
 
 impl AtSpeed {
-    /// Whether small motions about it do not grow.
+    /// Whether small motions about the periodic one grow by at most a threshold; false if their growth is not known.
     pub fn is_stable(&self, threshold_per_s: f64) -> bool {
         self.growth
             .is_some_and(|(per_s, _)| per_s <= threshold_per_s)

@@ -2,8 +2,8 @@
 //! lack of flatness or an imbalance that turns with it.
 //!
 //! The loads have the frequencies of some orders of the rotation speed; the motion has those of all multiples of their
-//! greatest common divisor, because a pad that touches for a part of the period contains all of them. The mean of the
-//! motion shows to which side the blade leans. Shape and imbalance are the loads of [`response`](crate::response).
+//! greatest common divisor, because the force of a pad that touches for a part of the period contains all of them. The mean
+//! of the motion is the mean deflection. Shape and imbalance are the loads of [`response`](crate::response).
 
 use rayon::prelude::*;
 
@@ -17,21 +17,21 @@ use super::oscillators::Oscillators;
 /// Oscillations with the gaps of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Oscillation {
-    /// What makes the blade oscillate.
+    /// Causes of the oscillation.
     pub oscillators: Oscillators,
     /// Ratio of the frequency of the motion to that of rotation.
     pub base_order: u32,
     /// Number of harmonics of the motion.
     pub harmonics: usize,
-    /// Growth from which a motion is unstable.
+    /// Growth rate above which a motion is unstable.
     pub threshold_per_s: f64,
     /// The motion at the speed of the map; `None` if none was found.
     pub at: Option<AtSpeed>,
     /// Deflection of the rim at the cut without oscillation.
     pub still_m: f64,
-    /// Relative change of the amplitude at the cut with more harmonics.
+    /// Relative change of the amplitude at the cut with more harmonics; `None` if a motion was not found.
     pub harmonics_error: Option<f64>,
-    /// Relative change of the amplitude at the cut in a larger basis.
+    /// Relative change of the amplitude at the cut on a larger basis; `None` if a motion was not found.
     pub basis_error: Option<f64>,
     /// Speeds, ascending.
     pub speeds_rad_per_s: Vec<f64>,
@@ -39,11 +39,11 @@ pub struct Oscillation {
     pub over_speed: Vec<Option<AtSpeed>>,
 }
 
-/// Modes at rest in the basis, in addition to the shapes of the loads.
+/// Number of modes at rest in the basis, in addition to the responses to the loads.
 const MODES: usize = 16;
-/// Modes of the larger basis, with which the amplitude is compared.
+/// Number of modes at rest in the larger basis, with which the amplitude is compared.
 const MORE_MODES: usize = 24;
-/// Number of speeds of the series.
+/// Number of evenly spaced speeds; the speed of the map is added to them.
 const SPEEDS: usize = 30;
 
 impl Oscillation {
@@ -115,7 +115,8 @@ impl Oscillation {
         })
     }
 
-    /// Name of the part of the motion with an order: its causes, or the contact, which adds the multiples of the others.
+    /// Name of the part of the motion with an order: the causes with this order, or the contact, which adds other multiples
+    /// of the base order.
     pub fn name_of(&self, order: u32) -> String {
         let causes = self.oscillators.causes();
         let own = causes.iter().filter(|(_, other)| *other == order);

@@ -1,4 +1,4 @@
-//! Oscillations against the linear response, and against time histories.
+//! Oscillations compared with the linear response and with time histories.
 
 use std::f64::consts::TAU;
 
@@ -73,7 +73,7 @@ fn without_a_gap_the_motion_is_the_linear_response() {
         let speeds = 0..linear.speeds_rad_per_s.len();
         let place = speeds.min_by(|a, b| away(a).total_cmp(&away(b))).unwrap();
         assert!(away(&place) < 1e-4);
-        // The basis has the linear response at the speed of the map.
+        // The basis contains the linear response at the speed of the map, where the motion is more accurate.
         let tolerance = match (at.speed_rad_per_s / speed - 1.0).abs() < 1e-9 {
             true => 1e-3,
             false => 1e-2,
@@ -85,7 +85,7 @@ fn without_a_gap_the_motion_is_the_linear_response() {
                 .sum();
             let Some(expected) = sum else { continue };
             let w = at.probe.harmonics_m[order as usize - 1];
-            // Between resonances the parts of the modes cancel each other.
+            // Between resonances the contributions of the modes cancel each other, which enlarges the relative error.
             let size = expected.norm().max(0.1 * largest(order));
             assert!(
                 (w - expected).norm() < tolerance * size,
@@ -98,14 +98,14 @@ fn without_a_gap_the_motion_is_the_linear_response() {
     assert!(compared > 20, "{compared}");
 }
 
-/// Independent value: the time history of the same blade, from rest until it has settled.
+/// Independent value: the time history of the same blade, from rest until its oscillation is steady.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many steps: run it in release")]
 fn the_motion_of_a_blade_that_is_not_flat_is_that_of_the_time_history() {
     compare_with_time_history(true, None, 2);
 }
 
-/// Independent value: as above.
+/// Independent value: the time history of the same blade, from rest until its oscillation is steady.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many steps: run it in release")]
 fn the_motion_under_an_oscillating_force_is_that_of_the_time_history() {
@@ -133,7 +133,7 @@ fn compare_with_time_history(turning: bool, force: Option<OscillatingForce>, bas
     let found = found.unwrap();
     let at = blade.read(speed, &found);
     assert!(at.is_stable(0.0), "{at:?}");
-    // Without lifting off there would be one harmonic only; the force is too small for much of it.
+    // Without lifting off there would be one harmonic only. The oscillating force is too small for a large second one.
     let [first, second] = [0, 1].map(|k| at.cut.harmonics_m[k].norm());
     assert!(!turning || second > 0.02 * first, "{first} {second}");
 
@@ -156,7 +156,7 @@ fn compare_with_time_history(turning: bool, force: Option<OscillatingForce>, bas
     let mut state = MovingState::still(rest.coordinates);
     let (mut mean, mut first) = (0.0, c64::new(0.0, 0.0));
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    // Small motions decay to less than two hundredths.
+    // Until the last period, small motions decay to less than two hundredths.
     let decay = -at.growth.unwrap().0;
     let periods = (4.0 * frequency / TAU / decay).ceil() as u32;
     assert!((20..800).contains(&periods), "{periods}");
@@ -186,7 +186,7 @@ fn compare_with_time_history(turning: bool, force: Option<OscillatingForce>, bas
     assert!((own - first).norm() < 1e-2 * amplitude, "{own} {first}");
 }
 
-/// Amplitudes converge with the harmonics, and a wider gap lets the blade oscillate more.
+/// More harmonics change the amplitude by less than 2 %, more modes by less than 5 %.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn more_harmonics_and_modes_change_little() {

@@ -1,28 +1,29 @@
-//! What makes a blade oscillate: a side force at the cut, and a shape or an imbalance that turns with the blade.
+//! Causes of an oscillation: a side force at the cut, and a shape or an imbalance that turns with the blade.
 
 use crate::scene::{RefusedValue, ResponseFile, Scene};
 
 /// A side force at the rim at the cut that oscillates with a multiple of the rotation frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OscillatingForce {
-    /// Amplitude.
+    /// Amplitude of the force.
     pub amplitude_n: f64,
     /// Ratio of its frequency to that of rotation.
     pub order: u32,
 }
 
-/// What makes the blade oscillate.
+/// Causes of an oscillation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Oscillators {
-    /// The oscillating side force.
+    /// Oscillating side force, if there is one.
     pub force: Option<OscillatingForce>,
     /// Run-out, flatness and imbalance of the scene.
     pub turning: ResponseFile,
 }
 
-/// Largest ratio of the order of a load to that of the motion, so that multiples of it are left.
+/// Largest ratio of the order of the force to the base order, so that the harmonics of the motion include multiples of the
+/// force's frequency.
 const LARGEST_RATIO: u32 = 3;
-/// A larger order is that of no saw.
+/// Largest order that is accepted; no saw has as many teeth.
 const LARGEST_ORDER: u32 = 1000;
 
 impl OscillatingForce {
@@ -30,7 +31,7 @@ impl OscillatingForce {
     ///
     /// # Errors
     /// [`RefusedValue`].
-    pub fn checked(self) -> Result<Self, RefusedValue> {
+    pub fn checked(self) -> Result<(), RefusedValue> {
         let Self { amplitude_n, order } = self;
         if !(amplitude_n > 0.0 && amplitude_n <= 1e6) {
             let (allowed, remedy) = (
@@ -54,12 +55,12 @@ impl OscillatingForce {
                 remedy,
             ));
         }
-        Ok(self)
+        Ok(())
     }
 }
 
 impl Oscillators {
-    /// The oscillators of a scene; `None` if nothing oscillates.
+    /// The causes of a scene and of a force; `None` if there are none.
     pub(super) fn of(scene: &Scene, force: Option<OscillatingForce>) -> Option<Self> {
         let typed = scene.file().response.unwrap_or_default();
         let turning = ResponseFile {
@@ -70,7 +71,7 @@ impl Oscillators {
         (force.is_some() || turning.excites()).then_some(Oscillators { force, turning })
     }
 
-    /// Causes and their orders.
+    /// Names of the causes, each with the ratio of its frequency to that of rotation.
     pub fn causes(&self) -> Vec<(&'static str, u32)> {
         let force = self
             .force
@@ -86,7 +87,7 @@ impl Oscillators {
         force.into_iter().chain(turning).collect()
     }
 
-    /// The greatest common divisor of all orders.
+    /// The greatest common divisor of all orders, of which the orders of the motion are multiples.
     pub(super) fn base_order(&self) -> u32 {
         let divisor = |mut a: u32, mut b: u32| {
             while b > 0 {
@@ -98,10 +99,13 @@ impl Oscillators {
         orders.fold(0, divisor).max(1)
     }
 
-    /// Refuses a force whose frequency is too far from that of the turning blade.
-    pub(super) fn checked(self) -> Result<Self, RefusedValue> {
+    /// Refuses an invalid force, and one whose frequency is too far above that of the turning shape or imbalance.
+    ///
+    /// # Errors
+    /// [`RefusedValue`].
+    pub(super) fn checked(self) -> Result<(), RefusedValue> {
         let Some(force) = self.force else {
-            return Ok(self);
+            return Ok(());
         };
         force.checked()?;
         if force.order > LARGEST_RATIO * self.base_order() {
@@ -116,6 +120,6 @@ impl Oscillators {
                 remedy,
             ));
         }
-        Ok(self)
+        Ok(())
     }
 }

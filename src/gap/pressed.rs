@@ -1,13 +1,13 @@
-//! A blade that is pressed at the rim at the cut, at rest in space.
+//! Stationary deflection of a blade under a side force at the rim at the cut.
 
 use crate::plate::{Plate, Resolution};
-use crate::scene::{ContactLaw, Scene, rad_per_s};
+use crate::scene::{Scene, rad_per_s};
 use crate::spectrum::Cancellation;
 use crate::stretched::{Equilibrium, LARGEST_SLOPE, Sites, StretchedBlade};
 
 use super::GapError;
 
-/// A stationary deflection.
+/// A stationary deflection of the blade, and its contact with the pads.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Deviation {
     /// Deflection of the rim at the cut.
@@ -29,10 +29,10 @@ impl Deviation {
     }
 }
 
-/// Radius and size of the force at each point of contact.
+/// Radius in m and magnitude of the force in N at each point of contact.
 pub(super) type Contacts = Vec<(f64, f64)>;
 
-/// A blade that is pressed at the rim at the cut.
+/// A blade whose deflections under side forces at the rim at the cut can be computed.
 pub(crate) struct PressedBlade {
     blade: StretchedBlade,
     place: (f64, f64),
@@ -40,7 +40,7 @@ pub(crate) struct PressedBlade {
 }
 
 impl PressedBlade {
-    /// The blade of a scene for speeds up to one, in a basis of so many modes at rest.
+    /// The blade of a scene for speeds up to `to_rpm`, on a basis of `modes` modes at rest.
     ///
     /// # Errors
     /// [`GapError`].
@@ -70,7 +70,7 @@ impl PressedBlade {
         }
     }
 
-    /// The deflection under a side force at a speed; `None` where slopes exceed 0.1 and the model is not valid.
+    /// The deflection under a side force at a speed; `None` if slopes exceed 0.1 and the model is not valid.
     ///
     /// # Errors
     /// [`GapError`].
@@ -79,7 +79,7 @@ impl PressedBlade {
         Ok(self.valid(&found))
     }
 
-    /// As [`PressedBlade::deviation`], with radius and size of the force at each point of contact.
+    /// As [`PressedBlade::deviation`], with the points of contact.
     ///
     /// # Errors
     /// [`GapError`].
@@ -92,8 +92,8 @@ impl PressedBlade {
         Ok((self.valid(&found), blade.contacts(&found)))
     }
 
-    /// Relative change of a deflection at the cut in a larger basis, in which the blade moves from the same deflection to
-    /// the nearest equilibrium; `None` where the model is not valid.
+    /// Relative change of a deflection at the cut on a larger basis, where the blade moves from this deflection to an
+    /// equilibrium; `None` if the model is not valid.
     ///
     /// # Errors
     /// [`GapError`].
@@ -118,6 +118,7 @@ impl PressedBlade {
         Ok((blade, found))
     }
 
+    /// The deflection of an equilibrium; `None` if its slopes exceed 0.1.
     fn valid(&self, found: &Equilibrium) -> Option<Deviation> {
         if self.blade.largest_slope(found) > LARGEST_SLOPE {
             return None;
@@ -129,20 +130,4 @@ impl PressedBlade {
             distances_left_m: self.blade.distances_left_m(found),
         })
     }
-}
-
-/// The scene with linear guides in the place of one-sided ones.
-///
-/// # Errors
-/// [`GapError::Scene`].
-pub(super) fn with_linear_guides(scene: &Scene) -> Result<Scene, GapError> {
-    Ok(scene.edited(|file| {
-        let guides = file.guides.iter_mut();
-        for guide in guides.filter(|guide| guide.contact == ContactLaw::OneSided) {
-            guide.contact = ContactLaw::Linear;
-            guide.side = Default::default();
-            guide.film_stiffness_n_per_m = 0.0;
-            guide.offset_m = 0.0;
-        }
-    })?)
 }

@@ -1,4 +1,4 @@
-//! The mean stiffness against an integral, and its limits; deflections against the linear guide.
+//! The mean stiffness compared with an integral and with its limits; deflections compared with those of a linear guide.
 
 use std::f64::consts::TAU;
 
@@ -18,7 +18,7 @@ fn lifting(gap_m: f64) -> Scene {
     scene.unwrap()
 }
 
-/// The first Fourier coefficient of the force of a spring behind a gap.
+/// Independent value: the first Fourier coefficient of the force of a spring behind a gap, summed over a period.
 #[test]
 fn the_mean_stiffness_is_the_first_harmonic_of_the_force() {
     let count = 200_000;
@@ -37,7 +37,7 @@ fn the_mean_stiffness_is_the_first_harmonic_of_the_force() {
     assert!(equivalent_share(1e6) > 0.999_998);
 }
 
-/// Between the free blade and the linear chart: the rows approach both, and the amplitude half way is where it says.
+/// The rows approach the free blade and the linear chart, and the critical speeds cross their mean at the amplitude half way.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
@@ -65,7 +65,7 @@ fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
             is_below == (first(&chart.free) < middle)
         );
     }
-    // Every pad force balances the side force, whatever the gap; a wider gap lets the blade go further.
+    // The force of the pad balances the side force for every gap.
     let map = &found.deviation;
     for (row, factor) in map.over_gap.iter().zip(&map.gap_factors) {
         for (at, force) in row.iter().zip(&map.forces_n) {
@@ -76,7 +76,7 @@ fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
             }
         }
     }
-    // Both maps have the scene's speed and force.
+    // The two maps have the speed and the force of the options in common.
     let same = map.over_gap.iter().zip(&map.over_speed);
     for (over_force, over_speed) in same {
         let [one, other] = [&over_force[6], &over_speed[6]].map(|at| at.as_ref().unwrap());
@@ -84,6 +84,7 @@ fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
     }
     let error = map.basis_error.unwrap();
     assert!(error.share < 2e-3, "{error:?}");
+    // A wider gap allows a larger deflection.
     for gaps in map.over_gap[1..].windows(2) {
         let [narrow, wide] = [&gaps[0], &gaps[1]].map(|row| row[2].as_ref().unwrap().deviation_m);
         assert!(wide > narrow, "{narrow} {wide}");
@@ -164,8 +165,8 @@ fn what_cannot_be_answered_is_refused() {
     }
 }
 
-/// A point pad before a blade between collars touches at one place: power and temperature follow from its force, and the
-/// critical speed is that of a scene with this temperature.
+/// A point pad touches a clamped blade at one place. The power follows from its force, and the temperature is that of the
+/// closed form for this power; the heat changes the critical speed.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn the_heat_of_a_point_pad_is_that_of_its_force() {
@@ -222,7 +223,7 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
     );
 }
 
-/// A blade that three pads hold heaves without force: pads that all have the same offset move it by this offset.
+/// A blade on three pads heaves without force, so that pads with one common offset move it by this offset.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn pads_with_one_offset_move_the_blade_by_it() {
@@ -253,7 +254,7 @@ fn pads_with_one_offset_move_the_blade_by_it() {
     }
 }
 
-/// The share of a pad with an offset against the first harmonic of its force.
+/// Independent value: the first harmonic of the force of a pad with an offset, summed over a period.
 #[test]
 fn an_offset_changes_the_mean_stiffness() {
     let count = 200_000;
