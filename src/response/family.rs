@@ -1,7 +1,7 @@
 //! Steady states at many speeds or frequencies, on a basis of full solutions.
 //!
 //! Each steady state q e^{iωt} solves L(iω; Ω) q = f. Neighbouring solutions differ little, so that a few solutions of the full
-//! model span the others. The residual of the full model tells where another one is needed, so that no mode is truncated.
+//! model span the others. The residual of the full model shows where another solution is needed, so that no mode is truncated.
 
 use faer::linalg::solvers::{Llt, Solve};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
@@ -20,32 +20,32 @@ pub struct State {
     pub frequency_rad_per_s: f64,
 }
 
-/// Number of solutions of the full model at first.
+/// Number of solutions of the full model in the first round.
 const FIRST: usize = 9;
-/// In a further round, one of so many states left is solved on the full model: that takes about as long as the others on the
-/// basis, which it saves another round.
+/// Number of remaining states for each of which one more is solved on the full model in a further round. Solving it takes
+/// about as long as the others take on the basis, and may save them another round.
 const SHARE: usize = 16;
-/// Least number of solutions of the full model in a further round.
+/// Smallest number of solutions of the full model in a further round.
 const MORE: usize = 6;
 /// Number of states with which the search for directions begins.
 const COARSE: usize = 96;
-/// Largest residual r relative to the load f, each by the energy rᵀK₀⁻¹r of its static deflection: functions of high frequency,
-/// in which the load of a point has its largest parts, hardly deflect.
+/// Largest residual r relative to the load f, each measured by √(rᴴK₀⁻¹r), the energy norm of its static deflection: functions
+/// of high frequency, in which the load of a point has its largest parts, hardly deflect.
 const RESIDUAL: f64 = 1e-7;
-/// Stiffness that a free rigid motion gets for this energy, as a share of the largest.
+/// Stiffness added to all functions for this norm, as a share of the largest, because free rigid motions have none.
 const LEAST_STIFFNESS: f64 = 1e-9;
-/// Number of states whose residuals are products of matrices.
+/// Number of states whose residuals are computed together by products of matrices.
 const TOGETHER: usize = 32;
-/// Largest residual of a state whose deflection is beyond the linear model, of which only that is reported.
+/// Largest residual of a state whose deflection is beyond the linear model, because such a deflection is not reported.
 const RESIDUAL_BEYOND: f64 = 1e-2;
-/// Directions closer to the span of the others are omitted.
+/// Distance of a unit vector from the span of the others below which the basis omits it.
 const INDEPENDENT: f64 = 1e-9;
 
 /// Readings cᵀq of the steady state under a load, at each state; `None` where the dynamic stiffness is singular. Readings whose
 /// absolute value exceeds `beyond` are rough.
 ///
 /// # Errors
-/// [`SpectrumError::Cancelled`], or [`SpectrumError::UnstableAtRest`].
+/// [`SpectrumError::Cancelled`], or [`SpectrumError::UnstableAtRest`] if the stiffness at rest is not positive definite.
 pub fn readings(
     system: &GyroscopicSystem,
     load: &Col<c64>,
@@ -57,7 +57,7 @@ pub fn readings(
     let factor = factor_at_rest(system)?;
     let mut found: Vec<Option<Vec<c64>>> = vec![None; states.len()];
     let mut vectors: Vec<Col<c64>> = Vec::new();
-    // Few states find nearly all directions that the others need.
+    // The basis for few states spans nearly all solutions at the others.
     let stride = states.len().div_ceil(COARSE).max(1);
     let (coarse, others): (Vec<usize>, Vec<usize>) =
         (0..states.len()).partition(|k| k.is_multiple_of(stride));
@@ -89,7 +89,7 @@ pub fn readings(
                 .par_chunks(TOGETHER)
                 .flat_map_iter(|some| {
                     let states: Vec<State> = some.iter().map(|k| states[*k]).collect();
-                    reduced.at(&states, |state| factors(system, state))
+                    reduced.at(&states)
                 })
                 .collect();
             let mut worst: Vec<(usize, f64)> = Vec::new();
@@ -102,7 +102,7 @@ pub fn readings(
                 }
             }
             left = worst.iter().map(|(k, _)| *k).collect();
-            // Far apart, because neighbours need the same directions.
+            // The states to solve are far apart, because neighbours need the same directions.
             asked = spread(worst.len(), MORE.max(worst.len() / SHARE))
                 .into_iter()
                 .map(|place| worst[place].0)
@@ -121,7 +121,7 @@ fn most(worst: &[(usize, f64)]) -> Option<usize> {
     largest.map(|(k, _)| *k)
 }
 
-/// So many places evenly spread over a list, with its ends.
+/// Indices of `places` entries that are evenly spread over a list of `count` entries, including its ends.
 fn spread(count: usize, places: usize) -> Vec<usize> {
     let places = places.min(count);
     let last = count.saturating_sub(1);
@@ -130,7 +130,7 @@ fn spread(count: usize, places: usize) -> Vec<usize> {
         .collect()
 }
 
-/// q of L(iω; Ω) q = f on the full model.
+/// The solution q of L(iω; Ω) q = f on the full model.
 pub fn solution(system: &GyroscopicSystem, load: &Col<c64>, state: State) -> Col<c64> {
     let State {
         speed_rad_per_s: speed,
@@ -141,15 +141,18 @@ pub fn solution(system: &GyroscopicSystem, load: &Col<c64>, state: State) -> Col
     dynamic.partial_piv_lu().solve(load)
 }
 
+/// The reading cᵀq of a solution at a probe.
 pub fn reading(probe: &Col<f64>, q: &Col<c64>) -> c64 {
     (0..q.nrows()).map(|i| q[i] * probe[i]).sum()
 }
 
 /// The system on a basis V, and its products with V for the residual.
 ///
-/// V is complex: a wave that turns with the load does not bring the wave that turns against it into the basis, which the load
-/// does not excite but whose resonance would amplify rounding.
+/// V is complex, so that it may contain a wave that turns with the load without the wave that turns against it. The load does
+/// not excite the latter, but its resonance would amplify rounding.
 struct Reduced {
+    /// Factors of the terms of L.
+    factors: Vec<Factor>,
     /// VᴴT V of every term T of L.
     small: Vec<Mat<c64>>,
     /// Vᴴf.
@@ -175,7 +178,8 @@ impl Reduced {
             joined(&halves)
         };
         let own = halves(basis);
-        let products: Vec<Mat<f64>> = terms(system)
+        let (matrices, factors): (Vec<_>, Vec<Factor>) = terms(system).into_iter().unzip();
+        let products: Vec<Mat<f64>> = matrices
             .into_iter()
             .map(|term| term.map_or_else(|| own.clone(), |term| term * &own))
             .collect();
@@ -187,6 +191,7 @@ impl Reduced {
         }
         let load_alone = Mat::from_fn(load.nrows(), 1, |i, _| load[i]);
         Reduced {
+            factors,
             small: products
                 .iter()
                 .map(|product| basis.adjoint() * joined(product))
@@ -206,12 +211,14 @@ impl Reduced {
     }
 
     /// Residual relative to the load, and readings, at each state.
-    fn at(&self, states: &[State], factors: impl Fn(State) -> Vec<c64>) -> Vec<(f64, Vec<c64>)> {
+    fn at(&self, states: &[State]) -> Vec<(f64, Vec<c64>)> {
         let width = self.small_load.nrows();
         let mut shares = Mat::zeros(self.tall.ncols(), states.len());
         let mut read = Vec::with_capacity(states.len());
         for (place, state) in states.iter().enumerate() {
-            let factors = factors(*state);
+            let s = c64::new(0.0, state.frequency_rad_per_s);
+            let factors = self.factors.iter();
+            let factors: Vec<c64> = factors.map(|of| of(state.speed_rad_per_s, s)).collect();
             let dynamic = Mat::from_fn(width, width, |i, k| {
                 let parts = self.small.iter().zip(&factors);
                 parts
@@ -255,7 +262,7 @@ fn orthonormal(rows: usize, vectors: &[Col<c64>]) -> Mat<c64> {
     qr.compute_thin_Q().subcols(0, rank).to_owned()
 }
 
-/// Real and imaginary parts of the columns, first all real ones.
+/// Real and imaginary parts of columns, first all real parts.
 fn halves(columns: &Mat<c64>) -> Mat<f64> {
     let count = columns.ncols();
     Mat::from_fn(columns.nrows(), 2 * count, |i, k| {
@@ -266,6 +273,7 @@ fn halves(columns: &Mat<c64>) -> Mat<f64> {
     })
 }
 
+/// Columns from their real and imaginary parts, as [`halves`] returns them.
 fn joined(halves: &Mat<f64>) -> Mat<c64> {
     let count = halves.ncols() / 2;
     Mat::from_fn(halves.nrows(), count, |i, k| {
@@ -273,7 +281,7 @@ fn joined(halves: &Mat<f64>) -> Mat<c64> {
     })
 }
 
-/// Cholesky's factor C of K₀ = CCᵀ.
+/// Cholesky's factor C of K₀ = CCᵀ, with a small stiffness of free rigid motions.
 fn factor_at_rest(system: &GyroscopicSystem) -> Result<Llt<f64>, SpectrumError> {
     let mut stiffness = system.stiffness.clone();
     let order = system.order();
@@ -283,31 +291,23 @@ fn factor_at_rest(system: &GyroscopicSystem) -> Result<Llt<f64>, SpectrumError> 
     factor.map_err(|_| SpectrumError::UnstableAtRest { order })
 }
 
-/// The matrices of L(iω; Ω) that a system has; `None` is the unit matrix of the inertia.
-fn terms(system: &GyroscopicSystem) -> Vec<Option<&Mat<f64>>> {
-    let absent = [
-        &system.circulatory,
-        &system.nonconservative,
-        &system.damping,
-    ];
-    let present = absent.into_iter().filter_map(Option::as_ref);
-    let always = [&system.stiffness, &system.spin, &system.gyroscopic];
-    let matrices = always.into_iter().chain(present).map(Some);
-    matrices.chain([None]).collect()
-}
+/// Factor of a matrix of L, from Ω and s = iω.
+type Factor = fn(f64, c64) -> c64;
 
-/// The factors of these matrices.
-fn factors(system: &GyroscopicSystem, state: State) -> Vec<c64> {
-    let speed = state.speed_rad_per_s;
-    let s = c64::new(0.0, state.frequency_rad_per_s);
-    let one = c64::new(1.0, 0.0);
-    let absent = [
-        (&system.circulatory, one * speed),
-        (&system.nonconservative, one),
-        (&system.damping, s),
+/// The matrices of L(iω; Ω) that a system has, each with its factor; `None` is the unit matrix of the inertia.
+fn terms(system: &GyroscopicSystem) -> Vec<(Option<&Mat<f64>>, Factor)> {
+    const ONE: c64 = c64::new(1.0, 0.0);
+    let always: [(_, Factor); 3] = [
+        (Some(&system.stiffness), |_, _| ONE),
+        (Some(&system.spin), |speed, _| ONE * speed.powi(2)),
+        (Some(&system.gyroscopic), |speed, s| s * (2.0 * speed)),
     ];
-    let present = absent.into_iter().filter(|(term, _)| term.is_some());
-    let always = [one, one * speed.powi(2), s * (2.0 * speed)];
-    let factors = always.into_iter().chain(present.map(|(_, factor)| factor));
-    factors.chain([s * s]).collect()
+    let optional: [(_, Factor); 3] = [
+        (system.circulatory.as_ref(), |speed, _| ONE * speed),
+        (system.nonconservative.as_ref(), |_, _| ONE),
+        (system.damping.as_ref(), |_, s| s),
+    ];
+    let present = optional.into_iter().filter(|(term, _)| term.is_some());
+    let inertia: (_, Factor) = (None, |_, s| s * s);
+    always.into_iter().chain(present).chain([inertia]).collect()
 }

@@ -1,4 +1,4 @@
-//! What excites the blade, as loads that turn with it or are fixed in space.
+//! Excitations of the blade, as loads that turn with it or are fixed in space.
 //!
 //! A blade whose shape at rest without guides is q₀ bends elastically by q − q₀, and this shape turns with it, so that
 //! ∂t + Ω∂θ of q₀ is zero. In L(iω; Ω)(q − q₀) + … inertia, material damping and bending of q₀ therefore drop out, and the
@@ -31,16 +31,16 @@ pub enum Cause {
 /// A load f e^{ikΩt}.
 #[derive(Debug, Clone)]
 pub struct Load {
-    /// Its cause.
+    /// Cause of the load.
     pub cause: Cause,
-    /// Ratio k of its frequency to the rotation speed.
+    /// Ratio k of the frequency to the rotation speed.
     pub order: u32,
-    /// f, or f/Ω² if it is that of an imbalance.
+    /// Complex amplitude f on the basis functions; f/Ω² for an imbalance.
     pub vector: Col<c64>,
 }
 
 impl Load {
-    /// A force at a radius and an angle that oscillates with a multiple of the rotation frequency.
+    /// A lateral force at a radius and an angle that oscillates with a multiple of the rotation frequency.
     pub fn at(
         cause: Cause,
         order: u32,
@@ -56,7 +56,7 @@ impl Load {
         }
     }
 
-    /// Factor of the load at a speed.
+    /// Factor of `vector` at a speed: Ω² for an imbalance, otherwise one.
     pub fn factor(&self, speed_rad_per_s: f64) -> f64 {
         match self.cause {
             Cause::Imbalance => speed_rad_per_s.powi(2),
@@ -65,12 +65,15 @@ impl Load {
     }
 }
 
-/// Orders of an imbalance that are computed.
+/// Orders of the excitation by an imbalance that are computed.
 const IMBALANCE_ORDERS: [usize; 2] = [1, 2];
-/// A stiffness below this share of the largest is that of a rigid motion.
+/// Share of the largest stiffness below which a stiffness is that of a rigid motion.
 const RIGID: f64 = 1e-9;
 
-/// The loads of a scene; the number of waves of a shape that nothing in the blade holds, if one is asked for.
+/// The loads of an excitation of a scene.
+///
+/// # Errors
+/// The number of nodal diameters of a shape that the excitation has, but that is a rigid motion of the blade.
 pub fn loads(plate: &Plate, scene: &Scene, typed: &ResponseFile) -> Result<Vec<Load>, usize> {
     let mut loads = Vec::new();
     let rim = plate.blade.outer_radius_m;
@@ -112,7 +115,7 @@ pub fn loads(plate: &Plate, scene: &Scene, typed: &ResponseFile) -> Result<Vec<L
     Ok(loads)
 }
 
-/// Radius and angle of the side force.
+/// Radius in m and angle in rad of the side force.
 pub fn force_place(scene: &Scene, typed: &ResponseFile) -> (f64, f64) {
     let radius = typed.radius_m.unwrap_or(scene.blade().outer_radius_m);
     (radius, typed.angle_deg.to_radians())
@@ -131,7 +134,8 @@ fn turning(plate: &Plate, n: usize, radial: &[f64]) -> Col<c64> {
     vector
 }
 
-/// (K_b + K_m) q₀ of the softest shape with n nodal diameters, with an amplitude at the rim; `None` if that is a rigid motion.
+/// (K_b + K_m) q₀ of the softest shape with n nodal diameters, with an amplitude at the rim; `None` if this shape is a rigid
+/// motion.
 fn shape_load(plate: &Plate, n: usize, amplitude_m: f64) -> Option<Col<c64>> {
     let stiffness = plate.harmonics.get(n)?.body_frame_stiffness(0.0);
     let eigen = stiffness.self_adjoint_eigen(Side::Lower).ok()?;

@@ -27,14 +27,14 @@ use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError, StabilityState, crossings};
 use crate::system::GyroscopicSystem;
 use crate::text::shown;
-use crate::transient::linear_limit_m;
+use crate::transient::{at_point, linear_limit_m};
 use family::readings;
 use load::force_place;
 
 pub(crate) use family::{State, solution};
 pub(crate) use load::{Load, loads};
 
-/// Why the response of a saw could not be computed.
+/// Reason for which the response of a saw could not be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum ResponseError {
     /// An option or a key of the scene was refused.
@@ -54,20 +54,21 @@ pub enum ResponseError {
 /// Options of [`ForcedResponse::new`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Options {
-    /// Speed of the frequency response; by default the operating speed if it is within the sweep, or none.
+    /// Speed of the frequency response; by default the operating speed. Without a speed within the sweep there is no
+    /// frequency response.
     pub rpm: Option<f64>,
-    /// Largest frequency of the frequency response; by default that up to which the chart is complete.
+    /// Largest frequency of the frequency response; by default the frequency up to which the chart is complete.
     pub to_hz: Option<f64>,
 }
 
 /// Response of a saw over its speeds.
 #[derive(Debug)]
 pub struct ForcedResponse {
-    /// The saw.
+    /// Scene of the saw.
     pub scene: Scene,
-    /// Its analysis.
+    /// Analysis of the idling saw.
     pub analysis: Analysis,
-    /// What excites it.
+    /// Excitation of the blade.
     pub excitation: ResponseFile,
     /// Whether the scene has no excitation, so that a force of one newton was assumed.
     pub is_assumed: bool,
@@ -75,16 +76,16 @@ pub struct ForcedResponse {
     pub speeds_rad_per_s: Vec<f64>,
     /// Responses, one for each cause and order.
     pub lines: Vec<ResponseLine>,
-    /// Frequency response at one speed.
+    /// Frequency response at one speed; `None` if no speed is known, see [`Options::rpm`].
     pub points: Option<FrequencyResponse>,
 }
 
 /// Response to one cause with one order.
 #[derive(Debug, Clone)]
 pub struct ResponseLine {
-    /// The cause.
+    /// Cause of the excitation.
     pub cause: Cause,
-    /// Ratio of the frequency to the rotation speed.
+    /// Ratio of the frequency of the excitation to the rotation speed.
     pub order: u32,
     /// Speeds at which a natural frequency equals that of the excitation, ascending.
     pub resonances_rad_per_s: Vec<f64>,
@@ -92,24 +93,24 @@ pub struct ResponseLine {
     pub deflections: Vec<Option<Deflection>>,
 }
 
-/// Complex amplitudes w of w e^{ikΩt}.
+/// Complex amplitudes w of deflections w e^{ikΩt}.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deflection {
-    /// At the probe.
+    /// Amplitude at the probe, in m.
     pub at_probe: c64,
-    /// At the rim at the cut.
+    /// Amplitude of the rim at the cut, in m.
     pub at_cut: c64,
 }
 
 /// Number of evenly spaced speeds.
 const SPEEDS: usize = 481;
-/// Speeds around a resonance, as shares of it.
+/// Smallest and largest distance of added speeds from a resonance, relative to it.
 const NEAR: (f64, f64) = (1e-5, 3e-2);
-/// Number of speeds on either side of a resonance.
+/// Number of added speeds on either side of a resonance.
 const BESIDE: usize = 10;
 /// Places around the rim at which the deflection is compared with the linear limit.
 const AROUND: usize = 48;
-/// A saw that starts at rest begins its diagram at this share of its last speed, where no order is static.
+/// First speed of a diagram from rest, as a share of its last speed, so that no order is static.
 const LEAST: f64 = 1e-6;
 
 impl Options {
@@ -118,7 +119,7 @@ impl Options {
     /// # Errors
     /// [`RefusedValue`].
     pub fn checked(&self) -> Result<(), RefusedValue> {
-        // At rest the response is that of a tap test.
+        // Zero is allowed, because at rest the response is that of a tap test.
         if let Some(rpm) = self.rpm.filter(|rpm| *rpm != 0.0) {
             speed_rad_per_s("rpm", rpm)?;
         }
@@ -202,17 +203,17 @@ impl ForcedResponse {
         })
     }
 
-    /// Largest amplitude that is reported: five times the smallest thickness.
+    /// Largest amplitude in m that is reported: five times the smallest thickness.
     pub fn linear_limit_m(&self) -> f64 {
         linear_limit_m(self.scene.blade())
     }
 
-    /// Radius and angle of the side force.
+    /// Radius in m and angle in rad of the side force.
     pub fn force_place(&self) -> (f64, f64) {
         force_place(&self.scene, &self.excitation)
     }
 
-    /// Radius and angle of the probe.
+    /// Radius in m and angle in rad of the probe.
     pub fn probe_place(&self) -> (f64, f64) {
         let probe = self.scene.probe();
         (probe.radius_m, probe.angle_rad)
@@ -229,6 +230,7 @@ impl ForcedResponse {
     }
 }
 
+/// The excitation of a scene, and whether it is assumed because the scene has none.
 fn excitation(scene: &Scene) -> (ResponseFile, bool) {
     let typed = scene.file().response.unwrap_or_default();
     match typed.excites() {
@@ -240,7 +242,7 @@ fn excitation(scene: &Scene) -> (ResponseFile, bool) {
     }
 }
 
-/// Refuses a shape that the blade has without bending.
+/// The refusal of a run-out or of a lack of flatness that is a rigid motion of the blade.
 pub(crate) fn rigid(waves: usize, excitation: &ResponseFile) -> RefusedValue {
     let (key, value) = match waves {
         1 => ("response.runout_m", excitation.runout_m),
@@ -305,17 +307,13 @@ pub(crate) struct Solver {
 
 impl Solver {
     fn new(plate: &Plate, scene: &Scene) -> Self {
-        let at = |radius_m: f64, angle_rad: f64| {
-            let values = plate.functions_at(radius_m, angle_rad);
-            Col::from_fn(values.len(), |i| values[i])
-        };
         let (probe, rim) = (scene.probe(), plate.blade.outer_radius_m);
         let angle = |k: usize| std::f64::consts::TAU * k as f64 / AROUND as f64;
         let mut probes = vec![
-            at(probe.radius_m, probe.angle_rad),
-            at(rim, scene.cut_angle_rad()),
+            at_point(plate, probe.radius_m, probe.angle_rad),
+            at_point(plate, rim, scene.cut_angle_rad()),
         ];
-        probes.extend((0..AROUND).map(|k| at(rim, angle(k))));
+        probes.extend((0..AROUND).map(|k| at_point(plate, rim, angle(k))));
         Solver {
             system: GyroscopicSystem::of_plate(plate),
             probes,
@@ -323,6 +321,7 @@ impl Solver {
         }
     }
 
+    /// The deflections under a load at some speeds; `None` where the saw is unstable or the linear model is not valid.
     fn deflections(
         &self,
         analysis: &Analysis,
@@ -348,7 +347,7 @@ impl Solver {
         Ok(found)
     }
 
-    /// The deflection, if it is within the linear model all around the rim.
+    /// The deflection from the readings at the probes; `None` if it is not within the linear model all around the rim.
     fn within(&self, read: &[c64], factor: f64) -> Option<Deflection> {
         let largest = read.iter().map(|w| w.norm()).fold(0.0, f64::max);
         let is_known = read.iter().all(|w| w.re.is_finite() && w.im.is_finite());

@@ -21,12 +21,17 @@ pub struct FrequencyResponse {
 
 /// Number of evenly spaced frequencies.
 const FREQUENCIES: usize = 401;
-/// Frequencies beside a natural frequency, as shares of it.
+/// Distances of added frequencies from a natural frequency, relative to it.
 const BESIDE: [f64; 9] = [1e-5, 1e-4, 3e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.5e-2, 3e-2];
-/// A deflection per newton above this share of the linear limit is that of an undamped resonance.
+/// Force in N at the resonance of an undamped mode: where the linear model is not valid even for this force, the deflection
+/// grows without bound.
 const UNBOUNDED_N: f64 = 1e-2;
 
 impl FrequencyResponse {
+    /// Computes the response at a speed in rad/s, up to a frequency in Hz, to a force at a radius and an angle.
+    ///
+    /// # Errors
+    /// [`SpectrumError`].
     pub(super) fn new(
         analysis: &Analysis,
         solver: &Solver,

@@ -1,3 +1,6 @@
+//! Steady states compared with solutions of the full model, with rigid bodies, with one mode, and with a blade at rest in its
+//! own frame.
+
 use super::family::{reading, solution};
 use super::*;
 use crate::plate::Resolution;
@@ -26,7 +29,7 @@ fn clamped_free_blade(saw: &mut crate::scene::SceneFile) {
     };
 }
 
-/// Independent value: each state solved by itself on the full matrices, also beside resonances.
+/// Independent value: the solution of the full matrices at each state, also beside resonances.
 #[test]
 fn states_on_few_solutions_are_those_of_the_full_matrices() {
     let damping = |saw: &mut crate::scene::SceneFile| {
@@ -131,7 +134,7 @@ fn a_resonance_of_one_mode_has_the_height_and_the_width_of_its_damping() {
     let found = ForcedResponse::new(&scene, &options).unwrap();
     let plate = &found.analysis.model.plate;
     let c = air_n_s_per_m3 / plate.blade.mass_per_area_kg_per_m2();
-    // Two nodal diameters, whose frequency is apart from the others.
+    // The frequency of two nodal diameters is apart from the others.
     let eigen = plate.harmonics[2].body_frame_stiffness(0.0);
     let eigen = eigen.self_adjoint_eigen(faer::Side::Lower).unwrap();
     let natural = eigen.S()[0].sqrt();
@@ -195,7 +198,8 @@ fn centrifugal_tension_flattens_a_warped_blade() {
     assert!(flattened > 0);
 }
 
-/// Without damping nothing is reported at a critical speed, nor in a band; a blade that tilts freely has no run-out.
+/// Without damping no deflection is reported at a critical speed, nor in a band. A run-out of a blade that tilts freely is
+/// refused.
 #[test]
 fn no_number_is_given_where_there_is_no_steady_state() {
     let typed = ResponseFile {

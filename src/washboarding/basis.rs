@@ -23,12 +23,15 @@ pub struct Motions {
     pub shapes: Mat<f64>,
     /// The reduced system.
     pub system: GyroscopicSystem,
-    /// Bᵀ of the arc in the reduced coordinates, transposed.
+    /// Columns VᵀB of the arc in the reduced coordinates.
     pub columns: Mat<f64>,
     /// Static flexibility of the omitted shapes under forces on the arc, Bᵀ(S⁻¹ − V(VᵀSV)⁻¹Vᵀ)B.
     pub flexibility: DMatrix<f64>,
+    /// Frequency in space up to which the modes are complete.
     pub complete_to_rad_per_s: f64,
+    /// Frequency in space up to which complete modes are needed.
     pub needed_to_rad_per_s: f64,
+    /// Estimated relative error of the critical speeds in the basis of the plate.
     pub estimated_relative_error: f64,
     /// Largest xᵀPx of a shape.
     most_moved: f64,
@@ -37,13 +40,13 @@ pub struct Motions {
 /// Factor by which the modes extend beyond the tooth passing frequency of the fastest speed. A mode is driven
 /// while teeth pass at up to twice its frequency, and most strongly just above it.
 const BEYOND_TOOTH_PASSING: f64 = 1.05;
-/// Ratio to the cutting stiffness that damping alone has to withstand beyond the modes. The modes extend to
-/// at most this multiple of the tooth passing frequency.
+/// Multiple of the cutting stiffness up to which damping alone has to prevent growth of the omitted modes.
 const WITHSTOOD: f64 = 3.0;
+/// Multiple of the tooth passing frequency beyond which the modes do not extend for this reason.
 const MOST_BEYOND: f64 = 2.0;
 /// Factor by which the shapes extend beyond the modes that they have to represent.
 const BEYOND_MODES: f64 = 1.2;
-/// More shapes would take minutes: each speed is an eigenproblem of twice this order.
+/// Largest number of shapes. More would take minutes, because each speed is an eigenproblem of twice this order.
 const MOST_SHAPES: usize = 110;
 /// Number of radial functions beyond the number of nodal circles of the highest shape without nodal
 /// diameters.
@@ -52,8 +55,11 @@ const RADIAL_MARGIN: usize = 3;
 const LEAST_DAMPING: f64 = 1e-8;
 
 impl Motions {
-    /// The reduced model of the saw in its cut, for speeds up to `highest` times that of the cut; `scene`
-    /// describes the idling saw.
+    /// The reduced model of the saw in its cut, for speeds up to `highest` times that of the cut.
+    ///
+    /// # Errors
+    /// [`WashboardError::Loose`] if a rigid motion has no stiffness, [`WashboardError::Incomplete`] if the modes
+    /// do not reach half of the tooth passing frequency.
     pub fn new(
         idling: &Scene,
         cut: &Cut,
@@ -101,6 +107,9 @@ impl Motions {
     }
 
     /// The saw with the delayed force at a speed.
+    ///
+    /// # Errors
+    /// [`WashboardError::Undamped`] if a mode loses no energy.
     pub fn delayed_at(
         &self,
         washboarding: &Washboarding,
@@ -118,15 +127,15 @@ impl Motions {
         }
     }
 
-    /// Cutting stiffness up to which damping alone prevents the growth of every omitted mode.
+    /// Cutting stiffness in N/m up to which damping alone prevents the growth of every omitted mode.
     pub fn safe_beyond_n_per_m(&self, washboarding: &Washboarding) -> f64 {
         let fed = washboarding.overlap * self.most_moved;
         withstood_n_per_m(&self.plate, self.complete_to_rad_per_s, fed)
     }
 }
 
-/// The force feeds a mode of frequency ω and decay rate δ at a rate of at most kμ xᵀPx/2ω, so that it cannot
-/// grow below k = 2ωδ/(μ xᵀPx), which rises with the frequency.
+/// Cutting stiffness below which a mode of frequency ω and decay rate δ cannot grow: k = 2ωδ/(μ xᵀPx), because
+/// the force feeds the mode at a rate of at most kμ xᵀPx/2ω. It rises with the frequency. `fed` is μ xᵀPx.
 fn withstood_n_per_m(plate: &Plate, omega: f64, fed: f64) -> f64 {
     let Some(damping) = &plate.damping else {
         return 0.0;
@@ -140,8 +149,8 @@ fn withstood_n_per_m(plate: &Plate, omega: f64, fed: f64) -> f64 {
     }
 }
 
-/// Frequency up to which all modes are needed: above tooth passing, and up to where damping alone withstands
-/// the force.
+/// Frequency up to which all modes are needed: above tooth passing, and up to the frequency from which on damping
+/// alone prevents growth.
 fn needed(
     plate: &Plate,
     washboarding: &Washboarding,

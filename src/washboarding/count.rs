@@ -5,8 +5,7 @@ use std::f64::consts::PI;
 
 use crate::spectrum::turn_along;
 
-use super::boundary::Boundary;
-use super::delayed::DelayedSaw;
+use super::delayed::{Boundary, DelayedSaw};
 
 /// Eigenvalues of the loop gain along the imaginary axis.
 #[derive(Debug)]
@@ -27,10 +26,11 @@ const A_TURN: f64 = 16.0;
 /// Largest number of periods of the delay that are sampled evenly. Beyond, a large loop gain occurs only near
 /// a mode, where further frequencies are sampled.
 const MOST_EVEN: f64 = 20_000.0;
-/// Frequencies sampled about each mode, in units of its decay rate.
+/// Distances of the frequencies sampled about each mode from its frequency, in units of its decay rate.
 const ABOUT_A_MODE: [f64; 7] = [0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0];
 /// Largest relative change of a loop gain between neighbouring frequencies.
 const LARGEST_CHANGE: f64 = 0.35;
+/// Largest number of times that an interval between two frequencies is halved.
 const MOST_HALVINGS: usize = 26;
 /// Relative distance below the boundary at which the count confirms it.
 const BELOW: f64 = 1e-3;
@@ -55,7 +55,8 @@ impl<'a> LoopGains<'a> {
         Some(followed)
     }
 
-    /// Adds frequencies until the eigenvalues at neighbouring ones can be matched.
+    /// Adds a place, and before it others until the eigenvalues at neighbouring places can be matched. `None` if
+    /// an eigenvalue of the saw is on the imaginary axis.
     fn follow(&mut self, before: &Place, next: Place, halvings: usize) -> Option<()> {
         let least = 1.0 / self.ceiling;
         let clear = matched(before, &next).into_iter().all(|[x, y]| {
@@ -126,7 +127,8 @@ impl<'a> LoopGains<'a> {
         }
     }
 
-    /// Boundary of static displacement without oscillation, from the real loop gains at zero frequency.
+    /// Smallest stiffness at which a motion without oscillation grows, from the real loop gains at zero
+    /// frequency.
     fn standing(&self) -> Option<Boundary> {
         let first = self.places.first().filter(|place| place.omega == 0.0)?;
         let real = first
@@ -140,6 +142,7 @@ impl<'a> LoopGains<'a> {
         })
     }
 
+    /// The loop gains that become real and negative between neighbouring frequencies, up to the ceiling.
     fn crossings(&self) -> impl Iterator<Item = Crossing> + '_ {
         let least = 1.0 / self.ceiling;
         self.places.windows(2).flat_map(move |pair| {
@@ -166,7 +169,7 @@ impl Crossing {
         self.gains[0].re.min(self.gains[1].re)
     }
 
-    /// Bisects the interval to machine precision.
+    /// The boundary, by bisection of the interval to machine precision; `None` if the gain is not negative there.
     fn found(mut self, saw: &DelayedSaw) -> Option<Boundary> {
         loop {
             let omega = 0.5 * (self.ends[0] + self.ends[1]);
@@ -197,7 +200,7 @@ impl Place {
     }
 }
 
-/// Pairs the gains of two frequencies by distance, the largest first.
+/// Pairs the gains of two frequencies by their distance, beginning with the largest gain.
 fn matched(first: &Place, second: &Place) -> Vec<[c64; 2]> {
     let mut own = first.gains.clone();
     own.sort_by(|x, y| y.norm().total_cmp(&x.norm()));
@@ -215,7 +218,7 @@ fn matched(first: &Place, second: &Place) -> Vec<[c64; 2]> {
     pairs
 }
 
-/// Initial frequencies: about each mode, and evenly over the periods of the delay.
+/// Initial frequencies in rad/s: about each mode, and evenly over the periods of the delay.
 fn places(saw: &DelayedSaw, ceiling: f64) -> Vec<f64> {
     let to = saw.reach(ceiling);
     let step = (std::f64::consts::TAU / saw.delay.longest_s() / A_TURN).max(to / MOST_EVEN);

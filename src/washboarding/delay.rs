@@ -1,5 +1,5 @@
-//! Share of the cutting stiffness that acts at a frequency, because the preceding tooth has already cut part
-//! of the surface.
+//! Factor of the cutting stiffness at a frequency, which follows from the surface that the preceding tooth has
+//! left.
 
 use faer::c64;
 
@@ -37,12 +37,12 @@ impl Delay {
         slopes.sum::<c64>() * self.weight()
     }
 
-    /// Upper bound of |h(λ)| for Re λ ≥ 0.
+    /// Upper bound 1 + μ of |h(λ)| for Re λ ≥ 0.
     pub fn bound(&self) -> f64 {
         1.0 + self.overlap
     }
 
-    /// Longest delay.
+    /// Longest delay, in s.
     pub fn longest_s(&self) -> f64 {
         self.delays_s.iter().copied().fold(0.0, f64::max)
     }

@@ -10,9 +10,17 @@ use crate::scene::Washboarding;
 use crate::spectrum::SpectrumError;
 use crate::system::GyroscopicSystem;
 
-use super::boundary::Boundary;
 use super::delay::Delay;
 use super::transfer::Transfer;
+
+/// The smallest cutting stiffness at which a motion grows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Boundary {
+    /// Cutting stiffness; zero if a motion grows without the delayed force.
+    pub stiffness_n_per_m: f64,
+    /// Frequency of the motion in space.
+    pub frequency_rad_per_s: f64,
+}
 
 /// The saw at a speed: its modes without the delayed force, and the delay.
 #[derive(Debug)]
@@ -24,11 +32,11 @@ pub struct DelayedSaw {
 }
 
 impl DelayedSaw {
-    /// Makes the saw from a system, the columns B of the arc, the flexibility of the omitted shapes, and the
-    /// delays at a speed.
+    /// The saw of a system, the columns B of the arc, the flexibility of the omitted shapes, and the delays at a
+    /// speed.
     ///
     /// # Errors
-    /// [`SpectrumError`] where the eigenproblem fails.
+    /// [`SpectrumError`] if the eigenproblem fails.
     pub fn new(
         system: &GyroscopicSystem,
         (columns, flexibility): (&Mat<f64>, DMatrix<f64>),
@@ -51,7 +59,7 @@ impl DelayedSaw {
         self.transfer.at(lambda) * self.delay.at(lambda)
     }
 
-    /// Eigenvalues of X(iω); `None` if they are not finite because iω is an eigenvalue of the saw.
+    /// Eigenvalues of X(iω) in m/N; `None` if they are not finite because iω is an eigenvalue of the saw.
     pub fn gains(&self, omega: f64) -> Option<Vec<c64>> {
         const MOST_ITERATIONS: usize = 10_000;
         let gain = self.gain(c64::new(0.0, omega));
@@ -66,7 +74,7 @@ impl DelayedSaw {
         Some(triangle.diagonal().iter().copied().collect())
     }
 
-    /// d ln det(1 + k X)/dλ = tr((1 + kX)⁻¹ k dX/dλ).
+    /// d ln det(1 + k X)/dλ = tr((1 + kX)⁻¹ k dX/dλ); `None` if the matrix is singular.
     pub fn logarithmic_slope(&self, stiffness: f64, lambda: c64) -> Option<c64> {
         let [transfer, slope] = self.transfer.with_slope(lambda);
         let (delay, delay_slope) = (self.delay.at(lambda), self.delay.slope(lambda));
@@ -93,15 +101,15 @@ impl DelayedSaw {
         })
     }
 
-    /// Whether k(X − hF) may exceed ½ at iω for stiffnesses up to the given one. If it cannot, every factor 1
-    /// + k x_i has a positive real part, because F is positive definite and Re h ≥ 0.
+    /// Whether ‖k(X − hF)‖ may exceed ½ at iω for stiffnesses k up to the given one. If it cannot, every factor
+    /// 1 + k x_i has a positive real part, because F is positive definite and Re h ≥ 0.
     pub fn matters(&self, omega: f64, stiffness: f64) -> bool {
         let size = self.transfer.modal_bound(c64::new(0.0, omega));
         let part = stiffness * self.delay.bound() * size;
         part > 0.5 || part.is_nan()
     }
 
-    /// |λ| beyond which no eigenvalue lies in the right half plane, whatever the phase of the delay: there
+    /// |λ| in 1/s beyond which no eigenvalue is in the right half plane, whatever the phase of the delay: there
     /// |h| ≤ 1 + μ and ‖L(λ)⁻¹‖ ≤ 1/(|λ|² − |λ|‖D‖ − ‖K‖), so that beyond the root of
     /// |λ|² − |λ|‖D‖ − ‖K‖ = 2k(1 + μ)‖BBᵀ‖ the norm of kX − khF is at most ½. The real part of 1 + khF is
     /// at least one, because Re h ≥ 0 and F is positive definite: every factor 1 + k x_i has a positive real

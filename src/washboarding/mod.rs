@@ -18,7 +18,6 @@
 //! for teeth that are not evenly spaced, and for the mean over the passing teeth.
 
 mod basis;
-mod boundary;
 mod count;
 mod delay;
 mod delayed;
@@ -33,14 +32,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use faer::Mat;
 use rayon::prelude::*;
 
-pub(crate) use self::boundary::Boundary;
+pub(crate) use self::delayed::Boundary;
 pub(crate) use self::modes::WashboardMode;
 
 use self::basis::Motions;
 use self::count::LoopGains;
 use self::delayed::DelayedSaw;
 use self::modes::described;
-use crate::campbell::Progress;
+use crate::campbell::{Progress, even_speeds};
 use crate::plate::Plate;
 use crate::scene::{CutRun, MAX_CUTTING_STIFFNESS, Scene, SceneError, Washboarding};
 use crate::spectrum::{Cancellation, SpectrumError};
@@ -49,7 +48,7 @@ use crate::stability::AnalysisError;
 /// Reason for which an analysis of washboarding failed.
 #[derive(Debug, thiserror::Error)]
 pub enum WashboardError {
-    /// The scene is refused.
+    /// The scene was refused.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// An eigenproblem failed.
@@ -68,7 +67,7 @@ pub enum WashboardError {
         /// Frequency of the mode.
         frequency_hz: f64,
     },
-    /// The saw has so many modes that those driven by the teeth are outside the computed ones.
+    /// The saw has so many modes that those driven by the teeth cannot all be computed.
     #[error(
         "blade.teeth at {rpm:.0} rpm drive modes between {:.0} and {:.0} Hz, but the blade has so many that only those up to {complete_hz:.0} Hz can be included; give a thicker blade, a lower speed or fewer teeth",
         0.5 * passing_hz, passing_hz
@@ -91,13 +90,13 @@ pub enum WashboardError {
 /// Result of an analysis of washboarding.
 #[derive(Debug)]
 pub struct Washboard {
-    /// The saw.
+    /// Scene of the saw.
     pub scene: Scene,
     /// The saw in the cut, without the delayed force.
     pub plate: Plate,
     /// Speed, forces and feed of the cut.
     pub run: CutRun,
-    /// Delayed force.
+    /// Cutting stiffness, overlap and delays of the force.
     pub(crate) washboarding: Washboarding,
     /// Frequency in space up to which the modes are complete.
     pub complete_to_rad_per_s: f64,
@@ -105,14 +104,14 @@ pub struct Washboard {
     pub needed_to_rad_per_s: f64,
     /// Estimated relative error of the critical speeds in this basis.
     pub estimated_relative_error: f64,
-    /// Number of eigenvalues in the right half plane, by the argument principle; `None` if one lies on the
+    /// Number of eigenvalues in the right half plane, by the argument principle; `None` if one is on the
     /// imaginary axis.
     pub growing: Option<usize>,
     /// Number of eigenvalues in the right half plane without the delayed force.
     pub growing_without: usize,
     /// Modes at the speed of the cut, in descending order of growth.
     pub(crate) modes: Vec<WashboardMode>,
-    /// Smallest cutting stiffness at which a motion grows, at the speed of the cut.
+    /// Smallest cutting stiffness at which a motion grows at the speed of the cut; `None` if it exceeds the ceiling.
     pub(crate) boundary: Option<Boundary>,
     /// Smallest cutting stiffness at which a motion grows, over the speed.
     pub(crate) lobes: Vec<LobePoint>,
@@ -133,7 +132,7 @@ pub(crate) struct LobePoint {
     pub confirmed: bool,
 }
 
-/// Range of the diagram, relative to the speed of the cut.
+/// Speeds of the diagram, relative to the speed of the cut.
 const DIAGRAM: [f64; 2] = [0.6, 1.25];
 /// Number of speeds in the diagram.
 const SPEEDS: usize = 121;
@@ -194,6 +193,7 @@ impl Washboard {
     }
 }
 
+/// The boundary over the speeds of the diagram, with more of them where the critical mode changes.
 fn lobes(
     at: &(impl Fn(f64) -> Result<DelayedSaw, WashboardError> + Sync),
     speed: f64,
@@ -225,8 +225,7 @@ fn lobes(
         })
     };
     let [from, to] = DIAGRAM.map(|share| share * speed);
-    let even = (0..SPEEDS).map(|k| from + (to - from) * k as f64 / (SPEEDS - 1) as f64);
-    let mut speeds: Vec<f64> = even.collect();
+    let mut speeds = even_speeds((from, to), SPEEDS);
     let mut points: Vec<LobePoint> = Vec::new();
     for _ in 0..=HALVINGS {
         let more = speeds.into_par_iter().map(look);
@@ -253,7 +252,7 @@ impl LobePoint {
     }
 }
 
-/// B of BBᵀ = P, without columns that are rounding compared with the largest.
+/// B with BBᵀ = P, without the columns that are rounding compared with the largest one.
 fn columns(arc: &Mat<f64>) -> Result<Mat<f64>, SpectrumError> {
     const LEAST: f64 = 1e-8;
     let order = arc.nrows();

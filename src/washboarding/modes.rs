@@ -35,14 +35,16 @@ pub(crate) struct Pattern {
     pub pitch_m: Option<f64>,
 }
 
-/// Smallest number of modes listed.
-const TOLD: usize = 8;
+/// Number of modes listed, unless more of them grow.
+const LISTED: usize = 8;
 /// Relative distance to a multiple of tooth passing below which all teeth leave the same surface.
 const SAME: f64 = 1e-9;
 
 impl Pattern {
+    /// The pattern of a motion of frequency ω, with the tooth passing frequency, both in rad/s.
+    ///
     /// Each tooth passes a place of the kerf a tooth period after the preceding one and one feed per tooth
-    /// farther on. From tooth to tooth the phase of a motion of frequency ω advances by ωτ, of which only the
+    /// farther on. From tooth to tooth the phase of the motion advances by ωτ, of which only the
     /// difference to the nearest multiple of 2π is visible: along the feed v the surface has the wavelength
     /// 2πv/|ω − m·2π/τ|.
     pub fn new(omega: f64, tooth_passing: f64, feed_m_per_s: Option<f64>) -> Self {
@@ -72,13 +74,14 @@ pub fn described(
     found.sort_by(|x, y| y.lambda.re.total_cmp(&x.lambda.re));
     found.retain(|root| root.lambda.re > 0.0 || root.lambda.im <= motions.complete_to_rad_per_s);
     let growing = found.partition_point(|root| root.lambda.re > 0.0);
-    found.truncate(TOLD.max(growing));
+    found.truncate(LISTED.max(growing));
     let found = found.into_iter();
     found
         .filter_map(|root| mode(motions, washboarding, run, root))
         .collect()
 }
 
+/// The name and the pattern of a root; `None` if no mode has its shape.
 fn mode(
     motions: &Motions,
     washboarding: &Washboarding,

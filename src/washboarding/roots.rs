@@ -18,15 +18,16 @@ pub struct Root {
     pub without: Option<c64>,
 }
 
+/// Largest number of iterations.
 const MOST_STEPS: usize = 80;
 /// Relative change below which the iteration has converged.
 const CONVERGED: f64 = 1e-11;
 /// Relative imaginary part below which a value is real.
 const REAL: f64 = 1e-12;
-/// Relative distance up to which the determinant itself identifies a root.
+/// Relative length of Newton's step for the determinant itself up to which a value is a root.
 const NEAR: f64 = 1e-6;
-/// Relative distance of the first iterate from the eigenvalue without the force, at which the function has a
-/// pole and a zero.
+/// Relative distance of the first iterate from the eigenvalue without the force, where the function is the product
+/// of a pole and a zero.
 const BESIDE: f64 = 1e-7;
 
 /// The roots that start at the eigenvalues without the force, and roots that exist only because of the delay
@@ -49,7 +50,7 @@ pub fn roots_with_all_growing(
     found
 }
 
-/// Number of eigenvalues in the right half plane that some roots represent.
+/// Number of eigenvalues in the right half plane; a root with Im λ > 0 represents two of them.
 pub fn right_of_axis(found: &[Root]) -> usize {
     let growing = found.iter().filter(|root| root.lambda.re > 0.0);
     growing
@@ -90,7 +91,7 @@ fn roots(saw: &DelayedSaw, stiffness: f64) -> Vec<Root> {
     found.map(|(pair, _)| root(pair)).collect()
 }
 
-/// A further root in the right half plane, searched from several starting points.
+/// A root in the right half plane other than the known ones, searched from several starting points.
 fn another(
     saw: &DelayedSaw,
     stiffness: f64,
@@ -129,10 +130,12 @@ fn is_root(saw: &DelayedSaw, stiffness: f64, lambda: c64) -> bool {
     lambda.is_finite() && slope.is_none_or(|slope| slope.norm() * NEAR * lambda.norm() >= 1.0)
 }
 
+/// The value or its conjugate, whichever has Im λ ≥ 0.
 fn upper(lambda: c64) -> c64 {
     c64::new(lambda.re, lambda.im.abs())
 }
 
+/// First iterate for the root that starts at an eigenvalue without the force.
 fn first_guess(saw: &DelayedSaw, stiffness: f64, pole: usize) -> c64 {
     let lambda = saw.transfer.poles[pole];
     let moved = -saw.delay.at(lambda) * saw.transfer.mobility(pole) * stiffness;
@@ -158,6 +161,7 @@ fn others(found: &[c64], own: usize) -> impl Iterator<Item = c64> + '_ {
     })
 }
 
+/// Newton's step with Aberth's term, of limited length; `None` if it is not finite.
 fn step(
     saw: &DelayedSaw,
     stiffness: f64,
@@ -169,7 +173,7 @@ fn step(
     let others: c64 = others.map(|other| (lambda - other).inv()).sum();
     let slope = saw.logarithmic_slope(stiffness, lambda)? + poles - others;
     let step = slope.inv();
-    // A step leads at most to the imaginary axis and moderately beyond.
+    // The limit keeps a step from leading far into the right half plane.
     let longest = 0.3 * lambda.norm();
     let size = step.norm();
     if !step.is_finite() {

@@ -1,4 +1,4 @@
-//! Tests with one degree of freedom against lobe theory, and of limiting cases of the delayed force.
+//! The delayed force on few modes, compared with lobe theory for one mode, with its own equation, and with limiting cases.
 
 use std::f64::consts::TAU;
 
@@ -42,7 +42,7 @@ fn system(frequencies: &[f64], damping_ratio: f64) -> GyroscopicSystem {
     }
 }
 
-/// At 1 rad/s the pitches are the delays.
+/// A delayed force whose pitches in rad are the delays in s at a speed of 1 rad/s.
 fn cutting(stiffness: f64, overlap: f64, delays_s: &[f64]) -> Washboarding {
     Washboarding {
         stiffness_n_per_m: stiffness,
@@ -110,8 +110,8 @@ fn the_boundary_of_one_mode_is_that_of_lobe_theory() {
     }
 }
 
-/// Newton's method finds every growing eigenvalue that is counted, and each satisfies the equation; with
-/// several modes, with one delay and with two, beyond several boundaries.
+/// With several modes and one delay or two, beyond several boundaries, Newton's method finds every growing
+/// eigenvalue that is counted, and each satisfies the equation.
 #[test]
 fn what_is_counted_is_found() {
     let modes = [300.0, 310.0, 700.0, 1100.0];
@@ -135,7 +135,7 @@ fn what_is_counted_is_found() {
     assert!(growing > 20, "{growing}");
 }
 
-/// λ = λ_k − k h(λ_k) φ²/2λ_k…: the effect of a small stiffness is proportional to it.
+/// A small cutting stiffness moves the eigenvalues in proportion to it.
 #[test]
 fn without_stiffness_nothing_is_moved() {
     let saw = saw(&[300.0, 700.0], 1.0, &[0.018]);
@@ -155,7 +155,7 @@ fn without_stiffness_nothing_is_moved() {
     }
 }
 
-/// Without overlap the force is that of a spring, so the modes are those of a matrix.
+/// Without overlap the force is that of a spring, so that the modes are the eigenvectors of a matrix.
 #[test]
 fn without_overlap_it_is_a_spring() {
     let modes = [300.0, 310.0, 700.0];

@@ -81,14 +81,14 @@ impl Transfer {
         [self.at(lambda), self.sum(slope)]
     }
 
-    /// Trace of b_k c_k. To first order, the force moves λ_k by −kh times this value.
+    /// Trace of b_k c_k. To first order, the delayed force moves λ_k by −kh times this trace.
     pub fn mobility(&self, pole: usize) -> c64 {
         let size = self.flexibility.nrows();
         let block = &self.residues[pole * size * size..];
         (0..size).map(|i| block[i * (size + 1)]).sum()
     }
 
-    /// An upper bound of ‖G(λ) − F‖.
+    /// An upper bound of ‖G(λ) − F‖, in m/N.
     pub fn modal_bound(&self, lambda: c64) -> f64 {
         let terms = self.poles.iter().zip(&self.sizes);
         terms
@@ -96,6 +96,7 @@ impl Transfer {
             .sum()
     }
 
+    /// Σ b_k c_k times a factor of each pole.
     fn sum(&self, factor: impl Fn(c64) -> c64) -> DMatrix<c64> {
         let size = self.flexibility.nrows();
         let count = size * size;
@@ -119,7 +120,7 @@ struct States {
 }
 
 impl States {
-    /// `None` if the solver returns another number of eigenvalues.
+    /// The eigenvalues at a speed; `None` if the solver does not return twice as many as there are coordinates.
     fn new(
         system: &GyroscopicSystem,
         speed_rad_per_s: f64,
