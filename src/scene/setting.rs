@@ -69,6 +69,12 @@ pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
     if unit.is_empty() {
         return Ok(value);
     }
+    // A change in percent needs the number of the scene, which is not known here; +5% of a share would be 0.05.
+    if unit == "%" && (text.starts_with('+') || !quantity.unit.is_empty()) {
+        return Err(refused(
+            "give the new number itself, not its change in percent",
+        ));
+    }
     let given = Unit::parse(unit).ok_or_else(|| {
         refused("write units like mm, kN/mm, g/cm^3 or rad/s, or leave the unit out")
     })?;
@@ -288,6 +294,14 @@ mod tests {
             (
                 "blade.thickness_m=2.6 furlong",
                 &["\"2.6 furlong\"", "write units like mm"],
+            ),
+            (
+                "blade.thickness_m=-5%",
+                &["\"-5%\"", "a number in m", "not its change in percent"],
+            ),
+            (
+                "blade.material.poisson_ratio=+5%",
+                &["\"+5%\"", "not its change in percent"],
             ),
             ("blade.thickness_m=2,6mm", &["decimal point"]),
             (
