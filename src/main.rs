@@ -1,4 +1,4 @@
-//! `sawflutter`: see `sawflutter --help`.
+//! The program `sawflutter`; `sawflutter --help` describes its commands.
 
 #![forbid(unsafe_code)]
 

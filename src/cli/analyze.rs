@@ -86,7 +86,7 @@ struct Drawn {
 }
 
 impl Drawn {
-    /// The part of the diagram to draw of a chart over these speeds.
+    /// The part of the diagram to draw, of a chart from the first to the last speed in rpm.
     fn view(&self, [first, last]: [f64; 2]) -> anyhow::Result<CampbellView> {
         let from = self.draw_from_rpm.unwrap_or(first);
         let to = self.draw_to_rpm.unwrap_or(last);
@@ -141,7 +141,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
 }
 
-/// The saw under the forces of its cut at a speed.
+/// The scene charted under the forces of its cut at a speed; by default at its operating speed, or at the first
+/// speed of its cut.
 fn in_cut(scene: &Scene, rpm: Option<f64>) -> anyhow::Result<Scene> {
     let cut = scene.cut().context(
         "--in-cut is given, but the scene has no cut; write its forces into the scene, see `sawflutter schema`",
@@ -174,7 +175,7 @@ fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
         .print(&folder, &files, &optional, &json, words)
 }
 
-/// Files of an earlier run that this one may not write.
+/// Names of files that not every run writes.
 fn optional_names() -> Vec<&'static str> {
     [&figure_names::<Report>()[..], &VTK_NAMES].concat()
 }
@@ -225,7 +226,7 @@ fn watched_report(
     Ok(report)
 }
 
-/// The files of a report, and the last one as text.
+/// The files of a report, and its JSON.
 fn files(arguments: &Arguments, report: &Report) -> anyhow::Result<(Vec<NamedFile>, String)> {
     let json = serde_json::to_string_pretty(report)?;
     let sweep = [report.campbell.from_rpm, report.campbell.to_rpm];

@@ -1,4 +1,4 @@
-//! Numbers of the blocks `cut` and `runup` as options of their commands, and what is assumed beside them.
+//! Options of the commands `cut` and `runup` for numbers of these blocks, and the numbers that are assumed beside them.
 
 use serde_json::{Map, Value};
 
@@ -7,27 +7,33 @@ use anyhow::Context;
 
 use super::common::of_option;
 
-/// A number of a block that an option may give.
+/// An option for a number of a block.
 pub struct Given<'a> {
+    /// Name of the option, without dashes.
     pub option: &'static str,
     /// Key of the number in the block.
     pub key: &'static str,
+    /// Text of the option; `None` if it is not given.
     pub text: Option<&'a String>,
 }
 
-/// A block of a scene, and the numbers that are assumed where the scene has none.
+/// A block of a scene whose numbers options may give.
 pub struct Block<'a> {
+    /// Key of the block.
     pub name: &'static str,
+    /// Whether the scene lacks the block.
     pub is_missing: bool,
+    /// The block of a typical saw.
     pub usual: fn(&SceneFile) -> Value,
+    /// The options of the command.
     pub given: &'a [Given<'a>],
-    /// Pairs of keys, the second of which is not assumed if the first is given.
+    /// Pairs of keys of the block, the second of which is not assumed if the first is given.
     pub wins: &'a [(&'static str, &'static str)],
 }
 
 impl Block<'_> {
-    /// The scene with the numbers that options give; where it has no such block, with usual numbers for the
-    /// rest, which are said on the error stream.
+    /// The scene with the numbers of the options. If the scene lacks the block, typical numbers are assumed for the
+    /// rest, and printed on the error stream.
     pub fn applied(&self, scene: Scene) -> anyhow::Result<Scene> {
         let given = || self.given.iter().filter(|given| given.text.is_some());
         if given().next().is_none() {
@@ -67,7 +73,7 @@ impl Block<'_> {
         Ok(set)
     }
 
-    /// The usual numbers without those that options give or win over.
+    /// The typical numbers, without those that options give or replace.
     fn usual_beside_given(&self, scene: &SceneFile) -> Map<String, Value> {
         let is_given = |key: &str| {
             let mut given = self.given.iter();
@@ -84,6 +90,7 @@ impl Block<'_> {
         block
     }
 
+    /// Parses the number of an option, in the unit of its key.
     fn number(&self, given: &Given) -> anyhow::Result<f64> {
         let text = given.text.map_or("", String::as_str);
         number_of(&format!("{}.{}", self.name, given.key), text).map_err(|mut refused| {
@@ -93,7 +100,7 @@ impl Block<'_> {
     }
 }
 
-/// A scene whose block has this list, which is no number to set.
+/// The scene with a list in a block, which a [`Setting`] cannot express.
 fn with_list(file: &SceneFile, block: &str, key: &str, list: &Value) -> anyhow::Result<SceneFile> {
     let mut json = serde_json::to_value(file)?;
     json[block][key] = list.clone();

@@ -66,7 +66,7 @@ pub struct Arguments {
     page: Page,
 }
 
-/// Checks a saw against limits; gives whether it keeps them all.
+/// Compares a saw with limits, and prints the result. Returns whether the saw keeps all of them.
 pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     let scene = arguments.input.scene()?;
     let limits = limits(arguments, &scene)?;
@@ -92,6 +92,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     Ok(check.passed())
 }
 
+/// The limits of the options, with the operating speed of the scene by default.
 fn limits(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Limits> {
     let asked = LimitsFile {
         operating_rpm: arguments.operating_rpm,

@@ -15,7 +15,7 @@ use super::page::Page;
 use super::paint::Paint;
 use super::pictures::{drawn, figure_names};
 
-/// The saw to look at, and what is changed in it.
+/// The scene of a command, and changes of it.
 #[derive(Args, Default)]
 pub struct Input {
     /// Scene to look at, - for standard input; without it, the built-in guided spline saw
@@ -39,7 +39,7 @@ pub struct Changes {
     tolerance: Option<f64>,
 }
 
-/// Of commands that write files.
+/// Arguments of commands that write files.
 #[derive(Args, Default)]
 pub struct Common {
     #[command(flatten)]
@@ -48,7 +48,7 @@ pub struct Common {
     pub output: Output,
 }
 
-/// Where results go.
+/// Destination and form of the results.
 #[derive(Args, Default)]
 pub struct Output {
     /// Folder for the files [default: sawflutter-out]
@@ -66,11 +66,11 @@ enum AccuracyName {
     Reference,
 }
 
-/// A file by name.
+/// Name and content of a file.
 pub type NamedFile = (&'static str, Vec<u8>);
 
 impl Input {
-    /// The scene asked for.
+    /// Reads the scene and applies the changes.
     pub fn scene(&self) -> anyhow::Result<Scene> {
         let scene = match &self.scene {
             Some(path) => read_scene(path)?,
@@ -79,7 +79,7 @@ impl Input {
         self.changes.applied(scene)
     }
 
-    /// The file of the scene, if it is one.
+    /// Path of the scene; `None` for the built-in saw and for standard input.
     #[cfg(feature = "explore")]
     pub fn file(&self) -> Option<&Path> {
         let path = self.scene.as_deref();
@@ -87,13 +87,13 @@ impl Input {
     }
 }
 
-/// The scene of a file, or of standard input.
+/// Reads a scene from a file, or from standard input where the path is `-`.
 pub fn read_scene(path: &Path) -> anyhow::Result<Scene> {
     let text = read_text(path, SCENE_TEXT)?;
     Scene::from_json(&text).map_err(|error: SceneError| refused(path, error.into()))
 }
 
-/// The text of a file, or of standard input where the path is `-`.
+/// Reads the text of a file, or of standard input where the path is `-`.
 pub fn read_text(path: &Path, kind: Kind) -> Result<String, FileError> {
     match is_standard_input(path) {
         true => read_stream(std::io::stdin().lock(), Path::new(STANDARD_INPUT), kind),
@@ -107,7 +107,7 @@ pub fn is_standard_input(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// The error of what a file says, with the name of the file.
+/// Adds the name of a file to the error of its content.
 pub fn refused(path: &Path, error: anyhow::Error) -> anyhow::Error {
     let name = match is_standard_input(path) {
         true => STANDARD_INPUT.into(),
@@ -116,13 +116,13 @@ pub fn refused(path: &Path, error: anyhow::Error) -> anyhow::Error {
     error.context(format!("{name} was refused"))
 }
 
-/// The error of an option, with the name that it has on the command line.
+/// The error of an option with its name on the command line, `--max-deviation-mm` for `max_deviation_mm`.
 pub fn of_option(refused: RefusedValue) -> anyhow::Error {
     let key = format!("--{}", refused.key.replace('_', "-"));
     RefusedValue { key, ..refused }.into()
 }
 
-/// The scene with the settings of an option.
+/// The scene with settings like `blade.thickness_m=2.6mm`; errors name the option.
 pub fn with_settings<'a>(
     scene: &Scene,
     texts: impl Iterator<Item = &'a str>,
@@ -134,7 +134,7 @@ pub fn with_settings<'a>(
     scene.file().set(&settings).with_context(refused)
 }
 
-/// The number of an option.
+/// Parses the number of an option.
 pub fn number(text: &str) -> Result<f64, String> {
     let point = match text.contains(',') {
         true => "; write it with a decimal point",
@@ -144,25 +144,25 @@ pub fn number(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(refused)
 }
 
-/// The whole number of an option.
+/// Parses the whole number of an option.
 pub fn count<T: std::str::FromStr>(text: &str) -> Result<T, String> {
     let refused = |_| "it must be a whole number, 0 or more".to_owned();
     text.trim().parse().map_err(refused)
 }
 
-/// Writes to standard output what a terminal may be sent.
+/// Writes a text to standard output, with control characters made visible, and coloured on a terminal.
 pub fn say(text: &str) -> std::io::Result<()> {
     let text = Paint::of_stdout().text(&printable(text));
     write!(std::io::stdout().lock(), "{text}")
 }
 
 impl Changes {
-    /// Whether anything is asked for.
+    /// Whether any change is given.
     pub fn is_any(&self) -> bool {
         !self.set.is_empty() || self.accuracy.is_some() || self.tolerance.is_some()
     }
 
-    /// The scene with what is asked for.
+    /// Applies the changes to a scene.
     pub fn applied(&self, mut scene: Scene) -> anyhow::Result<Scene> {
         if !self.set.is_empty() {
             scene = with_settings(&scene, self.set.iter().map(String::as_str), "--set")?;
@@ -184,29 +184,26 @@ impl Changes {
 }
 
 impl Common {
-    /// The scene asked for.
+    /// Reads the scene and applies the changes.
     pub fn scene(&self) -> anyhow::Result<Scene> {
         self.input.scene()
     }
 
-    /// The folder asked for, seen to take files.
+    /// Opens the output folder, see [`OutputFolder::open`].
     pub fn folder(&self) -> anyhow::Result<OutputFolder> {
         self.output.folder()
     }
 }
 
 impl Output {
-    /// The folder asked for, seen to take files.
+    /// Opens the output folder, see [`OutputFolder::open`].
     pub fn folder(&self) -> anyhow::Result<OutputFolder> {
-        OutputFolder::open(&self.path())
+        let path = self.out.as_deref();
+        OutputFolder::open(path.unwrap_or(Path::new("sawflutter-out")))
     }
 
-    /// Path of the folder.
-    pub fn path(&self) -> PathBuf {
-        self.out.clone().unwrap_or_else(|| "sawflutter-out".into())
-    }
-
-    /// Writes the page of a report, its figures, the `others` and the report itself under `name`, and prints it.
+    /// Writes the page of a report, its figures, the `others` and, under `name`, the report itself, and prints the
+    /// report.
     pub fn report<R: Documented + Serialize>(
         &self,
         folder: &OutputFolder,
@@ -224,8 +221,7 @@ impl Output {
         self.print(folder, &files, &figure_names::<R>(), &json, summary)
     }
 
-    /// Writes the files, removes those of the `optional` names that an earlier run has left and
-    /// this one does not write, and prints the report, in words or as JSON.
+    /// Writes the files as [`Writing::finish`] describes, and prints the report, as a summary or as JSON.
     pub fn print(
         &self,
         folder: &OutputFolder,

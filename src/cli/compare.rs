@@ -41,7 +41,7 @@ pub struct Arguments {
     page: Page,
 }
 
-/// As for a report, with branches over speed.
+/// Largest size and encodings of a file; reports are long, because they contain the branches over the speed.
 const REPORT: Kind = Kind {
     limit: 1 << 28,
     other_encodings: OtherEncodings::Refused,
@@ -83,7 +83,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     )
 }
 
-/// The saws asked for, with their labels; scenes that name no sweep over common speeds.
+/// Reads the saws and labels them. Scenes without a sweep get a common one.
 fn saws(arguments: &Arguments) -> anyhow::Result<Vec<(String, Saw)>> {
     let mut saws = Vec::new();
     for path in &arguments.files {
@@ -128,9 +128,10 @@ fn with_common_speeds(saws: Vec<(String, Saw)>) -> anyhow::Result<Vec<(String, S
     Ok(saws.collect())
 }
 
+/// Reads a report, or a scene and applies the changes to it.
 fn read(path: &Path, changes: &Changes) -> anyhow::Result<Saw> {
     let text = read_text(path, REPORT)?;
-    // No scene has this key.
+    // Reports have the key `campbell`, which scenes do not have.
     if text.contains("\"campbell\"") {
         let report: Report = serde_json::from_str(&text).map_err(|error| {
             refused(
@@ -151,7 +152,7 @@ fn read(path: &Path, changes: &Changes) -> anyhow::Result<Saw> {
     Ok(Saw::Scene(Box::new(changes.applied(scene)?)))
 }
 
-/// The last keys of the settings of a variant, with their values.
+/// Label of a variant: its settings with the last key of each path.
 fn in_short(variant: &str) -> String {
     let settings = variant.split(',').map(|setting| {
         let (path, value) = setting.split_once('=').unwrap_or((setting, ""));
@@ -161,7 +162,7 @@ fn in_short(variant: &str) -> String {
     settings.collect::<Vec<_>>().join(", ")
 }
 
-/// The name of a file's saw: for a report it is the name of its folder.
+/// Label of the saw of a file: the name of the file or, for a report, of its folder.
 fn label(path: &Path) -> String {
     if is_standard_input(path) {
         return "standard-input".to_owned();
@@ -175,7 +176,7 @@ fn label(path: &Path) -> String {
     name.to_string_lossy().into_owned()
 }
 
-/// The label, numbered where another saw has it.
+/// The label, with a number if another saw has it already.
 fn unused(label: String, saws: &[(String, Saw)]) -> String {
     let numbered = (2..).map(|k| format!("{label}-{k}"));
     let mut names = std::iter::once(label.clone()).chain(numbered);

@@ -37,7 +37,7 @@ pub struct Arguments {
     page: Page,
 }
 
-/// Numbers of the scene's `cut`, with or without a unit. Where the scene has no cut, the others are assumed, and said.
+/// Numbers of the scene's `cut`, with or without a unit. If the scene has no cut, the others are assumed and printed.
 #[derive(Args)]
 #[command(next_help_heading = "Numbers of the cut, with or without a unit")]
 struct Forces {

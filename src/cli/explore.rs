@@ -36,7 +36,7 @@ pub struct Arguments {
     open: bool,
 }
 
-/// Serves the page until it is not wanted any more.
+/// Serves the page until Ctrl-C, or until the last opened page has been closed.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = arguments.input.scene()?;
     let options = Options {
@@ -45,7 +45,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     };
     serve(&scene, &options, |address| {
         let mut stdout = std::io::stdout().lock();
-        // A failure means that the output was closed, so that the address has no reader.
+        // If writing fails, the output was closed, and nobody reads the address.
         let _ = writeln!(
             stdout,
             "{address}\nOpen this address; the program ends with Ctrl-C or with the page."

@@ -28,6 +28,7 @@ pub struct Arguments {
     basis: Option<Resolution>,
 }
 
+/// Parses nodal diameters and radial functions, like `16,8`.
 fn basis(text: &str) -> Result<Resolution, String> {
     let numbers = text.split_once(',');
     let numbers = numbers.and_then(|(diameters, radial)| {
@@ -37,7 +38,7 @@ fn basis(text: &str) -> Result<Resolution, String> {
     Resolution::new(diameters, radial).map_err(|refused| refused.to_string())
 }
 
-/// Writes the matrices that the scene asks for, and what they are.
+/// Writes the matrices of a scene, and a description of them.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     if !arguments.matrices {
         bail!("say what to export: --matrices");
@@ -85,11 +86,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         })
 }
 
-/// Matrices that not every saw has.
+/// Files of matrices that not every saw has.
 const OPTIONAL: [&str; 2] = ["damping.npy", "circulatory.npy"];
 
-/// A matrix as a `.npy` file, format 1.0, row by row (NumPy Enhancement Proposal 1). The crates
-/// that write it bring a parser of Python literals, and a C compiler for that.
+/// The content of a `.npy` file of a matrix, format 1.0, row by row (NumPy Enhancement Proposal 1). The crates that
+/// write this format depend on a parser of Python literals, which depends on a C compiler.
 fn npy(matrix: &Mat<f64>) -> Vec<u8> {
     let (rows, columns) = (matrix.nrows(), matrix.ncols());
     let header =

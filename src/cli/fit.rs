@@ -57,7 +57,7 @@ pub struct Arguments {
     page: Page,
 }
 
-/// As for scenes; a table of frequencies is a page.
+/// Largest size and encodings of a table of frequencies, which usually has the length of a page.
 const TABLE: Kind = Kind {
     limit: 1 << 20,
     other_encodings: OtherEncodings::AsLatin1,
@@ -89,6 +89,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     output.report(&folder, &arguments.page, &report, others, "fit.json")
 }
 
+/// The frequencies of the table, or those of the scene.
 fn measurement(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Measurement> {
     let Some(path) = &arguments.measured else {
         return Ok(Measurement::of_scene(scene.needed_measured()?));

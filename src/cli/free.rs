@@ -1,14 +1,14 @@
-//! Numbers of a scene that a command may move: `--free guides[0].radius_m=0.15..0.3`.
+//! Numbers of a scene with bounds: `--free guides[0].radius_m=0.15..0.3`.
 
 use crate::scene::{NamedBounds, number_of};
 use anyhow::{Context, bail};
 
-/// The paths asked for, with their bounds where they are given.
+/// Parses the options `--free`, paths with or without bounds.
 pub fn named_bounds(asked: &[String]) -> anyhow::Result<Vec<NamedBounds>> {
     asked.iter().map(|text| range("--free", text)).collect()
 }
 
-/// The path and the range of an option, if it has one.
+/// Parses the path of an option and, if there is one, its range.
 pub fn range(option: &str, text: &str) -> anyhow::Result<NamedBounds> {
     let Some((path, range)) = text.split_once('=') else {
         return Ok((text.trim().to_owned(), None));

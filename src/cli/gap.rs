@@ -61,7 +61,7 @@ pub struct Arguments {
     page: Page,
 }
 
-/// The numbers that are usual.
+/// Default values of the options of friction.
 const FRICTION: Friction = Friction::of(0.0);
 
 /// Evaluates the gaps, writes the files and prints the summary.

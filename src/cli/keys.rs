@@ -27,7 +27,7 @@ pub struct Arguments {
     study: bool,
 }
 
-/// Prints the keys of a scene, or of a study: unit, default, what saws have, what it is.
+/// Prints the keys of a scene, or of a study, each with its unit, default, usual range and meaning.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let schema = match arguments.study {
         true => study::json_schema(),
@@ -44,7 +44,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(say(&text)?)
 }
 
-/// A key and what the schema says of it.
+/// A key of a schema.
 struct Key {
     path: String,
     meaning: String,
@@ -69,7 +69,7 @@ impl Key {
     }
 }
 
-/// The keys below a node of a schema, in its order, each before those that it holds.
+/// Collects the keys below a node of a schema in their order, each before the keys that it contains.
 fn below(schema: &Value, node: &Value, path: &str, found: &mut Vec<Key>) {
     if let Some(name) = node["$ref"].as_str()
         && let Some(target) = schema.pointer(name.trim_start_matches('#'))
@@ -107,7 +107,7 @@ mod tests {
     use super::*;
     use crate::scene::QUANTITIES;
 
-    /// A number that is not printed would be one that nobody can know of.
+    /// Every quantity of a scene is printed, so that users can find it.
     #[test]
     fn every_number_of_a_scene_is_a_key_with_a_meaning() {
         let schema = scene::json_schema();

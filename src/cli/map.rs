@@ -11,7 +11,7 @@ use super::free::range;
 use super::page::Page;
 use super::study::{compute, print_part, shard};
 use super::{common, scheduler};
-use crate::scene::{Scene, SceneError};
+use crate::scene::Scene;
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -63,7 +63,7 @@ pub struct Arguments {
     page: Page,
 }
 
-/// Analyses the saws that no log has yet, and draws the map of all.
+/// Analyses the saws that no log has yet, and draws the map of all saws.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let map = planned(arguments)?;
     let study = map.study();
@@ -107,11 +107,9 @@ fn planned(arguments: &Arguments) -> anyhow::Result<Map> {
     };
     Map::new(scene, &options).map_err(|error| match error {
         StudyError::Value(refused) => of_option(refused),
-        StudyError::Scene { key, source } => with_option(&key, source),
+        StudyError::Scene { key, source } => {
+            anyhow::Error::from(source).context(format!("--{key} was refused"))
+        }
         other => other.into(),
     })
-}
-
-fn with_option(key: &str, source: SceneError) -> anyhow::Error {
-    anyhow::Error::from(source).context(format!("--{key} was refused"))
 }

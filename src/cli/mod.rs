@@ -1,4 +1,4 @@
-//! The command line: arguments → library calls → output, and no physics.
+//! The command line: arguments become calls of the library, and their results files and text.
 
 mod analyze;
 mod assumed;
@@ -129,7 +129,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             eprint!("{}", printable(&refusal.render().to_string()));
             return 2;
         }
-        // Help and version are no failure.
+        // A request for the help or the version is no failure.
         Err(help) => {
             let _ = help.print();
             return 0;
@@ -146,8 +146,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// The arguments with `analyze` where no command is named: before an option, and before what is a
-/// file, or has a name that only a file has. Anything else is left to be refused as a typo.
+/// The arguments, with `analyze` before an option or a file if no command is named. A word with a dot or a slash
+/// counts as a file even if it does not exist; another word is left to be refused as a misspelt command.
 fn with_command(arguments: impl IntoIterator<Item = OsString>) -> Vec<OsString> {
     let mut arguments: Vec<OsString> = arguments.into_iter().collect();
     let Some(first) = arguments.get(1) else {
@@ -164,7 +164,7 @@ fn with_command(arguments: impl IntoIterator<Item = OsString>) -> Vec<OsString> 
     arguments
 }
 
-/// Runs a command; without one, `analyze`. False is a check that was not passed.
+/// Runs a command; without one, `analyze`. Returns false if a limit of the command is not kept.
 fn command(command: Option<Command>) -> anyhow::Result<bool> {
     match command {
         None => analyze::run(&analyze::Arguments::default()),
@@ -191,7 +191,7 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
     .map(|()| true)
 }
 
-/// An error and its causes, except causes that are already contained in the text.
+/// The text of an error and of its causes, except causes that the text already contains.
 fn in_words(error: &anyhow::Error) -> String {
     let mut words = String::new();
     for cause in error.chain().map(ToString::to_string) {
@@ -204,7 +204,7 @@ fn in_words(error: &anyhow::Error) -> String {
     words
 }
 
-/// A reader that has seen enough, like `head`, is no failure.
+/// Whether the reader of the output has closed it, like `head`, which is no failure.
 fn is_closed_pipe(error: &anyhow::Error) -> bool {
     error
         .chain()
@@ -216,8 +216,8 @@ fn is_closed_pipe(error: &anyhow::Error) -> bool {
 mod tests {
     use super::*;
 
-    /// Lines of examples as a shell takes them: continued lines joined, comments left out, each side
-    /// of a pipe by itself, up to where its output goes.
+    /// The commands of examples, in words: continued lines are joined, pipes are split, and comments and
+    /// redirections are removed.
     fn commands(examples: &str) -> Vec<Vec<String>> {
         let joined = examples.replace("\\\n", "");
         let lines = joined.lines().filter(|line| line.starts_with("  "));
@@ -234,7 +234,7 @@ mod tests {
         ours.map(words).collect()
     }
 
-    /// Each line of `--help` can be copied as it is, without an error about its arguments.
+    /// The arguments of each example in `--help` are accepted.
     #[test]
     fn every_example_of_help_is_a_command() {
         let program = Arguments::command();
@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_told_in_plain_words() {
+    fn a_text_that_is_no_number_is_refused_in_plain_words() {
         let refused = |words: &[&str]| {
             let words = std::iter::once(&"sawflutter")
                 .chain(words)

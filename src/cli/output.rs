@@ -5,19 +5,19 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 
-/// How the names of files begin that are still being written.
+/// Prefix of the names of files that are not complete yet.
 const STAGED: &str = ".sawflutter-";
 
-/// A folder that has been seen to take files.
+/// An output folder in which files can be written.
 pub struct OutputFolder {
     path: PathBuf,
-    /// The folders that were made for it, the innermost first.
+    /// The folder and its parents as far as this run has created them, the innermost first.
     made: Vec<PathBuf>,
 }
 
 impl OutputFolder {
-    /// Creates the folder if need be, and tries it out: a folder that cannot be
-    /// written fails before the computation, not after it.
+    /// Creates the folder if it is missing, and writes a temporary file in it, so that a folder that cannot be
+    /// written is refused before the computation instead of after it.
     pub fn open(path: &Path) -> anyhow::Result<Self> {
         let refused = || {
             format!(
@@ -37,7 +37,7 @@ impl OutputFolder {
         Ok(folder)
     }
 
-    /// Writes the files of one run together, see [`Writing`].
+    /// Writes the files of one run together, see [`Writing::finish`].
     pub fn write_together(
         &self,
         files: &[(&'static str, Vec<u8>)],
@@ -46,7 +46,7 @@ impl OutputFolder {
         self.staged(files)?.finish(optional)
     }
 
-    /// Files of one run, on the disk but without their names.
+    /// Writes the files of one run to the disk under temporary names.
     pub fn staged(&self, files: &[(&'static str, Vec<u8>)]) -> anyhow::Result<Writing<'_>> {
         let mut writing = self.begin();
         for (name, content) in files {
@@ -55,8 +55,7 @@ impl OutputFolder {
         Ok(writing)
     }
 
-    /// Begins to write the files of one run together: all are on the disk before the first gets
-    /// its name.
+    /// Begins to write the files of one run together: all are on the disk before the first one gets its name.
     pub fn begin(&self) -> Writing<'_> {
         let turn = self.wait_for_turn();
         self.remove_leftovers();
@@ -67,8 +66,8 @@ impl OutputFolder {
         }
     }
 
-    /// Runs that write to the same folder take turns; the system ends the turn of one that is
-    /// killed. Where folders cannot be locked there are no turns.
+    /// Locks the folder, so that runs that write to it take turns. The system ends the lock of a run that is killed.
+    /// `None` where folders cannot be locked, and there are no turns.
     fn wait_for_turn(&self) -> Option<std::fs::File> {
         let folder = std::fs::File::open(&self.path).ok()?;
         folder.lock().ok().map(|()| folder)
@@ -95,7 +94,7 @@ impl OutputFolder {
         Ok(())
     }
 
-    /// Removes what an earlier run has left under a name.
+    /// Removes the file of an earlier run with this name.
     fn remove(&self, name: &str) -> anyhow::Result<()> {
         let target = self.path.join(name);
         match std::fs::remove_file(&target) {
@@ -106,17 +105,17 @@ impl OutputFolder {
         }
     }
 
-    /// The folder.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 }
 
-/// A run that was refused or failed removes the empty folders that it has made.
+/// A run that was refused or failed removes the empty folders that it has created.
 impl Drop for OutputFolder {
     fn drop(&mut self) {
         for folder in &self.made {
-            // The system refuses to remove a folder with files in it, which stays.
+            // The system refuses to remove a folder that contains files.
             if std::fs::remove_dir(folder).is_err() {
                 break;
             }
@@ -124,7 +123,7 @@ impl Drop for OutputFolder {
     }
 }
 
-/// Files of one run that have no names yet.
+/// Files of one run that still have temporary names.
 pub struct Writing<'a> {
     folder: &'a OutputFolder,
     _turn: Option<std::fs::File>,
@@ -137,16 +136,12 @@ impl Writing<'_> {
         self.staged.iter().map(|(name, _)| *name).collect()
     }
 
-    /// An empty file of this run.
+    /// Creates an empty temporary file for the content of a name.
     pub fn create(&self, name: &str) -> anyhow::Result<tempfile::NamedTempFile> {
-        tempfile::Builder::new()
-            .prefix(STAGED)
-            .permissions_like_any_new_file()
-            .tempfile_in(&self.folder.path)
-            .with_context(|| self.failed(name))
+        temporary_file(STAGED, &self.folder.path).with_context(|| self.failed(name))
     }
 
-    /// Puts a file that was created here on the disk.
+    /// Waits until the content of a file of [`Writing::create`] is on the disk, and adds it to the run.
     pub fn stage(
         &mut self,
         name: &'static str,
@@ -159,7 +154,7 @@ impl Writing<'_> {
         Ok(())
     }
 
-    /// Puts a file with this content on the disk.
+    /// Writes a content to the disk under a temporary name, and adds the file to the run.
     pub fn stage_bytes(&mut self, name: &'static str, content: &[u8]) -> anyhow::Result<()> {
         let mut file = self.create(name)?;
         file.write_all(content).with_context(|| self.failed(name))?;
@@ -170,10 +165,9 @@ impl Writing<'_> {
         format!("cannot write {}", self.folder.path.join(name).display())
     }
 
-    /// Names the files; what an earlier run has left under an `optional` name that this one does
-    /// not write is removed: it would be taken for this one's. The last file is the one to look
-    /// for: while it is there, every other belongs to it, whatever stopped a run and whoever else
-    /// writes here.
+    /// Gives the files their names, and removes files of an earlier run that have an `optional` name and that this
+    /// run does not write, because they belong to another saw. The last file is removed first and named last: while
+    /// it exists, all others belong to it, even if a run was stopped.
     pub fn finish(self, optional: &[&str]) -> anyhow::Result<()> {
         let names = self.names();
         let stale = optional.iter().filter(|name| !names.contains(name));
@@ -187,18 +181,15 @@ impl Writing<'_> {
     }
 }
 
-/// Temporary files are private; what they become should not be.
-pub trait LikeAnyNewFile {
-    fn permissions_like_any_new_file(&mut self) -> &mut Self;
-}
-
-impl LikeAnyNewFile for tempfile::Builder<'_, '_> {
-    fn permissions_like_any_new_file(&mut self) -> &mut Self {
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            self.permissions(std::fs::Permissions::from_mode(0o666));
-        }
-        self
+/// Creates a temporary file with the permissions of any new file, because its content becomes a result that others may
+/// read.
+pub fn temporary_file(prefix: &str, folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(prefix);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
+    builder.tempfile_in(folder)
 }

@@ -1,4 +1,4 @@
-//! `--report page.html`.
+//! The option `--report`: the report as one page of HTML.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,9 @@ use crate::document::{self, Documented};
 use anyhow::Context;
 use clap::Args;
 
-/// A page of the report, where it is asked for.
+use super::output::temporary_file;
+
+/// The file of the page, if it is requested.
 #[derive(Args, Default)]
 pub struct Page {
     /// Also write one self-contained page of HTML to this file, to read, send and print as PDF: verdict, inputs, tables,
@@ -17,7 +19,7 @@ pub struct Page {
 }
 
 impl Page {
-    /// Sees that the page can be written, before the computation and not after it.
+    /// Refuses a page that cannot be written before the computation instead of after it.
     pub fn tried(&self) -> anyhow::Result<()> {
         match &self.report {
             Some(path) => begun(path).map(drop),
@@ -25,12 +27,12 @@ impl Page {
         }
     }
 
-    /// Whether one is asked for.
+    /// Whether a page is requested.
     pub fn is_asked(&self) -> bool {
         self.report.is_some()
     }
 
-    /// Writes the page as a whole.
+    /// Writes the page, if it is requested, as a whole.
     pub fn write(&self, report: &impl Documented) -> anyhow::Result<()> {
         let Some(path) = &self.report else {
             return Ok(());
@@ -47,7 +49,7 @@ impl Page {
     }
 }
 
-/// A file beside the page, which becomes the page.
+/// Creates a temporary file in the folder of the page, which later gets the name of the page.
 fn begun(path: &Path) -> anyhow::Result<tempfile::NamedTempFile> {
     let folder = path
         .parent()
@@ -64,7 +66,5 @@ fn begun(path: &Path) -> anyhow::Result<tempfile::NamedTempFile> {
         "--report {} is a folder; name a file in it, like page.html",
         path.display()
     );
-    let mut builder = tempfile::Builder::new();
-    super::output::LikeAnyNewFile::permissions_like_any_new_file(&mut builder);
-    builder.tempfile_in(folder).with_context(refused)
+    temporary_file(".tmp", folder).with_context(refused)
 }

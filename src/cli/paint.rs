@@ -1,36 +1,36 @@
-//! Colour on a terminal.
+//! Colours of verdicts on a terminal.
 
 use std::io::IsTerminal;
 
-/// The meaning of a word.
+/// Meaning of a verdict for the user.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Tone {
-    /// All is well.
+    /// The result is good.
     Good,
-    /// Well, but.
+    /// The result needs attention.
     Doubtful,
-    /// Not well.
+    /// The result is bad.
     Bad,
 }
 
-/// Whether words are coloured.
+/// Whether verdicts are coloured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Paint {
     is_on: bool,
 }
 
 impl Paint {
-    /// For standard output: on a terminal alone, and not against the user's wish
+    /// Colours on standard output if it is a terminal that supports them, unless the variable NO_COLOR is set
     /// (<https://no-color.org>).
     pub fn of_stdout() -> Self {
-        let wished = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
-        let is_dumb = wished("TERM").is_some_and(|term| term == "dumb");
+        let variable = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
+        let is_dumb = variable("TERM").is_some_and(|term| term == "dumb");
         Paint {
-            is_on: std::io::stdout().is_terminal() && wished("NO_COLOR").is_none() && !is_dumb,
+            is_on: std::io::stdout().is_terminal() && variable("NO_COLOR").is_none() && !is_dumb,
         }
     }
 
-    /// Text with the words coloured that say whether all is well.
+    /// The text with its verdicts coloured.
     pub fn text(self, text: &str) -> String {
         if !self.is_on {
             return text.to_owned();
@@ -39,9 +39,9 @@ impl Paint {
     }
 }
 
-/// A line with its telling words coloured, bold.
+/// The line with its verdict bold and coloured.
 fn painted(line: &str) -> String {
-    let Some((from, to, tone)) = telling(line) else {
+    let Some((from, to, tone)) = verdict(line) else {
         return line.to_owned();
     };
     let colour = match tone {
@@ -53,8 +53,8 @@ fn painted(line: &str) -> String {
     format!("{before}\u{1b}[1;{colour}m{words}\u{1b}[0m{after}")
 }
 
-/// Start, end and tone of the words of a line that state whether a result is good.
-fn telling(line: &str) -> Option<(usize, usize, Tone)> {
+/// Start, end and tone of the words of a line that state whether a result is good; `None` if it has none.
+fn verdict(line: &str) -> Option<(usize, usize, Tone)> {
     let firsts = [
         ("Warning:", Tone::Doubtful),
         ("Unusual number", Tone::Doubtful),
@@ -93,7 +93,7 @@ mod tests {
         );
     }
 
-    /// Tests run without a terminal.
+    /// Tests usually run without a terminal; on one this test compares nothing.
     #[test]
     fn what_is_no_terminal_is_not_coloured() {
         if !std::io::stdout().is_terminal() {

@@ -1,16 +1,19 @@
-//! Blocks to paste into a scene that lacks them.
+//! Typical blocks that the user can paste into a scene that lacks them.
 
 use serde_json::Value;
 
 use crate::scene::{RefusedValue, Scene, SceneFile, typical};
 
-/// The input of a command from a scene. If it is missing, a block to paste is printed on the error stream.
+/// Returns the block of a scene that a command needs. If it is missing, prints a typical one on the error stream.
 pub fn pasted<T>(scene: &Scene, needed: Result<T, RefusedValue>) -> anyhow::Result<T> {
     needed.map_err(|refused| {
         let (block, place) = match refused.key.as_str() {
             "cut" => (cut_block(scene.file()), "the scene"),
             "runup" => (block("runup", &typical::runup(scene.file())), "the scene"),
-            "cut.washboarding" => (washboarding_block(), "its block \"cut\""),
+            "cut.washboarding" => {
+                let washboarding = block("washboarding", &typical::washboarding());
+                (washboarding, "its block \"cut\"")
+            }
             _ => return refused.into(),
         };
         // The block is printed separately, because an error is one line.
@@ -21,7 +24,7 @@ pub fn pasted<T>(scene: &Scene, needed: Result<T, RefusedValue>) -> anyhow::Resu
     })
 }
 
-/// The key `cut`, of a typical cut.
+/// The key `cut` of a typical cut, with the number of teeth if the blade lacks it.
 fn cut_block(scene: &SceneFile) -> String {
     let mut text = block("cut", &typical::cut(scene));
     if scene.blade.teeth.is_none_or(|teeth| teeth == 0) {
@@ -30,14 +33,9 @@ fn cut_block(scene: &SceneFile) -> String {
     text
 }
 
-/// The key `cut.washboarding`, of a typical stiffness.
-fn washboarding_block() -> String {
-    block("washboarding", &typical::washboarding())
-}
-
 /// `"key": { … },` indented like a key of a scene.
 fn block(key: &str, value: &Value) -> String {
-    // Only keys that are not texts could fail, and a JSON value has none.
+    // Writing fails only for keys that are not texts, and a JSON value has none.
     let text = serde_json::to_string_pretty(value).unwrap_or_default();
     let text = text.replace('\n', "\n  ");
     format!("  \"{key}\": {text},")

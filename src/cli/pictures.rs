@@ -1,16 +1,16 @@
-//! The figures of a report as files.
+//! Files of the figures of a report.
 
 use rayon::prelude::*;
 
 use super::common::NamedFile;
 use crate::figure::{Figure, FigureError, Figures};
 
-/// Every figure of a report as PNG and SVG.
+/// Draws every figure of a report as PNG and SVG.
 pub fn drawn(report: &impl Figures) -> Result<Vec<NamedFile>, FigureError> {
     files(&report.figures())
 }
 
-/// Figures as PNG and SVG, drawn side by side: a picture takes as long as a hundred spectra.
+/// Draws figures as PNG and SVG, in parallel because one picture takes as long as a hundred spectra.
 pub fn files(figures: &[Figure]) -> Result<Vec<NamedFile>, FigureError> {
     let files: Vec<[Result<NamedFile, FigureError>; 2]> = figures
         .par_iter()
@@ -26,7 +26,7 @@ pub fn files(figures: &[Figure]) -> Result<Vec<NamedFile>, FigureError> {
     files.into_iter().flatten().collect()
 }
 
-/// Names of the files of all figures that such a report may have.
+/// Names of the files of all figures that a report of this type may have.
 pub fn figure_names<R: Figures>() -> Vec<&'static str> {
     R::NAMES.iter().flatten().copied().collect()
 }

@@ -83,7 +83,7 @@ enum GoalName {
     Window,
 }
 
-/// Looks for the best place, writes the files and prints the summary; whether the limit is kept.
+/// Searches for the best place, writes the files and prints the summary. Returns whether the limit is kept.
 pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     let scene = arguments.common.scene()?;
     let demands = demands(arguments, &scene)?;

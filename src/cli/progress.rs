@@ -6,11 +6,11 @@ use std::time::Duration;
 use crate::spectrum::{Progress, Stage};
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Seen as movement.
+/// Interval between updates of the bar, which shows that the program is running.
 const TICK: Duration = Duration::from_millis(200);
 
-/// Does work with a bar on the terminal's error stream, and without one where that is not a terminal. The loops
-/// of a command itself are shown by [`Progress::show`].
+/// Runs work with a progress bar on the error stream, and without a bar if that is not a terminal. The work
+/// reports the progress of its own loops by [`Progress::show`].
 pub fn watched<T: Send>(work: impl FnOnce(&Progress) -> T + Send) -> anyhow::Result<T> {
     watched_with_remarks(|progress, _| work(progress))
 }
@@ -41,7 +41,7 @@ fn show(bar: &ProgressBar, stage: Stage) {
     bar.set_message(in_words(stage));
 }
 
-/// The progress of a step, if it is known, and the number of solved eigenproblems.
+/// Text of the progress of a step, if it is known, and of the number of solved eigenproblems.
 fn in_words(stage: Stage) -> String {
     let Stage {
         what,

@@ -34,8 +34,8 @@ pub struct Arguments {
     page: Page,
 }
 
-/// Numbers of the scene's `runup`, with or without a unit. Where the scene has no run-up, the others are assumed, and
-/// said.
+/// Numbers of the scene's `runup`, with or without a unit. If the scene has no run-up, the others are assumed and
+/// printed.
 #[derive(Args)]
 #[command(next_help_heading = "Numbers of the run-up, with or without a unit")]
 struct Course {

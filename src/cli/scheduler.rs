@@ -8,12 +8,12 @@ use std::process::{Command, Stdio};
 use crate::study::{Inputs, Study};
 use anyhow::{Context, bail};
 
-/// Which Python has the package; the program that pip installs names its own.
+/// Environment variable that names the Python with the package; the program that pip installs sets it.
 const PYTHON: &str = "SAWFLUTTER_PYTHON";
-/// A question to Python before a study is sent to it.
+/// Python code that fails unless the package and Dask are installed, and prints the version of the package.
 const PROBE: &str = "import sawflutter, distributed; print(sawflutter.__version__)";
 
-/// Fills the log of a folder with the saws that it does not have.
+/// Computes the saws that the log of a folder lacks.
 pub fn compute(study: &Study, folder: &Path, address: &str) -> anyhow::Result<()> {
     let python = std::env::var_os(PYTHON).unwrap_or_else(|| "python3".into());
     let name = Path::new(&python).display();

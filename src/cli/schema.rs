@@ -7,7 +7,7 @@ use clap::Args;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Print that of a study instead
+    /// Print the schema of a study instead
     #[arg(long)]
     study: bool,
 }

@@ -1,4 +1,4 @@
-//! Several scenes at a time: a folder each, and a table.
+//! Analyses of several scenes, with a folder for each and a table of all.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -13,10 +13,10 @@ use super::in_words;
 
 use crate::summary::{Answer, shortened, wrapped};
 
-/// Files beside the folders of the scenes.
+/// Files of the table, beside the folders of the scenes.
 pub const FILES: [&str; 2] = ["scenes.csv", "scenes.json"];
 
-/// A scene in the table. A speed is `None` if it is not reached within the sweep.
+/// Row of a scene in the table. A speed is `None` if the sweep does not reach it.
 #[derive(Serialize)]
 struct Row {
     /// Folder of the scene's files, below the common folder.
@@ -36,8 +36,11 @@ struct Row {
     error: Option<String>,
 }
 
-/// Charts every scene that can be into a folder of its own, and prints and writes the table; a scene
-/// that was refused is an error in it.
+/// Charts the scenes into a folder each, and prints and writes the table. The row of a scene that cannot be charted
+/// has the error.
+///
+/// # Errors
+/// An error of the output folder; the number of scenes that could not be charted, after the table is written.
 pub fn run(
     output: &Output,
     paths: &[PathBuf],
@@ -65,7 +68,7 @@ pub fn run(
     }
 }
 
-/// A folder for every file, named after it; a second file of a name is numbered.
+/// Names of the folders, after the files of the scenes; further files with the same name are numbered.
 fn folders(paths: &[PathBuf]) -> Vec<String> {
     let mut taken: Vec<String> = Vec::new();
     for path in paths {

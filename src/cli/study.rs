@@ -73,7 +73,7 @@ struct Merge {
     output: Output,
 }
 
-/// Analyses the saws that no log has yet, and sums them all up.
+/// Analyses the saws that no log has yet, and sums up all saws.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     if let Some(Command::Merge(merge)) = &arguments.merge {
         return run_merge(merge);
@@ -131,7 +131,7 @@ fn run_merge(merge: &Merge) -> anyhow::Result<()> {
     print(&merge.output, &folder, &rows)
 }
 
-/// Analyses what is missing, each saw logged as soon as it is done.
+/// Analyses the saws of a part that its log lacks, and logs each one as soon as it is done.
 pub fn compute(study: &Study, shard: Shard, folder: &OutputFolder) -> anyhow::Result<()> {
     let mut log = Log::open(folder.path(), shard, study)?;
     let (done, of) = (log.finished().done(), shard.count(study.count()));
@@ -144,7 +144,7 @@ pub fn compute(study: &Study, shard: Shard, folder: &OutputFolder) -> anyhow::Re
     let bar = progress_bar(done, of);
     let log = Arc::new(Mutex::new(log));
     #[cfg(feature = "explore")]
-    tell_when_interrupted(Arc::clone(&log), of);
+    stop_when_interrupted(Arc::clone(&log), of);
     study.run(None, missing, &|saw| {
         let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
         log.append(study, &saw)?;
@@ -155,12 +155,11 @@ pub fn compute(study: &Study, shard: Shard, folder: &OutputFolder) -> anyhow::Re
     Ok(())
 }
 
-/// Ends the program at Ctrl-C between two rows of the log, and says how it goes on.
+/// Ends the program at Ctrl-C between two rows of the log, and prints how to continue.
 ///
-/// The signal is waited for before the first saw is computed: until then it would end the program
-/// without a word.
+/// The handler of the signal is registered before the function returns, so that no saw is computed without it.
 #[cfg(feature = "explore")]
-fn tell_when_interrupted(log: Arc<Mutex<Log>>, of: usize) {
+fn stop_when_interrupted(log: Arc<Mutex<Log>>, of: usize) {
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_io()
         .build();
@@ -196,11 +195,11 @@ fn interrupts() -> std::io::Result<tokio::signal::windows::CtrlC> {
     tokio::signal::windows::ctrl_c()
 }
 
-/// Exit code of a program that Ctrl-C has ended, as shells give it: 128 and the number of the signal.
+/// Exit code of a program that Ctrl-C has ended, as shells report it: 128 plus the number of the signal.
 #[cfg(feature = "explore")]
 const INTERRUPTED: i32 = 130;
 
-/// The time left is judged by the saws of this run.
+/// Bar over the saws of a part; the remaining time is estimated from the saws of this run alone.
 fn progress_bar(done: usize, of: usize) -> ProgressBar {
     if !std::io::stderr().is_terminal() {
         return ProgressBar::hidden();
@@ -214,7 +213,7 @@ fn progress_bar(done: usize, of: usize) -> ProgressBar {
     bar
 }
 
-/// Writes the tables as they are read from the logs, then what sums them up.
+/// Writes the tables while the logs are read, then figures and summary, and prints the summary.
 fn print(output: &Output, folder: &OutputFolder, rows: &Rows<'_>) -> anyhow::Result<()> {
     let (mut writing, study) = (folder.begin(), rows.study());
     let csv = writing.create("study.csv")?;
@@ -242,7 +241,7 @@ fn print(output: &Output, folder: &OutputFolder, rows: &Rows<'_>) -> anyhow::Res
     output.print_written(folder, writing, &optional, &json, || report.summary())
 }
 
-/// Says where the log of a part is, and what follows when all parts are done.
+/// Prints the path of the log of a part, and the step that follows when all parts are done.
 pub fn print_part(
     output: &Output,
     study: &Study,
@@ -270,10 +269,10 @@ fn read_study(path: &Path) -> anyhow::Result<StudyFile> {
     StudyFile::from_json(&text).map_err(|error| refused(path, error.into()))
 }
 
-/// More parts than a cluster has.
+/// Largest number of parts, which is more than a cluster has.
 const MAX_SHARDS: usize = 100_000;
 
-/// The part of an option.
+/// Parses a part like `3/8`.
 pub fn shard(text: &str) -> Result<Shard, String> {
     let numbers = text
         .split_once('/')

@@ -40,7 +40,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
 
 fn summary(settings: &[Setting]) -> String {
     let mut text = String::new();
-    // Writing to a string cannot fail.
+    // Writing to a string cannot fail, so that the result is ignored.
     let _ = table(&mut text, settings);
     text
 }
