@@ -12,7 +12,9 @@ use sawflutter::report::Report;
 use sawflutter::scene::{Accuracy, Scene};
 use tempfile::TempDir;
 
-use super::program::{names_in, program, quick_scene, sawflutter, text, write_scene};
+use super::program::{
+    assert_in_80_columns, names_in, program, quick_scene, sawflutter, text, write_scene,
+};
 
 const FILES: [&str; 6] = [
     "campbell.csv",
@@ -85,11 +87,7 @@ fn the_default_run_is_the_papers_saw() {
 fn the_summary_fits_a_terminal_and_says_what_matters() {
     let run = default_run();
     let text = text(&run.output.stdout);
-    for line in text.lines() {
-        // The last line names the folder, whose name may have any length.
-        let columns = line.chars().count();
-        assert!(columns <= 80 || line.starts_with("Written to"), "{line}");
-    }
+    assert_in_80_columns(text);
     let critical = run.report.critical_speeds[0].rpm;
     let flutter = run.report.flutter_speed_rpm.expect("the saw flutters");
     for expected in [
@@ -164,7 +162,7 @@ fn campbell_csv_holds_every_point_of_every_branch() {
     assert!(rows.next().is_none() && points > 1000, "{points} points");
 }
 
-/// The CSV is complete if the figure can be drawn from it without any other output of the program.
+/// The report contains everything that the figure shows.
 #[test]
 fn the_figure_can_be_redrawn_from_the_report_alone() {
     let run = default_run();
@@ -225,7 +223,7 @@ fn a_second_run_replaces_the_files_of_the_first() {
     serde_json::from_slice::<Report>(&read(out.join("report.json"))).unwrap();
 }
 
-/// Only the picture changes. A range outside the sweep is refused.
+/// The options of the drawn part change only the picture. A part outside the sweep is refused.
 #[test]
 fn a_part_of_the_sweep_can_be_drawn() {
     let folder = TempDir::new().unwrap();
@@ -256,8 +254,7 @@ fn schema_prints_the_schema_of_a_scene() {
     assert_eq!(schema, sawflutter::scene::json_schema());
 }
 
-/// `sawflutter
-/// head -0`: a reader that closes the pipe is no failure.
+/// A reader that closes the pipe, like `head -0`, is no failure.
 #[test]
 fn a_closed_pipe_is_no_failure() {
     let folder = TempDir::new().unwrap();
@@ -285,8 +282,8 @@ fn a_closed_pipe_is_no_failure() {
     assert_eq!(names_in(&out), FILES_WITHOUT_FLUTTER);
 }
 
-/// The built-in saw has 42 critical speeds up to 10 000 rpm, and the search takes minutes: the program prints their
-/// number before, with the key that shortens the search. Sweeps of seconds print nothing.
+/// The built-in saw has 42 critical speeds up to 10 000 rpm, and the search takes minutes. Before it the program prints
+/// their number and the key that shortens the search. Before a search of seconds it prints nothing.
 #[test]
 fn a_long_sweep_is_estimated_before_its_search() {
     let folder = TempDir::new().unwrap();
@@ -316,7 +313,7 @@ fn a_long_sweep_is_estimated_before_its_search() {
     assert_eq!(text(&default_run().output.stderr), "");
 }
 
-/// The chart under the forces of the cut, beside the idling saw, in text, JSON and figure.
+/// The chart under the forces of the cut is beside that of the idling saw in text, JSON and figure.
 #[test]
 fn the_chart_in_the_cut_is_beside_that_of_the_idling_saw() {
     let folder = TempDir::new().unwrap();
@@ -340,18 +337,15 @@ fn the_chart_in_the_cut_is_beside_that_of_the_idling_saw() {
     let (idle, charted) = (idling.flutter_speed_rpm, own.flutter_speed_rpm);
     let (idle, charted) = (idle.unwrap(), charted.unwrap());
     assert!((idle / charted - 1.0).abs() < 1e-9, "{idle} {charted}");
-    let told = text(&output.stdout);
+    let said = text(&output.stdout);
     for expected in [
         "1240 N against".to_owned(),
         format!("{:.1}", idling.critical_speeds_rpm[0]),
         format!("{:.1}", report.critical_speeds[0].rpm),
     ] {
-        assert!(told.contains(&expected), "no {expected:?} in:\n{told}");
+        assert!(said.contains(&expected), "no {expected:?} in:\n{said}");
     }
-    assert!(
-        told.lines()
-            .all(|line| { line.chars().count() <= 80 || line.starts_with("Written to") })
-    );
+    assert_in_80_columns(said);
     // The default speed is the operating speed; a saw of another scene has no cut.
     let output = run(&["--in-cut", "--json"]);
     let report: Report = serde_json::from_slice(&output.stdout).unwrap();

@@ -6,13 +6,14 @@ use sawflutter::report::Report;
 use sawflutter::scene::SceneFile;
 use tempfile::TempDir;
 
-use super::program::{names_in, out, quick_scene, run, sawflutter, text, write_scene};
+use super::program::{
+    assert_refused, names_in, out, quick_scene, run, sawflutter, text, write_scene, written,
+};
 
 fn report(arguments: &[&str], folder: &TempDir) -> Report {
     let output = run(arguments, folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    let written = std::fs::read(out(folder).join("report.json")).unwrap();
-    serde_json::from_slice(&written).unwrap()
+    written(folder, "report.json")
 }
 
 #[test]
@@ -60,13 +61,8 @@ fn every_command_that_reads_a_scene_takes_settings() {
     ];
     for command in commands {
         let set = ["--set", "guides[0].radius_m=20kN"];
-        let output = run(&[command, &set].concat(), &folder);
-        let message = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{command:?}: {message}");
-        assert!(
-            message.contains("guides[0].radius_m is \"20kN\""),
-            "{message}"
-        );
+        let words = "guides[0].radius_m is \"20kN\"";
+        assert_refused(&[command, &set].concat(), words, &folder);
         assert!(names_in(&out(&folder)).is_empty(), "{command:?}");
     }
     let mut check = sawflutter();
@@ -74,12 +70,11 @@ fn every_command_that_reads_a_scene_takes_settings() {
     assert_eq!(check.output().unwrap().status.code(), Some(0));
 }
 
-/// The scene in the report of a command, without the block of its answer.
+/// The scene in the report of a command, and its messages.
 fn scene_of(arguments: &[&str], name: &str, folder: &TempDir) -> (SceneFile, String) {
     let output = run(arguments, folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    let written = std::fs::read(out(folder).join(name)).unwrap();
-    let json: serde_json::Value = serde_json::from_slice(&written).unwrap();
+    let json: serde_json::Value = written(folder, name);
     let scene = serde_json::from_value(json["scene"].clone()).unwrap();
     (scene, text(&output.stderr).to_owned())
 }
@@ -150,16 +145,12 @@ fn a_scene_without_a_cut_takes_one_from_options_and_says_what_is_assumed() {
     assert_eq!(cut.lateral_n_per_tooth, Some(1.0));
     assert!(said.contains("cut.lateral_n_per_tooth = 1"), "{said}");
     assert!(!said.contains("power") && !said.contains("depth"), "{said}");
-    let refused = run(&["cut", scene, "--power", "20mm"], &folder);
-    assert_eq!(refused.status.code(), Some(2));
-    let message = text(&refused.stderr);
-    assert!(
-        message.contains("--power is \"20mm\", but must be a number in W"),
-        "{message}"
-    );
+    let length = ["cut", scene, "--power", "20mm"];
+    let words = "--power is \"20mm\", but must be a number in W";
+    assert_refused(&length, words, &folder);
 }
 
-/// A page is written as a whole, only on request, and a refusal comes before any computation.
+/// A page is written as a whole, and a page that cannot be written is refused before any computation.
 #[test]
 fn a_page_is_written_beside_the_files_or_refused() {
     let folder = TempDir::new().unwrap();
@@ -193,21 +184,10 @@ fn a_page_is_written_beside_the_files_or_refused() {
         folder.path().to_owned(),
     ] {
         let other = TempDir::new().unwrap();
-        let output = run(
-            &["analyze", scene, "--report", wrong.to_str().unwrap()],
-            &other,
-        );
-        assert_eq!(output.status.code(), Some(2));
-        assert!(
-            text(&output.stderr).contains("--report"),
-            "{}",
-            text(&output.stderr)
-        );
+        let arguments = ["analyze", scene, "--report", wrong.to_str().unwrap()];
+        assert_refused(&arguments, "--report", &other);
         assert!(names_in(&out(&other)).is_empty());
     }
-    let two = run(
-        &["analyze", scene, scene, "--report", page.to_str().unwrap()],
-        &folder,
-    );
-    assert!(text(&two.stderr).contains("a page is one saw's"));
+    let two = ["analyze", scene, scene, "--report", page.to_str().unwrap()];
+    assert_refused(&two, "a page is one saw's", &folder);
 }

@@ -7,7 +7,7 @@ use sawflutter::report::{CheckReport, CompareReport, Report};
 use sawflutter::scene::{Accuracy, Scene, SceneFile, SweepFile};
 use tempfile::TempDir;
 
-use super::program::{names_in, out, run, sawflutter, text};
+use super::program::{assert_refused, names_in, out, run, sawflutter, text, written};
 
 fn saw() -> SceneFile {
     let mut file = Scene::paper().file().clone();
@@ -49,8 +49,7 @@ fn a_comparison_has_the_results_of_each_saw_alone() {
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let names = names_in(&out(&folder));
     assert_eq!(names, ["compare.json", "compare.png", "compare.svg"]);
-    let written = std::fs::read(out(&folder).join("compare.json")).unwrap();
-    let compared: CompareReport = serde_json::from_slice(&written).unwrap();
+    let compared: CompareReport = written(&folder, "compare.json");
     let labels: Vec<&str> = compared.saws.iter().map(|saw| saw.label.as_str()).collect();
     assert_eq!(labels, ["a", "b", "thickness_m=2.6mm"]);
     let [difference] = &compared.differences[..] else {
@@ -66,8 +65,7 @@ fn a_comparison_has_the_results_of_each_saw_alone() {
         (&second, &compared.saws[2]),
     ] {
         assert!(run(&["analyze", path], &alone).status.success());
-        let report = std::fs::read(out(&alone).join("report.json")).unwrap();
-        let report: Report = serde_json::from_slice(&report).unwrap();
+        let report: Report = written(&alone, "report.json");
         assert_eq!(of.critical_speeds, report.critical_speeds);
         assert_eq!(of.instabilities, report.instabilities);
         assert_eq!(of.operating, report.operating);
@@ -150,11 +148,12 @@ fn invalid_comparisons_are_refused() {
             vec!["compare", &path, "--variant", "blade.thickness_m=2N"],
             "a number in m",
         ),
+        (
+            vec!["compare", &path, "--variant", "blade.thickness_m=+5%"],
+            "give the new number itself, not its change in percent",
+        ),
     ] {
-        let output = run(&arguments, &folder);
-        assert_eq!(output.status.code(), Some(2));
-        let message = text(&output.stderr);
-        assert!(message.contains(words), "{message}");
+        assert_refused(&arguments, words, &folder);
         assert!(!out(&folder).exists());
     }
 }

@@ -8,17 +8,10 @@ use sawflutter::report::{CheckReport, FitReport, NeighbourEntry, PlaceReport};
 use sawflutter::scene::Scene;
 use tempfile::TempDir;
 
-use super::program::{names_in, out, run, text};
+use super::program::{assert_in_80_columns, assert_refused, names_in, out, run, text, written};
 
 fn read(folder: &TempDir, name: &str) -> String {
     std::fs::read_to_string(out(folder).join(name)).unwrap()
-}
-
-fn is_readable(summary: &str) {
-    for line in summary.lines() {
-        let whole = line.chars().count() <= 80 || line.starts_with("Written");
-        assert!(whole, "{line}");
-    }
 }
 
 fn scene() -> String {
@@ -51,8 +44,7 @@ fn a_check_draws_its_limits_where_it_is_asked_to() {
         ["check.json", "check.png", "check.svg"]
     );
     let printed: CheckReport = serde_json::from_str(text(&output.stdout)).unwrap();
-    let written: CheckReport = serde_json::from_str(&read(&folder, "check.json")).unwrap();
-    assert_eq!(printed, written);
+    assert_eq!(printed, written::<CheckReport>(&folder, "check.json"));
     let kept: Vec<_> = printed
         .criteria
         .iter()
@@ -69,7 +61,7 @@ fn a_check_draws_its_limits_where_it_is_asked_to() {
     assert!(read(&folder, "check.svg").contains("FAIL flutter speed of at least 2800 rpm"));
 }
 
-/// Numbers of the paper's Table 5, one of them left out.
+/// Numbers of the paper's Table 5, without one of them.
 const TABLE: &str = "rpm,f1,f2,f3,f4\n0,9,10.5,26,43\n500,4.5,15.5,28,\n1000,3,13.5,26.5,40.5\n";
 
 #[test]
@@ -94,14 +86,12 @@ fn a_table_is_fitted_and_the_scene_it_gives_can_be_used() {
     let expected = ["fit.json", "fit.png", "fit.svg", "fitted-scene.json"];
     assert_eq!(names_in(&out(&folder)), expected);
     let summary = text(&output.stdout);
-    is_readable(summary);
+    assert_in_80_columns(summary);
     assert!(
         summary.contains("Fitted to 11 frequencies (measured.csv)"),
         "{summary}"
     );
-    let json = read(&folder, "fit.json");
-    assert!(!json.contains("NaN"));
-    let report: FitReport = serde_json::from_str(&json).unwrap();
+    let report: FitReport = written(&folder, "fit.json");
     assert_eq!(
         (report.measured_frequencies, report.degrees_of_freedom),
         (11, 9)
@@ -144,10 +134,7 @@ fn a_table_that_cannot_be_fitted_is_refused_and_nothing_is_written() {
         let scene = scene();
         let mut arguments = vec!["fit", &scene, &measured, "--accuracy", "draft"];
         arguments.extend(more);
-        let output = run(&arguments, &folder);
-        assert_eq!(output.status.code(), Some(2), "{more:?}");
-        let error = text(&output.stderr);
-        assert!(error.contains(expected), "{more:?}: {error}");
+        assert_refused(&arguments, expected, &folder);
         assert_eq!(names_in(&out(&folder)), Vec::<String>::new(), "{more:?}");
     }
 }
@@ -176,9 +163,8 @@ fn a_place_is_found_and_written() {
     assert!(output.status.success(), "{}", text(&output.stderr));
     let expected = ["place.json", "place.png", "place.svg", "placed-scene.json"];
     assert_eq!(names_in(&out(&folder)), expected);
-    is_readable(text(&output.stdout));
-    let json = read(&folder, "place.json");
-    let report: PlaceReport = serde_json::from_str(&json).unwrap();
+    assert_in_80_columns(text(&output.stdout));
+    let report: PlaceReport = written(&folder, "place.json");
     let goal = |saw: &NeighbourEntry| saw.outcome.unwrap().goal_rpm;
     let worst = report.worst_neighbour.as_ref().unwrap();
     assert!(report.kept && goal(worst) >= goal(&report.worst_before));

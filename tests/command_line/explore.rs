@@ -215,8 +215,8 @@ fn bad_and_boundless_requests_are_refused() {
     }
 }
 
-/// A browser that closes its request cancels it: the computation delays no other request, and is counted as stopped
-/// when it ends.
+/// A browser that closes its request cancels the computation, which then delays no other request, and is counted as
+/// stopped when it ends.
 #[test]
 fn a_cancelled_request_is_stopped() {
     let server = Server::start();
@@ -259,8 +259,8 @@ fn an_interrupt_ends_the_program() {
     assert!(status.success(), "{status}");
 }
 
-/// The library alone words the error of a missing block: the page answers with this text and names its key, and the
-/// program prints them.
+/// The library alone words the error of a missing block: the page answers with its text and its key, and the program
+/// prints its text.
 #[test]
 fn page_and_program_word_a_missing_block_equally() {
     let saw = Scene::paper().edited(|saw| {
@@ -295,8 +295,8 @@ fn page_and_program_word_a_missing_block_equally() {
         let arguments = [&[command, path.to_str().unwrap()], options].concat();
         let output = run(&arguments, &folder);
         assert_eq!(output.status.code(), Some(2), "{command}");
-        let told = text(&output.stderr).replace('\n', " ");
-        assert!(told.contains(&expected.to_string()), "{command}: {told}");
+        let said = text(&output.stderr).replace('\n', " ");
+        assert!(said.contains(&expected.to_string()), "{command}: {said}");
     }
 }
 

@@ -18,7 +18,7 @@ use super::program::{self, program, text};
 
 const STAGED: &str = ".sawflutter-";
 
-/// A scene of this name that is computed in no time.
+/// A scene of this name that is computed in a fraction of a second.
 fn quick_scene(name: &str) -> SceneFile {
     SceneFile {
         name: name.to_owned(),
@@ -48,8 +48,8 @@ fn names_in(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Checks that every file is complete and, if there is a report, that all files exist and belong to it. Gives the name
-/// of the report's scene.
+/// Checks that every file is complete and, if there is a report, that all files exist and belong to it. Returns the
+/// name of the report's scene.
 fn assert_sound(out: &Path) -> Option<String> {
     let read = |name: &str| std::fs::read(out.join(name)).ok();
     if let Some(png) = read("campbell.png") {
@@ -139,7 +139,7 @@ fn a_disk_that_fills_up_leaves_the_old_files() {
     assert_eq!(std::fs::read_dir(&out).unwrap().count(), 4);
 }
 
-/// A disk that is really full, if the system lets a test mount one.
+/// The message for a full disk names the file. The test needs a system that lets it mount a small disk.
 #[test]
 fn a_full_disk_is_an_error_that_names_the_file() {
     let folder = TempDir::new().unwrap();

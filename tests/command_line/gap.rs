@@ -7,7 +7,7 @@ use sawflutter::report::GapReport;
 use sawflutter::scene::{Accuracy, ContactLaw, Scene};
 use tempfile::TempDir;
 
-use super::program::{names_in, out, run, text};
+use super::program::{assert_in_80_columns, assert_refused, names_in, out, run, text, written};
 
 fn saw(folder: &TempDir) -> String {
     let scene = Scene::paper().edited(|file| {
@@ -53,15 +53,8 @@ fn text_files_and_json_agree() {
     ];
     assert_eq!(names_in(&out(&folder)), names);
     let summary = text(&output.stdout);
-    for line in summary.lines() {
-        assert!(
-            line.chars().count() <= 80 || line.starts_with("Written"),
-            "{line}"
-        );
-    }
-    let json = std::fs::read(folder.path().join("out/gap.json")).unwrap();
-    assert!(!text(&json).contains("NaN"));
-    let report: GapReport = serde_json::from_slice(&json).unwrap();
+    assert_in_80_columns(summary);
+    let report: GapReport = written(&folder, "gap.json");
     assert!(
         summary.contains(&format!("{:.1}", report.free.critical_rpm[0])),
         "{summary}"
@@ -137,13 +130,7 @@ fn a_saw_without_a_gap_and_invalid_numbers_are_refused() {
             "--oscillating-force-n",
         ),
     ] {
-        let output = run(words, &folder);
-        assert_eq!(output.status.code(), Some(2), "{words:?}");
-        assert!(
-            text(&output.stderr).contains(said),
-            "{}",
-            text(&output.stderr)
-        );
+        assert_refused(words, said, &folder);
     }
     assert!(!out(&folder).exists());
 }

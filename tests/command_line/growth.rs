@@ -7,10 +7,10 @@ use sawflutter::scene::{CutSpeedFile, Scene, SceneFile};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::program::{run, text, write_scene};
-use crate::pressed::{assert_in_80_columns, assert_unstable, done, pressed};
+use super::program::{assert_in_80_columns, assert_refused, run, text, write_scene};
+use crate::pressed::{assert_unstable, done, pressed};
 
-/// The saw with two pads in the paper's cut, whose moving tooth loads alone may grow.
+/// The saw with two pads in the paper's cut, where vibration may grow under moving tooth loads alone.
 fn two_pads() -> SceneFile {
     let mut file = crate::common::scene("two-pads").file().clone();
     let mut cut = Scene::paper().file().cut.clone().unwrap();
@@ -168,13 +168,8 @@ fn item_12_a_run_up_under_too_large_a_force_is_refused() {
     let mut file = Scene::paper().file().clone();
     file.runup.as_mut().unwrap().force_n = 1e6;
     let scene = write_scene(&folder, &file);
-    let output = run(
-        &["runup", scene.to_str().unwrap(), "--accuracy", "draft"],
-        &folder,
-    );
-    assert_eq!(output.status.code(), Some(2));
-    let error = text(&output.stderr);
-    assert!(error.contains("runup.force_n is 1000000"), "{error}");
+    let arguments = ["runup", scene.to_str().unwrap(), "--accuracy", "draft"];
+    assert_refused(&arguments, "runup.force_n is 1000000", &folder);
 }
 
 /// The block that a refusal prints, between its first and its last brace.

@@ -8,7 +8,9 @@ use sawflutter::report::Report;
 use sawflutter::scene::{Accuracy, SceneFile};
 use tempfile::TempDir;
 
-use super::program::{names_in, out, quick_scene, run, sawflutter, text, write_scene};
+use super::program::{
+    assert_in_80_columns, names_in, out, quick_scene, run, sawflutter, text, write_scene, written,
+};
 
 fn json(file: &SceneFile) -> String {
     serde_json::to_string_pretty(file).unwrap()
@@ -126,7 +128,7 @@ fn json_that_is_none_is_refused_by_cause_and_remedy() {
 
 /// An error names its cause once, and not `cannot read x: No such file: No such file`.
 #[test]
-fn a_cause_is_told_once() {
+fn a_cause_is_named_once() {
     let folder = TempDir::new().unwrap();
     let missing = folder.path().join("missing.json");
     let message = refusal(&run(&["analyze", missing.to_str().unwrap()], &folder));
@@ -242,12 +244,7 @@ fn several_scenes_make_a_folder_each_and_a_table() {
         assert_eq!(row["verdict"], "stable");
     }
     let table = run(&[paths[0], paths[1]], &folder);
-    for line in text(&table.stdout).lines() {
-        assert!(
-            line.chars().count() <= 80 || line.starts_with("Written to"),
-            "{line}"
-        );
-    }
+    assert_in_80_columns(text(&table.stdout));
     assert!(text(&table.stdout).contains("thin-2"));
 }
 
@@ -323,7 +320,7 @@ fn control_characters_are_not_sent_to_the_terminal() {
     }
 }
 
-/// Item 13: files of an earlier run of the command belong to another saw and are removed.
+/// Item 13: files of an earlier run of the command are removed, because they belong to another saw.
 #[test]
 fn item_13_files_of_another_saw_do_not_stay() {
     let folder = TempDir::new().unwrap();
@@ -362,7 +359,7 @@ fn item_13_files_of_another_saw_do_not_stay() {
     }
 }
 
-/// Item 14: the program warns of its own saw in other units.
+/// Item 14: a density in g/cm³ gives a warning with the number that was meant.
 #[test]
 fn item_14_numbers_in_other_units_are_warned_of() {
     let folder = TempDir::new().unwrap();
@@ -383,20 +380,19 @@ fn item_14_numbers_in_other_units_are_warned_of() {
     assert!(output.status.success(), "{}", text(&output.stderr));
     // The summary breaks its lines at blanks.
     let words = text(&output.stdout).replace("\n  ", " ");
-    let written = std::fs::read(out(&folder).join("report.json")).unwrap();
-    let report: Report = serde_json::from_slice(&written).unwrap();
+    let report: Report = written(&folder, "report.json");
     let expected = "are these g/cm³? That would be 7800 kg/m³";
-    let [told] = &report.unusual_numbers[..] else {
+    let [warning] = &report.unusual_numbers[..] else {
         panic!("{:?}", report.unusual_numbers);
     };
-    assert!(told.contains(expected), "{told}");
+    assert!(warning.contains(expected), "{warning}");
     // The warning comes before the verdict.
     let place = |part: &str| {
         words
             .find(part)
             .unwrap_or_else(|| panic!("{part} in {words}"))
     };
-    assert!(place(told) < place("No instability from"), "{words}");
+    assert!(place(warning) < place("No instability from"), "{words}");
 }
 
 /// A check fails for a number that no saw has, in the scene or in the options, unless the number is accepted.
@@ -440,8 +436,8 @@ fn a_check_with_a_number_of_another_unit_fails() {
     assert_eq!(code, Some(0), "{words}");
 }
 
-/// Item 15: keys are in the order of their declaration, as in the program that the tests are built with. The test fails
-/// for a program whose dependencies have other features.
+/// Item 15: the program under test prints keys in the order of their declaration, as the library that the tests are
+/// built with does. The test fails for a program whose dependencies have other features.
 #[test]
 fn item_15_the_shipped_program_orders_keys_as_the_tested_one() {
     let output = sawflutter().arg("schema").output().unwrap();

@@ -1,4 +1,4 @@
-//! Goal: a map holds what each of its saws is alone; a run that was stopped continues.
+//! Goal: a map has the results that each of its saws has alone; a run that was stopped continues.
 //!
 //! Independent values: `analyze` of the scene with the numbers typed in; the critical speed of a blade without guides is
 //! proportional to its thickness.
@@ -9,7 +9,9 @@ use sawflutter::scene::{Accuracy, Scene, SweepFile, rad_per_s};
 use sawflutter::stability::Analysis;
 use tempfile::TempDir;
 
-use super::program::{names_in, out, run, text, write_scene};
+use super::program::{
+    assert_in_80_columns, assert_refused, names_in, out, run, text, write_scene, written,
+};
 
 fn saw(folder: &TempDir) -> String {
     let mut file = Scene::paper().file().clone();
@@ -17,12 +19,6 @@ fn saw(folder: &TempDir) -> String {
     file.operating_rpm = Some(2260.0);
     let path = write_scene(folder, &file);
     path.to_str().unwrap().to_owned()
-}
-
-fn written(folder: &TempDir) -> MapReport {
-    let json = std::fs::read(out(folder).join("map.json")).unwrap();
-    assert!(!text(&json).contains("NaN"));
-    serde_json::from_slice(&json).unwrap()
 }
 
 #[test]
@@ -42,13 +38,8 @@ fn a_map_over_the_speed_holds_what_each_saw_is_alone() {
     let names = names_in(&out(&folder));
     assert_eq!(names, ["map.json", "map.png", "map.svg", "study.log"]);
     let summary = text(&output.stdout).to_owned();
-    for line in summary.lines() {
-        assert!(
-            line.chars().count() <= 80 || line.starts_with("Written"),
-            "{line}"
-        );
-    }
-    let map = written(&folder);
+    assert_in_80_columns(&summary);
+    let map: MapReport = written(&folder, "map.json");
     assert_eq!(map.x.values, [0.0026, 0.0028, 0.003]);
     let alone = TempDir::new().unwrap();
     for (thickness, saw) in ["2.6mm", "2.8mm", "3mm"].iter().zip(&map.saws) {
@@ -58,8 +49,7 @@ fn a_map_over_the_speed_holds_what_each_saw_is_alone() {
                 .status
                 .success()
         );
-        let report = std::fs::read(out(&alone).join("report.json")).unwrap();
-        let report: Report = serde_json::from_slice(&report).unwrap();
+        let report: Report = written(&alone, "report.json");
         let near = |a: f64, b: f64| (a / b - 1.0).abs() < 2e-3;
         let critical = saw.lowest_critical_rpm.unwrap();
         assert!(near(critical, report.critical_speeds[0].rpm));
@@ -93,7 +83,7 @@ fn a_map_over_the_speed_holds_what_each_saw_is_alone() {
         "{summary}"
     );
 
-    // The same line again reads the log, and gives the same bytes; a log that was cut off is completed.
+    // A second run of this line completes a log that was cut off, and writes the same bytes.
     let first = std::fs::read(out(&folder).join("map.json")).unwrap();
     let log = out(&folder).join("study.log");
     let whole = std::fs::read_to_string(&log).unwrap();
@@ -132,7 +122,7 @@ fn parts_of_a_map_are_put_together_over_two_numbers() {
     }
     let output = run(&line(&["--report", page.to_str().unwrap()]), &folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    let map = written(&folder);
+    let map: MapReport = written(&folder, "map.json");
     assert_eq!(map.saws.len(), 9);
     let rows: Vec<f64> = map.rows().map(|row| row[0].y.unwrap()).collect();
     assert_eq!(rows, [0.6, 0.66, 0.72]);
@@ -185,10 +175,7 @@ fn numbers_that_are_none_and_ranges_without_ends_are_refused() {
             "--rpm is -1",
         ),
     ] {
-        let output = run(&[&["map"][..], words].concat(), &folder);
-        assert_eq!(output.status.code(), Some(2), "{words:?}");
-        let message = text(&output.stderr);
-        assert!(message.contains(said), "{message}");
+        assert_refused(&[&["map"][..], words].concat(), said, &folder);
         assert!(!out(&folder).exists());
     }
 }

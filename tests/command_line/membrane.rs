@@ -3,7 +3,7 @@
 
 use sawflutter::report::{Report, RunUpReport};
 
-use super::program::{sawflutter, text};
+use super::program::{assert_in_80_columns, sawflutter, text};
 
 fn analyze(
     scene: &serde_json::Value,
@@ -48,13 +48,7 @@ fn heat_and_tension_reach_the_report_the_summary_and_a_picture() {
     ] {
         assert!(printed.contains(words), "{words}: {printed}");
     }
-    // The line of the files may have any length.
-    let report_lines = printed
-        .lines()
-        .take_while(|line| !line.starts_with("Written"));
-    for line in report_lines {
-        assert!(line.chars().count() <= 80, "{line}");
-    }
+    assert_in_80_columns(&printed);
     let out = folder.path().join("out");
     let report = std::fs::read_to_string(out.join("report.json")).unwrap();
     let report: Report = serde_json::from_str(&report).unwrap();
@@ -73,7 +67,7 @@ fn heat_and_tension_reach_the_report_the_summary_and_a_picture() {
     assert!(out.join("membrane.png").exists() && out.join("membrane.svg").exists());
 }
 
-/// The notes of the scene state this.
+/// The notes of the scene state that the hot saw needs its roll tension.
 #[test]
 fn without_its_tension_the_hot_saw_is_past_its_critical_speed() {
     let mut scene = tensioned();
@@ -135,10 +129,7 @@ fn a_light_gap_reaches_report_and_summary_and_gives_back_its_strain() {
     ] {
         assert!(printed.contains(words), "{words}: {printed}");
     }
-    let lines = printed.lines();
-    for line in lines.take_while(|line| !line.starts_with("Written")) {
-        assert!(line.chars().count() <= 80, "{line}");
-    }
+    assert_in_80_columns(&printed);
     let report = std::fs::read_to_string(folder.path().join("out/report.json")).unwrap();
     let report: Report = serde_json::from_str(&report).unwrap();
     let measured = report.membrane.unwrap().straight_edge.unwrap().measured;
@@ -227,7 +218,7 @@ fn refusals_name_key_value_and_remedy() {
     }
 }
 
-/// On a blade with free edges the hoop stress is in balance; otherwise the measurement is wrong.
+/// The hoop stress of a blade with free edges is in balance, so that a table out of balance is measured wrongly.
 #[test]
 fn a_table_out_of_balance_is_refused_with_the_number() {
     let text_of = std::fs::read_to_string(crate::common::path("scenes/free-blade.json")).unwrap();
@@ -236,7 +227,7 @@ fn a_table_out_of_balance_is_refused_with_the_number() {
         { "radius_m": 0.1, "hoop_pa": -10e6 }, { "radius_m": 0.355, "hoop_pa": 20e6 }] });
     let (_folder, assert) = analyze(&scene, &[]);
     let message = text(&assert.code(2).get_output().stderr).to_owned();
-    // Imbalance (20 − 10)/2 over (10²/30 + 20²/30)/2: 5 of 8.33.
+    // The imbalance is (20 − 10)/2 = 5, the integral of the absolute value (10²/30 + 20²/30)/2 = 8.33.
     assert!(message.contains("60.0 % of ∫|hoop_pa| dr"), "{message}");
     scene["membrane"]["residual_stress"][1]["hoop_pa"] = 10.2e6.into();
     let (_folder, assert) = analyze(&scene, &[]);

@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use assert_cmd::Command;
 use sawflutter::scene::{Accuracy, SceneFile};
+use serde::de::DeserializeOwned;
 use tempfile::TempDir;
 
 #[path = "../common/program.rs"]
@@ -33,6 +34,31 @@ pub fn out(folder: &TempDir) -> PathBuf {
     folder.path().join("out")
 }
 
+/// The report in a file of the output folder. Programs in other languages read it too, so that it must not contain NaN.
+#[track_caller]
+pub fn written<T: DeserializeOwned>(folder: &TempDir, name: &str) -> T {
+    let json = std::fs::read_to_string(out(folder).join(name)).unwrap();
+    assert!(!json.contains("NaN"), "{json}");
+    serde_json::from_str(&json).unwrap()
+}
+
+/// Runs the program with arguments that must be refused by a message that contains the words, with exit code 2.
+#[track_caller]
+pub fn assert_refused(arguments: &[&str], words: &str, folder: &TempDir) {
+    let output = run(arguments, folder);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
+    assert!(message.contains(words), "{arguments:?}: {message}");
+}
+
+/// Fails if a line does not fit a terminal. The line of the written files names a folder and may have any length.
+#[track_caller]
+pub fn assert_in_80_columns(summary: &str) {
+    for line in summary.lines().filter(|line| !line.starts_with("Written")) {
+        assert!(line.chars().count() <= 80, "{line}");
+    }
+}
+
 /// Names in a folder, ascending; empty if the folder does not exist.
 pub fn names_in(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten();
@@ -47,7 +73,7 @@ pub fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).unwrap()
 }
 
-/// A scene that is computed in no time: the blade without guides, at draft accuracy.
+/// A scene that is computed in a fraction of a second: the blade without guides, at draft accuracy.
 pub fn quick_scene() -> SceneFile {
     let mut file = crate::common::scene("free-blade").file().clone();
     file.accuracy = Accuracy::Draft;

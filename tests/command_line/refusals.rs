@@ -42,7 +42,7 @@ fn refused_text(text: &[u8]) -> String {
     refused(&scene)
 }
 
-/// The paper's scene with one line exchanged for another.
+/// The paper's scene with one text replaced by another.
 fn paper_with(line: &str, instead: &str) -> String {
     let text = std::fs::read_to_string(crate::common::path("scenes/paper.json")).unwrap();
     assert_eq!(text.matches(line).count(), 1, "{line}");
@@ -128,7 +128,7 @@ fn bad_values_are_refused_by_the_path_of_their_key() {
     }
 }
 
-/// A pad inside the bore, which does not touch the blade.
+/// The message for a pad inside the bore, which does not touch the blade, names the radii of the blade.
 #[test]
 fn a_pad_off_the_blade_is_refused_with_the_radii_of_the_blade() {
     let mut file = Scene::paper().file().clone();

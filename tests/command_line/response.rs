@@ -6,7 +6,10 @@ use sawflutter::report::{CheckReport, ResponseReport};
 use sawflutter::scene::{Accuracy, ProbeFile, ResponseFile, Scene};
 use tempfile::TempDir;
 
-use super::program::{names_in, out, run, sawflutter, text, write_scene};
+use super::program::{
+    assert_in_80_columns, assert_refused, names_in, out, run, sawflutter, text, write_scene,
+    written,
+};
 
 fn saw(folder: &TempDir) -> String {
     let mut file = Scene::paper().file().clone();
@@ -36,15 +39,8 @@ fn the_deflection_at_rest_is_the_force_over_the_stiffness_of_the_rim() {
     let own = ["response.json", "response.png", "response.svg"];
     assert_eq!(names, [&pictures[..], &own].concat());
     let summary = text(&output.stdout);
-    for line in summary.lines() {
-        assert!(
-            line.chars().count() <= 80 || line.starts_with("Written"),
-            "{line}"
-        );
-    }
-    let json = std::fs::read(out(&folder).join("response.json")).unwrap();
-    assert!(!text(&json).contains("NaN"));
-    let report: ResponseReport = serde_json::from_slice(&json).unwrap();
+    assert_in_80_columns(summary);
+    let report: ResponseReport = written(&folder, "response.json");
     let check = sawflutter()
         .args(["check", &path, "--json"])
         .output()
@@ -90,18 +86,11 @@ fn causes_are_set_by_their_keys_and_refused_by_them() {
         ("response.runout_m=0.1mm", "tilts freely"),
         ("response.radius_m=2", "response.radius_m is 2"),
     ] {
-        let output = run(&["response", &path, "--set", set], &folder);
-        assert_eq!(output.status.code(), Some(2), "{set}");
-        assert!(
-            text(&output.stderr).contains(said),
-            "{}",
-            text(&output.stderr)
-        );
+        assert_refused(&["response", &path, "--set", set], said, &folder);
     }
     // Beyond the sweep the saw was not analysed.
-    let output = run(&["response", &path, "--rpm", "9000"], &folder);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).contains("--rpm is 9000"));
-    let output = run(&["response", &path, "--to-hz", "0"], &folder);
-    assert!(text(&output.stderr).contains("--to-hz is 0"));
+    let fast = ["response", &path, "--rpm", "9000"];
+    assert_refused(&fast, "--rpm is 9000", &folder);
+    let still = ["response", &path, "--to-hz", "0"];
+    assert_refused(&still, "--to-hz is 0", &folder);
 }

@@ -1,4 +1,4 @@
-//! Goal: a study gives the same bytes whether it is computed at once, in parts, stopped and continued, on one thread or
+//! Goal: a study gives the same bytes whether it is computed at once, in parts, or in several runs, on one thread or on
 //! two, and no saw is computed twice or lost.
 
 use std::collections::BTreeSet;
@@ -13,7 +13,7 @@ use tempfile::TempDir;
 use super::program::{PATIENCE, program, text};
 use crate::common::limit::Limit;
 
-/// Every file of a result, without the log.
+/// Files of a result, without the log.
 const RESULT: [&str; 5] = [
     "study.csv",
     "study.json",
@@ -33,7 +33,7 @@ struct Bench {
 }
 
 impl Bench {
-    /// Free blades of random thickness and material, some of which are impossible.
+    /// Free blades of random thickness and Poisson's ratio, some of which are refused.
     fn new() -> Self {
         let folder = TempDir::new().unwrap();
         let mut file = crate::common::scene("free-blade").file().clone();

@@ -6,7 +6,9 @@ use sawflutter::report::{CheckReport, Report, StabilityState};
 use sawflutter::scene::{Accuracy, Scene};
 use tempfile::TempDir;
 
-use super::program::{out, run, sawflutter, text, write_scene};
+use super::program::{
+    assert_in_80_columns, assert_refused, run, sawflutter, text, write_scene, written,
+};
 
 /// The paper's saw with a damped pad, and its modes at 1800 rpm: (text, report).
 static DAMPED_PAD: LazyLock<(String, Report)> = LazyLock::new(|| {
@@ -18,18 +20,13 @@ static DAMPED_PAD: LazyLock<(String, Report)> = LazyLock::new(|| {
     let arguments = ["analyze", scene.to_str().unwrap(), "--at-rpm", "1800"];
     let output = run(&arguments, &folder);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let report = std::fs::read(out(&folder).join("report.json")).unwrap();
-    (
-        text(&output.stdout).to_owned(),
-        serde_json::from_slice(&report).unwrap(),
-    )
+    let report = written(&folder, "report.json");
+    (text(&output.stdout).to_owned(), report)
 });
 
 fn fits(text: &str) {
-    for line in text.lines().filter(|line| !line.starts_with("Written to")) {
-        assert!(line.chars().count() <= 80, "{line}");
-        assert!(!line.contains('\u{1b}'), "no colour in a pipe: {line}");
-    }
+    assert_in_80_columns(text);
+    assert!(!text.contains('\u{1b}'), "no colour in a pipe: {text}");
 }
 
 /// A damped pad feeds a wave by 1.5e-5 1/s at 1800 rpm: text, JSON and `check` call the saw stable, because flutter
@@ -92,20 +89,17 @@ fn the_modes_of_one_speed_are_listed_when_asked_for() {
         assert!((mode.damping_ratio.unwrap() + mode.growth_per_s / size).abs() < 1e-12);
     }
     let folder = TempDir::new().unwrap();
-    let refused = run(
-        &["analyze", "--accuracy", "draft", "--at-rpm", "9000"],
-        &folder,
-    );
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(text_of(&refused.stderr).contains("--at-rpm is 9000, but must be from 0 to 3000"));
+    let beyond = ["analyze", "--accuracy", "draft", "--at-rpm", "9000"];
+    let words = "--at-rpm is 9000, but must be from 0 to 3000";
+    assert_refused(&beyond, words, &folder);
 }
 
 fn text_of(bytes: &[u8]) -> String {
     text(bytes).to_owned()
 }
 
-/// Above the first critical speed the stiffness against a stationary force has no meaning: 22.8 N/mm at 1800 rpm, −37.8
-/// and 189 N/mm at other speeds are not printed.
+/// Above the first critical speed the stiffness against a stationary force has no meaning, and is not printed. It would
+/// be 22.8 N/mm at 1800 rpm, and −37.8 and 189 N/mm at other speeds.
 #[test]
 fn rim_stiffness_past_the_first_critical_speed_is_left_out() {
     let check = |rpm: &str, json: bool| {
@@ -170,8 +164,7 @@ fn the_flutter_speed_has_the_error_of_its_band() {
     let folder = TempDir::new().unwrap();
     let scene = write_scene(&folder, Scene::paper().file());
     let output = run(&["analyze", scene.to_str().unwrap()], &folder);
-    let report = std::fs::read(out(&folder).join("report.json")).unwrap();
-    let report: Report = serde_json::from_slice(&report).unwrap();
+    let report: Report = written(&folder, "report.json");
     let rpm = report.flutter_speed_rpm.unwrap();
     let band = report.instabilities.iter().find(|b| b.from_rpm == rpm);
     let share = band.unwrap().estimated_relative_error.unwrap();
@@ -203,8 +196,8 @@ fn a_saw_at_a_critical_speed_is_reported() {
         let report = at(speed);
         let (text, operating) = (report.summary(), report.operating.unwrap());
         assert_eq!(operating.verdict, StabilityState::Stable);
-        let told = operating.at_critical_rpm.unwrap();
-        assert!((told / critical - 1.0).abs() < 1e-9, "{told}");
+        let reported = operating.at_critical_rpm.unwrap();
+        assert!((reported / critical - 1.0).abs() < 1e-9, "{reported}");
         assert_eq!(operating.safe_window_rpm, None);
         assert!(text.contains("STABLE, but AT A CRITICAL SPEED"), "{text}");
         assert!(

@@ -6,7 +6,7 @@ use sawflutter::report::{Verdict, WashboardReport};
 use sawflutter::scene::{Accuracy, DampingFile, Mount, Scene, SceneFile, WashboardingFile};
 use tempfile::TempDir;
 
-use super::program::{names_in, out, run, text, write_scene};
+use super::program::{assert_in_80_columns, names_in, out, run, text, write_scene, written};
 
 fn resaw(change: impl FnOnce(&mut SceneFile)) -> SceneFile {
     let scene = include_str!("../../scenes/gallery/washboarding.json");
@@ -33,12 +33,8 @@ fn the_verdict_comes_first_and_is_that_of_the_report() {
     let summary = text(&output.stdout);
     let second = summary.lines().nth(1).unwrap();
     assert!(second.starts_with("2400 rpm: UNSTABLE"), "{summary}");
-    assert!(
-        summary.lines().all(|line| line.chars().count() <= 80),
-        "{summary}"
-    );
-    let json = std::fs::read(folder.path().join("out/washboard.json")).unwrap();
-    let report: WashboardReport = serde_json::from_slice(&json).unwrap();
+    assert_in_80_columns(summary);
+    let report: WashboardReport = written(&folder, "washboard.json");
     assert_eq!(report.verdict, Verdict::Unstable);
     let mode = report.growing_mode().unwrap();
     assert!(
@@ -146,7 +142,7 @@ fn a_missing_key_of_washboarding_is_named() {
     }
 }
 
-/// The speed is given as 2.4 instead of 2400.
+/// The speed is given as 24 rpm instead of 2400 rpm.
 #[test]
 fn a_speed_in_another_unit_is_warned_of() {
     let folder = TempDir::new().unwrap();
@@ -161,7 +157,7 @@ fn a_speed_in_another_unit_is_warned_of() {
     let output = run(&arguments, &folder);
     let report: WashboardReport = serde_json::from_slice(&output.stdout)
         .unwrap_or_else(|_| panic!("{}", text(&output.stderr)));
-    let told = |w: &String| w.contains("the speed of the cut is 24 rpm");
+    let is_said = |w: &String| w.contains("the speed of the cut is 24 rpm");
     let unusual = &report.unusual_numbers;
-    assert!(unusual.iter().any(told), "{unusual:?}");
+    assert!(unusual.iter().any(is_said), "{unusual:?}");
 }

@@ -5,7 +5,7 @@ use sawflutter::report::{CutCriterion, CutReport, CutVerdict};
 use sawflutter::scene::{CutSpeedFile, Scene, SceneFile};
 use tempfile::TempDir;
 
-use crate::program::{run, text, write_scene};
+use crate::program::{assert_in_80_columns, run, text, write_scene};
 
 /// The printed text and the written file of a run.
 pub fn done(command: &str, file: &SceneFile) -> (String, Vec<u8>) {
@@ -21,12 +21,6 @@ pub fn done(command: &str, file: &SceneFile) -> (String, Vec<u8>) {
     assert!(output.status.success(), "{}", text(&output.stderr));
     let json = std::fs::read(folder.path().join(format!("out/{command}.json"))).unwrap();
     (text(&output.stdout).to_owned(), json)
-}
-
-pub fn assert_in_80_columns(summary: &str) {
-    for line in summary.lines().filter(|line| !line.starts_with("Written")) {
-        assert!(line.chars().count() <= 80, "{line}");
-    }
 }
 
 /// The paper's saw under a force at 2800 rpm.
