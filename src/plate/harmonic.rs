@@ -23,7 +23,7 @@ pub struct HarmonicBlock {
     pub membrane: Option<DMatrix<f64>>,
     /// C_i, in 1/s: material damping, which turns with the blade.
     pub material_damping: Option<DMatrix<f64>>,
-    /// ∫ RR r dr if it is not the identity: area relative to mass, for the damping of the air.
+    /// ∫ RR r dr, for the damping of the air; `None` if it is the identity.
     pub area: Option<DMatrix<f64>>,
 }
 
@@ -87,8 +87,8 @@ impl HarmonicBlock {
         block
     }
 
-    /// K(Ω) in the body frame, where the undamped free blade
-    /// is a symmetric problem: (K_b + K_m + Ω²K_σ) x = ω² x, K_σ = (K_σ − N) + n².
+    /// Stiffness K_b + K_m + Ω²K_σ in the body frame, in 1/s²: its eigenvalues are ω² of the undamped free
+    /// blade. K_σ = (K_σ − N) + n².
     pub fn body_frame_stiffness(&self, speed_rad_per_s: f64) -> Mat<f64> {
         let n2 = (self.diameters * self.diameters) as f64;
         let speed2 = speed_rad_per_s.powi(2);
@@ -99,9 +99,9 @@ impl HarmonicBlock {
         })
     }
 
-    /// Adds material damping: η K_b of a retardation time, and 2ζ(K_b + K_m)^½ of a damping ratio ζ, with which every mode of n
-    /// nodal diameters of the blade at rest without guides has this ratio at its own frequency.
-    pub(crate) fn add_material_damping(&mut self, retardation_s: f64, ratio: f64) {
+    /// Sets the material damping η K_b + 2ζ(K_b + K_m)^½ of a retardation time η and a damping ratio ζ. By the
+    /// second term every mode of n nodal diameters of the blade at rest without guides has the ratio ζ.
+    pub(crate) fn set_material_damping(&mut self, retardation_s: f64, ratio: f64) {
         let mut damping = retardation_s * &self.bending;
         if ratio > 0.0 {
             let stiffness = match &self.membrane {
@@ -109,7 +109,7 @@ impl HarmonicBlock {
                 None => self.bending.clone(),
             };
             let eigen = stiffness.symmetric_eigen();
-            // A buckled shape does not oscillate, so that it has no damping ratio.
+            // A buckled shape has a negative eigenvalue and does not oscillate, so that it has no damping ratio.
             let twice = eigen
                 .eigenvalues
                 .map(|value| 2.0 * ratio * value.max(0.0).sqrt());
@@ -119,9 +119,9 @@ impl HarmonicBlock {
         self.material_damping = Some(damping);
     }
 
-    /// Heave and tilt do not bend the blade, and its rotation does not stiffen them: K_b and K_σ − N vanish
-    /// on them exactly. Rounding would leave 1e-16 of neighbouring entries, whose root is a spurious slow
-    /// motion of 1e-8.
+    /// Sets K_b and K_σ − N to zero on heave and tilt, on which they vanish exactly, because neither bends the
+    /// blade and rotation does not stiffen them. Rounding would leave 1e-16 of neighbouring entries, whose root
+    /// is a spurious slow motion of 1e-8.
     fn free_rigid_motion(&mut self, basis: &RadialBasis) {
         if basis.has_rigid_motions() && self.diameters <= 1 {
             self.bending.column_mut(0).fill(0.0);
@@ -135,13 +135,13 @@ mod tests {
     use super::*;
     use crate::scene::{Scene, ThicknessRow};
 
-    /// Before exact zeros are inserted, quadrature alone gives zeros to rounding.
+    /// K_σ − N vanishes on the tilt to rounding by quadrature alone, before exact zeros are set.
     #[test]
-    fn rigid_motions_cost_nothing() {
+    fn rotation_does_not_stiffen_the_tilt() {
         let blade = *Scene::paper().blade();
         let basis = RadialBasis::new(&blade, 8);
         let stress = CentrifugalStress::new(&blade);
-        for (j, _) in [(0, ()), (3, ())] {
+        for j in [0, 3] {
             let (mut tension, mut inertia) = (0.0, 0.0);
             for (r, w) in basis.rule().iter() {
                 let f = basis.evaluate(1, r);
@@ -162,7 +162,7 @@ mod tests {
     /// equilibrium, ∫ hσ_xx dy = ρΩ² ∫ h y² dy, where N has (∂θw)² = y² f′². The tilt is the simplest case;
     /// here all powers up to the sixth are tested, which contain the harmonics n = p, p − 2, ….
     #[test]
-    fn what_bends_about_a_chord_is_neither_stiffened_nor_softened() {
+    fn rotation_neither_stiffens_nor_softens_bending_about_a_chord() {
         let row = |radius_m, thickness_m| ThicknessRow {
             radius_m,
             thickness_m,

@@ -19,13 +19,13 @@ use crate::scene::{Blade, Material};
 
 use super::quadrature;
 
-/// Load on the blade in its plane, without the factor cos mθ of the harmonic (sin mθ along the rim).
+/// Load of harmonic m on the blade in its plane: amplitudes of cos mθ, and of sin mθ for the shear stress.
 pub struct InPlaneLoad<'a> {
     /// Radial force per volume, in N/m³.
     pub body_n_per_m3: &'a dyn Fn(f64) -> f64,
     /// Eigenstrain, isotropic in the plane.
     pub eigenstrain: &'a dyn Fn(f64) -> f64,
-    /// Radii of circles with an outward force per radian, in N.
+    /// Radius of each loaded circle, in m, with its outward force per radian, in N.
     pub circle_n: &'a [(f64, f64)],
     /// σ_rr and σ_rθ at the rim.
     pub rim_pa: [f64; 2],
@@ -33,8 +33,8 @@ pub struct InPlaneLoad<'a> {
     pub bore_pa: [f64; 2],
     /// Radii at which the load is not smooth.
     pub knots_m: &'a [f64],
-    /// Whether the bore has zero displacement.
-    pub bore_is_held: bool,
+    /// Whether the bore has no radial displacement.
+    pub bore_is_fixed: bool,
 }
 
 impl Default for InPlaneLoad<'_> {
@@ -46,7 +46,7 @@ impl Default for InPlaneLoad<'_> {
             rim_pa: [0.0; 2],
             bore_pa: [0.0; 2],
             knots_m: &[],
-            bore_is_held: false,
+            bore_is_fixed: false,
         }
     }
 }
@@ -55,19 +55,19 @@ impl Default for InPlaneLoad<'_> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct InPlaneField {
     elements: Elements,
-    /// u, u′, v, v′ at the nodes of each element.
+    /// Displacements and slopes u, u′, v, v′ at the nodes of each element.
     nodes: Vec<[[f64; DEGREE + 1]; 4]>,
     material: Material,
 }
 
-/// Factors of cos mθ, cos mθ and sin mθ.
+/// Amplitudes of the stresses of harmonic m at one radius.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct InPlaneStress {
-    /// Radial stress σ_rr.
+    /// Radial stress σ_rr, the factor of cos mθ.
     pub radial_pa: f64,
-    /// Hoop stress σ_θθ.
+    /// Hoop stress σ_θθ, the factor of cos mθ.
     pub hoop_pa: f64,
-    /// Shear stress σ_rθ.
+    /// Shear stress σ_rθ, the factor of sin mθ.
     pub shear_pa: f64,
 }
 
@@ -92,9 +92,9 @@ impl InPlaneField {
         for &(radius, force) in load.circle_n {
             right[components * elements.node_at_edge(radius)] += force;
         }
-        // A translation causes no strain, so one node is fixed; it carries no force if the loads balance.
-        if order == 1 || load.bore_is_held {
-            stiffness.hold(0);
+        // A translation causes no strain, so one node is fixed. Its reaction is zero if the loads balance.
+        if order == 1 || load.bore_is_fixed {
+            stiffness.fix(0);
             right[0] = 0.0;
         }
         stiffness.factored().solve(&mut right, 1);
@@ -105,8 +105,8 @@ impl InPlaneField {
         }
     }
 
-    /// Stress at a radius, where `eigenstrain` is the inelastic part of the strain; at a jump, that of the
-    /// inner side.
+    /// Stress at a radius, where `eigenstrain` is the inelastic part of the strain. Where the stress jumps, its
+    /// value on the inner side is returned.
     pub fn at(&self, radius_m: f64, eigenstrain: f64) -> InPlaneStress {
         let element = self.elements.at(radius_m);
         let values = self.elements.values(element, radius_m);
@@ -127,7 +127,7 @@ impl InPlaneField {
     }
 }
 
-/// u, u′, v, v′ at the nodes of each element.
+/// Displacements and slopes u, u′, v, v′ at the nodes of each element.
 fn at_nodes(
     elements: &Elements,
     solution: &[f64],
@@ -147,7 +147,7 @@ fn at_nodes(
         .collect()
 }
 
-/// Adds an element to the stiffness and to the right side.
+/// Adds the stiffness of an element, and the forces of the load on it, to the system of equations.
 fn assemble(
     blade: &Blade,
     load: &InPlaneLoad<'_>,

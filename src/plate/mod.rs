@@ -1,13 +1,13 @@
-//! The model of the spinning plate; each file builds one named matrix.
+//! Matrices of the spinning plate and of its contacts and loads.
 //!
 //! A [`Scene`] and a [`Resolution`], the size of the basis, give a [`Plate`], the matrices of the scene in
 //! this basis. This module solves no eigenvalue problem.
 //!
-//! Deflection w(r, θ, t) = Σ qᵢ(t) φᵢ(r, θ) of a Kirchhoff plate on a < r < b, in the frame fixed in space,
-//! with φ = R_nj(r)·{cos nθ, sin nθ}/√(ρh₀ π(1+δ_n0)) in 1/√kg, so that the mass matrix ∫ φᵢφⱼ dm is the
-//! identity, with the reference thickness h₀ of the mass; q is in √kg·m. Order of the N = J(2 n_max + 1)
-//! unknowns: n = 0: J cosines; then for each n ≥ 1: J cosines, J sines. With M = 1 every stiffness is in 1/s²
-//! and every damping in 1/s.
+//! The deflection of a Kirchhoff plate on a < r < b is w(r, θ, t) = Σ qᵢ(t) φᵢ(r, θ) in the frame fixed in
+//! space, with φ = R_nj(r)·{cos nθ, sin nθ}/√(ρh₀ π(1+δ_n0)) in 1/√kg and the reference thickness h₀, so that
+//! the mass matrix ∫ φᵢφⱼ dm is the identity; q is in √kg·m. The N = J(2 n_max + 1) unknowns are J cosines for
+//! n = 0, then J cosines and J sines for each n ≥ 1. With M = 1 every stiffness is in 1/s² and every damping
+//! in 1/s.
 //!
 //! References: Timoshenko & Woinowsky-Krieger, *Theory of Plates and Shells*, 2nd ed., chapters 3 and 9, for
 //! the plate; C. D. Mote, *Free vibration of initially stressed circular disks*, J. Eng. Ind. 87 (1965),
@@ -53,8 +53,8 @@ pub struct Resolution {
     pub radial_functions: usize,
 }
 
-/// Largest number of diameters and of radial functions that may be requested, those of the finest basis that
-/// a tolerance selects. Memory limits them.
+/// Largest numbers of nodal diameters and of radial functions, which memory limits: those of the finest basis
+/// that a tolerance selects.
 const LARGEST: (usize, usize) = (70, 30);
 
 impl Resolution {
@@ -97,17 +97,17 @@ impl Resolution {
 /// The matrices of a scene in a basis, M = 1. Terms that the scene does not contain are not assembled.
 #[derive(Debug, Clone)]
 pub struct Plate {
-    /// The moving annulus.
+    /// The part of the blade that deflects.
     pub blade: Blade,
     /// Size of the basis.
     pub resolution: Resolution,
-    /// Radial functions.
+    /// Radial functions R_nj.
     pub(crate) basis: RadialBasis,
-    /// K_b, K_m and K_σ − N of n = 0 … n_max.
+    /// Stiffness matrices K_b, K_m and K_σ − N of n = 0 … n_max nodal diameters.
     pub harmonics: Vec<HarmonicBlock>,
-    /// Terms of contacts: guides, and those that [`Plate::with_contact`] adds.
+    /// Terms of the guides and of the contacts that [`Plate::with_contact`] adds.
     pub contact: ContactTerms,
-    /// Pads that lift off; `contact` contains them as linear ones.
+    /// Pads that lift off, if the scene has any; `contact` contains them as pads in permanent contact.
     lifting: Option<LiftingPads>,
     /// K_e, in 1/s², N × N, symmetric, if [`Plate::with_edge_loads`] has applied forces to the rim.
     pub edge_stiffness: Option<Mat<f64>>,
@@ -119,7 +119,7 @@ pub struct Plate {
     samples: [Vec<Vec<f64>>; 2],
 }
 
-/// Number of radii; it resolves every nodal circle of a mode in a diagram.
+/// Number of sampled radii, which resolves every nodal circle of a mode in a diagram.
 const SAMPLED_RADII: usize = 41;
 
 fn sampled_radii(blade: &Blade) -> impl Iterator<Item = f64> + use<> {
@@ -128,8 +128,7 @@ fn sampled_radii(blade: &Blade) -> impl Iterator<Item = f64> + use<> {
 }
 
 impl Plate {
-    /// Assembles the matrices of a scene. This succeeds for every valid scene; a resolution needs two radial
-    /// functions, see [`Resolution::new`].
+    /// Assembles the matrices of a scene in a basis of a size that [`Resolution::new`] accepts.
     pub fn new(scene: &Scene, resolution: Resolution) -> Self {
         let basis = RadialBasis::new(scene.blade(), resolution.radial_functions);
         let stress = CentrifugalStress::new(scene.blade());
@@ -148,7 +147,7 @@ impl Plate {
         if let Some(damping) = damping.as_ref().filter(|damping| damping.is_material()) {
             for (n, block) in harmonics.iter_mut().enumerate() {
                 block
-                    .add_material_damping(damping.material_retardation_time_s, damping.ratio_of(n));
+                    .set_material_damping(damping.material_retardation_time_s, damping.ratio_of(n));
             }
         }
         let samples = [0, 1].map(|n| {
@@ -180,7 +179,7 @@ impl Plate {
         }
     }
 
-    /// The plate with another contact.
+    /// The plate with one more contact.
     pub fn with_contact(&self, more: &impl Contact) -> Self {
         let mut plate = self.clone();
         more.add_to(self, &mut plate.contact);
@@ -273,7 +272,7 @@ impl Plate {
         (self.blade.mass_per_area_kg_per_m2() * std::f64::consts::PI * two).sqrt()
     }
 
-    /// Whether anything fixed in space couples the harmonics.
+    /// Whether no contact or load fixed in space couples the harmonics.
     pub fn is_axisymmetric(&self) -> bool {
         self.contact.is_empty() && self.edge_stiffness.is_none()
     }
@@ -283,7 +282,8 @@ impl Plate {
         self.damping.is_none() && self.contact.is_conservative()
     }
 
-    /// R_nj of n nodal diameters, in 1/m, at [`Plate::sampled_radii_m`]: one row of J values for each radius.
+    /// Values R_nj for n nodal diameters, in 1/m, at [`Plate::sampled_radii_m`]: one row of J values for each
+    /// radius.
     pub fn sampled_functions(&self, n: usize) -> &[Vec<f64>] {
         &self.samples[usize::from(n == 1)]
     }

@@ -2,6 +2,25 @@
 
 use std::num::NonZeroUsize;
 
+use crate::scene::Blade;
+
+/// Radii closer than this share of the outer radius are merged, because a panel between two radii that differ by
+/// rounding would be empty.
+const MERGED: f64 = 1e-12;
+
+/// The edges of the blade and the radii between them at which the thickness or the load, with the given knots,
+/// is not smooth, ascending.
+pub fn panel_edges_m(blade: &Blade, knots_m: &[f64]) -> Vec<f64> {
+    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+    let mut edges = blade.edges_m();
+    edges.extend(knots_m.iter().filter(|r| a < **r && **r < b));
+    edges.sort_by(f64::total_cmp);
+    edges.dedup_by(|next, kept| *next - *kept < MERGED * b);
+    // A knot just inside the rim replaces it when both are merged.
+    *edges.last_mut().expect("a ring has edges") = b;
+    edges
+}
+
 /// Points and weights of a one-dimensional rule.
 #[derive(Debug, Clone, Default)]
 pub struct Rule {
@@ -17,7 +36,7 @@ impl Rule {
         self.weights.push(weight);
     }
 
-    /// Pairs (point, weight).
+    /// Iterates over the pairs (point, weight).
     pub fn iter(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.points
             .iter()
@@ -26,7 +45,7 @@ impl Rule {
     }
 }
 
-/// Gauss–Legendre on [−1, 1].
+/// Points, ascending, and weights of the Gauss–Legendre rule on [−1, 1].
 fn gauss(points: usize) -> Vec<(f64, f64)> {
     let degree = NonZeroUsize::new(points).unwrap_or(NonZeroUsize::MIN);
     let mut pairs = gauss_quad::GaussLegendre::new(degree)
@@ -36,7 +55,7 @@ fn gauss(points: usize) -> Vec<(f64, f64)> {
     pairs
 }
 
-/// Gauss–Legendre on [from, to].
+/// Gauss–Legendre rule on [from, to], for a smooth integrand.
 pub fn smooth(from: f64, to: f64, points: usize) -> Rule {
     let half = 0.5 * (to - from);
     let mut rule = Rule::default();
@@ -63,7 +82,7 @@ pub fn graded(from: f64, to: f64, points: usize) -> Rule {
     rule
 }
 
-/// [`graded`] on each of the intervals between ascending edges.
+/// Applies [`graded`] to each of the intervals between ascending edges.
 pub fn piecewise(edges: &[f64], points: usize) -> Rule {
     let mut whole = Rule::default();
     for pair in edges.windows(2) {

@@ -10,6 +10,8 @@
 //! approximate poorly: truncated powers (r − r_k)₊^p are added to the basis there. They follow the first two
 //! polynomials, so that a larger basis begins with a smaller one.
 
+use nalgebra::{DMatrix, Matrix2};
+
 use crate::scene::{Blade, Bore};
 
 use super::quadrature::{self, Rule};
@@ -38,16 +40,16 @@ pub(crate) struct RadialBasis {
     /// (cos, sin) of the rotation that makes the first function of n = 1 the rigid tilt.
     tilt: Option<(f64, f64)>,
     knots: Option<KnotFunctions>,
-    /// Rule for integrals over the area.
+    /// Rule for integrals over the radius; the weights do not contain r.
     rule: Rule,
-    /// Rule for integrals over the mass: its weights contain μ r.
+    /// Rule for integrals over the mass; the weights contain μ r.
     mass_rule: Rule,
 }
 
 /// Truncated powers, and the coefficients that orthonormalize them together with the polynomials.
 #[derive(Debug, Clone)]
 struct KnotFunctions {
-    /// (r_k, p).
+    /// Knot r_k, in m, and exponent p of each function (r − r_k)₊^p.
     powers: Vec<(f64, i32)>,
     /// Row j: coefficients of the first j + 1 of p₀, p₁, powers, p₂ … in function j.
     rows: Vec<Vec<f64>>,
@@ -60,7 +62,7 @@ const AT_STEP: [i32; 3] = [2, 3, 4];
 const AT_MASS: [i32; 2] = [3, 4];
 /// A knot closer than this share of the width to an edge or another knot gets no functions, because they
 /// would be nearly dependent.
-const TOLD_APART: f64 = 0.02;
+const MIN_SPACING: f64 = 0.02;
 
 impl RadialBasis {
     /// Builds J ≥ 2 functions by the discretized Stieltjes procedure (Gautschi, *Orthogonal Polynomials*,
@@ -109,8 +111,8 @@ impl RadialBasis {
         !self.clamped
     }
 
-    /// A rule that integrates products of two radial functions with r dr, r⁻¹ dr
-    /// and r⁻³ dr to rounding; the weights do not contain r.
+    /// Rule that integrates products of two radial functions with r dr, r⁻¹ dr and r⁻³ dr to rounding; the
+    /// weights do not contain r.
     pub(crate) fn rule(&self) -> &Rule {
         &self.rule
     }
@@ -124,7 +126,6 @@ impl RadialBasis {
         let x: Vec<f64> = mass.points.iter().map(|&r| self.mapped(r)).collect();
         let mut previous = vec![0.0; x.len()];
         let mut current = vec![1.0; x.len()];
-        let mut off = 0.0;
         for _ in 0..functions {
             let norm = dot(&weights, &current, &current).sqrt();
             current.iter_mut().for_each(|p| *p /= norm);
@@ -132,15 +133,14 @@ impl RadialBasis {
             let xp: Vec<f64> = x.iter().zip(&current).map(|(x, p)| x * p).collect();
             let diag = dot(&weights, &xp, &current);
             self.diag.push(diag);
-            off = if self.off.len() == 1 { off } else { norm };
             let next = (0..x.len())
-                .map(|k| xp[k] - diag * current[k] - off * previous[k])
+                .map(|k| xp[k] - diag * current[k] - norm * previous[k])
                 .collect();
             previous = std::mem::replace(&mut current, next);
         }
     }
 
-    /// The tilt r = c₀p₀ + c₁p₁, as cosine and sine of the rotation in that plane.
+    /// (cos, sin) of the rotation of the first two functions that makes the first one proportional to r.
     fn tilt_turn(&self) -> (f64, f64) {
         let mut coefficient = [0.0; 2];
         for (r, w) in self.mass_rule.iter() {
@@ -267,8 +267,7 @@ impl RadialBasis {
             let Some(&next_off) = self.off.get(j + 1) else {
                 break;
             };
-            let off = if j == 0 { 0.0 } else { self.off[j] };
-            let shifted = x - self.diag[j];
+            let (off, shifted) = (self.off[j], x - self.diag[j]);
             let next = [
                 shifted * p[0] - off * previous[0],
                 p[0] + shifted * p[1] - off * previous[1],
@@ -292,21 +291,13 @@ impl RadialBasis {
         }
         values
     }
-}
 
-impl RadialBasis {
-    /// A J × J block between n and m diameters: converts from the common functions to those of n (rows) and m
-    /// (columns).
-    pub(crate) fn turned(
-        &self,
-        n: usize,
-        m: usize,
-        mut block: nalgebra::DMatrix<f64>,
-    ) -> nalgebra::DMatrix<f64> {
+    /// Converts a J × J block from the functions of n ≠ 1 to those of n (rows) and m (columns) nodal diameters.
+    pub(crate) fn turned(&self, n: usize, m: usize, mut block: DMatrix<f64>) -> DMatrix<f64> {
         let Some((cos, sin)) = self.tilt else {
             return block;
         };
-        let turn = nalgebra::Matrix2::new(cos, sin, -sin, cos);
+        let turn = Matrix2::new(cos, sin, -sin, cos);
         if n == 1 {
             let rows = turn * block.rows(0, 2);
             block.rows_mut(0, 2).copy_from(&rows);
@@ -322,17 +313,12 @@ impl RadialBasis {
 /// The knots that get functions, with the powers of each.
 fn knot_powers(blade: &Blade) -> Vec<(f64, i32)> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
-    let apart = TOLD_APART * (b - a);
-    let mut knots: Vec<(f64, &[i32])> = Vec::new();
-    for radius in blade.knots_m() {
-        knots.push((radius, &AT_STEP));
-    }
-    // If a step and the circle of the teeth are close to each other, only the knot of the step is kept.
-    if let Some(rim) = blade.rim {
-        knots.push((rim.radius_m, &AT_MASS));
-    }
+    let apart = MIN_SPACING * (b - a);
+    let steps = blade.knots_m().into_iter().map(|r| (r, &AT_STEP[..]));
+    let teeth = blade.rim.map(|rim| (rim.radius_m, &AT_MASS[..]));
     let mut kept: Vec<(f64, &[i32])> = Vec::new();
-    for (radius, powers) in knots {
+    // Steps come first: of a step and a circle of teeth that are close to each other, the step is kept.
+    for (radius, powers) in steps.chain(teeth) {
         let alone = kept
             .iter()
             .all(|(other, _)| (radius - other).abs() >= apart);
@@ -341,14 +327,12 @@ fn knot_powers(blade: &Blade) -> Vec<(f64, i32)> {
         }
     }
     kept.sort_by(|x, y| x.0.total_cmp(&y.0));
-    let of_knot = |(radius, powers): (f64, &[i32])| {
-        let powers = powers.to_vec();
-        powers.into_iter().map(move |power| (radius, power))
-    };
-    kept.into_iter().flat_map(of_knot).collect()
+    kept.into_iter()
+        .flat_map(|(radius, powers)| powers.iter().map(move |&power| (radius, power)))
+        .collect()
 }
 
-/// ∫ … dm/(2π ρh) of a function of the radius.
+/// Rule for ∫ … dm/(2πρh₀) of a function of the radius, including the mass of teeth.
 fn mass_rule(blade: &Blade, area: &Rule) -> Rule {
     let mut rule = Rule {
         points: area.points.clone(),

@@ -26,8 +26,8 @@ struct UniformStress {
 }
 
 impl CentrifugalStress {
-    /// Stress of a blade with a free rim. The bore is free (spline, or a collar in which the blade slides) or
-    /// has u(a) = 0. The mass of teeth pulls with m Ω² r/2π per radian of its circle.
+    /// Computes the stress of a blade with a free rim. The bore is free (spline, or a collar in which the blade
+    /// slides) or has u(a) = 0. The mass m of teeth exerts the outward force m Ω² r/2π per radian of its circle.
     pub fn new(blade: &Blade) -> Self {
         if blade.is_plain() {
             return CentrifugalStress(Stress::Uniform(UniformStress::new(blade)));
@@ -41,7 +41,7 @@ impl CentrifugalStress {
             // The load is normalized to ρΩ² = 1.
             body_n_per_m3: &|r| r,
             circle_n: &circle,
-            bore_is_held: blade.bore == Bore::Clamped(InPlane::Fixed),
+            bore_is_fixed: blade.bore == Bore::Clamped(InPlane::Fixed),
             ..InPlaneLoad::default()
         };
         CentrifugalStress(Stress::Varying(InPlaneField::new(blade, 0, &load)))

@@ -6,12 +6,9 @@
 //! V = (k − k_f)/A ∫ Ψ(w − g) + Ψ(−w − g) dA, Ψ(x) = ½x² for x > 0 and 0 for x < 0,
 //!
 //! over its area A; a pad on one side has only one of the two terms. V is convex; ∂V/∂w rises from 0 to the
-//! force of a spring. An offset o of the pad puts w − o in the place of w, and the film then has the potential −k_f o w/A, too.
-//! Within ±g/100 of the gap the second derivative of Ψ rises linearly, as Newton's method
+//! force of a spring. If the pad has an offset o, w − o replaces w, and the offset of the film adds the potential
+//! −k_f/A ∫ o w dA. Within ±g/100 of the gap the second derivative of Ψ rises linearly, as Newton's method
 //! requires. The integral is a sum over Gauss points of the pad, each of which is a point of contact.
-//!
-//! A [`Plate`] with shapes gives V in J, its gradient in N/√kg, its second derivatives in 1/s², and the force
-//! of each pad in N.
 
 use faer::{Col, Mat, MatRef, Scale};
 
@@ -21,16 +18,16 @@ use super::super::{Plate, quadrature};
 use super::guide::circles;
 use super::{Contact, ContactTerms};
 
-/// Pads that lift off, and the linear terms of a plate with them.
+/// Pads that lift off, and the linear terms of their plate while no pad is in contact.
 #[derive(Debug, Clone)]
 pub struct LiftingPads {
     pads: Vec<(Guide, Lifting)>,
-    /// Terms of all contacts of the plate, in which the film replaces each of these pads.
+    /// Terms of all contacts of the plate, in which each of these pads has only the stiffness of its film.
     pub released: ContactTerms,
 }
 
 impl LiftingPads {
-    /// The pads that lift off among some guides.
+    /// The pads among the guides that lift off; `None` if there are none.
     pub fn of(plate: &Plate, guides: &[Guide]) -> Option<Self> {
         let lifting = |guide: &Guide| guide.lifting.map(|lifting| (*guide, lifting));
         let pads: Vec<_> = guides.iter().filter_map(lifting).collect();
@@ -58,7 +55,7 @@ impl LiftingPads {
     }
 }
 
-/// V of the pads of a plate that lift off, for deflections on r shapes.
+/// Potential V of the pads of a plate that lift off, for deflections on r shapes with coordinates p.
 #[derive(Debug, Clone)]
 pub struct GapPotential {
     points: Vec<Point>,
@@ -73,7 +70,7 @@ pub struct GapPotential {
 /// A point of contact.
 #[derive(Debug, Clone, Copy)]
 struct Point {
-    /// Index of its pad among those that lift off.
+    /// Index of the pad among the pads that lift off.
     pad: usize,
     radius_m: f64,
     /// Share of the point in k − k_f of its pad.
@@ -83,15 +80,15 @@ struct Point {
     offset_m: f64,
 }
 
-/// Number of points of a pad over each smooth interval of the radius, and over the angle. For the built-in
-/// saw's pad, if the whole of it touches, they give the force of the exact integral to 3e-5 (five over the
-/// radius to 5e-3); if only a part of it touches, the energy to 0.5 %.
+/// Number of points of a pad over each smooth interval of the radius, and over the angle. If the whole pad of the
+/// built-in saw touches, the force has an error of 3e-5 (5e-3 with five points over the radius); if only a part of
+/// it touches, the energy has an error of 0.5 %.
 const POINTS: (usize, usize) = (8, 8);
-/// The second derivative of Ψ rises within this share of the gap on each side of it.
+/// Share of the gap, on each side of its end, within which the second derivative of Ψ rises.
 const ROUNDED: f64 = 0.01;
 
 impl GapPotential {
-    /// The potential on the shapes that are the columns of V, N × r; `None` if no pad lifts off.
+    /// The potential on the shapes that are the columns of `basis`, N × r; `None` if no pad lifts off.
     pub fn new(plate: &Plate, basis: MatRef<'_, f64>) -> Option<Self> {
         Self::with_points(plate, basis, POINTS)
     }
@@ -138,7 +135,7 @@ impl GapPotential {
         self
     }
 
-    /// Deflections at the points from the middle of the gap, in m.
+    /// Deflections at the points, in m, relative to the middle between the faces of the pad.
     fn deflections(&self, coordinates: &Col<f64>) -> Col<f64> {
         let w = self.shapes.transpose() * coordinates;
         Col::from_fn(w.nrows(), |k| w[k] - self.points[k].offset_m)
@@ -165,8 +162,8 @@ impl GapPotential {
         self.stiffness(|k| self.points[k].tangent_n_per_m(w[k]))
     }
 
-    /// The mean of ∂V/∂p on the straight line from one deflection to another; its product with the change is
-    /// exactly the change of V.
+    /// The mean of ∂V/∂p, in N/√kg, on the straight line from one deflection to another. The product of this mean
+    /// and the change of p is exactly the change of V.
     pub fn mean_gradient(&self, from: &Col<f64>, change: &Col<f64>) -> Col<f64> {
         let (w, d) = (self.deflections(from), self.shapes.transpose() * change);
         let mean = |k: usize| {
@@ -176,7 +173,7 @@ impl GapPotential {
         &self.shapes * Col::from_fn(self.points.len(), mean) - &self.film
     }
 
-    /// The derivative of [`GapPotential::mean_gradient`] with respect to the change.
+    /// The derivative of [`GapPotential::mean_gradient`] with respect to the change, in 1/s².
     pub fn mean_stiffness(&self, from: &Col<f64>, change: &Col<f64>) -> Mat<f64> {
         let (w, d) = (self.deflections(from), self.shapes.transpose() * change);
         self.stiffness(|k| {
@@ -185,7 +182,7 @@ impl GapPotential {
         })
     }
 
-    /// Force that each of these pads exerts on the blade beyond its gap, in the order of the scene's guides.
+    /// Force that each pad that lifts off exerts on the blade beyond its gap, in the order of the scene's guides.
     pub fn forces_n(&self, coordinates: &Col<f64>) -> Vec<f64> {
         let w = self.deflections(coordinates);
         let mut forces = vec![0.0; self.pads];
@@ -195,7 +192,8 @@ impl GapPotential {
         forces
     }
 
-    /// Smallest distance left between the blade and the faces of each of these pads; negative where a face is pressed in.
+    /// Smallest distance between the blade and a face of each pad that lifts off; negative where a face is
+    /// compressed.
     pub fn distances_left_m(&self, coordinates: &Col<f64>) -> Vec<f64> {
         let w = self.deflections(coordinates);
         let mut left = vec![f64::INFINITY; self.pads];
@@ -207,7 +205,7 @@ impl GapPotential {
         left
     }
 
-    /// Radius and size of the force at each point in contact.
+    /// Radius, in m, and magnitude of the force, in N, at each point in contact.
     pub fn contacts(&self, coordinates: &Col<f64>) -> Vec<(f64, f64)> {
         let w = self.deflections(coordinates);
         let points = self.points.iter().enumerate();
@@ -217,7 +215,7 @@ impl GapPotential {
             .collect()
     }
 
-    /// Σ sₖ φₖφₖᵀ over the points in contact.
+    /// Sum Σ sₖ φₖφₖᵀ over the points whose stiffness sₖ is positive.
     fn stiffness(&self, of: impl Fn(usize) -> f64) -> Mat<f64> {
         let order = self.shapes.nrows();
         let touching: Vec<(usize, f64)> = (0..self.points.len())
@@ -261,7 +259,7 @@ fn places(plate: &Plate, pad: &Guide, radial: usize, angular: usize) -> Vec<((f6
 }
 
 impl Point {
-    /// Signs of w for the distances beyond the gap, one for each side of the pad.
+    /// Sign of the deflection that closes the gap on each side that the pad has.
     fn sides(&self) -> impl Iterator<Item = f64> {
         let both = self.side == GuideSide::Both;
         let left = (both || self.side == GuideSide::Left).then_some(1.0);
@@ -269,7 +267,7 @@ impl Point {
         left.into_iter().chain(right)
     }
 
-    /// kΨ.
+    /// Energy kΨ, summed over the sides of the pad.
     fn energy_j(&self, w: f64) -> f64 {
         let width = ROUNDED * self.gap_m;
         let of = |side: f64| match side * w - self.gap_m {
@@ -280,7 +278,7 @@ impl Point {
         self.stiffness_n_per_m * self.sides().map(of).sum::<f64>()
     }
 
-    /// kΨ′, positive with w.
+    /// Derivative of the energy, kΨ′, which has the sign of w.
     fn pressure_n(&self, w: f64) -> f64 {
         let width = ROUNDED * self.gap_m;
         let of = |side: f64| match side * w - self.gap_m {
@@ -291,7 +289,7 @@ impl Point {
         self.stiffness_n_per_m * self.sides().map(of).sum::<f64>()
     }
 
-    /// kΨ″.
+    /// Second derivative of the energy, kΨ″.
     fn tangent_n_per_m(&self, w: f64) -> f64 {
         let width = ROUNDED * self.gap_m;
         let of = |side: f64| match side * w - self.gap_m {
@@ -302,7 +300,8 @@ impl Point {
         self.stiffness_n_per_m * self.sides().map(of).sum::<f64>()
     }
 
-    /// ∫₀¹ f(s, w + s d) ds of a function that is a polynomial of degree three between the kinks of Ψ′.
+    /// Integral ∫₀¹ f(s, w + s d) ds of a function that is zero within the gap and a polynomial of degree at most
+    /// three between the kinks of Ψ″.
     fn mean(&self, w: f64, d: f64, of: impl Fn(f64, f64) -> f64) -> f64 {
         let width = ROUNDED * self.gap_m;
         if w.abs().max((w + d).abs()) <= self.gap_m - width {
@@ -324,7 +323,7 @@ impl Point {
     }
 }
 
-/// Gauss points on [0, 1], each of weight ½.
+/// Points of the Gauss rule on [0, 1] that is exact for polynomials of degree three; each has the weight ½.
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use super::super::quadrature;
 use super::patch::{Circle, coupling, sufficient_points};
 use super::{Contact, ContactTerms};
 
-/// K_g is the mean of φᵢφⱼ over the pad times its stiffness, C the mean times its damping.
+/// The terms are the mean of φᵢφⱼ over the pad, times the stiffness of the pad in K_g and times its damping in C.
 impl Contact for Guide {
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
         let circles = circles(plate, self, sufficient_points(plate));
@@ -29,7 +29,7 @@ impl Contact for Guide {
     }
 }
 
-/// The arcs of the pad on the circles of a radial quadrature rule, of so many points on each smooth interval.
+/// Circles of a radial quadrature rule with `points` points on each smooth interval, with the arcs of the pad.
 pub(super) fn circles(plate: &Plate, pad: &Guide, points: usize) -> Vec<Circle> {
     if pad.is_point() {
         return vec![Circle {
@@ -50,8 +50,8 @@ pub(super) fn circles(plate: &Plate, pad: &Guide, points: usize) -> Vec<Circle> 
     circles
 }
 
-/// Intervals of r, clipped to the blade, on which the arcs are smooth inside:
-/// they are cut where a circle touches a side or passes through a corner.
+/// Intervals of r, clipped to the blade, in whose interior the arcs are smooth. An interval ends where a circle
+/// touches a side of the pad or passes through a corner, and at the edges of the blade.
 fn smooth_radii(blade: &Blade, pad: &Guide) -> Vec<(f64, f64)> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let mut cuts = pad.touching_radii_m();
@@ -65,7 +65,7 @@ fn smooth_radii(blade: &Blade, pad: &Guide) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Arcs 0 ≤ |ψ| ≤ π of the circle of radius r inside the pad, upper half only.
+/// Arcs with 0 ≤ ψ ≤ π of the circle of radius r inside the pad, see [`Circle`].
 fn arcs(pad: &Guide, r: f64) -> Vec<(f64, f64)> {
     match pad.shape {
         GuideShape::Rectangle => arcs_in_rectangle(pad, r),
@@ -89,7 +89,8 @@ fn arcs_in_rectangle(pad: &Guide, r: f64) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// With u = cos ψ, the point at ψ is inside where (r u − c)²/a² + r² (1 − u²)/b² ≤ 1, a quadratic in u.
+/// Arcs in the ellipse with half-axes a and b about the radius c: with u = cos ψ, the point at ψ is inside where
+/// (r u − c)²/a² + r² (1 − u²)/b² ≤ 1, a quadratic inequality for u.
 fn arcs_in_ellipse(pad: &Guide, r: f64) -> Vec<(f64, f64)> {
     let (a, b) = pad.half_lengths_m();
     let c = pad.radius_m;

@@ -16,7 +16,7 @@ use super::Plate;
 
 /// A contact fixed in space that acts on the blade linearly in deflection and velocity.
 pub trait Contact {
-    /// Adds the terms of this contact, in the basis of the plate.
+    /// Adds the terms of this contact in the basis of the plate.
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms);
 }
 
@@ -29,8 +29,8 @@ pub struct ContactTerms {
 }
 
 impl ContactTerms {
-    /// Adds to the stiffness K_g, in 1/s². The part that is not symmetric beyond rounding has no potential
-    /// and is added as by [`ContactTerms::add_nonconservative_stiffness`].
+    /// Adds to the stiffness K_g, in 1/s². An antisymmetric part above rounding has no potential and is added as
+    /// by [`ContactTerms::add_nonconservative_stiffness`].
     pub fn add_stiffness(&mut self, term: &Mat<f64>) {
         let symmetric = Scale(0.5) * (term + term.transpose());
         let skew = term - &symmetric;
@@ -57,17 +57,17 @@ impl ContactTerms {
         add(&mut self.nonconservative, term.clone());
     }
 
-    /// K_g, if there is any.
+    /// Stiffness K_g, in 1/s²; `None` if it is zero.
     pub fn stiffness(&self) -> Option<&Mat<f64>> {
         self.stiffness.as_ref()
     }
 
-    /// C of the contacts, if there is any.
+    /// Damping C of the contacts, in 1/s; `None` if it is zero.
     pub fn damping(&self) -> Option<&Mat<f64>> {
         self.damping.as_ref()
     }
 
-    /// K_n, if there is any.
+    /// Stiffness K_n without a potential, in 1/s²; `None` if it is zero.
     pub fn nonconservative_stiffness(&self) -> Option<&Mat<f64>> {
         self.nonconservative.as_ref()
     }
@@ -91,7 +91,7 @@ impl ContactTerms {
     }
 }
 
-/// Differences below this share of the largest entry of a matrix are rounding.
+/// An antisymmetric part below this share of the largest entry of a matrix is rounding.
 const ROUNDING: f64 = 1e-12;
 
 fn add(sum: &mut Option<Mat<f64>>, term: Mat<f64>) {

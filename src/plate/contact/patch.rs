@@ -1,7 +1,7 @@
 //! Integrals of products of two functions over a patch fixed in space.
 //!
-//! A circle intersects a patch in a few arcs, symmetric about the centre line. Over them the integrals of cos
-//! kψ are elementary, so only the radius needs quadrature.
+//! A circle intersects a patch in a few arcs, symmetric about the centre line. The integrals of cos kψ over these
+//! arcs are elementary, so that only the radius needs quadrature.
 
 use nalgebra::DMatrix;
 
@@ -14,19 +14,19 @@ pub struct Circle {
     pub radius_m: f64,
     /// Quadrature weight of the circle for each radian of its arcs, as a share of the whole patch.
     pub weight: f64,
-    /// Arcs 0 ≤ |ψ| ≤ π, upper half only; `None` for the point ψ = 0.
+    /// Arcs with 0 ≤ ψ ≤ π, each of which has a mirror image at −ψ; `None` for the point ψ = 0.
     pub arcs: Option<Vec<(f64, f64)>>,
 }
 
-/// ∫ φᵢ φⱼ over a patch as one J × J matrix for each k = |n ± m|:
-/// Q_k = Σ weight R_j R_l ∫ cos kψ dψ, ψ from the centre line.
+/// Mean of φᵢφⱼ over a patch as one J × J matrix for each k = |n ± m|: Q_k = Σ weight R_j R_l ∫ cos kψ dψ, where ψ
+/// is the angle from the centre line.
 struct PatchHarmonics {
     angle_rad: f64,
     by_order: Vec<DMatrix<f64>>,
 }
 
-/// Σ weight ∫ φᵢφⱼ dψ over the circles of a patch whose centre line is at an angle, in 1/kg.
-/// N × N, symmetric, positive semidefinite.
+/// Mean of φᵢφⱼ over a patch whose centre line is at an angle: Σ weight ∫ φᵢφⱼ dψ over its circles, in 1/kg, N × N,
+/// symmetric, positive semidefinite.
 pub fn coupling(
     plate: &Plate,
     angle_rad: f64,
@@ -65,8 +65,8 @@ pub fn coupling(
     coupling
 }
 
-/// Number of points of a radial rule that integrates the product of two of J functions and the arcs of order
-/// k.
+/// Number of points of a radial rule that integrates the product of two radial functions and of the integral over
+/// the arcs, up to the order 2 n_max.
 pub fn sufficient_points(plate: &Plate) -> usize {
     plate.basis.count() + plate.max_diameters() + 12
 }
@@ -97,8 +97,8 @@ impl PatchHarmonics {
         }
     }
 
-    /// Blocks [cos n·cos m, cos n·sin m, sin n·cos m, sin n·sin m] of the coupling, by the product-to-sum
-    /// identities and a rotation by the angle of the centre line.
+    /// Blocks [cos n·cos m, cos n·sin m, sin n·cos m, sin n·sin m] of the coupling for n ≥ m, by the
+    /// product-to-sum identities and a rotation by the angle of the centre line.
     fn between(&self, n: usize, m: usize) -> [DMatrix<f64>; 4] {
         let (difference, sum) = (n - m, n + m);
         let (sin_d, cos_d) = (difference as f64 * self.angle_rad).sin_cos();

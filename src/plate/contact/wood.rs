@@ -8,8 +8,8 @@ use super::super::{Plate, quadrature};
 use super::patch::{Circle, coupling, sufficient_points};
 use super::{Contact, ContactTerms};
 
-/// Stiffness k and damping c of the whole contact, uniform over a sector of an annulus at the rim, or over an
-/// arc of the rim if its depth is zero: k/A ∫ φᵢφⱼ dA and c/A ∫ φᵢφⱼ dA.
+/// Stiffness k and damping c of the whole contact are uniform over a sector of an annulus at the rim, or over an
+/// arc of the rim if the depth is zero: the terms are k/A ∫ φᵢφⱼ dA and c/A ∫ φᵢφⱼ dA.
 impl Contact for Wood {
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
         let circles = self.circles(plate);

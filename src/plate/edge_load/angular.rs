@@ -2,18 +2,19 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// One of the two waves of an order.
+/// Phase of a wave.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Phase {
-    /// cos nθ.
+    /// The wave cos nθ.
     Cosine,
-    /// sin nθ.
+    /// The wave sin nθ.
     Sine,
 }
 
-/// factor · cos nθ or factor · sin nθ.
+/// The function factor · cos nθ or factor · sin nθ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wave {
+    /// Number n of waves around the circle.
     pub order: usize,
     pub phase: Phase,
     pub factor: f64,
@@ -43,8 +44,8 @@ impl Wave {
     }
 }
 
-/// ∫ f g k dθ over the circle, exactly: the product is a sum of cosines, and each choice of signs with ±n_f ±
-/// n_g = n_k contributes π/2.
+/// Integral ∫ f g k dθ over the circle, exactly: the product is a sum of waves, of which each choice of signs with
+/// ±n_f ± n_g = n_k contributes ±π/2.
 pub fn triple_product(f: Wave, g: Wave, k: Wave) -> f64 {
     let is_sine = [f, g, k].map(|wave| wave.phase == Phase::Sine);
     let [order_f, order_g, order_k] = [f, g, k].map(|wave| wave.order as i64);

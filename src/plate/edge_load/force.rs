@@ -16,7 +16,8 @@ pub struct RimForce {
 }
 
 impl RimForce {
-    /// The forces of the teeth in a cut, against the rotation and towards the axis.
+    /// The forces of the teeth in a cut: `tangential_n` against the rotation and `radial_n` towards the axis on
+    /// each tooth.
     pub fn of_cut(cut: &Cut, tangential_n: f64, radial_n: f64) -> Vec<Self> {
         cut.tooth_angles_rad()
             .map(|angle_rad| RimForce {
@@ -39,7 +40,7 @@ pub struct BoreForce {
     pub tangential_n: f64,
 }
 
-/// Factors of [cos mθ, sin mθ] of the stresses at an edge.
+/// Harmonic m of the stresses at an edge, as factors of [cos mθ, sin mθ].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HarmonicTraction {
     /// Radial stress σ_rr.
@@ -68,8 +69,8 @@ impl HarmonicTraction {
         Self::of_forces(area_per_angle_m2, forces, order)
     }
 
-    /// Order m of the traction Σ F/(rh) δ(θ − θ_k): (1/π) ΣF cos mθ_k /(rh), likewise with sin, and half of
-    /// it for m = 0.
+    /// Order m of the traction Σ F/(rh) δ(θ − θ_k): (1/π) ΣF cos mθ_k /(rh) and (1/π) ΣF sin mθ_k /(rh), half of
+    /// this for m = 0. Each force is (θ_k, radial, tangential).
     fn of_forces(
         area_per_angle_m2: f64,
         forces: impl Iterator<Item = (f64, f64, f64)>,
@@ -88,8 +89,8 @@ impl HarmonicTraction {
         sum
     }
 
-    /// [σ_rr, σ_rθ] of the two fields (cos, cos, sin) and (sin, sin, −cos) of
-    /// (σ_rr, σ_θθ, σ_rθ).
+    /// Amplitudes [σ_rr, σ_rθ] of the two fields in which (σ_rr, σ_rθ) vary as (cos mθ, sin mθ) and as
+    /// (sin mθ, −cos mθ).
     pub fn fields(&self) -> [[f64; 2]; 2] {
         let [radial_cos, radial_sin] = self.radial_pa;
         let [shear_cos, shear_sin] = self.shear_pa;

@@ -2,25 +2,16 @@
 
 use nalgebra::{Matrix4, Vector4};
 
+use crate::plate::in_plane::InPlaneStress;
 use crate::scene::Blade;
-
-/// σ_rr = R(r) cos mθ, σ_θθ = H(r) cos mθ, σ_rθ = T(r) sin mθ: R, H and T at a radius.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ProfileStress {
-    /// Coefficient R of the radial stress.
-    pub radial_pa: f64,
-    /// Coefficient H of the hoop stress.
-    pub hoop_pa: f64,
-    /// Coefficient T of the shear stress.
-    pub shear_pa: f64,
-}
 
 /// A term of the series: three stresses with a common power of r.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Term {
     amplitude_pa: f64,
-    ratio: ProfileStress,
-    /// Edge at which the power is one. Inside the blade it is below one, so that no order overflows.
+    /// Stresses of a term of unit amplitude at this edge.
+    ratio: InPlaneStress,
+    /// Edge at which (r/edge)^power is one. Inside the blade this power is below one, so that no order overflows.
     edge_m: f64,
     power: f64,
 }
@@ -30,7 +21,7 @@ impl Term {
     fn new([radial_pa, hoop_pa, shear_pa]: [f64; 3], edge_m: f64, power: f64) -> Self {
         Term {
             amplitude_pa: 1.0,
-            ratio: ProfileStress {
+            ratio: InPlaneStress {
                 radial_pa,
                 hoop_pa,
                 shear_pa,
@@ -47,9 +38,9 @@ impl Term {
         }
     }
 
-    fn at(&self, r: f64) -> ProfileStress {
+    fn at(&self, r: f64) -> InPlaneStress {
         let size = self.amplitude_pa * (r / self.edge_m).powf(self.power);
-        ProfileStress {
+        InPlaneStress {
             radial_pa: size * self.ratio.radial_pa,
             hoop_pa: size * self.ratio.hoop_pa,
             shear_pa: size * self.ratio.shear_pa,
@@ -57,7 +48,7 @@ impl Term {
     }
 }
 
-/// R, H and T as functions of the radius in a blade of one thickness.
+/// Amplitudes of the stresses of one harmonic as functions of the radius in a blade of uniform thickness.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
     terms: Vec<Term>,
@@ -65,9 +56,9 @@ pub struct Series {
 
 impl Series {
     /// The harmonic of order m under σ_rr = p cos mθ, σ_rθ = t sin mθ at the rim and q cos mθ, s sin mθ at
-    /// the bore. For m = 0, where sin mθ vanishes, t and s are uniform shears. At the bore the missing part
-    /// of the torque of m = 0 is added as uniform shear, and that of the net force of m = 1 as traction of
-    /// constant direction.
+    /// the bore. For m = 0, where sin mθ vanishes, t and s are uniform shears. At the bore a uniform shear supplies
+    /// the missing part of the torque of m = 0, and a traction of constant direction the missing part of the net
+    /// force of m = 1.
     pub fn new(blade: &Blade, order: usize, rim: [f64; 2], bore: [f64; 2]) -> Self {
         let terms = match order {
             0 => ring_and_torsion(blade, rim, bore),
@@ -77,9 +68,9 @@ impl Series {
         Series { terms }
     }
 
-    /// The stresses at a radius.
-    pub fn at(&self, r: f64) -> ProfileStress {
-        let mut sum = ProfileStress::default();
+    /// Stresses at a radius.
+    pub fn at(&self, r: f64) -> InPlaneStress {
+        let mut sum = InPlaneStress::default();
         for term in &self.terms {
             let stress = term.at(r);
             sum.radial_pa += stress.radial_pa;
@@ -90,8 +81,8 @@ impl Series {
     }
 }
 
-/// Lamé's ring, σ_rr = u − v a²/r² with u − v k² = p and u − v = q, k = a/b, and pure shear t b²/r². Stress
-/// function A r² + B ln r + C θ. The shear at the bore follows from that at the rim.
+/// Terms of m = 0: Lamé's ring, σ_rr = u − v a²/r² with u − v k² = p and u − v = q, k = a/b, and pure shear
+/// t b²/r², with the stress function A r² + B ln r + C θ. The shear at the bore follows from that at the rim.
 fn ring_and_torsion(blade: &Blade, [p, t]: [f64; 2], [q, _]: [f64; 2]) -> Vec<Term> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let inverse = (p - q) * b / (b - a) * b / (b + a);
@@ -102,7 +93,7 @@ fn ring_and_torsion(blade: &Blade, [p, t]: [f64; 2], [q, _]: [f64; 2]) -> Vec<Te
     ]
 }
 
-/// m = 1, stress function A r³ cos θ + B cos θ/r + c [r θ sin θ/2 − (1−ν)/4 r ln r cos θ].
+/// Terms of m = 1, with the stress function A r³ cos θ + B cos θ/r + c [r θ sin θ/2 − (1−ν)/4 r ln r cos θ].
 ///
 /// Every circle transmits the same net force F = πhc, c = b(p − t). The share of
 /// r ln r makes the displacement single-valued (Timoshenko & Goodier, section 43,
@@ -129,14 +120,14 @@ fn net_force(blade: &Blade, [p, t]: [f64; 2], [q, s]: [f64; 2]) -> Vec<Term> {
     ]
 }
 
-/// m ≥ 2: stress function cos mθ times r^m, r^(m+2), r^−m, r^(2−m), which balance by
-/// themselves; four tractions at the two edges fix the four amplitudes.
+/// Terms of m ≥ 2: the stress functions cos mθ times r^m, r^(m+2), r^−m and r^(2−m) have no net force or torque;
+/// four tractions at the two edges determine their four amplitudes.
 ///
 /// A stress function f(r) cos mθ has σ_rr = f′/r − m² f/r², σ_θθ = f″, σ_rθ = m (f′/r − f/r²); a common
 /// factor of each power is omitted.
 ///
-/// On a narrow ring the powers are nearly dependent and digits are lost: the virial of K_e is right to 1e-14
-/// up to a/b = 0.3, 1e-13 at 0.9, 3e-12 at 0.98 and 1e-10 at 0.99.
+/// On a narrow ring the powers are nearly dependent and digits are lost: the relative error of the virial of K_e is
+/// 1e-14 up to a/b = 0.3, 1e-13 at 0.9, 3e-12 at 0.98 and 1e-10 at 0.99.
 fn self_balanced(blade: &Blade, m: f64, [p, t]: [f64; 2], [q, s]: [f64; 2]) -> Vec<Term> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let terms = [
@@ -149,7 +140,7 @@ fn self_balanced(blade: &Blade, m: f64, [p, t]: [f64; 2], [q, s]: [f64; 2]) -> V
         let (rim, bore) = (term.at(b), term.at(a));
         Vector4::new(rim.radial_pa, rim.shear_pa, bore.radial_pa, bore.shear_pa)
     });
-    // The powers are independent, so the matrix is singular only if numbers are not finite.
+    // The powers are independent, so that the matrix is singular only if numbers are not finite.
     let amplitudes = Matrix4::from_columns(&tractions)
         .lu()
         .solve(&Vector4::new(p, t, q, s))

@@ -28,7 +28,7 @@ use crate::scene::Blade;
 use force::HarmonicTraction;
 use profile::Profile;
 
-/// Factors of cos mθ and sin mθ of the three stresses at one radius, in Pa.
+/// Harmonic m of the three stresses at one radius, in Pa.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HarmonicStress {
     /// σ_rr: [factor of cos mθ, factor of sin mθ].
@@ -43,11 +43,12 @@ pub struct HarmonicStress {
 ///
 /// The bore carries the reaction: the net torque T as a uniform shear traction T/(2πa²h), the net force F as
 /// the traction −F/(2πah) of constant direction. Forces given at the bore carry part of it, and the assumed
-/// tractions the remainder. The same holds at a collar; its constraint on the higher harmonics is neglected.
+/// tractions the remainder. A collar has these reactions, too; its constraint on the higher harmonics is
+/// neglected.
 #[derive(Debug, Clone)]
 pub struct EdgeStress {
-    /// For each order m, the fields (cos, cos, sin) and (sin, sin, −cos) of (σ_rr, σ_θθ, σ_rθ). The second is
-    /// the first rotated by a quarter wave.
+    /// For each order m, the stresses (σ_rr, σ_θθ, σ_rθ) that vary as (cos mθ, cos mθ, sin mθ) and those that
+    /// vary as (sin mθ, sin mθ, −cos mθ), which are fields of the first form rotated by a quarter wave.
     harmonics: Vec<[Profile; 2]>,
 }
 
@@ -58,8 +59,8 @@ impl EdgeStress {
         Self::with_reaction(blade, loads, &[], max_order)
     }
 
-    /// As [`EdgeStress::new`], with known forces at the bore. They replace the assumed reaction as far as
-    /// they balance the loads: entirely if they are in equilibrium with them.
+    /// Computes the orders 0 … `max_order` with known forces at the bore. These replace the part of the assumed
+    /// reaction that they balance: all of it if they are in equilibrium with the loads.
     pub fn with_reaction(
         blade: &Blade,
         loads: &[RimForce],
@@ -94,8 +95,8 @@ impl EdgeStress {
         }
     }
 
-    /// [σ_rr, σ_θθ, σ_rθ] at a point, in Pa: the sum of the series, which converges as
-    /// (r/b)^m, and at the rim not at all.
+    /// Stresses [σ_rr, σ_θθ, σ_rθ] at a point, in Pa: the sum of the series, which converges as (r/b)^m inside
+    /// the rim and not at the rim.
     pub fn at(&self, radius_m: f64, angle_rad: f64) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for m in 0..self.harmonics.len() {

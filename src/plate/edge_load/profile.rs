@@ -1,16 +1,16 @@
 //! One harmonic of the plane stress under forces at the edges.
 
-use crate::plate::in_plane::{InPlaneField, InPlaneLoad};
+use crate::plate::in_plane::{InPlaneField, InPlaneLoad, InPlaneStress};
 use crate::scene::Blade;
 
-use super::michell::{ProfileStress, Series};
+use super::michell::Series;
 
-/// R, H and T as functions of the radius.
+/// Amplitudes of the stresses of one harmonic as functions of the radius.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Profile {
-    /// Closed form.
+    /// Closed form for a blade of uniform thickness.
     Uniform(Series),
-    /// Finite elements, with uniform torsion added.
+    /// Finite elements, to which uniform torsion is added.
     Varying(Box<Varying>),
 }
 
@@ -19,7 +19,7 @@ pub enum Profile {
 pub struct Varying {
     blade: Blade,
     field: InPlaneField,
-    /// r² h σ_rθ of m = 0, which every circle transmits.
+    /// Torque per radian r² h σ_rθ of m = 0, which every circle transmits; zero for m > 0.
     torsion_n_m: f64,
 }
 
@@ -35,7 +35,7 @@ impl Profile {
         let at_bore = a * blade.thickness_at_bore_m();
         let mut bore_pa = bore;
         if order == 1 {
-            // The part of the net force that is missing at the bore, as a traction of constant direction.
+            // A traction of constant direction supplies the part of the net force that is missing at the bore.
             let lacking = at_rim * (rim[0] - rim[1]) - at_bore * (bore[0] - bore[1]);
             bore_pa[0] += 0.5 * lacking / at_bore;
             bore_pa[1] -= 0.5 * lacking / at_bore;
@@ -52,18 +52,15 @@ impl Profile {
         }))
     }
 
-    /// The stresses at a radius.
-    pub fn at(&self, r: f64) -> ProfileStress {
+    /// Stresses at a radius.
+    pub fn at(&self, r: f64) -> InPlaneStress {
         match self {
             Profile::Uniform(series) => series.at(r),
             Profile::Varying(varying) => {
-                let stress = varying.field.at(r, 0.0);
+                let mut stress = varying.field.at(r, 0.0);
                 let thickness = varying.blade.thickness_at_m(r);
-                ProfileStress {
-                    radial_pa: stress.radial_pa,
-                    hoop_pa: stress.hoop_pa,
-                    shear_pa: stress.shear_pa + varying.torsion_n_m / (r * r * thickness),
-                }
+                stress.shear_pa += varying.torsion_n_m / (r * r * thickness);
+                stress
             }
         }
     }

@@ -15,8 +15,8 @@ const PHASES: [Phase; 2] = [Phase::Cosine, Phase::Sine];
 /// K_e,ij = ∫∫ h [σ_rr φᵢ,r φⱼ,r + σ_θθ φᵢ,θ φⱼ,θ / r² + σ_rθ S_ij / r] r dr dθ,
 /// S_ij = φᵢ,r φⱼ,θ + φᵢ,θ φⱼ,r.
 ///
-/// Under tension K_e is positive, under compression negative. On the rigid tilts it is the moment of dead
-/// forces on a tilted blade; on heave it vanishes.
+/// Tension adds to K_e, compression reduces it. On the rigid tilts K_e is the moment of dead forces on a tilted
+/// blade; on heave it vanishes.
 pub fn edge_stiffness(plate: &Plate, stress: &EdgeStress) -> Mat<f64> {
     let size = plate.basis.count();
     let max_order = stress.max_order().min(2 * plate.max_diameters());
@@ -100,7 +100,7 @@ fn between(
     block
 }
 
-/// Radial integrals of one order, cosine or sine, in Pa/m².
+/// Radial integrals of the cosine or the sine of one order of the stress, in Pa/m².
 struct RadialIntegrals {
     /// ∫ σ_rr R_j′ R_k′ r dr.
     radial: DMatrix<f64>,
@@ -113,7 +113,7 @@ struct RadialIntegrals {
 }
 
 impl RadialIntegrals {
-    /// [cosine, sine] of the orders 0 … `max_order`.
+    /// Integrals [cosine, sine] of the orders 0 … `max_order`.
     fn of_orders(samples: &[Sample], stress: &EdgeStress, max_order: usize) -> Vec<[Self; 2]> {
         (0..=max_order)
             .map(|order| [0, 1].map(|part| Self::new(samples, stress, order, part)))
@@ -146,9 +146,9 @@ impl RadialIntegrals {
     }
 }
 
-/// Number of points per panel for J functions and stresses that vary as r^m to r^−(m+2). Near the rim the
-/// integrand is a polynomial of degree m + 2J, for which half this number is exact. Within a panel r changes
-/// by at most a factor two, so that the negative powers need no more.
+/// Number of points per panel for J functions and stresses that vary as r^m to r^−(m+2). The polynomials of degree
+/// m + 2J in the integrand need J + m/2 + 1 points. Within a panel r changes by at most a factor of two, so that
+/// the negative powers need few more.
 fn sufficient_points(functions: usize, max_order: usize) -> usize {
     functions + max_order / 2 + 12
 }
@@ -156,7 +156,7 @@ fn sufficient_points(functions: usize, max_order: usize) -> usize {
 /// The radial functions common to all n ≠ 1 at a quadrature point.
 struct Sample {
     radius_m: f64,
-    /// Weight of the rule times thickness over that of the hub.
+    /// Weight of the rule times the thickness relative to `thickness_m` of the blade.
     weight_m: f64,
     value: DVector<f64>,
     slope: DVector<f64>,
@@ -185,7 +185,7 @@ mod tests {
     use crate::plate::{BoreForce, Resolution, RimForce};
     use crate::scene::{Bore, InPlane, Mount, Scene};
 
-    /// Twice the points change no integral of the largest basis.
+    /// Twice the points change no integral of the basis of the accuracy `reference`.
     #[test]
     fn the_quadrature_is_exact_to_rounding() {
         for (ratio, bore) in [

@@ -1,11 +1,11 @@
 //! Symmetric positive definite band matrices.
 //!
-//! The libraries in use have dense and sparse factorizations only: a harmonic of high order has twenty
-//! elements, for which the dense one takes a hundred times the work.
+//! The libraries in use have only dense and sparse factorizations. A harmonic of high order has twenty elements,
+//! for which a dense factorization takes a hundred times the work.
 
-/// The lower triangle of the matrix.
+/// A symmetric band matrix, of which the lower triangle is stored.
 pub struct Banded {
-    /// Row i: columns i − width + 1 … i.
+    /// Columns i − width + 1 … i of each row i.
     rows: Vec<Vec<f64>>,
     width: usize,
 }
@@ -24,8 +24,8 @@ impl Banded {
         self.rows[row][column + self.width - 1 - row] += value;
     }
 
-    /// Fixes an unknown at zero; its right side is zero.
-    pub fn hold(&mut self, unknown: usize) {
+    /// Fixes an unknown at zero, if the caller sets its right side to zero.
+    pub fn fix(&mut self, unknown: usize) {
         let end = self.rows.len().min(unknown + self.width);
         for row in unknown..end {
             self.rows[row][unknown + self.width - 1 - row] = 0.0;
@@ -34,7 +34,7 @@ impl Banded {
         self.rows[unknown][self.width - 1] = 1.0;
     }
 
-    /// Cholesky factorization within the band; its entries are NaN if the matrix is not positive definite.
+    /// Cholesky factor, which has NaN entries if the matrix is not positive definite.
     pub fn factored(mut self) -> BandedFactor {
         let (order, width) = (self.rows.len(), self.width);
         for i in 0..order {
@@ -62,11 +62,11 @@ fn first(row: usize, width: usize) -> usize {
     (row + 1).saturating_sub(width)
 }
 
-/// Cholesky's factor.
+/// Cholesky factor of a [`Banded`] matrix.
 pub struct BandedFactor(Banded);
 
 impl BandedFactor {
-    /// Replaces right sides, `columns` of them, row by row, by the solutions.
+    /// Replaces `columns` right sides, stored row by row, by the solutions.
     pub fn solve(&self, x: &mut [f64], columns: usize) {
         let Banded { rows, width } = &self.0;
         let width = *width;

@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
+use super::quadrature::panel_edges_m;
 use crate::scene::Blade;
 
-/// Degree of the polynomials.
+/// Degree of the shape functions.
 pub const DEGREE: usize = 14;
 /// Largest ratio of the radii of an element: 1/r is then resolved to 1e-13.
 const GROWTH: f64 = 1.6;
@@ -14,9 +15,9 @@ const WAVE_GROWTH: f64 = 4.0;
 /// The elements of one harmonic and their shape functions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Elements {
-    /// m.
+    /// Circumferential order m.
     order: f64,
-    /// Ends of the elements, ascending.
+    /// Radii at which elements begin or end, ascending.
     edges_m: Vec<f64>,
     reference: Reference,
 }
@@ -26,9 +27,9 @@ pub struct Elements {
 pub struct UnitStrains {
     /// Shape functions N_k(r).
     pub values: [f64; DEGREE + 1],
-    /// Strains for u.
+    /// Strains for a unit radial displacement u of each node.
     pub radial: [[f64; 3]; DEGREE + 1],
-    /// Strains for v.
+    /// Strains for a unit tangential displacement v of each node.
     pub along: [[f64; 3]; DEGREE + 1],
 }
 
@@ -52,23 +53,23 @@ impl Elements {
         DEGREE * self.count() + 1
     }
 
-    /// The nodes of an element.
+    /// Indices of the nodes of an element.
     pub fn nodes_of(&self, element: usize) -> Range<usize> {
         DEGREE * element..DEGREE * (element + 1) + 1
     }
 
-    /// The ends of an element.
+    /// Inner and outer radius of an element.
     pub fn ends_m(&self, element: usize) -> (f64, f64) {
         (self.edges_m[element], self.edges_m[element + 1])
     }
 
-    /// The element that contains a radius; at an edge, the inner one.
+    /// Index of the element that contains a radius; at an edge of two elements, that of the inner one.
     pub fn at(&self, radius_m: f64) -> usize {
         let next = self.edges_m.partition_point(|edge| *edge < radius_m);
         next.saturating_sub(1).min(self.count() - 1)
     }
 
-    /// The node at an edge.
+    /// Index of the node at an edge of an element.
     pub fn node_at_edge(&self, radius_m: f64) -> usize {
         DEGREE * self.edges_m.partition_point(|edge| *edge < radius_m)
     }
@@ -78,18 +79,18 @@ impl Elements {
         self.order
     }
 
-    /// The functions of an element at a radius.
+    /// Values of the shape functions of an element at a radius.
     pub fn values(&self, element: usize, radius_m: f64) -> [f64; DEGREE + 1] {
         self.reference.values(self.mapped(element, radius_m))
     }
 
-    /// x ∈ [−1, 1] over an element.
+    /// Coordinate x ∈ [−1, 1] of a radius in an element.
     fn mapped(&self, element: usize, radius_m: f64) -> f64 {
         let (from, to) = self.ends_m(element);
         2.0 * (radius_m - from) / (to - from) - 1.0
     }
 
-    /// Slopes at the nodes of an element for given values there.
+    /// Slopes in 1/m at the nodes of an element of the polynomial with the given values there.
     pub fn slopes_at_nodes(&self, element: usize, values: [f64; DEGREE + 1]) -> [f64; DEGREE + 1] {
         let (from, to) = self.ends_m(element);
         std::array::from_fn(|node| {
@@ -98,7 +99,7 @@ impl Elements {
         })
     }
 
-    /// ε_rr = u′, ε_θθ = (u + mv)/r, γ_rθ = v′ − (v + mu)/r.
+    /// Strains at a radius: ε_rr = u′, ε_θθ = (u + mv)/r, γ_rθ = v′ − (v + mu)/r.
     pub fn unit_strains(&self, element: usize, radius_m: f64) -> UnitStrains {
         let (from, to) = self.ends_m(element);
         let half = 0.5 * (to - from);
@@ -117,16 +118,9 @@ impl Elements {
 
 /// Ends of the elements: edges, knots, and further radii that limit the growth over an element.
 fn element_edges(blade: &Blade, order: usize, knots_m: &[f64]) -> Vec<f64> {
-    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
-    let mut knots = blade.edges_m();
-    knots.extend(knots_m.iter().filter(|r| a < **r && **r < b));
-    knots.sort_by(f64::total_cmp);
-    knots.dedup_by(|next, kept| *next - *kept < MERGED * b);
-    // The rim is kept exactly.
-    *knots.last_mut().expect("a ring has edges") = b;
     let growth = GROWTH.ln().min(WAVE_GROWTH / order.max(1) as f64);
-    let mut edges = vec![a];
-    for pair in knots.windows(2) {
+    let mut edges = vec![blade.inner_radius_m];
+    for pair in panel_edges_m(blade, knots_m).windows(2) {
         let count = ((pair[1] / pair[0]).ln() / growth).ceil().max(1.0) as usize;
         let ratio = (pair[1] / pair[0]).powf(1.0 / count as f64);
         edges.extend((1..count).map(|k| pair[0] * ratio.powi(k as i32)));
@@ -134,9 +128,6 @@ fn element_edges(blade: &Blade, order: usize, knots_m: &[f64]) -> Vec<f64> {
     }
     edges
 }
-
-/// Knots closer than this share of the outer radius are merged.
-const MERGED: f64 = 1e-12;
 
 /// Lagrange functions of the Chebyshev points on [−1, 1].
 #[derive(Debug, Clone, PartialEq)]
@@ -172,7 +163,7 @@ impl Reference {
         }
     }
 
-    /// Values of all functions at a point.
+    /// Values of all functions at x, by the barycentric formula.
     fn values(&self, x: f64) -> [f64; DEGREE + 1] {
         if let Some(node) = self.nodes.iter().position(|own| *own == x) {
             return std::array::from_fn(|k| if k == node { 1.0 } else { 0.0 });
@@ -183,8 +174,8 @@ impl Reference {
         shares.map(|share| share / sum)
     }
 
-    /// Slope at a point of the polynomial with these values, interpolated from its slopes at the nodes. The
-    /// derivative of the barycentric formula would suffer from cancellation near a node.
+    /// Slopes of all functions at the point where they have the given values, interpolated from their slopes at
+    /// the nodes. The derivative of the barycentric formula would suffer from cancellation near a node.
     fn slopes(&self, values: &[f64; DEGREE + 1]) -> [f64; DEGREE + 1] {
         std::array::from_fn(|k| {
             (0..=DEGREE)

@@ -1,15 +1,16 @@
 //! The light gap under a straight edge across a blade that lies on two points.
 //!
-//! The blade off its machine is free in bending. Its weight W is carried in equal parts by the two points, so that the reactions
-//! are known, and the weight itself does work only on the rigid heave: the basis is orthonormal with the mass, and a
-//! constant acceleration is a multiple of the heave. With q the coordinates of cos nθ, n even by symmetry, and φ(r) the values of
-//! its functions,
+//! The blade off its machine is free in bending. Two points carry its weight W in equal parts, so that the reactions are
+//! known, and the weight itself does work only on the rigid heave: the basis is orthonormal with the mass, and a
+//! constant acceleration is a multiple of the heave. With the coordinates q of cos nθ, n even by symmetry, and the values
+//! φ(r) of its functions,
 //!
 //! (K_b + s K_m) q = W φ(r_s), gap = Σ (φ(r_e) − φ(r_m)) · q cos(nπ/2),
 //!
-//! where K_m is the geometric stiffness of the rolled bands and s their factor. Tension of the rim stiffens the saddle of two
-//! nodal diameters, by which the ends of the straight edge sag; compression between band and rim softens the dish. Both raise
-//! the gap. Deflections are small in comparison with the thickness.
+//! where K_m is the geometric stiffness of the rolled bands, s the factor of their strain, and r_s, r_e and r_m the radii of
+//! the supports, of the ends of the straight edge and of its middle, which is the bore. Tension of the rim stiffens the
+//! saddle of two nodal diameters, by which the ends of the straight edge sag; compression between band and rim softens
+//! the dish. Both raise the gap. The theory requires deflections that are small in comparison with the thickness.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -22,18 +23,19 @@ use crate::text::shown_to;
 
 /// Acceleration of gravity, in m/s².
 const GRAVITY: f64 = 9.80665;
-/// Largest number of nodal diameters and number of radial functions. The terms of the gap alternate and fall with the third power
-/// of the number of diameters: 20 leave an error of 5e-4 of the gap, 60 one of 2e-5. The stress has kinks at the bands, so that
-/// 16 functions have an error of 6e-4 at seven tenths of buckling; it falls with the fifth power of their number.
+/// Largest number of nodal diameters and number of radial functions. The terms of the gap alternate and fall with the third
+/// power of the number of diameters: 20 leave an error of 5e-4 of the gap, 60 an error of 2e-5. The stress has kinks at the
+/// bands, so that 16 functions leave an error of 6e-4 at seven tenths of buckling, which falls with the fifth power of their
+/// number.
 const RESOLUTION: (usize, usize) = (60, 28);
-/// Largest share of the roll tension that buckles the blade at which a measured gap is explained: beyond it the deflection, inversely
-/// proportional to the rest, is no longer small.
+/// Largest roll tension, relative to that at which the blade buckles, that may explain a measured gap. The deflection is
+/// inversely proportional to the distance from buckling, and is no longer small beyond this limit.
 const BEFORE_BUCKLING: f64 = 0.9;
-/// Bisection to rounding.
+/// Number of bisections, which reduces the interval to rounding.
 const HALVINGS: usize = 60;
 
-/// Heights in m on a blade that lies on two points.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Light gap and sag of a blade that lies on two points.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LightGap {
     /// Light gap in the middle of the straight edge; negative if the blade touches there.
     pub gap_m: f64,
@@ -41,7 +43,7 @@ pub struct LightGap {
     pub sag_m: f64,
 }
 
-/// Answers to the straight edge of a scene.
+/// Computed readings of the straight edge of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StraightEdgeReading {
     /// The gap of the rolled blade; `None` if it is buckled.
@@ -50,13 +52,16 @@ pub struct StraightEdgeReading {
     pub plain: LightGap,
     /// Factor of the roll tension at which the blade buckles off its machine.
     pub buckling_factor: Option<f64>,
-    /// Factor of the roll tension that has the measured gap, and that gap.
+    /// Factor of the roll tension at which the gap is the measured one, and the computed gap there; `None` without a
+    /// measurement.
     pub measured: Option<(f64, LightGap)>,
 }
 
 impl StraightEdgeReading {
+    /// Computes the readings of a blade with rolled bands.
+    ///
     /// # Errors
-    /// [`RefusedValue`] if no factor of the roll tension has the measured gap.
+    /// [`RefusedValue`] if no factor of the roll tension gives the measured gap.
     pub(crate) fn new(edge: &StraightEdge, bands: &[RollBand]) -> Result<Self, RefusedValue> {
         let lying = LyingBlade::new(edge, bands, RESOLUTION);
         let buckling_factor = lying.buckling_factor();
@@ -65,10 +70,6 @@ impl StraightEdgeReading {
                 .at(factor)
                 .filter(|_| buckling_factor.is_none_or(|b| factor < b))
         };
-        let plain = lying.at(0.0).unwrap_or(LightGap {
-            gap_m: 0.0,
-            sag_m: 0.0,
-        });
         let measured = edge.measured_gap_m.map(|gap_m| {
             let last = buckling_factor.map_or(1.0, |factor| BEFORE_BUCKLING * factor);
             lying.factor_of(gap_m, last)
@@ -76,28 +77,28 @@ impl StraightEdgeReading {
         let measured = measured.transpose()?;
         Ok(StraightEdgeReading {
             rolled: flat(1.0),
-            plain,
+            plain: lying.at(0.0).unwrap_or_default(),
             buckling_factor,
             measured: measured.and_then(|factor| Some((factor, lying.at(factor)?))),
         })
     }
 }
 
-/// A blade on two points, by its waves.
+/// Equations of a blade on two points, one entry for each number n of nodal diameters.
 struct LyingBlade {
     waves: Vec<Wave>,
 }
 
-/// The elastic functions of n nodal diameters.
+/// Equations of n nodal diameters, on the functions other than the rigid heave and tilt.
 struct Wave {
     bending: DMatrix<f64>,
-    /// K_m of the bands at the factor one.
+    /// Stiffness K_m of the bands at the factor one.
     rolled: DMatrix<f64>,
-    /// W φ(r_s), or zero for odd n.
+    /// Load W φ(r_s), zero for odd n.
     load: DVector<f64>,
-    /// Functions that give the gap, with cos nπ/2.
+    /// Vector whose product with q is the gap of these waves.
     gap: DVector<f64>,
-    /// Functions that give the sag.
+    /// Vector whose product with q is the sag of these waves.
     sag: DVector<f64>,
 }
 
@@ -116,7 +117,7 @@ impl LyingBlade {
         let stiffness = stress.map(|stress| membrane_stiffness(&basis, &stress, most));
         let weight_n = GRAVITY * blade.mass_kg();
         let wave = |n: usize| {
-            // Rigid heave and tilt come first.
+            // The first function of n = 0 is the rigid heave, that of n = 1 the rigid tilt.
             let rigid = usize::from(n <= 1);
             let elastic = |matrix: &DMatrix<f64>| {
                 let size = matrix.nrows() - rigid;
@@ -155,10 +156,7 @@ impl LyingBlade {
 
     /// Gap and sag at a factor of the roll tension; `None` if the blade is buckled.
     fn at(&self, factor: f64) -> Option<LightGap> {
-        let mut sum = LightGap {
-            gap_m: 0.0,
-            sag_m: 0.0,
-        };
+        let mut sum = LightGap::default();
         for wave in self.waves.iter().step_by(2) {
             let stiffness = &wave.bending + factor * &wave.rolled;
             let q = stiffness.cholesky()?.solve(&wave.load);
@@ -180,7 +178,7 @@ impl LyingBlade {
         (largest > 0.0).then(|| 1.0 / largest)
     }
 
-    /// The factor, from 0 to `last`, that has a gap.
+    /// The factor, from 0 to `last`, at which the blade has a given gap.
     fn factor_of(&self, gap_m: f64, last: f64) -> Result<f64, RefusedValue> {
         let gap_at = |factor: f64| self.at(factor).map_or(f64::NAN, |found| found.gap_m);
         let (none, most) = (gap_at(0.0), gap_at(last));

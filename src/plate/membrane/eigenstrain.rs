@@ -6,35 +6,35 @@ use crate::scene::{Blade, Profile, RollBand, Temperature, TemperatureShape};
 /// to rounding.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Eigenstrain {
-    /// ε_b ((r − r₀)/(b − r₀))^p beyond r₀, zero within.
+    /// Strain ε_b ((r − r₀)/(b − r₀))^p beyond r₀, zero inside it.
     Power {
-        /// ε_b, at the rim.
+        /// Strain ε_b at the rim.
         at_rim: f64,
-        /// r₀.
+        /// Radius r₀ at which the strain begins.
         from_radius_m: f64,
-        /// b.
+        /// Radius b of the rim.
         to_radius_m: f64,
-        /// p.
+        /// Exponent p.
         exponent: f64,
     },
-    /// Linear between rows.
+    /// Strain linear between the rows of a table.
     Table {
-        /// Factor of the profile.
+        /// Strain where the profile is one.
         factor: f64,
-        /// Profile over the radius.
+        /// Shape of the strain over the radius.
         profile: Profile,
     },
-    /// Constant within a band.
+    /// Strain constant within a band and zero outside it.
     Band(RollBand),
 }
 
-/// Towards r₀ panels shrink by this factor, for powers that are not integers: after as many panels the
-/// remainder of r^½ is below 1e-11 of its integral.
+/// Ratio of the widths of successive panels towards r₀, if the exponent is not an integer.
 const SHRINK: f64 = 0.15;
+/// Number of these panels: the integral of r^½ over the remainder is below 1e-11 of the whole.
 const SHRUNK_PANELS: i32 = 9;
 
 impl Eigenstrain {
-    /// α T(r) of a temperature with the given peak.
+    /// Thermal strain α T(r) of a temperature with the given peak.
     pub fn of_heat(blade: &Blade, temperature: &Temperature, peak_rise_k: f64) -> Self {
         let peak = temperature.expansion_per_k * peak_rise_k;
         match &temperature.shape {
@@ -103,7 +103,7 @@ impl Eigenstrain {
         }
     }
 
-    /// Whether it is zero everywhere.
+    /// Whether the strain is zero everywhere.
     pub fn is_zero(&self) -> bool {
         match self {
             Eigenstrain::Power { at_rim, .. } => *at_rim == 0.0,
@@ -135,7 +135,7 @@ impl Eigenstrain {
         }
     }
 
-    /// Degree of the polynomial between knots, if it is one.
+    /// Degree of the polynomial between knots; for a power that is no polynomial, its exponent rounded up.
     pub fn degree(&self) -> usize {
         match self {
             Eigenstrain::Power { exponent, .. } => exponent.ceil() as usize,

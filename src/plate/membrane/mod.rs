@@ -1,13 +1,13 @@
 //! Membrane stress of heat, roll tension and manufacture, and its geometric stiffness.
 //!
-//! Plane stress with an axisymmetric, isotropic eigenstrain ε(r) on a < r < b: with I(r) = ∫_a^r ε ρ dρ
+//! For an axisymmetric, isotropic eigenstrain ε(r) on a < r < b and I(r) = ∫_a^r ε ρ dρ the plane stress
 //!
-//! σ_rr = A − B/r² − E I/r², σ_θθ = A + B/r² + E I/r² − E ε,
+//! σ_rr = A − B/r² − E I/r², σ_θθ = A + B/r² + E I/r² − E ε
 //!
-//! which satisfies equilibrium, d(r σ_rr)/dr = σ_θθ, and compatibility. The rim is free. The bore has the
-//! same condition as for centrifugal stress: free, or u(a) = 0 at a fixed collar, whose temperature is then
-//! the reference. These two conditions of a collar are limits for the real one, inside which the blade is
-//! neither rigid nor absent.
+//! satisfies equilibrium, d(r σ_rr)/dr = σ_θθ, and compatibility. The rim is free. The bore has the condition of
+//! the centrifugal stress: free, or u(a) = 0 at a fixed collar, whose temperature is then the reference. The
+//! stress of a real collar lies between these two limits, because the blade inside the collar is neither rigid
+//! nor absent.
 //!
 //! A measured residual stress is used as given, with the radial stress that is in equilibrium with it, see
 //! [`ResidualStress`].
@@ -28,11 +28,11 @@ use crate::scene::{Blade, Bore, InPlane, Membrane, ResidualStress, Temperature};
 /// Cause of a membrane stress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MembraneSource {
-    /// Temperature.
+    /// Temperature that varies over the radius.
     Heat,
     /// Rolled bands.
     RollTension,
-    /// A measured table.
+    /// Residual stress of a measured table.
     Residual,
 }
 
@@ -54,23 +54,35 @@ pub struct MembraneStress {
 
 #[derive(Debug, Clone, PartialEq)]
 enum Part {
-    Eigen(EigenStress),
-    Varying(VaryingStress),
+    Eigen(Eigenstrain, EigenStress),
     Residual(ResidualStress),
 }
 
 /// Stress of one eigenstrain.
 #[derive(Debug, Clone, PartialEq)]
-struct EigenStress {
-    eigenstrain: Eigenstrain,
-    /// A.
-    uniform_pa: f64,
-    /// B.
-    inverse_n: f64,
+enum EigenStress {
+    /// Closed form for a blade of uniform thickness.
+    Uniform {
+        /// The constant A.
+        uniform_pa: f64,
+        /// The constant B.
+        inverse_n: f64,
+    },
+    /// Finite elements for a blade of varying thickness.
+    Varying(InPlaneField),
 }
 
 impl EigenStress {
-    fn new(blade: &Blade, eigenstrain: Eigenstrain) -> Self {
+    fn new(blade: &Blade, eigenstrain: &Eigenstrain) -> Self {
+        if blade.profile.is_some() {
+            let load = InPlaneLoad {
+                eigenstrain: &|r| eigenstrain.at(r),
+                knots_m: &eigenstrain.knots_m(),
+                bore_is_fixed: blade.bore == Bore::Clamped(InPlane::Fixed),
+                ..InPlaneLoad::default()
+            };
+            return EigenStress::Varying(InPlaneField::new(blade, 0, &load));
+        }
         let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
         let (aa, bb) = (a * a, b * b);
         let nu = blade.material.poisson_ratio;
@@ -82,72 +94,47 @@ impl EigenStress {
                 -(1.0 - nu) * whole / bb / ((1.0 - nu) / bb + (1.0 + nu) / aa)
             }
         };
-        EigenStress {
-            eigenstrain,
-            // σ_rr(b) = 0.
+        EigenStress::Uniform {
+            // The rim is free: σ_rr(b) = 0.
             uniform_pa: (inverse_n + whole) / bb,
             inverse_n,
         }
     }
 
-    fn at(&self, blade: &Blade, r: f64) -> PlaneStress {
-        let modulus = blade.material.youngs_modulus_pa;
-        let moment = self.eigenstrain.moment_m2(blade.inner_radius_m, r);
-        let inverse = (self.inverse_n + modulus * moment) / (r * r);
-        PlaneStress {
-            radial_pa: self.uniform_pa - inverse,
-            hoop_pa: self.uniform_pa + inverse - modulus * self.eigenstrain.at(r),
-        }
-    }
-}
-
-/// Stress of one eigenstrain in a blade of varying thickness.
-#[derive(Debug, Clone, PartialEq)]
-struct VaryingStress {
-    eigenstrain: Eigenstrain,
-    field: InPlaneField,
-}
-
-impl VaryingStress {
-    fn new(blade: &Blade, eigenstrain: Eigenstrain) -> Self {
-        let load = InPlaneLoad {
-            eigenstrain: &|r| eigenstrain.at(r),
-            knots_m: &eigenstrain.knots_m(),
-            bore_is_held: blade.bore == Bore::Clamped(InPlane::Fixed),
-            ..InPlaneLoad::default()
-        };
-        let field = InPlaneField::new(blade, 0, &load);
-        VaryingStress { eigenstrain, field }
-    }
-
-    fn at(&self, r: f64) -> PlaneStress {
-        let stress = self.field.at(r, self.eigenstrain.at(r));
-        PlaneStress {
-            radial_pa: stress.radial_pa,
-            hoop_pa: stress.hoop_pa,
+    fn at(&self, blade: &Blade, eigenstrain: &Eigenstrain, r: f64) -> PlaneStress {
+        match self {
+            EigenStress::Uniform {
+                uniform_pa,
+                inverse_n,
+            } => {
+                let modulus = blade.material.youngs_modulus_pa;
+                let moment = eigenstrain.moment_m2(blade.inner_radius_m, r);
+                let inverse = (inverse_n + modulus * moment) / (r * r);
+                PlaneStress {
+                    radial_pa: uniform_pa - inverse,
+                    hoop_pa: uniform_pa + inverse - modulus * eigenstrain.at(r),
+                }
+            }
+            EigenStress::Varying(field) => {
+                let stress = field.at(r, eigenstrain.at(r));
+                PlaneStress {
+                    radial_pa: stress.radial_pa,
+                    hoop_pa: stress.hoop_pa,
+                }
+            }
         }
     }
 }
 
 impl Part {
     fn of_eigenstrain(blade: &Blade, strain: Eigenstrain) -> Self {
-        match blade.profile {
-            None => Part::Eigen(EigenStress::new(blade, strain)),
-            Some(_) => Part::Varying(VaryingStress::new(blade, strain)),
-        }
-    }
-
-    fn eigenstrain(&self) -> Option<&Eigenstrain> {
-        match self {
-            Part::Eigen(EigenStress { eigenstrain, .. })
-            | Part::Varying(VaryingStress { eigenstrain, .. }) => Some(eigenstrain),
-            Part::Residual(_) => None,
-        }
+        let stress = EigenStress::new(blade, &strain);
+        Part::Eigen(strain, stress)
     }
 }
 
 impl MembraneStress {
-    /// The sum of all stresses of a scene that are not zero; `None` without any.
+    /// The sum of all stresses of a scene that are not zero; `None` if there are none.
     pub(crate) fn new(blade: &Blade, membrane: &Membrane) -> Option<Self> {
         let heat = membrane.temperature.as_ref().map(|temperature| {
             let strain = Eigenstrain::of_heat(blade, temperature, temperature.peak_rise_k);
@@ -175,7 +162,7 @@ impl MembraneStress {
         })
     }
 
-    /// The stress of a temperature with the given peak alone.
+    /// The stress of the temperature alone, with another peak.
     pub(crate) fn of_heat(blade: &Blade, temperature: &Temperature, peak_rise_k: f64) -> Self {
         let strain = Eigenstrain::of_heat(blade, temperature, peak_rise_k);
         let part = Part::of_eigenstrain(blade, strain);
@@ -185,7 +172,7 @@ impl MembraneStress {
         }
     }
 
-    /// Whether a stress of this cause is part of it.
+    /// Whether a part of the stress has this cause.
     pub fn has(&self, source: MembraneSource) -> bool {
         self.parts.iter().any(|(own, _)| *own == source)
     }
@@ -195,8 +182,7 @@ impl MembraneStress {
         let mut sum = PlaneStress::default();
         for (_, part) in &self.parts {
             let stress = match part {
-                Part::Eigen(eigen) => eigen.at(&self.blade, radius_m),
-                Part::Varying(varying) => varying.at(radius_m),
+                Part::Eigen(strain, eigen) => eigen.at(&self.blade, strain, radius_m),
                 Part::Residual(residual) => PlaneStress {
                     radial_pa: residual.radial_pa(&self.blade, radius_m),
                     hoop_pa: residual.hoop_pa.at(radius_m),
@@ -210,33 +196,24 @@ impl MembraneStress {
 
     /// The edges and the radii between them at which the stress is not smooth, ascending.
     pub fn knots_m(&self) -> Vec<f64> {
-        let (a, b) = (self.blade.inner_radius_m, self.blade.outer_radius_m);
         let of_part = |(_, part): &(MembraneSource, Part)| match part {
             Part::Residual(residual) => residual.hoop_pa.knots_m().to_vec(),
-            Part::Eigen(_) | Part::Varying(_) => {
-                part.eigenstrain().map_or(Vec::new(), Eigenstrain::knots_m)
-            }
+            Part::Eigen(strain, _) => strain.knots_m(),
         };
-        let mut knots: Vec<f64> = self.parts.iter().flat_map(of_part).collect();
-        knots.retain(|r| a < *r && *r < b);
-        knots.extend(self.blade.edges_m());
-        knots.sort_by(f64::total_cmp);
-        // The panel between two knots that differ by rounding would be empty.
-        knots.dedup_by(|next, kept| *next - *kept < MERGED * b);
-        knots
+        let knots: Vec<f64> = self.parts.iter().flat_map(of_part).collect();
+        quadrature::panel_edges_m(&self.blade, &knots)
     }
 
     /// Number of Gauss points per panel that integrate the product of the stress and two of J functions.
     fn points(&self, functions: usize) -> usize {
-        let degree =
-            |(_, part): &(MembraneSource, Part)| part.eigenstrain().map_or(1, Eigenstrain::degree);
+        let degree = |(_, part): &(MembraneSource, Part)| match part {
+            Part::Residual(_) => 1,
+            Part::Eigen(strain, _) => strain.degree(),
+        };
         let degree = self.parts.iter().map(degree).max().unwrap_or(0);
         functions + degree / 2 + 12
     }
 }
-
-/// Knots closer than this share of the outer radius are merged.
-const MERGED: f64 = 1e-12;
 
 /// Geometric stiffness K_m of n = 0 … n_max in the mass-normalised basis, in 1/s²:
 /// (1/ρ) ∫ h/h₀ [σ_rr R′R′ + n² σ_θθ RR/r²] r dr. Panels end where the stress is not smooth.
@@ -260,7 +237,7 @@ fn stiffness_with(
     let mut hoop = DMatrix::zeros(size, size);
     for panel in stress.knots_m().windows(2) {
         for (r, w) in quadrature::graded(panel[0], panel[1], points).iter() {
-            // The functions of n = 0 are those of all n except 1, for which they are rotated.
+            // The functions of n = 0 serve for all n: `turned` rotates the block of n = 1.
             let functions = basis.evaluate(0, r);
             let value = DVector::from_vec(functions.value);
             let slope = DVector::from_vec(functions.slope);

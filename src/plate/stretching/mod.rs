@@ -1,15 +1,9 @@
 //! Potential of stretching: the energy of in-plane strains that result from deflections comparable to the
 //! thickness.
 //!
-//! Kirchhoff plate with von Kármán's strains; the steady centrifugal stress is part of K_σ, and in-plane
-//! inertia is neglected:
-//!
-//! U₄(q) = min_u ½ ∫ h E : ℂ : E dA, E = ε(u) + ½ ∇w ⊗ ∇w, w = Σ qᵢ φᵢ,
-//!
-//! with ℂ of plane stress and the in-plane displacement u. U₄ is homogeneous of degree four in q, is never
-//! negative, and does not change when the deflection is rotated about the axis, so that it is the same
-//! function in space and on the turning blade. The edges are free in the plane; at a fixed collar (`in_plane`
-//! `fixed`) u = 0.
+//! [`Stretching`] defines it. The steady centrifugal stress is part of K_σ, and in-plane inertia is neglected.
+//! Because the potential does not change when the deflection is rotated about the axis, it is one function in
+//! space and on the turning blade.
 //!
 //! **Method.** With w = Σ wₙ(r) e^{inθ} the strains of harmonic m are sums of products of wₙ and w₍ₘ₋ₙ₎.
 //! Times r² they are polynomials between the knots of the thickness, and values at a few nodes ([`Nodes`])
@@ -18,12 +12,8 @@
 //! number of in-plane functions has to be chosen. The result is a sum of squares, U₄ = Σₘ |Zₘ eₘ|², with the
 //! strains eₘ at the nodes.
 //!
-//! A [`Plate`] gives U₄ in J, its gradient in N/√kg and its second derivatives in 1/s², for q in √kg·m. Von
-//! Kármán's strains are valid for slopes up to about 0.1.
-//!
-//! References: T. von Kármán, *Festigkeitsprobleme im Maschinenbau*, Enzykl. Math. Wiss. IV/4 (1910), 348–352;
-//! C. Touzé, O. Thomas & A. Chaigne, *Asymmetric non-linear forced vibrations of free-edge circular plates*, part 1,
-//! J. Sound Vib. 258 (2002), 649–676, for free edges.
+//! Reference: C. Touzé, O. Thomas & A. Chaigne, *Asymmetric non-linear forced vibrations of free-edge circular
+//! plates*, part 1, J. Sound Vib. 258 (2002), 649–676, for free edges.
 
 mod nodes;
 mod reduced;
@@ -40,7 +30,7 @@ use nodes::Nodes;
 use relaxed::Relaxed;
 use strain::{Slopes, Strain};
 
-/// Reason for which the potential of stretching, or a value of it, could not be computed.
+/// Reason for which the potential of stretching, or its value, could not be computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum StretchingError {
     /// The deflection belongs to another basis.
@@ -58,7 +48,7 @@ pub enum StretchingError {
         "the in-plane stiffness of the blade for {harmonic} waves is not finite; the scene's numbers differ too much in size"
     )]
     NotFinite {
-        /// m.
+        /// Number m of waves around the circle.
         harmonic: usize,
     },
 }
@@ -76,7 +66,7 @@ pub enum StretchingError {
 #[derive(Debug, Clone)]
 pub struct Stretching {
     nodes: Nodes,
-    /// Zₘ, m = 0 … 2 n_max.
+    /// Matrices Zₘ of m = 0 … 2 n_max.
     harmonics: Vec<Relaxed>,
 }
 
@@ -84,7 +74,7 @@ impl Stretching {
     /// Computes Zₘ of every harmonic m ≤ 2 n_max.
     ///
     /// # Errors
-    /// [`StretchingError::NotFinite`].
+    /// [`StretchingError::NotFinite`] if the numbers of the scene differ too much in size.
     pub fn new(plate: &Plate) -> Result<Self, StretchingError> {
         let nodes = Nodes::new(plate);
         let harmonics = (0..=2 * plate.max_diameters())
@@ -94,7 +84,7 @@ impl Stretching {
         Ok(Stretching { nodes, harmonics })
     }
 
-    /// Number of coordinates of a deflection, which is that of the plate's unknowns.
+    /// Number N of coordinates of a deflection, which is that of the plate's unknowns.
     pub fn order(&self) -> usize {
         self.nodes.degrees_of_freedom()
     }
@@ -102,7 +92,7 @@ impl Stretching {
     /// U₄(q), in J, never negative.
     ///
     /// # Errors
-    /// [`StretchingError::Length`].
+    /// [`StretchingError::Length`] if the deflection does not have N coordinates.
     pub fn energy_j(&self, deflection: &Col<f64>) -> Result<f64, StretchingError> {
         let w = self.slopes(deflection)?;
         let relaxed = self.relaxed(&Strain::of(&w, &w));
@@ -112,7 +102,7 @@ impl Stretching {
     /// ∂U₄/∂q, in N/√kg.
     ///
     /// # Errors
-    /// [`StretchingError::Length`].
+    /// [`StretchingError::Length`] if the deflection does not have N coordinates.
     pub fn gradient(&self, deflection: &Col<f64>) -> Result<Col<f64>, StretchingError> {
         let w = self.slopes(deflection)?;
         let stress = self.stress(&self.relaxed(&Strain::of(&w, &w)));
@@ -123,7 +113,7 @@ impl Stretching {
     /// deflection.
     ///
     /// # Errors
-    /// [`StretchingError::Length`].
+    /// [`StretchingError::Length`] if the deflection does not have N coordinates.
     pub fn hessian(&self, deflection: &Col<f64>) -> Result<Mat<f64>, StretchingError> {
         let w = self.slopes(deflection)?;
         let stress = self.stress(&self.relaxed(&Strain::of(&w, &w)));
@@ -134,8 +124,8 @@ impl Stretching {
                 let mut unit = Col::zeros(order);
                 unit[k] = 1.0;
                 let v = self.nodes.slopes(&unit);
-                // The derivative of the gradient has two parts: existing stress on new slopes, and new stress
-                // on existing slopes.
+                // The derivative of the gradient has two parts: the existing stress acts on the added slopes, and
+                // the added stress on the existing slopes.
                 let added = self.stress(&self.relaxed(&Strain::of(&w, &v)));
                 let mut force = self.nodes.work(&stress.pulled_back(&v));
                 force += faer::Scale(2.0) * self.nodes.work(&added.pulled_back(&w));
@@ -147,7 +137,7 @@ impl Stretching {
         }))
     }
 
-    /// The slopes of a deflection at the nodes.
+    /// Slopes of a deflection at the nodes, if it has N coordinates.
     fn slopes(&self, deflection: &Col<f64>) -> Result<Slopes, StretchingError> {
         match (deflection.nrows(), self.order()) {
             (given, expected) if given == expected => Ok(self.nodes.slopes(deflection)),
@@ -155,7 +145,7 @@ impl Stretching {
         }
     }
 
-    /// Zₘ eₘ of all m in sequence, the real part of each before the imaginary one.
+    /// Values Zₘ eₘ of all m in sequence, the real part of each before the imaginary one.
     fn relaxed(&self, strain: &Strain) -> Vec<f64> {
         let mut all = Vec::new();
         for (harmonic, parts) in self.harmonics.iter().zip(strain.harmonics()) {
@@ -166,7 +156,7 @@ impl Stretching {
         all
     }
 
-    /// Zₘᵀ yₘ of all m: stresses at the nodes, integrated over the width of each.
+    /// Stresses Zₘᵀ yₘ of all m at the nodes, integrated over the area that each node represents.
     fn stress(&self, relaxed: &[f64]) -> Strain {
         let mut stress = self.nodes.no_strain();
         let mut rest = relaxed;

@@ -12,15 +12,15 @@ use super::strain::{Slopes, Strain};
 /// requires, and the radial functions there.
 #[derive(Debug, Clone)]
 pub struct Nodes {
-    /// Number of points of an interval.
+    /// Number of nodes of an interval.
     count: usize,
     /// Ends of the intervals.
     edges_m: Vec<f64>,
-    /// Radii, interval by interval.
+    /// Radii of the nodes, interval by interval.
     radii_m: Vec<f64>,
     /// R′ and R/r of n ≠ 1 and of n = 1 at each node, one row of J values per node.
     functions: [Vec<[Vec<f64>; 2]>; 2],
-    /// √(ρh₀ π(1+δ_n0)).
+    /// Norm √(ρh₀ π(1+δ_n0)) of each n.
     norms: Vec<f64>,
     /// Indices of the cosines and of the sines of each n.
     unknowns: Vec<[Range<usize>; 2]>,
@@ -71,7 +71,7 @@ impl Nodes {
         self.degrees_of_freedom
     }
 
-    /// Degree of the interpolated polynomial.
+    /// Degree of the polynomial r² e through the strains at the nodes of an interval.
     pub fn degree(&self) -> usize {
         self.count - 1
     }
@@ -93,7 +93,7 @@ impl Nodes {
     }
 
     /// Nodes of the interval that contains a radius, each with the strain at this radius for a unit strain at
-    /// the node and zero at the others: r² e is the polynomial through its values.
+    /// the node and zero at the others: r² e is a polynomial.
     pub fn interpolated(&self, radius_m: f64) -> Vec<(usize, f64)> {
         let next = self.edges_m.partition_point(|edge| *edge < radius_m);
         let interval = next.saturating_sub(1).min(self.edges_m.len() - 2);
@@ -110,7 +110,7 @@ impl Nodes {
             .collect()
     }
 
-    /// wₙ′ and i n wₙ/r of a deflection, at the nodes.
+    /// Slopes wₙ′ and i n wₙ/r of a deflection at the nodes.
     pub fn slopes(&self, deflection: &Col<f64>) -> Slopes {
         let mut slopes = Slopes::none(self.norms.len() - 1, self.len());
         for (n, norm) in self.norms.iter().enumerate() {
@@ -137,7 +137,7 @@ impl Nodes {
     }
 
     /// Work of forces on the slopes of every basis function, summed over the nodes: 2 Re(fᵣ* φ′ + f_θ* φ_θ/r)
-    /// for n > 0, once for n = 0.
+    /// for n > 0, Re(fᵣ* φ′) for n = 0.
     pub fn work(&self, forces: &Slopes) -> Col<f64> {
         let mut work = Col::zeros(self.degrees_of_freedom());
         for (n, norm) in self.norms.iter().enumerate() {
@@ -158,7 +158,7 @@ impl Nodes {
         work
     }
 
-    /// Zero strains.
+    /// Zero strains of all harmonics at the nodes.
     pub fn no_strain(&self) -> Strain {
         Strain::none(2 * (self.norms.len() - 1), self.len())
     }
@@ -176,7 +176,7 @@ fn chebyshev(count: usize) -> impl Iterator<Item = f64> {
     (0..count).map(move |k| -(std::f64::consts::PI * (k as f64 + 0.5) / count as f64).cos())
 }
 
-/// Lagrange functions of these points, by the barycentric formula.
+/// Values at x of the Lagrange functions of the Chebyshev points, by the barycentric formula.
 fn lagrange(count: usize, x: f64) -> Vec<f64> {
     let share = |(k, node): (usize, f64)| {
         let sign = if k % 2 == 0 { 1.0 } else { -1.0 };

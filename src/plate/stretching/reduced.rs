@@ -11,15 +11,15 @@ use super::{Stretching, StretchingError};
 #[derive(Debug, Clone)]
 pub struct ReducedStretching {
     order: usize,
-    /// Q, of order r(r+1)/2, for the pairs (0, 0), (1, 0), (1, 1), (2, 0) …
+    /// Matrix Q, of order r(r+1)/2, for the pairs (0, 0), (1, 0), (1, 1), (2, 0) …
     quartic: Mat<f64>,
 }
 
 impl ReducedStretching {
-    /// The potential on the shapes that are the columns of V, N × r.
+    /// Computes the potential on the shapes that are the columns of V, N × r.
     ///
     /// # Errors
-    /// [`StretchingError::Length`].
+    /// [`StretchingError::Length`] if V does not have N rows.
     pub fn new(stretching: &Stretching, basis: MatRef<'_, f64>) -> Result<Self, StretchingError> {
         let order = basis.ncols();
         let slopes = (0..order)
@@ -104,7 +104,7 @@ impl ReducedStretching {
         Ok(hessian)
     }
 
-    /// z.
+    /// Products z of the coordinates p.
     fn products(&self, p: &Col<f64>) -> Result<Col<f64>, StretchingError> {
         if p.nrows() != self.order {
             return Err(StretchingError::Length {
@@ -116,7 +116,8 @@ impl ReducedStretching {
         Ok(Col::from_fn(products.len(), |i| products[i]))
     }
 
-    /// S with S p = Σ tᵢ ∂zᵢ/∂p: the tension t of each pair at its two positions, twice on the diagonal.
+    /// Matrix S with S p = Σ tᵢ ∂zᵢ/∂p: the tension t of each pair is at its two positions, twice on the
+    /// diagonal.
     fn symmetric(&self, tension: &Col<f64>) -> Mat<f64> {
         let mut matrix = Mat::zeros(self.order, self.order);
         for (i, (a, b)) in pairs(self.order).enumerate() {
@@ -133,7 +134,7 @@ fn pair(a: usize, b: usize) -> usize {
     more * (more + 1) / 2 + less
 }
 
-/// Pairs a ≥ b.
+/// Iterates over the pairs a ≥ b in the order of the products.
 fn pairs(order: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..order).flat_map(|a| (0..=a).map(move |b| (a, b)))
 }

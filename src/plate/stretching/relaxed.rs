@@ -9,25 +9,28 @@ use crate::scene::{Blade, Bore, InPlane, Material};
 use super::StretchingError;
 use super::nodes::Nodes;
 
-/// Z of harmonic m: |Z e|² is the energy, in J, of the strains e (cos mθ, cos mθ, sin mθ) at the nodes, and
-/// equally of those rotated by a quarter wave.
+/// Matrix Z of harmonic m: |Z e|² is the energy, in J, of the strains e at the nodes, which vary as (cos mθ,
+/// cos mθ, sin mθ), or as these rotated by a quarter wave.
 #[derive(Debug, Clone)]
 pub struct Relaxed {
     /// One row for each value of Z e, with three columns for each node.
     rows: Vec<Vec<f64>>,
 }
 
-/// Columns smaller than this share of the largest are rounding; their energy is the square of it.
+/// Columns smaller than this share of the largest are rounding; their share of the energy is its square.
 const RANK_TOLERANCE: f64 = 1e-10;
 
 /// Number of half-waves of the roughest strains per element, if their degree exceeds that of its polynomials.
-/// Without this the strains of twelve radial functions are not relaxed; with it their energy is accurate to
-/// 1e-9 of the largest.
+/// With elements of the usual width the strains of twelve radial functions are not relaxed; with these narrower
+/// ones their energy is accurate to 1e-9 of the largest.
 const HALF_WAVES: usize = 4;
 
 impl Relaxed {
-    /// E = e + B u at the points of a Gauss rule, with u = −A⁻¹ Bᵀℂe. The weighted E equals Q R Pᵀ, so that Z
-    /// = R Pᵀ.
+    /// Computes Z. The strains at the points of a Gauss rule are E = e + B u with u = −A⁻¹ Bᵀℂe. The matrix
+    /// that gives √(weight ℂ) E of e is factored as Q R Pᵀ, so that Z = R Pᵀ.
+    ///
+    /// # Errors
+    /// [`StretchingError::NotFinite`].
     pub fn new(blade: &Blade, nodes: &Nodes, order: usize) -> Result<Self, StretchingError> {
         let elements = Elements::new(blade, order, &nodes.divisions_m(DEGREE, HALF_WAVES));
         Self::on(&elements, blade, nodes, order)
@@ -40,7 +43,7 @@ impl Relaxed {
         order: usize,
     ) -> Result<Self, StretchingError> {
         let points = Points::new(blade, nodes, elements);
-        let displacements = points.displacements(elements, 3 * nodes.len(), held(blade, order));
+        let displacements = points.displacements(elements, 3 * nodes.len(), fixed(blade, order));
         let left = points.left(elements, &displacements, 3 * nodes.len());
         let turns = if order == 0 { 1.0 } else { 2.0 };
         let left = Scale((std::f64::consts::PI * turns).sqrt()) * left;
@@ -57,13 +60,13 @@ impl Relaxed {
         self.rows.len()
     }
 
-    /// Appends Z e.
+    /// Appends Z e to `relaxed`.
     pub fn apply(&self, strain: &[f64], relaxed: &mut Vec<f64>) {
         let product = |row: &Vec<f64>| row.iter().zip(strain).map(|(z, e)| z * e).sum::<f64>();
         relaxed.extend(self.rows.iter().map(product));
     }
 
-    /// Zᵀ y.
+    /// Adds Zᵀ y to `stress`, where y is `relaxed`.
     pub fn apply_transposed(&self, relaxed: &[f64], stress: &mut [f64]) {
         for (row, y) in self.rows.iter().zip(relaxed) {
             for (stress, z) in stress.iter_mut().zip(row) {
@@ -74,20 +77,20 @@ impl Relaxed {
 }
 
 /// Rows of R Pᵀ by column pivoting: the largest remaining column gives the next direction of Q, which is
-/// removed from all columns. Most columns are combinations of a few.
+/// removed from all columns. There are few rows, because most columns are combinations of a few.
 fn triangular(mut left: Mat<f64>) -> Vec<Vec<f64>> {
     let mut rows = Vec::new();
     let mut directions: Vec<Col<f64>> = Vec::new();
-    let mut least = 0.0;
+    let mut negligible = 0.0;
     for _ in 0..left.nrows().min(left.ncols()) {
         let norms = (0..left.ncols()).map(|k| left.col(k).squared_norm_l2());
         let Some((pivot, norm)) = norms.enumerate().max_by(|x, y| x.1.total_cmp(&y.1)) else {
             break;
         };
         if rows.is_empty() {
-            least = norm * RANK_TOLERANCE.powi(2);
+            negligible = norm * RANK_TOLERANCE.powi(2);
         }
-        if norm <= least {
+        if norm <= negligible {
             break;
         }
         let mut direction = left.col(pivot).to_owned();
@@ -104,9 +107,9 @@ fn triangular(mut left: Mat<f64>) -> Vec<Vec<f64>> {
     rows
 }
 
-/// Unknowns at the bore that are fixed at zero: those of a fixed collar, and one for each motion without
-/// strain, the rotation of m = 0 and the translation of m = 1, which then carries no force.
-fn held(blade: &Blade, order: usize) -> &'static [usize] {
+/// Unknowns at the bore that are fixed at zero: both displacements of a fixed collar; otherwise one for each
+/// motion without strain, the rotation of m = 0 and the translation of m = 1, whose reaction is zero.
+fn fixed(blade: &Blade, order: usize) -> &'static [usize] {
     match (blade.bore, order) {
         (Bore::Clamped(InPlane::Fixed), _) => &[0, 1],
         (_, 0) => &[1],
@@ -121,19 +124,19 @@ struct Points(Vec<Point>);
 struct Point {
     element: usize,
     unit: UnitStrains,
-    /// Nodes, and the strain at this point for a unit strain at each.
+    /// Index of each node of the interval, with the strain at this point for a unit strain at the node.
     strains: Vec<(usize, f64)>,
     /// Factors [(rr, rr), (rr, tt), (tt, tt), (rt, rt)] of √(weight ℂ), triangular.
     root: [f64; 4],
-    /// Weight of the rule, times r h.
+    /// Weight of the rule times r h, in m³.
     weight: f64,
     material: Material,
 }
 
 impl Points {
     fn new(blade: &Blade, nodes: &Nodes, elements: &Elements) -> Self {
-        // The rule integrates products of the displacement polynomials, and of those of the strains if one
-        // element has the width of the blade.
+        // The rule integrates products of the displacement polynomials, and products of the strain polynomials if
+        // a single element has the width of the blade.
         let count = DEGREE + 4 + nodes.degree() / elements.count();
         let material = blade.material;
         let (e, nu) = (material.youngs_modulus_pa, material.poisson_ratio);
@@ -167,8 +170,8 @@ impl Points {
         Points((0..elements.count()).flat_map(of_element).collect())
     }
 
-    /// u and v at the nodes of the elements, for all unit strains.
-    fn displacements(&self, elements: &Elements, strains: usize, held: &[usize]) -> Vec<f64> {
+    /// Displacements u and v at the nodes of the elements, for all unit strains.
+    fn displacements(&self, elements: &Elements, strains: usize, fixed: &[usize]) -> Vec<f64> {
         let unknowns = 2 * elements.nodes();
         let mut stiffness = Banded::new(unknowns, 2 * (DEGREE + 1));
         let mut forces = vec![0.0; unknowns * strains];
@@ -190,15 +193,15 @@ impl Points {
                 }
             }
         }
-        for &unknown in held {
-            stiffness.hold(unknown);
+        for &unknown in fixed {
+            stiffness.fix(unknown);
             forces[strains * unknown..strains * (unknown + 1)].fill(0.0);
         }
         stiffness.factored().solve(&mut forces, strains);
         forces
     }
 
-    /// √(weight ℂ) (e + B u), three rows per point, one column for each unit strain.
+    /// Matrix of √(weight ℂ) (e + B u), three rows for each point and one column for each unit strain.
     fn left(&self, elements: &Elements, displacements: &[f64], strains: usize) -> Mat<f64> {
         let nodes = strains / 3;
         let mut left = Mat::zeros(3 * self.0.len(), strains);
@@ -230,7 +233,7 @@ impl Points {
 }
 
 impl Point {
-    /// Strains for u and v of each node in turn.
+    /// Strains for unit displacements u and v of each node in turn.
     fn unit_strains(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
         let both = self.unit.radial.iter().zip(&self.unit.along);
         both.flat_map(|(radial, along)| [*radial, *along])

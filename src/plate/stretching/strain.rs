@@ -1,6 +1,6 @@
 //! Slopes of a deflection, and strains of products of slopes, for each harmonic.
 
-/// Real and imaginary part at all nodes.
+/// Real part and imaginary part of a quantity at all nodes.
 type Parts = [Vec<f64>; 2];
 
 /// Slopes wₙ′ and i n wₙ/r at the nodes, n = 0 … n_max, or forces on them; those of −n are complex
@@ -21,7 +21,7 @@ impl Slopes {
         }
     }
 
-    /// Sets both slopes of n at a node, as real and imaginary parts.
+    /// Sets both slopes of n at a node, each as real and imaginary part.
     pub fn set(&mut self, n: usize, node: usize, radial: [f64; 2], hoop: [f64; 2]) {
         let nodes = self.nodes;
         let zero = || [0, 1].map(|_| vec![0.0; nodes]);
@@ -32,7 +32,7 @@ impl Slopes {
         }
     }
 
-    /// Both slopes of n at a node.
+    /// Both slopes of n at a node, each as real and imaginary part.
     pub fn at(&self, n: usize, node: usize) -> [[f64; 2]; 2] {
         match &self.waves[n] {
             Some(wave) => [0, 1].map(|k| [wave[k][0][node], wave[k][1][node]]),
@@ -40,7 +40,7 @@ impl Slopes {
         }
     }
 
-    /// All n, positive and negative, whose slopes are not zero.
+    /// Iterates over all n, positive and negative, whose slopes are not zero.
     fn present(&self) -> impl Iterator<Item = (isize, &[Parts; 2])> {
         let waves = self.waves.iter().enumerate();
         waves.flat_map(|(n, wave)| {
@@ -62,7 +62,7 @@ pub struct Strain {
 }
 
 impl Strain {
-    /// Zero slopes.
+    /// Zero strains.
     pub fn none(max_order: usize, nodes: usize) -> Self {
         Strain {
             harmonics: vec![[0, 1].map(|_| vec![0.0; 3 * nodes]); max_order + 1],
@@ -70,7 +70,7 @@ impl Strain {
         }
     }
 
-    /// e(v, w) = ½ sym(∇v ⊗ ∇w): [v′w′/2, v_θ w_θ/2r², (v′w_θ + v_θ w′)/2r].
+    /// The strains e(v, w) = ½ sym(∇v ⊗ ∇w): [v′w′/2, v_θ w_θ/2r², (v′w_θ + v_θ w′)/2r].
     pub fn of(v: &Slopes, w: &Slopes) -> Self {
         let mut strain = Strain::none(2 * (v.waves.len() - 1), v.nodes);
         let nodes = v.nodes;
@@ -96,7 +96,7 @@ impl Strain {
                     im_rr[j] += ar * ci + ai * cr;
                     re_tt[j] += br * dr - bi * di;
                     im_tt[j] += br * di + bi * dr;
-                    // The third strain is i (a d + b c), because it is stored with the factor i.
+                    // The third strain is stored with the factor i, as i (a d + b c).
                     re_rt[j] -= ar * di + ai * dr + br * ci + bi * cr;
                     im_rt[j] += ar * dr - ai * di + br * cr - bi * ci;
                 }
@@ -110,13 +110,14 @@ impl Strain {
         self.harmonics.iter()
     }
 
-    /// As [`Strain::harmonics`], mutable.
+    /// Real and imaginary part of each m, mutable.
     pub fn harmonics_mut(&mut self) -> impl Iterator<Item = &mut Parts> {
         self.harmonics.iter_mut()
     }
 
-    /// Forces on the slopes of v whose work is the derivative 4 Σₘ Re(sₘ* eₘ(v, w)) for these stresses s:
-    /// force n is 4 Σₘ wₘ₋ₙ* sₘ/2 over positive and negative m, for 2 Re of n > 0.
+    /// Forces of these stresses s on the slopes of v, whose work is 4 Σₘ Re(sₘ* eₘ(v, w)), the derivative of
+    /// |Z e(w, w)|² in the direction v. Force n is 4 Σₘ wₘ₋ₙ* sₘ/2 over positive and negative m; the work of
+    /// n > 0 is twice a real part, because −n has the same work.
     pub fn pulled_back(&self, w: &Slopes) -> Slopes {
         let nodes = self.nodes;
         let mut forces = Slopes::none(w.waves.len() - 1, nodes);
@@ -131,7 +132,7 @@ impl Strain {
         forces
     }
 
-    /// Adds the force of the stress of harmonic m with the wave k of w.
+    /// Adds the force that the stress of harmonic m exerts with the wave k of w.
     fn add_force(
         &self,
         m: isize,
@@ -160,7 +161,7 @@ impl Strain {
     }
 }
 
-/// Sign of the imaginary part of wave n, which is stored for positive n.
+/// Sign of the imaginary part of wave n relative to the stored one, which is that of |n|.
 fn conjugation(n: isize) -> f64 {
     if n < 0 { -1.0 } else { 1.0 }
 }
