@@ -201,11 +201,7 @@ impl RadialBasis {
 
     /// p₀, p₁, the truncated powers, p₂ … at a radius.
     fn with_powers(&self, powers: &[(f64, i32)], r: f64) -> RadialValues {
-        let RadialValues {
-            mut value,
-            mut slope,
-            mut curvature,
-        } = self.polynomials(r);
+        let mut values = self.polynomials(r);
         let [c, dc, ddc] = self.clamp(r);
         let truncated = powers.iter().map(|&(knot_m, power)| {
             let t = ((r - knot_m) / self.width_m).max(0.0);
@@ -223,14 +219,15 @@ impl RadialBasis {
             ]
         });
         let truncated: Vec<[f64; 3]> = truncated.collect();
-        value.splice(2..2, truncated.iter().map(|e| e[0]));
-        slope.splice(2..2, truncated.iter().map(|e| e[1]));
-        curvature.splice(2..2, truncated.iter().map(|e| e[2]));
-        RadialValues {
+        let RadialValues {
             value,
             slope,
             curvature,
+        } = &mut values;
+        for (k, part) in [value, slope, curvature].into_iter().enumerate() {
+            part.splice(2..2, truncated.iter().map(|e| e[k]));
         }
+        values
     }
 
     /// The functions of n ≠ 1 at a radius.

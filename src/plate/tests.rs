@@ -1,4 +1,4 @@
-//! The integrals of guides, against sums over their area.
+//! Integrals of guides, compared with sums over their areas.
 
 use super::*;
 use crate::scene::{GuideFile, GuideShape};
@@ -27,7 +27,6 @@ fn a_clipped_pad_equals_its_midpoint_sum() {
         radial_length_m: 0.15,
         tangential_length_m: 0.30,
         stiffness_n_per_m: 2.0e7,
-        damping_n_s_per_m: 0.0,
         ..GuideFile::default()
     };
     let plate = plate_with(&[pad]);
@@ -47,7 +46,7 @@ fn a_clipped_pad_equals_its_midpoint_sum() {
         }
     }
     let distance = relative_distance(plate.contact.stiffness().unwrap(), &sum);
-    // The rim crosses cells, so the midpoint sum is accurate to about one cell in 400².
+    // The rim crosses cells, so that the midpoint sum has an error of about one cell in 400².
     assert!(distance < 2e-4, "{distance}");
 }
 
@@ -98,7 +97,6 @@ fn a_pad_larger_than_the_blade_is_a_uniform_bed() {
         radial_length_m: 2.0,
         tangential_length_m: 2.0,
         stiffness_n_per_m: 4.0e6,
-        damping_n_s_per_m: 0.0,
         ..GuideFile::default()
     };
     let plate = plate_with(&[pad]);
@@ -117,7 +115,6 @@ fn a_small_pad_tends_to_a_point_spring() {
         radial_length_m: size,
         tangential_length_m: size,
         stiffness_n_per_m: 1.0e6,
-        damping_n_s_per_m: 0.0,
         ..GuideFile::default()
     };
     let point = plate_with(&[pad(0.0)]).contact.stiffness().unwrap().clone();
@@ -136,8 +133,7 @@ fn a_small_pad_tends_to_a_point_spring() {
 }
 
 #[test]
-fn what_the_scene_does_not_name_is_not_assembled() {
+fn a_plate_without_guides_is_axisymmetric_and_conservative() {
     let plate = plate_with(&[]);
     assert!(plate.is_axisymmetric() && plate.is_conservative());
-    assert_eq!(Scene::paper().file().blade.teeth, Some(42));
 }

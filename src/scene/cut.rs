@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::check::{MAX_RPM, SPAN, positive, refuse, within};
+use super::check::{MAX_RPM, SPAN, needed_teeth, positive, refuse, within};
 use super::cut_file::{CutFile, CutSpeedFile};
 use super::teeth_in_cut::TeethInCut;
 use super::washboarding::Washboarding;
@@ -29,7 +29,7 @@ pub struct Cut {
     pub(crate) washboarding: Option<Washboarding>,
     /// Whether the model includes stretching of the middle surface.
     pub stretching: bool,
-    /// Forces under which the Campbell diagram is computed; `None` if it is that of the idling saw.
+    /// Forces under which the Campbell diagram is computed; `None` for the diagram of the idling saw.
     pub chart: Option<CutRun>,
     file: CutFile,
     rim_radius_m: f64,
@@ -48,11 +48,12 @@ pub struct CutRun {
     pub radial_n: f64,
     /// Lateral force on each tooth.
     pub lateral_n: f64,
-    /// Tangential force at which the power is used up: P/(Ωb) divided by the number of teeth in the cut.
+    /// Tangential force on each tooth that corresponds to the power P: P/(Ωb) divided by the number of teeth in the
+    /// cut; `None` without a power.
     pub tangential_of_power_n: Option<f64>,
     /// Feed speed of the wood.
     pub feed_m_per_s: Option<f64>,
-    /// Duration of the forces.
+    /// Duration of the forces: length of the board over feed speed, or one second if either is not given.
     pub duration_s: f64,
 }
 
@@ -101,16 +102,15 @@ impl Cut {
         Ok(cut)
     }
 
-    /// The forces at a speed: those that the scene lists for it, or else those of the cut.
+    /// The forces at a speed: the values that the scene lists for it, and for missing ones the values of the cut.
     ///
     /// # Errors
-    /// [`SceneError::Value`] where neither a tangential force nor a power is given, or a
-    /// number is out of range.
+    /// [`SceneError::Value`] if neither a tangential force nor a power is given, or a number is out of range.
     pub fn at_rpm(&self, rpm: f64) -> Result<CutRun, SceneError> {
         self.run_at(rpm, "rpm")
     }
 
-    /// As [`Cut::at_rpm`]; a refused speed is reported under `key`, unless it is one of the scene's.
+    /// The forces as [`Cut::at_rpm`]; a refused speed is reported under `key`, unless the scene lists it.
     fn run_at(&self, rpm: f64, key: &str) -> Result<CutRun, SceneError> {
         let index = self.file.speeds.iter().position(|speed| speed.rpm == rpm);
         let own = index.map_or_else(CutSpeedFile::default, |i| self.file.speeds[i].clone());
@@ -183,18 +183,14 @@ impl Cut {
     }
 }
 
-/// The teeth in the cut of a blade with `all_teeth` teeth.
+/// Position and number of the teeth in the cut of a blade with `teeth` teeth.
 fn teeth_in_cut(
     typed: &CutFile,
     teeth: Option<u32>,
     blade: &Blade,
 ) -> Result<TeethInCut, SceneError> {
-    let Some(all_teeth) = teeth.filter(|teeth| *teeth > 0) else {
-        let remedy = "the pitch of the teeth determines where the forces act; give their number";
-        let given = teeth.map_or("missing".into(), |teeth| teeth.to_string());
-        let allowed = "at least 1 where the scene has a cut";
-        return Err(RefusedValue::new("blade.teeth", given, allowed, remedy).into());
-    };
+    let remedy = "the pitch of the teeth determines where the forces act; give their number";
+    let all_teeth = needed_teeth(teeth, "where the scene has a cut", remedy)?;
     Ok(TeethInCut {
         angle_rad: within("cut.angle_deg", typed.angle_deg, (-3600.0, 3600.0))?.to_radians(),
         count: count(typed, all_teeth, blade)?,
@@ -245,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn the_papers_depth_of_cut_holds_four_teeth_around_its_middle() {
+    fn the_papers_depth_of_cut_has_four_teeth_around_its_middle() {
         let cut = with(|_, _| {}).unwrap();
         let pitches: Vec<f64> = cut.tooth_angles_rad().map(|a| a / cut.pitch_rad).collect();
         assert_eq!(pitches, [-1.5, -0.5, 0.5, 1.5]);

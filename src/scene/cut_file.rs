@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::runup::is_false;
+use super::file::is_default;
 use super::typical::IDLE;
 use super::washboarding::WashboardingFile;
 use super::wood::WoodFile;
@@ -57,7 +57,7 @@ pub struct CutFile {
     /// Whether the model includes stretching of the middle surface at large deflections: then the record ends
     /// where slopes exceed 0.1, and not at five thicknesses. The criteria of growth remain linear. It takes
     /// longer.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub stretching: bool,
     /// Speeds of the cut, with the values that differ. By default the operating speed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

@@ -4,23 +4,31 @@ use serde_json::Value;
 
 use super::SceneFile;
 
-/// Keys that do not change what a saw does.
+/// Keys that do not influence a computation.
 const NO_INPUTS: [&str; 3] = ["name", "notes", "measured"];
 
 impl SceneFile {
-    /// Every value that may change what a saw does, by its JSON path, in the order of the file.
+    /// Every value that may influence a computation, with its JSON path, in the order of the file.
     pub(crate) fn inputs(&self) -> Vec<(String, Value)> {
-        let mut found = Vec::new();
         let mut json = super::parameter::value(self);
         if let Some(keys) = json.as_object_mut() {
             keys.retain(|key, _| !NO_INPUTS.contains(&key.as_str()));
         }
+        let mut found = Vec::new();
         below(json, "", &mut found);
         found
     }
+
+    /// Every number, with its JSON path, in the order of the file.
+    pub(super) fn numbers(&self) -> Vec<(String, f64)> {
+        let mut found = Vec::new();
+        below(super::parameter::value(self), "", &mut found);
+        let number = |(path, value): (String, Value)| Some((path, value.as_f64()?));
+        found.into_iter().filter_map(number).collect()
+    }
 }
 
-/// A value as a reader expects it: a text without quotation marks.
+/// Formats a value for a reader: a text without quotation marks.
 pub(crate) fn in_words(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
@@ -28,6 +36,7 @@ pub(crate) fn in_words(value: &Value) -> String {
     }
 }
 
+/// Appends every text, number and truth value below a JSON value, with its path.
 fn below(value: Value, path: &str, found: &mut Vec<(String, Value)>) {
     match value {
         Value::Object(json) => {

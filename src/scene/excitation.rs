@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::refuse;
-use super::{RefusedValue, SceneError, SceneFile};
+use super::check::{needed_teeth, refuse};
+use super::file::is_default;
+use super::{SceneError, SceneFile};
 
 /// Lines of the Campbell diagram at multiples of the rotation speed, and their crossings with the natural
 /// frequencies.
@@ -13,20 +14,17 @@ use super::{RefusedValue, SceneError, SceneFile};
 pub struct ExcitationFile {
     /// Lines 1×, 2×, … up to this multiple of the rotation speed: frequencies at which a warped or unbalanced
     /// blade excites itself at the guides. None by default.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub orders: u32,
     /// Lines at the tooth passing frequency, which is the number of teeth times the rotation speed,
     /// and at its multiples up to this one. None by default.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub tooth_passing: u32,
 }
 
-fn is_zero(value: &u32) -> bool {
-    *value == 0
-}
-
-/// More lines would hide the branches.
+/// Largest multiple of the rotation speed; more lines would hide the branches.
 const MAX_ORDERS: u32 = 60;
+/// Largest multiple of the tooth passing frequency.
 const MAX_TOOTH_PASSING: u32 = 10;
 
 /// A validated line: a frequency that is a multiple of the rotation speed.
@@ -57,15 +55,8 @@ impl ExcitationLine {
             })
             .collect();
         if typed.tooth_passing > 0 {
-            let teeth = file.blade.teeth.filter(|teeth| *teeth > 0);
-            let teeth = teeth.ok_or_else(|| {
-                SceneError::Value(RefusedValue {
-                    key: "blade.teeth".into(),
-                    value: file.blade.teeth.map_or("missing".into(), |t| t.to_string()),
-                    allowed: "at least 1 where excitation.tooth_passing asks for it".into(),
-                    remedy: "give the number of teeth",
-                })
-            })?;
+            let reason = "where excitation.tooth_passing is given";
+            let teeth = needed_teeth(file.blade.teeth, reason, "give the number of teeth")?;
             let multiples = (1..=typed.tooth_passing).map(|multiple| ExcitationLine {
                 order: multiple.saturating_mul(teeth),
                 tooth_passing: Some(multiple),

@@ -24,7 +24,7 @@ pub struct SceneFile {
     /// Origin of the numbers: measured, assumed, calibrated.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
-    /// The blade.
+    /// Dimensions and material of the blade.
     pub blade: BladeFile,
     /// Support of the bore.
     pub mount: Mount,
@@ -75,7 +75,7 @@ pub struct SceneFile {
     pub measured: Option<Measured>,
 }
 
-/// Damping suppresses slower growth.
+/// The damping of a real saw, which a scene may omit, suppresses slower growth.
 fn default_flutter_threshold_per_s() -> f64 {
     FLUTTER_THRESHOLD.value
 }
@@ -100,7 +100,7 @@ pub struct BladeFile {
     /// Mass of teeth or carbide tips. None by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rim: Option<RimFile>,
-    /// Linear elastic, isotropic.
+    /// Linear elastic, isotropic material.
     pub material: Material,
 }
 
@@ -126,7 +126,7 @@ pub enum Mount {
     Collar {
         /// Diameter of the collar; the blade inside it does not move.
         diameter_m: f64,
-        /// Whether the collar also holds the blade in its plane.
+        /// Condition in the plane of the blade at the edge of the collar.
         in_plane: InPlane,
     },
 }
@@ -156,30 +156,30 @@ pub struct GuideFile {
     /// Length across the radius.
     pub tangential_length_m: f64,
     /// Shape of the pad; a rectangle by default.
-    #[serde(default, skip_serializing_if = "is_usual")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub shape: GuideShape,
     /// Lateral stiffness of the whole pad, both faces together.
     pub stiffness_n_per_m: f64,
     /// Lateral viscous damping of the whole pad, fixed in space.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub damping_n_s_per_m: f64,
-    /// Gap between the pad and a face of the blade, such as its film of water; `check` compares it with the
-    /// static deflection in the cut. A linear pad acts as if it had no gap. Not checked by default.
+    /// Gap between the pad and a face of the blade, such as the thickness of a film of water; `check` compares it
+    /// with the static deflection in the cut. A linear pad acts as if it had no gap. Not checked by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gap_m: Option<f64>,
     /// Whether the pad acts at any deflection, which is the default, or only beyond the gap.
-    #[serde(default, skip_serializing_if = "is_usual")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub contact: ContactLaw,
     /// Sides of the blade on which a one-sided pad is; both by default.
-    #[serde(default, skip_serializing_if = "is_usual")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub side: GuideSide,
     /// Lateral stiffness of the whole one-sided pad inside the gap, such as that of a film of water. Zero by
     /// default.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub film_stiffness_n_per_m: f64,
     /// Lateral offset of the middle between the faces of a one-sided pad from the plane of the flat blade, positive in the
-    /// direction of positive deflection. Zero by default; a pad off its line leans the blade.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    /// direction of positive deflection. Zero by default.
+    #[serde(default, skip_serializing_if = "is_default")]
     pub offset_m: f64,
 }
 
@@ -221,36 +221,33 @@ pub enum GuideSide {
     Right,
 }
 
-fn is_usual<T: Default + PartialEq>(value: &T) -> bool {
+/// Whether a written scene omits a value, because it is the default of its type.
+pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-/// Damping of the blade. Each number belongs to one frame. The contributions add up.
+/// Damping of the blade: the contributions of the material, which turns with the blade, and of the air add up.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DampingFile {
     /// Kelvin–Voigt retardation time η of the material, which turns with the blade.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub material_retardation_time_s: f64,
-    /// Loss factor of the blade, twice the damping ratio of every mode of the blade at rest without guides. It turns with the
-    /// blade, as a viscous damping with this ratio at the frequency of each of these modes.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    /// Loss factor of the blade, twice the damping ratio of every mode of the blade at rest without guides. It acts in the
+    /// frame of the blade, as viscous damping with this ratio at the frequency of each of these modes.
+    #[serde(default, skip_serializing_if = "is_default")]
     pub loss_factor: f64,
     /// Measured damping ratios of modes of the blade at rest without guides, by their number of nodal diameters, in place of half
     /// the loss factor.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub mode_ratios: Vec<ModeRatioRow>,
-    /// Viscous resistance per area of the surrounding air, which is at rest in space unless it turns.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    /// Viscous resistance per area of the surrounding air.
+    #[serde(default, skip_serializing_if = "is_default")]
     pub air_n_s_per_m3: f64,
-    /// Ratio of the rotation speed of this air to that of the blade: 0, by default, for air at rest; 1 for
+    /// Ratio of the rotation speed of the air to that of the blade: 0, by default, for air at rest in space; 1 for
     /// air that turns with the blade.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub air_rotation_share: f64,
-}
-
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }
 
 /// Damping ratio of the modes with a number of nodal diameters.
@@ -288,7 +285,7 @@ pub enum Accuracy {
 }
 
 impl Accuracy {
-    /// The relative error that belongs to the name.
+    /// Relative error of critical speeds and onsets that this accuracy allows.
     pub fn tolerance(self) -> f64 {
         match self {
             Accuracy::Draft => 1e-2,

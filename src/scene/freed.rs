@@ -20,12 +20,12 @@ pub struct Freed {
 /// Path of a number of a scene, with bounds if they are not the usual ones.
 pub type NamedBounds = (String, Option<(f64, f64)>);
 
-/// A search over more numbers than these does not find their values reliably.
+/// Largest number of freed numbers; a search over more does not find their values reliably.
 const MAX_FREED: usize = 12;
 /// From this ratio of the bounds on, the scale is logarithmic.
 const DECADE: f64 = 10.0;
 
-/// Whether the scale from one number to another is logarithmic: of a search, of the points of a map and of an axis.
+/// Whether a search, the points of a map and an axis have a logarithmic scale from one number to another.
 pub fn is_logarithmic(from: f64, to: f64) -> bool {
     from > 0.0 && to >= DECADE * from
 }
@@ -34,8 +34,8 @@ impl Freed {
     /// Frees a number between two bounds, each of which must be a valid value.
     ///
     /// # Errors
-    /// [`SceneError`] where the scene has no such number, a bound is refused, or they are not
-    /// in ascending order.
+    /// [`SceneError`] if the scene has no such number, a bound is refused, or the bounds are not in ascending
+    /// order.
     pub fn new(scene: &SceneFile, path: &str, from: f64, to: f64) -> Result<Self, SceneError> {
         let parameter = Parameter::new(path);
         parameter.get(scene)?;
@@ -61,11 +61,11 @@ impl Freed {
         })
     }
 
-    /// Frees a number between usual bounds: a radius anywhere on the blade, a stiffness or damping within a
-    /// factor of thirty, a gap within one of four, an angle within 60°, other numbers within 20 %.
+    /// Frees a number between usual bounds: the radius of a guide anywhere on the blade, a stiffness or damping
+    /// within a factor of thirty, a gap within a factor of four, an angle within 60°, other numbers within 20 %.
     ///
     /// # Errors
-    /// As [`Freed::new`].
+    /// [`SceneError`] as for [`Freed::new`].
     pub fn with_usual_bounds(scene: &Scene, path: &str) -> Result<Self, SceneError> {
         let value = Parameter::new(path).get(&scene.file)?;
         let (from, to) = match Quantity::kind_of(path) {
@@ -78,11 +78,11 @@ impl Freed {
         Freed::new(&scene.file, path, from, to)
     }
 
-    /// The numbers that a fit adjusts. By default these are the ones that are rarely known: position and
-    /// stiffness of the guides, with angles only if there are several guides; without guides, the density.
+    /// The numbers that a fit adjusts. By default these are numbers that are rarely known: radius and stiffness of
+    /// every guide, and the angles of all guides but the first; without guides, the density.
     ///
     /// # Errors
-    /// [`SceneError`] as [`Freed::new`], and if a number is named twice or too many are named.
+    /// [`SceneError`] as for [`Freed::new`], and if a number is named twice or too many are named.
     pub fn to_fit(scene: &Scene, asked: &[NamedBounds]) -> Result<Vec<Self>, SceneError> {
         let of_guide = |index: usize| {
             let angle = (index > 0).then_some("angle_deg");
@@ -99,8 +99,8 @@ impl Freed {
     /// The numbers that a placement adjusts; by default radius, angle and stiffness of the first guide.
     ///
     /// # Errors
-    /// [`SceneError`] as [`Freed::new`], and if there is no guide, a number is named twice, or too many are
-    /// named.
+    /// [`SceneError`] as for [`Freed::new`], and if there is no guide and no number is named, a number is named
+    /// twice, or too many are named.
     pub fn to_place(scene: &Scene, asked: &[NamedBounds]) -> Result<Vec<Self>, SceneError> {
         if scene.file.guides.is_empty() && asked.is_empty() {
             let allowed = "given, with a guide to be placed";
@@ -152,7 +152,7 @@ impl Freed {
         self.from + share * (self.to - self.from)
     }
 
-    /// The share that belongs to a value.
+    /// The share of a value.
     pub fn share(&self, value: f64) -> f64 {
         if self.is_logarithmic() {
             let value = value.max(f64::MIN_POSITIVE);
@@ -161,7 +161,7 @@ impl Freed {
         (value - self.from) / (self.to - self.from)
     }
 
-    /// The share of the scene's own value, limited to 0…1.
+    /// The share of the value in a scene, limited to 0…1.
     pub fn share_of(&self, scene: &SceneFile) -> f64 {
         let value = self.parameter.get(scene).unwrap_or(self.from);
         self.share(value).clamp(0.0, 1.0)
@@ -171,7 +171,7 @@ impl Freed {
 /// The scene in which the freed numbers have the given shares.
 ///
 /// # Errors
-/// [`SceneError`] where these values are refused together.
+/// [`SceneError`] if these values are refused together.
 pub fn scene_at(scene: &SceneFile, freed: &[Freed], shares: &[f64]) -> Result<Scene, SceneError> {
     let numbers: Vec<(&Parameter, f64)> = freed
         .iter()
@@ -181,8 +181,8 @@ pub fn scene_at(scene: &SceneFile, freed: &[Freed], shares: &[f64]) -> Result<Sc
     scene.with(&numbers)
 }
 
-/// Index of the freed angle that is held fixed. Only guides are fixed in space, so if all of their angles are
-/// free, one common rotation changes nothing.
+/// Index of the freed angle that a search keeps constant; `None` unless the angles of all guides are free. A common
+/// rotation of all guides changes no frequency of the idling saw, in which nothing else is fixed in space.
 pub fn common_turn(scene: &Scene, freed: &[Freed]) -> Option<usize> {
     let of_guide = |index: usize| format!("guides[{index}].angle_deg");
     let place = |index: usize| {
@@ -196,9 +196,9 @@ pub fn common_turn(scene: &Scene, freed: &[Freed]) -> Option<usize> {
 }
 
 /// Divides the freed numbers into those that change an answer and those that do not, such as the angle of a
-/// single pad. Each number alone is moved to every one of `shares`, starting from the scene's own numbers and
-/// from other points, because its effect may depend on the other numbers. `answer` returns `None` for a saw
-/// without an answer.
+/// single pad. Each number alone takes every one of `shares`, while the other numbers are those of the scene or
+/// those of one other point, because its effect may depend on them. `answer` returns `None` for a saw without an
+/// answer.
 ///
 /// # Errors
 /// The errors of `answer`.
@@ -210,9 +210,9 @@ pub fn effective<A, E: Send>(
     differ: impl Fn(&A, &A) -> bool + Sync,
 ) -> Result<(Vec<Freed>, Vec<Freed>), E> {
     let own: Vec<f64> = freed.iter().map(|f| f.share_of(&scene.file)).collect();
-    let held = common_turn(scene, freed);
+    let constant = common_turn(scene, freed);
     let moves = |k: usize| -> Result<bool, E> {
-        if held == Some(k) {
+        if constant == Some(k) {
             return Ok(false);
         }
         for base in [own.clone(), spread(freed.len(), 0, 0)] {
@@ -231,13 +231,13 @@ pub fn effective<A, E: Send>(
     };
     let moving = (0..freed.len()).into_par_iter().map(moves);
     let moving = moving.collect::<Result<Vec<bool>, E>>()?;
-    let parted = freed.iter().cloned().zip(moving);
-    let (moving, idle): (Vec<_>, Vec<_>) = parted.partition(|(_, moves)| *moves);
+    let pairs = freed.iter().cloned().zip(moving);
+    let (moving, idle): (Vec<_>, Vec<_>) = pairs.partition(|(_, moves)| *moves);
     let freed = |pairs: Vec<(Freed, bool)>| pairs.into_iter().map(|(freed, _)| freed).collect();
     Ok((freed(moving), freed(idle)))
 }
 
-/// Point `index` of a sequence that fills the unit cube evenly in any number of dimensions: multiples of the
+/// Point `index` of a sequence that fills the unit cube evenly in any number d of dimensions: multiples of the
 /// powers of 1/φ_d, where φ_d is the root of φ^(d+1) = φ + 1 (M. Roberts, *The unreasonable effectiveness of
 /// quasirandom sequences*, 2018). The seed determines the offset.
 pub fn spread(dimensions: usize, seed: u64, index: usize) -> Vec<f64> {
@@ -294,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn of_pads_that_all_may_turn_one_is_held() {
+    fn one_angle_is_constant_if_all_pads_may_turn() {
         let turn = |scene: &Scene, guides: &[usize]| {
             let freed: Vec<Freed> = guides
                 .iter()

@@ -18,7 +18,7 @@ pub(crate) struct Guide {
     pub radial_length_m: f64,
     /// Length across the radius; zero for a point spring.
     pub tangential_length_m: f64,
-    /// Shape of a pad that is not a point spring.
+    /// Shape of the pad, if it is not a point spring.
     pub shape: GuideShape,
     /// Stiffness of the whole pad.
     pub stiffness_n_per_m: f64,
@@ -35,13 +35,13 @@ pub(crate) struct Lifting {
     pub gap_m: f64,
     /// Stiffness of the whole pad within the gap.
     pub film_stiffness_n_per_m: f64,
-    /// Sides on which the pad is.
+    /// Sides of the blade on which the pad is.
     pub side: GuideSide,
-    /// Deflection at the middle of the gap.
+    /// Deflection at which the blade is in the middle between the faces of the pad.
     pub offset_m: f64,
 }
 
-/// The outline of an ellipse of 100 mm deviates from this polygon by 0.03 mm.
+/// Number of corners of the polygon that represents an ellipse. A circle of 100 mm deviates from it by 0.06 mm.
 const ELLIPSE_CORNERS: u32 = 64;
 
 impl GuideFile {
@@ -84,8 +84,8 @@ impl Guide {
         }
     }
 
-    /// Radii of the circles about the axis that touch a side of the pad or pass through a corner: there the arcs
-    /// inside the pad are not smooth functions of the radius.
+    /// Radii of the circles about the axis that touch a side of the pad or pass through a corner. At these radii the
+    /// arcs inside the pad are not smooth functions of the radius.
     pub fn touching_radii_m(&self) -> Vec<f64> {
         let (a, b) = self.half_lengths_m();
         let c = self.radius_m;
@@ -104,7 +104,7 @@ impl Guide {
         radii
     }
 
-    /// Smallest and largest distance of the pad from the axis, the part beside the blade included.
+    /// Smallest and largest distance of the pad from the axis, including the part of the pad beside the blade.
     pub fn reach_m(&self) -> (f64, f64) {
         let nearest = (self.radius_m - self.half_lengths_m().0).max(0.0);
         (
@@ -166,7 +166,7 @@ pub fn guide(index: usize, typed: &GuideFile, blade: &Blade) -> Result<Guide, Sc
     Ok(pad)
 }
 
-/// A larger offset is that of another blade.
+/// Range of offsets; no pad of a saw has a larger one.
 const OFFSET_M: (f64, f64) = (-0.1, 0.1);
 
 /// Validates the gap of a pad that lifts off; `None` for a linear pad.
@@ -212,7 +212,7 @@ fn lifting(of: &impl Fn(&str) -> String, typed: &GuideFile) -> Result<Option<Lif
             &of("film_stiffness_n_per_m"),
             film,
             format!("from 0 to the stiffness of the pad ({})", shown(stiffness)),
-            "a film is softer than the pad that it stands before",
+            "a film is softer than its pad",
         ));
     }
     Ok(Some(Lifting {
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_fit_together_is_refused_by_its_key() {
+    fn contradictions_are_refused_by_their_keys() {
         type Change = fn(&mut GuideFile);
         let cases: [(&str, Change); 9] = [
             ("offset_m", |pad| pad.offset_m = f64::NAN),

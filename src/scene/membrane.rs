@@ -18,7 +18,7 @@ pub struct MembraneFile {
     /// Heat of the cut and of guides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperature: Option<TemperatureFile>,
-    /// Bands that were rolled.
+    /// Rolled bands.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub roll_tension: Vec<RollBandFile>,
     /// Measured residual stress at ascending radii: linear between the rows, constant beyond them.
@@ -39,10 +39,10 @@ pub struct TemperatureFile {
     /// Rise at the rim, T(r) = rise · ((r − r₀)/(b − r₀))^p for r > r₀, zero inside.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rim_rise_k: Option<f64>,
-    /// r₀; by default the bore, or the edge of the collar.
+    /// Radius r₀ at which the rise begins; by default the bore, or the edge of the collar.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from_radius_m: Option<f64>,
-    /// p; by default 1.
+    /// Exponent p of the rise; 1 by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exponent: Option<f64>,
     /// Rises at ascending radii, linear between the rows and constant beyond them.
@@ -87,26 +87,37 @@ pub(crate) struct Temperature {
 /// Ratio of the temperature rise to its peak.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum TemperatureShape {
-    /// ((r − r₀)/(b − r₀))^p beyond r₀.
+    /// Ratio ((r − r₀)/(b − r₀))^p beyond r₀, zero inside it.
     Rim {
-        /// r₀.
+        /// Radius r₀ at which the rise begins.
         from_radius_m: f64,
-        /// p.
+        /// Exponent p.
         exponent: f64,
     },
-    /// A table as typed.
+    /// Ratio by a table, divided by its peak.
     Table(Profile),
 }
 
-/// No blade survives a larger rise.
+/// Range of temperature rises. No blade survives a larger one.
 const RISE_K: (f64, f64) = (-2e3, 2e3);
-/// No thermometer resolves a smaller rise.
-const LEAST_RISE_K: f64 = 1e-9;
-/// Polymers expand by 2e-4.
+/// Smallest peak of a table other than zero. No thermometer resolves a smaller rise.
+const MIN_RISE_K: f64 = 1e-9;
+/// Range of coefficients of thermal expansion; polymers have 2e-4.
 const EXPANSION_PER_K: (f64, f64) = (0.0, 1e-2);
-/// A steeper rise is nearly a step, which a table describes as well.
+/// Range of exponents. A steeper rise is nearly a step, which a table describes as well.
 const EXPONENT: (f64, f64) = (0.0, 20.0);
+
 impl Membrane {
+    /// The stress of rolled bands alone.
+    pub fn of_bands(bands: &[RollBand]) -> Self {
+        Membrane {
+            temperature: None,
+            roll_tension: bands.to_vec(),
+            residual_stress: None,
+            straight_edge: None,
+        }
+    }
+
     pub(super) fn new(
         typed: &MembraneFile,
         blade: &Blade,
@@ -229,8 +240,8 @@ fn table(typed: &TemperatureFile, blade: &Blade) -> Result<(f64, TemperatureShap
     let peak = Profile::new(&rows).map_or(0.0, |profile| {
         profile.peak(blade.inner_radius_m, blade.outer_radius_m)
     });
-    // Division by a smaller peak would overflow.
-    let peak = if peak.abs() < LEAST_RISE_K { 0.0 } else { peak };
+    // Division by a much smaller peak would overflow.
+    let peak = if peak.abs() < MIN_RISE_K { 0.0 } else { peak };
     let share = if peak == 0.0 { 0.0 } else { 1.0 / peak };
     rows.iter_mut().for_each(|(_, rise)| *rise *= share);
     let profile = Profile::new(&rows).expect("a table that is not empty has rows");

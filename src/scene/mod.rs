@@ -52,9 +52,7 @@ pub use freed::spread;
 pub use freed::{Freed, NamedBounds};
 pub(crate) use freed::{effective, is_logarithmic, scene_at};
 pub(crate) use guide::{Guide, Lifting};
-pub(crate) use membrane::Membrane;
-pub(crate) use membrane::Temperature;
-pub(crate) use membrane::TemperatureShape;
+pub(crate) use membrane::{Membrane, Temperature, TemperatureShape};
 pub use membrane::{MembraneFile, TemperatureFile, TemperatureRow};
 pub(crate) use needed::speed_rad_per_s;
 pub use parameter::Parameter;
@@ -79,17 +77,18 @@ pub(crate) use spline::Spline;
 pub use spline::SplineFile;
 pub(crate) use straight_edge::StraightEdge;
 pub use straight_edge::StraightEdgeFile;
-pub(crate) use thickness::RimMass;
-pub(crate) use thickness::ThicknessProfile;
 pub use thickness::{RimFile, ThicknessRow};
+pub(crate) use thickness::{RimMass, ThicknessProfile};
 pub(crate) use unusual::unusual_number;
 pub(crate) use validated::Damping;
 pub use validated::{Blade, Bore, Scene, SpeedRange};
-pub(crate) use washboarding::MAX_CUTTING_STIFFNESS;
-pub(crate) use washboarding::Washboarding;
 pub use washboarding::WashboardingFile;
+pub(crate) use washboarding::{MAX_CUTTING_STIFFNESS, Washboarding};
 pub(crate) use wood::Wood;
 pub use wood::WoodFile;
+
+/// Standard acceleration of gravity (CGPM 1901).
+pub(crate) const GRAVITY_M_PER_S2: f64 = 9.80665;
 
 /// Rotation speed in rad/s from revolutions per minute.
 pub fn rad_per_s(rpm: f64) -> f64 {

@@ -50,14 +50,14 @@ impl Scene {
         measured.ok_or_else(|| RefusedValue::missing("measured", allowed, remedy))
     }
 
-    /// The operating speed: `asked`, in rpm, or else the scene's.
+    /// The operating speed, in rpm: the given one, or else that of the scene.
     ///
     /// # Errors
     /// [`RefusedValue`] if there is neither.
-    pub fn needed_operating_rpm(&self, asked: Option<f64>) -> Result<f64, RefusedValue> {
+    pub fn needed_operating_rpm(&self, given: Option<f64>) -> Result<f64, RefusedValue> {
         let allowed = "the speed at which the saw is run";
         let remedy = "give it, or operating_rpm in the scene";
-        let rpm = asked.or(self.file.operating_rpm);
+        let rpm = given.or(self.file.operating_rpm);
         rpm.ok_or_else(|| RefusedValue::missing("operating_rpm", allowed, remedy))
     }
 }
@@ -77,21 +77,17 @@ impl Cut {
     /// The forces at the given speeds in rpm; without any, at those of the scene.
     ///
     /// # Errors
-    /// [`SceneError`] where there is no speed at all, or as [`Cut::at_rpm`].
+    /// [`SceneError`] if there is no speed, or as for [`Cut::at_rpm`].
     pub fn runs_at(&self, rpm: &[f64]) -> Result<Vec<CutRun>, SceneError> {
-        let asked = rpm.iter().map(|rpm| self.at_rpm(*rpm));
-        let asked = asked.collect::<Result<Vec<CutRun>, _>>()?;
-        let runs = if asked.is_empty() {
-            self.runs.clone()
-        } else {
-            asked
-        };
-        if runs.is_empty() {
+        if !rpm.is_empty() {
+            return rpm.iter().map(|rpm| self.at_rpm(*rpm)).collect();
+        }
+        if self.runs.is_empty() {
             let allowed = "given, with a speed to cut at";
             let remedy = "name a speed, or add it or operating_rpm to the scene";
             return Err(RefusedValue::missing("cut.speeds", allowed, remedy).into());
         }
-        Ok(runs)
+        Ok(self.runs.clone())
     }
 }
 
@@ -105,8 +101,8 @@ impl From<(f64, f64)> for SpeedRange {
     }
 }
 
-/// Rounds a speed for display, without the rounding error of the conversion to rpm.
-fn told(rad_per_s: f64) -> f64 {
+/// Converts a speed to rpm and removes the rounding error of the conversion.
+fn rounded_rpm(rad_per_s: f64) -> f64 {
     (1e3 * rpm(rad_per_s)).round() / 1e3
 }
 
@@ -114,7 +110,7 @@ impl SpeedRange {
     /// Converts an argument in rpm to rad/s.
     ///
     /// # Errors
-    /// [`RefusedValue`] if the speed is outside the range.
+    /// [`RefusedValue`] if the speed is outside the range; `key` names the argument.
     pub fn speed_at(&self, key: &str, rpm: f64) -> Result<f64, RefusedValue> {
         let speed = rad_per_s(rpm);
         let (from, to) = (self.from_rad_per_s, self.to_rad_per_s);
@@ -124,15 +120,15 @@ impl SpeedRange {
         }
         let allowed = format!(
             "from {} to {}, the speeds of the sweep",
-            shown(told(from)),
-            shown(told(to))
+            shown(rounded_rpm(from)),
+            shown(rounded_rpm(to))
         );
         let remedy = "name one of these, or widen `sweep` in the scene";
         Err(RefusedValue::new(key, rpm, allowed, remedy))
     }
 }
 
-/// Converts an argument in rpm, which must be positive, to rad/s.
+/// Converts an argument in rpm, which must be positive, to rad/s; `key` names it in the error.
 pub(crate) fn speed_rad_per_s(key: &str, rpm: f64) -> Result<f64, RefusedValue> {
     if rpm > 0.0 && rpm <= MAX_RPM {
         return Ok(rad_per_s(rpm));

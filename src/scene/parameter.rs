@@ -8,7 +8,7 @@ use super::{RefusedValue, Scene, SceneError, SceneFile};
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Parameter {
     path: String,
-    /// Its RFC 6901 pointer: `/guides/0/radius_m`.
+    /// RFC 6901 pointer of the path: `/guides/0/radius_m`.
     pointer: String,
 }
 
@@ -24,7 +24,7 @@ impl Parameter {
         }
     }
 
-    /// Its JSON path.
+    /// JSON path of the number.
     pub fn path(&self) -> &str {
         &self.path
     }
@@ -40,12 +40,10 @@ impl Parameter {
     }
 
     fn missing(&self) -> SceneError {
-        SceneError::Value(RefusedValue {
-            key: "the parameter".into(),
-            value: format!("{:?}", self.path),
-            allowed: "the path of a number that the scene has, like guides[0].radius_m".into(),
-            remedy: "write this number into the scene, or correct its name",
-        })
+        let allowed = "the path of a number that the scene has, like guides[0].radius_m";
+        let remedy = "write this number into the scene, or correct its name";
+        let given = format!("{:?}", self.path);
+        RefusedValue::new("the parameter", given, allowed, remedy).into()
     }
 }
 
@@ -60,12 +58,12 @@ impl SceneFile {
             let place = json.pointer_mut(&parameter.pointer);
             let place = place.filter(|v| v.is_number());
             let number = Number::from_f64(*number).ok_or_else(|| {
-                SceneError::Value(RefusedValue {
-                    key: parameter.path.clone(),
-                    value: number.to_string(),
-                    allowed: "finite".into(),
-                    remedy: "give a number",
-                })
+                RefusedValue::new(
+                    &parameter.path,
+                    number.to_string(),
+                    "finite",
+                    "give a number",
+                )
             })?;
             *place.ok_or_else(|| parameter.missing())? = Value::Number(number);
         }
@@ -73,6 +71,7 @@ impl SceneFile {
     }
 }
 
+/// The scene as a JSON value.
 pub(super) fn value(scene: &SceneFile) -> Value {
     serde_json::to_value(scene).expect("keys are strings and numbers of a scene finite")
 }
@@ -94,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_scene_has_is_refused_by_name() {
+    fn numbers_that_no_scene_has_are_refused_by_name() {
         let paper = Scene::paper().file().clone();
         for path in ["guides[1].radius_m", "guides", "name", "", "blade..x", "]"] {
             let parameter = Parameter::new(path);

@@ -34,7 +34,7 @@ impl Profile {
         }
     }
 
-    /// The value of largest size between two radii; the first of several.
+    /// The value of largest magnitude between two radii; of equal magnitudes, the first.
     pub fn peak(&self, from: f64, to: f64) -> f64 {
         let values = self.pieces(from, to).into_iter().flatten();
         values.fold(0.0, |top: f64, r| {
@@ -43,13 +43,13 @@ impl Profile {
         })
     }
 
-    /// ∫ f dr from one radius to a larger one.
+    /// Integral ∫ f dr from one radius to a larger one.
     pub fn integral(&self, from: f64, to: f64) -> f64 {
-        let straight = |[low, high]: [f64; 2]| 0.5 * (high - low) * (self.at(low) + self.at(high));
-        self.pieces(from, to).into_iter().map(straight).sum()
+        let trapezium = |[low, high]: [f64; 2]| 0.5 * (high - low) * (self.at(low) + self.at(high));
+        self.pieces(from, to).into_iter().map(trapezium).sum()
     }
 
-    /// ∫ |f| dr.
+    /// Integral ∫ |f| dr from one radius to a larger one.
     pub fn size(&self, from: f64, to: f64) -> f64 {
         let pieces = self.pieces(from, to).into_iter();
         pieces
@@ -57,7 +57,7 @@ impl Profile {
                 let (start, end) = (self.at(low), self.at(high));
                 let signs_differ = start * end < 0.0;
                 let mean = match signs_differ {
-                    // Two triangles: the value passes through zero between the ends.
+                    // The value passes through zero between the ends, so that the area consists of two triangles.
                     true => (start * start + end * end) / (start - end).abs(),
                     false => (start + end).abs(),
                 };
@@ -66,7 +66,7 @@ impl Profile {
             .sum()
     }
 
-    /// ∫ f r dr.
+    /// Integral ∫ f r dr from one radius to a larger one.
     pub fn moment(&self, from: f64, to: f64) -> f64 {
         let pieces = self.pieces(from, to).into_iter();
         // Simpson's rule is exact: f r is a parabola on each piece.
@@ -79,7 +79,7 @@ impl Profile {
             .sum()
     }
 
-    /// The same, everywhere more by a constant.
+    /// The profile with a constant added to all values.
     pub(super) fn raised(&self, by: f64) -> Self {
         Profile {
             radius_m: self.radius_m.clone(),
@@ -87,7 +87,7 @@ impl Profile {
         }
     }
 
-    /// Intervals on which it is straight.
+    /// Intervals between two radii on which the profile is linear.
     fn pieces(&self, from: f64, to: f64) -> Vec<[f64; 2]> {
         let inside = self.radius_m.iter().filter(|r| from < **r && **r < to);
         let mut ends = vec![from];
@@ -116,7 +116,7 @@ mod tests {
     fn beyond_its_ends_it_is_constant() {
         let step = Profile::new(&[(1.0, -2.0), (2.0, 4.0)]).unwrap();
         assert!((step.integral(0.0, 3.0) - (-2.0 + 1.0 + 4.0)).abs() < 1e-15);
-        // Between 1 and 2 it is negative for a third: 2/3 · 1/3 · … by hand.
+        // Between 1 and 2 the areas of two triangles are added: −2 to 0 over a third, 0 to 4 over two thirds.
         let crossing = 0.5 * (2.0 / 3.0) * (1.0 + 0.0) + 0.5 * 4.0 * (2.0 / 3.0);
         assert!((step.size(1.0, 2.0) - crossing).abs() < 1e-15);
         assert!((step.raised(2.0).at(0.0)).abs() < 1e-15);

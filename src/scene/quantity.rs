@@ -14,25 +14,25 @@ pub struct Quantity {
     /// Range that includes all saws in use. Zero is always accepted, because it means that the feature is
     /// absent.
     pub usual: (f64, f64),
-    /// How the number varies in production and in searches.
+    /// Kind, which determines how the number varies in production and in searches.
     pub kind: Kind,
 }
 
-/// How a number varies: each kind has tolerances of production and usual bounds of a search of its own.
+/// Kind of a number. Each kind has its own tolerances of production and its own usual bounds of a search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// Radius of a guide, anywhere on the blade.
     GuideRadius,
-    /// Another radius.
+    /// Radius of anything but a guide.
     Radius,
-    /// Angle.
+    /// Angle of a guide, a force, the cut or the probe.
     Angle,
     /// Stiffness of a contact, known by its power of ten.
     Stiffness,
-    /// Damping of a contact, likewise.
+    /// Damping of a contact, known by its power of ten.
     Damping,
-    /// A gap of a guide.
+    /// Gap of a guide.
     Gap,
     /// Any other number.
     Other,
@@ -166,7 +166,7 @@ pub const QUANTITIES: [Quantity; 98] = [
 ];
 
 impl Quantity {
-    /// The quantity of a path such as `guides[0].radius_m`.
+    /// The quantity of a path such as `guides[0].radius_m`; `None` if scenes have no such number.
     pub fn of(path: &str) -> Option<&'static Self> {
         let general = general(path);
         QUANTITIES.iter().find(|quantity| quantity.path == general)
@@ -177,7 +177,7 @@ impl Quantity {
         Self::of(path).map_or(Kind::Other, |quantity| quantity.kind)
     }
 
-    /// Whether a value is usual.
+    /// Whether a value is zero or in the usual range.
     pub fn is_usual(&self, value: f64) -> bool {
         value == 0.0 || (self.usual.0..=self.usual.1).contains(&value)
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::{RefusedValue, Scene, SceneFile, typical};
 use crate::text::{FileError, KeyedError, Kind, OtherEncodings, from_keyed_json, read_path};
 
-/// A larger file is not a scene.
+/// Largest size of a scene file; a larger file is not a scene.
 #[doc(hidden)]
 pub const MAX_SCENE_BYTES: u64 = 1 << 20;
 
@@ -81,7 +81,7 @@ fn syntax(error: KeyedError) -> SceneError {
     SceneError::Syntax { key, message }
 }
 
-/// The JSON schema of a scene file, derived from [`SceneFile`], with typical values as examples of their keys.
+/// JSON schema of a scene file, derived from [`SceneFile`], with typical values as examples of their keys.
 pub fn json_schema() -> serde_json::Value {
     let mut schema = schemars::schema_for!(SceneFile).to_value();
     typical::add_to_schema(&mut schema);

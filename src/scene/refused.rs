@@ -44,8 +44,9 @@ impl RefusedValue {
     }
 }
 
-/// Formats a value for a message.
+/// A value that a message can contain.
 pub(crate) trait Given {
+    /// Formats the value for a message.
     fn in_words(&self) -> String;
 }
 

@@ -15,7 +15,7 @@ pub struct ResidualStressRow {
     pub radius_m: f64,
     /// Stress along the circumference, positive in tension. The radial stress follows from it.
     pub hoop_pa: f64,
-    /// Stress along the radius, if measured too; refused if it contradicts the hoop stress.
+    /// Stress along the radius, if it was measured, too; refused if it contradicts the hoop stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radial_pa: Option<f64>,
 }
@@ -25,11 +25,12 @@ pub struct ResidualStressRow {
 pub(crate) struct ResidualStress {
     /// σ_θθ, in Pa.
     pub hoop_pa: Profile,
-    /// ∫σ_θθ dr over ∫|σ_θθ| dr as typed. If both edges are free, the mean was subtracted.
+    /// Ratio of ∫h/h₀ σ_θθ dr to ∫|σ_θθ| dr as typed, if both edges are free: the mean was subtracted. Zero at a
+    /// collar.
     pub imbalance: f64,
 }
 
-/// Steel breaks at 3e9 Pa.
+/// Range of stresses; steel breaks at 3e9 Pa.
 const STRESS_PA: (f64, f64) = (-1e11, 1e11);
 /// A larger imbalance is not a measurement error and is refused.
 const MAX_IMBALANCE: f64 = 0.05;
@@ -38,9 +39,9 @@ const MAX_IMBALANCE: f64 = 0.05;
 const MAX_CONTRADICTION: f64 = 0.1;
 
 impl ResidualStress {
-    /// The hoop stress is used: the radial stress is its integral from the free rim, r σ_rr = −∫_r^b σ_θθ dr,
-    /// whereas a derivative of measured radial stress would be too inaccurate. A free bore requires ∫ σ_θθ dr
-    /// = 0; at a collar, the blade inside it carries the remainder.
+    /// Validates a table; `None` if it has no rows. The radial stress is the integral of the hoop stress from the
+    /// free rim, r σ_rr = −∫_r^b σ_θθ dr, because a derivative of measured radial stress would be too inaccurate. A
+    /// free bore requires ∫ σ_θθ dr = 0; at a collar, the blade inside it carries the remainder.
     pub(super) fn new(
         rows: &[ResidualStressRow],
         blade: &Blade,
@@ -133,13 +134,13 @@ impl ResidualStress {
     }
 }
 
-/// ∫ h/h₀ σ dr from a radius to the rim.
+/// Integral ∫ h/h₀ σ dr from a radius to the rim, in N/m.
 fn force(hoop_pa: &Profile, blade: &Blade, from: f64) -> f64 {
     let to = blade.outer_radius_m;
     if blade.profile.is_none() {
         return hoop_pa.integral(from, to);
     }
-    // Both functions are linear between these radii, so two Gauss points are exact.
+    // Thickness and stress are linear between these radii, so that two Gauss points are exact.
     let mut ends = [blade.edges_m(), hoop_pa.knots_m().to_vec()].concat();
     ends.retain(|r| from < *r && *r < to);
     ends.extend([from, to]);
@@ -156,10 +157,8 @@ fn force(hoop_pa: &Profile, blade: &Blade, from: f64) -> f64 {
     pieces.sum()
 }
 
-/// As [`force`], of a unit stress.
+/// The value of [`force`] from the inner edge for a unit stress.
 fn even_force(blade: &Blade) -> f64 {
-    match Profile::new(&[(blade.outer_radius_m, 1.0)]).filter(|_| blade.profile.is_some()) {
-        Some(one) => force(&one, blade, blade.inner_radius_m),
-        None => blade.outer_radius_m - blade.inner_radius_m,
-    }
+    let unit = Profile::new(&[(blade.outer_radius_m, 1.0)]);
+    unit.map_or(0.0, |unit| force(&unit, blade, blade.inner_radius_m))
 }

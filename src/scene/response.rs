@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::check::{refuse, within};
+use super::file::is_default;
 use super::{Blade, SceneError};
 use crate::text::shown;
 
@@ -12,34 +13,29 @@ use crate::text::shown;
 #[serde(deny_unknown_fields)]
 pub struct ResponseFile {
     /// Constant lateral force, fixed in space.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub force_n: f64,
     /// Distance of the force from the axis; the rim by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<f64>,
     /// Angle of the force, positive in the direction of rotation.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub angle_deg: f64,
     /// Run-out of the rim: amplitude of one wave around it, of the blade at rest without guides. It turns with the blade and
     /// excites at the rotation frequency.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub runout_m: f64,
     /// Lack of flatness at the rim: amplitude of two waves around it, of the blade at rest without guides. It excites at twice
     /// the rotation frequency.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub flatness_m: f64,
     /// Imbalance at the rim beside the middle plane: mass times rim radius times distance from the middle plane. It excites at
     /// the rotation frequency and its double; an imbalance in the middle plane does not bend the blade.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub imbalance_kg_m2: f64,
     /// Amplitude of the lateral force at the rim at the cut with the tooth passing frequency.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub tooth_force_n: f64,
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }
 
 impl ResponseFile {

@@ -18,11 +18,12 @@ use crate::text::shown;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RollBandFile {
-    /// Radius of its middle.
+    /// Radius of the middle of the band.
     pub radius_m: f64,
     /// Width along the radius.
     pub width_m: f64,
-    /// In-plane strain that the band would have if it were free, isotropic; positive for rolling. Either this or `groove_depth_m`.
+    /// In-plane strain that the band would have if it were free, isotropic; positive for rolling. Give either this or
+    /// `groove_depth_m`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub eigenstrain: Option<f64>,
     /// Depth of the groove on each face, in place of `eigenstrain`, which is then this depth over the thickness of the blade at
@@ -34,28 +35,28 @@ pub struct RollBandFile {
 /// Validated rolled band, from its inner to its outer edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct RollBand {
-    /// Inner edge.
+    /// Radius of the inner edge.
     pub from_radius_m: f64,
-    /// Outer edge.
+    /// Radius of the outer edge.
     pub to_radius_m: f64,
     /// In-plane eigenstrain, isotropic.
     pub eigenstrain: f64,
 }
 
-/// Rolling produces strains of 1e-4 to 1e-3.
+/// Range of eigenstrains; rolling produces 1e-4 to 1e-3.
 const EIGENSTRAIN: (f64, f64) = (-0.05, 0.05);
 /// Share of the displaced volume in each of the two directions in the plane. Rolls that are wide in comparison with the
 /// length of their contact lengthen the metal along the groove (0 across), and the blade, which resists this lengthening on
 /// both sides, directs the flow across (0 along); equal parts are between the two.
 const SHARE: f64 = 0.5;
 
-/// The blade at a groove.
+/// Relation of the depth of a groove to its eigenstrain at one radius of the blade.
 pub(crate) struct Groove {
     thickness_m: f64,
 }
 
 impl Groove {
-    /// The groove at a radius.
+    /// The relation at a radius.
     pub fn at(blade: &Blade, radius_m: f64) -> Self {
         Groove {
             thickness_m: blade.thickness_m * blade.thickness_ratio(radius_m),
@@ -126,7 +127,7 @@ impl RollBand {
         })
     }
 
-    /// Radius of the middle.
+    /// Radius of the middle of the band.
     pub fn middle_m(&self) -> f64 {
         0.5 * (self.from_radius_m + self.to_radius_m)
     }

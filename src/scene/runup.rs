@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{MAX_RPM, refuse, within};
-use super::{Blade, SceneError, SpeedRange, rad_per_s};
+use super::check::{refuse, speeds, within};
+use super::file::is_default;
+use super::{Blade, SceneError, SpeedRange};
 use crate::text::shown;
 
 /// Run-up at a constant rate, under a constant lateral force fixed in space.
@@ -25,13 +26,8 @@ pub struct RunUpFile {
     pub angle_deg: f64,
     /// Whether the model includes stretching of the middle surface at large deflections: then the record ends
     /// where slopes exceed 0.1, and not at five thicknesses. It takes longer.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub stretching: bool,
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
-pub(super) fn is_false(value: &bool) -> bool {
-    !value
 }
 
 /// Point at which the deflection is read.
@@ -65,7 +61,7 @@ pub struct RunUp {
 pub(crate) struct Probe {
     /// Distance from the axis.
     pub radius_m: f64,
-    /// Angle of the force.
+    /// Angle of the probe.
     pub angle_rad: f64,
 }
 
@@ -76,13 +72,8 @@ const MAX_RUN_UP_S: f64 = 3600.0;
 
 impl RunUp {
     pub(super) fn new(typed: &RunUpFile) -> Result<Self, SceneError> {
-        let from = within("runup.from_rpm", typed.from_rpm, (0.0, MAX_RPM))?;
-        let to = within("runup.to_rpm", typed.to_rpm, (0.0, MAX_RPM))?;
-        if to <= from {
-            let allowed = format!("more than runup.from_rpm ({})", shown(from));
-            let remedy = "a run-up goes from a lower to a higher speed";
-            return Err(refuse("runup.to_rpm", to, allowed, remedy));
-        }
+        let remedy = "a run-up goes from a lower to a higher speed";
+        let speeds = speeds("runup", typed.from_rpm, typed.to_rpm, remedy)?;
         let duration_s = within("runup.duration_s", typed.duration_s, (0.0, MAX_RUN_UP_S))?;
         if duration_s < 0.01 {
             let remedy = "a run-up takes seconds; is the duration in seconds?";
@@ -95,10 +86,7 @@ impl RunUp {
         }
         let angle = within("runup.angle_deg", typed.angle_deg, (-3600.0, 3600.0))?;
         Ok(RunUp {
-            speeds: SpeedRange {
-                from_rad_per_s: rad_per_s(from),
-                to_rad_per_s: rad_per_s(to),
-            },
+            speeds,
             duration_s,
             force_n: within("runup.force_n", typed.force_n, (-1e9, 1e9))?,
             angle_rad: angle.to_radians(),
@@ -106,7 +94,7 @@ impl RunUp {
         })
     }
 
-    /// Ω̇, in rad/s².
+    /// Rate Ω̇ at which the rotation speed rises, in rad/s².
     pub fn acceleration_rad_per_s2(&self) -> f64 {
         (self.speeds.to_rad_per_s - self.speeds.from_rad_per_s) / self.duration_s
     }

@@ -1,4 +1,4 @@
-//! Number of a scene in the form of a command line: `blade.thickness_m=2.6mm`.
+//! A number of a scene as given on a command line: `blade.thickness_m=2.6mm`.
 
 use std::str::FromStr;
 
@@ -8,13 +8,14 @@ use super::quantity::{QUANTITIES, Quantity, general};
 use super::unit::Unit;
 use super::{RefusedValue, Scene, SceneError, SceneFile};
 
-/// Path of a number of a scene, with a value in the unit of its key.
+/// A value for the number of a scene at a path, in the unit of its key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
     path: String,
     value: f64,
 }
 
+/// Smallest Jaro–Winkler similarity of a known path that an error suggests.
 const LIKENESS: f64 = 0.8;
 
 impl Setting {
@@ -239,7 +240,7 @@ mod tests {
         set.map_err(|error| error.to_string())
     }
 
-    /// A scene with these numbers in SI units is the same.
+    /// The result equals a scene with these numbers typed in the units of their keys.
     #[test]
     fn numbers_with_units_are_those_typed_in_si() {
         let texts = [
@@ -270,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_set_is_refused_with_path_value_and_remedy() {
+    fn refusals_name_path_value_and_remedy() {
         let cases = [
             ("blade.thickness_m", &["path, =, and a number"][..]),
             (

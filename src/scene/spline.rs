@@ -62,11 +62,11 @@ pub(crate) struct Spline {
     pub weight_angle_rad: Option<f64>,
 }
 
-/// Teeth are simulated individually; no spline has more.
+/// Largest number of teeth, which are simulated individually; no spline has more.
 const MAX_TEETH: u32 = 200;
-/// A flank with a larger angle acts as a radial stop and does not drive.
+/// Largest pressure angle. A flank with a larger one acts as a radial stop and does not drive.
 const MAX_PRESSURE_ANGLE_DEG: f64 = 60.0;
-/// In double precision a contact with a larger coefficient is rigid.
+/// Largest coefficient of the damping of a contact. In double precision a contact with a larger one is rigid.
 const MAX_CONTACT: f64 = 1e18;
 
 impl Spline {
@@ -74,24 +74,15 @@ impl Spline {
         let Some(typed) = &file.spline else {
             return Ok(None);
         };
-        let refuse = |key: &str, value: String, allowed: String, remedy| {
-            let key = key.to_owned();
-            Err(SceneError::Value(RefusedValue {
-                key,
-                value,
-                allowed,
-                remedy,
-            }))
-        };
         if let Mount::Collar { .. } = file.mount {
-            let allowed = "spline when the scene has a spline block".to_owned();
+            let allowed = "spline when the scene has a spline block";
             let remedy = "a collar holds the blade in its plane; leave one of the two out";
-            return refuse("mount.kind", "collar".to_owned(), allowed, remedy);
+            return Err(RefusedValue::new("mount.kind", "collar", allowed, remedy).into());
         }
         if !(1..=MAX_TEETH).contains(&typed.teeth) {
             let allowed = format!("between 1 and {MAX_TEETH}");
             let remedy = "count the teeth of the spline, not those that cut";
-            return refuse("spline.teeth", typed.teeth.to_string(), allowed, remedy);
+            return Err(RefusedValue::new("spline.teeth", typed.teeth, allowed, remedy).into());
         }
         Self::measured(typed, blade).map(Some)
     }

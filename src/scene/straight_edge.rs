@@ -9,9 +9,9 @@ use super::{Blade, Bore, SceneError};
 use crate::text::shown;
 
 /// Straight edge across the blade off its machine. The blade lies level on two opposite points and sags under its own weight;
-/// the straight edge touches it with both ends, on the diameter at right angles to that of the points. The light gap is read in its
-/// middle, at the edge of the bore. Where roll tension makes the middle sag more than the ends, the gap is positive; a blade that is not rolled
-/// touches in the middle, and its gap is negative: that under the ends.
+/// the straight edge touches it with both ends, on the diameter at right angles to that of the points. The light gap is read
+/// in the middle, at the edge of the bore. It is positive where roll tension makes the middle sag more than the ends. A blade
+/// that is not rolled touches the straight edge in the middle; its gap, which is then under the ends, is negative.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StraightEdgeFile {
@@ -21,7 +21,7 @@ pub struct StraightEdgeFile {
     /// Distance of the two points from the axis; by default the radius of the rim.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub support_radius_m: Option<f64>,
-    /// Light gap that was measured. The report answers with the eigenstrain of the rolled bands that has this gap, all bands in proportion.
+    /// Measured light gap. The report gives the eigenstrain of the rolled bands that causes it, all bands in proportion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured_gap_m: Option<f64>,
 }
@@ -35,11 +35,11 @@ pub(crate) struct StraightEdge {
     pub end_radius_m: f64,
     /// Distance of the supports from the axis.
     pub support_radius_m: f64,
-    /// Light gap that was measured.
+    /// Measured light gap.
     pub measured_gap_m: Option<f64>,
 }
 
-/// No straight edge shows a larger gap.
+/// Range of measured gaps; no straight edge shows a larger one.
 const GAP_M: (f64, f64) = (-1.0, 1.0);
 
 impl StraightEdge {

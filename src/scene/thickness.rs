@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{positive, refuse, within};
-use super::{Blade, BladeFile, RefusedValue, SceneError, SceneFile};
+use super::check::{needed_teeth, positive, refuse, within};
+use super::{Blade, BladeFile, SceneError, SceneFile};
 use crate::text::shown;
 
 /// Thickness at one radius.
@@ -23,20 +23,21 @@ pub struct ThicknessRow {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RimFile {
-    /// Mass of one tooth or of one tip; blade.teeth is their number.
+    /// Mass of one tooth or of one tip; `blade.teeth` gives their number.
     pub mass_per_tooth_kg: f64,
-    /// Distance of its centre from the axis; by default the radius of the rim.
+    /// Distance of the circle from the axis; by default the radius of the rim.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<f64>,
 }
 
 /// Largest number of rows of a profile; each row adds basis functions.
 const MAX_ROWS: usize = 8;
-/// A step to a tenth leaves a thousandth of the bending stiffness.
+/// Range of the ratio to the thickness of the hub. A tenth of the thickness has a thousandth of the bending stiffness.
 const RATIOS: (f64, f64) = (0.1, 10.0);
-/// With heavier teeth the blade itself no longer influences the result.
+/// Largest ratio of the mass of all teeth to that of the blade. With heavier teeth the blade itself no longer
+/// influences the result.
 const MOST_BLADES: f64 = 10.0;
-/// No tooth is heavier.
+/// Largest mass of a tooth; no tooth is heavier.
 const MAX_TOOTH_KG: f64 = 1e3;
 
 /// Validated thickness: that of the hub up to the first row, linear between the rows, constant beyond the
@@ -44,7 +45,7 @@ const MAX_TOOTH_KG: f64 = 1e3;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ThicknessProfile {
     hub_m: f64,
-    /// (radius, thickness), the first `count` of them.
+    /// Rows (radius, thickness), of which the first `count` are in use.
     rows: [(f64, f64); MAX_ROWS],
     count: usize,
 }
@@ -106,7 +107,7 @@ impl ThicknessProfile {
         )
     }
 
-    /// Thickness at a radius before the row `next`.
+    /// Thickness at a radius between the rows `next` − 1 and `next`.
     fn between(&self, next: usize, radius_m: f64) -> f64 {
         let rows = self.rows();
         let Some(before) = next.checked_sub(1) else {
@@ -174,14 +175,8 @@ impl RimMass {
         };
         let key = "blade.rim.mass_per_tooth_kg";
         let each = within(key, typed.mass_per_tooth_kg, (0.0, MAX_TOOTH_KG))?;
-        let Some(teeth) = file.blade.teeth.filter(|teeth| *teeth > 0) else {
-            return Err(SceneError::Value(RefusedValue {
-                key: "blade.teeth".into(),
-                value: file.blade.teeth.map_or("missing".into(), |t| t.to_string()),
-                allowed: "at least 1 where blade.rim gives a mass for each".into(),
-                remedy: "give the number of teeth",
-            }));
-        };
+        let reason = "where blade.rim gives a mass for each";
+        let teeth = needed_teeth(file.blade.teeth, reason, "give the number of teeth")?;
         let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
         let radius_m = typed.radius_m.unwrap_or(outer);
         if !(radius_m > inner && radius_m <= outer) {
@@ -236,7 +231,7 @@ impl Blade {
         })
     }
 
-    /// Whether the blade has uniform thickness and no mass at the rim.
+    /// Whether the blade has uniform thickness and no mass of teeth.
     pub fn is_plain(&self) -> bool {
         self.profile.is_none() && self.rim.is_none()
     }
@@ -285,11 +280,10 @@ impl Blade {
         self.mass_moment(2) + self.rim.map_or(0.0, of_teeth)
     }
 
-    /// ∫ r^p dm of the plate, p = 0 or 2: three Gauss points are exact between edges.
+    /// Integral ∫ r^p dm over the plate, p = 0 or 2: three Gauss points are exact between edges.
     fn mass_moment(&self, power: i32) -> f64 {
         if self.profile.is_none() {
-            // A closed form, so that a blade of uniform thickness gives the same digits with and without a
-            // profile.
+            // The closed form has no rounding error of a quadrature.
             let (a, b) = (self.inner_radius_m, self.outer_radius_m);
             let mass = self.mass_per_area_kg_per_m2() * PI * (b - a) * (b + a);
             return if power == 0 {

@@ -1,6 +1,7 @@
-//! Typical values of numbers that a user may not know: what schema and form offer, and what commands assume and say so.
+//! Typical values of numbers that a user may not know. The schema and the form offer them; a command that assumes one
+//! reports it.
 //!
-//! The page of typical values prints this table, with formulas beside it for the numbers that follow from others.
+//! The page of typical values prints this table, with formulas for the numbers that follow from others.
 
 use serde_json::{Value, json};
 
@@ -15,9 +16,10 @@ use crate::text::shown_to;
 pub(crate) struct Typical {
     /// JSON path, with `[]` for any index of a list.
     pub path: &'static str,
-    /// The value, in the unit of the key unless `of` says otherwise.
+    /// The value, in the unit of the key, or with the unit or reference in `of`.
     pub value: f64,
-    /// What the value is, if the number of the key follows from it; empty for the number itself.
+    /// Unit or reference of the value, if the number of the key is computed from it; empty if the value is this
+    /// number.
     pub of: &'static str,
     /// Smallest and largest value of common saws.
     pub common: (f64, f64),
@@ -89,7 +91,7 @@ impl Typical {
         own.map(|typical| typical.value)
     }
 
-    /// "Typically 20, from 0 to 90 (source)."
+    /// Describes value and range: "Typically 20, from 0 to 90 (source)."
     fn sentence(&self) -> String {
         let [value, low, high] = [self.value, self.common.0, self.common.1].map(shown);
         let space = if self.is_number() { "" } else { " " };
@@ -111,7 +113,7 @@ pub(super) fn add_to_schema(schema: &mut Value) {
     }
 }
 
-/// JSON pointer to the schema of a path.
+/// JSON pointer to the schema of the key at a path.
 fn pointer(schema: &Value, path: &str) -> Option<String> {
     let mut at = String::new();
     for key in path.split('.') {
@@ -121,7 +123,7 @@ fn pointer(schema: &Value, path: &str) -> Option<String> {
     schema.pointer(&at).map(|_| at)
 }
 
-/// The block that a key refers to, through lists and optional keys.
+/// JSON pointer to the block that a key refers to, through lists and optional keys.
 fn block(schema: &Value, at: String) -> Option<String> {
     let node = schema.pointer(&at)?;
     if let Some(name) = node["$ref"].as_str() {
@@ -139,7 +141,7 @@ fn block(schema: &Value, at: String) -> Option<String> {
     }
 }
 
-/// Operating speed of a scene; where it has none, the typical one.
+/// Operating speed of a scene, in rpm; if it has none, the typical one.
 #[cfg(any(feature = "cli", feature = "page"))]
 pub(crate) fn operating_rpm(scene: &SceneFile) -> f64 {
     let diameter_m = scene.blade.outer_diameter_m;
@@ -171,7 +173,7 @@ pub(crate) fn washboarding() -> Value {
     json!({ "stiffness_n_per_m": short(CUTTING_STIFFNESS.value), "overlap": short(OVERLAP.value) })
 }
 
-/// A run-up past the operating speed.
+/// A typical run-up past the operating speed.
 #[cfg(any(feature = "cli", feature = "page"))]
 pub(crate) fn runup(scene: &SceneFile) -> Value {
     json!({
@@ -182,7 +184,7 @@ pub(crate) fn runup(scene: &SceneFile) -> Value {
     })
 }
 
-/// A whole number without decimals.
+/// JSON number, without decimals if it is whole.
 #[cfg(any(feature = "cli", feature = "page"))]
 fn short(value: f64) -> Value {
     match value.fract() == 0.0 {
@@ -191,7 +193,7 @@ fn short(value: f64) -> Value {
     }
 }
 
-/// A number with so many digits.
+/// Rounds a number to a number of significant digits.
 #[cfg(any(feature = "cli", feature = "page"))]
 pub(crate) fn rounded(value: f64, digits: usize) -> f64 {
     shown_to(digits, value).parse().unwrap_or(value)

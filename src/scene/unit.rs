@@ -9,6 +9,7 @@ type Powers = [f64; 5];
 /// Factor to SI and powers of a unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Unit {
+    /// Ratio of the unit to the SI unit of its quantity.
     pub factor: f64,
     powers: Powers,
 }
@@ -85,7 +86,7 @@ const PREFIXES: [(char, f64); 9] = [
 const SIGNS: [char; 7] = ['*', '·', '⋅', '/', '^', '(', ')'];
 
 impl Unit {
-    /// Unit of a text, if it is one; an empty text is the unit of a plain number.
+    /// Parses a unit; `None` if the text is not a unit. An empty text is the unit of a dimensionless number.
     pub fn parse(text: &str) -> Option<Unit> {
         let words: Vec<&str> = text.split_whitespace().collect();
         let ends = |word: &str| word.ends_with(SIGNS);
@@ -120,7 +121,7 @@ impl Unit {
     }
 }
 
-/// Factors from left to right, up to a closing bracket or the end.
+/// Parses factors from left to right, up to a closing bracket or the end.
 fn product(rest: &mut &str) -> Option<Unit> {
     let mut unit = power(rest)?;
     while let Some(sign) = rest.chars().next().filter(|c| "*·⋅/".contains(*c)) {
@@ -130,7 +131,7 @@ fn product(rest: &mut &str) -> Option<Unit> {
     Some(unit)
 }
 
-/// A symbol or a product in brackets, with its exponent.
+/// Parses a symbol or a product in brackets, with its exponent.
 fn power(rest: &mut &str) -> Option<Unit> {
     let base = match rest.strip_prefix('(') {
         Some(inner) => {
@@ -151,6 +152,7 @@ fn power(rest: &mut &str) -> Option<Unit> {
     Some(ONE.times(base, exponent(rest)?))
 }
 
+/// Unit of a symbol with or without a prefix.
 fn of_symbol(symbol: &str) -> Option<Unit> {
     let named = |table: &[(&str, Unit)], name: &str| {
         let found = table.iter().find(|(own, _)| *own == name);
@@ -166,7 +168,7 @@ fn of_symbol(symbol: &str) -> Option<Unit> {
     })
 }
 
-/// `²`, `³`, `2`, `^2`, `**2`, `^-1`, `^(3/2)`; 1 if there is none.
+/// Parses an exponent, such as `²`, `³`, `2`, `^2`, `**2`, `^-1` or `^(3/2)`; without one, returns 1.
 fn exponent(rest: &mut &str) -> Option<f64> {
     for (sign, value) in [('²', 2.0), ('³', 3.0)] {
         if let Some(after) = rest.strip_prefix(sign) {
@@ -237,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn what_measures_something_else_is_no_unit_of_it() {
+    fn units_of_other_quantities_and_other_texts_are_refused() {
         let of = |a: &str, b: &str| Unit::parse(a).unwrap().is_of(&Unit::parse(b).unwrap());
         assert!(!of("mm", "N"));
         assert!(!of("Hz", "rpm"));

@@ -5,8 +5,6 @@
 
 use std::f64::consts::{PI, TAU};
 
-use serde_json::Value;
-
 use super::SceneFile;
 use super::quantity::Quantity;
 use super::typical::Typical;
@@ -37,12 +35,12 @@ const RADIANS: &str = "radians";
 const RIM_M_PER_S: (f64, f64) = (2.0, 300.0);
 /// Rim speed of most saws for wood and stone.
 const TYPICAL_RIM_M_PER_S: f64 = 60.0;
-/// Speeds at which a saw runs.
+/// Paths of the speeds at which a saw runs.
 const RUNS: [&str; 3] = ["operating_rpm", "cut.chart_rpm", "cut.speeds[].rpm"];
-/// Largest speeds of an analysis.
+/// Paths of the largest speeds of an analysis and of a measurement.
 const ENDS: [&str; 3] = ["sweep.to_rpm", "runup.to_rpm", "measured.rows[].rpm"];
 
-/// Angles whose range includes every value, so that it does not reveal radians.
+/// Paths of angles whose usual range includes every value, so that it does not reveal radians.
 const ANGLES: [&str; 6] = [
     "guides[].angle_deg",
     "cut.angle_deg",
@@ -53,11 +51,11 @@ const ANGLES: [&str; 6] = [
 ];
 /// Usual step between angles.
 const ANGLE_STEP_DEG: f64 = 5.0;
-/// A number in radians with fewer decimals may be a round one by chance.
-const LEAST_DECIMALS: usize = 2;
+/// Smallest number of decimals: a number with fewer may be a round angle in radians by chance.
+const MIN_DECIMALS: usize = 2;
 /// Angles typed in degrees are multiples of this.
 const TYPED_DEG: f64 = 0.25;
-/// From this number of guides on, angles that all lie within a few degrees are suspicious.
+/// From this number of different angles on, it is suspicious that all are within 2π degrees of zero.
 const MANY_ANGLES: usize = 3;
 
 /// Usual range of a quantity.
@@ -74,15 +72,15 @@ struct Unusual {
     path: String,
     value: f64,
     unit: &'static str,
-    /// Why it is unusual.
+    /// Reason for which the number is unusual.
     why: String,
     /// Another unit that the number may be in, and its value when converted from it.
     meant: Option<(&'static str, f64)>,
 }
 
 impl SceneFile {
-    /// The messages: one for each number that no saw has, and a single one for those that seem to be in the
-    /// same unit.
+    /// Messages about numbers that no saw has: one for each, and a single one for all that seem to be in the same
+    /// other unit.
     pub fn unusual_numbers(&self) -> Vec<String> {
         let mut alike: Vec<Vec<Unusual>> = Vec::new();
         for one in out_of_range(self).into_iter().chain(in_radians(self)) {
@@ -117,7 +115,7 @@ fn out_of_range(scene: &SceneFile) -> Vec<Unusual> {
         let usual = Usual::of(scene, quantity);
         (!is_slower).then(|| usual.judged(&path, value, quantity.unit))?
     };
-    numbers(scene).into_iter().filter_map(judged).collect()
+    scene.numbers().into_iter().filter_map(judged).collect()
 }
 
 impl Usual {
@@ -145,9 +143,12 @@ impl Usual {
             };
         }
         let rpm = |rim_m_per_s: f64| 60.0 * rim_m_per_s / (PI * diameter_m);
-        let (least, most) = RIM_M_PER_S;
-        let from = rpm(least);
-        let to = if is_run { to.min(rpm(most)) } else { to };
+        let from = rpm(RIM_M_PER_S.0);
+        let to = if is_run {
+            to.min(rpm(RIM_M_PER_S.1))
+        } else {
+            to
+        };
         let words = match is_run {
             true => format!("saws of this diameter run at {from:.0} to {to:.0} rpm"),
             false => format!("saws of this diameter run at {from:.0} rpm or more"),
@@ -174,8 +175,8 @@ impl Usual {
         })
     }
 
-    /// The unit from which a conversion makes the number usual, with the converted value: the one nearest to
-    /// typical values.
+    /// Unit from which a conversion makes the number usual, and the converted value. Of several units, the one
+    /// whose converted value is nearest to the typical value is chosen.
     fn meant(&self, value: f64, unit: &str) -> Option<(&'static str, f64)> {
         let of_unit = MISTAKEN.iter().filter(|(own, _, _)| *own == unit);
         let meant = of_unit.map(|(_, other, factor)| (*other, value * factor));
@@ -215,7 +216,7 @@ impl Unusual {
     }
 }
 
-/// One message for numbers that seem to be in the same unit.
+/// Message about numbers that seem to be in the same other unit.
 fn together(group: &[Unusual]) -> String {
     if let [one] = group {
         return one.sentence();
@@ -233,9 +234,9 @@ fn together(group: &[Unusual]) -> String {
     format!("these numbers look like {unit}: {}", each.join(", "))
 }
 
-/// Angles that are round numbers of degrees when read as radians.
+/// Angles that seem to be in radians.
 fn in_radians(scene: &SceneFile) -> Vec<Unusual> {
-    let typed = numbers(scene);
+    let typed = scene.numbers();
     let of_path = |general: &str| -> Vec<(String, f64)> {
         let own = typed.iter().filter(|(path, value)| {
             *value != 0.0 && Quantity::of(path).is_some_and(|q| q.path == general)
@@ -254,7 +255,7 @@ fn in_radians(scene: &SceneFile) -> Vec<Unusual> {
     suspect.flatten().map(unusual).collect()
 }
 
-/// Whether angles of one kind are in radians: they lie within one turn, none is a usual number of degrees,
+/// Whether angles of one kind seem to be in radians: all are within one turn, none is a usual number of degrees,
 /// and one is a round number of degrees when converted, or there are many different ones.
 fn seem_radians(angles: &[(String, f64)]) -> bool {
     let is_within = |value: f64| value.abs() <= TAU + 0.01;
@@ -269,7 +270,7 @@ fn seem_radians(angles: &[(String, f64)]) -> bool {
         && (is_many || distinct.iter().any(|value| is_round_in_radians(*value)))
 }
 
-/// Whether a number, to its decimals, is a round number of degrees in radians.
+/// Whether a number equals, to its decimals, a round number of degrees in radians.
 fn is_round_in_radians(value: f64) -> bool {
     let text = value.to_string();
     let decimals = text
@@ -277,34 +278,7 @@ fn is_round_in_radians(value: f64) -> bool {
         .map_or(0, |(_, decimals)| decimals.len());
     let round_deg = ANGLE_STEP_DEG * (value.to_degrees() / ANGLE_STEP_DEG).round();
     let as_radians = format!("{:.decimals$}", round_deg.to_radians());
-    decimals >= LEAST_DECIMALS && as_radians == text
-}
-
-/// Every number of a scene, with its path.
-fn numbers(scene: &SceneFile) -> Vec<(String, f64)> {
-    let json = serde_json::to_value(scene).expect("numbers of a scene are finite");
-    let mut found = Vec::new();
-    leaves(&json, String::new(), &mut found);
-    found
-}
-
-/// Every number below a JSON value, with its path.
-fn leaves(value: &Value, path: String, found: &mut Vec<(String, f64)>) {
-    match value {
-        Value::Number(number) => found.extend(number.as_f64().map(|value| (path, value))),
-        Value::Array(items) => {
-            for (index, item) in items.iter().enumerate() {
-                leaves(item, format!("{path}[{index}]"), found);
-            }
-        }
-        Value::Object(keys) => {
-            for (key, item) in keys {
-                let dot = if path.is_empty() { "" } else { "." };
-                leaves(item, format!("{path}{dot}{key}"), found);
-            }
-        }
-        _ => (),
-    }
+    decimals >= MIN_DECIMALS && as_radians == text
 }
 
 #[cfg(test)]

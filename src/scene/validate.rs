@@ -1,6 +1,6 @@
 //! Validates a [`SceneFile`]: the [`Scene`] that results is in SI units and radians.
 
-use super::check::{MAX_GUIDES, MAX_RPM, SPAN, positive, refuse, within};
+use super::check::{MAX_GUIDES, MAX_RPM, SPAN, positive, refuse, speeds, within};
 use super::cut::Cut;
 use super::guide::guide;
 use super::membrane::Membrane;
@@ -13,7 +13,7 @@ use super::{
 };
 use crate::text::shown;
 
-/// A diagram with errors above a tenth is of no use, and no basis reaches 1e-8.
+/// Range of tolerances. A diagram with errors above a tenth is of no use, and no basis reaches 1e-8.
 const TOLERANCES: (f64, f64) = (1e-7, 0.1);
 
 impl TryFrom<SceneFile> for Scene {
@@ -190,17 +190,8 @@ fn ratios(typed: &DampingFile) -> Result<Vec<(usize, f64)>, SceneError> {
 }
 
 fn sweep(typed: &SweepFile) -> Result<SpeedRange, SceneError> {
-    let from = within("sweep.from_rpm", typed.from_rpm, (0.0, MAX_RPM))?;
-    let to = within("sweep.to_rpm", typed.to_rpm, (0.0, MAX_RPM))?;
-    if to <= from {
-        let allowed = format!("more than sweep.from_rpm ({})", shown(from));
-        let remedy = "a sweep runs from a lower to a higher speed";
-        return Err(refuse("sweep.to_rpm", to, allowed, remedy));
-    }
-    Ok(SpeedRange {
-        from_rad_per_s: rad_per_s(from),
-        to_rad_per_s: rad_per_s(to),
-    })
+    let remedy = "a sweep runs from a lower to a higher speed";
+    speeds("sweep", typed.from_rpm, typed.to_rpm, remedy)
 }
 
 fn check_measured(file: &SceneFile) -> Result<(), SceneError> {

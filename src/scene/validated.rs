@@ -5,7 +5,7 @@ use super::{
     SceneError, SceneFile, Spline, SweepFile, ThicknessProfile, rpm,
 };
 
-/// A validated saw. It holds the scene as typed and the numbers derived from it and therefore cannot be
+/// A validated saw. It contains the scene as typed and the numbers derived from it, so that it cannot be
 /// changed; [`Scene::edited`] makes another one.
 ///
 /// ```compile_fail
@@ -30,7 +30,7 @@ pub struct Scene {
     pub(super) probe: Probe,
 }
 
-/// The moving annulus a < r < b.
+/// The annulus a < r < b of the blade that deflects.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Blade {
     /// Inner radius a: the bore of a spline blade, the edge of a collar.
@@ -74,13 +74,13 @@ pub(crate) struct Damping {
 }
 
 impl Damping {
-    /// Damping ratio of the modes at rest with n nodal diameters that loss factor and measured ratios give.
+    /// Damping ratio of the modes at rest with n nodal diameters, as listed or by the loss factor.
     pub fn ratio_of(&self, n: usize) -> f64 {
         let listed = self.ratios.iter().find(|(diameters, _)| *diameters == n);
         listed.map_or(self.ratio, |(_, ratio)| *ratio)
     }
 
-    /// The smallest of these ratios.
+    /// The smallest damping ratio of any number of nodal diameters.
     pub fn smallest_ratio(&self) -> f64 {
         let listed = self.ratios.iter().map(|(_, ratio)| *ratio);
         listed.fold(self.ratio, f64::min)
@@ -125,7 +125,7 @@ impl Scene {
     /// The saw with another range of speeds.
     ///
     /// # Errors
-    /// [`SceneError`] where no sweep may have this range.
+    /// [`SceneError`] if a sweep must not have this range.
     pub fn swept(&self, range: SpeedRange) -> Result<Scene, SceneError> {
         self.edited(|file| {
             file.sweep = Some(SweepFile {
@@ -138,7 +138,7 @@ impl Scene {
     /// The saw with a Campbell diagram that excludes the forces of the cut.
     ///
     /// # Errors
-    /// Those of [`Scene::edited`]; a valid scene raises none.
+    /// [`SceneError`] as for [`Scene::edited`]; none for a valid scene.
     pub fn idling(&self) -> Result<Scene, SceneError> {
         self.edited(|file| file.cut.iter_mut().for_each(|cut| cut.chart_rpm = None))
     }
@@ -204,12 +204,12 @@ impl Scene {
         self.flutter_threshold_per_s
     }
 
-    /// Forces of the wood on the teeth.
+    /// Cut, with the forces of the wood on the teeth.
     pub fn cut(&self) -> Option<&Cut> {
         self.cut.as_ref()
     }
 
-    /// Angle of the middle of the cut; without a cut, that of the direction from which angles are counted.
+    /// Angle of the middle of the cut; without a cut, zero, the direction from which angles are counted.
     pub fn cut_angle_rad(&self) -> f64 {
         self.cut.as_ref().map_or(0.0, |cut| cut.angle_rad)
     }

@@ -23,7 +23,7 @@ pub struct WashboardingFile {
     /// Share μ of a tooth's cut that lies on the surface left by the preceding tooth, 0 to 1.
     #[serde(default = "full_overlap")]
     pub overlap: f64,
-    /// Arc of the rim on which the force acts; by default that of the teeth in the cut.
+    /// Arc of the rim on which the force acts; by default one pitch for each tooth in the cut.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arc_deg: Option<f64>,
     /// Angles between successive teeth, repeated around the blade, if teeth are unevenly spaced.
@@ -52,12 +52,13 @@ pub(crate) struct Washboarding {
     pub arc_rad: f64,
 }
 
-/// No wood and no blade is laterally stiffer.
+/// Largest lateral cutting stiffness, in N/m; no wood and no blade is laterally stiffer.
 pub(crate) const MAX_CUTTING_STIFFNESS: f64 = 1e9;
-/// Allowed difference between the sum of the pitches and a whole turn, for rounded input.
+/// Allowed error of a pitch by rounding: the sum of the pitches of all teeth may differ from a whole turn by this angle
+/// times the number of teeth.
 const ROUNDED_DEG: f64 = 0.05;
-/// Teeth closer than this share of the mean pitch act as one.
-const LEAST_PITCH: f64 = 0.05;
+/// Smallest pitch, as a share of the mean pitch; teeth closer to each other act as one.
+const MIN_PITCH: f64 = 0.05;
 
 impl Washboarding {
     pub(super) fn new(typed: &WashboardingFile, teeth: &TeethInCut) -> Result<Self, SceneError> {
@@ -73,10 +74,7 @@ impl Washboarding {
                 remedy,
             ));
         }
-        let arc_rad = match typed.arc_deg {
-            Some(arc) => within(&key("arc_deg"), arc, (1e-3, 360.0))?.to_radians(),
-            None => teeth.arc_rad(),
-        };
+        let arc_rad = teeth.arc_rad(&key("arc_deg"), typed.arc_deg)?;
         let all_teeth = (TAU / teeth.pitch_rad).round() as u32;
         Ok(Washboarding {
             stiffness_n_per_m: stiffness,
@@ -88,14 +86,14 @@ impl Washboarding {
         })
     }
 
-    /// The delays τ at a speed, in s. Each tooth cuts a given place of the wood once a turn, so all delays
-    /// have equal weight.
+    /// The delays τ at a speed, one for each pitch. They have equal weight, because each tooth passes a given place
+    /// of the wood once in each turn.
     pub fn delays_s(&self, speed_rad_per_s: f64) -> Vec<f64> {
         let of = |pitch: &f64| pitch / speed_rad_per_s;
         self.pitches_rad.iter().map(of).collect()
     }
 
-    /// Tooth passing frequency times 2π.
+    /// Angular frequency of tooth passing, Ω times the number of teeth.
     pub fn tooth_passing_rad_per_s(&self, speed_rad_per_s: f64) -> f64 {
         f64::from(self.teeth) * speed_rad_per_s
     }
@@ -105,7 +103,7 @@ impl Washboarding {
         self.pitches_rad.len() == 1
     }
 
-    /// A spring of 1 N/m on the arc of the rim; the undelayed force is k times that of this spring.
+    /// A spring of 1 N/m on the arc of the rim. The part of the force that is not delayed is k times its force.
     pub fn unit_spring(&self) -> Wood {
         Wood {
             angle_rad: self.angle_rad,
@@ -131,17 +129,14 @@ fn pitches_rad(key: &str, typed: &[f64], teeth: u32) -> Result<Vec<f64>, SceneEr
         return Err(refuse(key, count as f64, allowed, remedy));
     }
     for (index, pitch) in typed.iter().enumerate() {
-        let range = (LEAST_PITCH * mean_deg, 360.0);
+        let range = (MIN_PITCH * mean_deg, 360.0);
         within(&format!("{key}[{index}]"), *pitch, range)?;
     }
     let turn = typed.iter().sum::<f64>() * f64::from(teeth) / count as f64;
     if (turn - 360.0).abs() > ROUNDED_DEG * f64::from(teeth) {
-        return Err(SceneError::Value(RefusedValue {
-            key: key.to_owned(),
-            value: format!("{turn} degrees in all, repeated around {teeth} teeth"),
-            allowed: "a whole turn of 360 degrees".into(),
-            remedy: "give pitches whose mean is 360 degrees over the number of teeth",
-        }));
+        let given = format!("{turn} degrees in all, repeated around {teeth} teeth");
+        let remedy = "give pitches whose mean is 360 degrees over the number of teeth";
+        return Err(RefusedValue::new(key, given, "a whole turn of 360 degrees", remedy).into());
     }
     let even = typed.iter().all(|pitch| *pitch == typed[0]);
     let filling = 360.0 / turn;

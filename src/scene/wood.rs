@@ -21,7 +21,7 @@ pub struct WoodFile {
     /// Extent of the contact from the rim towards the axis; by default it is an arc of the rim.
     #[serde(default)]
     pub depth_m: f64,
-    /// Arc of the contact; by default that of the teeth in the cut.
+    /// Arc of the contact; by default one pitch for each tooth in the cut.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arc_deg: Option<f64>,
 }
@@ -42,7 +42,7 @@ pub(crate) struct Wood {
 }
 
 impl Wood {
-    /// Validates the contact; `None` without stiffness and damping.
+    /// Validates the contact; `None` if it has neither stiffness nor damping.
     pub(super) fn new(
         typed: &WoodFile,
         teeth: &TeethInCut,
@@ -50,10 +50,7 @@ impl Wood {
     ) -> Result<Option<Self>, SceneError> {
         let key = |name: &str| format!("cut.wood.{name}");
         let width = blade.outer_radius_m - blade.inner_radius_m;
-        let arc_rad = match typed.arc_deg {
-            Some(arc) => within(&key("arc_deg"), arc, (1e-3, 360.0))?.to_radians(),
-            None => teeth.arc_rad(),
-        };
+        let arc_rad = teeth.arc_rad(&key("arc_deg"), typed.arc_deg)?;
         if !(0.0..=width).contains(&typed.depth_m) {
             let allowed = format!("from 0 to the width of the moving ring ({})", shown(width));
             let remedy = "give the distance from the rim to which the wood touches the blade";

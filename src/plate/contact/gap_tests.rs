@@ -63,7 +63,7 @@ fn force_and_stiffness_are_derivatives_of_the_potential() {
     }
 }
 
-/// The pairs of deflections are random, far from each other and near.
+/// The deflections of a pair are near to each other or far apart.
 #[test]
 fn the_mean_force_does_the_work_of_the_potential() {
     let plate = lifting(|pad| {
@@ -93,9 +93,9 @@ fn the_mean_force_does_the_work_of_the_potential() {
     }
 }
 
-/// In a rigid motion w = ±d across the pad the whole pad presses by k (d − g), from the side on which it is.
+/// If the blade moves rigidly by w = ±d, a pad on the side of the motion exerts the force k (d − g).
 #[test]
-fn a_blade_that_heaves_is_pressed_by_the_whole_pad() {
+fn the_whole_pad_acts_on_a_blade_that_heaves() {
     for (side, left, right) in [
         (GuideSide::Both, true, true),
         (GuideSide::Left, true, false),
@@ -131,7 +131,7 @@ fn a_blade_that_heaves_is_pressed_by_the_whole_pad() {
     }
 }
 
-/// A blade that heaves by the offset of its pad is in the middle of the gap: the pad does not press, and pulls no film.
+/// A blade that heaves by the offset of its pad is in the middle of the gap, where neither pad nor film exerts a force.
 #[test]
 fn an_offset_moves_the_middle_of_the_gap() {
     let film = 2e6;
@@ -177,7 +177,7 @@ fn without_a_gap_the_pad_is_the_linear_one() {
     assert_eq!(difference.norm_max(), 0.0);
 }
 
-/// Within the gap the plate is that without the pad; a further linear pad is not affected.
+/// Within the gap the matrices are those of a plate without the pad, and another linear pad is not affected.
 #[test]
 fn within_the_gap_there_is_no_pad() {
     let lone = lifting(|_| ()).released().unwrap();
@@ -206,7 +206,7 @@ fn within_the_gap_there_is_no_pad() {
 fn points_of_a_pad_converge() {
     let plate = lifting(|_| ());
     let order = plate.degrees_of_freedom();
-    // A tilt, in which a part of the pad touches.
+    // The tilt is so small that only a part of the pad touches.
     let mut tilt = Col::zeros(order);
     tilt[plate.offset(1)] = 4e-4;
     let identity = Mat::<f64>::identity(order, order);

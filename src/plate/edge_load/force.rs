@@ -40,60 +40,45 @@ pub struct BoreForce {
     pub tangential_n: f64,
 }
 
-/// Harmonic m of the stresses at an edge, as factors of [cos mθ, sin mθ].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct HarmonicTraction {
-    /// Radial stress σ_rr.
-    pub radial_pa: [f64; 2],
-    /// Shear stress σ_rθ.
-    pub shear_pa: [f64; 2],
+/// Order m of the stresses (σ_rr, σ_rθ) at an edge, in Pa: the amplitudes of the two fields that vary as
+/// (cos mθ, sin mθ) and as (sin mθ, −cos mθ).
+type Traction = [[f64; 2]; 2];
+
+/// The traction of order m at the rim, where the outward normal is +r.
+pub fn traction_at_rim(blade: &Blade, loads: &[RimForce], order: usize) -> Traction {
+    let forces = loads
+        .iter()
+        .map(|load| (load.angle_rad, load.radial_n, load.tangential_n));
+    let b = blade.outer_radius_m;
+    traction(b * blade.thickness_at_m(b), forces, order)
 }
 
-impl HarmonicTraction {
-    /// The traction of order m at the rim, where the outward normal is +r.
-    pub fn at_rim(blade: &Blade, loads: &[RimForce], order: usize) -> Self {
-        let forces = loads
-            .iter()
-            .map(|load| (load.angle_rad, load.radial_n, load.tangential_n));
-        let b = blade.outer_radius_m;
-        Self::of_forces(b * blade.thickness_at_m(b), forces, order)
-    }
+/// The traction of order m at the bore, where the outward normal is −r, so that an outward force causes
+/// compression.
+pub fn traction_at_bore(blade: &Blade, reaction: &[BoreForce], order: usize) -> Traction {
+    let forces = reaction
+        .iter()
+        .map(|force| (force.angle_rad, -force.radial_n, -force.tangential_n));
+    let area_per_angle_m2 = blade.inner_radius_m * blade.thickness_at_bore_m();
+    traction(area_per_angle_m2, forces, order)
+}
 
-    /// The traction of order m at the bore, where the outward normal is −r, so that an outward force causes
-    /// compression.
-    pub fn at_bore(blade: &Blade, reaction: &[BoreForce], order: usize) -> Self {
-        let forces = reaction
-            .iter()
-            .map(|force| (force.angle_rad, -force.radial_n, -force.tangential_n));
-        let area_per_angle_m2 = blade.inner_radius_m * blade.thickness_at_bore_m();
-        Self::of_forces(area_per_angle_m2, forces, order)
+/// Order m of the traction Σ F/(rh) δ(θ − θ_k): (1/π) ΣF cos mθ_k /(rh) and (1/π) ΣF sin mθ_k /(rh), half of
+/// this for m = 0. Each force is (θ_k, radial, tangential).
+fn traction(
+    area_per_angle_m2: f64,
+    forces: impl Iterator<Item = (f64, f64, f64)>,
+    order: usize,
+) -> Traction {
+    let mean = if order == 0 { 0.5 } else { 1.0 };
+    let per_newton = mean / (PI * area_per_angle_m2);
+    let mut fields = Traction::default();
+    for (angle_rad, radial_n, tangential_n) in forces {
+        let (sin, cos) = (order as f64 * angle_rad).sin_cos();
+        fields[0][0] += per_newton * radial_n * cos;
+        fields[0][1] += per_newton * tangential_n * sin;
+        fields[1][0] += per_newton * radial_n * sin;
+        fields[1][1] -= per_newton * tangential_n * cos;
     }
-
-    /// Order m of the traction Σ F/(rh) δ(θ − θ_k): (1/π) ΣF cos mθ_k /(rh) and (1/π) ΣF sin mθ_k /(rh), half of
-    /// this for m = 0. Each force is (θ_k, radial, tangential).
-    fn of_forces(
-        area_per_angle_m2: f64,
-        forces: impl Iterator<Item = (f64, f64, f64)>,
-        order: usize,
-    ) -> Self {
-        let mean = if order == 0 { 0.5 } else { 1.0 };
-        let per_newton = mean / (PI * area_per_angle_m2);
-        let mut sum = HarmonicTraction::default();
-        for (angle_rad, radial_n, tangential_n) in forces {
-            let (sin, cos) = (order as f64 * angle_rad).sin_cos();
-            for (part, wave) in [cos, sin].into_iter().enumerate() {
-                sum.radial_pa[part] += per_newton * radial_n * wave;
-                sum.shear_pa[part] += per_newton * tangential_n * wave;
-            }
-        }
-        sum
-    }
-
-    /// Amplitudes [σ_rr, σ_rθ] of the two fields in which (σ_rr, σ_rθ) vary as (cos mθ, sin mθ) and as
-    /// (sin mθ, −cos mθ).
-    pub fn fields(&self) -> [[f64; 2]; 2] {
-        let [radial_cos, radial_sin] = self.radial_pa;
-        let [shear_cos, shear_sin] = self.shear_pa;
-        [[radial_cos, shear_sin], [radial_sin, -shear_cos]]
-    }
+    fields
 }

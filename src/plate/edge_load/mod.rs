@@ -25,7 +25,7 @@ pub use stiffness::edge_stiffness;
 
 use crate::scene::Blade;
 
-use force::HarmonicTraction;
+use force::{traction_at_bore, traction_at_rim};
 use profile::Profile;
 
 /// Harmonic m of the three stresses at one radius, in Pa.
@@ -69,8 +69,8 @@ impl EdgeStress {
     ) -> Self {
         let harmonics = (0..=max_order)
             .map(|m| {
-                let rim = HarmonicTraction::at_rim(blade, loads, m).fields();
-                let bore = HarmonicTraction::at_bore(blade, reaction, m).fields();
+                let rim = traction_at_rim(blade, loads, m);
+                let bore = traction_at_bore(blade, reaction, m);
                 [0, 1].map(|field| Profile::new(blade, m, rim[field], bore[field]))
             })
             .collect();

@@ -25,7 +25,7 @@ pub struct Varying {
 
 impl Profile {
     /// The harmonic of order m under σ_rr = p cos mθ, σ_rθ = t sin mθ at the rim and
-    /// q cos mθ, s sin mθ at the bore, completed at the bore as [`Series::new`] says.
+    /// q cos mθ, s sin mθ at the bore, completed at the bore as described at [`Series::new`].
     pub fn new(blade: &Blade, order: usize, rim: [f64; 2], bore: [f64; 2]) -> Self {
         if blade.profile.is_none() {
             return Profile::Uniform(Series::new(blade, order, rim, bore));

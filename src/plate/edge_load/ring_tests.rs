@@ -1,4 +1,4 @@
-//! Axisymmetric loads, against Lamé's ring and pure shear.
+//! Axisymmetric loads, compared with Lamé's ring and pure shear.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use crate::analytical::annulus::{Annulus, RadialAndHoop};
 use crate::plate::{Plate, Resolution};
 use crate::scene::Scene;
 
-/// n ≤ 5, without guides.
+/// A plate without guides, with n ≤ 5.
 fn free_plate(radial_functions: usize) -> Plate {
     let scene = Scene::paper().edited(|saw| {
         saw.blade.inner_diameter_m = 0.3 * saw.blade.outer_diameter_m;

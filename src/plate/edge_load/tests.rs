@@ -1,4 +1,4 @@
-//! Each harmonic against the equations of plane stress, evaluated by finite differences.
+//! Each harmonic in the equations of plane stress, evaluated by finite differences.
 
 use std::f64::consts::{PI, TAU};
 
@@ -86,7 +86,7 @@ fn every_harmonic_is_in_equilibrium() {
             let m = order as f64;
             let here = stress.harmonic(order, r);
             let scale = (m + 2.0) * size(&here);
-            // ∂θ of (cos, sin) amplitudes: cos ← m sin, sin ← −m cos.
+            // The derivative ∂θ of the amplitudes (c, s) of cos mθ and sin mθ is (m s, −m c).
             let turned = |[cos, sin]: [f64; 2]| [m * sin, -m * cos];
             let (shear_turned, hoop_turned) = (turned(here.shear_pa), turned(here.hoop_pa));
             for part in 0..2 {
@@ -265,9 +265,9 @@ fn the_bore_carries_the_forces_given_there() {
     }
 }
 
-/// Orders whose powers underflow, the narrowest rings of a scene, and numbers that are not finite.
+/// The cases are orders whose powers underflow, the narrowest rings of a scene, and forces that are not finite.
 #[test]
-fn no_geometry_and_no_load_makes_it_fail() {
+fn extreme_rings_and_loads_cause_no_panic() {
     for ratio in [1e-26, 1e-3, 0.99, 0.999] {
         let blade = blade_with(ratio);
         let stress = EdgeStress::new(&blade, &LOADS, 200);

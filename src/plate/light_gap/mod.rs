@@ -18,11 +18,9 @@ use super::harmonic::HarmonicBlock;
 use super::membrane::{MembraneStress, membrane_stiffness};
 use super::radial::RadialBasis;
 use super::stress::CentrifugalStress;
-use crate::scene::{Membrane, RefusedValue, RollBand, StraightEdge};
+use crate::scene::{GRAVITY_M_PER_S2, Membrane, RefusedValue, RollBand, StraightEdge};
 use crate::text::shown_to;
 
-/// Acceleration of gravity, in m/s².
-const GRAVITY: f64 = 9.80665;
 /// Largest number of nodal diameters and number of radial functions. The terms of the gap alternate and fall with the third
 /// power of the number of diameters: 20 leave an error of 5e-4 of the gap, 60 an error of 2e-5. The stress has kinks at the
 /// bands, so that 16 functions leave an error of 6e-4 at seven tenths of buckling, which falls with the fifth power of their
@@ -107,15 +105,9 @@ impl LyingBlade {
         let blade = &edge.blade;
         let basis = RadialBasis::new(blade, functions);
         let centrifugal = CentrifugalStress::new(blade);
-        let rolled = Membrane {
-            temperature: None,
-            roll_tension: bands.to_vec(),
-            residual_stress: None,
-            straight_edge: None,
-        };
-        let stress = MembraneStress::new(blade, &rolled);
+        let stress = MembraneStress::new(blade, &Membrane::of_bands(bands));
         let stiffness = stress.map(|stress| membrane_stiffness(&basis, &stress, most));
-        let weight_n = GRAVITY * blade.mass_kg();
+        let weight_n = GRAVITY_M_PER_S2 * blade.mass_kg();
         let wave = |n: usize| {
             // The first function of n = 0 is the rigid heave, that of n = 1 the rigid tilt.
             let rigid = usize::from(n <= 1);

@@ -1,4 +1,4 @@
-//! The light gap against the series of a plate on two points, and its dependence on roll tension.
+//! The light gap, compared with the series of a plate on two points, and its dependence on roll tension.
 
 use super::*;
 use crate::analytical::two_points::PlateOnTwoPoints;
@@ -21,7 +21,7 @@ const PLAIN: &str = r#"{"straight_edge": {}}"#;
 const ROLLED: &str = r#"{"straight_edge": {}, "roll_tension": [
     {"radius_m": 0.22, "width_m": 0.02, "eigenstrain": 3e-4}]}"#;
 
-/// Gap and sag are those of the exact series, for the paper's bore and for one of a twentieth of the rim.
+/// Gap and sag are those of the exact series, for the paper's bore and for a bore of a twentieth of the rim.
 #[test]
 fn a_plain_blade_has_the_gap_of_the_series() {
     for bore_m in [0.2, 0.035] {
@@ -32,7 +32,7 @@ fn a_plain_blade_has_the_gap_of_the_series() {
             outer_radius_m: blade.outer_radius_m,
             rigidity_n_m: blade.flexural_rigidity_n_m(),
             poisson_ratio: blade.material.poisson_ratio,
-            weight_n_per_m2: GRAVITY * blade.mass_per_area_kg_per_m2(),
+            weight_n_per_m2: GRAVITY_M_PER_S2 * blade.mass_per_area_kg_per_m2(),
         };
         let right = std::f64::consts::FRAC_PI_2;
         let middle = plate.height_m(blade.inner_radius_m, right);
@@ -47,7 +47,7 @@ fn a_plain_blade_has_the_gap_of_the_series() {
     }
 }
 
-/// A larger basis changes the gap of a rolled blade by less than 1e-4 of that of the plain one.
+/// A larger basis changes the gap of a rolled blade by less than 1e-4 of the gap of the plain blade.
 #[test]
 fn the_gap_of_a_rolled_blade_has_converged() {
     let (edge, bands) = edge(ROLLED, |_| ());
@@ -58,17 +58,11 @@ fn the_gap_of_a_rolled_blade_has_converged() {
     assert!((usual.gap_m - fine.gap_m).abs() < 1e-4 * plain.gap_m.abs());
 }
 
-/// Gap of a uniform blade by cubic Hermite elements over the radius, with the weight as a pressure and the reactions as line loads at the
-/// rim, on `count` elements in each of the panels between the knots.
+/// Gap of a uniform blade by `count` cubic Hermite elements over the radius between any two knots, with the weight as a
+/// pressure and the reactions as line loads at the rim.
 fn gap_by_elements(edge: &StraightEdge, bands: &[RollBand], count: usize) -> f64 {
     let blade = &edge.blade;
-    let rolled = Membrane {
-        temperature: None,
-        roll_tension: bands.to_vec(),
-        residual_stress: None,
-        straight_edge: None,
-    };
-    let stress = MembraneStress::new(blade, &rolled).unwrap();
+    let stress = MembraneStress::new(blade, &Membrane::of_bands(bands)).unwrap();
     let knots = stress.knots_m();
     let mut nodes = vec![knots[0]];
     for panel in knots.windows(2) {
@@ -76,8 +70,8 @@ fn gap_by_elements(edge: &StraightEdge, bands: &[RollBand], count: usize) -> f64
         nodes.extend((1..=count).map(|k| panel[0] + step * k as f64));
     }
     let (rigidity, nu) = (blade.flexural_rigidity_n_m(), blade.material.poisson_ratio);
-    let pressure = GRAVITY * blade.mass_per_area_kg_per_m2();
-    let (weight, last) = (GRAVITY * blade.mass_kg(), 2 * nodes.len() - 2);
+    let pressure = GRAVITY_M_PER_S2 * blade.mass_per_area_kg_per_m2();
+    let (weight, last) = (GRAVITY_M_PER_S2 * blade.mass_kg(), 2 * nodes.len() - 2);
     let mut gap = 0.0;
     for n in (0..=80).step_by(2) {
         let n2 = f64::from(n * n);
@@ -130,7 +124,7 @@ fn gap_by_elements(edge: &StraightEdge, bands: &[RollBand], count: usize) -> f64
         let angular = if n == 0 { 2.0 } else { 1.0 } * std::f64::consts::PI;
         load[last] += weight / angular;
         if n == 0 {
-            // Heave is free: the bore stays where it is.
+            // Heave is free, so that a stiff spring fixes the bore.
             stiffness[(0, 0)] *= 1e12;
         }
         let found = stiffness.lu().solve(&load).unwrap();
@@ -140,7 +134,7 @@ fn gap_by_elements(edge: &StraightEdge, bands: &[RollBand], count: usize) -> f64
     gap
 }
 
-/// From no rolling to seven tenths of that at which the blade buckles.
+/// The factors range from no rolling to seven tenths of buckling.
 #[test]
 fn finite_elements_give_the_same_gap() {
     let (edge, bands) = edge(ROLLED, |_| ());
@@ -163,8 +157,8 @@ fn finite_elements_give_the_same_gap() {
     }
 }
 
-/// Rolling raises the gap from that of the plain blade without limit towards buckling, where its inverse falls in proportion to the
-/// distance from buckling (Southwell), as the dish is the shape that buckles.
+/// Rolling raises the gap from that of the plain blade without limit towards buckling. There the inverse of the gap falls
+/// in proportion to the distance from buckling (Southwell), because the dish is the shape that buckles.
 #[test]
 fn the_gap_rises_with_the_rolling_up_to_buckling() {
     let (edge, bands) = edge(ROLLED, |_| ());
@@ -180,9 +174,10 @@ fn the_gap_rises_with_the_rolling_up_to_buckling() {
     assert!(lying.at(1.001 * buckling).is_none());
 }
 
-/// The gap of a blade, taken for measured, gives its eigenstrain from any other.
+/// The computed gap of a blade, given as the measured gap of a blade with another eigenstrain, gives the first
+/// eigenstrain.
 #[test]
-fn a_measured_gap_gives_the_eigenstrain_that_has_it() {
+fn a_measured_gap_gives_the_eigenstrain_that_causes_it() {
     let (first, bands) = edge(ROLLED, |_| ());
     let gap_m = StraightEdgeReading::new(&first, &bands)
         .unwrap()
@@ -202,7 +197,7 @@ fn a_measured_gap_gives_the_eigenstrain_that_has_it() {
 }
 
 #[test]
-fn a_gap_that_no_rolling_has_is_refused_with_those_that_exist() {
+fn a_gap_that_no_rolling_causes_is_refused_with_the_range_of_gaps() {
     for gap in ["-0.01", "0.9"] {
         let text = ROLLED.replace("{}", &format!("{{\"measured_gap_m\": {gap}}}"));
         let (edge, bands) = edge(&text, |_| ());

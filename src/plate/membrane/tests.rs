@@ -1,9 +1,9 @@
-//! Stresses against closed forms from the literature and against equilibrium and compatibility.
+//! Stresses compared with closed forms from the literature, and with equilibrium and compatibility.
 
 use super::*;
 use crate::analytical::annulus::Annulus;
 use crate::plate::{Plate, Resolution};
-use crate::scene::{Groove, Mount, Profile, RollBand, Scene};
+use crate::scene::{Groove, Mount, RollBand, Scene};
 
 const BORES: [Bore; 3] = [
     Bore::Free,
@@ -47,8 +47,8 @@ const MEASURED: &str = r#"{"residual_stress": [
     {"radius_m": 0.3, "hoop_pa": 35e6}, {"radius_m": 0.355, "hoop_pa": 100e6}]}"#;
 const PROFILES: [&str; 6] = [LINEAR, ROOT, STEEP, TABLE, ROLLED, MEASURED];
 
-/// Balance of a blade with free edges that gets the volume V = 2d · 2πRw of a groove of depth d on each face: the hoop stress of
-/// its rim is E V/(2πh (b² − a²)).
+/// A groove of depth d on each face adds the volume V = 2d · 2πRw to the plane of the blade. With free edges the hoop
+/// stress of the rim is then E V/(2πh (b² − a²)).
 #[test]
 fn a_groove_stretches_the_rim_by_the_volume_that_it_displaces() {
     let (depth_m, radius_m, width_m) = (2.1e-6, 0.23, 0.004);
@@ -69,9 +69,9 @@ fn a_groove_stretches_the_rim_by_the_volume_that_it_displaces() {
     assert!((stress.at(b).hoop_pa / expected - 1.0).abs() < 1e-12);
 }
 
-/// The groove of a band in the tapered part has the thickness at its own radius.
+/// The eigenstrain of a groove in a taper is its depth over the thickness at its own radius.
 #[test]
-fn a_groove_in_a_taper_has_the_thickness_of_its_radius() {
+fn a_groove_in_a_taper_refers_to_the_thickness_at_its_radius() {
     let scene = Scene::paper().edited(|file| {
         file.blade.profile = serde_json::from_str(
             r#"[{"radius_m": 0.2, "thickness_m": 0.004}, {"radius_m": 0.3, "thickness_m": 0.002}]"#,
@@ -91,8 +91,8 @@ fn a_groove_in_a_taper_has_the_thickness_of_its_radius() {
     assert!((depth_m - 3e-6).abs() < 1e-18);
 }
 
-/// d(r σ_rr)/dr = σ_θθ holds in integral form between any two radii, across every kink, jump and band; the
-/// edges satisfy the condition of the bore.
+/// The integral of d(r σ_rr)/dr = σ_θθ is satisfied between any two radii, across every kink, jump and band, and the
+/// edges satisfy their conditions.
 #[test]
 fn every_profile_is_in_equilibrium() {
     for (profile, bore) in PROFILES.iter().flat_map(|p| BORES.map(|bore| (*p, bore))) {
@@ -106,7 +106,7 @@ fn every_profile_is_in_equilibrium() {
             let hoop: f64 = rule.iter().map(|(r, w)| w * stress.at(r).hoop_pa).sum();
             let traction = |r: f64| r * stress.at(r).radial_pa;
             let residual = traction(high) - traction(low) - hoop;
-            // Near r₀ a root is integrated to 1e-11 only.
+            // Near r₀ the quadrature of a root has an error of 1e-11.
             let error = residual.abs() / (scale * high);
             assert!(error < 1e-10, "{profile} {bore:?}: {error:e}");
         }
@@ -247,7 +247,7 @@ fn an_even_temperature_stresses_no_blade_with_free_edges() {
 /// A rolled band is compressed and stretches the rim; σ_rr is continuous and σ_θθ jumps by E times the
 /// eigenstrain.
 #[test]
-fn a_rolled_band_is_pressed_and_stretches_the_rim() {
+fn a_rolled_band_is_compressed_and_stretches_the_rim() {
     let text = r#"{"roll_tension": [{"radius_m": 0.26, "width_m": 0.02, "eigenstrain": 5e-4}]}"#;
     let stress = stress_of(text, Bore::Free);
     let modulus = stress.blade.material.youngs_modulus_pa;
@@ -256,7 +256,7 @@ fn a_rolled_band_is_pressed_and_stretches_the_rim() {
     let jump = outside.hoop_pa - inside.hoop_pa;
     assert!((jump / (5e-4 * modulus) - 1.0).abs() < 1e-6);
     assert!(stress.at(0.26).hoop_pa < 0.0);
-    // The band pushes the outer ring outwards and pulls the inner one.
+    // The band exerts an outward force on the ring outside it and on the ring inside it.
     assert!(outside.radial_pa < 0.0 && stress.at(0.25).radial_pa > 0.0);
     assert!(stress.at(0.355).hoop_pa > 0.0);
 }
@@ -279,13 +279,8 @@ fn bands_side_by_side_become_a_temperature() {
                 eigenstrain: temperature.expansion_per_k * temperature.rise_k(&blade, middle),
             }
         };
-        let stairs = Membrane {
-            temperature: None,
-            roll_tension: (0..count).map(band).collect(),
-            residual_stress: None,
-            straight_edge: None,
-        };
-        let stairs = MembraneStress::new(&blade, &stairs).unwrap();
+        let bands: Vec<RollBand> = (0..count).map(band).collect();
+        let stairs = MembraneStress::new(&blade, &Membrane::of_bands(&bands)).unwrap();
         let basis = RadialBasis::new(&blade, 6);
         let [one, other] = [&stairs, &smooth].map(|s| membrane_stiffness(&basis, s, 3));
         (&one[3] - &other[3]).norm() / other[3].norm()
@@ -294,7 +289,7 @@ fn bands_side_by_side_become_a_temperature() {
     assert!((order - 2.0).abs() < 0.15, "{order}");
 }
 
-/// Twice the points change no integral of the largest basis, because panels end at every kink.
+/// Twice the points change no integral of a basis of twelve functions, because panels end at every kink.
 #[test]
 fn the_quadrature_resolves_kinks_and_bands() {
     for (profile, bore) in PROFILES.iter().flat_map(|p| BORES.map(|bore| (*p, bore))) {
@@ -323,10 +318,9 @@ fn the_quadrature_resolves_kinks_and_bands() {
     }
 }
 
-/// Before exact zeros are inserted, quadrature alone gives no work of a stress between free edges on heave
-/// and tilt.
+/// A stress between free edges does no work on the tilt, to rounding by quadrature alone, before exact zeros are set.
 #[test]
-fn rigid_motions_cost_nothing() {
+fn the_stress_does_no_work_on_the_tilt() {
     for profile in PROFILES {
         let stress = stress_of(profile, Bore::Free);
         let basis = RadialBasis::new(&stress.blade, 8);
@@ -349,7 +343,7 @@ fn rigid_motions_cost_nothing() {
 }
 
 #[test]
-fn what_is_zero_is_not_assembled() {
+fn a_stress_of_zero_is_not_assembled() {
     let zero = r#"{"temperature": {"expansion_per_k": 1.2e-5, "rim_rise_k": 0},
         "roll_tension": [{"radius_m": 0.26, "width_m": 0.02, "eigenstrain": 0}],
         "residual_stress": [{"radius_m": 0.2, "hoop_pa": 0}]}"#;
@@ -363,13 +357,11 @@ fn what_is_zero_is_not_assembled() {
     assert!(plate.membrane.is_none() && plate.harmonics.iter().all(|h| h.membrane.is_none()));
 }
 
-/// Tables use the type `Profile`.
 #[test]
 fn a_measured_table_keeps_its_hoop_stress_but_for_the_mean() {
     let (blade, named) = paper_with(MEASURED, Bore::Free);
     let residual = named.residual_stress.unwrap();
     assert!(residual.imbalance.abs() < 0.05 && residual.imbalance != 0.0);
-    let Profile { .. } = residual.hoop_pa;
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     assert!(residual.hoop_pa.integral(a, b).abs() < 1e-9 * residual.hoop_pa.size(a, b));
 }

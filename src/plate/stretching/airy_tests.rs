@@ -11,9 +11,9 @@ use super::*;
 use crate::plate::quadrature;
 use crate::scene::{Blade, InPlane};
 
-/// F and its first and second derivative.
+/// A function and its first and second derivative at one radius.
 type Jet = [f64; 3];
-/// n, and the radial factor of cos nθ.
+/// Number n of nodal diameters, and the radial factor of cos nθ.
 type EvenWave<'a> = (usize, &'a dyn Fn(f64) -> Jet);
 /// Radius, step, and [S, V].
 type Marched = (f64, f64, [f64; 2]);
@@ -33,7 +33,7 @@ fn stress_functions(blade: &Blade, order: usize, count: usize, r: f64) -> Vec<Je
     let square = |root: f64| product(line(root), line(root));
     let mapped: Jet = [(2.0 * r - a - b) / (b - a), 2.0 / (b - a), 0.0];
     let mut functions = Vec::new();
-    // (b − r)²(r − c) with zero slope at a.
+    // The bowl (b − r)²(r − c) has zero slope at a.
     let bowl = product(square(b), line(a + 0.5 * (a - b)));
     match order {
         0 => functions.push(bowl),
@@ -61,7 +61,7 @@ fn lower_bound(blade: &Blade, waves: &[EvenWave<'_>], count: usize) -> f64 {
         for (r, w) in quadrature::piecewise(&blade.edges_m(), 40).iter() {
             let m2 = (m * m) as f64;
             let functions = stress_functions(blade, m, count, r);
-            // ∇²F, and strains on the stresses F′/r − m²F/r², F″, m(F/r)′.
+            // The strains do work on the stresses F′/r − m²F/r², F″ and m(F/r)′.
             let strain = strain_of(waves, m, r);
             for (i, f) in functions.iter().enumerate() {
                 let laplacian = |f: &Jet| f[2] + f[1] / r - m2 * f[0] / (r * r);
@@ -156,7 +156,7 @@ fn by_shooting(blade: &Blade, slope: &dyn Fn(f64) -> f64) -> f64 {
         blade.material.youngs_modulus_pa,
         blade.material.poisson_ratio,
     );
-    // S and V at the rim and the energy, from a start, with or without forcing.
+    // S and V at all steps, from given values at the bore, with or without forcing.
     let march = |start: [f64; 2], forced: f64| {
         let mut states = Vec::new();
         let [mut s, mut v] = start;
@@ -223,7 +223,7 @@ fn by_shooting(blade: &Blade, slope: &dyn Fn(f64) -> f64) -> f64 {
 }
 
 #[test]
-fn steps_tapers_and_collars_store_what_shooting_finds() {
+fn steps_tapers_and_collars_have_the_energy_of_a_shooting_method() {
     let edits: [&dyn Fn(&mut crate::scene::SceneFile); 4] = [
         &|_| (),
         &|saw| profiled(saw),

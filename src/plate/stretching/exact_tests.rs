@@ -39,7 +39,8 @@ fn the_bowl_and_the_saddle_have_the_energy_of_the_closed_form() {
     }
 }
 
-/// σ_rr = Eκ²(r² − a²)(b² − r²)/16r² of the bowl, as the forces that it exerts at the nodes.
+/// The radial stress of the bowl is σ_rr = Eκ²(r² − a²)(b² − r²)/16r²; the forces that it exerts at the nodes are
+/// compared.
 #[test]
 fn the_bowl_has_the_radial_stress_of_the_closed_form() {
     let plate = plate((2, 4), |_| ());
@@ -50,7 +51,7 @@ fn the_bowl_has_the_radial_stress_of_the_closed_form() {
         .slopes(&projected(&plate, &[(0, [shape, ZERO])]))
         .unwrap();
     let stress = stretching.stress(&stretching.relaxed(&Strain::of(&w, &w)));
-    let found = &stress.harmonics().next().unwrap()[0];
+    let found = &stress.harmonics[0][0];
     let mut exact = vec![0.0; stretching.nodes.len()];
     for (r, weight) in crate::plate::quadrature::piecewise(&plate.blade.edges_m(), 30).iter() {
         let e = plate.blade.material.youngs_modulus_pa;
@@ -106,7 +107,7 @@ fn rigid_motions_change_nothing() {
 }
 
 #[test]
-fn a_turned_deflection_stores_the_same() {
+fn a_rotated_deflection_has_the_same_energy() {
     for plate in all((4, 4)) {
         let stretching = Stretching::new(&plate).unwrap();
         let bent = any(&plate);
@@ -213,7 +214,7 @@ fn a_free_disk_has_the_published_coefficients() {
         for j in 0..disk.basis.count() {
             q[disk.offset(diameters) + j] = modes.U()[(j, circles)];
         }
-        // ∫ρh φ² dA = 1 makes ∫φ² dA = 1/ρh.
+        // The basis has ∫ρh φ² dA = 1, so that ∫φ² dA = 1/ρh.
         let scale = disk.blade.mass_per_area_kg_per_m2().powi(2)
             / (disk.blade.material.youngs_modulus_pa * disk.blade.thickness_m);
         let found = 4.0 * scale * stretching.energy_j(&q).unwrap();

@@ -148,7 +148,7 @@ impl Stretching {
     /// Values Zₘ eₘ of all m in sequence, the real part of each before the imaginary one.
     fn relaxed(&self, strain: &Strain) -> Vec<f64> {
         let mut all = Vec::new();
-        for (harmonic, parts) in self.harmonics.iter().zip(strain.harmonics()) {
+        for (harmonic, parts) in self.harmonics.iter().zip(&strain.harmonics) {
             for part in parts {
                 harmonic.apply(part, &mut all);
             }
@@ -160,7 +160,7 @@ impl Stretching {
     fn stress(&self, relaxed: &[f64]) -> Strain {
         let mut stress = self.nodes.no_strain();
         let mut rest = relaxed;
-        for (harmonic, parts) in self.harmonics.iter().zip(stress.harmonics_mut()) {
+        for (harmonic, parts) in self.harmonics.iter().zip(&mut stress.harmonics) {
             for part in parts {
                 let (own, others) = rest.split_at(harmonic.rank());
                 harmonic.apply_transposed(own, part);

@@ -1,4 +1,4 @@
-//! Large deflections under a point load against three-dimensional finite elements, and convergence.
+//! Large deflections under a point load, compared with three-dimensional finite elements, and convergence.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, Side};
@@ -7,7 +7,7 @@ use super::test_blades::{Wave, plate, projected};
 use super::*;
 
 /// Results of CalculiX: load in N (zero for the linear response to one newton), position, deflection in m.
-/// They are extrapolated to zero thickness, for which plate theory is exact.
+/// The deflections are extrapolated to zero thickness, for which plate theory is exact.
 fn calculix() -> Vec<(f64, String, f64)> {
     let table = include_str!("../../../tests/reference/large_deflection_point.csv");
     let rows = table.lines().filter(|line| line.starts_with("point,"));
@@ -20,15 +20,15 @@ fn calculix() -> Vec<(f64, String, f64)> {
     .collect()
 }
 
-/// Modes of a blade whose middle plane is supported at the points of `held`, in an orthonormal basis of
-/// deflections even in θ, with their K_b and the response to the load.
-struct HeldBlade {
+/// A blade whose middle plane is supported at three points of its bore, on an orthonormal basis of deflections even
+/// in θ: its lowest modes and its response to the load.
+struct SupportedBlade {
     plate: Plate,
     shapes: Mat<f64>,
     stiffness: Mat<f64>,
 }
 
-impl HeldBlade {
+impl SupportedBlade {
     fn new(resolution: (usize, usize), shapes: usize, load: (f64, f64)) -> Self {
         let plate = plate(resolution, |_| ());
         let order = plate.degrees_of_freedom();
@@ -45,15 +45,15 @@ impl HeldBlade {
             }
         }
         // Springs of 1e10 N/m, against 8e3 N/m of the blade, prevent motion of the points.
-        let mut held = bending.clone();
+        let mut supported = bending.clone();
         for angle in [60.0_f64, 180.0, 300.0] {
             let at = functions(&plate, plate.blade.inner_radius_m, angle);
-            held += Scale(1e10) * &at * at.transpose();
+            supported += Scale(1e10) * &at * at.transpose();
         }
         let even: Vec<usize> = (0..=plate.max_diameters())
             .flat_map(|n| plate.offset(n)..plate.offset(n) + plate.basis.count())
             .collect();
-        let on_even = Mat::from_fn(even.len(), even.len(), |i, k| held[(even[i], even[k])]);
+        let on_even = Mat::from_fn(even.len(), even.len(), |i, k| supported[(even[i], even[k])]);
         let modes = on_even.self_adjoint_eigen(Side::Lower).unwrap();
         let force = functions(&plate, load.0, load.1);
         let force = Col::from_fn(even.len(), |i| force[even[i]]);
@@ -66,14 +66,14 @@ impl HeldBlade {
             vectors[(row, 0)] = answer[i];
         }
         let shapes = vectors.qr().compute_thin_Q();
-        HeldBlade {
-            stiffness: shapes.transpose() * &held * &shapes,
+        SupportedBlade {
+            stiffness: shapes.transpose() * &supported * &shapes,
             plate,
             shapes,
         }
     }
 
-    /// Deflections under increasing loads, by Newton's method.
+    /// Deflections under increasing loads, in the functions of the plate, by Newton's method.
     fn bent(&self, loads_n: &[f64], load: (f64, f64)) -> Vec<Col<f64>> {
         let stretching = Stretching::new(&self.plate).unwrap();
         let reduced = ReducedStretching::new(&stretching, self.shapes.as_ref()).unwrap();
@@ -115,7 +115,7 @@ fn a_blade_under_a_point_load_bends_as_three_dimensional_elements_do() {
     loads_n.dedup();
     let rim_m = 0.355;
     let bases = [12, 20].map(|diameters| {
-        let blade = HeldBlade::new((diameters, 8), 24, (rim_m, 0.0));
+        let blade = SupportedBlade::new((diameters, 8), 24, (rim_m, 0.0));
         (
             blade.bent(&loads_n, (rim_m, 0.0)),
             blade,

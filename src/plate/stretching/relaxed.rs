@@ -245,8 +245,8 @@ mod tests {
     use super::super::test_blades::plate;
     use super::*;
 
-    /// Unit strains at single nodes are the roughest. Elements of half the width change their energy by less
-    /// than 1e-9 of the largest.
+    /// Unit strains at single nodes are the roughest strains. Elements of half the width change their energies by less
+    /// than 1e-9 of the largest energy.
     #[test]
     fn the_elements_are_fine_enough() {
         for (functions, bore_m) in [(4, 0.2), (8, 0.2), (12, 0.2), (12, 0.02), (16, 0.5)] {

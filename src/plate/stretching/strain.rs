@@ -57,7 +57,7 @@ impl Slopes {
 #[derive(Debug, Clone)]
 pub struct Strain {
     /// Real and imaginary part of each m, three values per node: all ε_rr, all ε_θθ, all iγ_rθ.
-    harmonics: Vec<Parts>,
+    pub harmonics: Vec<Parts>,
     nodes: usize,
 }
 
@@ -103,16 +103,6 @@ impl Strain {
             }
         }
         strain
-    }
-
-    /// Real and imaginary part of each m.
-    pub fn harmonics(&self) -> impl Iterator<Item = &Parts> {
-        self.harmonics.iter()
-    }
-
-    /// Real and imaginary part of each m, mutable.
-    pub fn harmonics_mut(&mut self) -> impl Iterator<Item = &mut Parts> {
-        self.harmonics.iter_mut()
     }
 
     /// Forces of these stresses s on the slopes of v, whose work is 4 Σₘ Re(sₘ* eₘ(v, w)), the derivative of

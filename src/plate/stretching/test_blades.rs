@@ -55,7 +55,7 @@ pub fn all(resolution: (usize, usize)) -> [Plate; 5] {
     ]
 }
 
-/// n, and the factors of cos nθ and sin nθ over the radius.
+/// Number n of nodal diameters, and the factors of cos nθ and sin nθ over the radius.
 pub type Wave<'a> = (usize, [&'a dyn Fn(f64) -> f64; 2]);
 
 /// The coordinates of w = Σ cₙ(r) cos nθ + sₙ(r) sin nθ, `waves` being (n, cₙ, sₙ).

@@ -50,7 +50,7 @@ fn the_mass_is_that_of_the_rings() {
     let inertia = 0.5 * plain.mass_kg() * (a * a + b * b);
     assert!((plain.polar_inertia_kg_m2() / inertia - 1.0).abs() < 1e-14);
     let taper = blade_with(&[(a, 2.8e-3), (b, 1.4e-3)]).expect("a blade");
-    // Trapezium with sides of 2.8 and 1.4 mm: area times the path of its centroid.
+    // The volume of the trapezium with sides of 2.8 and 1.4 mm is its area times the path of its centroid.
     let width = b - a;
     let area = 2.1e-3 * width;
     let centroid = a + width / 3.0 * (2.8 + 2.0 * 1.4) / (2.8 + 1.4);
@@ -107,7 +107,7 @@ fn the_mass_of_teeth_needs_their_number_and_a_place_on_the_blade() {
         (with(0.002, None, None), "blade.teeth"),
         (with(0.002, Some(0.4), Some(40)), "blade.rim.radius_m"),
         (with(-0.002, None, Some(40)), "blade.rim.mass_per_tooth_kg"),
-        // 4 kg for 4 g.
+        // A mass of 4 g is given as 4 kg.
         (with(4.0, None, Some(40)), "blade.rim.mass_per_tooth_kg"),
     ] {
         match result {

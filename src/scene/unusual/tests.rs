@@ -58,13 +58,13 @@ fn speeds_in_other_units_are_recognized_by_the_speed_of_the_rim() {
 }
 
 #[test]
-fn measured_speeds_in_thousands_are_told_once() {
-    let told = remarks(|file| {
+fn measured_speeds_in_thousands_get_one_remark() {
+    let found = remarks(|file| {
         let rows = &mut file.measured.as_mut().unwrap().rows;
         rows.iter_mut().for_each(|row| row.rpm *= 1e-3);
     });
-    assert_eq!(told.len(), 1, "{told:?}");
-    assert!(told[0].contains("thousands of rpm?"), "{told:?}");
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].contains("thousands of rpm?"), "{found:?}");
 }
 
 #[test]
@@ -72,9 +72,9 @@ fn measured_speeds_in_thousands_are_told_once() {
 fn angles_in_radians_are_recognized() {
     let one = |angle: f64| remarks(|file| file.guides[0].angle_deg = angle);
     for radians in [1.5708, -0.96, 1.047, -PI, 0.785] {
-        let told = one(radians);
-        assert_eq!(told.len(), 1, "{radians}");
-        assert!(told[0].contains("radians?"), "{told:?}");
+        let found = one(radians);
+        assert_eq!(found.len(), 1, "{radians}");
+        assert!(found[0].contains("radians?"), "{found:?}");
     }
     for degrees in [0.0, 1.0, -2.5, 5.25, 90.0, -55.3, 3.4] {
         assert_eq!(one(degrees), [""; 0], "{degrees}");
@@ -123,8 +123,8 @@ fn the_scenes_of_the_repository_have_no_unusual_number() {
                 .is_some_and(|extension| extension == "json")
             {
                 let scene = Scene::from_json(&std::fs::read_to_string(&path).unwrap()).unwrap();
-                let told = scene.file().unusual_numbers();
-                assert_eq!(told, [""; 0], "{}", path.display());
+                let found = scene.file().unusual_numbers();
+                assert_eq!(found, [""; 0], "{}", path.display());
                 seen += 1;
             }
         }
