@@ -7,6 +7,8 @@
 //! Sources: A. W. Leissa, *Vibration of Plates*, NASA SP-160 (1969), sections 1.1 and 2.2;
 //! R. V. Southwell, Proc. R. Soc. Lond. A 101 (1922), 133–153, for the clamped bore.
 
+use nalgebra::Matrix4;
+
 use super::bessel::{Point, four};
 use super::bisected;
 
@@ -39,14 +41,14 @@ pub struct AnnularPlate {
 impl AnnularPlate {
     /// The lowest `count` elastic roots λ² = ω b² √(ρh/D), ascending, of n nodal diameters; the s-th
     /// has s nodal circles, for a free bore and n ≤ 1 one more. Rigid heave and tilt of a free plate
-    /// (λ = 0) are not among them.
+    /// (λ = 0) are not listed.
     ///
     /// Valid for 0.001 ≤ a/b ≤ 0.995, n ≤ 64, −0.99 ≤ ν < 0.5 and kb = √λ² < 1000, where the roots are
     /// accurate to 1e-10 or better. Outside this range the list may be shorter than `count`.
     pub fn roots(&self, nodal_diameters: usize, count: usize) -> Vec<f64> {
         let at = |k: f64| self.determinant(nodal_diameters, k);
-        // The search starts below every elastic root: a narrow free ring has kb ≥ 1.6 for n = 2 and ≥ 0.9 n
-        // for larger n, the mode n = 0 for ν = −0.99 has 1.04. At smaller kb the determinant is rounding.
+        // The search starts below every elastic root: a narrow free ring has kb ≥ 1.6 for n = 2 and kb ≥ 0.9 n
+        // for larger n, and the mode n = 0 has 1.04 for ν = −0.99. At smaller kb the determinant is rounding.
         let mut low = f64::max(0.5, 0.6 * nodal_diameters as f64);
         let mut before = at(low);
         let mut found = Vec::new();
@@ -64,7 +66,7 @@ impl AnnularPlate {
         found
     }
 
-    /// ω = λ² √(D/ρh)/b², in rad/s.
+    /// Angular frequency ω = λ² √(D/ρh)/b².
     pub fn frequency_rad_per_s(
         lambda_squared: f64,
         rim_radius_m: f64,
@@ -91,7 +93,7 @@ impl AnnularPlate {
         };
         let [third, fourth] = free(&at_rim, rim_argument);
         let mut rows = [first, second, third, fourth];
-        // I and K have no exponential factor here; what remains is its ratio between the two edges.
+        // The scaled I and K have no exponential factor, of which only the ratio between the two edges matters.
         let decay = (inner_argument - rim_argument).exp();
         for row in &mut rows[..2] {
             row[2] *= decay;
@@ -121,8 +123,8 @@ fn functions(n: usize, x: f64) -> [Term; 4] {
     ]
 }
 
-/// M_r = ∇²w − (1 − ν)(w′/r − n²w/r²) and V_r = (∇²w)′ − (1 − ν) n² (w′/r² − w/r³), with r in
-/// units of 1/k.
+/// Moment M_r = ∇²w − (1 − ν)(w′/r − n²w/r²) and shear force V_r = (∇²w)′ − (1 − ν) n² (w′/r² − w/r³) of each
+/// function, with r in units of 1/k.
 fn free_edge(at: &[Term; 4], n: usize, x: f64, nu: f64) -> [[f64; 4]; 2] {
     let n2 = (n * n) as f64;
     let moment = |term: Term| {
@@ -136,8 +138,7 @@ fn free_edge(at: &[Term; 4], n: usize, x: f64, nu: f64) -> [[f64; 4]; 2] {
     [at.map(moment), at.map(shear)]
 }
 
-/// Gaussian elimination with partial pivoting, after dividing rows and columns by their largest entries,
-/// which does not change roots.
+/// Determinant after division of columns and rows by their largest entries, which does not change roots.
 fn scaled_determinant(mut rows: [[f64; 4]; 4]) -> f64 {
     for column in 0..4 {
         let largest = rows
@@ -149,26 +150,7 @@ fn scaled_determinant(mut rows: [[f64; 4]; 4]) -> f64 {
         let largest = row.iter().fold(0.0, |top: f64, value| top.max(value.abs()));
         row.iter_mut().for_each(|value| *value /= largest);
     }
-    let mut product = 1.0;
-    for k in 0..4 {
-        let mut pivot = k;
-        for i in k + 1..4 {
-            if rows[i][k].abs() > rows[pivot][k].abs() {
-                pivot = i;
-            }
-        }
-        if pivot != k {
-            rows.swap(pivot, k);
-            product = -product;
-        }
-        product *= rows[k][k];
-        let top = rows[k];
-        for row in &mut rows[k + 1..] {
-            let factor = row[k] / top[k];
-            for (value, above) in row.iter_mut().zip(top) {
-                *value -= factor * above;
-            }
-        }
-    }
-    product
+    Matrix4::from_fn(|row, column| rows[row][column])
+        .lu()
+        .determinant()
 }

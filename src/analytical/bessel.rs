@@ -10,14 +10,14 @@
 /// Euler's constant.
 const GAMMA: f64 = 0.577_215_664_901_532_9;
 
-/// Value and derivative at x.
+/// Value and derivative of a function at x.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Point {
     pub value: f64,
     pub slope: f64,
 }
 
-/// Jₙ, Yₙ, e^{−x} Iₙ and e^{x} Kₙ, with the derivatives of the four functions scaled alike.
+/// Jₙ, Yₙ, e^{−x} Iₙ and e^{x} Kₙ. The derivatives are those of J, Y, I and K with the same factors.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Four {
     pub j: Point,
@@ -33,7 +33,7 @@ pub(super) fn four(n: usize, x: f64) -> Four {
     let bessel_i = by_backward_recurrence(n + 1, x, 1.0);
     let [k, k_next] = scaled_modified_second_kind(n, x);
     let share = n as f64 / x;
-    // f′ = (n/x) f ∓ f of the next order (9.1.27, 9.6.26).
+    // The derivative is f′ = (n/x) f ∓ f of the next order (9.1.27, 9.6.26).
     let point = |value: f64, next: f64, sign: f64| Point {
         value,
         slope: share * value + sign * next,
@@ -46,8 +46,7 @@ pub(super) fn four(n: usize, x: f64) -> Four {
     }
 }
 
-/// J₀, J₁, … (sign −1) or e^{−x} I₀, e^{−x} I₁, … (sign 1), from
-/// f of order m − 1 = (2m/x) f of order m + sign · f of order m + 1.
+/// J₀, J₁, … (sign −1) or e^{−x} I₀, e^{−x} I₁, … (sign 1), by f_{m−1} = (2m/x) f_m + sign · f_{m+1}.
 fn by_backward_recurrence(orders: usize, x: f64, sign: f64) -> Vec<f64> {
     // The starting order is so far above order and argument that starting values have no influence.
     let above = (orders as f64).max(x);
@@ -80,7 +79,7 @@ fn second_kind(n: usize, x: f64, bessel_j: &[f64]) -> [f64; 2] {
         let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
         let weight = sign / k as f64;
         zero -= weight * bessel_j[2 * k];
-        // −Y₀′, term by term.
+        // Y₁ is −Y₀′, term by term.
         one += 0.5 * weight * (bessel_j[2 * k - 1] - bessel_j[2 * k + 1]);
     }
     let scale = 4.0 / std::f64::consts::PI;
@@ -103,8 +102,7 @@ fn scaled_modified_second_kind(n: usize, x: f64) -> [f64; 2] {
     forward(sum.map(|value| step * value), n, x, 1.0)
 }
 
-/// f of orders n and n + 1 from those of 0 and 1, by
-/// f of order m + 1 = (2m/x) f of order m + sign · f of order m − 1.
+/// Values of the orders n and n + 1 from those of 0 and 1, by f_{m+1} = (2m/x) f_m + sign · f_{m−1}.
 fn forward([mut low, mut high]: [f64; 2], n: usize, x: f64, sign: f64) -> [f64; 2] {
     for m in 1..=n {
         (low, high) = (high, 2.0 * m as f64 / x * high + sign * low);

@@ -15,14 +15,14 @@
 pub struct FreeWave {
     /// Number n of nodal diameters.
     pub nodal_diameters: usize,
-    /// ω₀, its frequency at rest.
+    /// Frequency ω₀ at rest.
     pub rest_frequency_rad_per_s: f64,
-    /// κ, without a unit.
+    /// Stiffening κ by rotation, dimensionless.
     pub spin_stiffening: f64,
 }
 
 impl FreeWave {
-    /// ω_b = √(ω₀² + κΩ²), its frequency on the blade, in rad/s.
+    /// Frequency ω_b = √(ω₀² + κΩ²) on the blade.
     pub fn body_frequency_rad_per_s(&self, speed_rad_per_s: f64) -> f64 {
         let stiffened = self.spin_stiffening * speed_rad_per_s.powi(2);
         (self.rest_frequency_rad_per_s.powi(2) + stiffened).sqrt()
@@ -70,15 +70,15 @@ pub fn space_frequencies_rad_per_s(
 /// Light damping of a wave by air and by the material of the blade.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LightDamping {
-    /// η ω₀² ρh/c, the ratio of the two dampings of the wave at rest, with the retardation time η of the
-    /// material, the resistance c of the air per area, and the mass ρh per area.
+    /// Ratio η ω₀² ρh/c of the two dampings of the wave at rest, with the retardation time η of the material, the
+    /// resistance c of the air per area, and the mass ρh per area.
     pub material_to_air: f64,
-    /// s, the ratio of the rotation speed of the air to that of the blade; 0 for air at rest in space.
+    /// Ratio s of the rotation speed of the air to that of the blade; 0 for air at rest in space.
     pub air_rotation_share: f64,
 }
 
-/// ω_b on a uniform bed of springs under the whole blade, in rad/s: √(ω_b² + k″/ρh), with k″ in N/m per m².
-/// The bed stiffens all shapes equally.
+/// Frequency on the blade with a uniform bed of springs under the whole blade, √(ω_b² + k″/ρh), with k″ in N/m per
+/// m². The bed stiffens all shapes equally.
 pub fn on_a_bed_rad_per_s(
     body_frequency_rad_per_s: f64,
     bed_stiffness_n_per_m3: f64,
@@ -91,7 +91,7 @@ pub fn on_a_bed_rad_per_s(
 mod tests {
     use super::*;
 
-    /// At the onset the work of the two dampings changes its sign; it is evaluated separately.
+    /// At the onset the work of the two dampings, which is evaluated separately, changes its sign.
     #[test]
     fn no_work_is_done_at_the_onset() {
         let (n, ratio, share) = (3, 0.1, 0.3);

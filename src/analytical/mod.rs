@@ -1,6 +1,6 @@
 //! Closed forms of plate, membrane and rotor theory, each with its source.
 //!
-//! They are independent references for the tests and serve for estimates by hand. The module imports nothing
+//! The closed forms are independent references for the tests and serve for estimates by hand. The module imports nothing
 //! from the crate: arguments and results are numbers in SI units, and no function panics. Without a solution,
 //! or outside the stated validity, a function returns `None`, an empty list or NaN.
 //!
@@ -8,7 +8,7 @@
 //! |---|---|
 //! | natural frequencies of an annular plate at rest | [`annular_plate`] |
 //! | frequencies of a disk so fast that it is a membrane | [`spinning_membrane`] |
-//! | waves of an unguided blade: seen from space, critical speed, onset under damping | [`free_wave`] |
+//! | waves of an unguided blade: frequencies in space, critical speed, onset under damping | [`free_wave`] |
 //! | tilt of a blade under single forces in its plane | [`tilt`] |
 //! | stress of an annulus that rotates, is heated, pulled at its rim or twisted; its tilt | [`annulus`] |
 //! | deflection of a plate that lies on two points of its rim | [`two_points`] |
@@ -37,7 +37,7 @@ pub mod tilt;
 pub mod two_points;
 pub mod wave_coupling;
 
-/// The root of a function that is negative near `low` and positive near `high`, by bisection to machine
+/// Root of a function that is negative near `low` and positive near `high`, by bisection to machine
 /// precision. The function is not evaluated at the ends, which may be poles.
 fn bisected(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
     loop {

@@ -2,14 +2,14 @@
 //!
 //! Source: any textbook, such as W. T. Thomson, *Theory of Vibration with Applications*, chapters 2 and 4.
 
-/// q of q̈ + ω²q = t from rest: (t − sin ωt/ω)/ω².
+/// Displacement q of q̈ + ω²q = t from rest: (t − sin ωt/ω)/ω².
 pub fn response_to_a_ramp(frequency_rad_per_s: f64, time_s: f64) -> f64 {
     let omega = frequency_rad_per_s;
     (time_s - (omega * time_s).sin() / omega) / omega.powi(2)
 }
 
-/// q of q̈ + 2δq̇ + ω²q = 0 from q = 1 at rest, with δ < ω:
-/// e^(−δt)(cos νt + (δ/ν) sin νt), ν² = ω² − δ².
+/// Displacement q of q̈ + 2δq̇ + ω²q = 0 from q = 1 at rest, with δ < ω: e^(−δt)(cos νt + (δ/ν) sin νt),
+/// ν² = ω² − δ².
 pub fn ring_down(frequency_rad_per_s: f64, decay_per_s: f64, time_s: f64) -> f64 {
     let (omega, delta, t) = (frequency_rad_per_s, decay_per_s, time_s);
     let nu = (omega * omega - delta * delta).sqrt();

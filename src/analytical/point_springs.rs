@@ -14,19 +14,19 @@
 
 use super::bisected;
 
-/// A free mode of the turning blade, as seen on the blade.
+/// A free mode of the turning blade, in the body frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyWave {
     /// Number n of nodal diameters.
     pub nodal_diameters: usize,
-    /// ω on the blade at the speed in question, in rad/s.
+    /// Frequency ω on the blade at the speed of the analysis.
     pub frequency_rad_per_s: f64,
-    /// f, the amplitude of f cos nθ at the springs' radius at unit modal mass, in 1/√kg.
+    /// Amplitude f of the mode f cos nθ of unit modal mass at the springs' radius, in 1/√kg.
     pub amplitude_per_sqrt_kg: f64,
 }
 
 impl BodyWave {
-    /// g², in 1/kg, of one of the two waves of which the mode consists.
+    /// Square g², in 1/kg, of the amplitude of one of the two waves of which the mode consists.
     pub(super) fn share_per_kg(&self) -> f64 {
         let halves = if self.nodal_diameters == 0 { 1.0 } else { 2.0 };
         self.amplitude_per_sqrt_kg.powi(2) / halves
@@ -38,12 +38,12 @@ impl BodyWave {
 pub struct EvenSprings {
     /// Number S of springs.
     pub count: usize,
-    /// k of each, in N/m.
+    /// Stiffness k of each spring.
     pub stiffness_n_per_m: f64,
 }
 
 impl EvenSprings {
-    /// S k.
+    /// Stiffness S k of all springs together.
     pub(super) fn sum_n_per_m(&self) -> f64 {
         self.count as f64 * self.stiffness_n_per_m
     }
@@ -123,17 +123,17 @@ fn quotient(numerator: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     product(numerator, [c / square, -d / square])
 }
 
-/// A standing wave x of the unsupported blade at the springs: with xᵀK_b x = 1 J.
+/// A standing wave x of the unsupported blade, normalized by xᵀK_b x = 1 J.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StandingWave {
-    /// μ = xᵀ(N − K_σ)x, in s²: 1/Ω² of its critical speed; not positive if it has none.
+    /// Value μ = xᵀ(N − K_σ)x, which is 1/Ω² of the critical speed; not positive if the wave has none.
     pub inverse_critical_speed_squared_s2: f64,
-    /// f, its deflection at the spring, in m.
+    /// Deflection f at the spring.
     pub deflection_m: f64,
 }
 
 /// Critical speeds in rad/s of a clamped blade on one point spring: the roots of 1/k + Σ f²/(1 − Ω²μ) = 0,
-/// ascending. One lies between any two neighbouring critical speeds of the waves that the spring affects (μ >
+/// ascending. One root lies between any two neighbouring critical speeds of the waves that the spring affects (μ >
 /// 0, f ≠ 0), and one above the last, unless the blade is free. For k = ∞ the blade is pinned.
 ///
 /// Waves that have a node at the spring keep their critical speeds; they are not in the list.

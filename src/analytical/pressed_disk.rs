@@ -8,8 +8,8 @@
 
 use std::f64::consts::PI;
 
-/// σ_rr, σ_θθ and σ_rθ in Pa at r, θ of a disk of radius b and thickness h under two forces P
-/// inwards at its rim, at θ = 0 and π.
+/// Stresses [σ_rr, σ_θθ, σ_rθ] in Pa at r, θ of a disk of radius b and thickness h under two inward forces P at its
+/// rim, at θ = 0 and π.
 pub fn stress_pa(
     rim_radius_m: f64,
     thickness_m: f64,
@@ -20,7 +20,7 @@ pub fn stress_pa(
     let uniform = force_n / (PI * rim_radius_m * thickness_m);
     let mut stress = [uniform, uniform, 0.0];
     for place_rad in [0.0, PI] {
-        // Stress of one force in the radial and hoop directions of the point.
+        // The stress of one force has components along the radial and hoop directions of the point.
         let (sin, cos) = (place_rad - angle_rad).sin_cos();
         let (x, y) = (radius_m - rim_radius_m * cos, -rim_radius_m * sin);
         let distance = x.hypot(y);

@@ -1,7 +1,8 @@
 //! One mode under a regenerative cutting force: stability lobes.
 //!
-//! m(ẍ + 2ζω₀ẋ + ω₀²x) = −k (x(t) − x(t − τ)), full overlap. With the compliance G(iω) = 1/m(ω₀² − ω² +
-//! 2iζω₀ω), iω is an eigenvalue if 1 + k (1 − e^(−iωτ)) G = 0, which requires k = −1/(2 Re G).
+//! With full overlap the equation of motion is m(ẍ + 2ζω₀ẋ + ω₀²x) = −k (x(t) − x(t − τ)). With the compliance
+//! G(iω) = 1/m(ω₀² − ω² + 2iζω₀ω), iω is an eigenvalue if 1 + k (1 − e^(−iωτ)) G = 0, which requires
+//! k = −1/(2 Re G).
 //!
 //! Sources: S. A. Tobias, *Machine-Tool Vibration* (1965), chapter 7; Y. Altintas, *Manufacturing
 //! Automation* (2000), section 4.3, with these signs: k_lim = −1/(2 Re G), τ = (2πj + 3π + 2ψ)/ω,
@@ -21,7 +22,7 @@ pub struct OneMode {
 /// A point of a lobe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LobePoint {
-    /// k, in N/m per kg.
+    /// Cutting stiffness k per modal mass, in N/m per kg.
     pub stiffness: f64,
     /// Delay τ between two cuts.
     pub delay_s: f64,
@@ -40,13 +41,14 @@ impl OneMode {
         let phase = (-imaginary).atan2(real);
         let turned = 2.0 * PI * f64::from(lobe) + 3.0 * PI + 2.0 * phase;
         Some(LobePoint {
-            // −1/(2 Re G), Re G = real/(real² + imaginary²).
+            // The stiffness is −1/(2 Re G) with Re G = real/(real² + imaginary²).
             stiffness: -(real * real + imaginary * imaginary) / (2.0 * real),
             delay_s: turned / omega,
         })
     }
 
-    /// The stiffness below which the mode is stable for every delay, 2ω₀²ζ(1 + ζ), at ω = ω₀√(1 + 2ζ).
+    /// Smallest stiffness of all lobes, 2ω₀²ζ(1 + ζ) at ω = ω₀√(1 + 2ζ), in N/m per kg. Below it the mode is stable
+    /// for every delay.
     pub fn least_stiffness(&self) -> f64 {
         let zeta = self.damping_ratio;
         2.0 * self.frequency_rad_per_s.powi(2) * zeta * (1.0 + zeta)

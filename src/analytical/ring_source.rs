@@ -1,9 +1,9 @@
 //! Temperature of an annular disk that is heated along a ring and cooled by convection.
 //!
-//! Uniform over the thickness h and around, with a heat transfer coefficient α on both faces and no heat through the edges
-//! at a and b: k h (T″ + T′/r) = 2α T beside the ring. With m = √(2α/kh),
-//! u(r) = I₀(mr) K₁(ma) + K₀(mr) I₁(ma) satisfies the condition at a, and v(r), with b in the place of a, that at b. The ring
-//! of radius c emits P = 2πc k h (T′(c−) − T′(c+)).
+//! The temperature T above the surroundings is uniform over the thickness h and around the axis. With a heat transfer
+//! coefficient α on both faces and no heat through the edges at a and b, k h (T″ + T′/r) = 2α T beside the ring. With
+//! m = √(2α/kh), u(r) = I₀(mr) K₁(ma) + K₀(mr) I₁(ma) satisfies the condition at a, and v(r), with b in the place of a,
+//! the condition at b. The ring of radius c emits P = 2πc k h (T′(c−) − T′(c+)).
 //!
 //! Source: H. S. Carslaw & J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., 1959, sections 4.5 to 4.7 and 7.4 (fins and
 //! rings that lose heat from their faces).
@@ -42,7 +42,7 @@ impl CooledDisk {
     }
 }
 
-/// I₀(x) K₁(e) + K₀(x) I₁(e), and its derivative by x, which vanishes at x = e.
+/// The function I₀(x) K₁(e) + K₀(x) I₁(e), and its derivative by x, which vanishes at x = e.
 fn along(x: f64, edge: f64) -> [f64; 2] {
     let (at, end) = (four(0, x), four(1, edge));
     let apart = x - edge;
@@ -67,7 +67,7 @@ mod tests {
         convection_w_per_m2_k: 60.0,
     };
 
-    /// What the faces give off is what the ring emits.
+    /// The faces give off the power that the ring emits.
     #[test]
     fn the_power_is_that_of_convection() {
         let count = 20_000;

@@ -1,8 +1,8 @@
 //! The rigid tilt of a blade under in-plane forces.
 //!
-//! For w = x, w = y the geometric stiffness h ∫ σ_xx, h ∫ σ_xy, h ∫ σ_yy dA is, by equilibrium, the symmetric
-//! part of Σ x ⊗ F over all forces at the edges, independently of the stress inside. Uniform shear along an
-//! edge and a traction of constant direction contribute nothing.
+//! For w = x and w = y the geometric stiffness h ∫ σ_xx dA, h ∫ σ_xy dA, h ∫ σ_yy dA is, by equilibrium, the
+//! symmetric part of Σ x ⊗ F over all forces at the edges, independently of the stress inside. Uniform shear along
+//! an edge and a traction of constant direction contribute nothing.
 //!
 //! Source: the theorem of the mean stress, M. E. Gurtin, *The Linear Theory of Elasticity*,
 //! Encyclopedia of Physics VIa/2 (1972), section 18.
@@ -10,13 +10,13 @@
 /// A dead force in the plane of the blade: it keeps its direction in space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlaneForce {
-    /// Radius of its point, in m.
+    /// Distance of its point from the axis.
     pub radius_m: f64,
-    /// Angle of its point, in rad.
+    /// Angle of its point.
     pub angle_rad: f64,
-    /// Radial component, outwards, in N.
+    /// Radial component, positive outwards.
     pub radial_n: f64,
-    /// Tangential component in the direction of rotation, in N.
+    /// Tangential component, positive in the direction of rotation.
     pub tangential_n: f64,
 }
 

@@ -1,7 +1,7 @@
 //! Deflection of an annular plate that lies on two opposite points of its rim under its own weight.
 //!
-//! In polar coordinates the plate equation has the solutions r^m cos nθ with m = ±n and 2 ± n; the edges are free, and the two
-//! reactions are a line load at the rim, W/(2πb) + Σ W/(πb) cos nθ over even n.
+//! In polar coordinates the plate equation has the solutions r^m cos nθ with m = ±n and 2 ± n. The edges are free, and the
+//! two reactions are a line load at the rim, W/(2πb) + Σ W/(πb) cos nθ over even n > 0.
 //!
 //! Source: S. Timoshenko & S. Woinowsky-Krieger, *Theory of Plates and Shells*, 2nd ed. (1959): section 16 for n = 0, section 65
 //! for plates on points of their rim, section 22 for the conditions of a free edge.
@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 
-/// Highest number of nodal diameters of the series, whose terms fall with the third power.
+/// Highest number of nodal diameters of the series, whose terms fall with the third power of this number.
 const TERMS: i32 = 400;
 
 /// A plate of uniform thickness with free edges.
@@ -45,14 +45,14 @@ impl PlateOnTwoPoints {
         self.weight_n_per_m2 * PI * (b - a) * (b + a)
     }
 
-    /// The part of n = 0: the weight and its even reaction along the rim, whose sum needs no support.
+    /// Deflection of n = 0, under the weight and a uniform reaction along the rim, which balance each other.
     fn round(&self, r: f64) -> f64 {
         let (a, b, nu) = (self.inner_radius_m, self.outer_radius_m, self.poisson_ratio);
         let (fourth, logarithmic) = (
             -self.weight_n_per_m2 / (64.0 * self.rigidity_n_m),
             self.weight_n_per_m2 * a * a / (8.0 * self.rigidity_n_m),
         );
-        // w″ + ν w′/r of r⁴, r² ln r, r² and ln r.
+        // The moments are w″ + ν w′/r of r⁴, r² ln r, r² and ln r.
         let moments = |r: f64| {
             [
                 (12.0 + 4.0 * nu) * r * r,
@@ -74,11 +74,11 @@ impl PlateOnTwoPoints {
         })
     }
 
-    /// The factor of cos nθ.
+    /// Factor of cos nθ at a radius.
     fn wave(&self, n: i32, r: f64) -> f64 {
         let (a, b, nu) = (self.inner_radius_m, self.outer_radius_m, self.poisson_ratio);
         let n2 = f64::from(n * n);
-        // Growing powers relative to the rim, falling ones relative to the bore.
+        // Growing powers are relative to the rim, falling ones to the bore, so that none overflows.
         let powers = [(n, b), (n + 2, b), (-n, a), (2 - n, a)];
         let moment = |(m, scale): (i32, f64), r: f64| {
             let m_f = f64::from(m);
@@ -96,7 +96,7 @@ impl PlateOnTwoPoints {
             powers.map(|power| shear(power, b)),
         ];
         let matrix = Matrix4::from_fn(|row, column| rows[row][column]);
-        // V = −D r⁻³ Σ own (r/scale)^m equals the line load at the rim.
+        // The shear force V = −D r⁻³ Σ own (r/scale)^m equals the line load at the rim.
         let load = 2.0 * self.weight_n() / (TAU * b);
         let right = Vector4::new(0.0, 0.0, 0.0, -load * b.powi(3) / self.rigidity_n_m);
         matrix.lu().solve(&right).map_or(f64::NAN, |found| {

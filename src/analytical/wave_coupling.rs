@@ -13,7 +13,7 @@
 
 use super::point_springs::{BodyWave, EvenSprings};
 
-/// A wave e^{i(ωt − pθ)} seen from space, with ω > 0.
+/// A wave e^{i(ωt − pθ)} in the space-fixed frame, with ω > 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SpaceWave {
     /// Wave number p: n for a wave in the direction of rotation, −n against it.
@@ -23,7 +23,7 @@ pub struct SpaceWave {
 }
 
 impl SpaceWave {
-    /// ω = ω_b + nΩ.
+    /// Forward wave, with the frequency ω = ω_b + nΩ.
     pub fn forward(nodal_diameters: usize) -> Self {
         SpaceWave {
             wave_number: nodal_diameters as i64,
@@ -31,7 +31,7 @@ impl SpaceWave {
         }
     }
 
-    /// ω = ω_b − nΩ, below the critical speed.
+    /// Backward wave below its critical speed, with the frequency ω = ω_b − nΩ.
     pub fn backward(nodal_diameters: usize) -> Self {
         SpaceWave {
             wave_number: -(nodal_diameters as i64),
@@ -39,7 +39,7 @@ impl SpaceWave {
         }
     }
 
-    /// ω = nΩ − ω_b, above the critical speed: the backward wave, which travels forward.
+    /// Reflected wave: the backward wave above its critical speed, which travels forward with ω = nΩ − ω_b.
     pub fn reflected(nodal_diameters: usize) -> Self {
         SpaceWave {
             wave_number: nodal_diameters as i64,
@@ -78,16 +78,16 @@ impl EvenSprings {
         n > 0 && self.couple(n, -n)
     }
 
-    /// S k g₁g₂/(2√(ω₁ω₂)), in 1/s, to first order in k: the largest growth if two coupled waves coalesce,
-    /// and half of the smallest difference of their frequencies if they veer.
+    /// Coupling S k g₁g₂/(2√(ω₁ω₂)) of two waves, in 1/s: to first order in k the largest growth rate if they
+    /// coalesce, and half of the smallest difference of their frequencies if they veer.
     pub fn coupling_per_s(&self, first: BodyWave, second: BodyWave) -> f64 {
         let shares = (first.share_per_kg() * second.share_per_kg()).sqrt();
         let frequencies = (first.frequency_rad_per_s * second.frequency_rad_per_s).sqrt();
         0.5 * self.sum_n_per_m() * shares / frequencies
     }
 
-    /// ±S k g²/(2ω), in rad/s, to first order in k: the amount by which the springs raise the frequency in
-    /// space of a wave; that of a reflected wave is lowered.
+    /// Shift ±S k g²/(2ω) of the frequency of a wave in space, to first order in k: the springs raise this frequency,
+    /// but lower that of a reflected wave.
     pub fn frequency_shift_rad_per_s(&self, wave: BodyWave, reflected: bool) -> f64 {
         let shift = self.coupling_per_s(wave, wave);
         if reflected { -shift } else { shift }
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn the_rules() {
+    fn waves_cross_veer_or_coalesce_by_chens_rules() {
         let [forward, backward, reflected] = [
             SpaceWave::forward,
             SpaceWave::backward,

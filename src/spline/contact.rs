@@ -12,7 +12,7 @@ pub struct Contact {
     /// Normals of the two flanks of every tooth, the leading one first; the product with the displacement is
     /// the opening of the flank.
     normals: Vec<Vector3<f64>>,
-    /// sin α, the share of the normal force that is radial.
+    /// Share sin α of the normal force that is radial.
     radial: f64,
     stiffness_n_per_m_3_2: f64,
     damping_n_s_3_2_per_m_3_2: f64,
@@ -20,7 +20,7 @@ pub struct Contact {
     pitch_radius_m: f64,
 }
 
-/// A flank that touches.
+/// A flank in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
     /// Number of the tooth, from 0.
@@ -44,7 +44,7 @@ impl Touch {
     }
 }
 
-/// x^{3/2} for x ≥ 0.
+/// Returns x^{3/2} of x ≥ 0.
 fn three_halves(x: f64) -> f64 {
     x * x.sqrt()
 }
@@ -142,12 +142,12 @@ impl Contact {
                 damping *= 8.0;
             }
         }
-        // If approaches are much smaller than the gap, the difference of the two has few digits.
+        // Approaches that are much smaller than the gap have few digits, because each is a displacement minus the gap.
         let (residual, _) = self.residual(q, load);
         (residual.norm() <= 1e-9 * load.norm()).then_some(q)
     }
 
-    /// Load plus contact forces, and the stiffness of the contacts, −∂/∂q of it.
+    /// Sum of the load and the elastic contact forces, and its derivative −∂/∂q, the stiffness of the contacts.
     fn residual(&self, q: Vector3<f64>, load: Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
         let mut force = load;
         let mut tangent = Matrix3::zeros();
@@ -159,13 +159,14 @@ impl Contact {
         (force, tangent)
     }
 
-    /// Gap plus approach of a single flank under the whole load: a length for scaling, at least a millionth
-    /// of the radius, because gap and load may be zero.
+    /// Length for scaling: gap plus approach of a single flank under the whole load, and at least a millionth of
+    /// the radius, because gap and load may be zero.
     pub fn length_m(&self, load_n: f64) -> f64 {
         let approach = (load_n / self.stiffness_n_per_m_3_2).powf(2.0 / 3.0);
         (self.clearance_m + approach).max(1e-6 * self.pitch_radius_m)
     }
 }
 
-/// About 20 steps lead from the centre to the equilibrium; a load that no flank resists does not converge.
+/// Largest number of steps. About 20 lead from the centre to the equilibrium; if no flank resists the load, they do
+/// not converge.
 const MAX_NEWTON_STEPS: usize = 400;

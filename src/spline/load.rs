@@ -1,15 +1,12 @@
 //! Resultant of the in-plane loads on the blade.
 
 use crate::plate::RimForce;
-use crate::scene::Blade;
-
-/// Standard acceleration of free fall (CGPM 1901).
-const GRAVITY_M_PER_S2: f64 = 9.80665;
+use crate::scene::{Blade, GRAVITY_M_PER_S2};
 
 /// Resultant of the loads at the centre of the blade, fixed in space.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PlaneLoad {
-    /// F_x, F_y; x points to the cut, θ = 0.
+    /// Force (F_x, F_y); x points to the cut, θ = 0.
     pub force_n: [f64; 2],
     /// Torque about the axis, positive in the direction of rotation.
     pub torque_n_m: f64,

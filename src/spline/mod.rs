@@ -8,16 +8,16 @@
 //! Every spline tooth has two flanks at the pitch radius r_p, rotated by ±α (the pressure angle) from the
 //! tangent t_k: n_k = ±cos α t_k + sin α r_k is the direction in which the arbor's flank pushes the blade.
 //! The approach of a flank is x_k = −u_k·n_k − c, where u_k = (x, y) + r_p ψ t_k is the displacement of the
-//! blade there and c the gap of the centred blade. Its force is F = K x^{3/2} + C ẋ^{3/2} (the paper's
-//! equation 1), C with the sign of ẋ, and never tensile: F ≥ 0, and F = 0 without contact.
+//! blade there and c the gap of the centred blade. The force of the flank is F = K x^{3/2} + C ẋ^{3/2} (the
+//! paper's equation 1), where the term of C has the sign of ẋ. F is not negative, and zero without contact.
 //!
-//! Displacements are small compared with the pitch of the teeth, so the normals are those of the centred
-//! arbor. Friction, unbalance and in-plane elasticity of the blade are neglected; cutting forces are
+//! Displacements are small compared with the pitch of the teeth, so that the normals are those of the centred
+//! blade. Friction, unbalance and in-plane elasticity of the blade are neglected; cutting forces are
 //! represented by their means. The integrator is DOP853 (order 8, adaptive steps, dense output) of
 //! `differential-equations`: the only fast motion is the vibration on the contacts, which an explicit method
 //! has to resolve anyway.
 //!
-//! It is simulated on request only, see [`crate::scene::SplineFile`].
+//! The motion is simulated only if the scene has a `spline` block, see [`crate::scene::SplineFile`].
 
 mod contact;
 mod load;
@@ -57,16 +57,16 @@ pub struct Run {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[doc(hidden)]
 pub enum Start {
-    /// In equilibrium on the teeth under the load, or centred if the load presses it on none.
+    /// In equilibrium on the teeth under the load, or centred if no tooth resists the load.
     #[default]
     Seated,
-    /// Centred on the arbor: the load then accelerates it across the gap.
+    /// Centred on the arbor: the load then accelerates the blade across the gap.
     Centred,
 }
 
 impl Default for Run {
-    /// Within ten revolutions the motion after the first impact decays if contacts are damped; with light
-    /// damping it does not.
+    /// Ten revolutions suffice for the motion after the first impact to decay, unless the damping of the contacts
+    /// is light.
     fn default() -> Self {
         Run {
             start: Start::Seated,
@@ -88,7 +88,7 @@ pub struct SplineRun {
     pub settled_from: usize,
     /// Reaction of the arbor, averaged in the space-fixed frame.
     pub reaction: MeanReaction,
-    /// Largest numerical gain of energy, relative to the largest energy of motion and contact; it is a few
+    /// Largest numerical error of the energy balance, relative to the largest energy of motion and contact: a few
     /// times the number of steps times the tolerance.
     pub energy_defect: f64,
     /// Energy lost in the contacts.
@@ -102,8 +102,8 @@ pub struct SplineRun {
 pub enum SplineError {
     /// The scene does not contain a spline.
     #[error("the scene has no `spline` block; give the teeth and their contact to simulate it")]
-    NotAsked,
-    /// At rest no teeth pass.
+    NoSpline,
+    /// The speed is not positive; at rest no teeth pass.
     #[error("the speed is {rad_per_s} rad/s, but must be positive; the arbor turns forward")]
     Speed {
         /// The given speed.
@@ -140,7 +140,7 @@ pub enum SplineError {
 /// Simulates the blade of a scene under forces at its rim at a constant speed.
 ///
 /// # Errors
-/// [`SplineError`] when the scene has no `spline` block, or the motion cannot be followed.
+/// [`SplineError`] if the scene has no `spline` block, a setting is out of range, or the motion cannot be followed.
 #[doc(hidden)]
 pub fn simulate(
     scene: &Scene,
@@ -148,7 +148,7 @@ pub fn simulate(
     speed_rad_per_s: f64,
     run: &Run,
 ) -> Result<SplineRun, SplineError> {
-    let spline = scene.spline().ok_or(SplineError::NotAsked)?;
+    let spline = scene.spline().ok_or(SplineError::NoSpline)?;
     let load = PlaneLoad::new(scene.blade(), loads, spline.weight_angle_rad);
     let motion = InPlaneMotion::new(scene.blade(), spline, load, speed_rad_per_s)?;
     motion.run(run)

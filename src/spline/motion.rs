@@ -12,7 +12,7 @@ use super::load::PlaneLoad;
 use super::reaction::{Accumulator, MeanReaction};
 use super::{Run, SplineError, SplineRun, Start};
 
-/// Smallest number of samples per revolution; their mean resolves harmonics beyond any basis.
+/// Smallest number of samples per revolution, whose mean resolves harmonics beyond any basis.
 const SAMPLES_PER_REVOLUTION: usize = 720;
 
 /// The blade at one time, in the space-fixed frame.
@@ -24,18 +24,18 @@ pub struct OrbitPoint {
     pub x_m: f64,
     /// Coordinate of the centre, a quarter turn further in the direction of rotation.
     pub y_m: f64,
-    /// ψ, the angle by which the blade leads the arbor.
+    /// Angle ψ by which the blade leads the arbor.
     pub twist_rad: f64,
 }
 
 /// The rigid blade on its arbor.
 #[derive(Debug, Clone)]
 pub struct InPlaneMotion {
-    /// The flanks.
+    /// Flanks of the spline teeth.
     pub contact: Contact,
-    /// (m, m, J/r_p²).
+    /// Inertia (m, m, J/r_p²).
     inertia_kg: Vector3<f64>,
-    /// (F_x, F_y, T/r_p).
+    /// Load (F_x, F_y, T/r_p).
     load_n: Vector3<f64>,
     speed_rad_per_s: f64,
     pitch_radius_m: f64,
@@ -56,6 +56,8 @@ struct Scale {
 type State = [f64; 8];
 
 impl InPlaneMotion {
+    /// Prepares the motion of a blade on a spline under a constant load.
+    ///
     /// # Errors
     /// [`SplineError::Speed`] unless the speed is positive.
     pub fn new(
@@ -76,8 +78,8 @@ impl InPlaneMotion {
         let load_n = Vector3::new(load.force_n[0], load.force_n[1], load.torque_n_m / r);
         let length_m = contact.length_m(load_n.norm());
         let lightest = mass.min(rotary);
-        // Rate of the motion: √(F/mL), at which the load F moves the blade over the length L, or the rotation
-        // speed of the arbor if this is faster, as without load.
+        // The rate of the motion is √(F/mL), at which the load F moves the blade over the length L, or the rotation
+        // speed of the arbor, if this is larger.
         let fall_per_s = (load_n.norm() / (lightest * length_m)).sqrt();
         let rate_per_s = fall_per_s.max(speed_rad_per_s);
         Ok(InPlaneMotion {
@@ -215,7 +217,7 @@ impl InPlaneMotion {
         self.contact.touches(q, speed)
     }
 
-    /// The samples of whole revolutions, without the last one, which repeats the first.
+    /// Averages the forces over the samples of whole revolutions, without the last sample, which repeats the first.
     fn average(&self, states: &[State], from: usize, samples: usize) -> MeanReaction {
         let settled = &states[from.min(states.len())..];
         let revolutions = settled.len() / samples;
@@ -229,7 +231,7 @@ impl InPlaneMotion {
         sums.mean(self.pitch_radius_m, self.load_n)
     }
 
-    /// Kinetic and contact energy, and the potential of the load, in J.
+    /// [Kinetic plus contact energy, potential of the load], in J.
     fn energies(&self, t: f64, y: &State) -> [f64; 2] {
         let (angle, q, velocity) = self.unscaled(t, y);
         let kinetic = 0.5 * velocity.component_mul(&velocity).dot(&self.inertia_kg);
@@ -273,10 +275,10 @@ fn check(run: &Run) -> Result<(), SplineError> {
     Ok(())
 }
 
-/// All samples are kept: 2000 revolutions take 150 megabytes.
+/// Largest number of settling and of averaged revolutions. All samples are kept: 2000 revolutions take 150 megabytes.
 const MAX_REVOLUTIONS: u32 = 1000;
 
-/// Displacement or force rotated about the axis; the third component does not change.
+/// Rotates a displacement or a force about the axis; the third component does not change.
 fn turned(v: Vector3<f64>, angle: f64) -> Vector3<f64> {
     let (sin, cos) = angle.sin_cos();
     let plane = Vector2::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos);

@@ -1,4 +1,4 @@
-//! Mean reaction of the arbor on the blade, as a space-fixed observer sees it.
+//! Mean reaction of the arbor on the blade, in the space-fixed frame.
 
 use std::f64::consts::TAU;
 
@@ -11,8 +11,8 @@ use super::contact::Touch;
 /// The reaction averaged over whole revolutions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeanReaction {
-    /// Mean force on the blade at evenly spaced angles fixed in space, by all teeth that pass. It represents
-    /// a Fourier series up to half the number of angles.
+    /// Mean force of all teeth on the blade at evenly spaced angles fixed in space. The values determine a Fourier
+    /// series up to half the number of angles.
     pub stations: Vec<BoreForce>,
     /// Sum of the forces (F_x, F_y).
     pub force_n: [f64; 2],
@@ -24,7 +24,7 @@ pub struct MeanReaction {
     /// change of momentum over the averaged revolutions.
     pub imbalance: f64,
     /// Change of the harmonics m = 0, 1, 2 of the reaction from the first half of the averaged revolutions to
-    /// the second, relative to their size. It measures how far the motion is from being settled.
+    /// the second, relative to their magnitude: a measure of how far the motion is from being settled.
     pub unsteadiness: f64,
 }
 
@@ -64,7 +64,7 @@ pub struct Accumulator {
 }
 
 impl Accumulator {
-    /// For `revolutions` of `per_revolution` samples, which is a multiple of the number of teeth.
+    /// Sums for `revolutions` of `per_revolution` samples each, a multiple of the number of teeth.
     pub fn new(teeth: usize, per_revolution: usize, revolutions: usize) -> Self {
         Accumulator {
             halves: [0, 1].map(|_| vec![[0.0; 2]; per_revolution]),
@@ -105,7 +105,7 @@ impl Accumulator {
         }
     }
 
-    /// Means, compared with the load (F_x, F_y, T/r_p).
+    /// Means over all samples, with their imbalance relative to the load (F_x, F_y, T/r_p).
     pub fn mean(&self, pitch_radius_m: f64, load_n: Vector3<f64>) -> MeanReaction {
         let all = self.samples[0] + self.samples[1];
         let per_sample = 1.0 / all.max(1) as f64;
@@ -171,7 +171,7 @@ fn low_harmonics(stations: impl Iterator<Item = BoreForce>) -> f64 {
     coefficients.iter().map(|c| c * c).sum::<f64>().sqrt()
 }
 
-/// part / whole, and 0 if both are zero.
-fn share(part: f64, whole: f64) -> f64 {
+/// Ratio of a part to the whole; 0 if the whole is zero.
+pub(super) fn share(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { 0.0 }
 }

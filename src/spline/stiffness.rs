@@ -5,8 +5,9 @@ use faer::{Mat, MatRef};
 use crate::plate::{EdgeStress, Plate, RimForce, edge_stiffness};
 
 use super::MeanReaction;
+use super::reaction::share;
 
-/// K_e of equal loads with both reactions at the bore.
+/// K_e of the same loads at the rim with two reactions at the bore.
 #[derive(Debug, Clone)]
 pub struct ReactionEffect {
     /// K_e with a traction of constant direction and a uniform shear as reaction, in 1/s².
@@ -37,21 +38,12 @@ pub fn reaction_effect(
 
 impl ReactionEffect {
     /// ‖K_simulated − K_assumed‖ / ‖K_assumed‖ in the Frobenius norm, on the span of the columns of `modes`,
-    /// orthonormal in the mass-normalised basis: the modes that decide a verdict; 0 without any load. On the
-    /// full model functions that vary strongly near the bore would dominate this norm, so that it would grow
+    /// orthonormal in the mass-normalised basis: the modes that decide a verdict. It is 0 without any load. On the
+    /// full model, functions that vary strongly near the bore would dominate this norm, so that it would grow
     /// with the basis.
     pub fn relative_change_on(&self, modes: MatRef<'_, f64>) -> f64 {
         let on_modes = |matrix: &Mat<f64>| modes.transpose() * matrix * modes;
         let (assumed, simulated) = (on_modes(&self.assumed), on_modes(&self.simulated));
-        relative(&(&simulated - &assumed), &assumed)
-    }
-}
-
-fn relative(change: &Mat<f64>, of: &Mat<f64>) -> f64 {
-    let whole = of.norm_l2();
-    if whole > 0.0 {
-        change.norm_l2() / whole
-    } else {
-        0.0
+        share((&simulated - &assumed).norm_l2(), assumed.norm_l2())
     }
 }

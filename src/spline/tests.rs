@@ -299,10 +299,10 @@ fn an_unloaded_blade_stays_centred() {
 }
 
 #[test]
-fn what_cannot_be_simulated_is_an_error() {
+fn missing_splines_speeds_and_settings_are_refused() {
     let run = Run::default();
     let plain = simulate(&Scene::paper(), &[], 100.0, &run).err();
-    assert_eq!(plain, Some(SplineError::NotAsked));
+    assert_eq!(plain, Some(SplineError::NoSpline));
     let scene = scene_with(|_| ());
     for speed in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let refused = simulate(&scene, &cut(), speed, &run);

@@ -13,8 +13,8 @@ use super::{StretchedBlade, StretchedError, finite};
 
 /// Smallest number of modes at rest within the gaps that are added to the shapes: heave, tilts, and the first
 /// of two and three diameters.
-const LEAST_RELEASED: usize = 8;
-/// Directions closer to the span of the others are omitted.
+const MIN_RELEASED: usize = 8;
+/// Shapes at a smaller relative distance from the span of the others are omitted.
 pub(super) const INDEPENDENT: f64 = 1e-7;
 
 impl StretchedBlade {
@@ -26,16 +26,16 @@ impl StretchedBlade {
     /// are not found, [`StretchedError::Stretching`].
     pub fn new(plate: &Plate, shapes: usize) -> Result<Self, StretchedError> {
         let plate = plate.conservative();
-        let full = held(&plate, shapes)?;
+        let full = restrained(&plate, shapes)?;
         let basis = at_rest(&full)?.U().subcols(0, shapes).to_owned();
         Self::on(plate, &full, basis)
     }
 
-    /// The blade in the basis of the lowest `modes` modes at a speed, each with both phases. Their
-    /// eigenvalues at this speed are those of the full model, as narrow flutter bands require.
+    /// The blade in the basis of the lowest `modes` modes at a speed, each with both phases. The
+    /// eigenvalues of these modes are those of the full model, as narrow flutter bands require.
     ///
     /// # Errors
-    /// As [`StretchedBlade::new`], and [`StretchedError::Value`].
+    /// [`StretchedError`] as for [`StretchedBlade::new`], and [`StretchedError::Value`].
     pub fn at_speed(
         plate: &Plate,
         speed_rad_per_s: f64,
@@ -43,23 +43,22 @@ impl StretchedBlade {
     ) -> Result<Self, StretchedError> {
         finite("the speed in rad/s", speed_rad_per_s)?;
         let plate = plate.conservative();
-        let full = held(&plate, modes)?;
+        let full = restrained(&plate, modes)?;
         let shift = frequency_scale(&plate);
         let lowest = lowest_eigenpairs(&full, speed_rad_per_s, modes, shift)?;
-        let phases = lowest.into_iter().flat_map(|(_, q)| {
-            let (re, im) = split(&q);
-            [re, im]
-        });
+        let phases = lowest
+            .into_iter()
+            .flat_map(|(_, q)| <[Col<f64>; 2]>::from(split(&q)));
         let basis = orthonormal(full.order(), &phases.collect::<Vec<_>>(), INDEPENDENT);
         Self::on(plate, &full, basis)
     }
 
-    /// The blade in a basis for equilibria up to a speed under a force at a point: shapes that diverge at
-    /// critical speeds up to there, the static deflection under the force, and the lowest `modes` modes at
-    /// rest.
+    /// The blade in a basis for equilibria up to a speed under a force at a point (radius in m, angle in rad): the
+    /// shapes of the critical speeds up to this speed, the static deflection under the force, and the lowest
+    /// `modes` modes at rest.
     ///
     /// # Errors
-    /// As [`StretchedBlade::new`], and [`StretchedError::Value`].
+    /// [`StretchedError`] as for [`StretchedBlade::new`], and [`StretchedError::Value`].
     pub fn up_to(
         plate: &Plate,
         to_rad_per_s: f64,
@@ -69,7 +68,7 @@ impl StretchedBlade {
         Self::up_to_with(plate, to_rad_per_s, place, (modes, &[]))
     }
 
-    /// As [`StretchedBlade::up_to`], with further shapes of unit length in the basis.
+    /// The blade in the basis of [`StretchedBlade::up_to`], with further shapes of unit length.
     pub(crate) fn up_to_with(
         plate: &Plate,
         to_rad_per_s: f64,
@@ -78,12 +77,12 @@ impl StretchedBlade {
     ) -> Result<Self, StretchedError> {
         finite("the speed in rad/s", to_rad_per_s)?;
         let plate = plate.conservative();
-        let full = held(&plate, modes)?;
+        let full = restrained(&plate, modes)?;
         let order = full.order();
         let rest = at_rest(&full)?;
         let critical = critical_speeds(&full)?.into_iter();
-        let leaning = critical.take_while(|c| c.speed_rad_per_s <= to_rad_per_s);
-        let mut shapes: Vec<Col<f64>> = leaning.map(|c| c.shape).collect();
+        let diverging = critical.take_while(|c| c.speed_rad_per_s <= to_rad_per_s);
+        let mut shapes: Vec<Col<f64>> = diverging.map(|c| c.shape).collect();
         let values = plate.functions_at(radius_m, angle_rad);
         let force = rest.U().transpose() * Col::from_fn(order, |i| values[i]);
         let bent = rest.U() * Col::from_fn(order, |k| force[k] / rest.S()[k]);
@@ -97,14 +96,15 @@ impl StretchedBlade {
     /// The blade in a basis of given shapes, orthonormal columns in the functions of the plate.
     ///
     /// # Errors
-    /// As [`StretchedBlade::new`].
+    /// [`StretchedError`] as for [`StretchedBlade::new`].
     pub(crate) fn of_shapes(plate: &Plate, shapes: Mat<f64>) -> Result<Self, StretchedError> {
         let plate = plate.conservative();
-        let full = held(&plate, shapes.ncols())?;
+        let full = restrained(&plate, shapes.ncols())?;
         Self::on(plate, &full, shapes)
     }
 
-    /// The blade in a basis of given orthonormal shapes. If pads lift off, the lowest modes at rest inside their gaps are added.
+    /// The blade in a basis of given orthonormal shapes. If pads lift off, the lowest modes at rest inside their gaps
+    /// are added.
     pub(super) fn on(
         plate: Plate,
         full: &GyroscopicSystem,
@@ -116,7 +116,7 @@ impl StretchedBlade {
         };
         let order = released.order();
         let modes = at_rest(&released)?;
-        let count = LEAST_RELEASED.max(shapes.ncols() / 2).min(order);
+        let count = MIN_RELEASED.max(shapes.ncols() / 2).min(order);
         let own = (0..shapes.ncols()).map(|k| shapes.col(k).to_owned());
         let of_released = (0..count).map(|k| modes.U().col(k).to_owned());
         let all: Vec<Col<f64>> = own.chain(of_released).collect();
@@ -126,7 +126,7 @@ impl StretchedBlade {
         Ok(StretchedBlade { gaps, ..blade })
     }
 
-    /// As [`StretchedBlade::on`], with a known potential.
+    /// The blade in a basis of given orthonormal shapes, with a known potential and without pads that lift off.
     pub(super) fn with(
         plate: Plate,
         stretching: &Stretching,
@@ -144,8 +144,8 @@ impl StretchedBlade {
     }
 }
 
-/// The matrices of a plate, if it is held and has as many functions as requested.
-fn held(plate: &Plate, shapes: usize) -> Result<GyroscopicSystem, StretchedError> {
+/// Matrices of a plate; refused if nothing restrains a rigid motion, or the plate has fewer functions than shapes.
+fn restrained(plate: &Plate, shapes: usize) -> Result<GyroscopicSystem, StretchedError> {
     let full = GyroscopicSystem::of_plate(plate);
     if !full.free_rigid.is_empty() {
         return Err(StretchedError::NotHeld);

@@ -22,7 +22,7 @@ pub struct Branch {
 pub struct Turn {
     /// Kind of the point.
     pub kind: TurnKind,
-    /// The equilibrium there, with the number of negative eigenvalues of the preceding one.
+    /// The equilibrium at this point, with the number of negative eigenvalues that the curve has before it.
     pub equilibrium: Equilibrium,
 }
 
@@ -41,8 +41,9 @@ pub enum TurnKind {
 const LONGEST: f64 = 0.02;
 /// Smallest step, as a share of the longest.
 const SHORTEST: f64 = 1e-4;
-/// The step is halved after a correction with this number of iterations, and doubled after fewer than three.
-const MANY: usize = 6;
+/// Largest number of iterations of a correction. If it does not converge the step is halved; after fewer than three
+/// iterations it is doubled.
+const CORRECTIONS: usize = 6;
 /// Largest number of equilibria of a curve.
 const MOST: usize = 4000;
 /// Largest number of equilibria of a curve in a figure.
@@ -68,15 +69,15 @@ impl Extent {
     }
 }
 
-/// A point of the curve, and its direction, (p over a size, Ω over another), of unit length.
+/// A point of the curve, and the direction of the curve there, of unit length in the units of [`Curve`].
 struct Place {
     equilibrium: Equilibrium,
     direction: Col<f64>,
 }
 
 impl StretchedBlade {
-    /// Follows a curve from an equilibrium, towards higher or lower speeds, up to an end of the range of
-    /// speeds, or up to the earlier end that `extent` allows.
+    /// Follows a curve from an equilibrium, towards higher or lower speeds, to an end of the range of speeds, or to
+    /// the earlier end that `extent` names.
     ///
     /// # Errors
     /// [`StretchedError::Value`] for an empty range or one that does not contain the start;
@@ -161,13 +162,13 @@ struct Curve<'a> {
 }
 
 impl Curve<'_> {
-    /// The point one step further along the direction, and the number of iterations; `None` if there is none,
-    /// or if the direction changes too much.
+    /// The point one step further along the direction, and the number of iterations; `None` if they do not
+    /// converge, or if the direction changes too much.
     fn advanced(&self, place: &Place, step: f64) -> Result<Option<(Place, usize)>, StretchedError> {
         let order = place.direction.nrows() - 1;
         let begun = self.scaled(&place.equilibrium);
         let mut x = &begun + Scale(step) * &place.direction;
-        for iteration in 1..=ITERATIONS.min(MANY) {
+        for iteration in 1..=CORRECTIONS {
             let (p, speed) = self.unscaled(&x);
             let rest = self.blade.residual(&p, speed)?;
             let along = place.direction.transpose() * (&x - &begun) - step;
@@ -186,7 +187,7 @@ impl Curve<'_> {
                 let Ok(direction) = self.direction(&equilibrium, &place.direction) else {
                     return Ok(None);
                 };
-                // The direction may change by 25 degrees.
+                // A change of the direction by up to 25 degrees is accepted.
                 let straight = direction.transpose() * &place.direction > 0.9;
                 let next = Place {
                     equilibrium,
@@ -198,7 +199,7 @@ impl Curve<'_> {
         Ok(None)
     }
 
-    /// The unit tangent of the curve at an equilibrium, pointing away from another.
+    /// The unit tangent of the curve at an equilibrium, on the side of the direction `towards`.
     fn direction(
         &self,
         equilibrium: &Equilibrium,
@@ -220,7 +221,7 @@ impl Curve<'_> {
         }
     }
 
-    /// [∂²V/∂p² · size, ∂²V/∂p∂Ω · range; tᵀ].
+    /// The matrix [∂²V/∂p² · size, ∂²V/∂p∂Ω · range; tᵀ] in the units of the curve.
     fn bordered(&self, p: &Col<f64>, speed: f64, t: &Col<f64>) -> Result<Mat<f64>, StretchedError> {
         let order = p.nrows();
         let hessian = self.blade.hessian(p, speed)?;
@@ -234,8 +235,8 @@ impl Curve<'_> {
         }))
     }
 
-    /// Finds, between two points, where ∂²V/∂p² is singular: the step, by false position, at which the speed
-    /// is largest or smallest, or at which the eigenvalue that changes its sign is zero.
+    /// Finds the point between two others at which ∂²V/∂p² is singular. False position gives the step at which the
+    /// speed is largest or smallest, or at which the eigenvalue that changes its sign is zero.
     fn turn(&self, from: &Place, to: &Place, step: f64) -> Result<Option<Turn>, StretchedError> {
         let order = from.direction.nrows() - 1;
         let counts = [from, to].map(|place| place.equilibrium.negative_eigenvalues);
@@ -265,14 +266,14 @@ impl Curve<'_> {
             if at.abs() < LAST * scale {
                 break;
             }
-            // The function value at the end that stays is halved (the Illinois rule).
+            // The function value at the end that is kept is halved (the Illinois rule).
             ends = match (at < 0.0) == (at_low < 0.0) {
                 true => [(middle, at), (high, 0.5 * at_high)],
                 false => [(low, 0.5 * at_low), (middle, at)],
             };
         }
         found.negative_eigenvalues = counts[0];
-        // If the curve turns back and the count does not change, it touches another one at a pitchfork.
+        // If the curve turns back and the count does not change, the curve touches another one at a pitchfork.
         let kind = match turns_back && counts[0] != counts[1] {
             true => TurnKind::Fold,
             false => TurnKind::Bifurcation,

@@ -13,7 +13,7 @@ use super::{ROUNDING, StretchedBlade, StretchedError, angles, finite};
 pub struct Equilibrium {
     /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
-    /// p, r coordinates of the shapes, in √kg·m.
+    /// Coordinates p of the r shapes, in √kg·m.
     pub coordinates: Col<f64>,
     /// Number of negative eigenvalues of ∂²V/∂p²; zero at a minimum of V, which is stable.
     pub negative_eigenvalues: usize,
@@ -21,7 +21,7 @@ pub struct Equilibrium {
 
 /// Largest number of iterations of Newton's method.
 pub(super) const ITERATIONS: usize = 30;
-/// Relative size of the last correction: the next would be its square.
+/// Relative size of the last correction; that of the next would be its square.
 pub(super) const LAST: f64 = 1e-8;
 
 impl StretchedBlade {
@@ -36,7 +36,8 @@ impl StretchedBlade {
         gaps.map_or_else(Vec::new, |gaps| gaps.forces_n(&equilibrium.coordinates))
     }
 
-    /// Smallest distance left between the blade and the faces of each pad that lifts off, negative where one is pressed in.
+    /// Smallest distance between the blade and a face of each pad that lifts off; negative where a face is
+    /// compressed.
     pub(crate) fn distances_left_m(&self, equilibrium: &Equilibrium) -> Vec<f64> {
         let gaps = self.gaps.as_ref();
         gaps.map_or_else(Vec::new, |gaps| {
@@ -44,7 +45,7 @@ impl StretchedBlade {
         })
     }
 
-    /// Radius and size of the force at each point at which a pad that lifts off touches the blade.
+    /// Radius, in m, and magnitude of the force, in N, at each point at which a pad that lifts off touches the blade.
     pub(crate) fn contacts(&self, equilibrium: &Equilibrium) -> Vec<(f64, f64)> {
         let gaps = self.gaps.as_ref();
         gaps.map_or_else(Vec::new, |gaps| gaps.contacts(&equilibrium.coordinates))
@@ -97,7 +98,7 @@ impl StretchedBlade {
     /// The equilibrium to which Newton's method converges from a guess, or, for `None`, from the flat blade.
     ///
     /// # Errors
-    /// [`StretchedError::NotFound`], [`StretchedError::Value`].
+    /// [`StretchedError::NotFound`] if it does not converge, [`StretchedError::Value`].
     pub fn equilibrium(
         &self,
         speed_rad_per_s: f64,
@@ -142,7 +143,7 @@ impl StretchedBlade {
     }
 
     /// The deflected equilibrium slightly above a pitchfork: p = εv with ε² = −vᵀK(Ω)v/4U₄(v), corrected by
-    /// Newton's method. The other one is −p.
+    /// Newton's method. The other equilibrium is −p.
     ///
     /// # Errors
     /// [`StretchedError::Axisymmetric`]; [`StretchedError::NotFound`], also if vᵀK(Ω)v is not negative,
@@ -158,7 +159,7 @@ impl StretchedBlade {
         self.equilibrium(speed_rad_per_s, Some(&near))
     }
 
-    /// εv of [`StretchedBlade::leaned`] without correction.
+    /// The deflection εv of [`StretchedBlade::leaned`] without correction.
     ///
     /// # Errors
     /// [`StretchedError::NotFound`] if vᵀK(Ω)v is not negative.
@@ -168,14 +169,15 @@ impl StretchedBlade {
         shape: &Col<f64>,
     ) -> Result<Col<f64>, StretchedError> {
         let stiffness = self.system.stiffness_at(speed_rad_per_s);
-        let held = shape.transpose() * &stiffness * shape;
-        let square = -held / (4.0 * self.stretching.energy_j(shape)?);
+        let elastic = shape.transpose() * &stiffness * shape;
+        let square = -elastic / (4.0 * self.stretching.energy_j(shape)?);
         if !(square > 0.0 && square.is_finite()) {
             return Err(self.not_found(shape, speed_rad_per_s));
         }
         Ok(Scale(square.sqrt()) * shape)
     }
 
+    /// The equilibrium at known coordinates, with its number of negative eigenvalues.
     pub(super) fn at(
         &self,
         p: Col<f64>,

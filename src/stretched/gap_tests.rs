@@ -62,12 +62,12 @@ fn a_force_presses_the_blade_on_its_pad_as_two_springs_say() {
         });
         for share in [-4.0, -2.0, -0.5, 0.5, 2.0, 4.0_f64] {
             let force = share * gap_m / compliance;
-            let stands = match side {
+            let is_there = match side {
                 GuideSide::Both => true,
                 GuideSide::Left => force > 0.0,
                 GuideSide::Right => force < 0.0,
             };
-            let expected = match stands && share.abs() > 1.0 {
+            let expected = match is_there && share.abs() > 1.0 {
                 true => {
                     let pressed = force.abs() + stiffness * gap_m;
                     force.signum() * pressed * compliance / (1.0 + stiffness * compliance)
@@ -111,7 +111,7 @@ fn limits_of_the_gap_are_the_linear_pad_and_none() {
     assert!((far / bare - 1.0).abs() < 1e-4, "{far:e} {bare:e}");
 }
 
-/// With a wider gap the deflection is larger, and the pad presses with the side force only.
+/// With a wider gap the deflection is larger, and the force of the pad equals the side force.
 #[test]
 fn one_pad_carries_the_whole_side_force() {
     let place = (0.355, 0.0);

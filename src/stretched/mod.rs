@@ -5,10 +5,10 @@
 //! not a minimum of V, but a blade deflected to one side is. Each edge of a band of divergence is a pitchfork,
 //! at which two such equilibria branch from the flat one; a side force f unfolds it.
 //!
-//! Input is a [`Plate`], held by its guides or a collar, and a number of shapes, its lowest modes at rest.
-//! Results are equilibria over speed, in metres by [`StretchedBlade::deflection_m`], the number of negative
-//! eigenvalues of ∂²V/∂q², and the eigenvalues λ of small motions, λ² + λ 2ΩG + K(Ω) + ∂²U₄/∂q² = 0, in 1/s.
-//! If that number is zero the equilibrium is stable, and remains so with any damping fixed in space.
+//! The input is a [`Plate`], which guides or a collar restrain laterally, and a number of shapes, its lowest
+//! modes at rest. The results are equilibria over speed, in metres by [`StretchedBlade::deflection_m`], the number
+//! of negative eigenvalues of ∂²V/∂q², and the eigenvalues λ of small motions, λ² + λ 2ΩG + K(Ω) + ∂²U₄/∂q² = 0,
+//! in 1/s. If the number is zero the equilibrium is stable, and remains so with any damping fixed in space.
 //! Otherwise gyroscopic forces may stabilize the undamped blade, but such damping destabilizes it (Thomson,
 //! Tait & Chetaev; see W. T. Thomson & P. G. Tait, *Treatise on Natural Philosophy*, 1879, §345).
 //!
@@ -52,12 +52,12 @@ pub enum StretchedError {
     NotHeld,
     /// Nothing resists heave or tilt within the gaps of guides.
     #[error(
-        "within the gaps of its guides nothing holds the blade laterally, so that it stands still nowhere in particular; give a side force, or one of the guides a film_stiffness_n_per_m"
+        "within the gaps of its guides nothing holds the blade laterally, so that its position is undetermined; give a side force, or one of the guides a film_stiffness_n_per_m"
     )]
     Loose,
-    /// A force that no guide resists.
+    /// No guide resists the side force.
     #[error(
-        "at {rpm:.1} rpm the side force presses the blade away from every guide that could hold it: guides[].side leaves it free to go that way; give pads on both sides, or turn the force"
+        "at {rpm:.1} rpm the side force presses the blade away from all its guides, which are on one side only (guides[].side); give pads on both sides, or reverse the force"
     )]
     Escapes {
         /// Rotation speed.
@@ -112,7 +112,7 @@ pub struct StretchedBlade {
     shapes: Mat<f64>,
     system: GyroscopicSystem,
     stretching: ReducedStretching,
-    /// Potential of pads that lift off.
+    /// Potential of the pads that lift off, if there are any.
     gaps: Option<GapPotential>,
     /// Side force on the shapes, in N/√kg.
     force: Col<f64>,
@@ -122,7 +122,7 @@ impl StretchedBlade {
     /// Relative change ‖Δq‖/‖q‖ of an equilibrium in a larger basis that contains this one.
     ///
     /// # Errors
-    /// As [`StretchedBlade::equilibrium`].
+    /// [`StretchedError`] as for [`StretchedBlade::equilibrium`].
     pub fn change_with(
         &self,
         finer: &StretchedBlade,
@@ -133,10 +133,10 @@ impl StretchedBlade {
         Ok((&found.coordinates - &guess).norm_l2() / found.coordinates.norm_l2())
     }
 
-    /// Adds a lateral force at a point, fixed in space.
+    /// Replaces the side force by a lateral force at a point (radius in m, angle in rad), fixed in space.
     ///
     /// # Errors
-    /// [`StretchedError::Value`].
+    /// [`StretchedError::Value`] if a number is not finite.
     pub fn pressed(
         mut self,
         force_n: f64,
@@ -149,7 +149,7 @@ impl StretchedBlade {
         Ok(self)
     }
 
-    /// The blade with the gaps of its pads multiplied by a factor; its basis does not depend on them.
+    /// The blade with the gaps of its pads multiplied by a factor, in the same basis.
     pub fn with_gaps(mut self, factor: f64) -> Self {
         self.gaps = self.gaps.map(|gaps| gaps.scaled(factor));
         self
@@ -181,18 +181,18 @@ impl StretchedBlade {
         self
     }
 
-    /// Zero deflection.
+    /// Coordinates of zero deflection.
     pub fn flat(&self) -> Col<f64> {
         Col::zeros(self.force.nrows())
     }
 
-    /// The shapes at a point of the blade, in 1/√kg.
+    /// Values of the shapes at a point of the blade (radius in m, angle in rad), in 1/√kg.
     pub(crate) fn shapes_at(&self, (radius_m, angle_rad): (f64, f64)) -> Col<f64> {
         let values = self.plate.functions_at(radius_m, angle_rad);
         self.shapes.transpose() * Col::from_fn(values.len(), |i| values[i])
     }
 
-    /// Coordinates of a deflection of one thickness over the whole blade, in √kg·m.
+    /// Norm of the coordinates of a deflection of one thickness over the whole blade, in √kg·m.
     fn size(&self) -> f64 {
         self.plate.blade.thickness_m * self.plate.blade.mass_kg().sqrt()
     }
@@ -212,21 +212,21 @@ impl StretchedBlade {
         }
     }
 
-    /// Checks that equilibria are isolated: within the gaps of its pads a blade that nothing else holds is in
-    /// equilibrium everywhere, unless a force presses it.
+    /// Checks that equilibria are isolated: within the gaps of its pads a blade that nothing else restrains is in
+    /// equilibrium everywhere, unless a force acts on it.
     fn not_loose(&self) -> Result<(), StretchedError> {
         if self.gaps.is_none() || self.force.norm_max() > 0.0 {
             return Ok(());
         }
         let flat = self.stiffnesses(&self.flat(), 0.0)?;
         let largest = flat.last().copied().unwrap_or_default();
-        match flat.first().is_some_and(|least| *least <= LOOSE * largest) {
+        match flat.first().is_some_and(|first| *first <= LOOSE * largest) {
             true => Err(StretchedError::Loose),
             false => Ok(()),
         }
     }
 
-    /// ∂V/∂p.
+    /// Gradient ∂V/∂p, in N/√kg.
     fn residual(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Result<Col<f64>, StretchedError> {
         let elastic = self.system.stiffness_at(speed_rad_per_s) * p;
         let mut rest = elastic + self.stretching.gradient(p)? - &self.force;
@@ -236,12 +236,12 @@ impl StretchedBlade {
         Ok(rest)
     }
 
-    /// ∂²V/∂p².
+    /// Second derivatives ∂²V/∂p², in 1/s².
     fn hessian(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Result<Mat<f64>, StretchedError> {
         Ok(self.system.stiffness_at(speed_rad_per_s) + self.added_stiffness(p)?)
     }
 
-    /// Stiffness of stretching and of pads that lift off.
+    /// Stiffness of stretching and of pads that lift off, in 1/s².
     fn added_stiffness(&self, p: &Col<f64>) -> Result<Mat<f64>, StretchedError> {
         let stretching = self.stretching.hessian(p)?;
         Ok(match &self.gaps {
@@ -250,7 +250,7 @@ impl StretchedBlade {
         })
     }
 
-    /// ∂²V/∂p∂Ω.
+    /// Derivative ∂²V/∂p∂Ω of the gradient by the speed.
     fn softening(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Col<f64> {
         Scale(2.0 * speed_rad_per_s) * (&self.system.spin * p)
     }
@@ -268,23 +268,22 @@ impl StretchedBlade {
     }
 }
 
-/// Eigenvalues of ∂²V/∂p² from below zero to this share of the largest are zero: rounding leaves as much of the motions
-/// that nothing holds.
+/// A negative eigenvalue of ∂²V/∂p² with a magnitude up to this share of the largest is zero: rounding gives such values
+/// to motions that nothing restrains.
 const ROUNDING: f64 = 1e-12;
-/// The softest mode at rest of a blade that something holds is stiffer than this share of its stiffest.
+/// If the smallest stiffness at rest is not larger than this share of the largest, nothing restrains the blade.
 const LOOSE: f64 = 1e-11;
 
 /// Von Kármán's strains are valid for slopes up to about this value.
 pub const LARGEST_SLOPE: f64 = 0.1;
 
-/// Angles at which deflections and slopes are evaluated: more than two for each wave of a usual basis.
+/// Angles, in rad, at which deflections and slopes are evaluated: more than two for each wave of a usual basis.
 fn angles() -> impl Iterator<Item = f64> {
-    (0..ANGLES).map(|k| std::f64::consts::TAU * k as f64 / ANGLES as f64)
+    const COUNT: usize = 72;
+    (0..COUNT).map(|k| std::f64::consts::TAU * k as f64 / COUNT as f64)
 }
 
-const ANGLES: usize = 72;
-
-/// The value, or an error if it is not finite.
+/// Returns a value, or an error if it is not finite.
 fn finite(what: &'static str, value: f64) -> Result<f64, StretchedError> {
     match value.is_finite() {
         true => Ok(value),

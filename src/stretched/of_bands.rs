@@ -3,7 +3,7 @@
 //! The normal form of [`Saturation`] needs only the growing and the decaying wave. Both are computed on the
 //! full model by Newton's method on L(λ)x = 0, L(λ) = λ² + λ 2ΩG + K(Ω), starting from an approximate
 //! eigenvalue: u = L(λ)⁻¹L′(λ)x, λ⁺ = λ − xᴴx/xᴴu (A. Ruhe, *Algorithms for the nonlinear eigenvalue
-//! problem*, SIAM J. Numer. Anal. 10 (1973), 674–689). Their real and imaginary parts are the shapes.
+//! problem*, SIAM J. Numer. Anal. 10 (1973), 674–689). The real and imaginary parts of both waves are the shapes.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, c64};
@@ -24,9 +24,9 @@ pub struct FlutterRise {
     stretching: Stretching,
 }
 
-/// Number of inverse iterations, from an arbitrary vector, before the eigenvalue is corrected.
+/// Number of inverse iterations, from an arbitrary vector, with the given eigenvalue.
 const FIXED: usize = 2;
-/// Largest number of corrections; three suffice from five digits.
+/// Largest number of corrections of the eigenvalue; three suffice from five digits.
 const CORRECTIONS: usize = 12;
 /// Relative size of the last correction.
 const LAST: f64 = 1e-11;
@@ -34,7 +34,7 @@ const LAST: f64 = 1e-11;
 const NEAR: f64 = 0.05;
 
 impl FlutterRise {
-    /// Computes the potential of stretching.
+    /// Computes the potential of stretching of a plate.
     ///
     /// # Errors
     /// [`StretchedError::Stretching`].
@@ -65,17 +65,12 @@ impl FlutterRise {
         let Some((_, v)) = self.wave(speed_rad_per_s, -growing.conj())? else {
             return Ok(None);
         };
-        let parts: Vec<Col<f64>> = [u, v]
-            .iter()
-            .flat_map(|wave| {
-                let (re, im) = split(wave);
-                [re, im]
-            })
-            .collect();
+        let [u, v] = [u, v].map(|wave| <[Col<f64>; 2]>::from(split(&wave)));
+        let parts = [u, v].concat();
         let basis = orthonormal(self.system.order(), &parts, INDEPENDENT);
         let plate = self.plate.clone();
         let blade = StretchedBlade::with(plate, &self.stretching, &self.system, basis)?;
-        blade.saturation_near(speed_rad_per_s, growing)
+        blade.rise(speed_rad_per_s, Some(growing))
     }
 
     /// The eigenvalue near to a given one, and its wave; `None` if there is none.

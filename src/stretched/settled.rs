@@ -1,4 +1,4 @@
-//! The minimum of V that the blade reaches from a deflection, without inertia.
+//! The minimum of V that the blade without inertia reaches from a deflection.
 
 use faer::{Col, Scale, Side};
 
@@ -11,7 +11,7 @@ use super::{Equilibrium, StretchedBlade, StretchedError, finite};
 const STEPS: usize = 2000;
 /// Longest step, in thicknesses over the whole blade.
 const LONGEST: f64 = 0.1;
-/// Displacement from a saddle point, in the same unit.
+/// Displacement from a saddle point, in thicknesses over the whole blade.
 const PUSH: f64 = 1e-4;
 /// Relative size of the last correction, compared with the deflection or a thickness.
 const LAST: f64 = 1e-9;
@@ -19,17 +19,18 @@ const LAST: f64 = 1e-9;
 const ROUNDING: f64 = 1e-15;
 /// Smaller stiffnesses, relative to the largest, are replaced by this value, so that steps are bounded.
 const SOFTEST: f64 = super::ROUNDING;
-/// If a blade has moved by this number of thicknesses nothing holds it.
+/// A blade that has moved by this number of thicknesses is not restrained by its pads.
 const FAR: f64 = 100.0;
 
 impl StretchedBlade {
     /// The stable equilibrium that the blade reaches from a deflection by steps along which V decreases:
-    /// Newton's method with the curvatures of V made positive, limited to a tenth of a thickness. It leaves a
-    /// saddle point in the direction of the side force or, without one, of the first coordinate that can
-    /// move.
+    /// Newton's method with the curvatures of V made positive, limited to a tenth of a thickness. The blade leaves a
+    /// saddle point along the direction of lowest stiffness, on the side to which the side force acts; without a
+    /// side force, on that on which the first coordinate that changes is positive.
     ///
     /// # Errors
-    /// [`StretchedError::NotFound`], [`StretchedError::Value`], [`StretchedError::Axisymmetric`].
+    /// [`StretchedError::NotFound`], [`StretchedError::Value`], [`StretchedError::Axisymmetric`],
+    /// [`StretchedError::Loose`], [`StretchedError::Escapes`].
     pub fn settled(
         &self,
         speed_rad_per_s: f64,
@@ -101,7 +102,7 @@ impl StretchedBlade {
         Err(self.not_found(&p, speed_rad_per_s))
     }
 
-    /// V, in J.
+    /// Potential V, in J.
     pub fn potential_j(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Result<f64, StretchedError> {
         let elastic = p.transpose() * (self.system.stiffness_at(speed_rad_per_s) * p);
         let of_gaps = self.gaps.as_ref().map_or(0.0, |gaps| gaps.energy_j(p));

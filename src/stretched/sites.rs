@@ -4,7 +4,7 @@ use faer::Col;
 
 use super::{StretchedBlade, angles};
 
-/// (r, θ) of points of the blade, and the shapes there.
+/// Points (r, θ) of the blade, each with the values of the shapes at it.
 #[derive(Debug, Clone)]
 pub struct Sites(Vec<((f64, f64), Col<f64>)>);
 
@@ -21,12 +21,12 @@ impl StretchedBlade {
 }
 
 impl Sites {
-    /// Points and shapes.
+    /// Iterates over the points and the values of the shapes.
     pub(super) fn iter(&self) -> impl Iterator<Item = &((f64, f64), Col<f64>)> {
         self.0.iter()
     }
 
-    /// Largest magnitude of the deflection over these points.
+    /// Largest magnitude of the deflection over the points.
     pub fn largest_m(&self, coordinates: &Col<f64>) -> f64 {
         let at = self
             .iter()

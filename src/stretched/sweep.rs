@@ -21,12 +21,12 @@ const PAST: f64 = 1e-5;
 const MOST_ARCS: usize = 200;
 
 impl StretchedBlade {
-    /// Follows the stable equilibrium from one end of a range of speeds to the other. Where it becomes
-    /// unstable the blade goes to the equilibrium found by [`StretchedBlade::settled`]; a vibrating blade may
-    /// reach another one.
+    /// Follows the stable equilibrium from one end of a range of speeds to the other. Where the equilibrium becomes
+    /// unstable the blade jumps to the one found by [`StretchedBlade::settled`]; a vibrating blade may reach another
+    /// one.
     ///
     /// # Errors
-    /// As [`StretchedBlade::branch`] and [`StretchedBlade::settled`].
+    /// [`StretchedError`] as for [`StretchedBlade::branch`] and [`StretchedBlade::settled`].
     pub fn sweep(
         &self,
         begun: &Col<f64>,
@@ -47,7 +47,7 @@ impl StretchedBlade {
             Cancellation::current().check()?;
             let start = self.settled(speed, &p)?;
             let curve = self.branch(&start, upwards, range, Extent::ToTurn)?;
-            let stands = |e: &&Equilibrium| match curve.turns.first() {
+            let is_before_turn = |e: &&Equilibrium| match curve.turns.first() {
                 None => true,
                 Some(turn) => {
                     sign * (turn.equilibrium.speed_rad_per_s - e.speed_rad_per_s) >= 0.0
@@ -57,11 +57,10 @@ impl StretchedBlade {
             let mut arc: Vec<Equilibrium> = curve
                 .equilibria
                 .iter()
-                .take_while(stands)
+                .take_while(is_before_turn)
                 .cloned()
                 .collect();
-            let turn = curve.turns.first().cloned();
-            let Some(turn) = turn else {
+            let Some(turn) = curve.turns.first().cloned() else {
                 sweep.arcs.push(arc);
                 break;
             };

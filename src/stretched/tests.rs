@@ -34,19 +34,14 @@ fn pitchforks_are_at_the_critical_speeds() {
 
 /// Along the flat blade every pitchfork is a bifurcation, and there are no others.
 #[test]
-fn the_flat_blade_meets_every_pitchfork() {
+fn the_curve_of_the_flat_blade_has_every_pitchfork() {
     let blade = StretchedBlade::new(&paper(), 16).unwrap();
     let start = blade.equilibrium(rad_per_s(1000.0), None).unwrap();
     assert_eq!(start.negative_eigenvalues, 0);
     let range = (rad_per_s(900.0), rad_per_s(2400.0));
     let flat = blade.branch(&start, true, range, Extent::Whole).unwrap();
-    let expected: Vec<f64> = blade
-        .pitchforks()
-        .unwrap()
-        .into_iter()
-        .map(|p| p.0)
-        .collect();
-    let expected: Vec<f64> = expected.into_iter().filter(|s| *s < range.1).collect();
+    let speeds = blade.pitchforks().unwrap().into_iter().map(|p| p.0);
+    let expected: Vec<f64> = speeds.filter(|speed| *speed < range.1).collect();
     assert_eq!(flat.turns.len(), expected.len());
     assert!(expected.len() >= 4);
     for (index, (turn, speed)) in flat.turns.iter().zip(&expected).enumerate() {
@@ -146,10 +141,9 @@ fn equilibria_are_as_many_as_morse_counts() {
     }
 }
 
-/// One shape under a side force, κ(Ω)p + γp³ = f: the curve on the side opposite to the force turns back
-/// where κ = −3(γf²/4)^⅓.
-#[test]
-fn a_side_force_unfolds_the_pitchfork_as_the_cubic_says() {
+/// The blade on the shape of its first pitchfork alone, under a side force; the critical speed of this shape, and γ
+/// of its equilibria κ(Ω)p + γp³ = f.
+fn one_shape() -> (StretchedBlade, f64, f64) {
     let plate = paper().conservative();
     let several = StretchedBlade::new(&plate, 16).unwrap();
     let (critical, shape) = several.pitchforks().unwrap().swap_remove(0);
@@ -157,14 +151,25 @@ fn a_side_force_unfolds_the_pitchfork_as_the_cubic_says() {
     let one = Mat::from_fn(one.nrows(), 1, |i, _| one[i]);
     let blade = StretchedBlade::on(plate.clone(), &GyroscopicSystem::of_plate(&plate), one);
     let blade = blade.unwrap().pressed(2.0, (0.355, 0.4)).unwrap();
-    let unit = Col::from_fn(1, |_| 1.0);
-    let gamma = 4.0 * blade.stretching.energy_j(&unit).unwrap();
+    let gamma = 4.0 * blade.stretching.energy_j(&unit()).unwrap();
+    (blade, critical, gamma)
+}
+
+/// The coordinate 1 of a single shape.
+fn unit() -> Col<f64> {
+    Col::from_fn(1, |_| 1.0)
+}
+
+/// One shape under a side force: the curve on the side opposite to the force turns back where κ = −3(γf²/4)^⅓.
+#[test]
+fn a_side_force_unfolds_the_pitchfork_as_the_cubic_says() {
+    let (blade, critical, gamma) = one_shape();
     let force = blade.force[0];
     let stiffness = |speed: f64| blade.system.stiffness_at(speed)[(0, 0)];
     let most = 2.0 * critical;
     let against = -force.signum() * (-stiffness(most) / gamma).sqrt();
     let start = blade
-        .equilibrium(most, Some(&(Scale(against) * &unit)))
+        .equilibrium(most, Some(&(Scale(against) * unit())))
         .unwrap();
     let curve = blade
         .branch(&start, false, (0.0, most), Extent::Whole)
@@ -198,22 +203,14 @@ fn a_side_force_unfolds_the_pitchfork_as_the_cubic_says() {
 /// κ = −3(γf²/4)^⅓, to the equilibrium that it would have reached with rising speed.
 #[test]
 fn a_sweep_jumps_where_the_cubic_folds() {
-    let plate = paper().conservative();
-    let several = StretchedBlade::new(&plate, 16).unwrap();
-    let (critical, shape) = several.pitchforks().unwrap().swap_remove(0);
-    let one = several.shapes() * &shape;
-    let one = Mat::from_fn(one.nrows(), 1, |i, _| one[i]);
-    let blade = StretchedBlade::on(plate.clone(), &GyroscopicSystem::of_plate(&plate), one);
-    let blade = blade.unwrap().pressed(2.0, (0.355, 0.4)).unwrap();
-    let unit = Col::from_fn(1, |_| 1.0);
-    let gamma = 4.0 * blade.stretching.energy_j(&unit).unwrap();
+    let (blade, critical, gamma) = one_shape();
     let force = blade.force[0];
     let most = 2.0 * critical;
     let range = (0.0, most);
     let up = blade.sweep(&blade.flat(), true, range).unwrap();
     assert!(up.ends.is_empty());
     let high = -blade.system.stiffness_at(most)[(0, 0)];
-    let against = Scale(-force.signum() * (high / gamma).sqrt()) * &unit;
+    let against = Scale(-force.signum() * (high / gamma).sqrt()) * unit();
     let down = blade.sweep(&against, false, range).unwrap();
     assert_eq!((down.arcs.len(), down.ends.len()), (2, 1));
     let fold = &down.ends[0];
@@ -290,7 +287,7 @@ fn the_largest_slope_is_that_of_the_deflection() {
 /// A collar without guides: the blade is flat at any speed, and its deflected equilibria have no direction
 /// unless a force defines it.
 #[test]
-fn a_lean_that_may_turn_is_refused() {
+fn a_deflection_without_a_direction_is_refused() {
     let collar = Scene::paper().edited(|saw| {
         saw.guides.clear();
         saw.cut = None;
@@ -322,7 +319,7 @@ fn a_lean_that_may_turn_is_refused() {
 }
 
 #[test]
-fn what_cannot_be_answered_is_refused() {
+fn unrestrained_blades_and_other_ranges_are_refused() {
     let free = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();
     let free = StretchedBlade::new(&Plate::new(&free, RESOLUTION), 8);
     assert!(matches!(free, Err(StretchedError::NotHeld)));
