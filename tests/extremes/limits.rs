@@ -83,7 +83,7 @@ fn problems_too_large_for_memory_are_refused_with_the_number() {
         Err(error @ CampbellError::TooLarge { .. }) => error.to_string(),
         other => panic!("{:?}", other.map(|samples| samples.len())),
     };
-    assert!(message.contains("more than 1024 MB"), "{message}");
+    assert!(message.contains("more than 1024 MiB"), "{message}");
 }
 
 /// The error for a sweep whose chart would not fit states where the sweep may end: at a critical speed, because each
