@@ -70,7 +70,9 @@ impl From<SpectrumError> for Refusal {
 impl Refusal {
     /// Refusal of a request about a diagram that is no longer kept.
     pub fn gone(chart: usize) -> Self {
-        Refusal::with_message(format!("chart {chart} is not kept any more"))
+        Refusal::with_message(format!(
+            "chart {chart} was replaced by later ones; compute it again"
+        ))
     }
 
     /// Refusal with the message of an error that no quantity causes.

@@ -67,8 +67,8 @@ impl Typed {
             Typed::Text(text) => Err(Refusal::with_message(
                 match (which_number(text), text.trim()) {
                     (Some(question), _) => question,
-                    (None, "") => "Nothing is no number".to_owned(),
-                    (None, text) => format!("“{text}” is no number"),
+                    (None, "") => "A number is missing".to_owned(),
+                    (None, text) => format!("“{text}” is not a number"),
                 },
             )),
         }

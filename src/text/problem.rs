@@ -270,7 +270,7 @@ fn of_word(token: &Token, begins_key: bool) -> Option<String> {
     let quotes = text.starts_with(['\'', '\u{2018}', '\u{201c}', '\u{201e}', '\u{ab}']);
     Some(match bare.as_str() {
         "nan" | "inf" | "infinity" => {
-            format!("{text} is no number; give one, or leave the key out if there is none")
+            format!("{text} is not a number; give one, or leave the key out if there is none")
         }
         "true" | "false" => format!("write {bare} in small letters, not {text}"),
         "none" | "nil" => "leave the key out where there is no value".into(),
@@ -286,12 +286,12 @@ fn of_word(token: &Token, begins_key: bool) -> Option<String> {
         }
         _ if bare.parse::<f64>().is_ok() => {
             format!(
-                "{text} is no number of JSON; write it with a digit on both sides of the point, without + or leading zeros"
+                "{text} is not a number of JSON; write it with a digit on both sides of the point, without + or leading zeros"
             )
         }
         _ if bare.starts_with(|c: char| c.is_ascii_digit() || c == '.') => {
             format!(
-                "{text} is no number; write digits and a decimal point alone, like 0.0028, without unit"
+                "{text} is not a number; write digits and a decimal point alone, like 0.0028, without unit"
             )
         }
         _ => format!(

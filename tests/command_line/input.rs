@@ -82,7 +82,7 @@ fn json_that_is_none_is_refused_by_cause_and_remedy() {
         ),
         (
             "\"thickness_m\": NaN",
-            ["blade.thickness_m: NaN", "no number"],
+            ["blade.thickness_m: NaN", "not a number"],
         ),
         (
             "\"thickness_m\": [0.0028]",

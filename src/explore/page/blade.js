@@ -1,5 +1,6 @@
 // Draws the blade to scale with its pads, cut and probe, which are moved with the pointer or the keyboard.
 
+import { turned } from "./pairs.js";
 import { shown, tidy } from "./words.js";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -16,8 +17,7 @@ function element(name, attributes, parent) {
 
 // Positions are rounded to 0.1 mm and 0.1°. Angles are between −180° and 180°.
 const metres = (value) => tidy(Math.round(value * 1e4) / 1e4);
-const degrees = (value) => tidy(Math.round(turned(value) * 10) / 10);
-const turned = (value) => ((((value + 180) % 360) + 360) % 360) - 180;
+const degrees = (value) => tidy(turned(value));
 const radians = (value) => (value * Math.PI) / 180;
 
 export class Blade {

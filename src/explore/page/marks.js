@@ -10,7 +10,7 @@ const mix = (a, b, share) => a.map((channel, i) => Math.round(channel * share + 
 const css = (/** @type {number[]} */ [r, g, b]) => `rgb(${r}, ${g}, ${b})`;
 
 // Returns the colours of the page as CSS. Printed paper has those of a light page.
-export function theme(colours, onPaper = false) {
+function theme(colours, onPaper = false) {
   const dark = !onPaper && matchMedia("(prefers-color-scheme: dark)").matches;
   const chosen = {};
   for (const [name, colour] of Object.entries(colours)) {

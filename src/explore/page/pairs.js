@@ -6,7 +6,7 @@ const NEAR_M = 5e-4;
 const NEAR_DEG = 0.5;
 
 // Maps an angle to between −180° and 180°, rounded to 0.1°.
-const turned = (angle) => Math.round(10 * (((((angle + 180) % 360) + 360) % 360) - 180)) / 10;
+export const turned = (angle) => Math.round(10 * (((((angle + 180) % 360) + 360) % 360) - 180)) / 10;
 
 // Returns the image of a pad, or null if pads are changed one by one.
 export function imageOf(pad, kind) {
