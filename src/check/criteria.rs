@@ -193,14 +193,14 @@ fn apart(first: f64, second: f64) -> (String, String) {
             format!("{second:.decimals$}"),
         )
     };
-    let told = (0..MOST_DECIMALS)
+    let mut different = (0..=MOST_DECIMALS)
         .map(with)
-        .find(|(first, second)| first != second);
-    told.filter(|_| first != second).unwrap_or_else(|| with(0))
+        .filter(|(one, other)| one != other);
+    different.next().unwrap_or_else(|| with(0))
 }
 
-/// Differences beyond the third decimal are rounding.
-const MOST_DECIMALS: usize = 4;
+/// Largest number of decimals; smaller differences are rounding errors.
+const MOST_DECIMALS: usize = 3;
 
 /// A criterion that is not kept at any speed, because nothing restrains a rigid motion of the blade.
 pub(super) fn without_stiffness(operating: f64) -> Criterion {

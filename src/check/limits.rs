@@ -43,13 +43,10 @@ impl LimitsFile {
         }
         let speed = |key, rpm: Option<f64>| rpm.map(|rpm| speed_rad_per_s(key, rpm)).transpose();
         Ok(Limits {
-            operating_rad_per_s: speed_rad_per_s("operating_rpm", operating_rpm)?,
             margin: self.margin,
             min_flutter_rad_per_s: speed("min_flutter_rpm", self.min_flutter_rpm)?,
             min_critical_rad_per_s: speed("min_critical_rpm", self.min_critical_rpm)?,
-            max_rim_m_per_s: RIM_LIMIT_M_PER_S,
-            max_amplitude_m: None,
-            accept_unusual: false,
+            ..Limits::at(speed_rad_per_s("operating_rpm", operating_rpm)?)
         })
     }
 }

@@ -30,8 +30,8 @@ pub use saturated::saturations;
 
 use faer::Col;
 
-use crate::plate::Plate;
-use crate::scene::{RefusedValue, Scene, SceneError, SpeedRange, rad_per_s};
+use crate::plate::{Plate, Resolution};
+use crate::scene::{RefusedValue, Scene, SceneError, rad_per_s};
 use crate::spectrum::{Cancellation, Work};
 use crate::stability::{Analysis, AnalysisError};
 use crate::stretched::{Branch, Equilibrium, Extent, StretchedBlade, StretchedError, Sweep};
@@ -97,12 +97,9 @@ impl Deflecting {
         let idling = scene.idling()?;
         let swept = match options.to_rpm {
             None => idling,
-            Some(to_rpm) => idling.swept(SpeedRange {
-                from_rad_per_s: 0.0,
-                to_rad_per_s: rad_per_s(to_rpm),
-            })?,
+            Some(to_rpm) => idling.swept((0.0, rad_per_s(to_rpm)).into())?,
         };
-        let plate = Plate::new(&swept, crate::plate::Resolution::of(swept.accuracy()));
+        let plate = Plate::new(&swept, Resolution::of(swept.accuracy()));
         if plate.is_axisymmetric() && force.force_n == 0.0 {
             return Err(StretchedError::Axisymmetric.into());
         }

@@ -131,14 +131,12 @@ impl<'a> Reader<'a> {
             })
             .collect();
         let steep = |at: &Reading| at.largest_slope > LARGEST_SLOPE;
-        let valid_until_rad_per_s = arcs.iter().flatten().find(|at| steep(at));
-        let valid_until_rad_per_s = valid_until_rad_per_s.map(|at| at.speed_rad_per_s);
-        if valid_until_rad_per_s.is_some() {
-            let last = arcs.iter().position(|arc| arc.iter().any(steep));
-            let last = last.unwrap_or_default();
+        let first_steep = (arcs.iter().enumerate())
+            .find_map(|(arc, readings)| Some((arc, readings.iter().position(steep)?)));
+        let valid_until_rad_per_s = first_steep.map(|(arc, k)| arcs[arc][k].speed_rad_per_s);
+        if let Some((last, place)) = first_steep {
             arcs.truncate(last + 1);
             jumps.truncate(last);
-            let place = arcs[last].iter().position(steep).unwrap_or_default();
             arcs[last].truncate(place);
             arcs.retain(|arc| !arc.is_empty());
         }
@@ -154,11 +152,9 @@ impl<'a> Reader<'a> {
         let readings = curve.equilibria.par_iter().map(|e| self.reading(e));
         let mut readings: Vec<Reading> = readings.collect();
         readings.retain(|at| at.largest_slope <= LARGEST_SLOPE);
-        let flat_enough = |e: &&Equilibrium| self.blade.largest_slope(e) <= LARGEST_SLOPE;
-        let turns = curve
-            .turns
-            .iter()
-            .filter(|turn| flat_enough(&&turn.equilibrium));
+        let turns = curve.turns.iter();
+        let turns =
+            turns.filter(|turn| self.blade.largest_slope(&turn.equilibrium) <= LARGEST_SLOPE);
         Curve {
             turns: turns
                 .map(|turn| {

@@ -13,7 +13,7 @@ fn draft() -> Scene {
 /// falling speed it returns to the flat equilibrium there.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
-fn without_a_force_the_blade_leans_from_its_first_critical_speed_on() {
+fn without_a_force_the_blade_deflects_from_its_first_critical_speed_on() {
     let options = Options {
         force_n: Some(0.0),
         to_rpm: Some(1600.0),
@@ -67,7 +67,7 @@ fn a_small_force_deflects_a_slow_blade_as_the_linear_model_says() {
 }
 
 #[test]
-fn what_no_blade_answers_is_refused() {
+fn forces_angles_and_speeds_out_of_range_and_a_free_blade_are_refused() {
     let asked = |force_n, angle_deg, to_rpm| {
         let options = Options {
             force_n,
@@ -92,7 +92,7 @@ fn what_no_blade_answers_is_refused() {
 /// deflections, the blade reaches equilibria on known curves.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
-fn wherever_the_blade_comes_to_rest_a_curve_is_drawn() {
+fn every_equilibrium_that_the_blade_reaches_is_on_a_curve() {
     let options = Options {
         to_rpm: Some(2200.0),
         ..Options::default()

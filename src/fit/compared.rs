@@ -5,10 +5,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Measurement;
-use super::model::Model;
+use super::model::frequencies_hz;
 use crate::campbell::even_speeds;
 use crate::plate::{Plate, Resolution};
-use crate::scene::{Scene, rad_per_s};
+use crate::scene::Scene;
 use crate::spectrum::{LowestModes, SpectrumError};
 
 /// Lowest frequencies, ascending, one row for each speed.
@@ -37,17 +37,6 @@ const CURVE_SPEEDS: usize = 121;
 /// End of the curves, relative to the last fitted speed.
 const BEYOND: f64 = 1.12;
 
-/// The `count` lowest frequencies at speeds in rpm, in Hz.
-fn frequencies_hz(
-    lowest: &LowestModes,
-    rpm: &[f64],
-    count: usize,
-) -> Result<Vec<Vec<f64>>, SpectrumError> {
-    rpm.par_iter()
-        .map(|rpm| Model::frequencies_hz(lowest, rad_per_s(*rpm), count))
-        .collect()
-}
-
 impl Compared {
     /// The frequencies of a scene before and after a fit to the rows up to a speed.
     ///
@@ -63,10 +52,14 @@ impl Compared {
         let top = BEYOND * used.end_of_range_rpm();
         let [before, fitted] = scenes.map(|scene| LowestModes::new(&Plate::new(scene, resolution)));
         let of = |rpm: Vec<f64>, measurement: &Measurement| -> Result<_, SpectrumError> {
-            let depth = measurement.depth();
+            let at_all = |lowest: &LowestModes| -> Result<_, SpectrumError> {
+                let each = rpm.par_iter();
+                each.map(|rpm| frequencies_hz(lowest, *rpm, measurement.depth()))
+                    .collect()
+            };
             Ok(Curves {
-                before_hz: frequencies_hz(&before, &rpm, depth)?,
-                fitted_hz: frequencies_hz(&fitted, &rpm, depth)?,
+                before_hz: at_all(&before)?,
+                fitted_hz: at_all(&fitted)?,
                 rpm,
             })
         };

@@ -1,9 +1,9 @@
 //! Measured frequencies, and their assignment to computed ones.
 
-use crate::scene::{MAX_RPM, Measured, MeasuredRow, rad_per_s};
+use crate::scene::{MAX_RPM, Measured, MeasuredRow};
 
 use super::FitError;
-use super::table::{Table, TableRow};
+use super::table::{TableRow, read, wrong};
 
 /// Frequencies measured over speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,12 +45,7 @@ impl Row {
         }
     }
 
-    /// Rotation speed Ω.
-    pub fn speed_rad_per_s(&self) -> f64 {
-        rad_per_s(self.rpm)
-    }
-
-    /// Number of lowest computed frequencies that the row needs.
+    /// Number of lowest computed frequencies with which the row is compared.
     pub fn depth(&self) -> usize {
         self.pairs.last().map_or(0, |(place, _)| place + 1)
     }
@@ -73,15 +68,15 @@ impl Measurement {
     /// # Errors
     /// [`FitError::Table`] with line, column and description, and [`FitError::Empty`].
     pub fn from_csv(source: &str, text: &str) -> Result<Self, FitError> {
-        let table = Table::read(text)?;
-        let rows: Vec<Row> = table.rows.iter().map(row).collect::<Result<_, _>>()?;
-        if let Some(beyond) = table.rows.get(MAX_ROWS) {
+        let typed = read(text)?;
+        let rows: Vec<Row> = typed.iter().map(row).collect::<Result<_, _>>()?;
+        if let Some(beyond) = typed.get(MAX_ROWS) {
             let problem = format!(
                 "it is row {} of {}, but at most {MAX_ROWS} are allowed; leave out some speeds",
                 MAX_ROWS + 1,
                 rows.len()
             );
-            return Err(wrong(beyond, problem));
+            return Err(wrong(beyond.line, problem));
         }
         if rows.iter().all(|row| row.pairs.is_empty()) {
             let source_name = source.to_owned();
@@ -149,33 +144,27 @@ impl Measurement {
     }
 }
 
-fn wrong(row: &TableRow, problem: String) -> FitError {
-    FitError::Table {
-        line: row.line,
-        problem,
-    }
-}
-
 fn row(typed: &TableRow) -> Result<Row, FitError> {
     let number = |(column, text): &(usize, String), most: f64, unit: &str| match text.parse::<f64>()
     {
         Ok(value) if (0.0..=most).contains(&value) => Ok(value),
         _ => Err(wrong(
-            typed,
+            typed.line,
             format!(
                 "column {column} is {text:?}, but must be a number between 0 and {most:e}; give it in {unit}"
             ),
         )),
     };
     let Some((speed, frequencies)) = typed.cells.split_first() else {
-        return Err(wrong(typed, "it has no speed; give it in rpm".into()));
+        let problem = "it has no speed; give it in rpm";
+        return Err(wrong(typed.line, problem.into()));
     };
     if frequencies.len() > MAX_COLUMNS {
         let problem = format!(
             "it has {} frequencies, but at most {MAX_COLUMNS} are allowed; leave out the highest",
             frequencies.len()
         );
-        return Err(wrong(typed, problem));
+        return Err(wrong(typed.line, problem));
     }
     let rpm = number(speed, MAX_RPM, "revolutions per minute")?;
     let columns = frequencies

@@ -32,9 +32,7 @@ mod table;
 
 use crate::campbell::Progress;
 use crate::plate::Resolution;
-use crate::scene::{
-    Freed, RefusedValue, Scene, SceneError, SpeedRange, effective, rad_per_s, scene_at,
-};
+use crate::scene::{Freed, RefusedValue, Scene, SceneError, effective, rad_per_s, scene_at};
 use crate::spectrum::SpectrumError;
 use crate::stability::ChosenBasis;
 
@@ -299,10 +297,8 @@ fn basis(
     measurement: &Measurement,
     tolerance: f64,
 ) -> Result<(Resolution, f64), FitError> {
-    let swept = scene.swept(SpeedRange {
-        from_rad_per_s: 0.0,
-        to_rad_per_s: rad_per_s(measurement.end_of_range_rpm()),
-    })?;
+    let end_rad_per_s = rad_per_s(measurement.end_of_range_rpm());
+    let swept = scene.swept((0.0, end_rad_per_s).into())?;
     let chosen = ChosenBasis::new(&swept, tolerance)?;
     Ok((chosen.saw.plate.resolution, chosen.estimated_relative_error))
 }

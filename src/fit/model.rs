@@ -1,10 +1,11 @@
 //! Computed frequencies at the measured speeds, and their derivatives by the freed numbers.
 
-use basin::DenseMatrix;
 use std::f64::consts::TAU;
 
+use basin::DenseMatrix;
+
 use crate::plate::{Plate, Resolution};
-use crate::scene::{Freed, Scene, SceneError, SceneFile, scene_at};
+use crate::scene::{Freed, Scene, SceneError, SceneFile, rad_per_s, scene_at};
 use crate::spectrum::{
     Component, Differences, LowestModes, Mode, SpectrumError, derivative, matrix_slopes,
 };
@@ -52,13 +53,13 @@ impl Model<'_> {
         shares: &[f64],
     ) -> Result<(Vec<f64>, DenseMatrix<f64>), SpectrumError> {
         let (rows, columns) = (self.measurement.count(), self.freed.len());
-        let refused =
-            |value| DenseMatrix::from_row_slice(rows, columns, &vec![value; rows * columns]);
         let changes: Result<Vec<_>, SceneError> = (0..columns)
             .map(|k| self.changed_components(shares, k))
             .collect();
         let (Ok(plate), Ok(changes)) = (self.plate(shares), changes) else {
-            return Ok((vec![f64::NAN; rows], refused(f64::NAN)));
+            let slopes = vec![f64::NAN; rows * columns];
+            let slopes = DenseMatrix::from_row_slice(rows, columns, &slopes);
+            return Ok((vec![f64::NAN; rows], slopes));
         };
         let lowest = LowestModes::new(&plate);
         let mut slopes = Vec::with_capacity(rows * columns);
@@ -75,31 +76,21 @@ impl Model<'_> {
         ))
     }
 
-    /// Frequencies of a saw at a speed, in Hz.
-    pub fn frequencies_hz(
-        lowest: &LowestModes,
-        speed_rad_per_s: f64,
-        count: usize,
-    ) -> Result<Vec<f64>, SpectrumError> {
-        let modes = lowest.at(speed_rad_per_s, count)?;
-        Ok(modes.iter().map(frequency_hz).collect())
-    }
-
-    /// Residuals; calls a function with the speed and the mode of every pair. A mode that the basis lacks
-    /// counts as zero.
+    /// Computes the residuals in Hz and calls a function with the speed and the mode of every pair. A mode that the
+    /// basis lacks has the frequency zero.
     fn residuals_of(
         &self,
         lowest: &LowestModes,
-        mut tell: impl FnMut(f64, Option<&Mode>),
+        mut visit: impl FnMut(f64, Option<&Mode>),
     ) -> Result<Vec<f64>, SpectrumError> {
         let mut residuals = Vec::new();
         for row in &self.measurement.rows {
-            let speed = row.speed_rad_per_s();
+            let speed = rad_per_s(row.rpm);
             let modes = lowest.at(speed, row.depth())?;
             for (place, measured_hz) in &row.pairs {
                 let mode = modes.get(*place);
                 residuals.push(mode.map_or(0.0, frequency_hz) - measured_hz);
-                tell(speed, mode);
+                visit(speed, mode);
             }
         }
         Ok(residuals)
@@ -123,6 +114,16 @@ impl Model<'_> {
             self.plate(&shares)
         })
     }
+}
+
+/// The `count` lowest frequencies of a saw at a speed in rpm, in Hz.
+pub fn frequencies_hz(
+    lowest: &LowestModes,
+    rpm: f64,
+    count: usize,
+) -> Result<Vec<f64>, SpectrumError> {
+    let modes = lowest.at(rad_per_s(rpm), count)?;
+    Ok(modes.iter().map(frequency_hz).collect())
 }
 
 fn frequency_hz(mode: &Mode) -> f64 {

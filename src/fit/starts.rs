@@ -1,5 +1,7 @@
 //! Least squares from several starts.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -40,13 +42,12 @@ pub fn search(
     let own: Vec<f64> = freed.iter().map(|f| f.share_of(model.scene)).collect();
     let others = (0..count - 1).map(|index| spread(freed.len(), options.seed, index));
     let from: Vec<Vec<f64>> = std::iter::once(own).chain(others).collect();
-    let done = std::sync::atomic::AtomicUsize::new(0);
+    let done = AtomicUsize::new(0);
     let found: Vec<Option<Found>> = from
         .par_iter()
         .map(|start| {
             let found = minimum(model, start);
-            let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
-            progress(so_far, count);
+            progress(done.fetch_add(1, Ordering::Relaxed) + 1, count);
             found
         })
         .collect::<Result<_, _>>()?;

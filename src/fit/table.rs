@@ -3,13 +3,7 @@
 
 use super::FitError;
 
-/// Rows of numbers or blanks: first the speed, then the frequencies in the order of their columns.
-#[derive(Debug, PartialEq)]
-pub struct Table {
-    pub rows: Vec<TableRow>,
-}
-
-/// A line of the table.
+/// A line of numbers or blanks: first the speed, then the frequencies in the order of their columns.
 #[derive(Debug, PartialEq)]
 pub struct TableRow {
     /// Line in the file, from 1.
@@ -18,29 +12,26 @@ pub struct TableRow {
     pub cells: Vec<(usize, String)>,
 }
 
-fn wrong(line: u64, problem: String) -> FitError {
+/// The error of a line, numbered from 1.
+pub fn wrong(line: u64, problem: String) -> FitError {
     FitError::Table { line, problem }
 }
 
-impl Table {
-    /// Reads a table. Blank lines and lines that begin with # are ignored.
-    ///
-    /// # Errors
-    /// [`FitError::Table`] with line and description.
-    pub fn read(text: &str) -> Result<Self, FitError> {
-        let separator = Separator::of(text);
-        let mut records = separator.records(text)?;
-        let header = Header::take(&mut records)?;
-        let numbers = records
-            .iter()
-            .flat_map(|r| r.cells.iter().map(|cell| (r.line, cell)));
-        let comma = has_decimal_comma(numbers, separator)?;
-        let mut rows = Vec::new();
-        for record in records {
-            rows.push(row(record, header.as_ref(), comma)?);
-        }
-        Ok(Table { rows })
-    }
+/// Reads a table. Blank lines and lines that begin with # are ignored.
+///
+/// # Errors
+/// [`FitError::Table`] with line and description.
+pub fn read(text: &str) -> Result<Vec<TableRow>, FitError> {
+    let separator = Separator::of(text);
+    let mut records = separator.records(text)?;
+    let header = Header::take(&mut records)?;
+    let numbers = records
+        .iter()
+        .flat_map(|r| r.cells.iter().map(|cell| (r.line, cell)));
+    let comma = has_decimal_comma(numbers, separator)?;
+    let rows = records.into_iter();
+    rows.map(|record| row(record, header.as_ref(), comma))
+        .collect()
 }
 
 /// Separator between cells.

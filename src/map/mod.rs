@@ -184,11 +184,11 @@ impl Map {
 
 impl Along {
     fn new(scene: &Scene, key: &str, range: &Range, points: usize) -> Result<Self, StudyError> {
-        let freed = Freed::new(scene.file(), &range.path, range.from, range.to);
-        let freed = freed.map_err(|source| StudyError::Scene {
+        let refused = |source| StudyError::Scene {
             key: key.to_owned(),
             source,
-        })?;
+        };
+        let freed = Freed::new(scene.file(), &range.path, range.from, range.to).map_err(refused)?;
         let value = |k: usize| match k {
             0 => range.from,
             _ if k + 1 == points => range.to,
@@ -197,13 +197,7 @@ impl Along {
         Ok(Along {
             path: range.path.clone(),
             values: (0..points).map(value).collect(),
-            of_scene: freed
-                .parameter
-                .get(scene.file())
-                .map_err(|source| StudyError::Scene {
-                    key: key.to_owned(),
-                    source,
-                })?,
+            of_scene: freed.parameter.get(scene.file()).map_err(refused)?,
         })
     }
 

@@ -24,7 +24,7 @@ fn contours_of_a_plane_and_of_a_cone_are_lines_and_circles() {
         assert_eq!(line.places.first(), line.places.last());
         for [x, y] in &line.places {
             let radius = (x - middle).hypot(y - middle);
-            // The chord of a cell lies within the circle by at most 1/(8 r).
+            // The distance of the chord in a cell from the circle is at most 1/(8 r).
             assert!((radius - line.rpm).abs() < 0.2 / line.rpm, "{radius}");
         }
     }

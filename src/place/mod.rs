@@ -40,13 +40,11 @@ use crate::gap::GapError;
 use crate::plate::Resolution;
 use crate::scene::{Freed, Scene, SceneError, effective};
 use crate::spectrum::{Cancellation, SpectrumError};
-use crate::stability::AnalysisError;
-use crate::stability::ChosenBasis;
+use crate::stability::{AnalysisError, ChosenBasis};
 
 pub use demands::{Demands, GapDemands, Goal, Options, Tolerances};
 pub(crate) use map::Map;
-pub(crate) use neighbours::Neighbour;
-pub(crate) use neighbours::Neighbours;
+pub(crate) use neighbours::{Neighbour, Neighbours};
 pub use outcome::Outcome;
 use outcome::{Question, REFUSED};
 use search::{Search, Tally, Tried};
@@ -326,8 +324,8 @@ fn look_everywhere(
 }
 
 fn cheapest(tried: &[Tried]) -> Option<Tried> {
-    let least = tried.iter().min_by(|x, y| x.cost.total_cmp(&y.cost));
-    least.cloned()
+    let cheapest = tried.iter().min_by(|x, y| x.cost.total_cmp(&y.cost));
+    cheapest.cloned()
 }
 
 /// Divides the free numbers into those that move a critical speed or a band, and the others.

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use crate::plate::Resolution;
-use crate::scene::{Freed, Scene, SceneError, SpeedRange, scene_at};
+use crate::scene::{Freed, Scene, SceneError, scene_at};
 use crate::stability::ChosenBasis;
 
 use super::neighbours::{Neighbours, worst_cost};
@@ -88,12 +88,8 @@ pub fn basis_of_all(
     candidates: &[Tried],
     range: (f64, f64),
 ) -> Result<Resolution, PlaceError> {
-    let sweep = SpeedRange {
-        from_rad_per_s: range.0,
-        to_rad_per_s: range.1,
-    };
     let basis_of = |saw: &Scene| -> Result<Resolution, PlaceError> {
-        let chosen = ChosenBasis::new(&saw.swept(sweep)?, scene.tolerance())?;
+        let chosen = ChosenBasis::new(&saw.swept(range.into())?, scene.tolerance())?;
         Ok(chosen.saw.plate.resolution)
     };
     let own = basis_of(scene)?;

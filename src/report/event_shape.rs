@@ -110,7 +110,8 @@ fn standing(analysis: &Analysis) -> Vec<EventShapeEntry> {
             name: critical.name.in_words(),
             direction: Direction::Standing,
             speed_rad_per_s: speed,
-            lambda: c64::new(0.0, 0.0),
+            frequency_rad_per_s: 0.0,
+            growth_per_s: 0.0,
             shape: &shape,
         };
         let entry = found.entry(&model.plate);
@@ -153,7 +154,8 @@ fn of_band(
             name: name.in_words(),
             direction: described.name.direction,
             speed_rad_per_s: speed,
-            lambda: described.mode.lambda,
+            frequency_rad_per_s: described.mode.frequency_rad_per_s(),
+            growth_per_s: described.mode.growth_per_s(),
             shape: &described.shape,
         };
         found.entry(&model.plate)
@@ -181,13 +183,11 @@ fn at_speed(
             name: described.name.in_shares(),
             direction: described.name.direction,
             speed_rad_per_s,
-            lambda: described.mode.lambda,
+            frequency_rad_per_s: described.mode.frequency_rad_per_s(),
+            growth_per_s: described.mode.growth_per_s(),
             shape: &described.shape,
         };
-        let mut entry = found.entry(&model.plate);
-        // The real part of λ of an undamped mode is rounding error and not growth.
-        entry.growth_per_s = described.mode.growth_per_s();
-        entry
+        found.entry(&model.plate)
     });
     Ok(entries.collect())
 }
@@ -198,7 +198,8 @@ struct Found<'a> {
     name: String,
     direction: Direction,
     speed_rad_per_s: f64,
-    lambda: c64,
+    frequency_rad_per_s: f64,
+    growth_per_s: f64,
     shape: &'a Col<c64>,
 }
 
@@ -210,8 +211,8 @@ impl Found<'_> {
             name: self.name,
             direction: self.direction,
             rpm: rpm(self.speed_rad_per_s),
-            frequency_hz: self.lambda.im.abs() / TAU,
-            growth_per_s: self.lambda.re,
+            frequency_hz: self.frequency_rad_per_s / TAU,
+            growth_per_s: self.growth_per_s,
             radius_m: plate.sampled_radii_m().collect(),
             harmonics: harmonics(plate, self.shape),
         };

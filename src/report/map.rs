@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::map::{Along, Contour, Map, contours, state_at};
 use crate::scene::{Quantity, SceneFile, rpm};
 use crate::stability::{StabilityState, critical_at};
-use crate::study::{Found, FoundBand, LogError, Outcome, Rows, Saw};
+use crate::study::{Found, FoundBand, LogError, Rows, Saw};
 
 /// Report of a map (`map.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -162,11 +162,8 @@ impl MapAxisEntry {
 fn saw_entry(map: &Map, saw: &Saw) -> MappedSawEntry {
     let columns = map.x().values.len();
     let none = Found::default();
-    let (found, reason) = match &saw.outcome {
-        Outcome::Analysed(found) => (found, None),
-        Outcome::Refused(reason) | Outcome::Failed(reason) => (&none, Some(reason.clone())),
-    };
-    let state = map.rpm().filter(|_| reason.is_none());
+    let found = saw.found().unwrap_or(&none);
+    let state = map.rpm().filter(|_| saw.found().is_some());
     let to_rad_per_s = map.study().to_rad_per_s();
     let within = |speed_rpm: &f64| *speed_rpm <= rpm(to_rad_per_s);
     MappedSawEntry {
@@ -180,7 +177,7 @@ fn saw_entry(map: &Map, saw: &Saw) -> MappedSawEntry {
         critical_rpm: found.critical_rpm.iter().copied().filter(within).collect(),
         instabilities: found.bands.clone(),
         state: state.map(|rpm| state_at(&found.bands, rpm)),
-        not_analysed: reason,
+        not_analysed: saw.outcome.reason().map(str::to_owned),
     }
 }
 

@@ -199,6 +199,8 @@ impl PlaceReport {
     /// The report of a placement.
     pub fn new(demands: &Demands, found: &Placement) -> Self {
         let neighbours = &found.neighbours;
+        let threshold_per_s = found.scene.flutter_threshold_per_s();
+        let entry = |band| InstabilityEntry::new(band, threshold_per_s);
         PlaceReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: found.scene.file().clone(),
@@ -214,7 +216,7 @@ impl PlaceReport {
             improved: found.improved,
             from_rpm: rpm(found.range.0),
             to_rpm: rpm(found.range.1),
-            flutter_threshold_per_s: found.scene.flutter_threshold_per_s(),
+            flutter_threshold_per_s: threshold_per_s,
             parameters: parameters(found),
             without_effect: found
                 .without_effect
@@ -224,22 +226,13 @@ impl PlaceReport {
             before: OutcomeEntry::from(&found.before),
             worst_before: NeighbourEntry::from(&found.worst_before),
             best: OutcomeEntry::from(&found.best),
-            bands: found
-                .best
-                .bands
-                .iter()
-                .map(|band| InstabilityEntry::new(band, found.scene.flutter_threshold_per_s()))
-                .collect(),
+            bands: found.best.bands.iter().map(entry).collect(),
             certificate: PlaceCertificateEntry::new(found),
             fragile: neighbours.are_fragile(),
             worst_neighbour: Some(NeighbourEntry::from(&neighbours.worst)),
             worst_neighbour_share: neighbours.worst_share,
             fragile_optimum: found.fragile_optimum.as_ref().map(Into::into),
-            almost: neighbours
-                .almost
-                .iter()
-                .map(|band| InstabilityEntry::new(band, found.scene.flutter_threshold_per_s()))
-                .collect(),
+            almost: neighbours.almost.iter().map(entry).collect(),
             map: found.map.as_ref().map(MapEntry::from),
             saws: found.tally.saws,
             failed_saws: found.tally.failed,

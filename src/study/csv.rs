@@ -3,12 +3,9 @@
 use std::io::{self, Write};
 
 use super::plan::Study;
-use super::saw::{Found, FoundBand, Outcome, Saw};
+use super::saw::{Found, FoundBand, Outcome, STATUS, Saw};
 use super::table::Table;
 use crate::stability::InstabilityKind;
-
-/// Values of the column `status`.
-pub(super) const STATUS: [&str; 3] = ["analysed", "refused", "failed"];
 
 /// A table of saws as comma-separated values.
 #[derive(Debug)]
@@ -75,14 +72,10 @@ pub(super) fn columns(study: &Study) -> Vec<String> {
 pub(super) fn record(study: &Study, saw: &Saw) -> Vec<String> {
     let mut cells = vec![saw.index.to_string()];
     cells.extend(saw.values.iter().map(f64::to_string));
-    let (status, found, reason) = match &saw.outcome {
-        Outcome::Analysed(found) => (STATUS[0], Some(found), ""),
-        Outcome::Refused(reason) => (STATUS[1], None, reason.as_str()),
-        Outcome::Failed(reason) => (STATUS[2], None, reason.as_str()),
-    };
+    let found = saw.found();
     let number = |value: Option<f64>| value.map_or(String::new(), |v| v.to_string());
     let text = |value: Option<String>| value.unwrap_or_default();
-    cells.push(status.to_owned());
+    cells.push(saw.outcome.status().to_owned());
     cells.push(number(found.and_then(|f| f.lowest_critical_rpm)));
     cells.push(number(found.and_then(|f| f.flutter_rpm)));
     cells.push(number(found.and_then(|f| f.first_merge_rpm)));
@@ -98,7 +91,7 @@ pub(super) fn record(study: &Study, saw: &Saw) -> Vec<String> {
         cells.push(text(found.map(|f| numbers_in_words(&f.critical_rpm))));
         cells.push(text(found.map(|f| bands_in_words(&f.bands))));
     }
-    cells.push(reason.to_owned());
+    cells.push(saw.outcome.reason().unwrap_or_default().to_owned());
     cells
 }
 

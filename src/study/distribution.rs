@@ -39,12 +39,11 @@ impl Distribution {
             DistributionFile::Uniform { from, to } if from < to => {
                 Ok(Distribution::Uniform(*from, *to))
             }
-            DistributionFile::Uniform { from, to } => Err(StudyError::Value(RefusedValue {
-                key: format!("{key}.to"),
-                value: shown(*to),
-                allowed: format!("above from, {}", shown(*from)),
-                remedy: "exchange them, or leave a number that does not vary out of the study",
-            })),
+            DistributionFile::Uniform { from, to } => {
+                let allowed = format!("above from, {}", shown(*from));
+                let remedy = "exchange them, or leave a number that does not vary out of the study";
+                Err(RefusedValue::new(format!("{key}.to"), *to, allowed, remedy).into())
+            }
             DistributionFile::Normal {
                 mean,
                 standard_deviation,
@@ -53,12 +52,10 @@ impl Distribution {
                 let spread = positive(&format!("{key}.standard_deviation"), *standard_deviation)?;
                 let cut = *truncated_at_deviations;
                 if !(TRUNCATION.0..=TRUNCATION.1).contains(&cut) {
-                    return Err(StudyError::Value(RefusedValue {
-                        key: format!("{key}.truncated_at_deviations"),
-                        value: cut.to_string(),
-                        allowed: format!("between {} and {}", TRUNCATION.0, TRUNCATION.1),
-                        remedy: "3 leaves 0.3 % out",
-                    }));
+                    let key = format!("{key}.truncated_at_deviations");
+                    let allowed = format!("between {} and {}", TRUNCATION.0, TRUNCATION.1);
+                    let remedy = "3 leaves 0.3 % out";
+                    return Err(RefusedValue::new(key, cut.to_string(), allowed, remedy).into());
                 }
                 let mean = mean.unwrap_or(nominal);
                 Ok(Distribution::Normal(
@@ -88,23 +85,15 @@ fn positive(key: &str, value: f64) -> Result<f64, StudyError> {
     if value > 0.0 && value.is_finite() {
         return Ok(value);
     }
-    Err(StudyError::Value(RefusedValue {
-        key: key.to_owned(),
-        value: value.to_string(),
-        allowed: "above 0".into(),
-        remedy: "give it in the unit of the number, or leave a number that does not vary out",
-    }))
+    let remedy = "give it in the unit of the number, or leave a number that does not vary out";
+    Err(RefusedValue::new(key, value.to_string(), "above 0", remedy).into())
 }
 
 fn grid(values: &[f64], key: &str) -> Result<Distribution, StudyError> {
     let repeated = (1..values.len()).find(|k| values[..*k].contains(&values[*k]));
     let refuse = |value: String, allowed: String| {
-        StudyError::Value(RefusedValue {
-            key: format!("{key}.values"),
-            value,
-            allowed,
-            remedy: "list each value once",
-        })
+        let key = format!("{key}.values");
+        RefusedValue::new(key, value, allowed, "list each value once").into()
     };
     if values.is_empty() || values.len() > MAX_VALUES {
         let count = format!("a list of {}", values.len());
@@ -162,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_distribution_is_refused_by_key() {
+    fn invalid_distributions_are_refused_by_key() {
         for (json, key) in [
             (
                 r#"{"kind": "tolerance", "plus_minus": 0}"#,

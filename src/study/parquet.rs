@@ -11,10 +11,10 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{Type, TypePtr};
 
-use super::csv::{STATUS, bands_in_words, columns, numbers_in_words};
+use super::csv::{bands_in_words, columns, numbers_in_words};
 use super::inputs::Inputs;
 use super::plan::Study;
-use super::saw::{Found, Outcome, Saw};
+use super::saw::{Found, Saw};
 use super::table::Table;
 
 /// A column of values; saws that were not analysed have `None`.
@@ -86,7 +86,7 @@ fn values(study: &Study, saws: &[Saw]) -> Vec<Column> {
     let mut columns = vec![integers(&|saw| Some(saw.index))];
     columns.extend((0..study.varying.len()).map(|k| numbers(&|saw| Some(saw.values[k]))));
     columns.extend([
-        texts(|saw| Some(status(saw).to_owned())),
+        texts(|saw| Some(saw.outcome.status().to_owned())),
         speeds(|found| found.lowest_critical_rpm),
         speeds(|found| found.flutter_rpm),
         speeds(|found| found.first_merge_rpm),
@@ -110,19 +110,8 @@ fn values(study: &Study, saws: &[Saw]) -> Vec<Column> {
             saw.found().map(|found| bands_in_words(&found.bands))
         }));
     }
-    columns.push(texts(|saw| match &saw.outcome {
-        Outcome::Analysed(_) => None,
-        Outcome::Refused(reason) | Outcome::Failed(reason) => Some(reason.clone()),
-    }));
+    columns.push(texts(|saw| saw.outcome.reason().map(str::to_owned)));
     columns
-}
-
-fn status(saw: &Saw) -> &'static str {
-    match saw.outcome {
-        Outcome::Analysed(_) => STATUS[0],
-        Outcome::Refused(_) => STATUS[1],
-        Outcome::Failed(_) => STATUS[2],
-    }
 }
 
 fn schema(study: &Study) -> Result<TypePtr, ParquetError> {

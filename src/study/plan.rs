@@ -14,7 +14,7 @@ use super::sequence::{DIMENSIONS, even};
 use crate::check::{Criterion, Limits, LimitsFile};
 use crate::gap::{self, GapCase};
 use crate::plate::Resolution;
-use crate::scene::{Given, Parameter, RefusedValue, Scene, SceneFile, SpeedRange, speed_rad_per_s};
+use crate::scene::{Given, Parameter, RefusedValue, Scene, SceneError, SceneFile, speed_rad_per_s};
 use crate::spectrum::SpectrumError;
 use crate::stability::{AnalysisError, ChosenBasis, Evidence, end_of_sweep};
 
@@ -30,6 +30,7 @@ const GAP_COLUMNS: [&str; 3] = [
     "largest_pad_force_n",
     "critical_at_amplitude_rpm",
 ];
+
 /// A scene, the numbers that vary, and the limits that each saw has to keep.
 #[derive(Debug, Clone)]
 pub struct Study {
@@ -141,11 +142,7 @@ impl Study {
         if let Some(known) = self.basis.get() {
             return *known;
         }
-        let range = SpeedRange {
-            from_rad_per_s: 0.0,
-            to_rad_per_s: self.to_rad_per_s,
-        };
-        let swept = self.scene.swept(range).ok()?;
+        let swept = self.scene.swept((0.0, self.to_rad_per_s).into()).ok()?;
         let found = match ChosenBasis::new(&swept, self.scene.tolerance()) {
             // A cancelled run must not store a result.
             Err(AnalysisError::Spectrum(SpectrumError::Cancelled)) => return None,
@@ -186,13 +183,11 @@ impl Study {
     }
 
     /// The scene of a saw, over the speeds of the study.
-    pub(super) fn scene_of(&self, values: &[f64]) -> Result<Scene, crate::scene::SceneError> {
+    pub(super) fn scene_of(&self, values: &[f64]) -> Result<Scene, SceneError> {
         let parameters = self.varying.iter().map(|(parameter, _)| parameter);
         let numbers: Vec<(&Parameter, f64)> = parameters.zip(values.iter().copied()).collect();
-        self.scene.file().with(&numbers)?.swept(SpeedRange {
-            from_rad_per_s: 0.0,
-            to_rad_per_s: self.to_rad_per_s,
-        })
+        let scene = self.scene.file().with(&numbers)?;
+        scene.swept((0.0, self.to_rad_per_s).into())
     }
 
     /// The criteria of the limits, evaluated for a saw without any critical speed or band.
@@ -254,11 +249,9 @@ fn counts(
     file: &StudyFile,
     varying: &[(Parameter, Distribution)],
 ) -> Result<(usize, usize), StudyError> {
-    let grids = varying.iter().filter_map(|(_, distribution)| {
-        let Distribution::Grid(values) = distribution else {
-            return None;
-        };
-        Some(values.len())
+    let grids = varying.iter().filter_map(|(_, of)| match of {
+        Distribution::Grid(values) => Some(values.len()),
+        _ => None,
     });
     let points = grids.clone().fold(1, usize::saturating_mul);
     let dimensions = varying.len() - grids.count();
@@ -375,7 +368,7 @@ mod tests {
     /// The interval of Clopper and Pearson assumes independent points. Sobol points are more even, so it
     /// contains the true value more often than required, and the estimate is better.
     #[test]
-    fn intervals_hold_the_truth_at_least_as_often_as_they_say() {
+    fn intervals_contain_the_true_value_at_least_as_often_as_they_state() {
         const SEEDS: u32 = 300;
         const SAWS: usize = 200;
         for limit in [0.1_f64, 0.4, 0.9] {

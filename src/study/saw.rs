@@ -92,10 +92,30 @@ impl FoundBand {
     }
 }
 
+/// Values of the column `status`.
+pub(super) const STATUS: [&str; 3] = ["analysed", "refused", "failed"];
+
 impl Outcome {
     /// A failure whose reason is shortened to one line.
     pub fn failed(reason: &str) -> Self {
         Outcome::Failed(one_line(reason))
+    }
+
+    /// Name of the variant in the tables.
+    pub(super) fn status(&self) -> &'static str {
+        match self {
+            Outcome::Analysed(_) => STATUS[0],
+            Outcome::Refused(_) => STATUS[1],
+            Outcome::Failed(_) => STATUS[2],
+        }
+    }
+
+    /// Reason for which the saw was not analysed; `None` if it was.
+    pub fn reason(&self) -> Option<&str> {
+        match self {
+            Outcome::Analysed(_) => None,
+            Outcome::Refused(reason) | Outcome::Failed(reason) => Some(reason),
+        }
     }
 }
 

@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quantiles_stand_between_order_statistics_and_know_what_lies_beyond() {
+    fn quantiles_lie_between_order_statistics_and_are_unknown_beyond_the_sweep() {
         let sorted = [1.0, 2.0, 4.0];
         assert_eq!(quantile(&sorted, 0, 0.0), Some(1.0));
         assert_eq!(quantile(&sorted, 0, 0.75), Some(3.0));

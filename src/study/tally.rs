@@ -10,7 +10,7 @@ use super::plan::Study;
 use super::report::{
     GridEntry, Group, Quantile, Refusal, Reliability, ReliabilityPoint, StudyReport, WorstSaw,
 };
-use super::saw::{Found, Outcome, Saw};
+use super::saw::{Found, Saw};
 use crate::scene::rpm;
 use crate::stability::OPERATING_LIMIT;
 
@@ -63,17 +63,16 @@ impl<'a> Tally<'a> {
     pub fn add(&mut self, saw: &Saw) -> io::Result<()> {
         self.all.add(saw)?;
         self.add_to_group(saw)?;
-        let reason = match &saw.outcome {
-            Outcome::Analysed(found) => return self.add_found(saw, found),
-            Outcome::Refused(reason) | Outcome::Failed(reason) => reason,
-        };
-        if self.not_analysed.len() < LISTED {
+        if let Some(reason) = saw.outcome.reason()
+            && self.not_analysed.len() < LISTED
+        {
             self.not_analysed.push(Refusal {
                 saw: saw.index,
-                reason: reason.clone(),
+                reason: reason.to_owned(),
             });
         }
-        Ok(())
+        saw.found()
+            .map_or(Ok(()), |found| self.add_found(saw, found))
     }
 
     fn add_found(&mut self, saw: &Saw, found: &Found) -> io::Result<()> {
