@@ -77,7 +77,7 @@ fn by_runge_kutta(plate: &Plate, cut: &Cut, run: &CutRun, stages: usize, steps: 
 
 /// Saws that are stable under stationary loads and under their mean.
 #[test]
-fn item_3_moving_loads_alone_grow_as_another_integrator_finds() {
+fn moving_loads_alone_grow_as_another_integrator_finds() {
     let scene = saw_with_teeth(4, 4000.0);
     let plate = Plate::new(&scene, SMALL);
     let cut = scene.cut().unwrap();

@@ -169,7 +169,7 @@ mod tests {
 
     /// A tone of 50 Hz in records of 10 and 60 s: every 25th or 50th sample would show an aliased frequency.
     #[test]
-    fn item_8_a_tone_of_50_hz_keeps_its_frequency_in_a_long_record() {
+    fn a_tone_of_50_hz_keeps_its_frequency_in_a_long_record() {
         for (count, step_s) in [(10_000, 1e-3), (20_000, 3e-3), (60_000, 1e-3)] {
             for growth in [0.0, 0.3, -0.3] {
                 let exact = c64::new(growth, std::f64::consts::TAU * 50.0);

@@ -20,7 +20,7 @@ fn two_pads() -> SceneFile {
 }
 
 #[test]
-fn item_3_a_cut_is_as_bad_as_the_worst_of_its_rows() {
+fn a_cut_is_as_bad_as_the_worst_of_its_rows() {
     for file in [two_pads(), Scene::paper().file().clone()] {
         let (summary, json) = done("cut", &file);
         assert_in_80_columns(&summary);
@@ -46,7 +46,7 @@ fn item_3_a_cut_is_as_bad_as_the_worst_of_its_rows() {
 
 /// `tests/trials/violent_cuts.rs` continues to forces that are a hundred thousand times as large.
 #[test]
-fn item_3_a_violent_saw_is_unstable() {
+fn a_violent_saw_is_unstable() {
     assert_unstable(1e4);
 }
 
@@ -106,7 +106,7 @@ fn numbers(text: &str) -> impl Iterator<Item = f64> + '_ {
 }
 
 #[test]
-fn item_12_no_deflection_of_a_cut_is_beyond_the_linear_model() {
+fn no_deflection_of_a_cut_is_beyond_the_linear_model() {
     for file in [Scene::paper().file().clone(), pressed(1e5)] {
         let (summary, json) = done("cut", &file);
         let report: CutReport = serde_json::from_slice(&json).unwrap();
@@ -138,7 +138,7 @@ fn item_12_no_deflection_of_a_cut_is_beyond_the_linear_model() {
 }
 
 #[test]
-fn item_12_a_run_up_says_where_its_linear_model_ends() {
+fn a_run_up_says_where_its_linear_model_ends() {
     let (summary, json) = done("runup", Scene::paper().file());
     assert_in_80_columns(&summary);
     assert!(numbers(&summary).all(|number| number < 1e4), "{summary}");
@@ -163,7 +163,7 @@ fn item_12_a_run_up_says_where_its_linear_model_ends() {
 
 /// A run-up is refused if the force alone deflects the blade beyond the model.
 #[test]
-fn item_12_a_run_up_under_too_large_a_force_is_refused() {
+fn a_run_up_under_too_large_a_force_is_refused() {
     let folder = TempDir::new().unwrap();
     let mut file = Scene::paper().file().clone();
     file.runup.as_mut().unwrap().force_n = 1e6;

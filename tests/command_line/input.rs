@@ -322,7 +322,7 @@ fn control_characters_are_not_sent_to_the_terminal() {
 
 /// Item 13: files of an earlier run of the command are removed, because they belong to another saw.
 #[test]
-fn item_13_files_of_another_saw_do_not_stay() {
+fn files_of_another_saw_do_not_stay() {
     let folder = TempDir::new().unwrap();
     let out = out(&folder);
     std::fs::create_dir(&out).unwrap();
@@ -361,7 +361,7 @@ fn item_13_files_of_another_saw_do_not_stay() {
 
 /// Item 14: a density in g/cm³ gives a warning with the number that was meant.
 #[test]
-fn item_14_numbers_in_other_units_are_warned_of() {
+fn numbers_in_other_units_are_warned_of() {
     let folder = TempDir::new().unwrap();
     let mut file = quick_scene();
     let own = run(
@@ -439,7 +439,7 @@ fn a_check_with_a_number_of_another_unit_fails() {
 /// Item 15: the program under test prints keys in the order of their declaration, as the library that the tests are
 /// built with does. The test fails for a program whose dependencies have other features.
 #[test]
-fn item_15_the_shipped_program_orders_keys_as_the_tested_one() {
+fn the_shipped_program_orders_keys_as_the_tested_one() {
     let output = sawflutter().arg("schema").output().unwrap();
     let own = serde_json::to_string_pretty(&sawflutter::scene::json_schema()).unwrap();
     assert_eq!(text(&output.stdout).trim_end(), own);
