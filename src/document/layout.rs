@@ -154,7 +154,7 @@ mod tests {
 
     /// The page contains the numbers of the report and every table, figure and key.
     #[test]
-    fn a_page_holds_what_the_report_says_and_needs_nothing_else() {
+    fn a_page_contains_the_report_and_refers_to_no_other_file() {
         let report = report("A saw");
         let page = page(&report).unwrap();
         let critical = format!(

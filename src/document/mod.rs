@@ -54,21 +54,31 @@ pub trait Documented: Figures {
     fn document(&self) -> Document<'_>;
 }
 
+/// Document of a report without answer, tables and certificate of its own.
+macro_rules! document {
+    ($report:ident, $command:literal, $warnings:expr) => {
+        Document {
+            command: $command,
+            version: &$report.sawflutter,
+            scene: &$report.scene,
+            answer: Vec::new(),
+            warnings: $warnings,
+            tables: Vec::new(),
+            certificate: Vec::new(),
+            summary: $report.summary(),
+        }
+    };
+    ($report:ident, $command:literal) => {{
+        let warnings = $report.unusual_numbers.iter().chain(&$report.warnings);
+        document!($report, $command, warnings.cloned().collect())
+    }};
+}
+
 macro_rules! documented {
     ($($report:ty: $command:literal,)*) => {$(
         impl Documented for $report {
             fn document(&self) -> Document<'_> {
-                let warnings = self.unusual_numbers.iter().chain(&self.warnings);
-                Document {
-                    command: $command,
-                    version: &self.sawflutter,
-                    scene: &self.scene,
-                    answer: Vec::new(),
-                    warnings: warnings.cloned().collect(),
-                    tables: Vec::new(),
-                    certificate: Vec::new(),
-                    summary: self.summary(),
-                }
+                document!(self, $command)
             }
         }
     )*};
@@ -93,31 +103,17 @@ impl Documented for CompareReport {
             let warnings = saw.warnings.iter();
             warnings.map(|warning| format!("{}: {warning}", saw.label))
         });
-        Document {
-            command: "compare",
-            version: &self.sawflutter,
-            scene: &self.scene,
-            answer: Vec::new(),
-            warnings: of_saws.collect(),
-            tables: Vec::new(),
-            certificate: Vec::new(),
-            summary: self.summary(),
-        }
+        document!(self, "compare", of_saws.collect())
     }
 }
 
 impl Documented for Report {
     fn document(&self) -> Document<'_> {
-        let warnings = self.unusual_numbers.iter().chain(&self.warnings);
         Document {
-            command: "analyze",
-            version: &self.sawflutter,
-            scene: &self.scene,
             answer: of_report::answer_lines(self),
-            warnings: warnings.cloned().collect(),
             tables: of_report::tables(self),
             certificate: of_report::certificate(self),
-            summary: self.summary(),
+            ..document!(self, "analyze")
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Answer, tables and certificate of a Campbell diagram.
 
 use super::Table;
-use crate::report::{InstabilityKind, Report};
-use crate::summary::answer;
+use crate::report::Report;
+use crate::summary::{answer, is_damped};
 use crate::text::shown_to;
 
 /// Lines of the answer, without the line breaks and indents of the summary.
@@ -25,7 +25,9 @@ fn critical_speeds(report: &Report) -> Table {
         vec![
             format!("{:.1}", critical.rpm),
             critical.name.clone(),
-            percent(critical.estimated_relative_error),
+            critical
+                .estimated_relative_error
+                .map_or_else(String::new, |error| percent(2, error)),
         ]
     });
     Table {
@@ -40,21 +42,18 @@ fn critical_speeds(report: &Report) -> Table {
 
 fn bands(report: &Report) -> Table {
     let rows = report.instabilities.iter().map(|band| {
+        let counts = if band.counted_rpm.is_empty() {
+            "no"
+        } else {
+            "yes"
+        };
         vec![
-            match band.kind {
-                InstabilityKind::Divergence => "divergence".to_owned(),
-                InstabilityKind::Flutter => "flutter".to_owned(),
-            },
+            band.kind.to_string(),
             format!("{:.1}", band.from_rpm),
             format!("{:.1}", band.to_rpm),
             shown_to(3, band.peak_growth_per_s),
             format!("{:.2}", band.frequency_hz),
-            if band.counted_rpm.is_empty() {
-                "no"
-            } else {
-                "yes"
-            }
-            .to_owned(),
+            counts.to_owned(),
             band.name.clone().unwrap_or_default(),
         ]
     });
@@ -74,29 +73,22 @@ fn bands(report: &Report) -> Table {
 }
 
 fn at_rest(report: &Report) -> Table {
-    let ratio = |ratio: f64| format!("{} %", shown_to(3, 1e2 * ratio));
     let rows = report.modes_at_rest.iter().map(|mode| {
         let row = [format!("{:.2}", mode.frequency_hz), mode.name.clone()];
-        row.into_iter()
-            .chain(mode.damping_ratio.map(ratio))
-            .collect()
+        let ratio = mode.damping_ratio.map(|ratio| percent(3, ratio));
+        row.into_iter().chain(ratio).collect()
     });
-    let is_damped = report
-        .modes_at_rest
-        .iter()
-        .any(|m| m.damping_ratio.is_some());
     let columns = ["frequency [Hz]", "mode", "damping ratio"];
     Table {
         title: "Modes at rest".to_owned(),
-        columns: columns[..if is_damped { 3 } else { 2 }].to_vec(),
+        columns: columns[..if is_damped(report) { 3 } else { 2 }].to_vec(),
         rows: rows.collect(),
     }
 }
 
-fn percent(error: Option<f64>) -> String {
-    error.map_or(String::new(), |error| {
-        format!("{} %", shown_to(2, 1e2 * error))
-    })
+/// A share in percent with a number of significant digits.
+fn percent(digits: usize, share: f64) -> String {
+    format!("{} %", shown_to(digits, 1e2 * share))
 }
 
 /// Sentences on the certificate, the backward errors, and the estimated error of the critical speeds.
@@ -104,9 +96,9 @@ pub fn certificate(report: &Report) -> Vec<String> {
     let certificate = &report.certificate;
     let mut lines = vec![certificate.statement.clone()];
     if let Some(share) = certificate.proven_share {
-        let percent = shown_to(4, 1e2 * share);
         lines.push(format!(
-            "{percent} % of the sweep is proven to have no instability that is not listed."
+            "{} of the sweep is proven to have no instability that is not listed.",
+            percent(4, share)
         ));
     }
     lines.push(format!(
@@ -116,8 +108,8 @@ pub fn certificate(report: &Report) -> Vec<String> {
     let accuracy = &report.accuracy;
     if let Some(error) = accuracy.estimated_relative_error {
         lines.push(format!(
-            "Estimated error of the critical speeds: {} %, with {} functions.",
-            shown_to(2, 1e2 * error),
+            "Estimated error of the critical speeds: {}, with {} functions.",
+            percent(2, error),
             accuracy.degrees_of_freedom
         ));
     }

@@ -20,33 +20,32 @@ pub struct Along {
 impl Along {
     /// The axis from the first value to the last; the values are in the unit of the scene.
     pub fn between(path: &str, values: &[f64], places: [f64; 2]) -> Self {
-        Along::longer(path, values, places, 0.0)
+        Along::new(path, values, |values, spread| {
+            let ends = [values.first(), values.last()].map(|end| end.copied().unwrap_or(0.0));
+            Axis::new(ends, places, spread)
+        })
     }
 
     /// The axis with cells around the values, which are in the unit of the scene, see [`Axis::of_cells`].
     pub fn of_cells(path: &str, values: &[f64], places: [f64; 2]) -> Self {
-        Along::longer(path, values, places, 0.5)
+        Along::new(path, values, |values, spread| {
+            Axis::of_cells(values, places, spread)
+        })
     }
 
-    fn longer(path: &str, values: &[f64], places: [f64; 2], by_cells: f64) -> Self {
+    fn new(path: &str, values: &[f64], axis: impl FnOnce(&[f64], Spread) -> Axis) -> Self {
         let (unit, factor) = written::unit(path);
         let name = match unit {
             "" => written::name(path),
             _ => format!("{}\u{2003}[{unit}]", written::name(path)),
         };
         let values: Vec<f64> = values.iter().map(|value| factor * value).collect();
-        let first = values.first().copied().unwrap_or(0.0);
-        let last = values.last().copied().unwrap_or(1.0);
-        let share = by_cells / values.len().saturating_sub(1).max(1) as f64;
-        let (spread, ends) = if is_logarithmic(first, last) {
-            let beside = (last / first).powf(share);
-            (Spread::Logarithmic, [first / beside, last * beside])
-        } else {
-            let beside = share * (last - first);
-            (Spread::Linear, [first - beside, last + beside])
+        let spread = match values[..] {
+            [first, .., last] if is_logarithmic(first, last) => Spread::Logarithmic,
+            _ => Spread::Linear,
         };
         Along {
-            axis: Axis::new(ends, places, spread),
+            axis: axis(&values, spread),
             values,
             name,
             factor,

@@ -5,6 +5,9 @@ use serde::Serialize;
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::style::{AXIS_SIZE, GRID, HAIRLINE, INK, QUIET};
 
+/// Name of an axis of rotation speeds.
+pub const SPEED: &str = "rotation speed Ω\u{2003}[rpm]";
+
 /// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -40,15 +43,45 @@ impl Axis {
     /// An axis from the first value at the first position to the last value at the last position. An empty or
     /// non-finite range is replaced, see [`proper_range`].
     pub fn new(values: [f64; 2], places: [f64; 2], spread: Spread) -> Self {
-        let values = proper_range(values);
         Self {
-            values,
+            values: proper_range(values),
             places,
             spread,
         }
     }
 
-    /// First and last value.
+    /// A linear axis, see [`new`](Self::new).
+    pub fn linear(values: [f64; 2], places: [f64; 2]) -> Self {
+        Axis::new(values, places, Spread::Linear)
+    }
+
+    /// A linear axis from the first of some values to the last.
+    pub fn over(values: &[f64], places: [f64; 2]) -> Self {
+        let first = values.first().copied().unwrap_or(0.0);
+        let last = values.last().copied().unwrap_or(1.0);
+        Axis::linear([first, last], places)
+    }
+
+    /// An axis from the first of some values to the last, and half a cell longer at either end, so that a cell
+    /// around an outermost value lies within.
+    pub fn of_cells(values: &[f64], places: [f64; 2], spread: Spread) -> Self {
+        let first = values.first().copied().unwrap_or(1.0);
+        let last = values.last().copied().unwrap_or(first);
+        let share = 0.5 / values.len().saturating_sub(1).max(1) as f64;
+        let ends = match spread {
+            Spread::Logarithmic => {
+                let beside = (last / first).powf(share);
+                [first / beside, last * beside]
+            }
+            _ => {
+                let beside = share * (last - first);
+                [first - beside, last + beside]
+            }
+        };
+        Axis::new(ends, places, spread)
+    }
+
+    /// Values at the ends of the axis.
     pub fn values(&self) -> [f64; 2] {
         self.values
     }
@@ -153,7 +186,15 @@ impl Axis {
     }
 }
 
-/// The range, widened if it is empty or not finite.
+/// Smallest and largest of the values, which are ∞ and −∞ if there are none.
+pub fn extremes(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let none = [f64::INFINITY, f64::NEG_INFINITY];
+    let all = values.into_iter();
+    all.fold(none, |[low, high], value| [low.min(value), high.max(value)])
+}
+
+/// The range, with ends limited to ±10¹² and non-finite ends replaced. A range that is empty or descends is
+/// replaced by one around its first end.
 pub fn proper_range([from, to]: [f64; 2]) -> [f64; 2] {
     const LARGEST: f64 = 1e12;
     let from = if from.is_finite() {
@@ -230,7 +271,6 @@ fn superscript(letter: char) -> char {
 
 /// Draws grid lines, ticks, numbers and name of a vertical axis.
 pub fn draw_vertical(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str) {
-    let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::End);
     let apart = match axis.spread() {
         Spread::Linear => 40.0,
         // These scales have closer ticks, so that small values get one too.
@@ -238,21 +278,28 @@ pub fn draw_vertical(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str) 
     };
     for tick in axis.ticks(apart) {
         let y = axis.at(tick);
-        sheet.line(
-            [[panel.left, y], [panel.right, y]],
-            Stroke::solid(GRID, HAIRLINE),
-        );
+        sheet.horizontal(y, panel, Stroke::solid(GRID, HAIRLINE));
         let short = Stroke::solid(QUIET, HAIRLINE);
         sheet.line([[panel.left - 5.0, y], [panel.left, y]], short);
-        let at = [panel.left - 9.0, y + 0.36 * AXIS_SIZE];
-        sheet.text(at, letters, &axis.label(tick));
+        number_beside(sheet, panel, y, &axis.label(tick));
     }
-    let middle = (panel.top + panel.bottom) / 2.0;
-    let upright = Lettering {
+    name_upright(sheet, 28.0, panel, name);
+}
+
+/// Writes a number to the left of a panel, at the height of a tick.
+pub fn number_beside(sheet: &mut Sheet, panel: &Frame, y: f64, number: &str) {
+    let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::End);
+    let at = [panel.left - 9.0, y + 0.36 * AXIS_SIZE];
+    sheet.text(at, letters, number);
+}
+
+/// Writes the name of a vertical axis, reading upwards, at the middle of the height of its panel.
+pub fn name_upright(sheet: &mut Sheet, x: f64, panel: &Frame, name: &str) {
+    let letters = Lettering {
         upright: true,
         ..Lettering::regular(AXIS_SIZE, INK, Anchor::Middle)
     };
-    sheet.text([28.0, middle], upright, name);
+    sheet.text([x, panel.centre()[1]], letters, name);
 }
 
 /// Draws line and ticks of a horizontal axis, with numbers if `numbered`.
@@ -272,9 +319,13 @@ pub fn draw_horizontal(sheet: &mut Sheet, axis: &Axis, y: f64, numbered: bool) {
 /// Draws a horizontal axis with numbers, and its name below them.
 pub fn draw_named(sheet: &mut Sheet, axis: &Axis, y: f64, name: &str) {
     draw_horizontal(sheet, axis, y, true);
-    let [left, right] = axis.places();
+    name_below(sheet, axis.places(), y + 42.0, name);
+}
+
+/// Writes the name of a horizontal axis centred between its ends, on a baseline.
+pub fn name_below(sheet: &mut Sheet, [left, right]: [f64; 2], baseline: f64, name: &str) {
     let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    sheet.text([0.5 * (left + right), y + 42.0], letters, name);
+    sheet.text([0.5 * (left + right), baseline], letters, name);
 }
 
 #[cfg(test)]
@@ -283,7 +334,7 @@ mod tests {
 
     #[test]
     fn even_ticks_are_round_and_reach_both_ends() {
-        let axis = Axis::new([0.0, 3000.0], [0.0, 1000.0], Spread::Linear);
+        let axis = Axis::linear([0.0, 3000.0], [0.0, 1000.0]);
         let expected = [0.0, 500.0, 1000.0, 1500.0, 2000.0, 2500.0, 3000.0];
         assert_eq!(axis.ticks(100.0), expected);
     }
@@ -327,7 +378,7 @@ mod tests {
             [3.0, 1.0],
             [0.0, f64::INFINITY],
         ] {
-            let axis = Axis::new(values, [0.0, 100.0], Spread::Linear);
+            let axis = Axis::linear(values, [0.0, 100.0]);
             assert!(axis.at(axis.values()[0]).is_finite());
             assert!(!axis.ticks(20.0).is_empty());
         }

@@ -4,7 +4,7 @@ use super::axis::{Axis, two_digits};
 use super::canvas::{Frame, Sheet};
 use super::chart_data::Band;
 use super::palette::Hue;
-use crate::report::{InstabilityEntry, InstabilityKind};
+use crate::report::InstabilityEntry;
 
 /// Bands narrower than this, in figure units, are drawn in a stronger colour.
 pub const NARROW: f64 = 4.0;
@@ -65,10 +65,7 @@ impl Band {
 
 /// Kind and range of a band in rpm, and the amplitude of its flutter if the report contains it.
 fn label(band: &InstabilityEntry, [first, last]: [f64; 2]) -> String {
-    let kind = match band.kind {
-        InstabilityKind::Divergence => "divergence",
-        InstabilityKind::Flutter => "flutter",
-    };
+    let kind = band.kind;
     let [from, to] = [band.from_rpm, band.to_rpm].map(|rpm| format!("{rpm:.0}"));
     let label = if !band.closed && band.to_rpm >= last && band.from_rpm > first {
         format!("{kind} from {from}")
@@ -110,19 +107,12 @@ pub fn draw<'a>(
             band.shaded.iter().map(move |range| (range, hue))
         });
         for (range, hue) in shaded {
-            let Some([left, right]) = places(speed, *range) else {
-                continue;
-            };
-            if (right - left < NARROW) != narrow {
-                continue;
-            }
-            for panel in panels {
-                let stripe = Frame {
-                    left,
-                    right,
-                    ..*panel
-                };
-                sheet.fill(stripe, hue.colour());
+            let ends = places(speed, *range);
+            let ends = ends.filter(|[left, right]| (right - left < NARROW) == narrow);
+            if let Some(ends) = ends {
+                for panel in panels {
+                    sheet.fill(panel.between(ends), hue.colour());
+                }
             }
         }
     }

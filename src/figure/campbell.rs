@@ -18,11 +18,11 @@ pub(super) use waves::draw_measured_mark;
 use band_labels::BandLabels;
 use describe::describe;
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::axis::{Axis, SPEED, draw_horizontal, draw_vertical, name_below};
+use super::canvas::{Frame, Sheet, Stroke};
 use super::chart_data::{Band, ChartData, Item, Line, PanelData, Role, Upright};
 use super::paint::Ground;
-use super::style::{AXIS_SIZE, BETWEEN_FACTS, HAIRLINE, INK, MARGIN, QUIET};
+use super::style::{BETWEEN_FACTS, HAIRLINE, MARGIN, QUIET};
 use super::{bands, heading};
 use crate::report::{InstabilityKind, Report};
 
@@ -120,8 +120,8 @@ impl<'a> Chart<'a> {
         Self {
             report,
             data: describe(report, &shown, false),
-            speed: Axis::new(shown.rpm, [PLOT_LEFT, right], Spread::Linear),
-            frequency: Axis::new([0.0, shown.hz], [upper.bottom, upper.top], Spread::Linear),
+            speed: Axis::linear(shown.rpm, [PLOT_LEFT, right]),
+            frequency: Axis::linear([0.0, shown.hz], upper.upwards()),
             upper,
             lower,
         }
@@ -183,15 +183,11 @@ fn draw_axes(sheet: &mut Sheet, chart: &Chart, growth: Option<&Axis>) {
         draw_vertical(sheet, axis, &chart.lower, growth::axis_name(axis));
     }
     for panel in [&chart.upper, &chart.lower] {
-        let side = [[panel.left, panel.top], [panel.left, panel.bottom]];
-        sheet.line(side, Stroke::solid(QUIET, HAIRLINE));
+        sheet.vertical(panel.left, panel, Stroke::solid(QUIET, HAIRLINE));
     }
     draw_horizontal(sheet, &chart.speed, chart.upper.bottom, false);
     draw_horizontal(sheet, &chart.speed, chart.lower.bottom, true);
-    let middle = (chart.upper.left + chart.upper.right) / 2.0;
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let name = "rotation speed Ω\u{2003}[rpm]";
-    sheet.text([middle, PLOT_BOTTOM + 37.0], letters, name);
+    name_below(sheet, chart.upper.across(), PLOT_BOTTOM + 37.0, SPEED);
 }
 
 /// Size of the saw, numbers of its events, and verdict on flutter.
@@ -223,16 +219,13 @@ fn facts(report: &Report) -> Vec<String> {
 }
 
 fn verdict(report: &Report) -> String {
-    let is_flutter = |kind| kind == InstabilityKind::Flutter;
-    let merges = report
-        .instabilities
-        .iter()
-        .any(|band| is_flutter(band.kind));
+    let mut bands = report.instabilities.iter();
+    let flutters = bands.any(|band| band.kind == InstabilityKind::Flutter);
     let last = report.campbell.to_rpm;
     match report.flutter_speed_rpm {
         Some(rpm) => format!("flutter from {rpm:.0} rpm"),
-        // The figure shows weak flutter too, so the verdict must not say that there is none.
-        None if merges => {
+        // The figure shows flutter below the threshold too, so that the verdict must mention the threshold.
+        None if flutters => {
             let threshold = report.flutter_threshold_per_s;
             format!("no flutter above {threshold} 1/s up to {last:.0} rpm")
         }

@@ -3,7 +3,7 @@
 //!
 //! The same list of marks is rendered to PNG and SVG, and tests find in it whether two labels overlap.
 
-use super::style::{Colour, Weight, one_line, text_width};
+use super::style::{Colour, PAPER, Weight, one_line, text_width};
 
 /// Position of a text relative to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,11 +30,10 @@ pub struct Stroke {
 impl Stroke {
     /// A solid line.
     pub fn solid(colour: Colour, width: f64) -> Self {
-        let dash = None;
         Self {
             colour,
             width,
-            dash,
+            dash: None,
         }
     }
 
@@ -73,6 +72,14 @@ impl Lettering {
             upright: false,
         }
     }
+
+    /// Semi-bold, horizontal text that begins at its point, for titles.
+    pub fn title(em: f64, colour: Colour) -> Self {
+        Self {
+            weight: Weight::SemiBold,
+            ..Self::regular(em, colour, Anchor::Start)
+        }
+    }
 }
 
 /// A rectangle in figure units.
@@ -89,7 +96,49 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Whether two frames have a point in common.
+    /// A square with sides of twice the length `half`.
+    pub fn around([x, y]: [f64; 2], half: f64) -> Self {
+        Frame {
+            left: x - half,
+            top: y - half,
+            right: x + half,
+            bottom: y + half,
+        }
+    }
+
+    /// A frame of the same height between two abscissae.
+    pub fn between(&self, [left, right]: [f64; 2]) -> Self {
+        Frame {
+            left,
+            right,
+            ..*self
+        }
+    }
+
+    /// The frame, wider on both sides by the length `aside`.
+    pub fn widened(&self, aside: f64) -> Self {
+        self.between([self.left - aside, self.right + aside])
+    }
+
+    /// Ends of a horizontal axis along the frame, from left to right.
+    pub fn across(&self) -> [f64; 2] {
+        [self.left, self.right]
+    }
+
+    /// Ends of a vertical axis along the frame, from bottom to top.
+    pub fn upwards(&self) -> [f64; 2] {
+        [self.bottom, self.top]
+    }
+
+    /// Centre of the frame.
+    pub fn centre(&self) -> [f64; 2] {
+        [
+            0.5 * (self.left + self.right),
+            0.5 * (self.top + self.bottom),
+        ]
+    }
+
+    /// Whether the interiors of two frames overlap.
     pub fn overlaps(&self, other: &Frame) -> bool {
         self.left < other.right
             && other.left < self.right
@@ -124,11 +173,10 @@ pub struct Sheet {
 impl Sheet {
     /// An empty sheet.
     pub fn new(width: u32, height: u32) -> Self {
-        let marks = Vec::new();
         Self {
             width,
             height,
-            marks,
+            marks: Vec::new(),
         }
     }
 
@@ -144,17 +192,27 @@ impl Sheet {
 
     /// Draws a line; non-finite points are skipped, and a line of fewer than two points is not drawn.
     pub fn line(&mut self, points: impl IntoIterator<Item = [f64; 2]>, stroke: Stroke) {
-        let points: Vec<_> = points.into_iter().filter_map(|p| self.held(p)).collect();
+        let points = self.limited_all(points);
         if points.len() >= 2 {
             self.marks.push(Mark::Line(points, stroke));
         }
     }
 
+    /// Draws a vertical line over the height of a frame.
+    pub fn vertical(&mut self, x: f64, frame: &Frame, stroke: Stroke) {
+        self.line([[x, frame.top], [x, frame.bottom]], stroke);
+    }
+
+    /// Draws a horizontal line over the width of a frame.
+    pub fn horizontal(&mut self, y: f64, frame: &Frame, stroke: Stroke) {
+        self.line([[frame.left, y], [frame.right, y]], stroke);
+    }
+
     /// Fills a rectangle.
     pub fn fill(&mut self, frame: Frame, colour: Colour) {
         let corners = self
-            .held([frame.left, frame.top])
-            .zip(self.held([frame.right, frame.bottom]));
+            .limited([frame.left, frame.top])
+            .zip(self.limited([frame.right, frame.bottom]));
         if let Some(([left, top], [right, bottom])) = corners {
             let frame = Frame {
                 left,
@@ -168,7 +226,7 @@ impl Sheet {
 
     /// Fills a polygon; non-finite points are skipped, and a polygon of fewer than three corners is not drawn.
     pub fn polygon(&mut self, points: impl IntoIterator<Item = [f64; 2]>, colour: Colour) {
-        let points: Vec<_> = points.into_iter().filter_map(|p| self.held(p)).collect();
+        let points = self.limited_all(points);
         if points.len() >= 3 {
             self.marks.push(Mark::Polygon(points, colour));
         }
@@ -176,27 +234,38 @@ impl Sheet {
 
     /// Draws a filled circle.
     pub fn disc(&mut self, centre: [f64; 2], radius: f64, colour: Colour) {
-        if let Some(centre) = self.held(centre) {
+        if let Some(centre) = self.limited(centre) {
             self.marks.push(Mark::Disc(centre, radius, colour));
         }
     }
 
-    /// Draws a circle filled with `inside`.
-    pub fn ring(&mut self, centre: [f64; 2], radius: f64, stroke: Stroke, inside: Colour) {
+    /// Draws a solid circle with the background inside; `radius` is that of the middle of the line.
+    pub fn ring(&mut self, centre: [f64; 2], radius: f64, stroke: Stroke) {
         self.disc(centre, radius + stroke.width / 2.0, stroke.colour);
-        self.disc(centre, radius - stroke.width / 2.0, inside);
+        self.disc(centre, radius - stroke.width / 2.0, PAPER);
     }
 
     /// Writes one line of text; its point lies on the baseline.
     pub fn text(&mut self, at: [f64; 2], lettering: Lettering, text: &str) {
         let text = one_line(text);
-        if let (Some(at), false) = (self.held(at), text.is_empty()) {
+        if let (Some(at), false) = (self.limited(at), text.is_empty()) {
             self.marks.push(Mark::Text(at, lettering, text));
         }
     }
 
-    /// The point, limited to the vicinity of the sheet because renderers use integers.
-    fn held(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
+    /// Writes one line of text on a ground in the colour of the paper, which covers the lines drawn before.
+    pub fn text_on_paper(&mut self, at: [f64; 2], lettering: Lettering, text: &str) {
+        self.fill(text_frame(at, &lettering, text), PAPER);
+        self.text(at, lettering, text);
+    }
+
+    fn limited_all(&self, points: impl IntoIterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+        points.into_iter().filter_map(|p| self.limited(p)).collect()
+    }
+
+    /// The point, limited to the vicinity of the sheet because renderers use integers; `None` if it is not
+    /// finite.
+    fn limited(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         let (width, height) = (f64::from(self.width), f64::from(self.height));
         (x.is_finite() && y.is_finite())
             .then(|| [x.clamp(-width, 2.0 * width), y.clamp(-height, 2.0 * height)])

@@ -1,11 +1,11 @@
 //! Limits and results of a check, each in its own row over a common axis of speeds.
 
-use super::axis::{Axis, Spread, draw_named};
+use super::axis::{Axis, SPEED, draw_named};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::key::Key;
 use super::style::{
     ALARM, BETWEEN_FACTS, CURVE, Colour, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD, GRID,
-    HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STRONG_CURVE, Weight, shorten, tint,
+    HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STRONG_CURVE, shorten_label, tint,
 };
 use super::{bands, heading};
 use crate::report::{CheckReport, CriterionEntry};
@@ -26,7 +26,7 @@ pub fn sheet(report: &CheckReport) -> Sheet {
     let verdict = if report.passed { "passed" } else { "failed" };
     let title = format!("{}: check {verdict}", report.scene.name);
     heading::draw(&mut sheet, &title, &facts(report));
-    let speed = Axis::new([0.0, last_shown_rpm(report)], [LEFT, RIGHT], Spread::Linear);
+    let speed = Axis::linear([0.0, last_shown_rpm(report)], [LEFT, RIGHT]);
     draw_saw(&mut sheet, report, &speed);
     for (k, criterion) in report.criteria.iter().enumerate() {
         draw_criterion(&mut sheet, criterion, &speed, row(k + 1));
@@ -34,7 +34,7 @@ pub fn sheet(report: &CheckReport) -> Sheet {
     draw_stiffness(&mut sheet, report, &speed, row(rows - 1));
     draw_end_of_sweep(&mut sheet, report, &speed, bottom);
     draw_operating(&mut sheet, report, &speed, bottom);
-    draw_named(&mut sheet, &speed, bottom, "rotation speed Ω\u{2003}[rpm]");
+    draw_named(&mut sheet, &speed, bottom, SPEED);
     draw_key(&mut sheet, bottom + BELOW - 22.0);
     sheet
 }
@@ -100,13 +100,9 @@ fn facts(report: &CheckReport) -> String {
 fn draw_saw(sheet: &mut Sheet, report: &CheckReport, speed: &Axis) {
     let frame = row(0);
     bands::shade(sheet, speed, report.instabilities.iter(), &[frame]);
-    for rpm in report.critical_speeds_rpm.iter().map(|rpm| speed.at(*rpm)) {
-        let middle = 0.5 * (frame.top + frame.bottom);
-        sheet.line(
-            [[rpm, frame.top], [rpm, frame.bottom]],
-            Stroke::solid(QUIET, HAIRLINE),
-        );
-        sheet.disc([rpm, middle], 3.5, INK);
+    for x in report.critical_speeds_rpm.iter().map(|rpm| speed.at(*rpm)) {
+        sheet.vertical(x, &frame, Stroke::solid(QUIET, HAIRLINE));
+        sheet.disc([x, frame.centre()[1]], 3.5, INK);
     }
     let (critical, bands) = (report.critical_speeds_rpm.len(), report.instabilities.len());
     let found = match (critical, bands) {
@@ -121,11 +117,10 @@ fn draw_saw(sheet: &mut Sheet, report: &CheckReport, speed: &Axis) {
 /// Writes name and result of a row.
 fn name(sheet: &mut Sheet, frame: Frame, above: &str, below: &str, colour: Colour) {
     let room = LEFT - 2.0 * MARGIN;
-    let middle = 0.5 * (frame.top + frame.bottom);
+    let [_, middle] = frame.centre();
     for (text, baseline, colour) in [(above, middle - 4.0, INK), (below, middle + 14.0, colour)] {
         let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
-        let text = shorten(text, LABEL_SIZE, Weight::Regular, room);
-        sheet.text([MARGIN, baseline], letters, &text);
+        sheet.text([MARGIN, baseline], letters, &shorten_label(text, room));
     }
     let line = [[MARGIN, frame.bottom], [RIGHT, frame.bottom]];
     sheet.line(line, Stroke::solid(GRID, HAIRLINE));
@@ -140,11 +135,10 @@ fn draw_criterion(sheet: &mut Sheet, criterion: &CriterionEntry, speed: &Axis, f
     let found = criterion.found_rpm;
     // The criterion of a band at the operating speed has no distance from a limit.
     let is_limit = criterion.key != "operating";
-    let asked = criterion.asked_rpm;
     let above = format!("{word} {}", criterion.name);
     name(sheet, frame, &above, &criterion.finding, colour);
-    let middle = 0.5 * (frame.top + frame.bottom);
-    let asked = speed.at(asked);
+    let [_, middle] = frame.centre();
+    let asked = speed.at(criterion.asked_rpm);
     let unreached = if is_limit { RIGHT } else { asked };
     let end = found.map_or(unreached, |rpm| speed.at(rpm));
     let bar = Frame {
@@ -189,18 +183,12 @@ fn draw_stiffness(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, frame: 
 }
 
 fn draw_key(sheet: &mut Sheet, baseline: f64) {
-    let limit = |sheet: &mut Sheet, [x, y]: [f64; 2]| {
-        sheet.line(
-            [[x, y - 8.0], [x, y + 8.0]],
-            Stroke::solid(INK, STRONG_CURVE),
-        );
-    };
     Key::new(sheet, MARGIN, baseline)
         .shade(DIVERGENCE_SHADE)
         .word("divergence")
         .shade(FLUTTER_SHADE)
         .word("flutter")
-        .mark(4.0, limit)
+        .upright(4.0, 8.0, Stroke::solid(INK, STRONG_CURVE))
         .word("limit")
         .dot(12.0, 6.0, PASS)
         .word("result, with margin")
@@ -217,7 +205,7 @@ mod tests {
     use crate::scene::{Accuracy, Scene, SweepFile, rad_per_s};
 
     #[test]
-    fn limits_that_are_kept_and_limits_that_are_not_are_told_apart() {
+    fn limits_that_are_kept_and_limits_that_are_broken_are_distinguished() {
         let paper = Scene::paper();
         let scene = paper.edited(|saw| saw.accuracy = Accuracy::Draft).unwrap();
         let limits = Limits {

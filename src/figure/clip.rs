@@ -1,8 +1,15 @@
 //! Clips lines at the edges of a panel, because plotters does not.
 
-use super::canvas::Frame;
+use super::canvas::{Frame, Sheet, Stroke};
 
-/// The parts of a line inside the frame.
+/// Draws the parts of a line inside the frame.
+pub fn draw_inside(sheet: &mut Sheet, frame: &Frame, points: &[[f64; 2]], stroke: Stroke) {
+    for part in clip(points, frame) {
+        sheet.line(part, stroke);
+    }
+}
+
+/// The parts of a line inside the frame; non-finite points divide the line.
 pub fn clip(points: &[[f64; 2]], frame: &Frame) -> Vec<Vec<[f64; 2]>> {
     let mut parts: Vec<Vec<[f64; 2]>> = Vec::new();
     for segment in points.windows(2) {
@@ -51,12 +58,7 @@ mod tests {
 
     #[test]
     fn a_line_that_leaves_and_returns_has_two_parts() {
-        let frame = Frame {
-            left: 0.0,
-            top: 0.0,
-            right: 10.0,
-            bottom: 10.0,
-        };
+        let frame = Frame::around([5.0, 5.0], 5.0);
         let tent = [
             [0.0, 5.0],
             [4.0, -3.0],

@@ -1,8 +1,8 @@
 //! Layout of panels in two columns, row by row.
 
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::style::{ALARM, HAIRLINE, LABEL_SIZE, Weight, text_width};
-use super::{axis::Axis, axis::Spread, heading};
+use super::heading;
+use super::style::{ALARM, HAIRLINE, LABEL_SIZE, label_width};
 
 /// Positions of the panels of a sheet, in figure units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,23 +62,14 @@ pub fn name_of_row(index: usize, name: &str) -> &str {
     if index.is_multiple_of(2) { name } else { "" }
 }
 
-/// An axis from the first value to the last.
-pub fn axis_over(values: &[f64], places: [f64; 2]) -> Axis {
-    let first = values.first().copied().unwrap_or(0.0);
-    let last = values.last().copied().unwrap_or(1.0);
-    Axis::new([first, last], places, Spread::Linear)
-}
-
-/// Marks the time from which on a linear model only determines the growth rate.
+/// Draws a vertical line where the model ends: beyond it the deflections are not valid.
 pub fn draw_end_of_model(sheet: &mut Sheet, panel: &Frame, x: f64) {
-    let line = [[x, panel.top], [x, panel.bottom]];
-    sheet.line(line, Stroke::solid(ALARM, 1.5 * HAIRLINE));
+    sheet.vertical(x, panel, Stroke::solid(ALARM, 1.5 * HAIRLINE));
 }
 
 /// Writes a label to the right of the line of [`draw_end_of_model`], or to its left if it does not fit there.
 pub fn label_end_of_model(sheet: &mut Sheet, panel: &Frame, x: f64, text: &str) {
-    let length = text_width(text, LABEL_SIZE, Weight::Regular) + 16.0;
-    let (anchor, x) = match panel.right - x < length {
+    let (anchor, x) = match panel.right - x < label_width(text) + 16.0 {
         true => (Anchor::End, x - 8.0),
         false => (Anchor::Start, x + 8.0),
     };

@@ -1,15 +1,16 @@
 //! Campbell diagrams of several saws, one over the other, and their critical speeds and bands below.
 
-use super::axis::{draw_horizontal, draw_named, draw_vertical, proper_range};
+use super::axis::{draw_horizontal, draw_named, draw_vertical, extremes, proper_range};
 use super::campbell::NEGLIGIBLE_PER_S;
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::canvas::{Frame, Lettering, Sheet, Stroke};
 use super::chart_data::{AxisData, ChartData, Item, Line, PanelData, Points, lines_by_look};
 use super::heading;
 use super::key::Key;
 use super::paint::Ground;
 use super::palette::Hue;
 use super::style::{
-    BETWEEN_FACTS, CURVE, GRID, HAIRLINE, INK, LABEL_SIZE, QUIET, STRONG_CURVE, Weight, shorten,
+    BETWEEN_FACTS, CURVE, DASH, GRID, HAIRLINE, INK, LABEL_SIZE, QUIET, STRONG_CURVE, Weight,
+    shorten,
 };
 use crate::report::{BranchEntry, CompareReport, ComparedEntry};
 
@@ -60,28 +61,21 @@ pub fn sheet(report: &CompareReport) -> Sheet {
     let [upper, lower] = &data.panels[..] else {
         return sheet;
     };
-    let speed = upper.x.placed([FREQUENCIES.left, FREQUENCIES.right]);
-    let frequency = upper.y.placed([FREQUENCIES.bottom, FREQUENCIES.top]);
+    let speed = upper.x.placed(FREQUENCIES.across());
+    let frequency = upper.y.placed(FREQUENCIES.upwards());
     draw_vertical(&mut sheet, &frequency, &FREQUENCIES, &upper.y.title());
     let ground = Ground {
         x: &speed,
         y: &frequency,
         frame: &FREQUENCIES,
     };
-    ground.draw_lines(&mut sheet, &upper.items);
-    ground.draw_points(&mut sheet, &upper.items);
+    ground.draw(&mut sheet, &upper.items);
     draw_horizontal(&mut sheet, &speed, FREQUENCIES.bottom, true);
     let place = lower.y.placed([speeds.top, speeds.bottom]);
     for (row, saw, hue) in drawn(report) {
         let y = place.at(1.0 + row as f64);
-        sheet.line(
-            [[speeds.left, y], [speeds.right, y]],
-            Stroke::solid(GRID, HAIRLINE),
-        );
-        let letters = Lettering {
-            weight: Weight::SemiBold,
-            ..Lettering::regular(LABEL_SIZE, hue.colour(), Anchor::Start)
-        };
+        sheet.horizontal(y, &speeds, Stroke::solid(GRID, HAIRLINE));
+        let letters = Lettering::title(LABEL_SIZE, hue.colour());
         let room = speeds.right - speeds.left;
         let label = shorten(&saw.label, LABEL_SIZE, Weight::SemiBold, room);
         sheet.text([speeds.left, y - 10.0], letters, &label);
@@ -91,8 +85,7 @@ pub fn sheet(report: &CompareReport) -> Sheet {
         y: &place,
         frame: &speeds,
     };
-    ground.draw_lines(&mut sheet, &lower.items);
-    ground.draw_points(&mut sheet, &lower.items);
+    ground.draw(&mut sheet, &lower.items);
     draw_named(&mut sheet, &speed, speeds.bottom, &lower.x.title());
     draw_key(&mut sheet, speeds.bottom + BELOW - 22.0);
     sheet
@@ -100,11 +93,8 @@ pub fn sheet(report: &CompareReport) -> Sheet {
 
 /// Frequencies over speed, and critical speeds and bands of each saw, as numbers.
 pub fn chart(report: &CompareReport) -> ChartData {
-    let ends = drawn(report).map(|(_, saw, _)| [saw.campbell.from_rpm, saw.campbell.to_rpm]);
-    let ends = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[from, to], [a, b]| {
-        [from.min(a), to.max(b)]
-    });
-    let speed = AxisData::speed().within(proper_range(ends));
+    let ends = drawn(report).flat_map(|(_, saw, _)| [saw.campbell.from_rpm, saw.campbell.to_rpm]);
+    let speed = AxisData::speed().within(proper_range(extremes(ends)));
     let hz = drawn(report).map(|(_, saw, _)| shown_hz(saw));
     let [_, hz] = proper_range([0.0, hz.fold(0.0, f64::max)]);
     // The first saw is drawn last, on top.
@@ -233,17 +223,12 @@ fn draw_key(sheet: &mut Sheet, baseline: f64) {
     Key::new(sheet, FREQUENCIES.left, baseline)
         .line(24.0, Stroke::solid(QUIET, STRONG_CURVE))
         .word("grows")
-        .line(24.0, Stroke::dashed(QUIET, CURVE, super::style::DASH))
+        .line(24.0, Stroke::dashed(QUIET, CURVE, DASH))
         .word("reflected wave")
         .dot(7.0, 3.5, INK)
         .word("critical speed")
         .mark(11.0, |sheet, [x, y]| {
-            sheet.ring(
-                [x + 5.0, y],
-                5.0,
-                Stroke::solid(INK, 2.0),
-                super::style::PAPER,
-            );
+            sheet.ring([x + 5.0, y], 5.0, Stroke::solid(INK, 2.0));
         })
         .word("operating speed")
         .shade(Hue::DivergenceStreak.colour())
@@ -268,10 +253,9 @@ mod tests {
             assert_tidy(&sheet);
             let all: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
             assert!(all.contains(&"saw 1"), "{all:?}");
-            let told = all
-                .iter()
-                .any(|text| text.contains("the first 6 of 9 saws"));
-            assert_eq!(told, count == 9);
+            let mut texts = all.iter();
+            let is_noted = texts.any(|text| text.contains("the first 6 of 9 saws"));
+            assert_eq!(is_noted, count == 9);
         }
     }
 }

@@ -1,13 +1,13 @@
 //! The deflection before, during and after the cut, one panel for each speed, as in the paper's Figures 16
 //! and 17.
 
-use super::axis::{Axis, Spread, draw_named, draw_vertical, two_digits};
+use super::axis::{Axis, draw_named, draw_vertical, two_digits};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::clip::clip;
+use super::clip::draw_inside;
 use super::columns::{Columns, draw_end_of_model, label_end_of_model, name_of_row};
 use super::style::{
-    ALARM, CURVE, Colour, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, HAIRLINE, LABEL_SIZE, QUIET,
-    SUBTITLE_SIZE, Weight, broken, tint,
+    ALARM, CURVE, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, HAIRLINE, LABEL_SIZE, QUIET,
+    SUBTITLE_SIZE, broken, tint,
 };
 use crate::report::{CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, CutVerdict, Verdict};
 
@@ -82,13 +82,11 @@ fn unit_of(largest_m: f64) -> (&'static str, f64) {
 
 fn draw_run(sheet: &mut Sheet, (panel, name): (&Frame, &str), run: &CutRunEntry, scale: &Scale) {
     let end_s = run.forces_to_s + run.forces_from_s;
-    let time = Axis::new([0.0, end_s], [panel.left, panel.right], Spread::Linear);
-    let reach = [-scale.reach, scale.reach];
-    let deflection = Axis::new(reach, [panel.bottom, panel.top], Spread::Linear);
+    let time = Axis::linear([0.0, end_s], panel.across());
+    let deflection = Axis::linear([-scale.reach, scale.reach], panel.upwards());
     draw_ground(sheet, panel, run, &time);
     draw_vertical(sheet, &deflection, panel, name);
-    let side = [[panel.left, panel.top], [panel.left, panel.bottom]];
-    sheet.line(side, Stroke::solid(QUIET, HAIRLINE));
+    sheet.vertical(panel.left, panel, Stroke::solid(QUIET, HAIRLINE));
     draw_named(sheet, &time, panel.bottom, "time\u{2003}[s]");
     let place = |t: f64, w: f64| [time.at(t), deflection.at(scale.per_metre * w)];
     // Stretching limits the growth, so that an exponential envelope would be wrong.
@@ -97,9 +95,7 @@ fn draw_run(sheet: &mut Sheet, (panel, name): (&Frame, &str), run: &CutRunEntry,
     }
     let record = run.time_s.iter().zip(&run.deflection_m);
     let places: Vec<[f64; 2]> = record.map(|(t, w)| place(*t, *w)).collect();
-    for part in clip(&places, panel) {
-        sheet.line(part, Stroke::solid(FORWARD, CURVE));
-    }
+    draw_inside(sheet, panel, &places, Stroke::solid(FORWARD, CURVE));
     if let Some(until_s) = run.ends_s() {
         let x = time.at(until_s);
         draw_end_of_model(sheet, panel, x);
@@ -120,11 +116,7 @@ fn length(metres: f64) -> String {
 
 /// Shades the time of the cut in the colour of the verdict.
 fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis) {
-    let in_cut = Frame {
-        left: time.at(run.forces_from_s),
-        right: time.at(run.forces_to_s),
-        ..*panel
-    };
+    let in_cut = panel.between([run.forces_from_s, run.forces_to_s].map(|s| time.at(s)));
     let shade = match run.verdict {
         CutVerdict::Unstable | CutVerdict::LeavesModel => FLUTTER_SHADE,
         CutVerdict::Stable => tint(FORWARD, 0.12),
@@ -179,30 +171,22 @@ fn draw_envelope(
                 place(t, sign * peak_m * growth)
             })
             .collect();
-        for part in clip(&places, panel) {
-            let dashed = Stroke::dashed(FLUTTER, CURVE, FINE_DASH);
-            sheet.line(part, dashed);
-        }
+        let dashed = Stroke::dashed(FLUTTER, CURVE, FINE_DASH);
+        draw_inside(sheet, panel, &places, dashed);
     }
 }
 
 /// Writes verdict and facts above the panel.
 fn draw_verdict(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
-    let (text, colour): (String, Colour) = match run.verdict {
-        CutVerdict::Stable => (format!("{} rpm: {}", run.rpm, run.verdict), FORWARD),
-        CutVerdict::LeavesModel => (format!("{} rpm: {}", run.rpm, run.verdict), ALARM),
-        CutVerdict::Unstable => (
-            format!("{} rpm: {} ({})", run.rpm, run.verdict, run.decided_by),
-            ALARM,
-        ),
+    let verdict = format!("{} rpm: {}", run.rpm, run.verdict);
+    let (text, colour) = match run.verdict {
+        CutVerdict::Stable => (verdict, FORWARD),
+        CutVerdict::LeavesModel => (verdict, ALARM),
+        CutVerdict::Unstable => (format!("{verdict} ({})", run.decided_by), ALARM),
     };
-    let title = Lettering {
-        weight: Weight::SemiBold,
-        ..Lettering::regular(SUBTITLE_SIZE + 2.0, colour, Anchor::Start)
-    };
+    let title = Lettering::title(SUBTITLE_SIZE + 2.0, colour);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let room = panel.right - panel.left + 20.0;
-    let lines = broken(&facts(run), LABEL_SIZE, Weight::Regular, room);
+    let lines = broken(&facts(run), panel.right - panel.left + 20.0);
     let mut baseline = panel.top - 12.0;
     for line in lines.iter().rev() {
         sheet.text([panel.left, baseline], letters, line);

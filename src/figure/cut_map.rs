@@ -1,9 +1,9 @@
 //! The verdict over guide angle and load level, one panel for each speed.
 
 use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
-use super::clip::clip;
-use super::columns::{Columns, axis_over, name_of_row};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::clip::draw_inside;
+use super::columns::{Columns, name_of_row};
 use super::heat::{draw_grid, draw_scale, ramp};
 use super::style::{
     CURVE, Colour, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, SUBTITLE_SIZE,
@@ -83,8 +83,8 @@ fn slowest_growth(report: &CutReport) -> f64 {
 /// Axes of a map: guide angle and load level.
 fn axes(panel: &Frame, run: &CutRunEntry) -> (Axis, Axis) {
     (
-        axis_over(&run.map.guide_angle_deg, [panel.left, panel.right]),
-        axis_over(&run.map.load_level, [panel.bottom, panel.top]),
+        Axis::over(&run.map.guide_angle_deg, panel.across()),
+        Axis::over(&run.map.load_level, panel.upwards()),
     )
 }
 
@@ -116,10 +116,7 @@ fn draw_map(
 
 /// Writes speed and forces of a panel as its title.
 fn draw_forces(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
-    let title = Lettering {
-        weight: Weight::SemiBold,
-        ..Lettering::regular(SUBTITLE_SIZE, INK, Anchor::Start)
-    };
+    let title = Lettering::title(SUBTITLE_SIZE, INK);
     let text = format!(
         "{} rpm, {:.0} N against and {:.0} N inwards a tooth at load 1",
         run.rpm, run.tangential_n_per_tooth, run.radial_n_per_tooth
@@ -137,9 +134,8 @@ fn over_load(report: &CutReport) -> Sheet {
     let fastest = fastest_growth(report);
     for (index, run) in report.runs.iter().enumerate() {
         let panel = &PANELS.panel(index, panels);
-        let level = axis_over(&run.map.load_level, [panel.left, panel.right]);
-        let ends = [slowest_growth(report), fastest];
-        let growth = Axis::new(ends, [panel.bottom, panel.top], Spread::Linear);
+        let level = Axis::over(&run.map.load_level, panel.across());
+        let growth = Axis::linear([slowest_growth(report), fastest], panel.upwards());
         draw_vertical(
             &mut sheet,
             &growth,
@@ -149,7 +145,7 @@ fn over_load(report: &CutReport) -> Sheet {
         draw_named(&mut sheet, &level, panel.bottom, LOAD);
         let threshold = growth.at(report.flutter_threshold_per_s);
         let dashed = Stroke::dashed(QUIET, HAIRLINE, FINE_DASH);
-        sheet.line([[panel.left, threshold], [panel.right, threshold]], dashed);
+        sheet.horizontal(threshold, panel, dashed);
         let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
         let at = [panel.right - 4.0, threshold - 6.0];
         sheet.text(at, letters, "unstable above");
@@ -157,20 +153,11 @@ fn over_load(report: &CutReport) -> Sheet {
         let places: Vec<[f64; 2]> = points
             .filter_map(|(load, row)| Some([level.at(*load), growth.at(*row.first()?)]))
             .collect();
-        for part in clip(&places, panel) {
-            sheet.line(part, Stroke::solid(FORWARD, CURVE));
-        }
-        let own = Stroke::solid(INK, 1.5 * HAIRLINE);
-        sheet.ring(
-            [level.at(1.0), growth.at(run.growth_per_s)],
-            5.0,
-            own,
-            PAPER,
-        );
+        draw_inside(&mut sheet, panel, &places, Stroke::solid(FORWARD, CURVE));
+        let [x, y] = [level.at(1.0), growth.at(run.growth_per_s)];
+        sheet.ring([x, y], 5.0, Stroke::solid(INK, 1.5 * HAIRLINE));
         let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Start);
-        let beside = [level.at(1.0) + 11.0, growth.at(run.growth_per_s) + 4.0];
-        sheet.fill(text_frame(beside, &letters, "this saw"), PAPER);
-        sheet.text(beside, letters, "this saw");
+        sheet.text_on_paper([x + 11.0, y + 4.0], letters, "this saw");
         draw_forces(&mut sheet, panel, run);
     }
     sheet
@@ -187,13 +174,13 @@ fn draw_own_point(sheet: &mut Sheet, panel: &Frame, report: &CutReport, run: &Cu
     let x = angle.at(own_deg);
     let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Start);
     let stroke = Stroke::solid(INK, 1.5 * HAIRLINE);
-    sheet.ring([x, level.at(1.0)], 5.0, stroke, PAPER);
+    sheet.ring([x, level.at(1.0)], 5.0, stroke);
     sheet.text([x + 11.0, level.at(1.0) + 4.0], letters, "this saw");
     if let Some(by_power) = &run.by_power {
         let share = by_power.tangential_n_per_tooth / run.tangential_n_per_tooth;
         if share < 0.9 {
             let y = level.at(share);
-            sheet.ring([x, y], 4.0, Stroke::solid(QUIET, HAIRLINE), PAPER);
+            sheet.ring([x, y], 4.0, Stroke::solid(QUIET, HAIRLINE));
             sheet.text([x + 11.0, y + 4.0], letters, "force that the power allows");
         }
     }

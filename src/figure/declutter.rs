@@ -1,47 +1,63 @@
 //! Placement of labels without overlap.
 
-/// A label with its preferred centre on a line.
+use super::style::label_width;
+
+/// Length of a label along a line, and its preferred centre, in figure units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wish {
-    /// Preferred centre.
+pub struct Extent {
+    /// Preferred centre of the label.
     pub centre: f64,
     /// Length of the label, with the space at its ends.
     pub length: f64,
 }
 
-/// Centres that are closest to the preferred ones in the least squares sense, such that labels neither
-/// overlap nor leave the range from `from` to `to`. Labels at the end of the list are dropped (`None`) if
-/// there is not enough room.
-pub fn push_apart(wishes: &[Wish], from: f64, to: f64) -> Vec<Option<f64>> {
+impl Extent {
+    /// Extent of a horizontal label, with `space` in addition to its width.
+    pub fn of_label(centre: f64, label: &str, space: f64) -> Self {
+        let length = label_width(label) + space;
+        Self { centre, length }
+    }
+}
+
+/// Centres that are closest to the preferred ones in the least squares sense, such that labels neither overlap
+/// nor leave the line between its two ends, the smaller first. If there is not enough room, labels at the end
+/// of the list are dropped (`None`).
+pub fn push_apart(
+    labels: impl IntoIterator<Item = Extent>,
+    [from, to]: [f64; 2],
+) -> Vec<Option<f64>> {
+    let extents: Vec<Extent> = labels.into_iter().collect();
     let mut room = to - from;
-    let kept = wishes
-        .iter()
-        .take_while(|wish| {
-            room -= wish.length;
-            room >= 0.0
-        })
-        .count();
+    let fits = |extent: &&Extent| {
+        room -= extent.length;
+        room >= 0.0
+    };
+    let kept = extents.iter().take_while(fits).count();
     let mut order: Vec<usize> = (0..kept).collect();
-    order.sort_by(|&a, &b| wishes[a].centre.total_cmp(&wishes[b].centre));
+    order.sort_by(|&a, &b| extents[a].centre.total_cmp(&extents[b].centre));
 
     let mut blocks: Vec<Block> = Vec::new();
     for &label in &order {
-        let Wish { centre, length } = wishes[label];
-        let mut block = Block::new(label, centre - length / 2.0, length);
-        block.hold(from, to);
-        while let Some(before) = blocks.pop_if(|before| before.end() > block.start) {
+        let Extent { centre, length } = extents[label];
+        let mut block = Block {
+            labels: vec![label],
+            length,
+            preferred_starts: centre - length / 2.0,
+        };
+        while let Some(before) =
+            blocks.pop_if(|before| before.start(from, to) + before.length > block.start(from, to))
+        {
             block = before.joined_by(block);
-            block.hold(from, to);
         }
         blocks.push(block);
     }
 
-    let mut centres = vec![None; wishes.len()];
+    let mut centres = vec![None; extents.len()];
     for block in blocks {
-        let mut start = block.start;
+        let mut start = block.start(from, to);
         for label in block.labels {
-            centres[label] = Some(start + wishes[label].length / 2.0);
-            start += wishes[label].length;
+            centres[label] = Some(start + extents[label].length / 2.0);
+            start += extents[label].length;
         }
     }
     centres
@@ -50,37 +66,23 @@ pub fn push_apart(wishes: &[Wish], from: f64, to: f64) -> Vec<Option<f64>> {
 /// Labels that touch each other.
 struct Block {
     labels: Vec<usize>,
-    start: f64,
     length: f64,
     /// Sum over the labels of the start of the block that each prefers.
-    wished_starts: f64,
+    preferred_starts: f64,
 }
 
 impl Block {
-    fn new(label: usize, start: f64, length: f64) -> Self {
-        let (labels, wished_starts) = (vec![label], start);
-        Self {
-            labels,
-            start,
-            length,
-            wished_starts,
-        }
-    }
-
-    fn end(&self) -> f64 {
-        self.start + self.length
+    /// Best start of the block on a line between two ends.
+    fn start(&self, from: f64, to: f64) -> f64 {
+        let mean = self.preferred_starts / self.labels.len() as f64;
+        mean.min(to - self.length).max(from)
     }
 
     fn joined_by(mut self, next: Block) -> Block {
-        self.wished_starts += next.wished_starts - self.length * next.labels.len() as f64;
+        self.preferred_starts += next.preferred_starts - self.length * next.labels.len() as f64;
         self.length += next.length;
         self.labels.extend(next.labels);
         self
-    }
-
-    fn hold(&mut self, from: f64, to: f64) {
-        let mean = self.wished_starts / self.labels.len() as f64;
-        self.start = mean.min(to - self.length).max(from);
     }
 }
 
@@ -146,31 +148,32 @@ fn joined_label(values: &[f64]) -> String {
 mod tests {
     use super::*;
 
-    fn wishes(centres: &[f64]) -> Vec<Wish> {
-        let wish = |&centre| Wish {
+    /// Places labels of length 10.
+    fn placed(centres: &[f64], line: [f64; 2]) -> Vec<Option<f64>> {
+        let extents = centres.iter().map(|&centre| Extent {
             centre,
             length: 10.0,
-        };
-        centres.iter().map(wish).collect()
+        });
+        push_apart(extents, line)
     }
 
     #[test]
-    fn crowded_labels_spread_evenly_about_their_wishes() {
-        let centres = push_apart(&wishes(&[52.0, 50.0, 90.0]), 0.0, 100.0);
+    fn crowded_labels_spread_evenly_about_their_preferred_centres() {
+        let centres = placed(&[52.0, 50.0, 90.0], [0.0, 100.0]);
         assert_eq!(centres, [Some(56.0), Some(46.0), Some(90.0)]);
     }
 
     #[test]
     fn labels_stay_within_the_line() {
-        let centres = push_apart(&wishes(&[0.0, -5.0, 3.0]), 0.0, 100.0);
+        let centres = placed(&[0.0, -5.0, 3.0], [0.0, 100.0]);
         assert_eq!(centres, [Some(15.0), Some(5.0), Some(25.0)]);
     }
 
     #[test]
     fn the_last_labels_are_dropped_first() {
-        let centres = push_apart(&wishes(&[5.0, 5.0, 5.0]), 0.0, 25.0);
+        let centres = placed(&[5.0, 5.0, 5.0], [0.0, 25.0]);
         assert_eq!(centres, [Some(5.0), Some(15.0), None]);
-        assert_eq!(push_apart(&wishes(&[5.0]), 0.0, -1.0), [None]);
+        assert_eq!(placed(&[5.0], [0.0, -1.0]), [None]);
     }
 
     #[test]

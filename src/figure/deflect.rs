@@ -5,12 +5,13 @@ use super::canvas::{Frame, Sheet, Stroke};
 use super::chart_data::{
     AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright, lines_by_look,
 };
+use super::columns::draw_end_of_model;
 use super::key::Key;
 use super::paint::Ground;
 use super::palette::Hue;
 use super::style::{
-    ALARM, BETWEEN_FACTS, Colour, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, HAIRLINE, INK,
-    STANDING, STRONG_CURVE, tint,
+    BETWEEN_FACTS, Colour, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, HAIRLINE, INK, STANDING,
+    STRONG_CURVE, tint,
 };
 use super::{bands, heading};
 use crate::report::{DeflectReport, EquilibriumCurveEntry, JumpEntry, SlowSweepEntry};
@@ -49,10 +50,10 @@ pub fn sheet(report: &DeflectReport) -> Sheet {
     let [lean, frequencies] = &data.panels[..] else {
         return sheet;
     };
-    let speed = lean.x.placed([LEAN.left, LEAN.right]);
+    let speed = lean.x.placed(LEAN.across());
     let bands = report.instabilities.iter();
     bands::shade(&mut sheet, &speed, bands, &[LEAN, FREQUENCIES]);
-    let deflection = lean.y.placed([LEAN.bottom, LEAN.top]);
+    let deflection = lean.y.placed(LEAN.upwards());
     draw_vertical(&mut sheet, &deflection, &LEAN, &lean.y.title());
     let upper = Ground {
         x: &speed,
@@ -61,25 +62,23 @@ pub fn sheet(report: &DeflectReport) -> Sheet {
     };
     upper.draw_lines(&mut sheet, &lean.items);
     for (sweep, hue, ..) in sweeps(report) {
-        for jump in seen_jumps(report, sweep) {
+        for jump in shown_jumps(report, sweep) {
             draw_head(&mut sheet, jump, (&speed, &deflection), hue.colour());
         }
         if let Some(rpm) = sweep.valid_until_rpm {
-            let line = [LEAN.top, LEAN.bottom].map(|y| [speed.at(rpm), y]);
-            sheet.line(line, Stroke::solid(ALARM, 1.5 * HAIRLINE));
+            draw_end_of_model(&mut sheet, &LEAN, speed.at(rpm));
         }
     }
     upper.draw_points(&mut sheet, &lean.items);
     draw_horizontal(&mut sheet, &speed, LEAN.bottom, false);
-    let frequency = frequencies.y.placed([FREQUENCIES.bottom, FREQUENCIES.top]);
+    let frequency = frequencies.y.placed(FREQUENCIES.upwards());
     draw_vertical(&mut sheet, &frequency, &FREQUENCIES, &frequencies.y.title());
     let lower = Ground {
         x: &speed,
         y: &frequency,
         frame: &FREQUENCIES,
     };
-    lower.draw_lines(&mut sheet, &frequencies.items);
-    lower.draw_points(&mut sheet, &frequencies.items);
+    lower.draw(&mut sheet, &frequencies.items);
     draw_named(
         &mut sheet,
         &speed,
@@ -126,7 +125,8 @@ fn sweeps(report: &DeflectReport) -> [(&SlowSweepEntry, Hue, f64, f64, &'static 
     ]
 }
 
-fn seen_jumps<'a>(
+/// The considerable jumps of a sweep.
+fn shown_jumps<'a>(
     report: &'a DeflectReport,
     sweep: &'a SlowSweepEntry,
 ) -> impl Iterator<Item = &'a JumpEntry> {
@@ -134,7 +134,7 @@ fn seen_jumps<'a>(
     sweep
         .jumps
         .iter()
-        .filter(move |jump| jump.is_seen(thickness_m))
+        .filter(move |jump| jump.is_considerable(thickness_m))
 }
 
 fn facts(report: &DeflectReport) -> Vec<String> {
@@ -143,7 +143,7 @@ fn facts(report: &DeflectReport) -> Vec<String> {
         report.force_n, report.force_angle_deg
     );
     let probe = format!("deflection at the probe at {}°", report.probe_angle_deg);
-    let jumps = |sweep| seen_jumps(report, sweep).count();
+    let jumps = |sweep| shown_jumps(report, sweep).count();
     let jumps = format!(
         "jumps: {} while the speed rises, {} while it falls",
         jumps(&report.up),
@@ -179,7 +179,7 @@ fn leans(report: &DeflectReport) -> Vec<Item> {
                 ..Line::new(points, colour, name)
             }));
         }
-        items.extend(seen_jumps(report, sweep).map(|jump| {
+        items.extend(shown_jumps(report, sweep).map(|jump| {
             let ends = [jump.from_m, jump.to_m].map(|m| [jump.rpm, 1e3 * m]);
             Item::Line(Line {
                 width: HAIRLINE,

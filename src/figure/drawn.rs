@@ -72,25 +72,24 @@ pub trait Figures {
 }
 
 fn named<const N: usize>(names: &[[&'static str; 2]], sheets: [Option<Sheet>; N]) -> Vec<Figure> {
-    let pairs = names.iter().zip(sheets);
-    pairs
-        .filter_map(|(names, sheet)| {
-            Some(Figure {
-                names: *names,
-                sheet: sheet?,
-            })
+    let pairs = names.iter().copied().zip(sheets);
+    let drawn = pairs.filter_map(|(names, sheet)| {
+        Some(Figure {
+            names,
+            sheet: sheet?,
         })
-        .collect()
+    });
+    drawn.collect()
+}
+
+/// File names of figures.
+macro_rules! files {
+    ($($name:literal),*) => { &[$([concat!($name, ".png"), concat!($name, ".svg")]),*] };
 }
 
 impl Figures for Report {
-    const NAMES: &'static [[&'static str; 2]] = &[
-        ["campbell.png", "campbell.svg"],
-        ["root-loci.png", "root-loci.svg"],
-        ["membrane.png", "membrane.svg"],
-        ["in-cut.png", "in-cut.svg"],
-        ["modes.png", "modes.svg"],
-    ];
+    const NAMES: &'static [[&'static str; 2]] =
+        files!["campbell", "root-loci", "membrane", "in-cut", "modes"];
 
     fn figures(&self) -> Vec<Figure> {
         self.figures_within(CampbellView::default())
@@ -141,99 +140,47 @@ impl Report {
     }
 }
 
-impl Figures for CutReport {
-    const NAMES: &'static [[&'static str; 2]] = &[
-        ["cut.png", "cut.svg"],
-        ["cut-map.png", "cut-map.svg"],
-        ["spline-orbit.png", "spline-orbit.svg"],
-    ];
-
-    fn figures(&self) -> Vec<Figure> {
-        let always = [cut::sheet(self), cut_map::sheet(self)].map(Some);
-        let [cut, map] = always;
-        named(Self::NAMES, [cut, map, spline_orbit::sheet(self)])
-    }
-}
-
-impl Figures for RunUpReport {
-    const NAMES: &'static [[&'static str; 2]] = &[
-        ["runup.png", "runup.svg"],
-        ["response-map.png", "response-map.svg"],
-        ["runup-map.png", "runup-map.svg"],
-    ];
-
-    fn figures(&self) -> Vec<Figure> {
-        let [runup, response] = [runup::sheet(self), response_map::sheet(self)].map(Some);
-        let stretched = response_map::stretched_sheet(self);
-        named(Self::NAMES, [runup, response, stretched])
-    }
-}
-
-impl Figures for GapReport {
-    const NAMES: &'static [[&'static str; 2]] = &[
-        ["gap.png", "gap.svg"],
-        ["gap-map.png", "gap-map.svg"],
-        ["gap-oscillation.png", "gap-oscillation.svg"],
-        ["gap-friction.png", "gap-friction.svg"],
-    ];
-
-    fn figures(&self) -> Vec<Figure> {
-        let sheets = [
-            Some(gap::sheet(self)),
-            gap_map::sheet(self),
-            gap_oscillation::sheet(self),
-            gap_friction::sheet(self),
-        ];
-        named(Self::NAMES, sheets)
-    }
-}
-
-impl Figures for ResponseReport {
-    const NAMES: &'static [[&'static str; 2]] = &[
-        ["response.png", "response.svg"],
-        ["frequency-response.png", "frequency-response.svg"],
-    ];
-
-    fn figures(&self) -> Vec<Figure> {
-        let sheets = [Some(response::sheet(self)), response::points_sheet(self)];
-        named(Self::NAMES, sheets)
-    }
-}
-
-/// Implements [`Figures`] for a report with a single figure, drawn by a function, and described by another.
-macro_rules! single {
-    ($($report:ty: $name:literal, $sheet:path $(, $chart:path)?;)*) => {$(
+/// Implements [`Figures`] for reports: the name of each figure and the function that draws it, and for some reports
+/// a function that describes the first figure as numbers.
+macro_rules! drawn {
+    ($($report:ty: $($name:literal $sheet:path),* $(; $described:literal $chart:path)?;)*) => {$(
         impl Figures for $report {
-            const NAMES: &'static [[&'static str; 2]] =
-                &[[concat!($name, ".png"), concat!($name, ".svg")]];
+            const NAMES: &'static [[&'static str; 2]] = files![$($name),*];
 
             fn figures(&self) -> Vec<Figure> {
-                named(Self::NAMES, [$sheet(self).into()])
+                named(Self::NAMES, [$($sheet(self).into()),*])
             }
 
             $(fn chart(&self, name: &str) -> Option<ChartData> {
-                (name == $name).then(|| $chart(self))
+                (name == $described).then(|| $chart(self))
             })?
         }
     )*};
 }
 
-single! {
-    DeflectReport: "deflect", deflect::sheet, deflect::chart;
-    WashboardReport: "washboard", washboard::sheet, washboard::chart;
-    CheckReport: "check", check::sheet;
-    CompareReport: "compare", compare::sheet, compare::chart;
-    FitReport: "fit", fit::sheet;
-    MapReport: "map", map::sheet;
-    PlaceReport: "place", place::sheet;
-    StudyReport: "study", study::sheet;
+drawn! {
+    CheckReport: "check" check::sheet;
+    CompareReport: "compare" compare::sheet; "compare" compare::chart;
+    CutReport: "cut" cut::sheet, "cut-map" cut_map::sheet, "spline-orbit" spline_orbit::sheet;
+    DeflectReport: "deflect" deflect::sheet; "deflect" deflect::chart;
+    FitReport: "fit" fit::sheet;
+    GapReport: "gap" gap::sheet, "gap-map" gap_map::sheet,
+        "gap-oscillation" gap_oscillation::sheet, "gap-friction" gap_friction::sheet;
+    MapReport: "map" map::sheet;
+    PlaceReport: "place" place::sheet;
+    ResponseReport: "response" response::sheet, "frequency-response" response::points_sheet;
+    RunUpReport: "runup" runup::sheet, "response-map" response_map::sheet,
+        "runup-map" response_map::stretched_sheet;
+    StudyReport: "study" study::sheet;
+    WashboardReport: "washboard" washboard::sheet; "washboard" washboard::chart;
 }
 
 /// Draws the run time of settings over their true error, both on logarithmic scales, as measured by
 /// [`tradeoff`](crate::stability::tradeoff); `scene` is the name of the scene.
 pub fn tradeoff(scene: &str, settings: &[Setting]) -> Figure {
+    let [names] = *files!["tradeoff"];
     Figure {
-        names: ["tradeoff.png", "tradeoff.svg"],
+        names,
         sheet: super::tradeoff::sheet(scene, settings),
     }
 }

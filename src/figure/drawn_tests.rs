@@ -96,7 +96,7 @@ fn drawn_saws(count: usize) -> impl Iterator<Item = (SceneFile, f64)> {
 }
 
 #[test]
-fn figures_of_drawn_saws_show_what_their_reports_say() {
+fn figures_of_random_saws_agree_with_their_reports() {
     for (case, (file, reach)) in drawn_saws(6).enumerate() {
         let report = report(&file, reach);
         for branch in &report.campbell.branches {

@@ -1,14 +1,14 @@
 //! Measured points over the fitted curves, and residuals.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical, round_up};
+use super::axis::{Axis, SPEED, draw_horizontal, draw_named, draw_vertical, round_up};
 use super::campbell::draw_measured_mark;
 use super::canvas::{Frame, Sheet, Stroke};
-use super::clip::clip;
+use super::clip::draw_inside;
 use super::heading;
 use super::key::Key;
 use super::style::{
-    ALARM, BACKWARD, BETWEEN_FACTS, CURVE, Colour, DASH, DIVERGENCE, FORWARD, HAIRLINE, INK,
-    LABEL_SIZE, PAPER, QUIET, STANDING, Weight, shorten,
+    ALARM, BACKWARD, BETWEEN_FACTS, CURVE, Colour, DASH, DIVERGENCE, FORWARD, HAIRLINE, INK, QUIET,
+    STANDING, shorten_label,
 };
 use super::written::in_words;
 use crate::report::{FitReport, ResidualEntry};
@@ -51,42 +51,24 @@ pub fn sheet(report: &FitReport) -> Sheet {
     heading::draw(&mut sheet, &report.scene.name, &facts(report));
     let last = report.curves.rpm.last().copied().unwrap_or(1.0);
     // The axis leaves room for points at rest.
-    let speed = Axis::new(
-        [-0.025 * last, last],
-        [UPPER.left, UPPER.right],
-        Spread::Linear,
-    );
+    let speed = Axis::linear([-0.025 * last, last], UPPER.across());
     let shown = report.residuals.iter().filter(|r| speed.shows(r.rpm));
     let shown: Vec<&ResidualEntry> = shown.collect();
     let fitted = || shown.iter().filter(|r| r.fitted);
     let highest = fitted().fold(1.0_f64, |top, r| top.max(r.measured_hz).max(r.fitted_hz));
-    let frequency = Axis::new(
-        [0.0, 1.12 * highest],
-        [UPPER.bottom, UPPER.top],
-        Spread::Linear,
-    );
+    let frequency = Axis::linear([0.0, 1.12 * highest], UPPER.upwards());
     let off = |r: &ResidualEntry| r.fitted_hz - r.measured_hz;
     let largest = fitted().fold(1e-3_f64, |top, r| top.max(off(r).abs()));
     // The axis ends at round numbers, so that both signs have a tick.
     let reach = round_up(1.05 * largest);
-    let residual = Axis::new([-reach, reach], [LOWER.bottom, LOWER.top], Spread::Linear);
+    let residual = Axis::linear([-reach, reach], LOWER.upwards());
     draw_axes(&mut sheet, &speed, &frequency, &residual);
     let before = Stroke::dashed(BEFORE, HAIRLINE, DASH);
-    draw_curves(
-        &mut sheet,
-        report,
-        &report.curves.before_hz,
-        (&speed, &frequency),
-        before,
-    );
     let after = Stroke::solid(FITTED, CURVE);
-    draw_curves(
-        &mut sheet,
-        report,
-        &report.curves.fitted_hz,
-        (&speed, &frequency),
-        after,
-    );
+    let curves = &report.curves;
+    for (rows, stroke) in [(&curves.before_hz, before), (&curves.fitted_hz, after)] {
+        draw_curves(&mut sheet, report, rows, (&speed, &frequency), stroke);
+    }
     for r in &shown {
         draw_pair(&mut sheet, r, &speed, &frequency, &residual);
     }
@@ -97,13 +79,9 @@ pub fn sheet(report: &FitReport) -> Sheet {
 fn draw_axes(sheet: &mut Sheet, speed: &Axis, frequency: &Axis, residual: &Axis) {
     draw_vertical(sheet, frequency, &UPPER, "frequency in space\u{2003}[Hz]");
     draw_vertical(sheet, residual, &LOWER, "model − measured\u{2003}[Hz]");
-    let zero = [
-        [LOWER.left, residual.at(0.0)],
-        [LOWER.right, residual.at(0.0)],
-    ];
-    sheet.line(zero, Stroke::solid(QUIET, HAIRLINE));
+    sheet.horizontal(residual.at(0.0), &LOWER, Stroke::solid(QUIET, HAIRLINE));
     draw_horizontal(sheet, speed, UPPER.bottom, false);
-    draw_named(sheet, speed, LOWER.bottom, "rotation speed Ω\u{2003}[rpm]");
+    draw_named(sheet, speed, LOWER.bottom, SPEED);
 }
 
 fn facts(report: &FitReport) -> String {
@@ -134,9 +112,7 @@ fn draw_curves(
         let places: Vec<[f64; 2]> = points
             .filter_map(|(rpm, row)| Some([speed.at(*rpm), frequency.at(*row.get(place)?)]))
             .collect();
-        for part in clip(&places, &UPPER) {
-            sheet.line(part, stroke);
-        }
+        draw_inside(sheet, &UPPER, &places, stroke);
     }
 }
 
@@ -156,9 +132,9 @@ fn draw_pair(
     if r.fitted && frequency.shows(r.fitted_hz) {
         let way = [at, [x, frequency.at(r.fitted_hz)]];
         sheet.line(way, Stroke::solid(ALARM, HAIRLINE));
-        // Marks are placed side by side, so that none hides another.
-        let aside = 7.0 * ((r.place - 1) % PLACES.len()) as f64 - 10.5;
-        let (shape, colour) = PLACES[(r.place - 1) % PLACES.len()];
+        // The residuals of one speed are drawn side by side, so that none hides another.
+        let place = (r.place - 1) % PLACES.len();
+        let (aside, (shape, colour)) = (7.0 * place as f64 - 10.5, PLACES[place]);
         let x = (x + aside).clamp(LOWER.left, LOWER.right);
         let (zero, top) = (residual.at(0.0), residual.at(r.fitted_hz - r.measured_hz));
         sheet.line([[x, zero], [x, top]], Stroke::solid(colour, CURVE));
@@ -175,16 +151,8 @@ fn draw_shape(sheet: &mut Sheet, shape: Shape, [x, y]: [f64; 2], colour: Colour)
     let stroke = Stroke::solid(colour, 1.4);
     match shape {
         Shape::Disc => sheet.disc([x, y], 3.2, colour),
-        Shape::Ring => sheet.ring([x, y], 3.2, stroke, PAPER),
-        Shape::Square => {
-            let frame = Frame {
-                left: x - 3.0,
-                top: y - 3.0,
-                right: x + 3.0,
-                bottom: y + 3.0,
-            };
-            sheet.fill(frame, colour);
-        }
+        Shape::Ring => sheet.ring([x, y], 3.2, stroke),
+        Shape::Square => sheet.fill(Frame::around([x, y], 3.0), colour),
         Shape::Cross => {
             for side in [-3.2, 3.2] {
                 sheet.line([[x - 3.2, y - side], [x + 3.2, y + side]], stroke);
@@ -194,7 +162,7 @@ fn draw_shape(sheet: &mut Sheet, shape: Shape, [x, y]: [f64; 2], colour: Colour)
 }
 
 fn draw_key(sheet: &mut Sheet, report: &FitReport, some_left_out: bool) {
-    let source = shorten(&report.source, LABEL_SIZE, Weight::Regular, 260.0);
+    let source = shorten_label(&report.source, 260.0);
     let mut key = Key::new(sheet, UPPER.left, f64::from(HEIGHT) - 22.0);
     key.mark(8.0, |sheet, [x, y]| draw_measured_mark(sheet, [x + 4.0, y]))
         .word(&source);
@@ -245,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn residuals_are_told_apart_without_colours() {
+    fn residuals_are_distinguished_without_colours() {
         for (k, (shape, _)) in PLACES.iter().enumerate() {
             assert!(PLACES[..k].iter().all(|(other, _)| other != shape));
             let mut sheet = Sheet::new(WIDTH, HEIGHT);

@@ -1,15 +1,15 @@
 //! Speeds over the amplitude at guides with a gap, and the deflection at the cut over the gap.
 
-use super::axis::{Axis, Spread, draw_vertical, tick_label};
+use super::axis::{Axis, Spread, draw_vertical, extremes, name_below, tick_label};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::heading;
 use super::key::Key;
+use super::palette::Hue;
 use super::style::{
     ALARM, AXIS_SIZE, BETWEEN_FACTS, CURVE, DASH, DIVERGENCE_STREAK, FLUTTER_STREAK, FORWARD, GRID,
-    HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, tint,
+    HAIRLINE, LABEL_SIZE, QUIET, tint,
 };
 use crate::report::{AtAmplitudeEntry, GapReport};
-use crate::stability::InstabilityKind;
 use crate::text::shown_to;
 
 const WIDTH: u32 = 1000;
@@ -75,22 +75,14 @@ fn draw_speeds(sheet: &mut Sheet, report: &GapReport) {
         .amplitudes
         .iter()
         .filter_map(|at| beyond_um(report, at));
-    let ends = [
-        beyond.clone().fold(f64::INFINITY, f64::min),
-        beyond.fold(0.0, f64::max),
-    ];
     let places = [panel.left + BESIDE, panel.right - BESIDE];
-    let amplitude = Axis::new(ends, places, Spread::Logarithmic);
-    let speed = Axis::new(
-        [report.from_rpm, report.to_rpm],
-        [panel.bottom, panel.top],
-        Spread::Linear,
-    );
+    let amplitude = Axis::new(extremes(beyond), places, Spread::Logarithmic);
+    let speed = Axis::linear([report.from_rpm, report.to_rpm], panel.upwards());
     draw_vertical(sheet, &speed, panel, "rotation speed [rpm]");
     let grid = Stroke::solid(GRID, HAIRLINE);
     for tick in amplitude.ticks(60.0) {
         let x = amplitude.at(tick);
-        sheet.line([[x, panel.top], [x, panel.bottom]], grid);
+        sheet.vertical(x, panel, grid);
         label_x(sheet, panel, x, &tick_label(tick));
     }
     let (free, linear) = (panel.left + 0.4 * BESIDE, panel.right - 0.4 * BESIDE);
@@ -101,8 +93,7 @@ fn draw_speeds(sheet: &mut Sheet, report: &GapReport) {
         let x = amplitude
             .at(1e6 * (half - report.smallest_gap_m))
             .clamp(places[0], places[1]);
-        let stroke = Stroke::dashed(QUIET, HAIRLINE, DASH);
-        sheet.line([[x, panel.top], [x, panel.bottom]], stroke);
+        sheet.vertical(x, panel, Stroke::dashed(QUIET, HAIRLINE, DASH));
     }
     let place = |at: &AtAmplitudeEntry, fallback: f64| {
         beyond_um(report, at).map_or(fallback, |um| amplitude.at(um))
@@ -115,16 +106,13 @@ fn draw_speeds(sheet: &mut Sheet, report: &GapReport) {
         .collect();
     for (x, at) in &columns {
         for band in &at.instabilities {
-            let colour = match band.kind {
-                InstabilityKind::Flutter => FLUTTER_STREAK,
-                InstabilityKind::Divergence => DIVERGENCE_STREAK,
-            };
+            let [_, _, streak] = Hue::of_kind(band.kind);
             let [from, to] = [band.from_rpm, band.to_rpm].map(|rpm| speed.at(rpm));
             // A band is at least one pixel high.
             let half = (0.5 * (from - to)).max(0.5);
             let middle = 0.5 * (from + to);
             let ends = [[*x, middle - half], [*x, middle + half]];
-            sheet.line(ends, Stroke::solid(colour, BAND));
+            sheet.line(ends, Stroke::solid(streak.colour(), BAND));
         }
     }
     let most = columns.iter().map(|(_, at)| at.critical_rpm.len()).max();
@@ -141,7 +129,7 @@ fn draw_speeds(sheet: &mut Sheet, report: &GapReport) {
     }
     for (x, at) in &columns {
         if let Some(rpm) = at.flutter_speed_rpm {
-            sheet.ring([*x, speed.at(rpm)], 4.5, Stroke::solid(ALARM, CURVE), PAPER);
+            sheet.ring([*x, speed.at(rpm)], 4.5, Stroke::solid(ALARM, CURVE));
         }
     }
 }
@@ -160,38 +148,28 @@ fn draw_deflections(sheet: &mut Sheet, report: &GapReport) {
         .flatten()
         .map(|m| 1e3 * m.abs());
     let all = all.chain(map.max_deflection_m.map(|m| 1e3 * m));
-    let all = all.filter(|mm| *mm > 0.0);
-    let ends = [
-        all.clone().fold(f64::INFINITY, f64::min),
-        all.fold(0.0, f64::max),
-    ];
-    let ends = if ends[0].is_finite() {
-        ends
-    } else {
-        [1e-3, 1.0]
+    let [low, high] = match extremes(all.filter(|mm| *mm > 0.0)) {
+        ends if ends[0].is_finite() => ends,
+        _ => [1e-3, 1.0],
     };
-    let ends = [ends[0] / 1.3, ends[1] * 1.3];
-    let deflection = Axis::new(ends, [panel.bottom, panel.top], Spread::Logarithmic);
-    let widest = gaps_mm.iter().copied().fold(0.0, f64::max);
-    let smallest = gaps_mm.iter().copied().filter(|mm| *mm > 0.0);
-    let smallest = smallest.fold(f64::INFINITY, f64::min);
-    let gap = Axis::new(
-        [smallest, widest],
-        [panel.left + BESIDE, panel.right],
+    let deflection = Axis::new(
+        [low / 1.3, 1.3 * high],
+        panel.upwards(),
         Spread::Logarithmic,
     );
+    let above_zero = gaps_mm.iter().copied().filter(|mm| *mm > 0.0);
+    let places = [panel.left + BESIDE, panel.right];
+    let gap = Axis::new(extremes(above_zero.clone()), places, Spread::Logarithmic);
     draw_vertical(sheet, &deflection, panel, "deflection at the cut [mm]");
     let linear = panel.left + 0.4 * BESIDE;
     label_x(sheet, panel, linear, "linear");
-    let above_zero = gaps_mm.iter().filter(|mm| **mm > 0.0);
     for mm in above_zero.step_by(EVERY) {
-        label_x(sheet, panel, gap.at(*mm), &shown_to(2, *mm));
+        label_x(sheet, panel, gap.at(mm), &shown_to(2, mm));
     }
     name_x(sheet, panel, "smallest gap [mm]; all gaps in proportion");
     if let Some(limit) = map.max_deflection_m {
-        let y = deflection.at(1e3 * limit);
         let stroke = Stroke::dashed(ALARM, CURVE, DASH);
-        sheet.line([[panel.left, y], [panel.right, y]], stroke);
+        sheet.horizontal(deflection.at(1e3 * limit), panel, stroke);
     }
     for k in (0..map.forces_n.len()).step_by(EVERY) {
         let at = |row: usize| map.deflection_m[row][k].map(|m| deflection.at(1e3 * m.abs()));
@@ -206,7 +184,7 @@ fn draw_deflections(sheet: &mut Sheet, report: &GapReport) {
         }
         for row in rows.filter(|row| gaps_mm[*row] == 0.0) {
             if let Some(y) = at(row) {
-                sheet.ring([linear, y], 3.0, Stroke::solid(colour, CURVE), PAPER);
+                sheet.ring([linear, y], 3.0, Stroke::solid(colour, CURVE));
             }
         }
     }
@@ -243,11 +221,8 @@ fn label_x(sheet: &mut Sheet, panel: &Frame, x: f64, label: &str) {
 }
 
 fn name_x(sheet: &mut Sheet, panel: &Frame, name: &str) {
-    let ends = [[panel.left, panel.bottom], [panel.right, panel.bottom]];
-    sheet.line(ends, Stroke::solid(QUIET, HAIRLINE));
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let middle = 0.5 * (panel.left + panel.right);
-    sheet.text([middle, panel.bottom + 46.0], letters, name);
+    sheet.horizontal(panel.bottom, panel, Stroke::solid(QUIET, HAIRLINE));
+    name_below(sheet, panel.across(), panel.bottom + 46.0, name);
 }
 
 fn draw_key(sheet: &mut Sheet, has_limit: bool) {

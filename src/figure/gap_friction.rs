@@ -1,12 +1,11 @@
 //! Temperature of a blade that its pads heat, over the radius.
 
-use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label, two_digits};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
-use super::declutter::{Wish, push_apart};
+use super::axis::{Axis, draw_named, draw_vertical, tick_label, two_digits};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::declutter::{Extent, push_apart};
 use super::heading;
 use super::style::{
-    BACKWARD, BETWEEN_FACTS, CURVE, FORWARD, INK, LABEL_SIZE, PAPER, QUIET, Weight, shorten,
-    text_width, tint,
+    BACKWARD, BETWEEN_FACTS, CURVE, FORWARD, INK, LABEL_SIZE, QUIET, shorten_label, tint,
 };
 use crate::report::{FrictionEntry, FrictionPadEntry, GapReport};
 use crate::text::shown_to;
@@ -41,19 +40,16 @@ pub fn sheet(report: &GapReport) -> Option<Sheet> {
     );
     let mm: Vec<f64> = heat.radii_m.iter().map(|r| 1e3 * r).collect();
     let ends = [mm.first(), mm.last()].map(|end| end.copied().unwrap_or_default());
-    let radius = Axis::new(ends, [PANEL.left, PANEL.right], Spread::Linear);
+    let radius = Axis::linear(ends, PANEL.across());
     let hottest = heat.rise_k.iter().copied().fold(0.0, f64::max);
     let top = if hottest > 0.0 { 1.15 * hottest } else { 1.0 };
-    let rise = Axis::new([0.0, top], [PANEL.bottom, PANEL.top], Spread::Linear);
+    let rise = Axis::linear([0.0, top], PANEL.upwards());
     draw_pads(&mut sheet, heat, &radius);
     draw_vertical(&mut sheet, &rise, &PANEL, "temperature rise\u{2003}[K]");
     draw_named(&mut sheet, &radius, PANEL.bottom, "radius\u{2003}[mm]");
     let curve = mm.iter().zip(&heat.rise_k);
     let curve = curve.map(|(mm, k)| [radius.at(*mm), rise.at(*k)]);
-    sheet.line(
-        curve.collect::<Vec<_>>(),
-        Stroke::solid(BACKWARD, 1.4 * CURVE),
-    );
+    sheet.line(curve, Stroke::solid(BACKWARD, 1.4 * CURVE));
     let peak = mm.iter().zip(&heat.rise_k).find(|(_, k)| **k == hottest);
     if let (Some((mm, k)), true) = (peak, hottest > 0.0) {
         label_peak(&mut sheet, [radius.at(*mm), rise.at(*k)], *k);
@@ -76,19 +72,19 @@ fn facts(report: &GapReport, heat: &FrictionEntry) -> Vec<String> {
     all.into_iter().flatten().collect()
 }
 
-/// Pads with the same extent.
-struct Extent {
+/// Pads between the same radii.
+struct Pads {
     ends_m: [f64; 2],
     guides: Vec<usize>,
 }
 
-fn extents(pads: &[FrictionPadEntry]) -> Vec<Extent> {
-    let mut all: Vec<Extent> = Vec::new();
+fn by_radii(pads: &[FrictionPadEntry]) -> Vec<Pads> {
+    let mut all: Vec<Pads> = Vec::new();
     for pad in pads {
         let ends_m = [pad.from_radius_m, pad.to_radius_m];
-        match all.iter_mut().find(|extent| extent.ends_m == ends_m) {
-            Some(extent) => extent.guides.push(pad.guide),
-            None => all.push(Extent {
+        match all.iter_mut().find(|pads| pads.ends_m == ends_m) {
+            Some(pads) => pads.guides.push(pad.guide),
+            None => all.push(Pads {
                 ends_m,
                 guides: vec![pad.guide],
             }),
@@ -99,40 +95,26 @@ fn extents(pads: &[FrictionPadEntry]) -> Vec<Extent> {
 
 /// Shades the radii of the pads, and writes the numbers of their guides above.
 fn draw_pads(sheet: &mut Sheet, heat: &FrictionEntry, radius: &Axis) {
-    let all = extents(&heat.pads);
-    for extent in &all {
-        let [left, right] = extent.ends_m.map(|m| radius.at(1e3 * m));
+    let labels = by_radii(&heat.pads).into_iter().map(|pads| {
+        let [left, right] = pads.ends_m.map(|m| radius.at(1e3 * m));
         let half = (0.5 * (right - left)).max(0.5 * POINT);
         let middle = 0.5 * (left + right);
-        let frame = Frame {
-            left: middle - half,
-            right: middle + half,
-            ..PANEL
-        };
+        let frame = PANEL.between([middle - half, middle + half]);
         sheet.fill(frame, tint(FORWARD, 0.13));
-    }
-    let name = |extent: &Extent| {
-        let numbers: Vec<String> = extent.guides.iter().map(usize::to_string).collect();
-        let room = 0.6 * (PANEL.right - PANEL.left);
+        let numbers: Vec<String> = pads.guides.iter().map(usize::to_string).collect();
         let name = format!("guides[{}]", numbers.join(", "));
-        shorten(&name, LABEL_SIZE, Weight::Regular, room)
-    };
-    let names: Vec<String> = all.iter().map(name).collect();
-    let wishes = all.iter().zip(&names).map(|(extent, name)| Wish {
-        centre: extent
-            .ends_m
-            .map(|m| radius.at(1e3 * m))
-            .iter()
-            .sum::<f64>()
-            / 2.0,
-        length: text_width(name, LABEL_SIZE, Weight::Regular) + BETWEEN,
+        (
+            middle,
+            shorten_label(&name, 0.6 * (PANEL.right - PANEL.left)),
+        )
     });
-    let wishes: Vec<Wish> = wishes.collect();
-    let letters = Lettering::regular(LABEL_SIZE, FORWARD, Anchor::Middle);
-    for (name, x) in names
+    let labels: Vec<(f64, String)> = labels.collect();
+    let extents = labels
         .iter()
-        .zip(push_apart(&wishes, PANEL.left, PANEL.right))
-    {
+        .map(|(middle, name)| Extent::of_label(*middle, name, BETWEEN));
+    let letters = Lettering::regular(LABEL_SIZE, FORWARD, Anchor::Middle);
+    let places = push_apart(extents, PANEL.across());
+    for ((_, name), x) in labels.iter().zip(places) {
         if let Some(x) = x {
             sheet.text([x, PANEL.top - 10.0], letters, name);
         }
@@ -146,9 +128,7 @@ fn label_peak(sheet: &mut Sheet, [x, y]: [f64; 2], rise_k: f64) {
     let anchor = if is_right { Anchor::End } else { Anchor::Start };
     let at = [x + if is_right { -10.0 } else { 10.0 }, y - 6.0];
     let letters = Lettering::regular(LABEL_SIZE, INK, anchor);
-    let said = format!("{} K", two_digits(rise_k));
-    sheet.fill(text_frame(at, &letters, &said), PAPER);
-    sheet.text(at, letters, &said);
+    sheet.text_on_paper(at, letters, &format!("{} K", two_digits(rise_k)));
 }
 
 /// Lists below the diagram, for each pad, its radii, the rest of its gap, and its force.

@@ -1,12 +1,12 @@
 //! The deflection at the cut over gap and side force, and over gap and speed, with the line of the largest deflection
 //! allowed.
 
-use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::axis::{Axis, Spread, draw_named, draw_vertical, extremes, tick_label};
+use super::canvas::{Frame, Lettering, Sheet, Stroke};
 use super::heading;
 use super::heat::{draw_grid, draw_scale, ramp};
 use super::key::Key;
-use super::style::{BETWEEN_FACTS, Colour, INK, PAPER, STRONG_CURVE, SUBTITLE_SIZE, Weight};
+use super::style::{BETWEEN_FACTS, BLANK, Colour, INK, PAPER, STRONG_CURVE, SUBTITLE_SIZE};
 use crate::report::{DeviationEntry, GapReport};
 use crate::text::shown_to;
 
@@ -35,8 +35,6 @@ const SMALL_TO_LARGE: [Colour; 5] = [
     plotters::style::RGBColor(46, 88, 140),
     plotters::style::RGBColor(40, 24, 74),
 ];
-/// Colour of cells without a deflection.
-const LEANING: Colour = plotters::style::RGBColor(214, 216, 220);
 
 /// Draws the two maps; `None` if no deflection is known.
 pub fn sheet(report: &GapReport) -> Option<Sheet> {
@@ -44,10 +42,7 @@ pub fn sheet(report: &GapReport) -> Option<Sheet> {
     let all = map.deflection_m.iter().skip(1).flatten();
     let all = all.chain(map.deflection_over_gap_and_speed_m.iter().skip(1).flatten());
     let all = all.flatten().map(|m| 1e3 * m.abs()).filter(|mm| *mm > 0.0);
-    let ends = [
-        all.clone().fold(f64::INFINITY, f64::min),
-        all.fold(0.0, f64::max),
-    ];
+    let ends = extremes(all);
     if !ends[0].is_finite() {
         return None;
     }
@@ -148,18 +143,15 @@ impl Panel<'_> {
             .filter(|row| gaps_mm[*row] > 0.0)
             .collect();
         let gaps: Vec<f64> = rows.iter().map(|row| gaps_mm[*row]).collect();
-        let y = axis_of_cells(&gaps, [frame.bottom, frame.top], Spread::Logarithmic);
-        let x = axis_of_cells(self.values, [frame.left, frame.right], self.spread);
+        let y = Axis::of_cells(&gaps, frame.upwards(), Spread::Logarithmic);
+        let x = Axis::of_cells(self.values, frame.across(), self.spread);
         draw_vertical(sheet, &y, frame, "smallest gap\u{2003}[mm]");
         draw_grid(sheet, (&x, self.values), (&y, &gaps), |column, row| {
             let found = self.deflection_m[rows[row]][column];
-            found.map_or(LEANING, |m| shade.colour(1e3 * m.abs()))
+            found.map_or(BLANK, |m| shade.colour(1e3 * m.abs()))
         });
         draw_named(sheet, &x, frame.bottom, self.name);
-        let title = Lettering {
-            weight: Weight::SemiBold,
-            ..Lettering::regular(SUBTITLE_SIZE, INK, Anchor::Start)
-        };
+        let title = Lettering::title(SUBTITLE_SIZE, INK);
         sheet.text([frame.left, frame.top - 14.0], title, &self.title);
         let last = self.values.last().copied().unwrap_or_default();
         let crossings = rows.iter().zip(&gaps).filter_map(|(row, gap)| {
@@ -173,28 +165,10 @@ impl Panel<'_> {
     }
 }
 
-/// An axis that is half a cell longer than its values at either end.
-fn axis_of_cells(values: &[f64], places: [f64; 2], spread: Spread) -> Axis {
-    let first = values.first().copied().unwrap_or(1.0);
-    let last = values.last().copied().unwrap_or(first);
-    let cells = values.len().saturating_sub(1).max(1) as f64;
-    let ends = match spread {
-        Spread::Logarithmic => {
-            let half = (last / first).powf(0.5 / cells);
-            [first / half, last * half]
-        }
-        _ => {
-            let half = 0.5 * (last - first) / cells;
-            [first - half, last + half]
-        }
-    };
-    Axis::new(ends, places, spread)
-}
-
 fn draw_key(sheet: &mut Sheet, map: &DeviationEntry) {
     let y = f64::from(HEIGHT) - 36.0;
     let mut key = Key::new(sheet, PANELS[0].left, y);
-    key.shade(LEANING)
+    key.shade(BLANK)
         .word("the blade leans by more than its thickness, or slopes exceed 0.1");
     if map.max_deflection_m.is_some() {
         key.line(24.0, Stroke::solid(INK, STRONG_CURVE - 1.0))

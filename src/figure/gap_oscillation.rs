@@ -1,9 +1,9 @@
 //! Oscillation of the blade between guides with a gap, over the speed: amplitudes of the harmonics at the probe, and
 //! mean and amplitude of the deflection at the cut.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical};
+use super::axis::{Axis, SPEED, Spread, draw_horizontal, draw_named, draw_vertical, extremes};
 use super::canvas::{Frame, Sheet, Stroke};
-use super::clip::clip;
+use super::clip::draw_inside;
 use super::heading;
 use super::key::Key;
 use super::style::{
@@ -45,7 +45,7 @@ pub fn sheet(report: &GapReport) -> Option<Sheet> {
         &facts(report, found).join(BETWEEN_FACTS),
     );
     let last = found.rpm.last().copied().unwrap_or(1.0);
-    let speed = Axis::new([0.0, last], [PARTS.left, PARTS.right], Spread::Linear);
+    let speed = Axis::linear([0.0, last], PARTS.across());
     for panel in [&PARTS, &CUT] {
         shade_unknown(&mut sheet, found, &speed, panel);
     }
@@ -53,8 +53,7 @@ pub fn sheet(report: &GapReport) -> Option<Sheet> {
     draw_cut(&mut sheet, report, found, &speed);
     let x = speed.at(report.deviation.rpm);
     for panel in [&PARTS, &CUT] {
-        let line = [[x, panel.top], [x, panel.bottom]];
-        sheet.line(line, Stroke::dashed(ALARM, HAIRLINE, FINE_DASH));
+        sheet.vertical(x, panel, Stroke::dashed(ALARM, HAIRLINE, FINE_DASH));
     }
     draw_key(&mut sheet, report, found);
     Some(sheet)
@@ -88,12 +87,9 @@ fn shade_unknown(sheet: &mut Sheet, found: &OscillationEntry, speed: &Axis, pane
     for (k, own) in rpm.iter().enumerate() {
         let beside = |other: Option<&f64>| speed.at(other.map_or(*own, |rpm| 0.5 * (rpm + own)));
         if found.probe_mean_m.get(k).copied().flatten().is_none() {
-            let frame = Frame {
-                left: beside(k.checked_sub(1).and_then(|k| rpm.get(k))),
-                right: beside(rpm.get(k + 1)),
-                ..*panel
-            };
-            sheet.fill(frame, UNKNOWN);
+            let left = beside(k.checked_sub(1).and_then(|k| rpm.get(k)));
+            let right = beside(rpm.get(k + 1));
+            sheet.fill(panel.between([left, right]), UNKNOWN);
         }
     }
 }
@@ -116,24 +112,18 @@ fn draw(sheet: &mut Sheet, panel: &Frame, pieces: &[Vec<[f64; 2]>], stroke: Stro
         if let [point] = piece[..] {
             sheet.disc(point, 0.5 * stroke.width + 0.6, stroke.colour);
         }
-        for part in clip(piece, panel) {
-            sheet.line(part, stroke);
-        }
+        draw_inside(sheet, panel, piece, stroke);
     }
 }
 
 fn draw_parts(sheet: &mut Sheet, found: &OscillationEntry, speed: &Axis) {
     let all = found.lines.iter().flat_map(|line| &line.probe_m).flatten();
-    let (low, high) = all
-        .filter(|m| **m > 0.0)
-        .fold((f64::INFINITY, 0.0_f64), |(low, high), m| {
-            (low.min(1e3 * m), high.max(1e3 * m))
-        });
+    let [low, high] = extremes(all.map(|m| 1e3 * m).filter(|mm| *mm > 0.0));
     let ends = match high > 0.0 {
         true => [low.max(high * 10f64.powi(-DECADES)) / 1.5, 1.5 * high],
         false => [1e-3, 1.0],
     };
-    let axis = Axis::new(ends, [PARTS.bottom, PARTS.top], Spread::Logarithmic);
+    let axis = Axis::new(ends, PARTS.upwards(), Spread::Logarithmic);
     draw_vertical(sheet, &axis, &PARTS, "parts at the probe\u{2003}[mm]");
     for (line, colour) in found.lines.iter().zip(COLOURS) {
         let points = pieces(found, |k| {
@@ -165,7 +155,7 @@ fn draw_cut(sheet: &mut Sheet, report: &GapReport, found: &OscillationEntry, spe
     });
     let size = 0.08 * (ends[1] - ends[0]).max(1e-6);
     let ends = [ends[0] - size, ends[1] + size];
-    let axis = Axis::new(ends, [CUT.bottom, CUT.top], Spread::Linear);
+    let axis = Axis::linear(ends, CUT.upwards());
     let at = |k: usize, side: f64| {
         let [mean, amplitude] = [&found.cut_mean_m, &found.cut_amplitude_m].map(|all| all[k]);
         let mm = 1e3 * (mean? + side * amplitude?);
@@ -177,27 +167,18 @@ fn draw_cut(sheet: &mut Sheet, report: &GapReport, found: &OscillationEntry, spe
         sheet.polygon(around.collect::<Vec<_>>(), tint(FORWARD, 0.16));
     }
     draw_vertical(sheet, &axis, &CUT, "deflection at the cut\u{2003}[mm]");
-    let zero = axis.at(0.0);
-    let line = [[CUT.left, zero], [CUT.right, zero]];
-    sheet.line(line, Stroke::solid(INK, HAIRLINE));
-    for side in [1.0, -1.0] {
-        if let Some(limit) = limit_mm.filter(|limit| axis.shows(side * limit)) {
-            let y = axis.at(side * limit);
-            let line = [[CUT.left, y], [CUT.right, y]];
-            sheet.line(line, Stroke::dashed(ALARM, CURVE, DASH));
-        }
+    sheet.horizontal(axis.at(0.0), &CUT, Stroke::solid(INK, HAIRLINE));
+    let limits = limit_mm.iter().flat_map(|limit| [*limit, -limit]);
+    for limit in limits.filter(|limit| axis.shows(*limit)) {
+        sheet.horizontal(axis.at(limit), &CUT, Stroke::dashed(ALARM, CURVE, DASH));
     }
     for edge in [&upper, &lower] {
-        draw(
-            sheet,
-            &CUT,
-            edge,
-            Stroke::solid(tint(FORWARD, 0.6), HAIRLINE),
-        );
+        let stroke = Stroke::solid(tint(FORWARD, 0.6), HAIRLINE);
+        draw(sheet, &CUT, edge, stroke);
     }
     let mean = pieces(found, |k| at(k, 0.0));
     draw(sheet, &CUT, &mean, Stroke::solid(FORWARD, 1.4 * CURVE));
-    draw_named(sheet, speed, CUT.bottom, "rotation speed Ω\u{2003}[rpm]");
+    draw_named(sheet, speed, CUT.bottom, SPEED);
 }
 
 fn draw_key(sheet: &mut Sheet, report: &GapReport, found: &OscillationEntry) {

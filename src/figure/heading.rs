@@ -6,12 +6,8 @@ use super::style::{INK, MARGIN, QUIET, SUBTITLE_SIZE, TITLE_SIZE, Weight, shorte
 /// Writes title and subtitle at the upper left, shortened to the width of the sheet.
 pub fn draw(sheet: &mut Sheet, title: &str, subtitle: &str) {
     let room = f64::from(sheet.size().0) - 2.0 * MARGIN;
-    let letters = Lettering {
-        weight: Weight::SemiBold,
-        ..Lettering::regular(TITLE_SIZE, INK, Anchor::Start)
-    };
     let title = shorten(title, TITLE_SIZE, Weight::SemiBold, room);
-    sheet.text([MARGIN, 38.0], letters, &title);
+    sheet.text([MARGIN, 38.0], Lettering::title(TITLE_SIZE, INK), &title);
     let letters = Lettering::regular(SUBTITLE_SIZE, QUIET, Anchor::Start);
     let subtitle = shorten(subtitle, SUBTITLE_SIZE, Weight::Regular, room);
     sheet.text([MARGIN, 61.0], letters, &subtitle);

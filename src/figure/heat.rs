@@ -72,12 +72,10 @@ pub fn draw_scale(
 ) {
     const BARS: usize = 80;
     let frame = Frame {
-        left,
         top: panel.top + below,
-        right,
-        bottom: panel.bottom,
+        ..panel.between([left, right])
     };
-    let axis = Axis::new(ends, [frame.bottom, frame.top], spread);
+    let axis = Axis::new(ends, frame.upwards(), spread);
     let [low, high] = axis.values();
     let height = (frame.bottom - frame.top) / BARS as f64;
     for bar in 0..BARS {
@@ -105,18 +103,12 @@ pub fn draw_scale(
         let at = [frame.right + 9.0, y + 0.36 * AXIS_SIZE];
         sheet.text(at, letters, &text);
     }
-    let at = [frame.left, frame.top - 12.0];
-    sheet.text(
-        at,
-        Lettering::regular(AXIS_SIZE, QUIET, Anchor::Start),
-        name,
-    );
+    sheet.text([frame.left, frame.top - 12.0], letters, name);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figure::axis::Spread;
     use crate::figure::canvas::Mark;
     use plotters::style::RGBColor;
 
@@ -136,8 +128,8 @@ mod tests {
     #[test]
     fn equal_neighbours_join() {
         let mut sheet = Sheet::new(100, 100);
-        let x = Axis::new([0.0, 3.0], [0.0, 90.0], Spread::Linear);
-        let y = Axis::new([0.0, 1.0], [90.0, 0.0], Spread::Linear);
+        let x = Axis::linear([0.0, 3.0], [0.0, 90.0]);
+        let y = Axis::linear([0.0, 1.0], [90.0, 0.0]);
         let colours = [RGBColor(0, 0, 0), RGBColor(9, 9, 9)];
         draw_grid(
             &mut sheet,

@@ -1,6 +1,6 @@
 //! Unstable speeds of a saw, idling and under the forces of a cut, one above the other.
 
-use super::axis::{Axis, Spread, draw_named};
+use super::axis::{Axis, SPEED, draw_named};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::key::Key;
 use super::style::{
@@ -34,7 +34,7 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     heading::draw(&mut sheet, &report.scene.name, &facts(in_cut));
     let range = [report.campbell.from_rpm, report.campbell.to_rpm];
-    let speed = Axis::new(range, [LEFT, RIGHT], Spread::Linear);
+    let speed = Axis::linear(range, [LEFT, RIGHT]);
     let critical = report.critical_speeds.iter().map(|critical| critical.rpm);
     let rows = [
         Row {
@@ -67,7 +67,7 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
         let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Middle);
         sheet.text([x, TOP - 10.0], letters, &format!("operating {rpm:.0}"));
     }
-    draw_named(&mut sheet, &speed, bottom, "rotation speed Ω\u{2003}[rpm]");
+    draw_named(&mut sheet, &speed, bottom, SPEED);
     draw_key(&mut sheet);
     Some(sheet)
 }
@@ -86,43 +86,39 @@ fn facts(in_cut: &InCutEntry) -> String {
 impl Row<'_> {
     fn draw(&self, sheet: &mut Sheet, speed: &Axis, frame: Frame) {
         bands::shade(sheet, speed, self.bands.iter(), &[frame]);
-        let line = [[frame.left, frame.bottom], [frame.right, frame.bottom]];
-        sheet.line(line, Stroke::solid(GRID, HAIRLINE));
+        sheet.horizontal(frame.bottom, &frame, Stroke::solid(GRID, HAIRLINE));
         let shown = self.critical_rpm.iter().filter(|rpm| speed.shows(**rpm));
         for rpm in shown {
             sheet.disc([speed.at(*rpm), frame.bottom], 3.5, INK);
         }
         let shown = self.flutter_rpm.filter(|rpm| speed.shows(*rpm));
         if let Some(x) = shown.map(|rpm| speed.at(rpm)) {
-            let upright = [[x, frame.top], [x, frame.bottom]];
-            sheet.line(upright, Stroke::solid(FLUTTER, STRONG_CURVE));
+            sheet.vertical(x, &frame, Stroke::solid(FLUTTER, STRONG_CURVE));
         }
-        let middle = 0.5 * (frame.top + frame.bottom);
+        let [_, middle] = frame.centre();
         let letters = |colour| Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
         sheet.text([MARGIN, middle - 16.0], letters(INK), &self.name);
-        let told = |what: &str, rpm: Option<f64>| match rpm {
-            Some(rpm) => format!("{what} {rpm:.0} rpm"),
-            None => format!("no {what} in the sweep"),
-        };
-        let lowest = self.critical_rpm.first().copied();
-        let critical = told("critical speed", lowest);
-        sheet.text([MARGIN, middle + 2.0], letters(QUIET), &critical);
-        let flutter = told("flutter speed", self.flutter_rpm);
-        sheet.text([MARGIN, middle + 20.0], letters(QUIET), &flutter);
+        let lines = [
+            ("critical speed", self.critical_rpm.first().copied(), 2.0),
+            ("flutter speed", self.flutter_rpm, 20.0),
+        ];
+        for (name, rpm, below) in lines {
+            let line = match rpm {
+                Some(rpm) => format!("{name} {rpm:.0} rpm"),
+                None => format!("no {name} in the sweep"),
+            };
+            sheet.text([MARGIN, middle + below], letters(QUIET), &line);
+        }
     }
 }
 
 fn draw_key(sheet: &mut Sheet) {
-    let upright = |sheet: &mut Sheet, [x, y]: [f64; 2]| {
-        let line = [[x, y - 8.0], [x, y + 8.0]];
-        sheet.line(line, Stroke::solid(FLUTTER, STRONG_CURVE));
-    };
     Key::new(sheet, MARGIN, f64::from(HEIGHT) - 20.0)
         .shade(DIVERGENCE_SHADE)
         .word("divergence")
         .shade(FLUTTER_SHADE)
         .word("flutter")
-        .mark(4.0, upright)
+        .upright(4.0, 8.0, Stroke::solid(FLUTTER, STRONG_CURVE))
         .word("flutter speed")
         .dot(8.0, 3.5, INK)
         .word("critical speed");

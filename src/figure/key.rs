@@ -1,7 +1,7 @@
 //! The key below a figure, which explains its marks.
 
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::style::{Colour, LABEL_SIZE, PAPER, QUIET, Weight, text_width};
+use super::style::{Colour, LABEL_SIZE, QUIET, label_width};
 
 /// Space after each word.
 const AFTER_WORD: f64 = 24.0;
@@ -53,6 +53,13 @@ impl<'a> Key<'a> {
         })
     }
 
+    /// Adds a vertical line of twice the length `half` at the left end of a width.
+    pub fn upright(&mut self, width: f64, half: f64, stroke: Stroke) -> &mut Self {
+        self.mark(width, |sheet, [x, y]| {
+            sheet.line([[x, y - half], [x, y + half]], stroke);
+        })
+    }
+
     /// Adds a dot in the middle of a width.
     pub fn dot(&mut self, width: f64, radius: f64, colour: Colour) -> &mut Self {
         self.mark(width, |sheet, [x, y]| {
@@ -63,7 +70,7 @@ impl<'a> Key<'a> {
     /// Adds a ring in the middle of a width.
     pub fn ring(&mut self, width: f64, radius: f64, stroke: Stroke) -> &mut Self {
         self.mark(width, |sheet, [x, y]| {
-            sheet.ring([x + 0.5 * width, y], radius, stroke, PAPER);
+            sheet.ring([x + 0.5 * width, y], radius, stroke);
         })
     }
 
@@ -71,7 +78,7 @@ impl<'a> Key<'a> {
     pub fn word(&mut self, text: &str) -> &mut Self {
         let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
         self.sheet.text([self.left, self.baseline], letters, text);
-        self.left += text_width(text, LABEL_SIZE, Weight::Regular) + AFTER_WORD;
+        self.left += label_width(text) + AFTER_WORD;
         self
     }
 }

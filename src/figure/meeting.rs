@@ -6,7 +6,8 @@
 
 /// The square of the growth rate of a pair of modes, over the rotation speed.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Meeting {
+pub struct Coalescence {
+    /// First and last speed of the band in rpm.
     ends: [f64; 2],
     /// Whether the modes coalesce at each end, so that the square is zero there.
     closed: [bool; 2],
@@ -14,9 +15,9 @@ pub struct Meeting {
     factors: Vec<[f64; 2]>,
 }
 
-impl Meeting {
-    /// Interpolates squares given at some speeds: growth² within the band, −(half the difference of the
-    /// frequencies)² outside. `None` without a usable sample.
+impl Coalescence {
+    /// Interpolates between squares at some speeds in rpm; a square is positive within the band and negative outside.
+    /// `None` for an empty band, and without a usable square.
     pub fn new(
         ends: [f64; 2],
         closed: [bool; 2],
@@ -25,24 +26,23 @@ impl Meeting {
         if ends[0].is_nan() || ends[1].is_nan() || ends[0] >= ends[1] {
             return None;
         }
-        let factors = Vec::new();
-        let mut meeting = Self {
+        let mut found = Self {
             ends,
             closed,
-            factors,
+            factors: Vec::new(),
         };
         // Near the ends both square and weight are rounding errors.
         const CLOSE: f64 = 0.01;
         for [rpm, square] in squares {
-            let weight = meeting.weight(rpm);
+            let weight = found.weight(rpm);
             let factor = square / weight;
             if weight.abs() > CLOSE && factor.is_finite() && factor >= 0.0 {
-                meeting.factors.push([rpm, factor]);
+                found.factors.push([rpm, factor]);
             }
         }
-        meeting.factors.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        meeting.factors.dedup_by(|next, kept| next[0] == kept[0]);
-        (!meeting.factors.is_empty()).then_some(meeting)
+        found.factors.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        found.factors.dedup_by(|next, kept| next[0] == kept[0]);
+        (!found.factors.is_empty()).then_some(found)
     }
 
     /// A function of the speed that is zero at closed ends, positive within the band and negative outside.
@@ -52,8 +52,8 @@ impl Meeting {
         from_end(self.closed[0], rpm - from) * from_end(self.closed[1], to - rpm)
     }
 
-    /// The square at a speed.
-    pub fn square(&self, rpm: f64) -> f64 {
+    /// The square at a speed, in 1/s².
+    fn square(&self, rpm: f64) -> f64 {
         self.weight(rpm) * interpolate(&self.factors, rpm)
     }
 
@@ -92,11 +92,11 @@ mod tests {
     #[test]
     fn growth_is_zero_at_the_ends_and_goes_through_the_samples() {
         let samples = [[10.5, 1.0], [12.0, 4.0], [13.9, 0.2], [16.0, -9.0]];
-        let meeting = Meeting::new([10.0, 14.0], [true; 2], samples).unwrap();
+        let found = Coalescence::new([10.0, 14.0], [true; 2], samples).unwrap();
         for [rpm, square] in samples {
-            assert!((meeting.square(rpm) - square).abs() < 1e-12);
+            assert!((found.square(rpm) - square).abs() < 1e-12);
         }
-        let growth = meeting.growth();
+        let growth = found.growth();
         assert_eq!(growth.first(), Some(&[10.0, 0.0]));
         assert_eq!(growth.last(), Some(&[14.0, 0.0]));
         assert!(growth.iter().any(|[_, g]| *g > 1.9));
@@ -104,15 +104,11 @@ mod tests {
 
     #[test]
     fn a_band_cut_short_by_the_sweep_does_not_end_at_zero() {
-        let meeting = Meeting::new([10.0, 14.0], [true, false], [[14.0, 9.0]]).unwrap();
-        assert_eq!(meeting.square(14.0), 9.0);
-        assert_eq!(
-            Meeting::new([10.0, f64::NAN], [true; 2], [[11.0, 1.0]]),
-            None
-        );
-        assert_eq!(
-            Meeting::new([10.0, 14.0], [true; 2], [[11.0, f64::NAN]]),
-            None
-        );
+        let found = Coalescence::new([10.0, 14.0], [true, false], [[14.0, 9.0]]).unwrap();
+        assert_eq!(found.square(14.0), 9.0);
+        let unknown = [([10.0, f64::NAN], 1.0), ([10.0, 14.0], f64::NAN)];
+        for (ends, square) in unknown {
+            assert_eq!(Coalescence::new(ends, [true; 2], [[11.0, square]]), None);
+        }
     }
 }

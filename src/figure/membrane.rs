@@ -1,13 +1,13 @@
 //! Membrane stress over the radius, and its effect on the critical speeds.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_vertical, round_up, tick_label};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
-use super::clip::clip;
-use super::declutter::{Wish, push_apart};
+use super::axis::{Axis, draw_named, draw_vertical, extremes, name_upright, round_up, tick_label};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::clip::draw_inside;
+use super::declutter::{Extent, push_apart};
 use super::heading;
 use super::style::{
-    ALARM, AXIS_SIZE, BACKWARD, CURVE, Colour, DASH, FINE_DASH, FLUTTER, FORWARD, HAIRLINE, INK,
-    LABEL_SIZE, PAPER, QUIET,
+    ALARM, BACKWARD, CURVE, Colour, DASH, FINE_DASH, FLUTTER, FORWARD, HAIRLINE, INK, LABEL_SIZE,
+    QUIET,
 };
 use crate::report::{HeatEntry, MembraneEntry, Report};
 
@@ -52,57 +52,38 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     Some(sheet)
 }
 
-fn axis_name(sheet: &mut Sheet, panel: &Frame, text: &str) {
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let centre = (panel.left + panel.right) / 2.0;
-    sheet.text([centre, panel.bottom + 42.0], letters, text);
-}
-
-fn draw_curve(sheet: &mut Sheet, panel: &Frame, places: &[[f64; 2]], stroke: Stroke) {
-    for part in clip(places, panel) {
-        sheet.line(part, stroke);
-    }
-}
-
 fn draw_stress(sheet: &mut Sheet, membrane: &MembraneEntry) {
     let mm: Vec<f64> = membrane.radius_m.iter().map(|r| 1e3 * r).collect();
     let ends = [mm.first(), mm.last()].map(|end| end.copied().unwrap_or(0.0));
-    let radius = Axis::new(ends, [STRESS.left, STRESS.right], Spread::Linear);
-    let all = || membrane.radial_pa.iter().chain(&membrane.hoop_pa);
-    let low = all().fold(0.0_f64, |low, s| low.min(1e-6 * s));
-    let high = all().fold(0.0_f64, |high, s| high.max(1e-6 * s));
+    let radius = Axis::linear(ends, STRESS.across());
+    let all = membrane.radial_pa.iter().chain(&membrane.hoop_pa);
+    let [low, high] = extremes(all.map(|pa| 1e-6 * pa).chain([0.0]));
     let step = round_up(((high - low) / 8.0).max(1e-3));
     let values = [(low / step).floor() * step, (high / step).ceil() * step];
-    let stress = Axis::new(values, [STRESS.bottom, STRESS.top], Spread::Linear);
+    let stress = Axis::linear(values, STRESS.upwards());
     draw_vertical(
         sheet,
         &stress,
         &STRESS,
         "stress, tension upwards\u{2003}[MPa]",
     );
-    draw_horizontal(sheet, &radius, STRESS.bottom, true);
-    axis_name(sheet, &STRESS, "radius\u{2003}[mm]");
-    let zero = stress.at(0.0);
-    let line = [[STRESS.left, zero], [STRESS.right, zero]];
-    sheet.line(line, Stroke::solid(INK, HAIRLINE));
+    draw_named(sheet, &radius, STRESS.bottom, "radius\u{2003}[mm]");
+    sheet.horizontal(stress.at(0.0), &STRESS, Stroke::solid(INK, HAIRLINE));
     let curves: [(&[f64], Colour, &str); 2] = [
         (&membrane.hoop_pa, FORWARD, "hoop"),
         (&membrane.radial_pa, BACKWARD, "radial"),
     ];
-    let wishes = curves.map(|(values, ..)| {
-        let end = values.last().copied().unwrap_or(0.0);
-        Wish {
-            centre: stress.at(1e-6 * end),
-            length: LINE,
-        }
+    let labels = curves.map(|(values, ..)| Extent {
+        centre: stress.at(1e-6 * values.last().copied().unwrap_or(0.0)),
+        length: LINE,
     });
-    let labels = push_apart(&wishes, STRESS.top, STRESS.bottom);
+    let labels = push_apart(labels, [STRESS.top, STRESS.bottom]);
     for ((values, colour, name), label) in curves.into_iter().zip(labels) {
         let places = mm.iter().zip(values);
         let places: Vec<_> = places
             .map(|(r, s)| [radius.at(*r), stress.at(1e-6 * s)])
             .collect();
-        draw_curve(sheet, &STRESS, &places, Stroke::solid(colour, CURVE));
+        draw_inside(sheet, &STRESS, &places, Stroke::solid(colour, CURVE));
         if let Some(y) = label {
             let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
             sheet.text([STRESS.right + 8.0, y + 0.36 * LABEL_SIZE], letters, name);
@@ -112,39 +93,27 @@ fn draw_stress(sheet: &mut Sheet, membrane: &MembraneEntry) {
 
 fn draw_speeds(sheet: &mut Sheet, heat: &HeatEntry, operating_rpm: Option<f64>) {
     let curves = || heat.critical_speeds.iter();
-    let rises = || curves().flat_map(|curve| &curve.rise_k);
-    let low = rises().fold(0.0_f64, |low, k| low.min(*k));
-    let high = rises().fold(0.0_f64, |high, k| high.max(*k));
-    let rise = Axis::new([low, high], [SPEEDS.left, SPEEDS.right], Spread::Linear);
+    let rises = curves().flat_map(|curve| curve.rise_k.iter().copied());
+    let rise = Axis::linear(extremes(rises.chain([0.0])), SPEEDS.across());
     let top = curves().flat_map(|curve| &curve.rpm);
     let top = top.fold(operating_rpm.unwrap_or(0.0), |top, rpm| top.max(*rpm));
-    let places = [SPEEDS.bottom, SPEEDS.top];
-    let speed = Axis::new([0.0, 1.08 * top], places, Spread::Linear);
+    let speed = Axis::linear([0.0, 1.08 * top], SPEEDS.upwards());
     draw_vertical(sheet, &speed, &SPEEDS, "");
-    let upright = Lettering {
-        upright: true,
-        ..Lettering::regular(AXIS_SIZE, INK, Anchor::Middle)
-    };
-    let middle = (SPEEDS.top + SPEEDS.bottom) / 2.0;
     let name = "critical speeds\u{2003}[rpm]";
-    sheet.text([SPEEDS.left - 62.0, middle], upright, name);
-    draw_horizontal(sheet, &rise, SPEEDS.bottom, true);
-    axis_name(sheet, &SPEEDS, "peak of the temperature profile\u{2003}[K]");
+    name_upright(sheet, SPEEDS.left - 62.0, &SPEEDS, name);
+    let name = "peak of the temperature profile\u{2003}[K]";
+    draw_named(sheet, &rise, SPEEDS.bottom, name);
     draw_curves(sheet, heat, (&rise, &speed));
     draw_limits(sheet, heat, (&rise, &speed), operating_rpm);
 }
 
 fn draw_curves(sheet: &mut Sheet, heat: &HeatEntry, (rise, speed): (&Axis, &Axis)) {
-    let wishes: Vec<Wish> = heat
-        .critical_speeds
-        .iter()
-        .map(|curve| Wish {
-            centre: speed.at(curve.rpm.last().copied().unwrap_or(0.0)),
-            length: LINE,
-        })
-        .collect();
-    let labels = push_apart(&wishes, SPEEDS.top, SPEEDS.bottom);
-    // A profile with a negative peak extends to the left.
+    let labels = heat.critical_speeds.iter().map(|curve| Extent {
+        centre: speed.at(curve.rpm.last().copied().unwrap_or(0.0)),
+        length: LINE,
+    });
+    let labels = push_apart(labels, [SPEEDS.top, SPEEDS.bottom]);
+    // The curves of a profile with a negative peak begin at the right end.
     let leftwards = heat
         .critical_speeds
         .iter()
@@ -154,7 +123,7 @@ fn draw_curves(sheet: &mut Sheet, heat: &HeatEntry, (rise, speed): (&Axis, &Axis
         let places: Vec<_> = places
             .map(|(k, rpm)| [rise.at(*k), speed.at(*rpm)])
             .collect();
-        draw_curve(sheet, &SPEEDS, &places, Stroke::solid(FORWARD, CURVE));
+        draw_inside(sheet, &SPEEDS, &places, Stroke::solid(FORWARD, CURVE));
         let end = match leftwards {
             true => places.first(),
             false => places.last(),
@@ -181,21 +150,17 @@ fn draw_limits(
     let dashed = |colour, dash| Stroke::dashed(colour, HAIRLINE, dash);
     if heat.rise_k != 0.0 && rise.shows(heat.rise_k) {
         let x = rise.at(heat.rise_k);
-        let line = [[x, SPEEDS.top], [x, SPEEDS.bottom]];
-        sheet.line(line, dashed(QUIET, FINE_DASH));
+        sheet.vertical(x, &SPEEDS, dashed(QUIET, FINE_DASH));
         let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
         let text = format!("the scene, {}", kelvin(heat.rise_k));
         sheet.text([x, SPEEDS.top - 7.0], letters, &text);
     }
     if let Some(rpm) = operating_rpm {
         let y = speed.at(rpm);
-        let line = [[SPEEDS.left, y], [SPEEDS.right, y]];
-        sheet.line(line, dashed(INK, DASH));
+        sheet.horizontal(y, &SPEEDS, dashed(INK, DASH));
         let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Start);
         let text = format!("operating speed, {rpm:.0} rpm");
-        let place = [SPEEDS.left + 8.0, y + LINE];
-        sheet.fill(text_frame(place, &letters, &text), PAPER);
-        sheet.text(place, letters, &text);
+        sheet.text_on_paper([SPEEDS.left + 8.0, y + LINE], letters, &text);
     }
     let mut limit = |k: f64, rpm: f64, colour: Colour, text: String| {
         if rise.shows(k) {
@@ -204,10 +169,7 @@ fn draw_limits(
             let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::End);
             // The label is below the line of the operating speed and its label.
             let below = if rpm > 0.0 { 2.1 * LINE } else { -9.0 };
-            let place = [at[0] - 9.0, at[1] + below];
-            // The line of the scene may pass behind the text.
-            sheet.fill(text_frame(place, &letters, &text), PAPER);
-            sheet.text(place, letters, &text);
+            sheet.text_on_paper([at[0] - 9.0, at[1] + below], letters, &text);
         }
     };
     if let (Some(found), Some(rpm)) = (&heat.operating_limit, operating_rpm) {
@@ -228,9 +190,7 @@ fn draw_limits(
         false => (Anchor::Start, SPEEDS.left + 8.0, format!("← {text}")),
     };
     let letters = Lettering::regular(LABEL_SIZE, ALARM, anchor);
-    let place = [x, SPEEDS.bottom - 9.0];
-    sheet.fill(text_frame(place, &letters, &text), PAPER);
-    sheet.text(place, letters, &text);
+    sheet.text_on_paper([x, SPEEDS.bottom - 9.0], letters, &text);
 }
 
 #[cfg(test)]

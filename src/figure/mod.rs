@@ -70,14 +70,7 @@ pub use palette::{PALETTE, Palette};
 #[cfg(feature = "page")]
 pub(crate) use written::name as number_name;
 
-use crate::report::Report;
-
-/// Whether any term of the equation of motion dissipates energy.
-fn is_damped(report: &Report) -> bool {
-    report.terms.iter().any(|term| term.contains("damping"))
-}
-
-/// Reason for which a figure could not be rendered.
+/// Error of rendering a figure.
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
     /// The drawing library plotters returned an error for a mark.

@@ -117,8 +117,9 @@ fn motion(shape: &EventShapeEntry) -> String {
 
 /// Largest shares of harmonics: "n = 2: 78 %, 0: 15 %".
 fn shares(shape: &EventShapeEntry) -> String {
-    let seen = shape.harmonics.iter().filter(|h| h.share >= LEAST_NAMED);
-    let shares = seen
+    let all = shape.harmonics.iter();
+    let shares = all
+        .filter(|h| h.share >= LEAST_NAMED)
         .take(NAMED)
         .map(|h| format!("{}: {:.0} %", h.nodal_diameters, 1e2 * h.share));
     format!("n = {}", shares.collect::<Vec<_>>().join(", "))

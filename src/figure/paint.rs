@@ -4,7 +4,7 @@ use super::axis::Axis;
 use super::canvas::{Frame, Sheet, Stroke};
 use super::chart_data::{Item, Line, Points};
 use super::clip::clip;
-use super::style::{DASH, FINE_DASH, HAIRLINE, PAPER, tint};
+use super::style::{DASH, FINE_DASH, HAIRLINE, tint};
 
 /// Width of the edge of a ring relative to its diameter.
 const EDGE: f64 = 0.2;
@@ -20,7 +20,13 @@ pub struct Ground<'a> {
 }
 
 impl Ground<'_> {
-    /// The parts of a line inside the panel.
+    /// Draws the curves, and then the dots and rings.
+    pub fn draw(&self, sheet: &mut Sheet, items: &[Item]) {
+        self.draw_lines(sheet, items);
+        self.draw_points(sheet, items);
+    }
+
+    /// The parts of a line inside the panel, on the sheet.
     pub fn parts(&self, line: &Line) -> Vec<Vec<[f64; 2]>> {
         let points = line.x.iter().zip(&line.y);
         let places: Vec<_> = points
@@ -59,7 +65,7 @@ impl Ground<'_> {
             }
             let at = [self.x.at(*x), self.y.at(*y)];
             match points.hollow {
-                true => sheet.ring(at, radius, Stroke::solid(colour, EDGE * points.size), PAPER),
+                true => sheet.ring(at, radius, Stroke::solid(colour, EDGE * points.size)),
                 false => sheet.disc(at, radius, colour),
             }
         }

@@ -5,46 +5,53 @@ use serde::Serialize;
 use super::style::{self, Colour};
 use crate::report::{Direction, InstabilityKind};
 
-/// Red, green and blue, 0 to 255.
-pub type Rgb = [u8; 3];
+/// Defines the colours of the figures from their names in [`style`].
+macro_rules! colours {
+    ($($hue:ident, $name:ident, $colour:ident;)*) => {
+        /// Name of a colour of the figures.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+        #[serde(rename_all = "snake_case")]
+        pub enum Hue {
+            $(#[doc = concat!("Key `", stringify!($name), "` of the palette.")] $hue,)*
+        }
 
-/// Meaning of the colours.
-#[derive(Debug, Clone, Copy, Serialize)]
-#[allow(missing_docs, reason = "the names say it")]
-pub struct Palette {
-    pub paper: Rgb,
-    pub ink: Rgb,
-    pub quiet: Rgb,
-    pub grid: Rgb,
-    pub forward: Rgb,
-    pub backward: Rgb,
-    pub standing: Rgb,
-    pub divergence: Rgb,
-    pub flutter: Rgb,
-    pub alarm: Rgb,
-    pub divergence_shade: Rgb,
-    pub flutter_shade: Rgb,
-    pub divergence_streak: Rgb,
-    pub flutter_streak: Rgb,
+        impl Hue {
+            /// The colour with this name.
+            pub(super) fn colour(self) -> Colour {
+                match self {
+                    $(Hue::$hue => style::$colour,)*
+                }
+            }
+        }
+
+        /// The colours of the figures, each as red, green and blue from 0 to 255.
+        #[derive(Debug, Clone, Copy, Serialize)]
+        pub struct Palette {
+            $(#[doc = concat!("Colour of [`Hue::", stringify!($hue), "`].")] pub $name: [u8; 3],)*
+        }
+
+        /// The colours of the figures.
+        pub const PALETTE: Palette = Palette {
+            $($name: [style::$colour.0, style::$colour.1, style::$colour.2],)*
+        };
+    };
 }
 
-/// Name of a colour of the palette.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-#[allow(missing_docs, reason = "the names say it")]
-pub enum Hue {
-    Ink,
-    Quiet,
-    Forward,
-    Backward,
-    Standing,
-    Divergence,
-    Flutter,
-    DivergenceShade,
-    FlutterShade,
-    DivergenceStreak,
-    FlutterStreak,
-    Alarm,
+colours! {
+    Paper, paper, PAPER;
+    Ink, ink, INK;
+    Quiet, quiet, QUIET;
+    Grid, grid, GRID;
+    Forward, forward, FORWARD;
+    Backward, backward, BACKWARD;
+    Standing, standing, STANDING;
+    Divergence, divergence, DIVERGENCE;
+    Flutter, flutter, FLUTTER;
+    Alarm, alarm, ALARM;
+    DivergenceShade, divergence_shade, DIVERGENCE_SHADE;
+    FlutterShade, flutter_shade, FLUTTER_SHADE;
+    DivergenceStreak, divergence_streak, DIVERGENCE_STREAK;
+    FlutterStreak, flutter_streak, FLUTTER_STREAK;
 }
 
 impl Hue {
@@ -67,44 +74,4 @@ impl Hue {
             InstabilityKind::Flutter => [Hue::Flutter, Hue::FlutterShade, Hue::FlutterStreak],
         }
     }
-
-    /// The colour of the hue.
-    pub(super) fn colour(self) -> Colour {
-        match self {
-            Hue::Ink => style::INK,
-            Hue::Quiet => style::QUIET,
-            Hue::Forward => style::FORWARD,
-            Hue::Backward => style::BACKWARD,
-            Hue::Standing => style::STANDING,
-            Hue::Divergence => style::DIVERGENCE,
-            Hue::Flutter => style::FLUTTER,
-            Hue::DivergenceShade => style::DIVERGENCE_SHADE,
-            Hue::FlutterShade => style::FLUTTER_SHADE,
-            Hue::DivergenceStreak => style::DIVERGENCE_STREAK,
-            Hue::FlutterStreak => style::FLUTTER_STREAK,
-            Hue::Alarm => style::ALARM,
-        }
-    }
 }
-
-const fn rgb(colour: Colour) -> Rgb {
-    [colour.0, colour.1, colour.2]
-}
-
-/// The colours of the figures.
-pub const PALETTE: Palette = Palette {
-    paper: rgb(style::PAPER),
-    ink: rgb(style::INK),
-    quiet: rgb(style::QUIET),
-    grid: rgb(style::GRID),
-    forward: rgb(style::FORWARD),
-    backward: rgb(style::BACKWARD),
-    standing: rgb(style::STANDING),
-    divergence: rgb(style::DIVERGENCE),
-    flutter: rgb(style::FLUTTER),
-    alarm: rgb(style::ALARM),
-    divergence_shade: rgb(style::DIVERGENCE_SHADE),
-    flutter_shade: rgb(style::FLUTTER_SHADE),
-    divergence_streak: rgb(style::DIVERGENCE_STREAK),
-    flutter_streak: rgb(style::FLUTTER_STREAK),
-};

@@ -5,15 +5,15 @@ use super::along::Along;
 use super::canvas::{Sheet, Stroke};
 use super::heading;
 use super::key::Key;
-use super::place_map::{BROKEN, HEIGHT, PANEL, Shades, draw_panel, empty, goals, title};
-use super::style::{ALARM, BETWEEN_FACTS, INK, PAPER, STRONG_CURVE};
+use super::place_map::{HEIGHT, PANEL, Shades, WIDTH, draw_panel, goals, title};
+use super::style::{ALARM, BETWEEN_FACTS, BLANK, INK, PAPER, STRONG_CURVE};
 use super::written::in_words;
 use crate::report::{GoalEntry, MapEntry, PlaceReport};
 
 /// Draws the map; `None` if the report contains none.
 pub fn sheet(report: &PlaceReport) -> Option<Sheet> {
     let map = report.map.as_ref()?;
-    let mut sheet = empty();
+    let mut sheet = Sheet::new(WIDTH, HEIGHT);
     heading::draw(&mut sheet, title(report.goal), &facts(report));
     let shades = Shades::of(goals(map));
     let (x, y) = draw_panel(&mut sheet, map, &shades);
@@ -64,7 +64,7 @@ fn draw_marks(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry, x: &Along
         Some([across, up])
     };
     if let Some(at) = place(&|k| Some(report.parameters[k].start)) {
-        sheet.ring(at, 5.0, Stroke::solid(INK, 2.0), PAPER);
+        sheet.ring(at, 5.0, Stroke::solid(INK, 2.0));
     }
     let fragile = report.fragile_optimum.as_ref();
     if let Some(at) = place(&|k| fragile?.saw.values.get(k).copied()) {
@@ -78,13 +78,13 @@ fn draw_marks(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry, x: &Along
 /// Draws a red ring on a white disc.
 fn draw_fragile(sheet: &mut Sheet, at: [f64; 2]) {
     sheet.disc(at, 8.0, PAPER);
-    sheet.ring(at, 6.0, Stroke::solid(ALARM, 2.0), PAPER);
+    sheet.ring(at, 6.0, Stroke::solid(ALARM, 2.0));
 }
 
 /// Draws a red cross in a ring on a white disc.
 fn draw_best(sheet: &mut Sheet, [x, y]: [f64; 2]) {
     sheet.disc([x, y], 11.0, PAPER);
-    sheet.ring([x, y], 9.0, Stroke::solid(ALARM, 2.0), PAPER);
+    sheet.ring([x, y], 9.0, Stroke::solid(ALARM, 2.0));
     let arm = 6.0;
     for line in [[[x - arm, y], [x + arm, y]], [[x, y - arm], [x, y + arm]]] {
         sheet.line(line, Stroke::solid(ALARM, STRONG_CURVE / 1.7));
@@ -106,7 +106,7 @@ fn draw_key(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry) {
         let limit = report.min_critical_rpm.map_or("no saw".into(), |rpm| {
             format!("lowest critical speed below {rpm:.0} rpm")
         });
-        key.shade(BROKEN).word(&limit);
+        key.shade(BLANK).word(&limit);
     }
 }
 
@@ -202,10 +202,10 @@ mod tests {
     }
 
     #[test]
-    fn a_saw_that_is_better_by_itself_is_told_with_its_place_and_not_answered() {
+    fn a_fragile_optimum_is_described_with_its_numbers_and_is_not_the_answer() {
         let summary = report(None).summary().replace("\n  ", " ");
-        let told = "Not the answer: guides[0].radius_m = 0.21, guides[0].stiffness_n_per_m = 5e6 has a flutter speed of 2400 rpm, which falls to 1900 rpm within the tolerances";
-        assert!(summary.contains(told), "{summary}");
+        let expected = "Not the answer: guides[0].radius_m = 0.21, guides[0].stiffness_n_per_m = 5e6 has a flutter speed of 2400 rpm, which falls to 1900 rpm within the tolerances";
+        assert!(summary.contains(expected), "{summary}");
         assert!(summary.contains("0.125 to 0.3"), "bounds: {summary}");
     }
 

@@ -1,13 +1,13 @@
 //! Axes, cells and colour bar of the goal over two numbers of a guide.
 
 use super::along::Along;
-use super::axis::{Spread, draw_named, draw_vertical, tick_label};
+use super::axis::{Spread, draw_named, draw_vertical, extremes, tick_label};
 use super::canvas::{Frame, Sheet};
 use super::heat::{draw_grid, draw_scale, ramp};
-use super::style::Colour;
+use super::style::{BLANK, Colour};
 use crate::report::{GoalEntry, MapEntry};
 
-const WIDTH: u32 = 1100;
+pub const WIDTH: u32 = 1100;
 pub const HEIGHT: u32 = 760;
 pub const PANEL: Frame = Frame {
     left: 104.0,
@@ -24,13 +24,6 @@ const LOW_TO_HIGH: [Colour; 5] = [
     plotters::style::RGBColor(122, 209, 81),
     plotters::style::RGBColor(240, 236, 120),
 ];
-/// Colour of saws that break the limit, and of cells without a saw.
-pub const BROKEN: Colour = plotters::style::RGBColor(214, 216, 220);
-
-/// An empty sheet.
-pub fn empty() -> Sheet {
-    Sheet::new(WIDTH, HEIGHT)
-}
 
 /// Title of the figure.
 pub fn title(goal: GoalEntry) -> &'static str {
@@ -57,38 +50,31 @@ pub struct Shades {
 impl Shades {
     /// Colours for goals in rpm; if all are equal, for a range around them.
     pub fn of(goals_rpm: impl Iterator<Item = f64>) -> Self {
-        let (low, high) = goals_rpm.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), rpm| {
-            (low.min(rpm), high.max(rpm))
-        });
-        let (low, high) = match low < high {
-            true => (low, high),
-            false if low.is_finite() => (0.99 * low, 1.01 * low + 1.0),
-            false => (0.0, 1.0),
+        let [low, high] = match extremes(goals_rpm) {
+            [low, high] if low < high => [low, high],
+            [low, _] if low.is_finite() => [0.99 * low, 1.01 * low + 1.0],
+            _ => [0.0, 1.0],
         };
         Shades { low, high }
     }
 
-    pub fn colour(&self, rpm: f64) -> Colour {
+    fn colour(&self, rpm: f64) -> Colour {
         ramp(&LOW_TO_HIGH, (rpm - self.low) / (self.high - self.low))
     }
 
     fn cell(&self, map: &MapEntry, column: usize, row: usize) -> Colour {
         match map.goal_rpm[row][column] {
             Some(rpm) if map.kept[row][column] => self.colour(rpm),
-            _ => BROKEN,
+            _ => BLANK,
         }
     }
 }
 
 /// Draws axes, cells and colour bar; returns the axes.
 pub fn draw_panel(sheet: &mut Sheet, map: &MapEntry, shades: &Shades) -> (Along, Along) {
-    let x = Along::of_cells(&map.x_path, &map.x, [PANEL.left, PANEL.right]);
+    let x = Along::of_cells(&map.x_path, &map.x, PANEL.across());
     let y_path = map.y_path.as_deref();
-    let y = Along::of_cells(
-        y_path.unwrap_or_default(),
-        &map.y,
-        [PANEL.bottom, PANEL.top],
-    );
+    let y = Along::of_cells(y_path.unwrap_or_default(), &map.y, PANEL.upwards());
     if y_path.is_some() {
         draw_vertical(sheet, &y.axis, &PANEL, &y.name);
     }

@@ -1,15 +1,18 @@
 //! Steady-state amplitude, phase and deviation of the board over the speed; amplitude and phase over the frequency.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical, tick_label};
+use super::axis::{
+    Axis, SPEED, Spread, draw_horizontal, draw_named, draw_vertical, extremes, name_upright,
+    number_beside, tick_label,
+};
 use super::bands::places;
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::clip::clip;
+use super::clip::draw_inside;
 use super::heading;
 use super::key::Key;
+use super::palette::Hue;
 use super::style::{
-    ALARM, AXIS_SIZE, BACKWARD, BETWEEN_FACTS, CURVE, Colour, DIVERGENCE, DIVERGENCE_SHADE,
-    FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, GRID, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET,
-    STANDING,
+    ALARM, BACKWARD, BETWEEN_FACTS, CURVE, Colour, DIVERGENCE, FINE_DASH, FLUTTER, FORWARD, GRID,
+    HAIRLINE, INK, LABEL_SIZE, QUIET, STANDING,
 };
 use crate::report::{FrequencyResponseEntry, InstabilityKind, ResponseReport};
 use crate::text::shown_to;
@@ -44,8 +47,7 @@ const PHASES: [f64; 2] = [-180.0, 180.0];
 pub fn sheet(report: &ResponseReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     heading::draw(&mut sheet, &report.scene.name, &facts(report));
-    let ends = [report.from_rpm, report.to_rpm];
-    let speed = Axis::new(ends, [AMPLITUDE.left, AMPLITUDE.right], Spread::Linear);
+    let speed = Axis::linear([report.from_rpm, report.to_rpm], AMPLITUDE.across());
     for panel in [&AMPLITUDE, &PHASE, &BOARD] {
         shade_bands(&mut sheet, report, &speed, panel);
     }
@@ -54,7 +56,7 @@ pub fn sheet(report: &ResponseReport) -> Sheet {
     for (line, colour) in report.lines.iter().zip(COLOURS) {
         let points = report.rpm.iter().zip(&line.phase_deg);
         let stroke = Stroke::solid(colour, CURVE);
-        draw_phase(&mut sheet, points, (&speed, &phase), stroke, &PHASE);
+        draw_phase(&mut sheet, points, (&speed, &phase), stroke);
     }
     draw_horizontal(&mut sheet, &speed, PHASE.bottom, false);
     draw_board(&mut sheet, report, &speed);
@@ -79,31 +81,20 @@ fn facts(report: &ResponseReport) -> String {
 /// Shades the speeds at which a growth exceeds the threshold.
 fn shade_bands(sheet: &mut Sheet, report: &ResponseReport, speed: &Axis, panel: &Frame) {
     for band in &report.instabilities {
-        let colour = match band.kind {
-            InstabilityKind::Divergence => DIVERGENCE_SHADE,
-            InstabilityKind::Flutter => FLUTTER_SHADE,
-        };
-        for range in &band.counted_rpm {
-            if let Some([left, right]) = places(speed, *range) {
-                sheet.fill(
-                    Frame {
-                        left,
-                        right,
-                        ..*panel
-                    },
-                    colour,
-                );
-            }
+        let [_, shade, _] = Hue::of_kind(band.kind);
+        for ends in band
+            .counted_rpm
+            .iter()
+            .filter_map(|range| places(speed, *range))
+        {
+            sheet.fill(panel.between(ends), shade.colour());
         }
     }
 }
 
 /// A logarithmic axis for amplitudes, over at least one decade and at most [`DECADES`].
 fn amplitudes(values: impl Iterator<Item = f64>, panel: &Frame) -> Axis {
-    let known = values.filter(|value| *value > 0.0);
-    let (low, high) = known.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
-        (low.min(value), high.max(value))
-    });
+    let [low, high] = extremes(values.filter(|value| *value > 0.0));
     let ends = match high > 0.0 {
         true => [
             low.max(high * 10f64.powi(-DECADES)).min(0.1 * high) / 1.5,
@@ -111,7 +102,7 @@ fn amplitudes(values: impl Iterator<Item = f64>, panel: &Frame) -> Axis {
         ],
         false => [1e-3, 1.0],
     };
-    Axis::new(ends, [panel.bottom, panel.top], Spread::Logarithmic)
+    Axis::new(ends, panel.upwards(), Spread::Logarithmic)
 }
 
 fn draw_amplitudes(sheet: &mut Sheet, report: &ResponseReport, speed: &Axis) {
@@ -155,31 +146,20 @@ fn draw_curve<'a>(
         }
     }
     runs.push(run);
-    for part in runs.iter().flat_map(|run| clip(run, panel)) {
-        sheet.line(part, stroke);
+    for run in &runs {
+        draw_inside(sheet, panel, run, stroke);
     }
 }
 
 /// Draws the axis of phases, with ticks at quarters of a turn, and returns it.
 fn phase_axis(sheet: &mut Sheet) -> Axis {
-    let axis = Axis::new(PHASES, [PHASE.bottom, PHASE.top], Spread::Linear);
-    let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::End);
+    let axis = Axis::linear(PHASES, PHASE.upwards());
     for degrees in [-180.0, -90.0, 0.0, 90.0, 180.0] {
         let y = axis.at(degrees);
-        let ends = [[PHASE.left, y], [PHASE.right, y]];
-        sheet.line(ends, Stroke::solid(GRID, HAIRLINE));
-        let at = [PHASE.left - 9.0, y + 0.36 * AXIS_SIZE];
-        sheet.text(at, letters, &tick_label(degrees));
+        sheet.horizontal(y, &PHASE, Stroke::solid(GRID, HAIRLINE));
+        number_beside(sheet, &PHASE, y, &tick_label(degrees));
     }
-    let upright = Lettering {
-        upright: true,
-        ..Lettering::regular(AXIS_SIZE, INK, Anchor::Middle)
-    };
-    sheet.text(
-        [28.0, 0.5 * (PHASE.top + PHASE.bottom)],
-        upright,
-        "phase\u{2003}[°]",
-    );
+    name_upright(sheet, 28.0, &PHASE, "phase\u{2003}[°]");
     axis
 }
 
@@ -190,7 +170,6 @@ fn draw_phase<'a>(
     points: impl Iterator<Item = (&'a f64, &'a Option<f64>)>,
     (x, y): (&Axis, &Axis),
     stroke: Stroke,
-    panel: &Frame,
 ) {
     let points: Vec<(f64, Option<f64>)> = points.map(|(at, value)| (*at, *value)).collect();
     for pair in points.windows(2) {
@@ -198,9 +177,7 @@ fn draw_phase<'a>(
             && (a - b).abs() < 180.0
         {
             let ends = [[x.at(*from), y.at(*a)], [x.at(*to), y.at(*b)]];
-            for part in clip(&ends, panel) {
-                sheet.line(part, stroke);
-            }
+            draw_inside(sheet, &PHASE, &ends, stroke);
         }
     }
 }
@@ -213,15 +190,11 @@ fn draw_board(sheet: &mut Sheet, report: &ResponseReport, speed: &Axis) {
     let points = report.rpm.iter().zip(&report.board_deviation_m);
     let stroke = Stroke::solid(INK, CURVE);
     draw_curve(sheet, points, (speed, &axis, 1e3), stroke, &BOARD);
-    draw_named(sheet, speed, BOARD.bottom, "rotation speed Ω\u{2003}[rpm]");
+    draw_named(sheet, speed, BOARD.bottom, SPEED);
     if let Some(rpm) = report.scene.operating_rpm.filter(|rpm| speed.shows(*rpm)) {
-        let dashed = Stroke {
-            dash: Some(FINE_DASH),
-            ..Stroke::solid(ALARM, HAIRLINE)
-        };
-        let x = speed.at(rpm);
         for panel in [&AMPLITUDE, &PHASE, &BOARD] {
-            sheet.line([[x, panel.top], [x, panel.bottom]], dashed);
+            let dashed = Stroke::dashed(ALARM, HAIRLINE, FINE_DASH);
+            sheet.vertical(speed.at(rpm), panel, dashed);
         }
     }
 }
@@ -230,10 +203,8 @@ fn draw_key(sheet: &mut Sheet, report: &ResponseReport) {
     let baseline = f64::from(HEIGHT) - 50.0;
     let mut key = Key::new(sheet, AMPLITUDE.left, baseline);
     for (line, colour) in report.lines.iter().zip(COLOURS) {
-        key.mark(24.0, move |sheet, [x, y]| {
-            sheet.line([[x, y], [x + 24.0, y]], Stroke::solid(colour, CURVE));
-        })
-        .word(&line.name);
+        key.line(24.0, Stroke::solid(colour, CURVE))
+            .word(&line.name);
     }
     let mut key = Key::new(sheet, AMPLITUDE.left, baseline + 26.0);
     let mut resonances = report.lines.iter().flat_map(|line| &line.resonances);
@@ -244,20 +215,11 @@ fn draw_key(sheet: &mut Sheet, report: &ResponseReport) {
         })
         .word("resonance without an amplitude");
     }
-    for (kind, shade, word) in [
-        (
-            InstabilityKind::Divergence,
-            DIVERGENCE_SHADE,
-            "divergence: no steady state",
-        ),
-        (
-            InstabilityKind::Flutter,
-            FLUTTER_SHADE,
-            "flutter: no steady state",
-        ),
-    ] {
+    for kind in [InstabilityKind::Divergence, InstabilityKind::Flutter] {
         if report.instabilities.iter().any(|band| band.kind == kind) {
-            key.shade(shade).word(word);
+            let [_, shade, _] = Hue::of_kind(kind);
+            let word = format!("{kind}: no steady state");
+            key.shade(shade.colour()).word(&word);
         }
     }
 }
@@ -272,11 +234,7 @@ pub fn points_sheet(report: &ResponseReport) -> Option<Sheet> {
         &points_facts(report, points),
     );
     let end = points.frequency_hz.last().copied().unwrap_or(1.0);
-    let frequency = Axis::new(
-        [0.0, end],
-        [AMPLITUDE.left, AMPLITUDE.right],
-        Spread::Linear,
-    );
+    let frequency = Axis::linear([0.0, end], AMPLITUDE.across());
     let known = points.receptance_m_per_n.iter().flatten();
     let axis = amplitudes(known.map(|m| 1e6 * m), &AMPLITUDE);
     draw_vertical(
@@ -297,7 +255,7 @@ pub fn points_sheet(report: &ResponseReport) -> Option<Sheet> {
     draw_horizontal(&mut sheet, &frequency, AMPLITUDE.bottom, false);
     let phase = phase_axis(&mut sheet);
     let series = points.frequency_hz.iter().zip(&points.phase_deg);
-    draw_phase(&mut sheet, series, (&frequency, &phase), stroke, &PHASE);
+    draw_phase(&mut sheet, series, (&frequency, &phase), stroke);
     draw_named(
         &mut sheet,
         &frequency,
@@ -306,11 +264,8 @@ pub fn points_sheet(report: &ResponseReport) -> Option<Sheet> {
     );
     if points.receptance_m_per_n.iter().all(Option::is_none) {
         let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
-        let middle = 0.5 * (AMPLITUDE.left + AMPLITUDE.right);
-        let at = [middle, 0.5 * (AMPLITUDE.top + AMPLITUDE.bottom)];
-        let said = "the saw is unstable at this speed: no steady state";
-        sheet.fill(super::canvas::text_frame(at, &letters, said), PAPER);
-        sheet.text(at, letters, said);
+        let note = "the saw is unstable at this speed: no steady state";
+        sheet.text_on_paper(AMPLITUDE.centre(), letters, note);
     }
     Some(sheet)
 }

@@ -1,13 +1,12 @@
 //! The response at the probe over speed and frequency, with the branches, as in the paper's Figure 15.
 
-use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
+use super::axis::{Axis, SPEED, Spread, draw_named, draw_vertical, extremes, tick_label};
 use super::campbell::draw_measured_mark;
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::clip::clip;
-use super::columns::axis_over;
+use super::clip::draw_inside;
 use super::heading;
 use super::heat::{draw_grid, draw_scale, ramp};
-use super::style::{Colour, HAIRLINE, LABEL_SIZE, PAPER, QUIET, Weight, shorten};
+use super::style::{Colour, HAIRLINE, LABEL_SIZE, PAPER, QUIET, shorten_label};
 use crate::report::RunUpReport;
 
 const WIDTH: u32 = 1200;
@@ -72,16 +71,14 @@ impl Map<'_> {
     fn sheet(&self, report: &RunUpReport) -> Sheet {
         let mut sheet = Sheet::new(WIDTH, HEIGHT);
         heading::draw(&mut sheet, self.title, &report.scene.name);
-        let speed = axis_over(self.rpm, [PANEL.left, PANEL.right]);
-        let frequency = axis_over(self.frequency_hz, [PANEL.bottom, PANEL.top]);
-        // Millimetres on a logarithmic scale, over the three strongest decades.
+        let speed = Axis::over(self.rpm, PANEL.across());
+        let frequency = Axis::over(self.frequency_hz, PANEL.upwards());
+        // The level is the decimal logarithm of the value in millimetres.
         let level = |value: f64| (1e3 * value.max(f64::MIN_POSITIVE)).log10();
-        let all = self.rows.iter().flatten();
-        let strongest = all.fold(f64::NEG_INFINITY, |max, value| max.max(level(*value)));
-        let strongest = if strongest.is_finite() {
-            strongest
-        } else {
-            0.0
+        let [_, strongest] = extremes(self.rows.iter().flatten().map(|value| level(*value)));
+        let strongest = match strongest.is_finite() {
+            true => strongest,
+            false => 0.0,
         };
         let shade = |level: f64| ramp(&RESPONSE, (level - strongest) / DECADES + 1.0);
         draw_vertical(
@@ -101,8 +98,7 @@ impl Map<'_> {
             },
         );
         draw_branches(&mut sheet, report, &speed, &frequency);
-        let name = "rotation speed Ω\u{2003}[rpm]";
-        draw_named(&mut sheet, &speed, PANEL.bottom, name);
+        draw_named(&mut sheet, &speed, PANEL.bottom, SPEED);
         let (place, ends) = ((&PANEL, 20.0, SCALE), [strongest - DECADES, strongest]);
         draw_scale(
             &mut sheet,
@@ -128,9 +124,7 @@ fn draw_branches(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis, frequenc
         let places: Vec<[f64; 2]> = samples
             .map(|(rpm, hz)| [speed.at(*rpm), frequency.at(*hz)])
             .collect();
-        for part in clip(&places, &PANEL) {
-            sheet.line(part, Stroke::solid(BRANCH, HAIRLINE));
-        }
+        draw_inside(sheet, &PANEL, &places, Stroke::solid(BRANCH, HAIRLINE));
     }
     for row in report.scene.measured.iter().flat_map(|m| &m.rows) {
         for hz in row.seen_hz() {
@@ -150,8 +144,7 @@ fn draw_key(sheet: &mut Sheet, report: &RunUpReport) {
     if let Some(measured) = &report.scene.measured {
         let x = PANEL.left + 190.0;
         draw_measured_mark(sheet, [x, y - 4.0]);
-        let room = PANEL.right - x - 14.0;
-        let source = shorten(&measured.source, LABEL_SIZE, Weight::Regular, room);
+        let source = shorten_label(&measured.source, PANEL.right - x - 14.0);
         sheet.text([x + 12.0, y], letters, &source);
     }
 }

@@ -2,17 +2,17 @@
 //! frequencies over the rotation speed. Dots are computed eigenvalues; straight lines connect them in the order of
 //! the speeds.
 
-use super::axis::{Axis, Spread, draw_named, draw_vertical, two_digits};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use super::axis::{Axis, SPEED as SPEED_NAME, draw_named, draw_vertical, extremes, two_digits};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::chart_data::{
     AxisData, ChartData, Item, Line, PanelData, Points, Role, Upright, lines_by_look,
 };
-use super::declutter::{Wish, push_apart};
+use super::declutter::{Extent, push_apart};
 use super::heading;
 use super::palette::Hue;
 use super::style::{
     BETWEEN_FACTS, CURVE, Colour, FLUTTER, FLUTTER_SHADE, GRID, HAIRLINE, LABEL_SIZE, MARGIN,
-    PAPER, QUIET, Weight, shorten, tint,
+    QUIET, label_width, shorten_label, tint,
 };
 use crate::report::{Report, RootLociEntry, RootPathEntry};
 use crate::text::shown_to;
@@ -131,7 +131,7 @@ fn items(path: &[Sample], name: &str, place: impl Fn(&Sample) -> [f64; 2]) -> Ve
         let growth = shown_to(3, s.growth);
         format!("{name}\n{:.1} rpm\n{:.3} Hz\n{growth} 1/s", s.rpm, s.hz)
     };
-    let look = |i: usize| Some(hue(looked_like(path, i)));
+    let look = |i: usize| Some(hue(colour_giver(path, i)));
     let lines = lines_by_look(path.len(), look);
     let mut items: Vec<Item> = Vec::new();
     for ((colour, tint), samples) in lines {
@@ -181,23 +181,17 @@ impl Chart {
         if paths.iter().any(|path| path.len() < 2) || ends_are_sound != [true; 2] {
             return None;
         }
-        let range = |of: fn(&Sample) -> f64| {
-            let values = paths.iter().flatten().map(of);
-            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| {
-                [low.min(v), high.max(v)]
-            })
-        };
+        let range = |of: fn(&Sample) -> f64| extremes(paths.iter().flatten().map(of));
         let reach = range(|s| s.growth.abs())[1];
         // The factor leaves room for the labels at the outermost points.
         let reach = 1.62 * if reach > 0.0 { reach } else { 1.0 };
         let [bottom, top] = range(|s| s.hz);
         let air = (0.08 * (top - bottom)).max(1e-3 * top.abs());
         let ends = range(|s| s.rpm);
-        let axis = |values, places| Axis::new(values, places, Spread::Linear);
         Some(Self {
-            growth: axis([-reach, reach], [PLANE.left, PLANE.right]),
-            frequency: axis([bottom - air, top + air], [PLANE.bottom, PLANE.top]),
-            speed: axis(ends, [SPEED.left, SPEED.right]),
+            growth: Axis::linear([-reach, reach], PLANE.across()),
+            frequency: Axis::linear([bottom - air, top + air], PLANE.upwards()),
+            speed: Axis::linear(ends, SPEED.across()),
             decimals: (15.0 / (ends[1] - ends[0])).log10().ceil().clamp(0.0, 3.0) as usize,
             paths,
         })
@@ -232,9 +226,9 @@ fn colour(s: &Sample) -> Colour {
     tint(hue.colour(), share)
 }
 
-/// The eigenvalue that determines the colour of a line: a line that leads into the band has the colour of the
-/// band.
-fn looked_like(path: &[Sample], i: usize) -> &Sample {
+/// The eigenvalue that determines the colour of the line between an eigenvalue and the next: one inside the band if
+/// there is one, otherwise the first.
+fn colour_giver(path: &[Sample], i: usize) -> &Sample {
     let pair = &path[i..=i + 1];
     pair.iter().find(|s| s.sign == 0).unwrap_or(&pair[0])
 }
@@ -242,22 +236,15 @@ fn looked_like(path: &[Sample], i: usize) -> &Sample {
 fn draw_axes(sheet: &mut Sheet, chart: &Chart) {
     let name = "Im λ / 2π\u{2003}[Hz]";
     draw_vertical(sheet, &chart.frequency, &PLANE, name);
-    for y in chart
-        .frequency
-        .ticks(40.0)
-        .into_iter()
-        .map(|hz| chart.frequency.at(hz))
-    {
-        let line = [[SPEED.left, y], [SPEED.right, y]];
-        sheet.line(line, Stroke::solid(GRID, HAIRLINE));
+    for hz in chart.frequency.ticks(40.0) {
+        let y = chart.frequency.at(hz);
+        sheet.horizontal(y, &SPEED, Stroke::solid(GRID, HAIRLINE));
     }
     for x in [PLANE.left, chart.growth.at(0.0), SPEED.left] {
-        let upright = [[x, PLANE.top], [x, PLANE.bottom]];
-        sheet.line(upright, Stroke::solid(QUIET, HAIRLINE));
+        sheet.vertical(x, &PLANE, Stroke::solid(QUIET, HAIRLINE));
     }
     draw_named(sheet, &chart.growth, PLANE.bottom, "Re λ\u{2003}[1/s]");
-    let name = "rotation speed Ω\u{2003}[rpm]";
-    draw_named(sheet, &chart.speed, SPEED.bottom, name);
+    draw_named(sheet, &chart.speed, SPEED.bottom, SPEED_NAME);
 }
 
 /// Shades the band over the speeds, and writes its ends in rpm above.
@@ -265,18 +252,11 @@ fn draw_band(sheet: &mut Sheet, chart: &Chart, entry: &RootLociEntry) {
     let [first, last] = chart.speed.values();
     let ends = [entry.onset_rpm, entry.end_rpm].map(|rpm| rpm.clamp(first, last));
     let [left, right] = ends.map(|rpm| chart.speed.at(rpm));
-    sheet.fill(
-        Frame {
-            left,
-            right,
-            ..SPEED
-        },
-        FLUTTER_SHADE,
-    );
+    sheet.fill(SPEED.between([left, right]), FLUTTER_SHADE);
     let [from, to] = [entry.onset_rpm, entry.end_rpm].map(|rpm| chart.rpm(rpm));
     let name = format!("flutter {from}–{to}");
     let letters = Lettering::regular(LABEL_SIZE, FLUTTER, Anchor::Middle);
-    let half = text_frame([0.0, 0.0], &letters, &name).right;
+    let half = label_width(&name) / 2.0;
     let room = [SPEED.left + half, f64::from(WIDTH) - MARGIN - half];
     let middle = (0.5 * (left + right)).min(room[1]).max(room[0]);
     sheet.text([middle, SPEED.top - 8.0], letters, &name);
@@ -286,7 +266,7 @@ fn draw_band(sheet: &mut Sheet, chart: &Chart, entry: &RootLociEntry) {
 fn draw_path(sheet: &mut Sheet, path: &[Sample], place: impl Fn(&Sample) -> [f64; 2]) {
     for (i, pair) in path.windows(2).enumerate() {
         let line = [place(&pair[0]), place(&pair[1])];
-        sheet.line(line, Stroke::solid(colour(looked_like(path, i)), CURVE));
+        sheet.line(line, Stroke::solid(colour(colour_giver(path, i)), CURVE));
     }
     for sample in path {
         sheet.disc(place(sample), DOT, colour(sample));
@@ -350,12 +330,7 @@ fn draw_labels(sheet: &mut Sheet, chart: &Chart, entry: &RootLociEntry) {
 fn label_of_end(chart: &Chart, sample: &Sample, name: Option<&str>, way: f64) -> Label {
     let sign = if sample.sign > 0 { "+" } else { "\u{2212}" };
     let name = name.map_or(String::new(), |name| format!(" {name}"));
-    let name = shorten(
-        &format!("({sign}){name}"),
-        LABEL_SIZE,
-        Weight::Regular,
-        LONGEST,
-    );
+    let name = shorten_label(&format!("({sign}){name}"), LONGEST);
     Label {
         lines: vec![name, format!("{} rpm", chart.rpm(sample.rpm))],
         colour: colour(sample),
@@ -380,20 +355,18 @@ fn label_of_peak(chart: &Chart, peak: &Sample) -> Label {
 
 /// Writes the labels of one side without overlap.
 fn write(sheet: &mut Sheet, labels: &[Label], anchor: Anchor) {
-    let wishes = labels.iter().map(|label| Wish {
+    let extents = labels.iter().map(|label| Extent {
         centre: label.y,
         length: LINE * label.lines.len() as f64 + 2.0,
     });
-    let wishes: Vec<Wish> = wishes.collect();
-    let centres = push_apart(&wishes, PLANE.top, PLANE.bottom);
+    let centres = push_apart(extents, [PLANE.top, PLANE.bottom]);
     for (label, centre) in labels.iter().zip(centres) {
         let Some(centre) = centre else { continue };
         let letters = Lettering::regular(LABEL_SIZE, label.colour, anchor);
         for (k, line) in label.lines.iter().enumerate() {
             let above = k as f64 - 0.5 * (label.lines.len() as f64 - 1.0);
             let at = [label.x, centre + above * LINE + 0.36 * LABEL_SIZE];
-            sheet.fill(text_frame(at, &letters, line), PAPER);
-            sheet.text(at, letters, line);
+            sheet.text_on_paper(at, letters, line);
         }
     }
 }

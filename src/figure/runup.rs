@@ -1,14 +1,13 @@
 //! The deflection over speed during a run-up, as in the paper's Figure 13.
 
-use super::axis::{Axis, Spread, draw_named, draw_vertical};
+use super::axis::{Axis, SPEED, draw_named, draw_vertical};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::clip::clip;
+use super::clip::draw_inside;
 use super::columns::draw_end_of_model;
-use super::declutter::{Wish, push_apart};
+use super::declutter::{Extent, push_apart};
 use super::key::Key;
 use super::style::{
     ALARM, CURVE, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD, HAIRLINE, LABEL_SIZE, QUIET,
-    Weight, text_width,
 };
 use super::{bands, heading};
 use crate::report::RunUpReport;
@@ -30,20 +29,15 @@ pub fn sheet(report: &RunUpReport) -> Sheet {
         report.rate_rpm_per_s
     );
     heading::draw(&mut sheet, &title, &report.scene.name);
-    let speeds = [report.from_rpm, report.to_rpm];
-    let speed = Axis::new(speeds, [PANEL.left, PANEL.right], Spread::Linear);
-    let largest_mm = report
-        .deflection_m
-        .iter()
-        .fold(0.0_f64, |max, w| max.max(w.abs()))
-        * 1e3;
+    let speed = Axis::linear([report.from_rpm, report.to_rpm], PANEL.across());
+    let sizes = report.deflection_m.iter().map(|w| w.abs());
+    let largest_mm = 1e3 * sizes.fold(0.0, f64::max);
     let reach = 1.1 * largest_mm.max(1e-6);
-    let deflection = Axis::new([-reach, reach], [PANEL.bottom, PANEL.top], Spread::Linear);
+    let deflection = Axis::linear([-reach, reach], PANEL.upwards());
     let found = report.bands.iter().map(|entry| &entry.band);
     bands::shade(&mut sheet, &speed, found, &[PANEL]);
     draw_vertical(&mut sheet, &deflection, &PANEL, "deflection\u{2003}[mm]");
-    let name = "rotation speed Ω\u{2003}[rpm]";
-    draw_named(&mut sheet, &speed, PANEL.bottom, name);
+    draw_named(&mut sheet, &speed, PANEL.bottom, SPEED);
     label_critical_speeds(&mut sheet, report, &speed);
     draw_record(&mut sheet, report, &speed, &deflection);
     if let Some(until_rpm) = report.linear_until_rpm {
@@ -72,17 +66,14 @@ fn draw_record(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis, deflection
         .flat_map(|(column, [low, high])| {
             let x = PANEL.left + column as f64;
             let ends = [[x, deflection.at(low)], [x, deflection.at(high)]];
-            // Strokes alternate in direction, so that the line does not jump back.
-            if column % 2 == 0 {
-                ends
-            } else {
-                [ends[1], ends[0]]
+            // Strokes alternate in direction, because their ends are connected.
+            match column % 2 == 0 {
+                true => ends,
+                false => [ends[1], ends[0]],
             }
         })
         .collect();
-    for part in clip(&places, &PANEL) {
-        sheet.line(part, Stroke::solid(FORWARD, 0.75 * CURVE));
-    }
+    draw_inside(sheet, &PANEL, &places, Stroke::solid(FORWARD, 0.75 * CURVE));
 }
 
 /// Draws the critical speeds as dashed lines, with their numbers above.
@@ -93,18 +84,13 @@ fn label_critical_speeds(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis) 
         .filter(|critical| speed.shows(critical.rpm))
         .map(|critical| (speed.at(critical.rpm), format!("{:.0}", critical.rpm)))
         .collect();
-    let wishes: Vec<Wish> = labels
+    let extents = labels
         .iter()
-        .map(|(x, text)| Wish {
-            centre: *x,
-            length: text_width(text, LABEL_SIZE, Weight::Regular) + 8.0,
-        })
-        .collect();
+        .map(|(x, text)| Extent::of_label(*x, text, 8.0));
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
-    let places = push_apart(&wishes, PANEL.left, PANEL.right);
+    let places = push_apart(extents, PANEL.across());
     for ((x, text), place) in labels.iter().zip(places) {
-        let dashed = Stroke::dashed(QUIET, HAIRLINE, FINE_DASH);
-        sheet.line([[*x, PANEL.top], [*x, PANEL.bottom]], dashed);
+        sheet.vertical(*x, &PANEL, Stroke::dashed(QUIET, HAIRLINE, FINE_DASH));
         if let Some(place) = place {
             let leader = [[*x, PANEL.top], [place, PANEL.top - 12.0]];
             sheet.line(leader, Stroke::solid(QUIET, HAIRLINE));
@@ -121,14 +107,8 @@ fn draw_key(sheet: &mut Sheet, model_ends: bool) {
         .word("flutter")
         .word("dashed: critical speeds [rpm]");
     if model_ends {
-        let line = |sheet: &mut Sheet, [x, y]: [f64; 2]| {
-            sheet.line(
-                [[x, y - 7.0], [x, y + 7.0]],
-                Stroke::solid(ALARM, 1.5 * HAIRLINE),
-            );
-        };
-        key.mark(2.0, line).word(&format!(
-            "more than {LINEAR_THICKNESSES} thicknesses: the linear model ends"
-        ));
+        let text = format!("more than {LINEAR_THICKNESSES} thicknesses: the linear model ends");
+        key.upright(2.0, 7.0, Stroke::solid(ALARM, 1.5 * HAIRLINE))
+            .word(&text);
     }
 }

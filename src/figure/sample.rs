@@ -168,10 +168,8 @@ pub fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64, hz: f64) -> 
 pub fn busy_report() -> Report {
     let mut report = empty_report("Guided blade, 864 mm");
     report.instabilities = bands();
-    let stand = report
-        .instabilities
-        .iter()
-        .filter(|band| band.frequency_hz == 0.0);
+    let bands = report.instabilities.iter();
+    let standing = bands.filter(|band| band.frequency_hz == 0.0);
     let critical = |(i, rpm)| CriticalSpeedEntry {
         rpm,
         branch: None,
@@ -180,7 +178,7 @@ pub fn busy_report() -> Report {
         nodal_circles: 0,
         estimated_relative_error: None,
     };
-    let ends = stand.flat_map(|band| [band.from_rpm, band.to_rpm]);
+    let ends = standing.flat_map(|band| [band.from_rpm, band.to_rpm]);
     report.critical_speeds = ends.enumerate().map(critical).collect();
     report.flutter_speed_rpm = Some(2392.0);
     report.campbell = CampbellEntry {

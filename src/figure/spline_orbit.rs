@@ -1,12 +1,11 @@
 //! The orbit of the centre of the blade on its arbor, one panel for each speed.
 
-use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
-use super::clip::clip;
+use super::axis::{Axis, draw_named, draw_vertical, tick_label};
+use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::clip::draw_inside;
 use super::columns::{Columns, name_of_row};
 use super::style::{
-    CURVE, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, STANDING, SUBTITLE_SIZE,
-    Weight, tint,
+    CURVE, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, QUIET, STANDING, SUBTITLE_SIZE, tint,
 };
 use crate::report::{CutReport, CutRunEntry, SplineEntry};
 
@@ -74,17 +73,14 @@ fn draw_orbit(
     scale: &Scale,
 ) {
     let reach = [-scale.reach, scale.reach];
-    let x = Axis::new(reach, [panel.left, panel.right], Spread::Linear);
-    let y = Axis::new(reach, [panel.bottom, panel.top], Spread::Linear);
+    let x = Axis::linear(reach, panel.across());
+    let y = Axis::linear(reach, panel.upwards());
     draw_vertical(sheet, &y, panel, name);
     let name = format!("centre towards the cut\u{2003}[{}]", scale.unit);
     draw_named(sheet, &x, panel.bottom, &name);
-    for [from, to] in [
-        [[x.at(0.0), panel.top], [x.at(0.0), panel.bottom]],
-        [[panel.left, y.at(0.0)], [panel.right, y.at(0.0)]],
-    ] {
-        sheet.line([from, to], Stroke::solid(tint(STANDING, 0.6), HAIRLINE));
-    }
+    let grey = Stroke::solid(tint(STANDING, 0.6), HAIRLINE);
+    sheet.vertical(x.at(0.0), panel, grey);
+    sheet.horizontal(y.at(0.0), panel, grey);
     draw_clearance(sheet, (&x, &y), panel, spline.clearance_m, scale);
     let points = spline.x_m.iter().zip(&spline.y_m);
     let places: Vec<[f64; 2]> = points
@@ -100,10 +96,7 @@ fn draw_orbit(
     if let Some(last) = places.last() {
         sheet.disc(*last, 3.5, FORWARD);
     }
-    let title = Lettering {
-        weight: Weight::SemiBold,
-        ..Lettering::regular(SUBTITLE_SIZE, INK, Anchor::Start)
-    };
+    let title = Lettering::title(SUBTITLE_SIZE, INK);
     let text = format!(
         "{:.0} rpm: {:.1} spline teeth in contact, {:.0} N at most on one",
         run.rpm, spline.teeth_in_contact, spline.peak_tooth_n
@@ -135,24 +128,15 @@ fn draw_clearance(
     });
     let circle: Vec<[f64; 2]> = circle.collect();
     let dashed = Stroke::dashed(QUIET, HAIRLINE, FINE_DASH);
-    for part in clip(&circle, panel) {
-        sheet.line(part, dashed);
-    }
-    let is_shown = radius <= scale.reach;
-    let word = if is_shown { "dashed: " } else { "" };
-    let outside = if is_shown {
-        ""
-    } else {
-        ", outside the picture"
+    draw_inside(sheet, panel, &circle, dashed);
+    let clearance = format!("clearance {} mm", tick_label(1e3 * clearance_m));
+    let text = match radius <= scale.reach {
+        true => format!("dashed: {clearance}"),
+        false => format!("{clearance}, outside the picture"),
     };
-    let text = format!(
-        "{word}clearance {} mm{outside}",
-        tick_label(1e3 * clearance_m)
-    );
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
     let at = [panel.right - 6.0, panel.bottom - 10.0];
-    sheet.fill(text_frame(at, &letters, &text), PAPER);
-    sheet.text(at, letters, &text);
+    sheet.text_on_paper(at, letters, &text);
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! Distributions of the lowest critical speed and of the flutter speed of many saws.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_vertical};
+use super::axis::{Axis, SPEED, draw_horizontal, draw_vertical, name_below};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::declutter::{Wish, push_apart};
+use super::declutter::{Extent, push_apart};
 use super::heading;
 use super::style::{
     ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, FINE_DASH, FLUTTER_STREAK, FORWARD, HAIRLINE, INK,
-    LABEL_SIZE, QUIET, Weight, text_width, tint,
+    LABEL_SIZE, QUIET, tint,
 };
 use crate::study::{Passing, SpeedEntry, StudyReport};
 
@@ -61,18 +61,12 @@ pub fn sheet(report: &StudyReport) -> Sheet {
     ];
     for (panel, name, note) in names {
         let y = panel.top - 44.0;
-        let letters = Lettering {
-            weight: Weight::SemiBold,
-            ..Lettering::regular(AXIS_SIZE, INK, Anchor::Start)
-        };
-        sheet.text([panel.left, y], letters, name);
+        sheet.text([panel.left, y], Lettering::title(AXIS_SIZE, INK), name);
         let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
         sheet.text([panel.right, y], letters, &note);
     }
-    let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let centre = (FLUTTERING.left + FLUTTERING.right) / 2.0;
-    let name = "rotation speed Ω\u{2003}[rpm]";
-    sheet.text([centre, FLUTTERING.bottom + 44.0], letters, name);
+    let baseline = FLUTTERING.bottom + 44.0;
+    name_below(&mut sheet, FLUTTERING.across(), baseline, SPEED);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
     let key = "dashed: share of the saws below, and the speed; red: limits";
     sheet.text([FLUTTERING.left, f64::from(HEIGHT) - 16.0], letters, key);
@@ -133,8 +127,7 @@ fn speed_axis(entry: &SpeedEntry, limits: &[Limit], panel: Frame) -> Axis {
         |(low, high), rpm| (low.min(rpm), high.max(rpm)),
     );
     let aside = ASIDE * (high - low);
-    let places = [panel.left, panel.right];
-    Axis::new([low - aside, high + aside], places, Spread::Linear)
+    Axis::linear([low - aside, high + aside], panel.across())
 }
 
 /// Draws the histogram of a speed, and its quantiles and limits.
@@ -149,7 +142,7 @@ fn draw_panel(
     let counts = entry.histogram.iter().flat_map(|bars| &bars.counts);
     let most = counts.max().map_or(1.0, |most| *most as f64);
     let top = 108.0 * most / total;
-    let share = Axis::new([0.0, top], [panel.bottom, panel.top], Spread::Linear);
+    let share = Axis::linear([0.0, top], panel.upwards());
     draw_vertical(sheet, &share, &panel, "saws in a bar\u{2003}[%]");
     if let Some(bars) = &entry.histogram {
         let count = bars.counts.len() as f64;
@@ -184,21 +177,15 @@ fn draw_marks(sheet: &mut Sheet, entry: &SpeedEntry, panel: Frame, speed: &Axis,
         Some((rpm, QUIET, format!("{} %: {rpm:.0}", percent(*share))))
     });
     let marks: Vec<(f64, Colour, String)> = limits.chain(quantiles).collect();
-    let wishes: Vec<Wish> = marks
-        .iter()
-        .map(|(rpm, _, label)| Wish {
-            centre: speed.at(*rpm),
-            length: text_width(label, LABEL_SIZE, Weight::Regular) + 12.0,
-        })
-        .collect();
-    let places = push_apart(&wishes, panel.left, panel.right);
+    let extent = |(rpm, _, label): &(f64, _, String)| Extent::of_label(speed.at(*rpm), label, 12.0);
+    let places = push_apart(marks.iter().map(extent), panel.across());
     for ((rpm, colour, label), place) in marks.iter().zip(places) {
         let x = speed.at(*rpm);
         let stroke = Stroke {
             dash: (*colour != ALARM).then_some(FINE_DASH),
             ..Stroke::solid(*colour, 1.4 * HAIRLINE)
         };
-        sheet.line([[x, panel.top], [x, panel.bottom]], stroke);
+        sheet.vertical(x, &panel, stroke);
         if let Some(place) = place {
             let leader = [[x, panel.top], [place, panel.top - 10.0]];
             sheet.line(leader, Stroke::solid(*colour, HAIRLINE));

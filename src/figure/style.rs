@@ -15,6 +15,8 @@ pub const INK: Colour = RGBColor(32, 36, 42);
 pub const QUIET: Colour = RGBColor(105, 111, 120);
 /// Colour of grid lines.
 pub const GRID: Colour = RGBColor(233, 235, 238);
+/// Colour of saws without a result in maps.
+pub const BLANK: Colour = RGBColor(214, 216, 220);
 
 // Blue and red, and violet and amber, are distinguishable with the common kinds of colour blindness; each
 // pair also differs in lightness.
@@ -75,18 +77,28 @@ pub enum Weight {
     SemiBold,
 }
 
-/// Mixes a colour with white; `share` is the share of the colour.
+/// Width of a label in figure units.
+pub fn label_width(label: &str) -> f64 {
+    text_width(label, LABEL_SIZE, Weight::Regular)
+}
+
+/// A label on one line, truncated with an ellipsis if it is wider than `room`.
+pub fn shorten_label(label: &str, room: f64) -> String {
+    shorten(label, LABEL_SIZE, Weight::Regular, room)
+}
+
+/// Mixes a colour with white; `share` is the share of the colour, from 0 to 1.
 pub fn tint(colour: Colour, share: f64) -> Colour {
     let mix = |channel: u8| (255.0 - share * (255.0 - f64::from(channel))).round() as u8;
     RGBColor(mix(colour.0), mix(colour.1), mix(colour.2))
 }
 
-/// The text on as many lines as necessary, broken at ordinary spaces.
-pub fn broken(text: &str, em: f64, weight: Weight, room: f64) -> Vec<String> {
+/// The lines of a label that is broken at ordinary spaces where it would be wider than `room`.
+pub fn broken(label: &str, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split(' ') {
+    for word in label.split(' ') {
         let longer = |line: &String| format!("{line} {word}");
-        let fits = |line: &&mut String| text_width(&longer(line), em, weight) <= room;
+        let fits = |line: &&mut String| label_width(&longer(line)) <= room;
         match lines.last_mut().filter(fits) {
             Some(line) => *line = longer(line),
             None => lines.push(word.to_owned()),
@@ -144,10 +156,7 @@ mod tests {
 
     #[test]
     fn text_stays_on_one_line() {
-        assert_eq!(
-            shorten("a\n\u{0}b", LABEL_SIZE, Weight::Regular, 100.0),
-            "a  b"
-        );
-        assert_eq!(shorten("wide", LABEL_SIZE, Weight::Regular, 0.0), "…");
+        assert_eq!(shorten_label("a\n\u{0}b", 100.0), "a  b");
+        assert_eq!(shorten_label("wide", 0.0), "…");
     }
 }

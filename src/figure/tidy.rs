@@ -31,8 +31,8 @@ pub fn assert_unstruck(sheet: &Sheet) {
             let Some([x, top, bottom]) = upright(line) else {
                 continue;
             };
-            let meets = frame.left + 1.0 < x && x < frame.right - 1.0;
-            if !meets || bottom < frame.top + 2.0 || frame.bottom - 2.0 < top {
+            let crosses = frame.left + 1.0 < x && x < frame.right - 1.0;
+            if !crosses || bottom < frame.top + 2.0 || frame.bottom - 2.0 < top {
                 continue;
             }
             let is_paper = |mark: &Mark| match mark {

@@ -1,11 +1,11 @@
 //! Run time over true error, both on logarithmic scales.
 
-use super::axis::{Axis, Spread, tick_label};
+use super::axis::{Axis, Spread, extremes, name_below, name_upright, number_beside, tick_label};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::heading;
 use super::key::Key;
 use super::style::{
-    AXIS_SIZE, BACKWARD, CURVE, Colour, DASH, DIVERGENCE, FORWARD, GRID, HAIRLINE, INK, LABEL_SIZE,
+    AXIS_SIZE, BACKWARD, CURVE, Colour, DASH, DIVERGENCE, FORWARD, GRID, HAIRLINE, LABEL_SIZE,
     PAPER, QUIET, STRONG_CURVE, tint,
 };
 use crate::stability::{Method, Setting};
@@ -29,15 +29,15 @@ pub fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
     heading::draw(&mut sheet, "Computing time over true error", scene);
     let decades = |value: fn(&Setting) -> f64| {
         let logs = settings.iter().map(|s| value(s).max(LEAST).log10());
-        let low = logs.clone().fold(f64::INFINITY, f64::min).floor();
-        [low, logs.fold(low + 1.0, f64::max).ceil()].map(|log| 10f64.powf(log))
+        let [low, high] = extremes(logs);
+        let low = low.floor();
+        [low, high.max(low + 1.0).ceil()].map(|log| 10f64.powf(log))
     };
     let errors = decades(|s| s.error).map(|share| 100.0 * share);
-    let error = Axis::new(errors, [PANEL.left, PANEL.right], Spread::Logarithmic);
-    // The axis leaves room for a number above the slowest.
+    let error = Axis::new(errors, PANEL.across(), Spread::Logarithmic);
+    // The factor leaves room for a number above the slowest setting.
     let [least, most] = decades(|s| s.seconds);
-    let seconds = [least, 2.0 * most];
-    let time = Axis::new(seconds, [PANEL.bottom, PANEL.top], Spread::Logarithmic);
+    let time = Axis::new([least, 2.0 * most], PANEL.upwards(), Spread::Logarithmic);
     draw_axes(&mut sheet, &error, &time);
     draw_front(&mut sheet, settings, &error, &time);
     draw_key(&mut sheet);
@@ -125,38 +125,27 @@ fn draw_front(sheet: &mut Sheet, settings: &[Setting], error: &Axis, time: &Axis
 }
 
 fn draw_axes(sheet: &mut Sheet, error: &Axis, time: &Axis) {
-    let quiet = |anchor| Lettering::regular(AXIS_SIZE, QUIET, anchor);
+    let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::Middle);
     for tick in error.ticks(90.0) {
         let x = error.at(tick);
-        let grid = Stroke::solid(GRID, HAIRLINE);
-        sheet.line([[x, PANEL.top], [x, PANEL.bottom]], grid);
+        sheet.vertical(x, &PANEL, Stroke::solid(GRID, HAIRLINE));
         let share = format!("{} %", error.label(tick));
-        sheet.text([x, PANEL.bottom + 20.0], quiet(Anchor::Middle), &share);
+        sheet.text([x, PANEL.bottom + 20.0], letters, &share);
     }
     for tick in time.ticks(40.0) {
         let y = time.at(tick);
-        let grid = Stroke::solid(GRID, HAIRLINE);
-        sheet.line([[PANEL.left, y], [PANEL.right, y]], grid);
-        let at = [PANEL.left - 9.0, y + 0.36 * AXIS_SIZE];
-        sheet.text(at, quiet(Anchor::End), &seconds(tick));
+        sheet.horizontal(y, &PANEL, Stroke::solid(GRID, HAIRLINE));
+        number_beside(sheet, &PANEL, y, &seconds(tick));
     }
-    let ends = [[PANEL.left, PANEL.bottom], [PANEL.right, PANEL.bottom]];
-    sheet.line(ends, Stroke::solid(QUIET, HAIRLINE));
-    let name = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);
-    let centre = (PANEL.left + PANEL.right) / 2.0;
-    let what = "true error of critical speeds and onsets; numbers of functions at the dots";
-    sheet.text([centre, PANEL.bottom + 44.0], name, what);
-    let upright = Lettering {
-        upright: true,
-        ..Lettering::regular(AXIS_SIZE, INK, Anchor::Middle)
-    };
-    sheet.text([28.0, (PANEL.top + PANEL.bottom) / 2.0], upright, "time");
-    // The errors that the named accuracies promise.
+    sheet.horizontal(PANEL.bottom, &PANEL, Stroke::solid(QUIET, HAIRLINE));
+    let name = "true error of critical speeds and onsets; numbers of functions at the dots";
+    name_below(sheet, PANEL.across(), PANEL.bottom + 44.0, name);
+    name_upright(sheet, 28.0, &PANEL, "time");
+    // Dashed lines are at the largest errors that the named accuracies allow.
     for (percent, word) in [(1.0, "draft"), (0.1, "design"), (0.01, "reference")] {
         if error.shows(percent) {
             let x = error.at(percent);
-            let guide = Stroke::dashed(QUIET, HAIRLINE, DASH);
-            sheet.line([[x, PANEL.top], [x, PANEL.bottom]], guide);
+            sheet.vertical(x, &PANEL, Stroke::dashed(QUIET, HAIRLINE, DASH));
             let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
             sheet.text([x, PANEL.top - 7.0], letters, word);
         }

@@ -40,8 +40,8 @@ pub fn sheet(report: &WashboardReport) -> Sheet {
     let [lobes, frequencies] = &data.panels[..] else {
         return sheet;
     };
-    let speed = lobes.x.placed([LOBES.left, LOBES.right]);
-    let stiffness = lobes.y.placed([LOBES.bottom, LOBES.top]);
+    let speed = lobes.x.placed(LOBES.across());
+    let stiffness = lobes.y.placed(LOBES.upwards());
     let upper = Ground {
         x: &speed,
         y: &stiffness,
@@ -51,15 +51,14 @@ pub fn sheet(report: &WashboardReport) -> Sheet {
     draw_vertical(&mut sheet, &stiffness, &LOBES, &lobes.y.title());
     upper.draw_lines(&mut sheet, &lobes.items);
     draw_horizontal(&mut sheet, &speed, LOBES.bottom, false);
-    let frequency = frequencies.y.placed([FREQUENCY.bottom, FREQUENCY.top]);
+    let frequency = frequencies.y.placed(FREQUENCY.upwards());
     let lower = Ground {
         x: &speed,
         y: &frequency,
         frame: &FREQUENCY,
     };
     draw_vertical(&mut sheet, &frequency, &FREQUENCY, &frequencies.y.title());
-    lower.draw_lines(&mut sheet, &frequencies.items);
-    lower.draw_points(&mut sheet, &frequencies.items);
+    lower.draw(&mut sheet, &frequencies.items);
     draw_named(&mut sheet, &speed, FREQUENCY.bottom, &frequencies.x.title());
     upper.draw_points(&mut sheet, &lobes.items);
     draw_key(&mut sheet, report);
@@ -92,15 +91,11 @@ pub fn chart(report: &WashboardReport) -> ChartData {
         (1.0, "tooth passing frequency"),
     ];
     let teeth = teeth.map(|(share, name)| {
-        let line = Line::new(
-            ends.map(|rpm| [rpm, share * per_rpm * rpm]),
-            Hue::Quiet,
-            name,
-        );
+        let points = ends.map(|rpm| [rpm, share * per_rpm * rpm]);
         Item::Line(Line {
             width: HAIRLINE,
             dashed: true,
-            ..line
+            ..Line::new(points, Hue::Quiet, name)
         })
     });
     let at = lobes.rpm.iter().zip(&lobes.frequency_hz);

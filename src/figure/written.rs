@@ -42,8 +42,8 @@ pub fn in_words(path: &str, value: f64) -> String {
     )
 }
 
-/// A number of any size with four digits.
-pub fn four_digits(value: f64) -> String {
+/// A number with four significant digits; very small and large numbers have a power of ten.
+fn four_digits(value: f64) -> String {
     if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) {
         let text = format!("{value:.3e}");
         let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));

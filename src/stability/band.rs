@@ -19,6 +19,16 @@ pub enum InstabilityKind {
     Flutter,
 }
 
+/// Writes "divergence" or "flutter".
+impl fmt::Display for InstabilityKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            InstabilityKind::Divergence => "divergence",
+            InstabilityKind::Flutter => "flutter",
+        })
+    }
+}
+
 /// A band of unstable speeds.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]

@@ -2,7 +2,7 @@
 
 use std::fmt::{Result, Write};
 
-use super::{ROWS, more, wrapped};
+use super::{ROWS, decimals_or, more, sentence};
 use crate::report::{InstabilityKind, Report};
 
 /// Writes a table of the flutter bands, in millimetres, if the report contains an amplitude.
@@ -19,18 +19,15 @@ pub fn amplitudes(text: &mut String, report: &Report) -> Result {
     writeln!(text, "\nFlutter           from       to    rises to")?;
     writeln!(text, "                 [rpm]    [rpm]        [mm]")?;
     for band in flutter.iter().take(ROWS) {
-        let rises = match band.saturated_amplitude_m {
-            Some(metres) => format!("{:.3}", 1e3 * metres),
-            None => "-".to_owned(),
-        };
+        let rises = decimals_or("-", 3, band.saturated_amplitude_m.map(|m| 1e3 * m));
         writeln!(
             text,
             "              {:>8.1} {:>8.1} {rises:>11}",
             band.from_rpm, band.to_rpm
         )?;
     }
-    more(text, flutter.len())?;
-    writeln!(text, "{}", wrapped(MEANING))
+    more(text, flutter.len(), ROWS, "report.json")?;
+    sentence(text, MEANING)
 }
 
 const MEANING: &str = "Rises to: largest deflection of a motion that begins small, at the speed of largest growth and \

@@ -2,7 +2,7 @@
 
 use std::fmt::{Result, Write};
 
-use super::{is_damped, wrapped};
+use super::{each, is_damped, sentence, wrapped};
 use crate::report::{InstabilityEntry, InstabilityKind, OperatingEntry, Report, StabilityState};
 use crate::stability::CRITICAL_MARGIN;
 use crate::text::shown_to;
@@ -105,15 +105,11 @@ fn at_operating_speed(report: &Report, operating: &OperatingEntry) -> Vec<String
 
 /// Describes the band that makes the saw unstable at its operating speed.
 fn inside(band: &InstabilityEntry) -> String {
-    let kind = match band.kind {
-        InstabilityKind::Divergence => "divergence",
-        InstabilityKind::Flutter => "flutter",
-    };
     let waves = band.name.as_ref();
     let waves = waves.map_or(String::new(), |name| format!(",\n    {name}"));
     format!(
-        "  inside the band of {kind} from {:.1} to {:.1} rpm{waves}",
-        band.from_rpm, band.to_rpm
+        "  inside the band of {} from {:.1} to {:.1} rpm{waves}",
+        band.kind, band.from_rpm, band.to_rpm
     )
 }
 
@@ -121,12 +117,12 @@ fn inside(band: &InstabilityEntry) -> String {
 fn fastest(report: &Report, growth: f64, hz: f64) -> String {
     let threshold = report.flutter_threshold_per_s;
     if growth > 0.0 {
-        let held = match growth >= threshold {
+        let compared = match growth >= threshold {
             true => "reaches",
             false => "is below",
         };
         return format!(
-            "fastest growth {} 1/s at {hz:.2} Hz {held} the threshold of {threshold} 1/s",
+            "fastest growth {} 1/s at {hz:.2} Hz {compared} the threshold of {threshold} 1/s",
             shown_to(3, growth)
         );
     }
@@ -264,8 +260,7 @@ fn hidden(
 pub fn trust(text: &mut String, report: &Report) -> Result {
     writeln!(text)?;
     let certificate = &report.certificate;
-    let statement = format!("Certificate: {}", certificate.statement);
-    writeln!(text, "{}", wrapped(&statement))?;
+    sentence(text, &format!("Certificate: {}", certificate.statement))?;
     if certificate
         .unproven_growth_per_s
         .is_some_and(|growth| growth > 0.0)
@@ -276,7 +271,7 @@ pub fn trust(text: &mut String, report: &Report) -> Result {
             report.flutter_speed_rpm,
             report.operating.as_ref().map(|operating| operating.rpm),
         );
-        writeln!(text, "{}", wrapped(&line))?;
+        sentence(text, &line)?;
     }
     let error = certificate.max_backward_error;
     let listed = certificate
@@ -296,10 +291,7 @@ pub fn trust(text: &mut String, report: &Report) -> Result {
             report.accuracy.degrees_of_freedom
         )?;
     }
-    for warning in &report.warnings {
-        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
-    }
-    Ok(())
+    each(text, "Warning", &report.warnings)
 }
 
 #[cfg(test)]
@@ -307,7 +299,7 @@ mod tests {
     use super::hidden;
 
     #[test]
-    fn a_growth_that_could_hide_is_told_where_it_would_change_an_answer() {
+    fn unproven_growth_is_stated_where_it_would_change_an_answer() {
         let says = |stretches: &[[f64; 2]], flutter, operating| {
             hidden(stretches, 0.25, flutter, operating)
                 .replace("Unproven speeds have ", "")

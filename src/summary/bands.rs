@@ -3,7 +3,7 @@
 use std::fmt::{Result, Write};
 
 use super::{ROWS, more, shortened};
-use crate::report::{InstabilityEntry, InstabilityKind, Report};
+use crate::report::{InstabilityEntry, Report};
 
 /// Longest name, in characters, that has room at the end of a row; a longer one is on a line of its own.
 const WAVES: usize = 29;
@@ -30,7 +30,7 @@ pub fn bands(text: &mut String, report: &Report) -> Result {
     for band in bands.iter().take(ROWS) {
         row(text, report, band)?;
     }
-    more(text, bands.len())?;
+    more(text, bands.len(), ROWS, "report.json")?;
     if bands.iter().any(|band| band.counted_rpm.is_empty()) {
         writeln!(
             text,
@@ -42,13 +42,9 @@ pub fn bands(text: &mut String, report: &Report) -> Result {
 }
 
 fn row(text: &mut String, report: &Report, band: &InstabilityEntry) -> Result {
-    let kind = match band.kind {
-        InstabilityKind::Divergence => "divergence",
-        InstabilityKind::Flutter => "flutter",
-    };
     let kind = match band.counted_rpm.is_empty() {
-        true => format!("({kind})"),
-        false => kind.to_owned(),
+        true => format!("({})", band.kind),
+        false => band.kind.to_string(),
     };
     let is_open = |at: f64, end: f64| !band.closed && (at - end).abs() <= 1e-9 * end.abs();
     let (first, last) = (report.campbell.from_rpm, report.campbell.to_rpm);

@@ -1,14 +1,12 @@
 //! The summary of a check.
 
-use std::fmt::Write;
-
-use super::{WIDTH, shortened, wrapped};
+use super::{each, heading, sentence};
 use crate::report::{CheckReport, CriterionEntry};
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &CheckReport) -> std::fmt::Result {
-    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
-    writeln!(text, "{}", wrapped(&verdict(report)))?;
+    heading(text, &report.scene.name, &[])?;
+    sentence(text, &verdict(report))?;
     for number in &report.unusual_numbers {
         let line = match report.accept_unusual {
             true => format!("Unusual number, accepted: {number}"),
@@ -16,16 +14,20 @@ pub fn of_report(text: &mut String, report: &CheckReport) -> std::fmt::Result {
                 "FAIL unusual number: {number}. Correct it, or accept it by --accept-unusual"
             ),
         };
-        writeln!(text, "{}", wrapped(&line))?;
+        sentence(text, &line)?;
     }
-    for criterion in &report.criteria {
-        writeln!(text, "{}", wrapped(&row(criterion)))?;
+    for CriterionEntry {
+        name,
+        finding,
+        passed,
+        ..
+    } in &report.criteria
+    {
+        let word = if *passed { "PASS" } else { "FAIL" };
+        sentence(text, &format!("{word} {name}: {finding}"))?;
     }
-    writeln!(text, "{}", wrapped(&report.rim_stiffness_in_words()))?;
-    for warning in &report.warnings {
-        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
-    }
-    Ok(())
+    sentence(text, &report.rim_stiffness_in_words())?;
+    each(text, "Warning", &report.warnings)
 }
 
 fn verdict(report: &CheckReport) -> String {
@@ -44,10 +46,4 @@ fn verdict(report: &CheckReport) -> String {
         false => ", with numbers that no saw has",
     };
     format!("FAILED {speed}: {limits}{numbers}")
-}
-
-fn row(criterion: &CriterionEntry) -> String {
-    let CriterionEntry { name, finding, .. } = criterion;
-    let word = if criterion.passed { "PASS" } else { "FAIL" };
-    format!("{word} {name}: {finding}")
 }

@@ -3,11 +3,11 @@
 use std::fmt::Write;
 
 use super::answer::Answer;
-use super::{ROWS, WIDTH, shortened, wrapped};
+use super::{ROWS, decimals_or, heading, more, sentence, shortened, wrapped};
 use crate::report::{CompareReport, ComparedEntry};
 
 pub fn of_report(text: &mut String, report: &CompareReport) -> std::fmt::Result {
-    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
+    heading(text, &report.scene.name, &[])?;
     writeln!(
         text,
         "\n                        critical   flutter  bands   rim stiff.\n\
@@ -29,7 +29,6 @@ pub fn of_report(text: &mut String, report: &CompareReport) -> std::fmt::Result 
 }
 
 fn line(text: &mut String, number_of_saw: usize, saw: &ComparedEntry) -> std::fmt::Result {
-    let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
     let stiffness = saw
         .rim_stiffness_at_rest_n_per_m
         .map(|n_per_m| 1e-3 * n_per_m);
@@ -45,10 +44,10 @@ fn line(text: &mut String, number_of_saw: usize, saw: &ComparedEntry) -> std::fm
         text,
         "{:<22} {:>9} {:>9} {:>6} {:>9}    {verdict}",
         shortened(&format!("{number_of_saw} {}", saw.label), 22),
-        number(lowest(saw)),
-        number(saw.flutter_speed_rpm),
+        decimals_or("-", 1, lowest(saw)),
+        decimals_or("-", 1, saw.flutter_speed_rpm),
         saw.instabilities.len(),
-        stiffness.map_or("-".to_owned(), |value| format!("{value:.2}")),
+        decimals_or("-", 2, stiffness),
     )
 }
 
@@ -88,10 +87,7 @@ fn differences(text: &mut String, report: &CompareReport) -> std::fmt::Result {
             value => value,
         });
         let values = values.collect::<Vec<_>>().join(" | ");
-        writeln!(text, "{}", wrapped(&format!("  {}: {values}", entry.path)))?;
+        sentence(text, &format!("  {}: {values}", entry.path))?;
     }
-    match report.differences.len().checked_sub(ROWS) {
-        Some(rest) if rest > 0 => writeln!(text, "  … and {rest} more in compare.json"),
-        _ => Ok(()),
-    }
+    more(text, report.differences.len(), ROWS, "compare.json")
 }

@@ -2,21 +2,16 @@
 
 use std::fmt::Write;
 
-use super::{WIDTH, shortened, unusual_numbers, wrapped};
+use super::{decimals_or, each, heading, sentence};
 use crate::report::{CutCriterion, CutReport, CutRunEntry, CutVerdict, Verdict};
 use crate::stretched::LARGEST_SLOPE;
 use crate::text::fixed;
 use crate::transient::LINEAR_THICKNESSES;
 
 pub fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
-    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
-    unusual_numbers(text, &report.unusual_numbers)?;
+    heading(text, &report.scene.name, &report.unusual_numbers)?;
     for run in &report.runs {
-        writeln!(
-            text,
-            "{}",
-            wrapped(&in_one_line(run, report.linear_limit_m))
-        )?;
+        sentence(text, &in_one_line(run, report.linear_limit_m))?;
     }
     for run in &report.runs {
         of_run(text, run)?;
@@ -24,10 +19,7 @@ pub fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
     if !report.warnings.is_empty() {
         writeln!(text)?;
     }
-    for warning in &report.warnings {
-        writeln!(text, "{}", wrapped(&format!("Note: {warning}")))?;
-    }
-    Ok(())
+    each(text, "Note", &report.warnings)
 }
 
 /// The verdict at a speed; `linear_limit_m` is the largest deflection of the linear model.
@@ -71,17 +63,17 @@ fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
         run.radial_n_per_tooth.round(),
         run.lateral_n_per_tooth
     );
-    writeln!(text, "\n{}", wrapped(&forces))?;
+    writeln!(text)?;
+    sentence(text, &forces)?;
     writeln!(text, "                              growth  frequency")?;
     writeln!(text, "                               [1/s]       [Hz]")?;
     for entry in &run.criteria {
-        let hertz = entry.frequency_hz;
         writeln!(
             text,
             "  {:<25} {:>9} {:>10}  {}{}",
             entry.criterion.to_string(),
             fixed(3, entry.growth_per_s),
-            hertz.map_or("-".into(), |hz| format!("{hz:.2}")),
+            decimals_or("-", 2, entry.frequency_hz),
             in_capitals(entry.verdict),
             remark(run, entry.criterion)
         )?;
@@ -95,7 +87,7 @@ fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
         )?;
     }
     let statement = format!("  certificate: {}", run.certificate.statement);
-    writeln!(text, "{}", wrapped(&statement))
+    sentence(text, &statement)
 }
 
 fn in_capitals(verdict: Verdict) -> &'static str {

@@ -2,36 +2,33 @@
 
 use std::fmt::Write;
 
-use super::{ROWS, WIDTH, shortened, unusual_numbers, wrapped};
+use super::{ROWS, each, heading, more, sentence};
 use crate::report::{ArcEntry, DeflectReport, JumpEntry, SlowSweepEntry};
 use crate::scene::ContactLaw;
 use crate::stretched::TurnKind;
-use crate::text::shown_to;
+use crate::text::{fixed, shown_to};
 
 pub fn of_report(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
-    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
-    unusual_numbers(text, &report.unusual_numbers)?;
-    writeln!(text, "{}", wrapped(&verdict(report)))?;
-    writeln!(text, "{}", wrapped(&critical(report)))?;
+    heading(text, &report.scene.name, &report.unusual_numbers)?;
+    sentence(text, &verdict(report))?;
+    sentence(text, &critical(report))?;
     for (sweep, word) in [(&report.up, "rises"), (&report.down, "falls")] {
         jumps(text, sweep, (word, report.scene.blade.thickness_m))?;
         if let Some(rpm) = sweep.valid_until_rpm {
             let end = format!(
                 "While the speed {word} slopes of the blade exceed 0.1 from {rpm:.1} rpm on: the model is not valid there, and no results are given."
             );
-            writeln!(text, "{}", wrapped(&end))?;
+            sentence(text, &end)?;
         }
     }
     table(text, report)?;
     if let Some(pads) = pads(report) {
-        writeln!(text, "{}", wrapped(&pads))?;
+        sentence(text, &pads)?;
     }
-    writeln!(text, "\n{}", wrapped(&accuracy(report)))?;
-    writeln!(text, "{}", wrapped(MEANING))?;
-    for warning in &report.warnings {
-        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
-    }
-    Ok(())
+    writeln!(text)?;
+    sentence(text, &accuracy(report))?;
+    sentence(text, MEANING)?;
+    each(text, "Warning", &report.warnings)
 }
 
 const MEANING: &str = "With any damping fixed in space every motion ends in a stable equilibrium. Damping that turns with the blade may stabilize the flat blade, and a fast run-up may end before the blade leaves the flat state. Curves of equilibria may exist to which neither a sweep, nor its mirror image, nor a critical speed leads.";
@@ -80,20 +77,19 @@ fn jumps(
     sweep: &SlowSweepEntry,
     (word, thickness_m): (&str, f64),
 ) -> std::fmt::Result {
-    let seen: Vec<&JumpEntry> = sweep
-        .jumps
-        .iter()
-        .filter(|jump| jump.is_seen(thickness_m))
+    let all = sweep.jumps.iter();
+    let listed: Vec<&JumpEntry> = all
+        .filter(|jump| jump.is_considerable(thickness_m))
         .collect();
-    if seen.is_empty() {
+    if listed.is_empty() {
         let none = format!("While the speed {word} slowly the blade does not jump");
-        return writeln!(text, "{}", wrapped(&none));
+        return sentence(text, &none);
     }
     writeln!(
         text,
         "While the speed {word} slowly the blade jumps, at the probe:"
     )?;
-    for jump in seen.iter().take(ROWS) {
+    for jump in listed.iter().take(ROWS) {
         let kind = match jump.kind {
             TurnKind::Fold => "fold",
             TurnKind::Bifurcation => "bifurcation",
@@ -106,24 +102,19 @@ fn jumps(
             millimetres(jump.to_m)
         )?;
     }
-    match seen.len().checked_sub(ROWS) {
-        Some(rest) if rest > 0 => writeln!(text, "  … and {rest} more in deflect.json"),
-        _ => Ok(()),
-    }
+    more(text, listed.len(), ROWS, "deflect.json")
 }
 
 impl JumpEntry {
-    /// Whether the deflection changes by a considerable part of the thickness.
-    pub(crate) fn is_seen(&self, thickness_m: f64) -> bool {
+    /// Whether the deflection at the probe, or the largest deflection, changes by more than 2 % of the
+    /// thickness. Smaller jumps would not be noticed.
+    pub(crate) fn is_considerable(&self, thickness_m: f64) -> bool {
         let probe = (self.to_m - self.from_m).abs();
-        probe.max((self.largest_to_m - self.largest_from_m).abs()) > SEEN * thickness_m
+        probe.max((self.largest_to_m - self.largest_from_m).abs()) > 0.02 * thickness_m
     }
 }
 
-/// A change of deflection of this share of the thickness is a jump.
-const SEEN: f64 = 0.02;
-
-/// Writes deflections at evenly spaced speeds.
+/// Writes deflections in millimetres and the lowest frequencies at evenly spaced speeds.
 fn table(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
     writeln!(
         text,
@@ -237,6 +228,5 @@ fn millimetres(metres: f64) -> String {
 }
 
 fn in_mm(metres: f64) -> String {
-    // The sum of minus zero and zero is zero.
-    format!("{:.3}", (1e6 * metres).round() / 1e3 + 0.0)
+    fixed(3, 1e3 * metres)
 }

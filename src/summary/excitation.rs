@@ -31,5 +31,5 @@ pub fn crossings(text: &mut String, report: &Report) -> Result {
         );
         writeln!(text, "{}", shortened(&line, super::WIDTH))?;
     }
-    more(text, excitation.crossings.len())
+    more(text, excitation.crossings.len(), ROWS, "report.json")
 }

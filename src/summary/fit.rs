@@ -2,24 +2,19 @@
 
 use std::fmt::Write;
 
-use super::{unusual_numbers, wrapped};
+use super::{each, more, sentence};
 use crate::report::{FitReport, ParameterEntry};
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &FitReport) -> std::fmt::Result {
-    writeln!(text, "{}", wrapped(&report.scene.name))?;
-    unusual_numbers(text, &report.unusual_numbers)?;
-    writeln!(
-        text,
-        "{}",
-        wrapped(&format!(
-            "Fitted to {} frequencies ({}): {:.3} Hz rms, before {:.3} Hz",
-            report.measured_frequencies, report.source, report.rms_hz, report.rms_before_hz
-        ))
-    )?;
-    for warning in &report.warnings {
-        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
-    }
+    sentence(text, &report.scene.name)?;
+    each(text, "Unusual number", &report.unusual_numbers)?;
+    let verdict = format!(
+        "Fitted to {} frequencies ({}): {:.3} Hz rms, before {:.3} Hz",
+        report.measured_frequencies, report.source, report.rms_hz, report.rms_before_hz
+    );
+    sentence(text, &verdict)?;
+    each(text, "Warning", &report.warnings)?;
     writeln!(
         text,
         "\n  {:<34} {:>10} {:>10}  {:.0} % interval",
@@ -46,21 +41,14 @@ pub fn of_report(text: &mut String, report: &FitReport) -> std::fmt::Result {
     }
     residuals(text, report)?;
     writeln!(text)?;
-    let reached = |s: &&crate::fit::Start| s.rms_hz.is_some();
-    let best = report
-        .starts
-        .iter()
-        .filter_map(|s| s.rms_hz)
-        .fold(f64::INFINITY, f64::min);
-    let same = report
-        .starts
-        .iter()
-        .filter(|s| s.rms_hz.is_some_and(|rms| rms <= 1.001 * best));
+    let reached = report.starts.iter().filter_map(|start| start.rms_hz);
+    let best = reached.clone().fold(f64::INFINITY, f64::min);
+    let same = reached.clone().filter(|rms| *rms <= 1.001 * best);
     writeln!(
         text,
         "{} of {} starts led to this minimum (n up to {}, {} polynomials over the radius)",
         same.count(),
-        report.starts.iter().filter(reached).count(),
+        reached.count(),
         report.max_diameters,
         report.radial_functions
     )
@@ -90,10 +78,7 @@ fn residuals(text: &mut String, report: &FitReport) -> std::fmt::Result {
         }
         writeln!(text, "{line}{}", if fitted { "" } else { "  (not fitted)" })?;
     }
-    match speeds.len().checked_sub(ROWS) {
-        Some(rest) if rest > 0 => writeln!(text, "  … and {rest} more in fit.json"),
-        _ => Ok(()),
-    }
+    more(text, speeds.len(), ROWS, "fit.json")
 }
 
 /// A fitted number with five significant digits.

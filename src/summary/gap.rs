@@ -2,16 +2,15 @@
 
 use std::fmt::Write;
 
-use super::{WIDTH, shortened, unusual_numbers, wrapped};
+use super::{WIDTH, decimals_or, each, heading, sentence, shortened};
 use crate::report::{
     AtAmplitudeEntry, FrictionEntry, GapReport, OscillationAtEntry, OscillationEntry,
 };
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
-    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
-    unusual_numbers(text, &report.unusual_numbers)?;
-    writeln!(text, "{}", wrapped(&half_way(report)))?;
+    heading(text, &report.scene.name, &report.unusual_numbers)?;
+    sentence(text, &half_way(report))?;
     writeln!(
         text,
         "\nOver the amplitude at the guides (mean stiffness of an oscillation)"
@@ -40,19 +39,18 @@ pub fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
         heat(text, report, friction)?;
     }
     if let Some(error) = &report.deviation.basis_error {
-        let told = format!(
+        let line = format!(
             "Estimated error of these deflections: {} % at most, from {} modes at rest in the place of {}",
             shown_to(2, 1e2 * error.share),
             error.more_modes,
             error.modes
         );
-        writeln!(text, "\n{}", wrapped(&told))?;
+        writeln!(text)?;
+        sentence(text, &line)?;
     }
-    writeln!(text, "\n{}", wrapped(MEANING))?;
-    for warning in &report.warnings {
-        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
-    }
-    Ok(())
+    writeln!(text)?;
+    sentence(text, MEANING)?;
+    each(text, "Warning", &report.warnings)
 }
 
 const MEANING: &str = "The chart over the amplitude is the linear one with the mean stiffness of the guides over a sinusoidal oscillation \
@@ -93,8 +91,8 @@ fn oscillation(
         ("probe, mean", probe),
         ("small motions", decay(at)),
     ];
-    for (name, said) in rows {
-        writeln!(text, "  {name:<22}{said}")?;
+    for (name, value) in rows {
+        writeln!(text, "  {name:<22}{value}")?;
     }
     for pad in &at.pads {
         let name = format!("guides[{}], mean force", pad.guide);
@@ -129,12 +127,12 @@ fn oscillation(
             |share| format!("{} %", shown_to(2, 1e2 * share)),
         )
     };
-    let told = format!(
+    let line = format!(
         "Estimated error of this amplitude at the cut: {} with more harmonics, {} with more modes at rest",
         error(found.harmonics_error_share),
         error(found.basis_error_share)
     );
-    writeln!(text, "{}", wrapped(&told))
+    sentence(text, &line)
 }
 
 /// Stability of the oscillation: largest growth rate of small motions about it.
@@ -163,7 +161,7 @@ fn heat(text: &mut String, report: &GapReport, friction: &FrictionEntry) -> std:
             most
         }
     });
-    let mm = |m: Option<f64>| m.map_or_else(|| "unknown".to_owned(), |m| format!("{:.4}", 1e3 * m));
+    let mm = |m: Option<f64>| decimals_or("unknown", 4, m.map(|m| 1e3 * m));
     let speed =
         |rpm: Option<f64>| rpm.map_or_else(|| "none".to_owned(), |rpm| format!("{rpm:.1} rpm"));
     let forces = friction
@@ -206,8 +204,8 @@ fn heat(text: &mut String, report: &GapReport, friction: &FrictionEntry) -> std:
             ),
         ),
     ];
-    for (name, said) in rows {
-        writeln!(text, "  {name:<22}{said}")?;
+    for (name, value) in rows {
+        writeln!(text, "  {name:<22}{value}")?;
     }
     let mm = |m: f64| shown_to(4, 1e3 * m);
     for pad in &friction.pads {
@@ -242,12 +240,11 @@ fn half_way(report: &GapReport) -> String {
 
 fn row(name: &str, at: &AtAmplitudeEntry) -> String {
     let share = at.stiffness_shares.iter().copied().fold(0.0, f64::max);
-    let speed = |rpm: Option<f64>| rpm.map_or_else(|| "none".to_owned(), |rpm| format!("{rpm:.1}"));
     format!(
         "{name:>11} {:>9} % {:>16} {:>15} {:>7}",
         shown_to(3, 1e2 * share),
-        speed(at.critical_rpm.first().copied()),
-        speed(at.flutter_speed_rpm),
+        decimals_or("none", 1, at.critical_rpm.first().copied()),
+        decimals_or("none", 1, at.flutter_speed_rpm),
         at.instabilities.len()
     )
 }
@@ -276,10 +273,8 @@ fn deviation(text: &mut String, report: &GapReport) -> std::fmt::Result {
             true => "linear".to_owned(),
             false => shown_to(3, 1e3 * factor * report.smallest_gap_m),
         };
-        let cells = deflections.iter().step_by(EVERY).map(|m| {
-            let shown = m.map_or_else(|| "-".to_owned(), |m| format!("{:.4}", 1e3 * m));
-            format!("{shown:>9}")
-        });
+        let cells = deflections.iter().step_by(EVERY);
+        let cells = cells.map(|m| format!("{:>9}", decimals_or("-", 4, m.map(|m| 1e3 * m))));
         writeln!(text, "{gap:>10} {}", cells.collect::<String>())?;
     }
     if let Some(limit) = map.max_deflection_m {
@@ -325,7 +320,7 @@ fn deviation(text: &mut String, report: &GapReport) -> std::fmt::Result {
     let series = map.speeds_rpm.iter().zip(&map.deflection_over_speed_m);
     for (k, (rpm, deflection)) in series.enumerate() {
         let forces = map.pad_forces_over_speed_n.iter().filter_map(|pad| pad[k]);
-        let shown = deflection.map_or_else(|| "leans".to_owned(), |m| format!("{:.4}", 1e3 * m));
+        let shown = decimals_or("leans", 4, deflection.map(|m| 1e3 * m));
         let forces: Vec<String> = forces.map(|force| shown_to(3, force)).collect();
         let line = format!("{rpm:>10.0} {shown:>17}   {}", forces.join("  "));
         writeln!(text, "{}", line.trim_end())?;

@@ -2,7 +2,7 @@
 
 use std::fmt::{Result, Write};
 
-use super::wrapped;
+use super::{decimals_or, sentence};
 use crate::report::Report;
 
 /// Writes the forces of the diagram, and critical speed, flutter speed and growth with and without them.
@@ -15,12 +15,12 @@ pub fn in_cut(text: &mut String, report: &Report) -> Result {
          inwards on each of {} teeth",
         in_cut.rpm, in_cut.tangential_n_per_tooth, in_cut.radial_n_per_tooth, in_cut.teeth
     );
-    writeln!(text, "\n{}", wrapped(&forces))?;
+    writeln!(text)?;
+    sentence(text, &forces)?;
     let Some(idling) = &in_cut.idling else {
         return Ok(());
     };
     writeln!(text, "  {:<32} {:>9} {:>9}", "[rpm]", "idling", "in cut")?;
-    let lowest = |speeds: Option<f64>| speeds.map_or("none".into(), |rpm| format!("{rpm:.1}"));
     let rows = [
         (
             "lowest critical speed",
@@ -42,8 +42,8 @@ pub fn in_cut(text: &mut String, report: &Report) -> Result {
         writeln!(
             text,
             "  {name:<32} {:>9} {:>9}",
-            lowest(idling),
-            lowest(in_cut)
+            decimals_or("none", 1, idling),
+            decimals_or("none", 1, in_cut)
         )?;
     }
     let growth = |bands: &[crate::report::InstabilityEntry]| {

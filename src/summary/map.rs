@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::study::accuracy_of_saws;
-use super::{ROWS, WIDTH, shortened, unusual_numbers, wrapped};
+use super::{ROWS, WIDTH, decimals_or, each, more, sentence, shortened};
 use crate::report::{MapAxisEntry, MapReport, MappedSawEntry, StabilityState};
 use crate::stability::CRITICAL_MARGIN;
 use crate::text::{shown, shown_to};
@@ -12,18 +12,23 @@ use crate::text::{shown, shown_to};
 type Speed = fn(&MappedSawEntry) -> Option<f64>;
 
 pub fn of_report(text: &mut String, report: &MapReport) -> std::fmt::Result {
-    unusual_numbers(text, &report.unusual_numbers)?;
-    verdict(text, report)?;
+    each(text, "Unusual number", &report.unusual_numbers)?;
+    sentence(text, &verdict(report))?;
     speeds(text, report)?;
     let name = shortened(&report.scene.name, WIDTH - 10);
     writeln!(text, "\n{} saws of {name}", report.saws.len())?;
     for axis in std::iter::once(&report.x).chain(&report.y) {
-        writeln!(text, "{}", wrapped(&format!("  {}", range(axis))))?;
+        sentence(text, &format!("  {}", range(axis)))?;
     }
     if report.y.is_none() {
         table(text, report)?;
     }
-    remarks(text, report)
+    let (error, wrong) = (
+        report.largest_estimated_relative_error,
+        report.saws_with_krein_violations,
+    );
+    accuracy_of_saws(text, error, wrong, "")?;
+    each(text, "Warning", &report.warnings)
 }
 
 /// Key and name of a number, its range, and its value in the scene.
@@ -42,15 +47,10 @@ fn range(axis: &MapAxisEntry) -> String {
     )
 }
 
-fn verdict(text: &mut String, report: &MapReport) -> std::fmt::Result {
+fn verdict(report: &MapReport) -> String {
     let Some(rpm) = report.rpm else {
-        return writeln!(
-            text,
-            "{}",
-            wrapped(
-                "No saw is judged: the scene has no operating_rpm, and no speed was given (--rpm)"
-            )
-        );
+        return "No saw is judged: the scene has no operating_rpm, and no speed was given (--rpm)"
+            .to_owned();
     };
     let count = |state: StabilityState| {
         let saws = report.saws.iter();
@@ -74,12 +74,8 @@ fn verdict(text: &mut String, report: &MapReport) -> std::fmt::Result {
         StabilityState::Flutter,
     ]
     .map(count);
-    writeln!(
-        text,
-        "{}",
-        wrapped(&format!(
-            "At {rpm:.0} rpm {stable} of {judged} saws are stable{critical}, {divergence} diverge, {flutter} flutter"
-        ))
+    format!(
+        "At {rpm:.0} rpm {stable} of {judged} saws are stable{critical}, {divergence} diverge, {flutter} flutter"
     )
 }
 
@@ -117,7 +113,7 @@ fn speeds(text: &mut String, report: &MapReport) -> std::fmt::Result {
             high.0,
             place(high.1)
         );
-        writeln!(text, "{}", wrapped(&line))?;
+        sentence(text, &line)?;
     }
     let beyond = report
         .saws
@@ -145,7 +141,6 @@ fn table(text: &mut String, report: &MapReport) -> std::fmt::Result {
     let rows = ROWS.min(report.saws.len());
     let shown_rows = (0..rows).map(|k| k * last / rows.saturating_sub(1).max(1));
     for saw in shown_rows.filter_map(|k| report.saws.get(k)) {
-        let number = |rpm: Option<f64>| rpm.map_or("–".to_owned(), |rpm| format!("{rpm:.1}"));
         let state = match saw.state {
             _ if saw.not_analysed.is_some() => "not analysed",
             None => "–",
@@ -159,25 +154,10 @@ fn table(text: &mut String, report: &MapReport) -> std::fmt::Result {
             text,
             "  {:<24} {:>8} {:>9} {:>7}   {state}",
             shown_to(6, saw.x),
-            number(saw.lowest_critical_rpm),
-            number(saw.flutter_speed_rpm),
+            decimals_or("–", 1, saw.lowest_critical_rpm),
+            decimals_or("–", 1, saw.flutter_speed_rpm),
             saw.instabilities.len()
         )?;
     }
-    match report.saws.len() - rows {
-        0 => Ok(()),
-        rest => writeln!(text, "  … and {rest} more in map.json"),
-    }
-}
-
-fn remarks(text: &mut String, report: &MapReport) -> std::fmt::Result {
-    let (error, wrong) = (
-        report.largest_estimated_relative_error,
-        report.saws_with_krein_violations,
-    );
-    accuracy_of_saws(text, error, wrong, "")?;
-    for warning in &report.warnings {
-        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
-    }
-    Ok(())
+    more(text, report.saws.len(), rows, "map.json")
 }

@@ -86,19 +86,35 @@ pub fn numbered(branch: Option<usize>, name: &str) -> String {
     }
 }
 
-fn more(text: &mut String, rows: usize) -> std::fmt::Result {
-    match rows.checked_sub(ROWS) {
-        Some(rest) if rest > 0 => writeln!(text, "  … and {rest} more in report.json"),
-        _ => Ok(()),
+/// Counts the rows that a table does not show, and names the file that contains all of them.
+fn more(text: &mut String, rows: usize, shown: usize, file: &str) -> std::fmt::Result {
+    match rows.saturating_sub(shown) {
+        0 => Ok(()),
+        rest => writeln!(text, "  … and {rest} more in {file}"),
     }
 }
 
-/// Writes unusual numbers before the verdict, because it may be that of another saw than intended.
-fn unusual_numbers(text: &mut String, sentences: &[String]) -> std::fmt::Result {
-    for sentence in sentences {
-        writeln!(text, "{}", wrapped(&format!("Unusual number: {sentence}")))?;
-    }
-    Ok(())
+/// Writes the name of the scene and its unusual numbers. They are written before the verdict, because a
+/// mistyped number makes it the verdict on another saw.
+fn heading(text: &mut String, name: &str, unusual_numbers: &[String]) -> std::fmt::Result {
+    writeln!(text, "{}", shortened(name, WIDTH))?;
+    each(text, "Unusual number", unusual_numbers)
+}
+
+/// Writes sentences, each after a word: "Warning: …".
+fn each(text: &mut String, word: &str, sentences: &[String]) -> std::fmt::Result {
+    let mut lines = sentences.iter();
+    lines.try_for_each(|line| sentence(text, &format!("{word}: {line}")))
+}
+
+/// Writes a sentence, see [`wrapped`].
+fn sentence(text: &mut String, sentence: &str) -> std::fmt::Result {
+    writeln!(text, "{}", wrapped(sentence))
+}
+
+/// A value with a number of decimals, or a word for a missing value.
+fn decimals_or(missing: &str, decimals: usize, value: Option<f64>) -> String {
+    value.map_or_else(|| missing.to_owned(), |value| format!("{value:.decimals$}"))
 }
 
 /// The line, cut off with an ellipsis if it has more characters than `width`.

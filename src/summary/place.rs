@@ -2,30 +2,29 @@
 
 use std::fmt::Write;
 
-use super::{unusual_numbers, wrapped};
+use super::{decimals_or, each, sentence};
 use crate::report::{
     FragileOptimumEntry, GoalEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
 };
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
-    writeln!(text, "{}", wrapped(&report.scene.name))?;
-    unusual_numbers(text, &report.unusual_numbers)?;
+    sentence(text, &report.scene.name)?;
+    each(text, "Unusual number", &report.unusual_numbers)?;
     let goal = match report.goal {
         GoalEntry::FlutterSpeed => "flutter speed",
         GoalEntry::StableWindow => "stable window",
     };
     if let Some(amplitude) = report.amplitude_m {
-        let told = format!(
+        let line = format!(
             "Speeds with the mean stiffness of the guides over an oscillation of {} mm at them",
             shown_to(3, 1e3 * amplitude)
         );
-        writeln!(text, "{}", wrapped(&told))?;
+        sentence(text, &line)?;
     }
     writeln!(text, "\n{:<30} {:>10} {:>10}", "", "before", "best")?;
-    let number = |rpm: Option<f64>| rpm.map_or("none".to_owned(), |rpm| format!("{rpm:.0}"));
     let mut line = |name: &str, before: Option<f64>, best: Option<f64>| {
-        let (before, best) = (number(before), number(best));
+        let [before, best] = [before, best].map(|rpm| decimals_or("none", 0, rpm));
         writeln!(text, "{name:<30} {before:>10} {best:>10}")
     };
     let mut both = |name: &str, of: fn(&OutcomeEntry) -> Option<f64>| {
@@ -72,21 +71,18 @@ pub fn of_report(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
     }
     neighbours(text, report, goal)?;
     if let Some(fragile) = &report.fragile_optimum {
-        writeln!(text, "{}", wrapped(&told_beside(report, fragile, goal)))?;
+        sentence(text, &fragile_optimum(report, fragile, goal))?;
     }
     for band in &report.almost {
         let line = format!(
             "A band from {:.0} rpm on grows by {:.2} 1/s, the threshold is {} 1/s: if the growth reached it, this would be the flutter speed",
             band.from_rpm, band.peak_growth_per_s, report.flutter_threshold_per_s
         );
-        writeln!(text, "{}", wrapped(&line))?;
+        sentence(text, &line)?;
     }
     let certificate = &report.certificate.statement;
-    let certificate = format!("Certificate of the best saw: {certificate}");
-    writeln!(text, "{}", wrapped(&certificate))?;
-    for warning in &report.warnings {
-        writeln!(text, "{}", wrapped(&format!("Note: {warning}")))?;
-    }
+    sentence(text, &format!("Certificate of the best saw: {certificate}"))?;
+    each(text, "Note", &report.warnings)?;
     writeln!(
         text,
         "{} saws analysed, {:.0} to {:.0} rpm",
@@ -104,15 +100,14 @@ fn neighbours(text: &mut String, report: &PlaceReport, goal: &str) -> std::fmt::
         let PlacedEntry {
             less_rpm, more_rpm, ..
         } = p;
-        let side = |rpm: &Option<f64>| rpm.map_or("no saw".into(), |r| format!("{r:.0}"));
         writeln!(
             text,
             "  {:<30} -{:<7} {:>10}   +{:<7} {:>10}",
             p.path,
             short(p.offset),
-            side(less_rpm),
+            decimals_or("no saw", 0, *less_rpm),
             short(p.offset),
-            side(more_rpm)
+            decimals_or("no saw", 0, *more_rpm)
         )?;
     }
     let verdict = if report.fragile { "FRAGILE" } else { "robust" };
@@ -120,11 +115,12 @@ fn neighbours(text: &mut String, report: &PlaceReport, goal: &str) -> std::fmt::
     let line = format!(
         "In the worst case of its tolerances, of single numbers and of all together, the best saw has {share:.0} % of its {goal}: {verdict}"
     );
-    writeln!(text, "{}", wrapped(&line))
+    sentence(text, &line)
 }
 
-/// Describes the saw that is better than the answer at its nominal numbers.
-fn told_beside(report: &PlaceReport, fragile: &FragileOptimumEntry, goal: &str) -> String {
+/// Describes the saw that is better than the best at its nominal numbers and worse in the worst case of the
+/// tolerances.
+fn fragile_optimum(report: &PlaceReport, fragile: &FragileOptimumEntry, goal: &str) -> String {
     let rpm = |saw: &NeighbourEntry| {
         let goal = saw.outcome.map(|outcome| outcome.goal_rpm);
         goal.map_or("unknown".to_owned(), |rpm| format!("{rpm:.0} rpm"))

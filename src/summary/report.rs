@@ -9,14 +9,14 @@ use super::excitation::crossings;
 use super::in_cut::in_cut;
 use super::influences::{heat, rolled, sensitivity, straight_edge};
 use super::whirl::whirl;
-use super::{ROWS, WIDTH, is_damped, more, numbered, shortened, unusual_numbers};
+use super::{ROWS, WIDTH, each, is_damped, more, numbered, shortened};
 use crate::report::{Report, RestMode};
 use crate::scene::BladeFile;
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &Report) -> std::fmt::Result {
     header(text, report)?;
-    unusual_numbers(text, &report.unusual_numbers)?;
+    each(text, "Unusual number", &report.unusual_numbers)?;
     writeln!(text)?;
     for line in answer(report) {
         writeln!(text, "{line}")?;
@@ -120,5 +120,5 @@ fn critical_speeds(text: &mut String, report: &Report) -> std::fmt::Result {
             .map_or(String::new(), |number| format!("  (branch {number})"));
         writeln!(text, "  {:>9.1}  {}{branch}", critical.rpm, critical.name)?;
     }
-    more(text, speeds.len())
+    more(text, speeds.len(), ROWS, "report.json")
 }

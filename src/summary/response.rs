@@ -2,13 +2,13 @@
 
 use std::fmt::Write;
 
-use super::{ROWS, unusual_numbers, wrapped};
+use super::{ROWS, each, more, sentence};
 use crate::report::{ResponseLineEntry, ResponseReport};
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &ResponseReport) -> std::fmt::Result {
-    unusual_numbers(text, &report.unusual_numbers)?;
-    writeln!(text, "{}", wrapped(&verdict(report)))?;
+    each(text, "Unusual number", &report.unusual_numbers)?;
+    sentence(text, &verdict(report))?;
     writeln!(text, "\nAmplitude at the probe [mm]")?;
     let rest = report.lines.iter().map(|line| line.amplitude_m.first());
     writeln!(
@@ -42,24 +42,19 @@ pub fn of_report(text: &mut String, report: &ResponseReport) -> std::fmt::Result
         let known = points.receptance_m_per_n.iter().zip(&points.frequency_hz);
         let known = known.filter_map(|(m, hz)| Some(((*m)?, *hz)));
         let largest = known.max_by(|a, b| a.0.total_cmp(&b.0));
-        let said = largest.map_or(
-            "the saw is unstable, no steady state".to_owned(),
-            |(m, hz)| {
-                format!(
-                    "at most {} mm/N, at {} Hz",
-                    shown_to(4, 1e3 * m),
-                    shown_to(5, hz)
-                )
-            },
-        );
+        let amplitude = match largest {
+            None => "the saw is unstable, no steady state".to_owned(),
+            Some((m, hz)) => format!(
+                "at most {} mm/N, at {} Hz",
+                shown_to(4, 1e3 * m),
+                shown_to(5, hz)
+            ),
+        };
         let rpm = points.rpm;
-        writeln!(text, "\nForce to probe at {rpm:.0} rpm: {said}")?;
+        writeln!(text, "\nForce to probe at {rpm:.0} rpm: {amplitude}")?;
     }
     writeln!(text)?;
-    for warning in &report.warnings {
-        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
-    }
-    Ok(())
+    each(text, "Warning", &report.warnings)
 }
 
 fn verdict(report: &ResponseReport) -> String {
@@ -109,8 +104,5 @@ fn resonances(text: &mut String, line: &ResponseLineEntry) -> std::fmt::Result {
             resonance.rpm, resonance.frequency_hz
         )?;
     }
-    match line.resonances.len().saturating_sub(ROWS) {
-        0 => Ok(()),
-        rest => writeln!(text, "  … and {rest} more in response.json"),
-    }
+    more(text, line.resonances.len(), ROWS, "response.json")
 }

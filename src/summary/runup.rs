@@ -2,28 +2,24 @@
 
 use std::fmt::Write;
 
-use super::{WIDTH, shortened, unusual_numbers, wrapped};
-use crate::report::{InstabilityKind, RunUpReport};
+use super::{each, heading, sentence};
+use crate::report::RunUpReport;
 use crate::stretched::LARGEST_SLOPE;
 use crate::transient::LINEAR_THICKNESSES;
 
 pub fn of_report(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
-    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
-    unusual_numbers(text, &report.unusual_numbers)?;
-    writeln!(text, "{}", wrapped(&verdict(report)))?;
+    heading(text, &report.scene.name, &report.unusual_numbers)?;
+    sentence(text, &verdict(report))?;
     if report.bands.is_empty() {
         writeln!(
             text,
             "No instability: nothing grows at any speed of the run-up"
         )?;
     } else {
-        writeln!(text, "{}", wrapped(&first_doubling(report)))?;
+        sentence(text, &first_doubling(report))?;
         bands(text, report)?;
     }
-    for warning in &report.warnings {
-        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
-    }
-    Ok(())
+    each(text, "Warning", &report.warnings)
 }
 
 /// Speed up to which the model is valid, and the largest deflection at the probe.
@@ -79,13 +75,10 @@ fn bands(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
         "                    [rpm]      [rpm]      [s]  ∫Re λ dt  e^exponent   in/before"
     )?;
     for entry in &report.bands {
-        let kind = match entry.band.kind {
-            InstabilityKind::Divergence => "divergence",
-            InstabilityKind::Flutter => "flutter",
-        };
         writeln!(
             text,
-            "  {kind:<12} {:>10.1} {:>10.1} {:>8.2} {:>9.3} {:>11} {:>11}",
+            "  {:<12} {:>10.1} {:>10.1} {:>8.2} {:>9.3} {:>11} {:>11}",
+            entry.band.kind,
             entry.band.from_rpm,
             entry.band.to_rpm,
             entry.time_s,
@@ -95,7 +88,7 @@ fn bands(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
         )?;
     }
     let meaning = "in/before: largest deflection at the probe in the band over that in as many rpm before it. All modes contribute: with a small exponent it shows beating, not growth.";
-    writeln!(text, "{}", wrapped(meaning))
+    sentence(text, meaning)
 }
 
 /// Amplifications above this factor are not distinguished: motions of practical size then exceed the linear

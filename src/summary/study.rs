@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::study::{GapStatistics, Group, NumberEntry, Passing, SpeedEntry, StudyReport};
 use crate::text::{shown, shown_to};
 
-use super::{WIDTH, shortened, unusual_numbers};
+use super::{WIDTH, decimals_or, each, shortened};
 
 /// Largest number of rows of the table of a grid; further rows are counted.
 const ROWS: usize = 24;
@@ -44,8 +44,7 @@ fn header(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     for entry in &report.study.parameters {
         writeln!(text, "  {}", shortened(&entry.to_string(), WIDTH - 2))?;
     }
-    unusual_numbers(text, &report.unusual_numbers)?;
-    Ok(())
+    each(text, "Unusual number", &report.unusual_numbers)
 }
 
 /// Writes the quantiles of the lowest critical speed and of the flutter speed.
@@ -67,22 +66,17 @@ fn quantiles(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     for (name, speed) in speeds {
         write!(text, "\n  {name:<21}")?;
         for quantile in speed.quantiles.iter().take(COLUMNS) {
-            let cell = quantile
-                .rpm
-                .map_or("beyond".into(), |rpm| format!("{rpm:.1}"));
-            write!(text, "{cell:>8}")?;
+            write!(text, "{:>8}", decimals_or("beyond", 1, quantile.rpm))?;
         }
     }
     if let Some(gap) = &all.gap {
         numbers(text, gap)?;
     }
     writeln!(text)?;
-    let SpeedEntry { beyond, .. } = all.flutter;
-    if beyond > 0 {
-        let to = report.swept_to_rpm;
-        writeln!(text, "  {beyond} saws do not flutter up to {to:.0} rpm")?;
+    match (all.flutter.beyond, report.swept_to_rpm) {
+        (0, _) => Ok(()),
+        (beyond, to) => writeln!(text, "  {beyond} saws do not flutter up to {to:.0} rpm"),
     }
-    Ok(())
 }
 
 /// Writes the quantiles of deflection, pad force and critical speed of guides with a gap.
@@ -140,8 +134,7 @@ fn reliability(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     }
     write!(text, "\n  up to [rpm]          ")?;
     for fastest in &reliability.fastest {
-        let cell = fastest.rpm.map_or("–".into(), |rpm| format!("{rpm:.1}"));
-        write!(text, "{cell:>8}")?;
+        write!(text, "{:>8}", decimals_or("–", 1, fastest.rpm))?;
     }
     writeln!(
         text,
@@ -160,16 +153,14 @@ fn worst(text: &mut String, report: &StudyReport) -> std::fmt::Result {
         let Some(first) = saws.first() else {
             continue;
         };
-        let parameters = report.study.parameters.iter().zip(&first.values);
-        let values = parameters.map(|(parameter, value)| format!("{} = {value}", parameter.path));
-        let values: Vec<String> = values.collect();
         writeln!(
             text,
             "\nLowest {name} speed: {:.1} rpm, saw {}",
             first.rpm, first.saw
         )?;
-        for value in values {
-            writeln!(text, "  {}", shortened(&value, WIDTH - 2))?;
+        for (parameter, value) in report.study.parameters.iter().zip(&first.values) {
+            let line = format!("{} = {value}", parameter.path);
+            writeln!(text, "  {}", shortened(&line, WIDTH - 2))?;
         }
     }
     Ok(())
@@ -178,10 +169,7 @@ fn worst(text: &mut String, report: &StudyReport) -> std::fmt::Result {
 fn groups(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     writeln!(text, "\nIn each point of the grid: medians [rpm]")?;
     writeln!(text, "  critical  flutter   pass")?;
-    let median = |speed: &SpeedEntry| {
-        let median = speed.median_rpm;
-        median.map_or("beyond".into(), |rpm| format!("{rpm:.1}"))
-    };
+    let median = |speed: &SpeedEntry| decimals_or("beyond", 1, speed.median_rpm);
     let pass = |group: &Group| {
         let passing = group.passing.as_ref();
         passing.map_or("–".into(), |p| format!("{:.1} %", 100.0 * p.probability))

@@ -2,15 +2,14 @@
 
 use std::fmt::Write;
 
-use super::{WIDTH, shortened, unusual_numbers, wrapped};
+use super::{decimals_or, each, heading, sentence, shortened};
 use crate::report::{Verdict, WashboardModeEntry, WashboardReport};
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &WashboardReport) -> std::fmt::Result {
-    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
-    unusual_numbers(text, &report.unusual_numbers)?;
-    writeln!(text, "{}", wrapped(&verdict(report)))?;
-    writeln!(text, "{}", wrapped(&boundary(report)))?;
+    heading(text, &report.scene.name, &report.unusual_numbers)?;
+    sentence(text, &verdict(report))?;
+    sentence(text, &boundary(report))?;
     let facts = format!(
         "{:.0} teeth pass in a second; {} N/m across the blade, overlap {:.2}, arc of {:.1}°; modes up to {:.0} Hz",
         report.tooth_passing_hz,
@@ -19,12 +18,9 @@ pub fn of_report(text: &mut String, report: &WashboardReport) -> std::fmt::Resul
         report.arc_deg,
         report.complete_to_hz
     );
-    writeln!(text, "{}", wrapped(&facts))?;
+    sentence(text, &facts)?;
     modes(text, report)?;
-    for warning in &report.warnings {
-        writeln!(text, "{}", wrapped(&format!("Warning: {warning}")))?;
-    }
-    Ok(())
+    each(text, "Warning", &report.warnings)
 }
 
 fn verdict(report: &WashboardReport) -> String {
@@ -82,9 +78,6 @@ fn modes(text: &mut String, report: &WashboardReport) -> std::fmt::Result {
 }
 
 fn row(mode: &WashboardModeEntry) -> String {
-    let or_dash = |value: Option<f64>, decimals: usize| {
-        value.map_or("-".to_owned(), |value| format!("{value:.decimals$}"))
-    };
     let name = shortened(&mode.name, 16);
     let beside = mode.beside_tooth_passing_hz.map(|hz| {
         let multiple = mode.tooth_passing_multiple.unwrap_or_default();
@@ -94,7 +87,7 @@ fn row(mode: &WashboardModeEntry) -> String {
         "  {name:<16} {:>8.1} {:>9.3} {:>9} {:>13} {:>8}",
         mode.frequency_hz,
         mode.growth_per_s,
-        or_dash(mode.growth_without_per_s, 3),
+        decimals_or("-", 3, mode.growth_without_per_s),
         beside.unwrap_or("-".into()),
         mode.pattern_pitch_m.map_or("-".into(), length)
     )

@@ -83,24 +83,17 @@ pub fn read_path(path: &Path, kind: Kind) -> Result<String, FileError> {
 /// # Errors
 /// [`FileError`] if the stream cannot be read, is too large, or is not text.
 pub fn read_stream(stream: impl Read, path: &Path, kind: Kind) -> Result<String, FileError> {
-    let path = || path.to_owned();
+    let path = path.to_owned();
     let limit = kind.limit;
     // The limit applies to the bytes that are read, because pipes and devices report no size.
     let mut bytes = Vec::new();
-    let mut limited = stream.take(limit + 1);
-    limited
-        .read_to_end(&mut bytes)
-        .map_err(|source| FileError::Read {
-            path: path(),
-            source,
-        })?;
-    if bytes.len() as u64 > limit {
-        return Err(FileError::TooLarge {
-            path: path(),
-            limit,
-        });
+    if let Err(source) = stream.take(limit + 1).read_to_end(&mut bytes) {
+        return Err(FileError::Read { path, source });
     }
-    decode(&bytes, kind.other_encodings).map_err(|kind| FileError::NotText { path: path(), kind })
+    if bytes.len() as u64 > limit {
+        return Err(FileError::TooLarge { path, limit });
+    }
+    decode(&bytes, kind.other_encodings).map_err(|kind| FileError::NotText { path, kind })
 }
 
 /// First bytes and descriptions of files that users give in the place of tables or scenes.
@@ -127,36 +120,32 @@ const FOREIGN: [(&[u8], &str); 6] = [
 
 const BINARY: &str = "not text, but binary; give a file of plain text";
 const UNKNOWN_ENCODING: &str = "not UTF-8 or UTF-16 text; save it as UTF-8";
-const LONE_SURROGATE: &str = "broken UTF-16 text; save it as UTF-8";
+const BROKEN_UTF_16: &str = "broken UTF-16 text; save it as UTF-8";
 
 /// Decodes text and removes the byte order mark, or returns the description of a file that is not text.
 fn decode(bytes: &[u8], other_encodings: OtherEncodings) -> Result<String, &'static str> {
     if let Some((_, kind)) = FOREIGN.iter().find(|(magic, _)| bytes.starts_with(magic)) {
         return Err(kind);
     }
+    type Unit = fn([u8; 2]) -> u16;
+    let (little, big): (Unit, Unit) = (u16::from_le_bytes, u16::from_be_bytes);
     let utf_16 = match bytes {
-        [0xff, 0xfe, rest @ ..] => Some((rest, u16::from_le_bytes as fn([u8; 2]) -> u16)),
-        [0xfe, 0xff, rest @ ..] => Some((rest, u16::from_be_bytes as fn([u8; 2]) -> u16)),
-        // Without a mark UTF-16 is recognized by its first character, which is ASCII, so that one byte is
-        // zero.
-        [first, 0, second, 0, ..] if *first != 0 && *second != 0 => {
-            Some((bytes, u16::from_le_bytes as fn([u8; 2]) -> u16))
-        }
-        [0, first, 0, second, ..] if *first != 0 && *second != 0 => {
-            Some((bytes, u16::from_be_bytes as fn([u8; 2]) -> u16))
-        }
+        [0xff, 0xfe, rest @ ..] => Some((rest, little)),
+        [0xfe, 0xff, rest @ ..] => Some((rest, big)),
+        // Without a mark UTF-16 is recognized by its first two characters, which are ASCII, so that one byte of each
+        // is zero.
+        [1..=255, 0, 1..=255, 0, ..] => Some((bytes, little)),
+        [0, 1..=255, 0, 1..=255, ..] => Some((bytes, big)),
         _ => None,
     };
     if let Some((bytes, of_pair)) = utf_16 {
-        if bytes.len() % 2 == 1 {
-            return Err(LONE_SURROGATE);
+        let (pairs, rest) = bytes.as_chunks::<2>();
+        if !rest.is_empty() {
+            return Err(BROKEN_UTF_16);
         }
-        let units = bytes
-            .chunks_exact(2)
-            .map(|pair| of_pair([pair[0], pair[1]]));
-        return char::decode_utf16(units)
+        return char::decode_utf16(pairs.iter().map(|pair| of_pair(*pair)))
             .collect::<Result<String, _>>()
-            .map_err(|_| LONE_SURROGATE);
+            .map_err(|_| BROKEN_UTF_16);
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if bytes.contains(&0) {
@@ -197,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_text_is_called_by_its_name() {
+    fn files_without_text_are_recognized() {
         for (bytes, expected) in [
             (&b"PK\x03\x04rest"[..], "save it as CSV"),
             (b"\xd0\xcf\x11\xe0", "save it as CSV"),

@@ -20,10 +20,10 @@ pub(crate) use number::{fixed, shown, shown_to};
 pub fn printable(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     for character in text.chars() {
-        let steers = character.is_control() && character != '\n';
+        let controls = character.is_control() && character != '\n';
         let turns = matches!(character, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-        match steers || turns {
-            // The escape is one of JSON too, so that printed JSON keeps its meaning.
+        match controls || turns {
+            // JSON has the same escape, so that printed JSON keeps its meaning.
             true => shown.push_str(&format!("\\u{:04x}", u32::from(character))),
             false => shown.push(character),
         }
@@ -47,7 +47,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_steers_a_terminal_is_shown_as_its_escape() {
+    fn characters_that_control_a_terminal_are_shown_as_escapes() {
         assert_eq!(printable("Säge Ω\n"), "Säge Ω\n");
         assert_eq!(printable("a\u{1b}[2J\u{7}b"), "a\\u001b[2J\\u0007b");
         assert_eq!(

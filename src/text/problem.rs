@@ -17,12 +17,8 @@ pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
         _ => of_syntax(text, path, error)
             .unwrap_or_else(|| (path.clone(), format!("it is no JSON: {said} (line {line})"))),
     };
-    let key = match key.as_str() {
-        "" => whole.to_owned(),
-        _ => key,
-    };
     KeyedError {
-        key,
+        key: if key.is_empty() { whole.into() } else { key },
         message,
         of_keys: error.is_eof()
             || said.starts_with("missing field")
@@ -82,37 +78,33 @@ fn of_data(path: &str, said: &str, line: usize) -> (String, String) {
     let names: Vec<&str> = said.split('`').skip(1).step_by(2).collect();
     let (subject, known) = (names.first().copied().unwrap_or_default(), names.get(1..));
     let known = known.unwrap_or_default();
-    let word = |kind: &str| said.starts_with(kind);
-    if word("unknown field") {
-        let key = below(path, subject);
+    let begins = |kind: &str| said.starts_with(kind);
+    let message = if begins("missing field") {
         return (
-            key,
-            format!(
-                "there is no such key; {} (line {line})",
-                meant(subject, known)
-            ),
+            below(path, subject),
+            "it is missing, but must be given".into(),
         );
-    }
-    if word("missing field") {
-        let message = "it is missing, but must be given".to_owned();
-        return (below(path, subject), message);
-    }
-    if word("duplicate field") {
-        let message = format!("it is given twice; remove one (line {line})");
-        return (below(path, subject), message);
-    }
-    if word("unknown variant") {
-        let near = meant(subject, known);
-        let message = format!("{subject:?} is not known; {near} (line {line})");
-        return (path.to_owned(), message);
-    }
-    let found = said.strip_prefix("invalid type: ");
-    let found = found.or_else(|| said.strip_prefix("invalid value: "));
-    let message = match found.and_then(|rest| rest.split_once(", expected ")) {
-        Some((found, expected)) => of_type(found, expected),
-        None => said.to_owned(),
+    } else if begins("unknown field") {
+        format!("there is no such key; {}", meant(subject, known))
+    } else if begins("duplicate field") {
+        "it is given twice; remove one".to_owned()
+    } else if begins("unknown variant") {
+        format!("{subject:?} is not known; {}", meant(subject, known))
+    } else {
+        let found = said.strip_prefix("invalid type: ");
+        let found = found.or_else(|| said.strip_prefix("invalid value: "));
+        match found.and_then(|rest| rest.split_once(", expected ")) {
+            Some((found, expected)) => of_type(found, expected),
+            None => said.to_owned(),
+        }
     };
-    (path.to_owned(), format!("{message} (line {line})"))
+    let of_key = begins("unknown field") || begins("duplicate field");
+    let key = if of_key {
+        below(path, subject)
+    } else {
+        path.to_owned()
+    };
+    (key, format!("{message} (line {line})"))
 }
 
 /// Message for a value of the wrong type.

@@ -94,12 +94,10 @@ fn word(rest: &str) -> usize {
 /// Replaces comments, and commas before a closing bracket, by as many spaces as they have bytes. All other
 /// characters keep their positions.
 pub fn without_comments(text: &str) -> String {
-    let all = tokens(text);
-    let mut blanks: Vec<&Token> = all.iter().filter(|t| t.part == Part::Comment).collect();
-    let meant: Vec<&Token> = all.iter().filter(|t| t.part != Part::Comment).collect();
-    let before_closing =
-        |pair: &&[&Token]| pair[0].text == "," && matches!(pair[1].text, "}" | "]");
-    blanks.extend(meant.windows(2).filter(before_closing).map(|pair| pair[0]));
+    let all = tokens(text).into_iter();
+    let (mut blanks, others): (Vec<_>, Vec<_>) = all.partition(|t| t.part == Part::Comment);
+    let before_closing = |pair: &&[Token]| pair[0].text == "," && matches!(pair[1].text, "}" | "]");
+    blanks.extend(others.windows(2).filter(before_closing).map(|pair| pair[0]));
     let mut tidy = text.to_owned();
     for token in blanks {
         let blank = |c: char| if c == '\n' { '\n' } else { ' ' };
@@ -114,7 +112,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn comments_and_last_commas_are_blanks_and_nothing_else_is() {
+    fn only_comments_and_last_commas_are_replaced_by_spaces() {
         let text = "{ // Säge\n\"a\": \"// no, [comment,]\", /* two\nlines */ \"b\": [1, 2,],\n}";
         let tidy = without_comments(text);
         assert_eq!(tidy.len(), text.len());
@@ -129,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn broken_text_has_tokens_too() {
+    fn text_that_is_not_json_is_divided_into_tokens() {
         for text in ["\"open", "/* open", "{,,}]", "ä/b//c", "\\\"\\", "/"] {
             for token in tokens(text) {
                 assert_eq!(&text[token.start..token.end()], token.text);

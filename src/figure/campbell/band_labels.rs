@@ -19,8 +19,9 @@ struct Placed {
     letters: Lettering,
     frame: Frame,
     row: usize,
-    /// Penalty of this position, by which the best one is selected.
-    burden: usize,
+    /// Penalty for the side of the band on which the label is; the position with the smallest sum of penalties is
+    /// selected.
+    penalty: usize,
     label: String,
 }
 
@@ -45,8 +46,10 @@ impl BandLabels {
             .filter(|[left, right]| right - left < NARROW)
             .collect();
         thin.extend(operating_place(chart).map(|x| [x - 0.5, x + 0.5]));
-        let placed = Vec::new();
-        let mut labels = Self { placed, thin };
+        let mut labels = Self {
+            placed: Vec::new(),
+            thin,
+        };
         for band in order {
             labels.placed.extend(labels.best_place(chart, band));
         }
@@ -69,7 +72,7 @@ impl BandLabels {
         let cost = |place: &Placed| {
             let foreign = self.thin.iter().filter(|line| **line != own);
             let crossed = foreign.filter(|line| crosses(line, &place.frame)).count();
-            4 * crossed + place.row + place.burden
+            4 * crossed + place.row + place.penalty
         };
         let candidates = (0..ROWS).flat_map(|row| places_in_row(chart, band, own, row));
         candidates.filter(free).min_by_key(cost)
@@ -97,22 +100,14 @@ impl BandLabels {
         } in &self.placed
         {
             for line in self.thin.iter().filter(|line| crosses(line, frame)) {
-                let [left, right] = [line[0] - 1.0, line[1] + 1.0];
-                sheet.fill(
-                    Frame {
-                        left,
-                        right,
-                        ..*frame
-                    },
-                    PAPER,
-                );
+                sheet.fill(frame.between([line[0] - 1.0, line[1] + 1.0]), PAPER);
             }
             let [x, y] = [at[0], at[1] - 0.36 * LABEL_SIZE];
-            let bridge = |way: f64| [2.0, FLAG_GAP].map(|away| [x + way * away, y]);
+            let flag = |way: f64| [2.0, FLAG_GAP].map(|away| [x + way * away, y]);
             let stroke = Stroke::solid(letters.colour, HAIRLINE);
             match letters.anchor {
-                Anchor::Start => sheet.line(bridge(-1.0), stroke),
-                Anchor::End => sheet.line(bridge(1.0), stroke),
+                Anchor::Start => sheet.line(flag(-1.0), stroke),
+                Anchor::End => sheet.line(flag(1.0), stroke),
                 Anchor::Middle => {}
             }
             sheet.text(*at, *letters, label);
@@ -136,7 +131,7 @@ fn places_in_row(chart: &Chart, band: &Band, [left, right]: [f64; 2], row: usize
         let letters = Lettering::regular(LABEL_SIZE, band.colour.colour(), anchor);
         let frame = text_frame([x, baseline], &letters, &band.label);
         let fits_inside = frame.right - frame.left < right - left;
-        let burden = match anchor {
+        let penalty = match anchor {
             Anchor::Start if fits_inside => 2,
             Anchor::Start => 0,
             Anchor::End => 1,
@@ -146,13 +141,9 @@ fn places_in_row(chart: &Chart, band: &Band, [left, right]: [f64; 2], row: usize
         Placed {
             at: [x, baseline],
             letters,
-            frame: Frame {
-                left: frame.left - 3.0,
-                right: frame.right + 3.0,
-                ..frame
-            },
+            frame: frame.widened(3.0),
             row,
-            burden,
+            penalty,
             label: band.label.clone(),
         }
     })

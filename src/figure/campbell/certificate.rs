@@ -2,15 +2,14 @@
 
 use super::super::axis::{raised, two_digits};
 use super::super::canvas::{Anchor, Lettering, Sheet};
-use super::super::style::{ALARM, BETWEEN_FACTS, LABEL_SIZE, MARGIN, QUIET, Weight, shorten};
+use super::super::style::{ALARM, BETWEEN_FACTS, LABEL_SIZE, MARGIN, QUIET, shorten_label};
 use super::{CERTIFICATE_ABOVE_FOOT, FACTS_ABOVE_FOOT, HEIGHT, PLOT_LEFT, WIDTH};
 use crate::report::Report;
 
 /// Writes the statement of the certificate, in red if a comparison fails, and a line on errors and size of the model.
 pub fn draw(sheet: &mut Sheet, report: &Report) {
     let write = |sheet: &mut Sheet, above_foot: f64, text: &str, colour| {
-        let width = f64::from(WIDTH) - MARGIN - PLOT_LEFT;
-        let text = shorten(text, LABEL_SIZE, Weight::Regular, width);
+        let text = shorten_label(text, f64::from(WIDTH) - MARGIN - PLOT_LEFT);
         let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
         sheet.text([PLOT_LEFT, f64::from(HEIGHT) - above_foot], letters, &text);
     };

@@ -2,7 +2,7 @@
 
 use super::super::canvas::{Anchor, Lettering, Sheet, text_frame};
 use super::super::chart_data::Line;
-use super::super::style::{INK, LABEL_SIZE, PAPER};
+use super::super::style::{INK, LABEL_SIZE};
 use super::Chart;
 
 /// Distance of the baseline of a label from the upper end of its line or the upper edge of the panel.
@@ -34,15 +34,11 @@ fn label_line(sheet: &mut Sheet, chart: &Chart, line: &Line, [from, to]: [[f64; 
     let slope = (to[0] - from[0]) / (to[1] - from[1]).min(-f64::MIN_POSITIVE);
     let x = (to[0] + slope * (wanted - to[1])).min(chart.upper.right) - LABEL_INSET;
     let at = [x, wanted];
-    let frame = text_frame(at, &letters, name);
-    let letters = match frame.left < chart.upper.left {
-        true => Lettering::regular(LABEL_SIZE, INK, Anchor::Start),
-        false => letters,
-    };
-    let at = match frame.left < chart.upper.left {
-        true => [x + 2.0 * LABEL_INSET, wanted],
-        false => at,
-    };
-    sheet.fill(text_frame(at, &letters, name), PAPER);
-    sheet.text(at, letters, name);
+    // The label is to the left of its line, or to the right if there is no room.
+    if text_frame(at, &letters, name).left < chart.upper.left {
+        let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Start);
+        sheet.text_on_paper([x + 2.0 * LABEL_INSET, wanted], letters, name);
+    } else {
+        sheet.text_on_paper(at, letters, name);
+    }
 }

@@ -1,17 +1,16 @@
 //! The lower panel: growth rates.
 
 use super::super::axis::{Axis, Spread};
-use super::super::canvas::{Anchor, Lettering, Sheet, Stroke, text_frame};
+use super::super::canvas::{Anchor, Lettering, Sheet, Stroke};
 use super::super::chart_data::{AxisData, Item, Line, PanelData, Points, lines_by_look};
-use super::super::is_damped;
-use super::super::meeting::Meeting;
+use super::super::meeting::Coalescence;
 use super::super::paint::Ground;
 use super::super::palette::Hue;
-use super::super::style::{CURVE, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET};
+use super::super::style::{CURVE, HAIRLINE, INK, LABEL_SIZE, QUIET};
 use super::describe::line_through;
 use super::waves::direction_at;
 use super::{Chart, NEGLIGIBLE_PER_S};
-use crate::report::{BranchEntry, InstabilityEntry, InstabilityKind, Report};
+use crate::report::{BranchEntry, InstabilityEntry, Report};
 use crate::text::shown_to;
 
 /// Width of curves of growing motions.
@@ -20,7 +19,13 @@ const PEAK_SIZE: f64 = 5.5;
 /// Factor by which the axis exceeds the largest growth rate, so that its dot is complete.
 const HEADROOM: f64 = 1.15;
 
-/// Note for a saw without growth. It mentions critical speeds, at which the blade has no stiffness.
+/// Whether any term of the equation of motion dissipates energy.
+fn is_damped(report: &Report) -> bool {
+    report.terms.iter().any(|term| term.contains("damping"))
+}
+
+/// Note for a saw without growth. It mentions critical speeds among the speeds shown, because a constant force
+/// deflects the blade without bound there.
 fn no_growth(report: &Report, [from, to]: [f64; 2]) -> &'static str {
     let mut critical = report.critical_speeds.iter();
     match critical.any(|entry| from <= entry.rpm && entry.rpm <= to) {
@@ -110,9 +115,9 @@ pub fn axis(chart: &Chart, labels_height: f64) -> Option<Axis> {
 /// Scale of the axis: by square roots if the largest growth of a band would be invisible on a linear axis.
 /// Divergence often grows thirty times as fast as flutter.
 fn spread(report: &Report, greatest: f64) -> Spread {
-    const SEEN: f64 = 0.12;
-    let unseen = |band: &InstabilityEntry| band.peak_growth_per_s < SEEN * greatest;
-    match report.instabilities.iter().any(unseen) {
+    const VISIBLE: f64 = 0.12;
+    let invisible = |band: &InstabilityEntry| band.peak_growth_per_s < VISIBLE * greatest;
+    match report.instabilities.iter().any(invisible) {
         true => Spread::SignedRoot,
         false => Spread::Linear,
     }
@@ -127,38 +132,27 @@ pub fn axis_name(axis: &Axis) -> &'static str {
 
 pub fn draw(sheet: &mut Sheet, chart: &Chart, axis: &Axis) {
     let zero = axis.at(0.0);
-    let zero_line = [[chart.lower.left, zero], [chart.lower.right, zero]];
-    sheet.line(zero_line, Stroke::solid(INK, HAIRLINE));
+    sheet.horizontal(zero, &chart.lower, Stroke::solid(INK, HAIRLINE));
     let ground = Ground {
         x: &chart.speed,
         y: axis,
         frame: &chart.lower,
     };
-    let items = &chart.panels()[1].items;
-    ground.draw_lines(sheet, items);
-    ground.draw_points(sheet, items);
-    write_stable(sheet, chart, [chart.lower.left + 10.0, zero - 7.0]);
+    ground.draw(sheet, &chart.panels()[1].items);
+    write_note(sheet, chart, zero - 7.0);
 }
 
 /// Writes the note of a panel without curves.
 pub fn say_stable(sheet: &mut Sheet, chart: &Chart) {
-    let middle = (chart.lower.top + chart.lower.bottom) / 2.0;
-    write_stable(
-        sheet,
-        chart,
-        [chart.lower.left + 10.0, middle + 0.36 * LABEL_SIZE],
-    );
+    write_note(sheet, chart, chart.lower.centre()[1] + 0.36 * LABEL_SIZE);
 }
 
-fn write_stable(sheet: &mut Sheet, chart: &Chart, at: [f64; 2]) {
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let text = &chart.panels()[1].note;
-    if text.is_empty() {
-        return;
+fn write_note(sheet: &mut Sheet, chart: &Chart, baseline: f64) {
+    let note = &chart.panels()[1].note;
+    if !note.is_empty() {
+        let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
+        sheet.text_on_paper([chart.lower.left + 10.0, baseline], letters, note);
     }
-    // The line of the operating speed may pass behind the text.
-    sheet.fill(text_frame(at, &letters, text), PAPER);
-    sheet.text(at, letters, text);
 }
 
 /// The panel with its curves; the caller adds the bands and the lines at critical speeds. The curves of an undamped
@@ -227,19 +221,19 @@ fn growth_hue(report: &Report, branch: &BranchEntry, sample: usize) -> Hue {
 
 fn band_line(report: &Report, band: &InstabilityEntry, said: bool) -> Item {
     let curve = curve(report, band);
-    let name = kind(band);
+    let name = band.kind.to_string();
     let words =
         |[rpm, growth]: &[f64; 2]| format!("{name}\n{rpm:.1} rpm\n{} 1/s", shown_to(3, *growth));
     Item::Line(Line {
         width: WIDE,
         said: curve.iter().filter(|_| said).map(words).collect(),
-        ..Line::new(curve, Hue::of_kind(band.kind)[0], name)
+        ..Line::new(curve, Hue::of_kind(band.kind)[0], &name)
     })
 }
 
 /// A dot at the largest growth of a band.
 fn peak(band: &InstabilityEntry, said: bool) -> Points {
-    let name = kind(band);
+    let name = band.kind.to_string();
     let waves = band
         .name
         .as_ref()
@@ -255,19 +249,12 @@ fn peak(band: &InstabilityEntry, said: bool) -> Points {
             [[band.peak_rpm, band.peak_growth_per_s]],
             Hue::of_kind(band.kind)[0],
             PEAK_SIZE,
-            name,
+            &name,
         )
     }
 }
 
-fn kind(band: &InstabilityEntry) -> &'static str {
-    match band.kind {
-        InstabilityKind::Divergence => "divergence",
-        InstabilityKind::Flutter => "flutter",
-    }
-}
-
-/// Speeds and growth rates of a band from its onset to its end, along its own branch.
+/// Speeds in rpm and growth rates in 1/s of a band from its onset to its end, along its first branch.
 pub fn curve(report: &Report, band: &InstabilityEntry) -> Vec<[f64; 2]> {
     let [first, last] = [report.campbell.from_rpm, report.campbell.to_rpm];
     let ends = [band.from_rpm.max(first), band.to_rpm.min(last)];
@@ -293,8 +280,8 @@ pub fn curve(report: &Report, band: &InstabilityEntry) -> Vec<[f64; 2]> {
         let cut_short = !band.closed && [ends[0] <= first, ends[1] >= last][k];
         !cut_short && next[k].is_none_or(|s| s[1] <= NEGLIGIBLE_PER_S)
     };
-    let meeting = Meeting::new(ends, [at_zero(0), at_zero(1)], squares);
-    meeting.map_or(Vec::new(), |meeting| meeting.growth())
+    let found = Coalescence::new(ends, [at_zero(0), at_zero(1)], squares);
+    found.map_or(Vec::new(), |found| found.growth())
 }
 
 /// Whether a branch has a sample within a band with more than half of its largest growth.

@@ -6,7 +6,7 @@ use super::super::key::Key;
 use super::super::paint::stroke;
 use super::super::palette::Hue;
 use super::super::style::{
-    BETWEEN_FACTS, CURVE, LABEL_SIZE, MARGIN, QUIET, STANDING, Weight, shorten,
+    BETWEEN_FACTS, CURVE, LABEL_SIZE, MARGIN, QUIET, STANDING, shorten_label,
 };
 use super::band_labels::BandLabels;
 use super::describe::WINDOW;
@@ -32,20 +32,20 @@ pub fn draw(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
     ];
     for (hue, word) in hues {
         if shown.iter().any(|line| line.colour == hue) {
-            draw_sample(&mut key, Stroke::solid(hue.colour(), CURVE), word);
+            key.line(SAMPLE, Stroke::solid(hue.colour(), CURVE))
+                .word(word);
         }
     }
     if let Some(reflected) = shown.iter().find(|line| line.dashed) {
         let word = "reflected: a backward wave above its critical speed";
-        draw_sample(&mut key, grey(reflected), word);
+        key.line(SAMPLE, grey(reflected)).word(word);
     }
     if let Some(unstable) = shown.iter().find(|line| line.width > CURVE) {
-        draw_sample(&mut key, grey(unstable), "unstable");
+        key.line(SAMPLE, grey(unstable)).word("unstable");
     }
     if let Some(source) = measured_source(chart) {
-        let source = shorten(source, LABEL_SIZE, Weight::Regular, 250.0);
         let mark = |sheet: &mut Sheet, [x, y]: [f64; 2]| draw_measured_mark(sheet, [x + 4.0, y]);
-        key.mark(8.0, mark).word(&source);
+        key.mark(8.0, mark).word(&shorten_label(source, 250.0));
     }
     draw_notes(sheet, chart, labels);
 }
@@ -56,10 +56,6 @@ fn grey(line: &Line) -> Stroke {
         colour: STANDING,
         ..stroke(line)
     }
-}
-
-fn draw_sample(key: &mut Key, stroke: Stroke, word: &str) {
-    key.line(SAMPLE, stroke).word(word);
 }
 
 fn draw_notes(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
@@ -74,12 +70,7 @@ fn draw_notes(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
         notes.push("decaying mirror images not shown".to_owned());
     }
     let room = f64::from(WIDTH) - MARGIN - PLOT_LEFT;
-    let notes = shorten(
-        &notes.join(BETWEEN_FACTS),
-        LABEL_SIZE,
-        Weight::Regular,
-        room,
-    );
+    let notes = shorten_label(&notes.join(BETWEEN_FACTS), room);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
     let baseline = f64::from(HEIGHT) - NOTES_ABOVE_FOOT;
     sheet.text([PLOT_LEFT, baseline], letters, &notes);

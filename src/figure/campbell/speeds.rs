@@ -5,7 +5,7 @@ use super::super::canvas::{Anchor, Frame, Lettering, Mark, Sheet, Stroke, text_f
 use super::super::chart_data::{Role, Upright};
 use super::super::declutter::{Cluster, join_close};
 use super::super::style::{
-    FINE_DASH, HAIRLINE, INK, LABEL_SIZE, MARGIN, PAPER, QUIET, Weight, text_width,
+    FINE_DASH, HAIRLINE, INK, LABEL_SIZE, MARGIN, PAPER, QUIET, label_width,
 };
 use super::{Chart, WIDTH, waves};
 use crate::report::CriticalSpeedEntry;
@@ -40,7 +40,7 @@ pub fn draw_critical(sheet: &mut Sheet, chart: &Chart) {
 fn label_critical(sheet: &mut Sheet, chart: &Chart, speeds: &[f64]) {
     let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Middle);
     let gap = 12.0;
-    let width = |label: &str| text_width(label, LABEL_SIZE, Weight::Regular).max(LEAST_WIDTH) + gap;
+    let width = |label: &str| label_width(label).max(LEAST_WIDTH) + gap;
     let ends = [MARGIN, f64::from(WIDTH) - MARGIN];
     let clusters = join_close(speeds, |rpm| chart.speed.at(rpm), width, ends);
     for Cluster {
@@ -115,8 +115,7 @@ pub fn operating_place(chart: &Chart) -> Option<f64> {
 pub fn draw_operating(sheet: &mut Sheet, chart: &Chart) {
     if let Some(x) = operating_place(chart) {
         for panel in [&chart.upper, &chart.lower] {
-            let line = [[x, panel.top], [x, panel.bottom]];
-            sheet.line(line, Stroke::solid(INK, HAIRLINE));
+            sheet.vertical(x, panel, Stroke::solid(INK, HAIRLINE));
         }
     }
 }

@@ -52,7 +52,7 @@ fn starting_with(drawn: &Sheet, word: &str) -> Vec<String> {
 }
 
 #[test]
-fn a_band_that_is_not_shaded_has_no_label_but_is_told() {
+fn a_band_that_is_not_shaded_is_mentioned_in_a_note() {
     let mut report = busy_report();
     let mut weak = band(InstabilityKind::Flutter, 1552.0, 3000.0, 0.1, 3.0);
     weak.counted_rpm.clear();
@@ -83,7 +83,7 @@ fn critical_speeds_have_the_waves_that_stand_still() {
 
 /// The sweep has 193 bands within ten thousand rpm.
 #[test]
-fn very_many_bands_are_drawn_as_far_as_they_can_be_told_apart() {
+fn very_many_bands_are_drawn_as_far_as_they_can_be_distinguished() {
     let mut report = busy_report();
     report.campbell.to_rpm = 10_000.0;
     let from = |k: usize| 1500.0 + 44.0 * k as f64;
@@ -276,7 +276,7 @@ fn the_numbers_of_the_diagram_are_those_of_the_report() {
 }
 
 #[test]
-fn the_certificate_is_told_and_violations_are_red() {
+fn the_certificate_is_written_and_violations_are_red() {
     let mut report = busy_report();
     let svg = report.campbell_svg().unwrap();
     assert!(svg.contains("Krein index matches at 567 of 567 speeds"));

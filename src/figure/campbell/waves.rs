@@ -1,12 +1,10 @@
 //! The branches of the upper panel with their labels, and measured points.
 
-use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::super::clip::clip;
-use super::super::declutter::{Wish, push_apart};
+use super::super::declutter::{Extent, push_apart};
 use super::super::palette::Hue;
-use super::super::style::{
-    Colour, HAIRLINE, INK, LABEL_SIZE, PAPER, Weight, shorten, text_width, tint,
-};
+use super::super::style::{Colour, HAIRLINE, INK, LABEL_SIZE, label_width, shorten_label, tint};
 use super::{Chart, NEGLIGIBLE_PER_S};
 use crate::report::{BranchEntry, Direction, Report};
 use crate::scene::MeasuredRow;
@@ -34,16 +32,13 @@ fn last_colour(branch: &BranchEntry, chart: &Chart) -> Colour {
 }
 
 fn short_label(branch: &BranchEntry) -> String {
-    shorten(&branch.label, LABEL_SIZE, Weight::Regular, LONGEST_LABEL)
+    shorten_label(&branch.label, LONGEST_LABEL)
 }
 
 /// Width of the labels to the right of the panel, with the gap before them.
 pub fn end_label_room(report: &Report) -> f64 {
-    let widths = report
-        .campbell
-        .branches
-        .iter()
-        .map(|branch| text_width(&short_label(branch), LABEL_SIZE, Weight::Regular));
+    let branches = report.campbell.branches.iter();
+    let widths = branches.map(|branch| label_width(&short_label(branch)));
     LABEL_GAP + widths.fold(40.0, f64::max)
 }
 
@@ -134,22 +129,14 @@ pub fn look_of_segment(report: &Report, branch: &BranchEntry, i: usize) -> Stret
 /// Whether a branch or a measured point crosses the frame.
 pub fn is_crossed(chart: &Chart, frame: &Frame) -> bool {
     let around = Frame {
-        left: frame.left - 2.0,
         top: frame.top - 2.0,
-        right: frame.right + 2.0,
         bottom: frame.bottom + 2.0,
+        ..frame.widened(2.0)
     };
     let mut branches = chart.report.campbell.branches.iter();
+    let mut measured = measured_places(chart).into_iter();
     branches.any(|branch| !clip(&places(branch, chart), &around).is_empty())
-        || measured_places(chart).iter().any(|[x, y]| {
-            let dot = Frame {
-                left: x - 4.0,
-                top: y - 4.0,
-                right: x + 4.0,
-                bottom: y + 4.0,
-            };
-            dot.overlaps(&around)
-        })
+        || measured.any(|at| Frame::around(at, 4.0).overlaps(&around))
 }
 
 fn places(branch: &BranchEntry, chart: &Chart) -> Vec<[f64; 2]> {
@@ -180,13 +167,12 @@ pub fn label_branches(sheet: &mut Sheet, chart: &Chart) {
 
 /// Labels, to the right of the panel, of branches that end there at given heights.
 fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[(&BranchEntry, f64)]) {
-    let wish = |&(_, centre): &(_, f64)| Wish {
+    let labels = ends.iter().map(|&(_, centre)| Extent {
         centre,
         length: LINE_HEIGHT,
-    };
-    let wishes: Vec<_> = ends.iter().map(wish).collect();
+    });
     let room = [chart.upper.top, chart.upper.bottom + LINE_HEIGHT];
-    let centres = push_apart(&wishes, room[0], room[1]);
+    let centres = push_apart(labels, room);
     for ((branch, end), centre) in ends.iter().zip(centres) {
         let Some(centre) = centre.filter(|c| (c - end).abs() < FARTHEST_LABEL) else {
             continue;
@@ -205,12 +191,8 @@ fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[(&BranchEntry, f64)]) {
 
 /// Labels, above the panel, of branches that leave it through its upper edge at given abscissae.
 fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchEntry, f64)]) {
-    let wish = |&(branch, centre): &(&BranchEntry, f64)| {
-        let length = text_width(&short_label(branch), LABEL_SIZE, Weight::Regular) + 8.0;
-        Wish { centre, length }
-    };
-    let wishes: Vec<_> = exits.iter().map(wish).collect();
-    let centres = push_apart(&wishes, chart.upper.left, chart.upper.right);
+    let extent = |&(branch, x): &(_, f64)| Extent::of_label(x, &short_label(branch), 8.0);
+    let centres = push_apart(exits.iter().map(extent), chart.upper.across());
     for ((branch, exit), centre) in exits.iter().zip(centres) {
         let Some(centre) = centre.filter(|c| (c - exit).abs() < FARTHEST_EXIT_LABEL) else {
             continue;
@@ -218,16 +200,14 @@ fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchEntry, f64)]) 
         let colour = last_colour(branch, chart);
         let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Middle);
         let at = [centre, chart.upper.top - 6.0];
-        let label = short_label(branch);
         // Dashed lines of critical speeds pass behind the label.
-        sheet.fill(text_frame(at, &letters, &label), PAPER);
-        sheet.text(at, letters, &label);
+        sheet.text_on_paper(at, letters, &short_label(branch));
     }
 }
 
 /// Draws the ring of a measured frequency.
 pub fn draw_measured_mark(sheet: &mut Sheet, at: [f64; 2]) {
-    sheet.ring(at, 3.0, Stroke::solid(INK, 1.2), PAPER);
+    sheet.ring(at, 3.0, Stroke::solid(INK, 1.2));
 }
 
 /// Positions on the sheet of the measured frequencies on both axes.

@@ -4,7 +4,7 @@ mod over_numbers;
 mod over_speed;
 
 use super::canvas::{Frame, Sheet};
-use super::style::{BETWEEN_FACTS, Colour};
+use super::style::BETWEEN_FACTS;
 use crate::report::MapReport;
 
 const WIDTH: u32 = 1100;
@@ -17,8 +17,6 @@ const PANEL: Frame = Frame {
 };
 /// Baselines of the two lines of the key.
 const KEYS: [f64; 2] = [734.0, 758.0];
-/// Colour of saws that were not analysed.
-const BLANK: Colour = plotters::style::RGBColor(214, 216, 220);
 
 pub fn sheet(report: &MapReport) -> Sheet {
     match &report.y {

@@ -1,6 +1,6 @@
 //! Areas of stable, diverging and fluttering saws over two numbers, with contours of speeds.
 
-use super::{BLANK, HEIGHT, KEYS, PANEL, WIDTH, facts};
+use super::{HEIGHT, KEYS, PANEL, WIDTH, facts};
 use crate::figure::along::Along;
 use crate::figure::axis::{draw_named, draw_vertical};
 use crate::figure::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
@@ -8,8 +8,8 @@ use crate::figure::heading;
 use crate::figure::heat::draw_grid;
 use crate::figure::key::Key;
 use crate::figure::style::{
-    CURVE, Colour, DASH, DIVERGENCE_STREAK, FLUTTER, FLUTTER_STREAK, FORWARD, INK, LABEL_SIZE,
-    PAPER, tint,
+    BLANK, CURVE, Colour, DASH, DIVERGENCE_STREAK, FLUTTER, FLUTTER_STREAK, FORWARD, INK,
+    LABEL_SIZE, PAPER, tint,
 };
 use crate::report::{ContourEntry, ContouredEntry, MapAxisEntry, MapReport, MappedSawEntry};
 use crate::stability::{CRITICAL_MARGIN, StabilityState};
@@ -22,8 +22,8 @@ const STABLE: Colour = plotters::style::RGBColor(228, 240, 228);
 pub fn sheet(report: &MapReport, y: &MapAxisEntry) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     heading::draw(&mut sheet, &report.scene.name, &facts(report));
-    let across = Along::of_cells(&report.x.path, &report.x.values, [PANEL.left, PANEL.right]);
-    let up = Along::of_cells(&y.path, &y.values, [PANEL.bottom, PANEL.top]);
+    let across = Along::of_cells(&report.x.path, &report.x.values, PANEL.across());
+    let up = Along::of_cells(&y.path, &y.values, PANEL.upwards());
     draw_vertical(&mut sheet, &up.axis, &PANEL, &up.name);
     let columns = report.x.values.len();
     draw_grid(
@@ -39,7 +39,7 @@ pub fn sheet(report: &MapReport, y: &MapAxisEntry) -> Sheet {
     draw_contours(&mut sheet, &report.contours, &across, &up);
     if across.shows(report.x.of_scene) && up.shows(y.of_scene) {
         let at = [across.at(report.x.of_scene), up.at(y.of_scene)];
-        sheet.ring(at, 5.0, Stroke::solid(INK, 2.0), PAPER);
+        sheet.ring(at, 5.0, Stroke::solid(INK, 2.0));
     }
     draw_key(&mut sheet, report);
     sheet
@@ -80,14 +80,7 @@ fn draw_contours(sheet: &mut Sheet, contours: &[ContourEntry], x: &Along, y: &Al
         let letters =
             Lettering::regular(LABEL_SIZE, stroke(contour.quantity).colour, Anchor::Middle);
         let text = format!("{}", contour.rpm);
-        let frame_at = |at: [f64; 2]| {
-            let frame = text_frame(at, &letters, &text);
-            Frame {
-                left: frame.left - 3.0,
-                right: frame.right + 3.0,
-                ..frame
-            }
-        };
+        let frame_at = |at: [f64; 2]| text_frame(at, &letters, &text).widened(3.0);
         let long = places.len() >= 3;
         // Points are tried from the middle of the line to its ends.
         let middle = places.len() / 2;

@@ -1,14 +1,14 @@
 //! Bands as areas over a number and the speed.
 
-use super::{BLANK, HEIGHT, KEYS, PANEL, WIDTH, facts};
+use super::{HEIGHT, KEYS, PANEL, WIDTH, facts};
 use crate::figure::along::Along;
-use crate::figure::axis::{Axis, Spread, draw_named, draw_vertical};
-use crate::figure::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
+use crate::figure::axis::{Axis, SPEED, draw_named, draw_vertical};
+use crate::figure::canvas::{Anchor, Lettering, Sheet, Stroke};
 use crate::figure::heading;
 use crate::figure::key::Key;
 use crate::figure::style::{
-    ALARM, CURVE, Colour, DIVERGENCE_STREAK, FINE_DASH, FLUTTER_STREAK, FORWARD, HAIRLINE, INK,
-    LABEL_SIZE, PAPER, QUIET, tint,
+    ALARM, BLANK, CURVE, Colour, DIVERGENCE_STREAK, FINE_DASH, FLUTTER_STREAK, FORWARD, HAIRLINE,
+    INK, LABEL_SIZE, QUIET, tint,
 };
 use crate::report::{InstabilityKind, MapReport, MappedSawEntry};
 
@@ -57,14 +57,10 @@ impl Look {
 pub fn sheet(report: &MapReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     heading::draw(&mut sheet, &report.scene.name, &facts(report));
-    let x = Along::between(&report.x.path, &report.x.values, [PANEL.left, PANEL.right]);
-    let speed = Axis::new(
-        [0.0, report.to_rpm],
-        [PANEL.bottom, PANEL.top],
-        Spread::Linear,
-    );
+    let x = Along::between(&report.x.path, &report.x.values, PANEL.across());
+    let speed = Axis::linear([0.0, report.to_rpm], PANEL.upwards());
     draw_blank(&mut sheet, report, &x);
-    draw_vertical(&mut sheet, &speed, &PANEL, "rotation speed Ω\u{2003}[rpm]");
+    draw_vertical(&mut sheet, &speed, &PANEL, SPEED);
     draw_areas(&mut sheet, report, &x, &speed);
     let speeds: [(Colour, Speed); 2] = [
         (FORWARD, |saw| saw.lowest_critical_rpm),
@@ -221,12 +217,7 @@ fn draw_blank(sheet: &mut Sheet, report: &MapReport, x: &Along) {
             let beside = |other: Option<&f64>| other.map_or(places[k], |at| 0.5 * (at + places[k]));
             let left = beside(k.checked_sub(1).and_then(|k| places.get(k)));
             let right = beside(places.get(k + 1));
-            let column = Frame {
-                left,
-                right: right.max(left + 1.0),
-                ..PANEL
-            };
-            sheet.fill(column, BLANK);
+            sheet.fill(PANEL.between([left, right.max(left + 1.0)]), BLANK);
         }
     }
 }
@@ -235,17 +226,14 @@ fn draw_blank(sheet: &mut Sheet, report: &MapReport, x: &Along) {
 fn draw_marks(sheet: &mut Sheet, report: &MapReport, x: &Along, speed: &Axis) {
     let dashed = Stroke::dashed(INK, HAIRLINE, FINE_DASH);
     if x.shows(report.x.of_scene) {
-        let at = x.at(report.x.of_scene);
-        sheet.line([[at, PANEL.top], [at, PANEL.bottom]], dashed);
+        sheet.vertical(x.at(report.x.of_scene), &PANEL, dashed);
     }
     if let Some(rpm) = report.rpm.filter(|rpm| speed.shows(*rpm)) {
         let y = speed.at(rpm);
-        sheet.line([[PANEL.left, y], [PANEL.right, y]], dashed);
+        sheet.horizontal(y, &PANEL, dashed);
         let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::End);
         let at = [PANEL.right - 6.0, y - 6.0];
-        let text = format!("{rpm:.0} rpm");
-        sheet.fill(text_frame(at, &letters, &text), PAPER);
-        sheet.text(at, letters, &text);
+        sheet.text_on_paper(at, letters, &format!("{rpm:.0} rpm"));
     }
 }
 

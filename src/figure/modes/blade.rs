@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::figure::canvas::{Sheet, Stroke};
-use crate::figure::style::{BACKWARD, Colour, FORWARD, HAIRLINE, INK, PAPER, QUIET, tint};
+use crate::figure::style::{BACKWARD, Colour, FORWARD, HAIRLINE, INK, QUIET, tint};
 use crate::report::{EventShapeEntry, Report};
 use crate::scene::GuideFile;
 
@@ -97,16 +97,14 @@ fn draw_tile(sheet: &mut Sheet, tile: &[Corner; 4]) {
     });
     for level in -LEVELS..LEVELS {
         let ends = [level, level + 1].map(|level| f64::from(level) / f64::from(LEVELS));
-        // The outermost levels are unbounded, so that rounding leaves no hole.
-        let from = if level == -LEVELS {
-            f64::NEG_INFINITY
-        } else {
-            ends[0]
+        // The outermost areas are unbounded, so that rounding errors leave no hole.
+        let from = match level == -LEVELS {
+            true => f64::NEG_INFINITY,
+            false => ends[0],
         };
-        let to = if level + 1 == LEVELS {
-            f64::INFINITY
-        } else {
-            ends[1]
+        let to = match level + 1 == LEVELS {
+            true => f64::INFINITY,
+            false => ends[1],
         };
         if high < from || low > to {
             continue;
@@ -156,7 +154,7 @@ fn draw_guide(sheet: &mut Sheet, guide: &GuideFile, scale: f64, centre: [f64; 2]
     if scale * guide.radial_length_m.max(guide.tangential_length_m) < SMALL {
         let (sin, cos) = guide.angle_deg.to_radians().sin_cos();
         let middle = [guide.radius_m * cos, guide.radius_m * sin];
-        sheet.ring(at(middle), 3.5, stroke, PAPER);
+        sheet.ring(at(middle), 3.5, stroke);
         return;
     }
     let outline: Vec<_> = guide.outline_m().into_iter().map(at).collect();

@@ -43,7 +43,7 @@ fn nothing_but_computed_eigenvalues_is_drawn() {
 }
 
 #[test]
-fn the_fastest_growth_is_the_one_computed_and_every_end_has_its_speed() {
+fn the_largest_growth_and_the_speeds_of_all_ends_are_written() {
     let drawn = sheet(&report(sample_loci(0.0))).unwrap();
     let written = texts(&drawn);
     for text in [
@@ -77,7 +77,7 @@ fn labels_neither_overlap_nor_leave_the_sheet() {
 }
 
 #[test]
-fn odd_and_huge_numbers_are_passed_over() {
+fn numbers_that_are_not_finite_or_huge_are_not_drawn() {
     let mut odd = sample_loci(0.0);
     odd.paths[0].frequency_hz[3] = f64::NAN;
     odd.paths[1].growth_per_s[9] = f64::INFINITY;
