@@ -271,7 +271,7 @@ impl Analysis {
 
     /// Size at which the search for the basis of a similar saw may begin: that of this saw, or the next smaller
     /// one if the errors of this saw leave room for it.
-    pub(crate) fn size_for_similar(&self) -> Resolution {
+    pub fn size_for_similar(&self) -> Resolution {
         let size = self.model.plate.resolution;
         let error = self.promised_error().unwrap_or(f64::INFINITY);
         match FALL * error <= self.scene.tolerance() {
