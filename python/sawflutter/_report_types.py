@@ -72,7 +72,7 @@ class RestMode(RestModeMethods):
     """A mode of the blade that does not spin."""
 
     frequency_hz: float
-    """Natural frequency."""
+    """|Im λ|/2π, the natural frequency."""
 
     nodal_diameters: int
     """Nodal diameters of the dominant harmonic."""
@@ -98,7 +98,7 @@ class RestMode(RestModeMethods):
     """Estimated relative error of the frequency."""
 
     backward_error: float
-    """‖L(λ)q‖ relative to the size of its terms."""
+    """Backward error: ‖L(λ)q‖ relative to the size of its terms."""
 
     harmonics: tuple[Harmonic, ...]
     """Share of each harmonic of the kinetic energy, largest first."""
@@ -142,7 +142,7 @@ class Instability(Entry):
     """Speed at which the band begins."""
 
     to_rpm: float
-    """End, or the end of the sweep."""
+    """Speed at which the band ends, or the end of the sweep."""
 
     closed: bool
     """False if the sweep begins or ends inside the band."""
@@ -274,16 +274,17 @@ class Operating(Entry):
     """The scene's operating speed."""
 
     of_lowest_critical: float | None
-    """Ratio of operating speed to lowest critical speed."""
+    """Ratio of operating speed to lowest critical speed; null if the blade has no critical
+    speed."""
 
     limit: float
     """Usual limit of that ratio, 0.85."""
 
     within_limit: bool | None
-    """Whether the ratio is below the limit."""
+    """Whether the ratio is at most the limit; null without a ratio."""
 
     verdict: StabilityState
-    """Whether the saw can run at that speed."""
+    """Whether the saw is stable at that speed."""
 
     inside_instability: int | None
     """Index into `instabilities` of the band that makes it unstable."""
@@ -322,7 +323,7 @@ class WhirlMode(Entry):
     """Direction of the dominant harmonic, seen from space."""
 
     name: str
-    """Name of the mode."""
+    """Nodal diameters, nodal circles and direction of the dominant harmonic in words."""
 
     growth_per_s: float
     """Re λ."""
@@ -339,13 +340,13 @@ class WhirlMode(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Whirl(Entry):
-    """The modes at one speed."""
+    """The modes at one speed, and the verdict on it."""
 
     rpm: float
     """Rotation speed."""
 
     verdict: StabilityState
-    """Whether the saw can run at that speed."""
+    """Whether the saw is stable at this speed."""
 
     at_critical_rpm: float | None
     """Critical speed within 5 % of this speed; null if there is none."""
@@ -424,7 +425,8 @@ class AccuracyEntry(Entry):
     """Largest number of nodal diameters."""
 
     radial_functions: int
-    """Radial functions for each, including those that steps and kinks of the thickness add."""
+    """Number of radial functions for each number of nodal diameters, including those that steps
+    and kinks of the thickness add."""
 
     degrees_of_freedom: int
     """Size of the basis."""
@@ -458,11 +460,11 @@ class Work(Entry):
 
     structured_solves: int
     """Number of `full_solves` that used the block structure of the blade and the few columns of
-    its guides, in a time linear in the number of functions; scenes with edge loads or dampers
-    have no such structure."""
+    its guides, in a time linear in the number of basis functions; scenes with edge loads or
+    dampers have no such structure."""
 
     reduced_solves: int
-    """Dense eigenproblems of the projected matrices."""
+    """Dense eigenproblems of the reduced model."""
 
     local_solves: int
     """Dense eigenproblems of the Hamiltonian reduction between two speeds."""
@@ -702,7 +704,7 @@ class MeasuredGap(Entry):
     """Roll tension that follows from a measured light gap."""
 
     gap_m: float
-    """The light gap."""
+    """Light gap with this roll tension."""
 
     factor: float
     """Ratio of its roll tension to that of the scene."""
@@ -733,7 +735,7 @@ class StraightEdge(Entry):
     Null if the blade buckles off its machine."""
 
     sag_m: float | None
-    """Depth of the middle below the points; null likewise."""
+    """Depth of the middle below the two points; null if the blade buckles off its machine."""
 
     gap_without_rolling_m: float
     """Light gap of the blade without its roll tension."""
@@ -746,7 +748,7 @@ class StraightEdge(Entry):
     tension."""
 
     measured: MeasuredGap | None
-    """Roll tension that has the measured gap."""
+    """Roll tension that causes the measured gap; null if none was measured."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -797,7 +799,7 @@ class Heat(Entry):
     shape."""
 
     profile_k: FloatArray
-    """Rises at the radii of the stress."""
+    """Temperature rises at the radii of the stress."""
 
     operating_limit: HeatLimit | None
     """Peak at which the lowest critical speed equals the operating speed; null without an
@@ -922,7 +924,8 @@ class CampbellReport(Entry):
     scene requests them."""
 
     operating: Operating | None
-    """Comparison of the operating speed with the 85 % rule, if the scene has one."""
+    """Comparison of the operating speed with the 85 % rule, if the scene has an operating
+    speed."""
 
     whirl: Whirl | None
     """Modes at one speed, on request."""
@@ -972,10 +975,11 @@ class Criterion(Entry):
     """Result in words."""
 
     found_rpm: float | None
-    """Speed found; null if it exceeds the sweep."""
+    """Speed that was found: the critical or flutter speed itself, or the speed from which on
+    another limit is exceeded; null if it exceeds the sweep."""
 
     asked_rpm: float
-    """Speed required."""
+    """Speed with which the found one is compared."""
 
     passed: bool
     """Whether the limit is kept."""
@@ -1081,11 +1085,11 @@ class Compared(Entry):
     """Lowest speed at which flutter counts."""
 
     operating: Operating | None
-    """The operating speed, and whether it can run there."""
+    """Operating speed, and whether the saw is stable there."""
 
     rim_stiffness_at_rest_n_per_m: float | None
-    """Lateral stiffness of a point of the rim at the middle of the cut, at rest; null where
-    nothing holds the blade, and of a report that was read."""
+    """Lateral stiffness of a point of the rim at the middle of the cut, at rest; null if the
+    blade has free rigid motions, and for a saw whose report was given instead of its scene."""
 
     estimated_relative_error: float | None
     """Estimated relative error of its critical speeds."""
@@ -1110,7 +1114,7 @@ class Difference(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CompareReport(Entry):
-    """compare.json."""
+    """Report of a comparison (compare.json)."""
 
     sawflutter: str
     """Version of the program that wrote the report."""
@@ -1208,7 +1212,7 @@ class ToothPassing(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CutStretching(Entry):
-    """A cut with stretching."""
+    """Numbers of a time history in the cut with stretching."""
 
     shapes: int
     """Number of shapes of the reduced basis."""
@@ -1217,7 +1221,7 @@ class CutStretching(Entry):
     """Longest step of the integration."""
 
     largest_slope: float
-    """Largest slope of the blade."""
+    """Largest slope of the blade in the time history."""
 
     valid_until_s: float | None
     """Time at which slopes exceed 0.1 and the record ends; null if they do not."""
@@ -1249,7 +1253,7 @@ class Spline(Entry):
     """Largest Re λ with this reaction."""
 
     frequency_hz: float | None
-    """Frequency of the growing mode."""
+    """Frequency of the mode of this growth; null if none grows."""
 
     stiffness_change: float
     """‖change of K_e‖ / ‖K_e‖ from the assumed to the simulated reaction, on the lowest modes
@@ -1271,7 +1275,7 @@ class Spline(Entry):
     """Largest normal force on a spline tooth."""
 
     deepest_m: float
-    """Largest approach of any flank."""
+    """Largest depth by which two flanks overlap."""
 
     imbalance: float
     """Mean reaction plus load, relative to the load: the remaining imbalance of the average."""
@@ -1280,16 +1284,17 @@ class Spline(Entry):
     """Measure of how far the motion is from being settled."""
 
     settled_from: int
-    """Index in the orbit from which the reaction was averaged."""
+    """Index in the reported orbit from which on the reaction was averaged."""
 
     time_s: FloatArray
     """Times of the orbit."""
 
     x_m: FloatArray
-    """Centre of the blade, towards the cut."""
+    """Position of the centre of the blade, towards the cut."""
 
     y_m: FloatArray
-    """Centre of the blade, a quarter turn further in the direction of rotation."""
+    """Position of the centre of the blade, a quarter turn further in the direction of
+    rotation."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1313,7 +1318,7 @@ class CutRun(Entry):
     model."""
 
     decided_by: CutCriterion
-    """The criterion of fastest growth."""
+    """Criterion of fastest growth among those with this verdict."""
 
     criteria: tuple[CutCriterionEntry, ...]
     """The result of each criterion."""
@@ -1451,7 +1456,7 @@ class Jump(Entry):
     """A jump from an equilibrium that ceases to be stable to another one."""
 
     kind: TurnKind
-    """Fold, at which the equilibrium ceases to exist, or bifurcation, at which another one
+    """Fold, beyond which the equilibrium does not exist, or bifurcation, at which another one
     crosses it."""
 
     rpm: float
@@ -1598,7 +1603,7 @@ class Parameter(Entry):
     """JSON path in the scene."""
 
     start: float
-    """Value before."""
+    """Value before the fit."""
 
     value: float
     """Fitted value."""
@@ -1641,7 +1646,7 @@ class Residual(Entry):
     """Frequency computed with the fitted numbers."""
 
     fitted: bool
-    """False for a speed that was excluded from the fit."""
+    """Whether the fit includes this speed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1669,7 +1674,7 @@ class Start(Entry):
     """Final values; null for a start that is not a valid saw."""
 
     rms_hz: float | None
-    """Root mean square of the residuals at the final values."""
+    """Root mean square of the residuals at the final values; null without them."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1726,7 +1731,7 @@ class FitReport(Entry):
     """Largest number of nodal diameters of the basis."""
 
     radial_functions: int
-    """Polynomials over the radius for each."""
+    """Number of polynomials over the radius for each number of nodal diameters."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the critical speeds on this basis."""
@@ -1740,7 +1745,7 @@ class AtAmplitude(Entry):
     """A saw whose blade oscillates at its guides with one amplitude."""
 
     amplitude_m: float | None
-    """Amplitude at the guides; null of the free blade and of the linear chart."""
+    """Amplitude at the guides; null for the free blade and for the linear chart."""
 
     stiffness_shares: FloatArray
     """Mean stiffness of each one-sided guide over the oscillation (describing function),
@@ -1762,7 +1767,7 @@ class BasisError(Entry):
     each, in a larger basis."""
 
     share: float
-    """The change."""
+    """Relative change."""
 
     gap_factor: float
     """Factor of the gaps at which it occurs."""
@@ -1802,37 +1807,38 @@ class Deviation(Entry):
     """Largest deflection of the blade, as an absolute value."""
 
     pad_forces_n: FloatArray
-    """Force of each one-sided pad on the blade beyond its gap, for each pad one row a gap; null
-    for linear guides."""
+    """Force of each one-sided pad on the blade beyond its gap, without that of its film: for
+    each pad one row a gap; null for linear guides."""
 
     max_deflection_m: float | None
     """Largest deflection at the cut that is allowed; null if none was given."""
 
     force_within_n: FloatArray
-    """Largest side force that keeps it, for each gap; null where the smallest force of the map
-    exceeds it. Empty without a limit."""
+    """Largest side force under which the deflection keeps this limit, for each gap; null where
+    it exceeds the limit under the smallest force of the map. Empty without a limit."""
 
     force_n: float
     """Side force of the map over gap and speed, and of the series over the speed with the gaps
     of the scene."""
 
     speeds_rpm: FloatArray
-    """Speeds of this map and of the series."""
+    """Speeds of the map over gap and speed and of the series."""
 
     deflection_over_gap_and_speed_m: FloatArray
-    """Deflection at the cut over gap and speed, one row a gap; null where the blade leans by
+    """Deflection at the cut over gap and speed, one row a gap; null where the blade deflects by
     more than its thickness."""
 
     speed_within_rpm: FloatArray
-    """Largest speed up to which the deflection at the cut is allowed under this force, for each
-    gap; null where that at rest is not. Empty without a limit."""
+    """Largest speed up to which the deflection at the cut keeps the limit under this force, for
+    each gap; null where it exceeds the limit at rest. Empty without a limit."""
 
     deflection_over_speed_m: FloatArray
     """Deflection at the cut at these speeds, with the gaps of the scene; null where the blade
-    leans by more than its thickness."""
+    deflects by more than its thickness."""
 
     pad_forces_over_speed_n: FloatArray
-    """Forces of the pads at these speeds, one row a pad; null where the blade leans."""
+    """Forces of the pads at these speeds, one row a pad; null where the blade deflects by more
+    than its thickness."""
 
     basis_error: BasisError | None
     """Estimated error of the deflections over gap and force; null if none could be compared."""
@@ -1846,8 +1852,8 @@ class OscillationLine(Entry):
     """Ratio of its frequency to that of rotation."""
 
     name: str
-    """Its causes, such as "run-out" or "flatness"; "contact" if only the contact of the pads
-    has this order."""
+    """Causes of this part, such as "run-out" or "flatness"; "contact" if only the contact of
+    the pads has this order."""
 
     probe_m: FloatArray
     """Amplitude at the probe at the speeds of the series."""
@@ -1858,7 +1864,7 @@ class OscillationPlace(Entry):
     """A periodic deflection at a point."""
 
     mean_m: float
-    """Mean."""
+    """Mean deflection."""
 
     amplitude_m: float
     """Half of the difference between the largest and the smallest deflection."""
@@ -1919,11 +1925,11 @@ class OscillationAt(Entry):
     was not found."""
 
     growth_frequency_hz: float | None
-    """Frequency of that motion, at most half of the frequency above: half of it is a motion of
-    twice the period."""
+    """Frequency of that small motion, at most half of `frequency_hz`; a motion with exactly
+    half has twice the period."""
 
     stable: bool
-    """Whether no such motion grows faster than the threshold of the scene."""
+    """Whether no small motion about this one grows faster than the threshold of the scene."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1948,15 +1954,15 @@ class Oscillation(Entry):
     """The motion at the speed of the map; null if no periodic motion was found."""
 
     still_deflection_m: float
-    """Deflection of the rim at the cut at this speed without oscillation."""
+    """Deflection of the rim at the cut at the speed of the map without oscillation."""
 
     harmonics_error_share: float | None
-    """Relative change of the amplitude at the cut at this speed with ten harmonics in the place
-    of six; null if no motion was found."""
+    """Relative change of the amplitude at the cut at the speed of the map with ten harmonics
+    instead of six; null if no motion was found."""
 
     basis_error_share: float | None
-    """Relative change of this amplitude with 24 modes at rest in the place of 16; null if no
-    motion was found."""
+    """Relative change of this amplitude with 24 modes at rest instead of 16; null if no motion
+    was found."""
 
     rpm: FloatArray
     """Rotation speeds of the series below, ascending."""
@@ -2031,7 +2037,8 @@ class Friction(Entry):
     """Deflection at the cut with this heat."""
 
     pad_forces_n: FloatArray
-    """Force of each one-sided pad on the blade beyond its gap, with this heat."""
+    """Force of each one-sided pad on the blade beyond its gap, without that of its film, with
+    this heat."""
 
     pads: tuple[FrictionPad, ...]
     """Each one-sided pad, in the order of the scene."""
@@ -2056,7 +2063,7 @@ class Friction(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class GapReport(Entry):
-    """gap.json."""
+    """Report of a saw whose guides have a gap (gap.json)."""
 
     sawflutter: str
     """Version of the program that wrote the report."""
@@ -2065,8 +2072,8 @@ class GapReport(Entry):
     """The scene, as typed."""
 
     unusual_numbers: tuple[str, ...]
-    """Numbers that no saw has, each with its key, what saws have, and the remedy: what the
-    report says holds for them as they were typed."""
+    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
+    hold for the numbers as typed."""
 
     degrees_of_freedom: int
     """Size of the basis."""
@@ -2081,10 +2088,10 @@ class GapReport(Entry):
     """Smallest gap of a one-sided guide."""
 
     free: AtAmplitude
-    """The blade inside all gaps, where only films act."""
+    """The chart of a blade that moves within all gaps, where only the films of the pads act."""
 
     amplitudes: tuple[AtAmplitude, ...]
-    """Amplitudes beyond the smallest gap, ascending."""
+    """The charts at amplitudes beyond the smallest gap, ascending."""
 
     linear: AtAmplitude
     """The linear chart of the scene, with guides of their full stiffness."""
@@ -2139,7 +2146,7 @@ class MappedBand(Entry):
     """Speed at which the band begins."""
 
     to_rpm: float
-    """End, or the end of the sweep."""
+    """Speed at which the band ends, or the end of the sweep."""
 
     peak_growth_per_s: float
     """Largest growth rate."""
@@ -2178,7 +2185,7 @@ class MappedSaw(Entry):
     """Critical speed within 5 % of that speed; null if there is none."""
 
     not_analysed: str | None
-    """Why the saw was not analysed; null if it was."""
+    """Reason for which the saw was not analysed; null if it was."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2186,10 +2193,10 @@ class Contour(Entry):
     """A line of equal speed."""
 
     quantity: Contoured
-    """The quantity."""
+    """Quantity that is constant along the line."""
 
     rpm: float
-    """Its value along the line."""
+    """Value of this quantity."""
 
     points: FloatArray
     """Points of the line: values of x and of y."""
@@ -2197,7 +2204,7 @@ class Contour(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MapReport(Entry):
-    """map.json."""
+    """Report of a map (map.json)."""
 
     sawflutter: str
     """Version of the program that wrote the report."""
@@ -2241,7 +2248,7 @@ class MapReport(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Mode(ModeMethods):
-    """w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ) e^{λt}."""
+    """A mode at one speed: w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ) e^{λt}."""
 
     name: str
     """Harmonics of the mode, with shares if none dominates."""
@@ -2279,7 +2286,7 @@ class Placed(Entry):
     """JSON path in the scene."""
 
     start: float
-    """Value before."""
+    """Value in the original scene."""
 
     value: float
     """Best value."""
@@ -2336,7 +2343,7 @@ class Neighbour(Entry):
     """Values of the numbers, in their order."""
 
     outcome: Outcome | None
-    """Its result; null if it could not be computed."""
+    """Result of the saw; null if it could not be computed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2385,10 +2392,11 @@ class Map(Entry):
     """Values along y."""
 
     goal_rpm: FloatArray
-    """The goal, one row for each value of y; null if there is no such saw."""
+    """The goal, one row for each value of y; null if there is no such saw or it could not be
+    computed."""
 
     kept: BoolArray
-    """Whether the limit of the critical speed is kept."""
+    """Whether the limits of the critical speed and of the deflection are kept."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2426,8 +2434,8 @@ class PlaceReport(Entry):
 
     improved: bool
     """Whether the best saw is better than the original scene, both in the worst case of their
-    tolerances. If no saw between the bounds is, `scene`, `best` and the numbers are those of
-    the original scene, unless that lies outside the bounds."""
+    tolerances. If no saw between the bounds is better, `scene`, `best` and the numbers are
+    those of the original scene, unless that lies outside the bounds."""
 
     from_rpm: float
     """First speed of the sweep, the same for every saw."""
@@ -2451,7 +2459,7 @@ class PlaceReport(Entry):
     """Worst neighbour of the original scene within its tolerances, itself included."""
 
     best: Outcome
-    """The best saw: that of the best goal in the worst case of its tolerances."""
+    """Result of the best saw, which has the best goal in the worst case of its tolerances."""
 
     bands: tuple[Instability, ...]
     """Bands of the best saw."""
@@ -2483,13 +2491,13 @@ class PlaceReport(Entry):
     """Number of saws analysed."""
 
     failed_saws: int
-    """Number of those that could not be computed; they count as the worst."""
+    """Number of saws that could not be computed; they count as the worst."""
 
     max_diameters: int
     """Largest number of nodal diameters of the best saw's basis."""
 
     radial_functions: int
-    """Radial functions of each."""
+    """Number of radial functions for each number of nodal diameters."""
 
     warnings: tuple[str, ...]
     """Remarks on the validity of the result."""
@@ -2581,7 +2589,7 @@ class FrequencyResponse(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ResponseReport(Entry):
-    """response.json."""
+    """Report of steady-state responses (response.json)."""
 
     sawflutter: str
     """Version of the program that wrote the report."""
@@ -2590,7 +2598,8 @@ class ResponseReport(Entry):
     """The scene, as typed."""
 
     unusual_numbers: tuple[str, ...]
-    """Numbers that no saw has, each with its key, the usual range, and the remedy."""
+    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
+    hold for the numbers as typed."""
 
     degrees_of_freedom: int
     """Size of the basis."""
@@ -2626,7 +2635,7 @@ class ResponseReport(Entry):
     board_deviation_m: FloatArray
     """Largest distance of the cut surface from the middle plane of the blade at rest, at each
     speed: the static deflection of the rim at the cut and all amplitudes there, as if their
-    maxima coincided; null where one of them is."""
+    maxima coincided; null where one of them is null."""
 
     operating: OperatingResponse | None
     """Deflections at the operating speed; null if it is not within the sweep."""
@@ -2658,8 +2667,8 @@ class RunUpBand(Entry):
 
     seen_amplification: float | None
     """Ratio of the largest deflection at the probe within the band to that in an interval of
-    equal length before it; null if the linear model ends before the band does. All vibrating
-    modes contribute: with a small exponent it shows beating of other modes, not growth."""
+    equal length before it; null if the record ends before the band does. All vibrating modes
+    contribute: with a small exponent the ratio shows beating of other modes, not growth."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2688,7 +2697,8 @@ class Stretching(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Response(Entry):
-    """|w/F| over speed and frequency."""
+    """Magnitude of the deflection at the probe for a harmonic force of one newton, over speed
+    and frequency."""
 
     rpm: FloatArray
     """Rotation speeds."""
@@ -2697,7 +2707,7 @@ class Response(Entry):
     """Frequencies of the force."""
 
     receptance_m_per_n: FloatArray
-    """Deflection at the probe per newton, one row for each speed."""
+    """|w/F|, one row for each speed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2733,8 +2743,8 @@ class RunUpReport(Entry):
     """Largest deflection that is given; beyond it the linear model is not valid."""
 
     linear_until_rpm: float | None
-    """Speed at which the deflection at the probe exceeds it and the record ends; null if it
-    does not."""
+    """Speed at which the deflection at the probe exceeds this limit and the record ends; null
+    if it does not."""
 
     rpm: FloatArray
     """Speeds of the record."""
@@ -2773,7 +2783,7 @@ class Grid(Entry):
     """JSON path in the scene."""
 
     value: float
-    """Its value."""
+    """Value of the number."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2809,7 +2819,7 @@ class Speed(Entry):
     """Number of saws with such a speed."""
 
     beyond: int
-    """Number of saws without one within the speeds of the study."""
+    """Number of analysed saws without such a speed within the speeds of the study."""
 
     median_rpm: float | None
     """Median; null if it exceeds the speeds of the study."""
@@ -2835,7 +2845,7 @@ class StudyCriterion(Entry):
     """Speed required."""
 
     passed: int
-    """Number of saws that keep it."""
+    """Number of saws that keep the limit."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2846,15 +2856,15 @@ class Passing(Entry):
     """Number of saws that keep every limit."""
 
     probability: float
-    """Share of these saws among all."""
+    """Share of these saws among all saws of the group."""
 
     confidence: float
     """Confidence of the interval."""
 
     interval: FloatArray | None
     """Interval of the probability (by Clopper and Pearson for independent saws; scrambled Sobol
-    points are more even). Null for a grid, whose share is exact, and for all of several groups,
-    which have the same deviations."""
+    points are more even). Null for a grid, whose share is exact, and for all saws of several
+    groups, because the groups have the same deviations."""
 
     criteria: tuple[StudyCriterion, ...]
     """Number of saws that keep each limit."""
@@ -2876,8 +2886,8 @@ class Number(Entry):
     """Distribution of a number of the analysed saws, in SI units or rpm."""
 
     saws: int
-    """Number of saws whose number is known. That of the others, where slopes of the blade
-    exceed 0.1, counts as larger."""
+    """Number of saws whose number is known. The number of the other analysed saws counts as
+    larger than any: the deflection is not known where slopes of the blade exceed 0.1."""
 
     median: float | None
     """Median; null if it is not known."""
@@ -2900,7 +2910,7 @@ class GapStatistics(Entry):
     """First critical speed at the amplitude of the study, in rpm; null without an amplitude."""
 
     saws_within: int | None
-    """Number of saws whose deflection is allowed; null without a limit."""
+    """Number of saws whose deflection keeps its limit; null without a limit."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2929,7 +2939,7 @@ class Group(Entry):
     """Share of saws that keep the limits, if the study has any."""
 
     gap: GapStatistics | None
-    """Guides with a gap, if the study asks for them."""
+    """Numbers of guides with a gap, if the study has a block `gap`."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2940,7 +2950,7 @@ class Refusal(Entry):
     """Number of the saw in the study."""
 
     reason: str
-    """Reason of the failure."""
+    """Reason for which it was not analysed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -2980,7 +2990,7 @@ class WorstSaw(Entry):
     """Number of the saw in the study."""
 
     rpm: float
-    """Lowest speed of the saw."""
+    """Lowest critical speed or flutter speed of the saw."""
 
     values: FloatArray
     """Values of the varying numbers, in the order of the study."""
@@ -2991,17 +3001,17 @@ class StudyReport(Entry):
     """Quantiles and probabilities of a study, and its inputs."""
 
     sawflutter: str
-    """Version of the program."""
+    """Version of the program that wrote the report."""
 
     scene: SceneDict
-    """The saw without deviations."""
+    """The scene without deviations, as typed."""
 
     unusual_numbers: tuple[str, ...]
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
 
     study: StudyDict
-    """The study."""
+    """The study, as typed."""
 
     swept_to_rpm: float
     """Last speed of the sweep."""
@@ -3016,7 +3026,7 @@ class StudyReport(Entry):
     """All saws together."""
 
     groups: tuple[Group, ...]
-    """Saws of each point of the grid, if there are random saws too and at most 10 000
+    """Saws of each point of the grid, if the study has random saws and at most 10 000
     points."""
 
     not_analysed: tuple[Refusal, ...]
@@ -3057,7 +3067,7 @@ class Setting(Entry):
     """Number of even speeds of the chart; 0 without a chart."""
 
     seconds: float
-    """Shortest of the measured times."""
+    """Shortest measured run time, in seconds."""
 
     error: float
     """Largest relative error of critical speeds and, in a chart, of flutter onsets, by
@@ -3091,14 +3101,15 @@ class WashboardMode(Entry):
     """Im λ/2π of the mode without the delayed force."""
 
     tooth_passing_multiple: int | None
-    """Multiple of the tooth passing frequency that is nearest to its frequency; null for
+    """Multiple of the tooth passing frequency that is nearest to `frequency_hz`; null for
     unevenly spaced teeth."""
 
     beside_tooth_passing_hz: float | None
-    """Difference between its frequency and this multiple."""
+    """`frequency_hz` minus this multiple."""
 
     pattern_pitch_m: float | None
-    """Wavelength of its pattern on the board, along the feed; null without a feed."""
+    """Wavelength, along the feed, of the pattern that the mode leaves on the board; null
+    without a feed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -3116,7 +3127,7 @@ class Lobes(Entry):
     """Frequency of this motion."""
 
     confirmed: BoolArray
-    """Whether the argument principle confirms that nothing grows just below it."""
+    """Whether the argument principle confirms that nothing grows just below this stiffness."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -3159,7 +3170,7 @@ class WashboardReport(Entry):
     """Feed speed of the wood, if given."""
 
     critical_stiffness_n_per_m: float | None
-    """Smallest cutting stiffness at which a motion grows at that speed; null if it exceeds
+    """Smallest cutting stiffness at which a motion grows at the speed `rpm`; null if it exceeds
     `ceiling_n_per_m`, zero if a motion grows without the delayed force."""
 
     critical_frequency_hz: float | None
@@ -3173,7 +3184,7 @@ class WashboardReport(Entry):
     """Number of growing eigenvalues without the delayed force."""
 
     modes: tuple[WashboardMode, ...]
-    """Modes at that speed, in descending order of growth."""
+    """Modes at the speed `rpm`, in descending order of growth."""
 
     lobes: Lobes
     """Smallest cutting stiffness at which a motion grows, over the speed."""
@@ -3188,7 +3199,7 @@ class WashboardReport(Entry):
     """Largest number of nodal diameters of the basis."""
 
     radial_functions: int
-    """Radial functions for each."""
+    """Number of radial functions for each number of nodal diameters."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the critical speeds in this basis."""

@@ -45,14 +45,14 @@ class _RimDict(TypedDict):
     """Mass of teeth or of carbide tips, distributed evenly along a circle."""
 
     mass_per_tooth_kg: float
-    """Mass of one tooth or of one tip; blade.teeth is their number."""
+    """Mass of one tooth or of one tip; `blade.teeth` gives their number."""
 
 
 class RimDict(_RimDict, total=False):
     """Mass of teeth or of carbide tips, distributed evenly along a circle."""
 
     radius_m: float | None
-    """Distance of its centre from the axis; by default the radius of the rim."""
+    """Distance of the circle from the axis; by default the radius of the rim."""
 
 
 class _BladeDict(TypedDict):
@@ -68,7 +68,7 @@ class _BladeDict(TypedDict):
     """Thickness of the plate; with a profile, from the bore to its first row."""
 
     material: MaterialDict
-    """Linear elastic, isotropic."""
+    """Linear elastic, isotropic material."""
 
 
 class BladeDict(_BladeDict, total=False):
@@ -105,7 +105,7 @@ class MountCollarDict(TypedDict):
     """Diameter of the collar; the blade inside it does not move."""
 
     in_plane: InPlane
-    """Whether the collar also holds the blade in its plane."""
+    """Condition in the plane of the blade at the edge of the collar."""
 
 
 MountDict: TypeAlias = MountSplineDict | MountCollarDict
@@ -145,9 +145,9 @@ class GuideDict(_GuideDict, total=False):
     """Lateral viscous damping of the whole pad, fixed in space."""
 
     gap_m: float | None
-    """Gap between the pad and a face of the blade, such as its film of water; `check` compares
-    it with the static deflection in the cut. A linear pad acts as if it had no gap. Not checked
-    by default."""
+    """Gap between the pad and a face of the blade, such as the thickness of a film of water;
+    `check` compares it with the static deflection in the cut. A linear pad acts as if it had no
+    gap. Not checked by default."""
 
     contact: ContactLaw
     """Whether the pad acts at any deflection, which is the default, or only beyond the gap."""
@@ -161,8 +161,7 @@ class GuideDict(_GuideDict, total=False):
 
     offset_m: float
     """Lateral offset of the middle between the faces of a one-sided pad from the plane of the
-    flat blade, positive in the direction of positive deflection. Zero by default; a pad off its
-    line leans the blade."""
+    flat blade, positive in the direction of positive deflection. Zero by default."""
 
 
 class ModeRatioRowDict(TypedDict):
@@ -178,7 +177,8 @@ class ModeRatioRowDict(TypedDict):
 
 
 class DampingDict(TypedDict, total=False):
-    """Damping of the blade. Each number belongs to one frame. The contributions add up."""
+    """Damping of the blade: the contributions of the material, which turns with the blade, and
+    of the air add up."""
 
     material_retardation_time_s: float
     """Kelvin–Voigt retardation time η of the material, which turns with the blade. Typically
@@ -187,7 +187,7 @@ class DampingDict(TypedDict, total=False):
 
     loss_factor: float
     """Loss factor of the blade, twice the damping ratio of every mode of the blade at rest
-    without guides. It turns with the blade, as a viscous damping with this ratio at the
+    without guides. It acts in the frame of the blade, as viscous damping with this ratio at the
     frequency of each of these modes."""
 
     mode_ratios: list[ModeRatioRowDict]
@@ -195,12 +195,11 @@ class DampingDict(TypedDict, total=False):
     nodal diameters, in place of half the loss factor."""
 
     air_n_s_per_m3: float
-    """Viscous resistance per area of the surrounding air, which is at rest in space unless it
-    turns."""
+    """Viscous resistance per area of the surrounding air."""
 
     air_rotation_share: float
-    """Ratio of the rotation speed of this air to that of the blade: 0, by default, for air at
-    rest; 1 for air that turns with the blade."""
+    """Ratio of the rotation speed of the air to that of the blade: 0, by default, for air at
+    rest in space; 1 for air that turns with the blade."""
 
 
 class TemperatureRowDict(TypedDict):
@@ -230,10 +229,10 @@ class TemperatureDict(_TemperatureDict, total=False):
     """Rise at the rim, T(r) = rise · ((r − r₀)/(b − r₀))^p for r > r₀, zero inside."""
 
     from_radius_m: float | None
-    """r₀; by default the bore, or the edge of the collar."""
+    """Radius r₀ at which the rise begins; by default the bore, or the edge of the collar."""
 
     exponent: float | None
-    """p; by default 1."""
+    """Exponent p of the rise; 1 by default."""
 
     table: list[TemperatureRowDict]
     """Rises at ascending radii, linear between the rows and constant beyond them."""
@@ -244,7 +243,7 @@ class _RollBandDict(TypedDict):
     surrounding metal restrains it and is stretched along the rim."""
 
     radius_m: float
-    """Radius of its middle."""
+    """Radius of the middle of the band."""
 
     width_m: float
     """Width along the radius."""
@@ -256,8 +255,8 @@ class RollBandDict(_RollBandDict, total=False):
 
     eigenstrain: float | None
     """In-plane strain that the band would have if it were free, isotropic; positive for
-    rolling. Either this or `groove_depth_m`. Typically 0.0001, from 0.0001 to 0.005 (computed
-    from grooves of 1 to 10 µm by d/h; the small end suits wide bands)."""
+    rolling. Give either this or `groove_depth_m`. Typically 0.0001, from 0.0001 to 0.005
+    (computed from grooves of 1 to 10 µm by d/h; the small end suits wide bands)."""
 
     groove_depth_m: float | None
     """Depth of the groove on each face, in place of `eigenstrain`, which is then this depth
@@ -280,16 +279,17 @@ class ResidualStressRowDict(_ResidualStressRowDict, total=False):
     """Residual stress at one radius."""
 
     radial_pa: float | None
-    """Stress along the radius, if measured too; refused if it contradicts the hoop stress."""
+    """Stress along the radius, if it was measured, too; refused if it contradicts the hoop
+    stress."""
 
 
 class StraightEdgeDict(TypedDict, total=False):
     """Straight edge across the blade off its machine. The blade lies level on two opposite
     points and sags under its own weight; the straight edge touches it with both ends, on the
-    diameter at right angles to that of the points. The light gap is read in its middle, at the
-    edge of the bore. Where roll tension makes the middle sag more than the ends, the gap is
-    positive; a blade that is not rolled touches in the middle, and its gap is negative: that
-    under the ends."""
+    diameter at right angles to that of the points. The light gap is read in the middle, at the
+    edge of the bore. It is positive where roll tension makes the middle sag more than the ends.
+    A blade that is not rolled touches the straight edge in the middle; its gap, which is then
+    under the ends, is negative."""
 
     length_m: float | None
     """Length of the straight edge; by default the outer diameter of the blade."""
@@ -298,8 +298,8 @@ class StraightEdgeDict(TypedDict, total=False):
     """Distance of the two points from the axis; by default the radius of the rim."""
 
     measured_gap_m: float | None
-    """Light gap that was measured. The report answers with the eigenstrain of the rolled bands
-    that has this gap, all bands in proportion."""
+    """Measured light gap. The report gives the eigenstrain of the rolled bands that causes it,
+    all bands in proportion."""
 
 
 class MembraneDict(TypedDict, total=False):
@@ -309,7 +309,7 @@ class MembraneDict(TypedDict, total=False):
     """Heat of the cut and of guides."""
 
     roll_tension: list[RollBandDict]
-    """Bands that were rolled."""
+    """Rolled bands."""
 
     residual_stress: list[ResidualStressRowDict]
     """Measured residual stress at ascending radii: linear between the rows, constant beyond
@@ -404,7 +404,7 @@ class WoodDict(TypedDict, total=False):
     rim."""
 
     arc_deg: float | None
-    """Arc of the contact; by default that of the teeth in the cut."""
+    """Arc of the contact; by default one pitch for each tooth in the cut."""
 
 
 class _WashboardingDict(TypedDict):
@@ -429,7 +429,8 @@ class WashboardingDict(_WashboardingDict, total=False):
     Typically 1, from 0 to 1 (all teeth in one groove, with the largest delayed force)."""
 
     arc_deg: float | None
-    """Arc of the rim on which the force acts; by default that of the teeth in the cut."""
+    """Arc of the rim on which the force acts; by default one pitch for each tooth in the
+    cut."""
 
     pitches_deg: list[float]
     """Angles between successive teeth, repeated around the blade, if teeth are unevenly
@@ -626,7 +627,7 @@ class _SceneDict(TypedDict):
     """Title of reports and figures."""
 
     blade: BladeDict
-    """The blade."""
+    """Dimensions and material of the blade."""
 
     mount: MountDict
     """Support of the bore."""
@@ -776,10 +777,10 @@ class GapDict(_GapDict, total=False):
     """The deflection at the cut of a saw with guides with a gap, as of `sawflutter gap`."""
 
     rpm: float | None
-    """Speed; by default the operating speed of the scene."""
+    """Rotation speed; by default the operating speed of the scene."""
 
     max_deviation_mm: float | None
-    """Largest deflection at the cut that is allowed: the saws that keep it are counted."""
+    """Upper limit of the deflection at the cut; the saws that keep it are counted."""
 
     amplitude_mm: float | None
     """Amplitude of an oscillation at the guides, with whose mean stiffness the first critical
@@ -790,7 +791,7 @@ class _StudyDict(TypedDict):
     """Numbers of a scene that vary, their distributions, and limits of the saws."""
 
     name: str
-    """Title of reports and figures."""
+    """Name of the study: the title of reports and figures."""
 
     parameters: list[ParameterDict]
     """The numbers that vary, independently of each other."""
@@ -810,7 +811,8 @@ class StudyDict(_StudyDict, total=False):
     """Seed of the random saws."""
 
     to_rpm: float | None
-    """Last speed of the sweep; by default the end of the scene's sweep. Limits extend it."""
+    """Last speed of the sweep; by default the end of the scene's sweep. Limits at higher speeds
+    extend the sweep."""
 
     limits: LimitsDict | None
     """Limits of each saw, as for `sawflutter check`."""
