@@ -144,7 +144,7 @@ pub(crate) fn check_room(model: &SpectralModel, speeds: &[f64]) -> Result<(), Ca
 fn largest_end(critical: &[f64], speeds: &[f64], most: usize) -> Option<f64> {
     let last = *speeds.last()?;
     let first = *critical.first()?;
-    // Below the first critical speed there are only even speeds.
+    // The speeds below the first critical speed, and not beside it, are all evenly spaced.
     let alone = speeds.partition_point(|speed| *speed < first * (1.0 - BESIDE)) as f64;
     let even = (alone * last / first).min(speeds.len() as f64);
     let charted = |end: f64| {
@@ -205,7 +205,7 @@ impl Campbell {
             })
             .collect();
         let mut branches: Vec<Branch> = Vec::new();
-        // `current` has the index of the branch of each mode of the previous sample.
+        // `current` contains, for each mode of the previous sample, the index of its branch.
         let mut current: Vec<usize> = Vec::new();
         for (index, sample) in samples.iter().enumerate() {
             let before = index.checked_sub(1);

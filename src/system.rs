@@ -104,7 +104,7 @@ impl GyroscopicSystem {
         for n in range.clone().filter(|n| *n > 0) {
             let cosine = plate.offset(n) - first;
             for j in 0..radial {
-                // ∂θ sin nθ = n cos nθ, ∂θ cos nθ = −n sin nθ.
+                // The elements follow from ∂ sin nθ/∂θ = n cos nθ and ∂ cos nθ/∂θ = −n sin nθ.
                 gyroscopic[(cosine + j, cosine + radial + j)] = n as f64;
                 gyroscopic[(cosine + radial + j, cosine + j)] = -(n as f64);
             }
@@ -124,7 +124,8 @@ impl GyroscopicSystem {
         };
         let size = self.order();
         let mut total: Mat<f64> = Mat::zeros(size, size);
-        // Resistance that turns with the blade, or with a share of its speed.
+        // `turning` is the damping by material and air that rotate: the material with the blade, the air with
+        // a share of its speed.
         let mut turning: Option<Mat<f64>> = None;
         let material = plate.harmonics.iter().map(|h| h.material_damping.as_ref());
         if let Some(blocks) = material.collect::<Option<Vec<_>>>() {
@@ -193,7 +194,8 @@ impl GyroscopicSystem {
             .map(|z| &self.gyroscopic * z)
             .collect();
         let count = turned.len();
-        // ĜᵀĜ, Ĝ = ZᵀGZ
+        // The matrix `coupled` is Ĝ = ZᵀGZ with the free rigid motions as columns of Z. The null vectors of
+        // ĜᵀĜ are those of Ĝ.
         let coupled = DMatrix::from_fn(count, count, |i, j| {
             self.free_rigid[i].transpose() * &turned[j]
         });

@@ -47,8 +47,10 @@ impl AnnularPlate {
     /// accurate to 1e-10 or better. Outside this range the list may be shorter than `count`.
     pub fn roots(&self, nodal_diameters: usize, count: usize) -> Vec<f64> {
         let at = |k: f64| self.determinant(nodal_diameters, k);
-        // The search starts below every elastic root: a narrow free ring has kb ≥ 1.6 for n = 2 and kb ≥ 0.9 n
-        // for larger n, and the mode n = 0 has 1.04 for ν = −0.99. At smaller kb the determinant is rounding.
+        // The search starts below every elastic root:
+        // a narrow free ring has kb ≥ 1.6 for n = 2, and kb ≥ 0.9 n for larger n;
+        // the mode n = 0 has kb = 1.04 for ν = −0.99. At much smaller kb rounding errors dominate the
+        // determinant.
         let mut low = f64::max(0.5, 0.6 * nodal_diameters as f64);
         let mut before = at(low);
         let mut found = Vec::new();
@@ -93,7 +95,8 @@ impl AnnularPlate {
         };
         let [third, fourth] = free(&at_rim, rim_argument);
         let mut rows = [first, second, third, fourth];
-        // The scaled I and K have no exponential factor, of which only the ratio between the two edges matters.
+        // The scaled I and K lack the factors e^x and e^−x. A common factor of a column only scales the
+        // determinant, so that only the ratio of these factors at the two edges is applied.
         let decay = (inner_argument - rim_argument).exp();
         for row in &mut rows[..2] {
             row[2] *= decay;

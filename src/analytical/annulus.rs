@@ -74,7 +74,8 @@ impl Annulus {
     ) -> RadialAndHoop {
         let nu = poisson_ratio;
         let [aa, bb, rr] = self.squares(radius_m);
-        // A a² + B = a⁴/8; (1 + ν) A b² − (1 − ν) B = (3 + ν) b⁴/8.
+        // The conditions v(a) = 0 and σ_rr(b) = 0 are A a² + B = a⁴/8 and
+        // (1 + ν) A b² − (1 − ν) B = (3 + ν) b⁴/8.
         let (bore, rim) = (aa * aa / 8.0, (3.0 + nu) * bb * bb / 8.0);
         let determinant = (1.0 - nu) * aa + (1.0 + nu) * bb;
         let linear = ((1.0 - nu) * bore + rim) / determinant;

@@ -33,7 +33,7 @@ pub(super) fn four(n: usize, x: f64) -> Four {
     let bessel_i = by_backward_recurrence(n + 1, x, 1.0);
     let [k, k_next] = scaled_modified_second_kind(n, x);
     let share = n as f64 / x;
-    // The derivative is f′ = (n/x) f ∓ f of the next order (9.1.27, 9.6.26).
+    // The derivative is fₙ′ = (n/x) fₙ − fₙ₊₁ for J, Y and K, and (n/x) fₙ + fₙ₊₁ for I (9.1.27, 9.6.26).
     let point = |value: f64, next: f64, sign: f64| Point {
         value,
         slope: share * value + sign * next,
@@ -48,7 +48,8 @@ pub(super) fn four(n: usize, x: f64) -> Four {
 
 /// J₀, J₁, … (sign −1) or e^{−x} I₀, e^{−x} I₁, … (sign 1), by f_{m−1} = (2m/x) f_m + sign · f_{m+1}.
 fn by_backward_recurrence(orders: usize, x: f64, sign: f64) -> Vec<f64> {
-    // The starting order is so far above order and argument that starting values have no influence.
+    // The recurrence starts at an order so far above `orders` and x that the starting values do not affect
+    // the result.
     let above = (orders as f64).max(x);
     let start = 2 * ((0.5 * (above + 20.0 + (60.0 * above).sqrt())) as usize) + 2;
     let mut values = vec![0.0_f64; start + 2];
@@ -79,7 +80,7 @@ fn second_kind(n: usize, x: f64, bessel_j: &[f64]) -> [f64; 2] {
         let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
         let weight = sign / k as f64;
         zero -= weight * bessel_j[2 * k];
-        // Y₁ is −Y₀′, term by term.
+        // Y₁ = −Y₀′ follows from the derivative of each term of the series.
         one += 0.5 * weight * (bessel_j[2 * k - 1] - bessel_j[2 * k + 1]);
     }
     let scale = 4.0 / std::f64::consts::PI;
@@ -88,9 +89,9 @@ fn second_kind(n: usize, x: f64, bessel_j: &[f64]) -> [f64; 2] {
 
 /// e^{x} Kₙ and e^{x} Kₙ₊₁.
 fn scaled_modified_second_kind(n: usize, x: f64) -> [f64; 2] {
-    // Beyond this t, exp(−x (cosh t − 1)) underflows.
+    // For t > `end` the factor exp(−x (cosh t − 1)) of the integrand underflows.
     let end = (1.0 + 745.0 / x).acosh();
-    // The step resolves the decay in t and, at large x, a bell of width 1/√x.
+    // The step resolves the integrand, whose width in t is about 1/√x at large x.
     let step = f64::min(0.1, 0.6 / x.sqrt());
     let mut sum = [0.5, 0.5];
     for k in 1..=(end / step) as usize {

@@ -26,7 +26,7 @@ pub fn hardening_period_s(stiffness_per_s2: f64, cubic: f64, amplitude: f64) -> 
         (stiffness_per_s2 + added).sqrt(),
         (stiffness_per_s2 + 0.5 * added).sqrt(),
     ];
-    // Each iteration squares the relative difference.
+    // Each iteration reduces the relative difference δ of the two means to about δ²/8.
     for _ in 0..6 {
         mean = [0.5 * (mean[0] + mean[1]), (mean[0] * mean[1]).sqrt()];
     }

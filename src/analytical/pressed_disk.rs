@@ -20,7 +20,7 @@ pub fn stress_pa(
     let uniform = force_n / (PI * rim_radius_m * thickness_m);
     let mut stress = [uniform, uniform, 0.0];
     for place_rad in [0.0, PI] {
-        // The stress of one force has components along the radial and hoop directions of the point.
+        // In the radial and hoop directions at the point, the vector from the force to the point is (x, y).
         let (sin, cos) = (place_rad - angle_rad).sin_cos();
         let (x, y) = (radius_m - rim_radius_m * cos, -rim_radius_m * sin);
         let distance = x.hypot(y);

@@ -41,7 +41,7 @@ impl OneMode {
         let phase = (-imaginary).atan2(real);
         let turned = 2.0 * PI * f64::from(lobe) + 3.0 * PI + 2.0 * phase;
         Some(LobePoint {
-            // The stiffness is −1/(2 Re G) with Re G = real/(real² + imaginary²).
+            // The stiffness is −1/(2 Re G), where the compliance G has Re G = real/(real² + imaginary²).
             stiffness: -(real * real + imaginary * imaginary) / (2.0 * real),
             delay_s: turned / omega,
         })

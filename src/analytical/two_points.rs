@@ -52,7 +52,8 @@ impl PlateOnTwoPoints {
             -self.weight_n_per_m2 / (64.0 * self.rigidity_n_m),
             self.weight_n_per_m2 * a * a / (8.0 * self.rigidity_n_m),
         );
-        // The moments are w″ + ν w′/r of r⁴, r² ln r, r² and ln r.
+        // Each entry is w″ + ν w′/r, which is proportional to the radial bending moment, for w = r⁴, r² ln r,
+        // r² and ln r.
         let moments = |r: f64| {
             [
                 (12.0 + 4.0 * nu) * r * r,
@@ -78,7 +79,8 @@ impl PlateOnTwoPoints {
     fn wave(&self, n: i32, r: f64) -> f64 {
         let (a, b, nu) = (self.inner_radius_m, self.outer_radius_m, self.poisson_ratio);
         let n2 = f64::from(n * n);
-        // Growing powers are relative to the rim, falling ones to the bore, so that none overflows.
+        // The first two powers are (r/b)^m and grow with r, the last two are (r/a)^m and do not, so that none
+        // overflows.
         let powers = [(n, b), (n + 2, b), (-n, a), (2 - n, a)];
         let moment = |(m, scale): (i32, f64), r: f64| {
             let m_f = f64::from(m);
@@ -96,7 +98,8 @@ impl PlateOnTwoPoints {
             powers.map(|power| shear(power, b)),
         ];
         let matrix = Matrix4::from_fn(|row, column| rows[row][column]);
-        // The shear force V = −D r⁻³ Σ own (r/scale)^m equals the line load at the rim.
+        // The shear force V = −D r⁻³ Σ cₖ own (r/scale)^m, with the amplitudes cₖ, equals the line load at
+        // the rim.
         let load = 2.0 * self.weight_n() / (TAU * b);
         let right = Vector4::new(0.0, 0.0, 0.0, -load * b.powi(3) / self.rigidity_n_m);
         matrix.lu().solve(&right).map_or(f64::NAN, |found| {

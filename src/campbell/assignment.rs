@@ -7,7 +7,8 @@
 /// Computing 38, 1987.
 pub fn cheapest(costs: &[Vec<f64>]) -> Vec<usize> {
     let size = costs.len();
-    // Row and column 0 are the start of every path and not part of the matrix.
+    // Rows and columns are numbered from 1. Every path starts at the additional column 0, and a column whose
+    // row is 0 is free.
     let (mut row_price, mut column_price) = (vec![0.0; size + 1], vec![0.0; size + 1]);
     let mut row_of = vec![0; size + 1];
     for row in 1..=size {
@@ -27,7 +28,8 @@ pub fn cheapest(costs: &[Vec<f64>]) -> Vec<usize> {
                 }
             }
             if next == column {
-                // If costs are not finite, the remaining rows stay unpaired.
+                // The path can reach no further column only if costs are not finite; the assignment is then
+                // incomplete.
                 break;
             }
             for k in 0..=size {

@@ -76,8 +76,9 @@ pub fn match_modes(
     let new: Vec<Carrier> = after.iter().map(Carrier::new).collect();
     let alike = Likenesses::new([before, after]);
     let height = height_rad_per_s.max(f64::MIN_POSITIVE);
-    // The slope at a mode's own speed shows whether it leaves the chart within the step. A damped mode that
-    // stops oscillating turns into two real λ, one of which begins or ends there.
+    // An unpaired mode costs less if its frequency, extrapolated over the step, reaches the top of the chart,
+    // or if it has stopped oscillating: a damped mode that stops turns into two real λ, one of which has no
+    // partner.
     let leaving = |c: &Carrier, step: f64| {
         let there = (c.frequency + c.slope * step).abs().max(c.frequency.abs());
         match there >= (1.0 - TOP) * height || c.has_stopped(height) {
@@ -163,7 +164,8 @@ impl Carrier {
         if !self.damped {
             return direct;
         }
-        // Near a coalescence the action of two damped modes is rounding.
+        // Near a coalescence the sign of the action of a damped mode depends on rounding, so that both signs
+        // are tried.
         let mirrored = self.mirrored();
         let turned = mirrored.cost_as_is(other, step, height, alike(&mirrored));
         if turned.0 < direct.0 { turned } else { direct }
@@ -171,9 +173,11 @@ impl Carrier {
 
     fn cost_as_is(&self, other: &Carrier, step: f64, height: f64, likeness: f64) -> (f64, f64) {
         let moved = other.frequency - self.frequency;
-        // Next to a coalescence the slope of a frequency is unbounded, so the slope at the other end is better.
+        // Next to a coalescence the slope of a frequency is unbounded, so that the slope at the other end of
+        // the step predicts the change better.
         let slopes = [self.slope, other.slope, 0.5 * (self.slope + other.slope)];
-        // For two damped modes that have coalesced, the slope, which neglects damping, is wrong.
+        // The slopes neglect damping and are wrong for two damped modes that have coalesced, so that a slope
+        // of zero is tried too.
         let level = self.damped.then_some(0.0);
         let off = slopes
             .into_iter()

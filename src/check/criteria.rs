@@ -125,7 +125,7 @@ impl Limits {
         let limit_mm = shown(1e3 * limit_m);
         let bands = analysis.chart.instabilities.iter().zip(saturations);
         let flutter = bands.filter(|(band, _)| band.kind == InstabilityKind::Flutter);
-        // A band of unknown amplitude does not keep the limit.
+        // A band of unknown amplitude counts as exceeding the limit.
         let beyond = |(_, found): &(&Instability, &Option<Saturation>)| {
             found.is_none_or(|found| AT_AN_EDGE * found.amplitude_m > limit_m)
         };

@@ -129,7 +129,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
             let scenes = paths.iter().map(read);
             let scenes: Vec<anyhow::Result<Scene>> = match arguments.keep_going {
                 true => scenes.collect(),
-                // If one scene is refused, none is computed.
+                // Without `--keep-going`, no scene is computed if one of them is refused.
                 false => scenes
                     .map(|scene| scene.map(Ok))
                     .collect::<anyhow::Result<_>>()?,
@@ -167,7 +167,7 @@ fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
     let report = report(arguments, scene)?;
     let (files, json) = files(arguments, &report)?;
     arguments.page.write(&report)?;
-    // A table of several scenes belongs to an earlier run, and is removed.
+    // A table of several scenes in this folder is from an earlier run and is removed.
     let optional = [&optional_names()[..], &several::FILES].concat();
     let words = || report.summary();
     arguments

@@ -45,7 +45,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     };
     serve(&scene, &options, |address| {
         let mut stdout = std::io::stdout().lock();
-        // If writing fails, the output was closed, and nobody reads the address.
+        // A write error is ignored, because the page works even if the standard output is closed.
         let _ = writeln!(
             stdout,
             "{address}\nOpen this address; the program ends with Ctrl-C or with the page."

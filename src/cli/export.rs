@@ -95,8 +95,8 @@ fn npy(matrix: &Mat<f64>) -> Vec<u8> {
     let (rows, columns) = (matrix.nrows(), matrix.ncols());
     let header =
         format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
-    // Magic, version and length take ten bytes, the header ends with a line break, and all
-    // of it is a multiple of 64 bytes long.
+    // The magic number, the version and the length take ten bytes, and the header ends with a line break;
+    // together they take a multiple of 64 bytes.
     let length = (10 + header.len() + 1).next_multiple_of(64) - 10;
     let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
     bytes.extend((length as u16).to_le_bytes());

@@ -16,7 +16,7 @@ pub fn pasted<T>(scene: &Scene, needed: Result<T, RefusedValue>) -> anyhow::Resu
             }
             _ => return refused.into(),
         };
-        // The block is printed separately, because an error is one line.
+        // The block is printed separately, because the message of an error has only one line.
         eprintln!(
             "{block}\n\nPaste this behind the first brace of {place}, with your own numbers.\n"
         );
@@ -35,7 +35,7 @@ fn cut_block(scene: &SceneFile) -> String {
 
 /// `"key": { … },` indented like a key of a scene.
 fn block(key: &str, value: &Value) -> String {
-    // Writing fails only for keys that are not texts, and a JSON value has none.
+    // Writing JSON fails only for keys that are not strings, and a `Value` has no such keys.
     let text = serde_json::to_string_pretty(value).unwrap_or_default();
     let text = text.replace('\n', "\n  ");
     format!("  \"{key}\": {text},")

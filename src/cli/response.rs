@@ -50,7 +50,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         Ok::<_, ResponseError>(ResponseReport::new(&found))
     })?;
     let report = report.map_err(|error| match error {
-        // The key of a scene contains its block and a dot; the name of an option does not.
+        // The key of a value of the scene contains a dot behind the name of its block; the name of an option
+        // contains no dot.
         ResponseError::Refused(refused) if !refused.key.contains('.') => of_option(refused),
         other => other.into(),
     })?;

@@ -43,10 +43,12 @@ pub fn compute(study: &Study, folder: &Path, address: &str) -> anyhow::Result<()
         .with_context(|| format!("cannot start {name}"))?;
     let inputs = serde_json::to_string(&Inputs::of(study))?;
     if let Some(mut input) = child.stdin.take() {
-        // A child that ends before it has read the inputs writes the reason to its output.
+        // A write error is ignored: a child that ends before it has read the inputs writes the reason to its
+        // standard output.
         let _ = input.write_all(inputs.as_bytes());
     }
-    // The child shows its progress on the terminal, and writes errors to this output.
+    // The child writes its progress to the error stream, which it inherits, and its errors to the standard
+    // output.
     let mut said = String::new();
     if let Some(mut output) = child.stdout.take() {
         output.read_to_string(&mut said)?;

@@ -124,7 +124,7 @@ fn table(rows: &[Row]) -> String {
         |share: Option<f64>| share.map_or("-".to_owned(), |share| format!("{:.0} %", 1e2 * share));
     for row in rows {
         let folder = shortened(&row.folder, 23);
-        // Writing to a string cannot fail.
+        // Writing to a string cannot fail, so that the result is ignored.
         let _ = match &row.error {
             Some(error) => writeln!(
                 text,

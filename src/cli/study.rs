@@ -236,7 +236,7 @@ fn print(output: &Output, folder: &OutputFolder, rows: &Rows<'_>) -> anyhow::Res
     writing.stage("study.parquet", parquet)?;
     writing.stage("study.csv", csv)?;
     writing.stage_bytes("study.json", json.as_bytes())?;
-    // Only a program that was built with Parquet writes this file.
+    // Only a program that was built with the feature `parquet` writes this file.
     let optional = ["study.parquet"];
     output.print_written(folder, writing, &optional, &json, || report.summary())
 }

@@ -177,7 +177,7 @@ fn change(
         let Some(e) = leaned.get(k * leaned.len() / COMPARED) else {
             continue;
         };
-        // Near a fold the other blade may have no equilibrium.
+        // Near a fold the blade `finer` may have no equilibrium; such an equilibrium is not compared.
         if let Ok(change) = blade.change_with(finer, e) {
             largest = Some(largest.map_or(change, |most| most.max(change)));
         }
@@ -203,8 +203,8 @@ fn curves(
         add_curve(blade, &mut curves, (&start, &[true, false]), range)?;
     }
     if blade.lifts_off() {
-        // The matrices of the blade contain only the films of pads that lift off, so that the pitchforks of the
-        // matrices are not those of the blade in contact with these pads.
+        // A pad that lifts off contributes only its film to the matrices of the blade, so that their
+        // pitchforks are not those of the blade in contact with the pad.
         return Ok(curves);
     }
     let unforced = blade.clone().unforced();
@@ -242,7 +242,7 @@ fn mirrored(
                 continue;
             };
             let image = faer::Scale(-1.0) * &e.coordinates;
-            // If the blade reaches no equilibrium there is no curve.
+            // If the blade reaches no equilibrium from the mirror image, no curve starts there.
             found.extend(blade.settled(e.speed_rad_per_s, &image));
         }
     }

@@ -28,7 +28,7 @@ pub fn page(report: &impl Documented) -> Result<String, FigureError> {
     let figures = figures.iter().map(|figure| figure.svg());
     let figures = figures.collect::<Result<Vec<String>, _>>()?;
     let mut text = String::new();
-    // Writing to a string cannot fail.
+    // Writing to a string cannot fail, so that the result is ignored.
     let _ = write_page(&mut text, &report.document(), &figures);
     Ok(text)
 }
@@ -53,7 +53,7 @@ fn write_page(text: &mut String, document: &Document, figures: &[String]) -> std
     }
     writeln!(text, "<h2>Figures</h2>")?;
     for figure in figures {
-        // Inside HTML a drawing has no XML header.
+        // The XML header of the drawing is removed, because HTML does not allow it.
         let drawing = figure.find("<svg").map_or("", |start| &figure[start..]);
         writeln!(text, "<figure>\n{drawing}\n</figure>")?;
     }
@@ -127,7 +127,8 @@ fn scene(text: &mut String, scene: &SceneFile) -> std::fmt::Result {
     }
     write_table(text, &inputs(scene))?;
     let json = serde_json::to_string(scene).unwrap_or_default();
-    // A text of the scene may contain the tag `</script>`; the escape of `<` is allowed in JSON.
+    // A text of the scene may contain `</script>`, which would end the element; JSON allows `<` to be
+    // escaped.
     let json = json.replace('<', "\\u003c");
     writeln!(
         text,

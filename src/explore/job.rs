@@ -61,7 +61,8 @@ impl Jobs {
             done: false,
         };
         let stop = guard.stop.clone();
-        // The turn ends with the future, so that a cancelled computation does not block the queue.
+        // `_turn` is released when this future is dropped, so that a cancelled computation does not block the
+        // queue.
         let _turn = self.turn.0.acquire().await.ok()?;
         let count = self.count.clone();
         let done = tokio::task::spawn_blocking(move || {

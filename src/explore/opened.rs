@@ -68,7 +68,7 @@ impl OpenedFile {
             let found = path.metadata();
             found.is_ok_and(|found| found.permissions().readonly())
         };
-        // On Windows, this attribute of a folder does not apply to its files.
+        // On Windows, the read-only attribute of a folder does not apply to its files.
         if cfg!(unix) && is_read_only(folder) {
             return Err(format!("the folder {} is read-only", folder.display()));
         }

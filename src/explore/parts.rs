@@ -88,7 +88,8 @@ fn add_to_blade(scene: &mut SceneFile, part: &str) -> Option<()> {
     match part {
         "rim" => {
             let teeth = *scene.blade.teeth.get_or_insert(usual_teeth(scene));
-            // The tooth is assumed to be a triangle with the thickness of the blade and half as high as the pitch.
+            // The tooth is assumed to be a triangle as thick as the blade, with the pitch as base and half
+            // the pitch as height.
             let pitch = std::f64::consts::TAU * rim(scene) / f64::from(teeth.max(1));
             let per_area = scene.blade.material.density_kg_per_m3 * scene.blade.thickness_m;
             scene.blade.rim = Some(RimFile {
@@ -132,7 +133,7 @@ fn add_to_cut(scene: &mut SceneFile, part: &str) -> Option<()> {
         "washboarding" => {
             cut.washboarding = serde_json::from_value(typical::washboarding()).ok()?;
             scene.operating_rpm = Some(typical::operating_rpm(scene));
-            // Without damping the smallest delayed force makes some mode grow.
+            // Without damping even the smallest delayed force makes some mode grow.
             scene.damping.get_or_insert(DampingFile {
                 material_retardation_time_s: typical::RETARDATION.value,
                 ..DampingFile::default()
@@ -160,7 +161,7 @@ fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
             let rows = temperature.table.iter();
             let rows: Vec<_> = rows.map(|row| (row.radius_m, row.rise_k)).collect();
             let (radius_m, rise_k) = next_row(scene, &rows, 0.0);
-            // A table and a rise at the rim exclude each other.
+            // A scene must not have both a temperature table and a rise at the rim.
             (temperature.rim_rise_k, temperature.from_radius_m) = (None, None);
             temperature.exponent = None;
             temperature.table.push(TemperatureRow { radius_m, rise_k });

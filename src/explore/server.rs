@@ -273,7 +273,7 @@ async fn task(
 fn line_by_line(backend: Arc<Backend>, queue: Jobs, question: Question) -> Response {
     let (tell, told) = tokio::sync::mpsc::unbounded_channel();
     let job = async move {
-        // Errors are ignored, because the receiver may have closed.
+        // An error of sending is ignored, because the receiver may be closed already.
         let work = move || backend.answer(&question, move |line| drop(tell.send(line)));
         let done = queue.run(work).await.map(|answer| answer.content);
         done.and_then(|line| String::from_utf8(line).ok())

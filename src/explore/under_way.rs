@@ -44,7 +44,8 @@ impl UnderWay {
         let (stages, page_of, told) = (self.stages.clone(), page.to_owned(), self.told.clone());
         locked(&stages).insert(page_of.clone(), (number, Stage::default()));
         let progress = Progress::new(move |stage| {
-            // A cancelled computation may still report stages after the next one has started.
+            // A cancelled computation may still report stages after the next computation for the page has
+            // started.
             if let Some(latest) = locked(&stages).get_mut(&page_of)
                 && latest.0 == number
             {

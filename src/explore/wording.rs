@@ -115,7 +115,7 @@ fn converted(path: &str, allowed: &str, unit: FieldUnit) -> String {
     let si = Quantity::of(path).map_or("", |quantity| quantity.unit);
     let words: Vec<Word<'_>> = allowed.split(' ').map(Word::new).collect();
     let mut told: Vec<String> = Vec::new();
-    // The last number that has no unit yet, with its unit.
+    // `last` contains the position of the last number without a unit, and its text with the unit.
     let mut last: Option<(usize, String)> = None;
     let mut words = words.iter().peekable();
     while let Some(word) = words.next() {
@@ -143,7 +143,7 @@ fn converted(path: &str, allowed: &str, unit: FieldUnit) -> String {
         last = Some((told.len(), word.with(with_unit.trim_end())));
         told.push(word.with(&number));
     }
-    // The unit follows the last number only.
+    // The last of several numbers without a unit gets the unit.
     if let Some((at, number)) = last {
         told[at] = number;
     }

@@ -273,7 +273,7 @@ fn superscript(letter: char) -> char {
 pub fn draw_vertical(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str) {
     let apart = match axis.spread() {
         Spread::Linear => 40.0,
-        // These scales have closer ticks, so that small values get one too.
+        // Ticks on these scales are closer to each other, so that small values have ticks too.
         Spread::SignedRoot | Spread::Logarithmic => 21.0,
     };
     for tick in axis.ticks(apart) {

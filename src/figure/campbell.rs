@@ -224,7 +224,8 @@ fn verdict(report: &Report) -> String {
     let last = report.campbell.to_rpm;
     match report.flutter_speed_rpm {
         Some(rpm) => format!("flutter from {rpm:.0} rpm"),
-        // The figure shows flutter below the threshold too, so that the verdict must mention the threshold.
+        // The figure also shows flutter with growth rates below the threshold, so that the verdict must name
+        // the threshold.
         None if flutters => {
             let threshold = report.flutter_threshold_per_s;
             format!("no flutter above {threshold} 1/s up to {last:.0} rpm")

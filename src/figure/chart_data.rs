@@ -142,7 +142,7 @@ pub struct Band {
     pub colour: Hue,
     /// Kind and range of the band.
     pub label: String,
-    /// Description for the pointer: label and waves.
+    /// Text that the page shows while the mouse pointer is on the band: label and waves.
     pub name: String,
     /// Largest growth rate. If there is no room for all labels, those of the bands with the largest growth are written.
     pub peak_growth_per_s: f64,
@@ -173,7 +173,7 @@ pub struct Upright {
     pub dashed: bool,
     /// Label at the upper end; empty if there is none.
     pub label: String,
-    /// Description for the pointer.
+    /// Text that the page shows while the mouse pointer is on the line.
     pub name: String,
 }
 
@@ -206,9 +206,9 @@ pub struct Line {
     pub width: f64,
     /// Whether the curve is dashed.
     pub dashed: bool,
-    /// Description for the pointer.
+    /// Text that the page shows while the mouse pointer is on the curve.
     pub name: String,
-    /// Description of each point for the pointer, with line breaks; empty if `name` describes all of them.
+    /// Text with line breaks that the page shows for each point; empty if `name` describes all of them.
     pub said: Vec<String>,
     /// Label at the end; empty if there is none.
     pub end: String,
@@ -250,9 +250,9 @@ pub struct Points {
     pub size: f64,
     /// Whether the marks are rings.
     pub hollow: bool,
-    /// Description for the pointer.
+    /// Text that the page shows while the mouse pointer is on the points.
     pub name: String,
-    /// Description of each point for the pointer, with line breaks; empty if `name` describes all of them.
+    /// Text with line breaks that the page shows for each point; empty if `name` describes all of them.
     pub said: Vec<String>,
 }
 

@@ -133,7 +133,8 @@ fn draw_criterion(sheet: &mut Sheet, criterion: &CriterionEntry, speed: &Axis, f
         false => (ALARM, "FAIL"),
     };
     let found = criterion.found_rpm;
-    // The criterion of a band at the operating speed has no distance from a limit.
+    // The criterion `operating`, on a band at the operating speed, has no limit from which a distance could
+    // be drawn.
     let is_limit = criterion.key != "operating";
     let above = format!("{word} {}", criterion.name);
     name(sheet, frame, &above, &criterion.finding, colour);

@@ -123,7 +123,8 @@ fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis)
     };
     sheet.fill(in_cut, shade);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
-    // If the model ends during the cut, the text is on the side of that line with more room.
+    // If the model ends during the cut, a vertical line is drawn there, and the text is on the side of the
+    // line with more room.
     let end = run.ends_s().map_or(in_cut.right, |s| time.at(s));
     let end = end.clamp(in_cut.left, in_cut.right);
     let free = match end - in_cut.left < in_cut.right - end {
@@ -197,11 +198,11 @@ fn draw_verdict(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
 
 /// The largest deflection, and the growth rate of each criterion.
 fn facts(run: &CutRunEntry) -> String {
-    // A growth rate that is rounded to zero has no sign.
+    // A growth rate that is rounded to zero is written without a sign.
     let growth = |value: f64| if value.abs() < 5e-3 { 0.0 } else { value };
     let criteria = run.criteria.iter().map(|entry| {
         let name = entry.criterion;
-        // Lines are broken at ordinary spaces, and so only between criteria.
+        // Lines are broken at ordinary spaces only; no-break spaces keep each criterion on one line.
         format!("{name} {:.2}", growth(entry.growth_per_s)).replace(' ', "\u{a0}")
     });
     let with = match run.stretching {

@@ -50,7 +50,7 @@ pub fn sheet(report: &FitReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     heading::draw(&mut sheet, &report.scene.name, &facts(report));
     let last = report.curves.rpm.last().copied().unwrap_or(1.0);
-    // The axis leaves room for points at rest.
+    // The axis begins below zero, which leaves room for measured points at rest.
     let speed = Axis::linear([-0.025 * last, last], UPPER.across());
     let shown = report.residuals.iter().filter(|r| speed.shows(r.rpm));
     let shown: Vec<&ResidualEntry> = shown.collect();

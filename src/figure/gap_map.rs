@@ -138,7 +138,7 @@ impl Panel<'_> {
         let gaps_mm: Vec<f64> = gaps_mm
             .map(|factor| 1e3 * factor * report.smallest_gap_m)
             .collect();
-        // Linear guides have no place on a logarithmic axis.
+        // Linear guides have a gap of zero, which a logarithmic axis cannot show.
         let rows: Vec<usize> = (0..gaps_mm.len())
             .filter(|row| gaps_mm[*row] > 0.0)
             .collect();

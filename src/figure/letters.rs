@@ -64,7 +64,7 @@ fn advance(text: &str, em: f64, weight: Weight) -> Option<f32> {
 
 /// Width of a line of text in the unit of `em`.
 pub fn text_width(text: &str, em: f64, weight: Weight) -> f64 {
-    // Widths are truncated to sixteenths, so that rounding errors of the sum do not change them.
+    // Widths are truncated to sixteenths of the unit, so that rounding errors of the sum rarely change them.
     const FINE: f64 = 16.0;
     match advance(text, em * FINE, weight) {
         Some(width) => f64::from(width).trunc() / FINE,

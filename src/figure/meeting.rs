@@ -31,7 +31,8 @@ impl Coalescence {
             closed,
             factors: Vec::new(),
         };
-        // Near the ends both square and weight are rounding errors.
+        // Near closed ends `square` and `weight` are both almost zero, so that rounding errors dominate their
+        // ratio.
         const CLOSE: f64 = 0.01;
         for [rpm, square] in squares {
             let weight = found.weight(rpm);

@@ -35,7 +35,7 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     let membrane = report.membrane.as_ref()?;
     let heat = membrane.heat.as_ref();
     let heat = heat.filter(|heat| !heat.critical_speeds.is_empty());
-    // The report of a blade without stress has this entry if the scene contains a straight edge.
+    // The report of a blade without stress has the entry `membrane` if the scene contains a straight edge.
     if heat.is_none() && membrane.hoop_pa.iter().all(|stress_pa| *stress_pa == 0.0) {
         return None;
     }
@@ -113,7 +113,8 @@ fn draw_curves(sheet: &mut Sheet, heat: &HeatEntry, (rise, speed): (&Axis, &Axis
         length: LINE,
     });
     let labels = push_apart(labels, [SPEEDS.top, SPEEDS.bottom]);
-    // The curves of a profile with a negative peak begin at the right end.
+    // If the peak of the temperature profile is negative, the first point of a curve is the one at the right
+    // end.
     let leftwards = heat
         .critical_speeds
         .iter()
@@ -167,7 +168,8 @@ fn draw_limits(
             let at = [rise.at(k), speed.at(rpm)];
             sheet.disc(at, 4.5, colour);
             let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::End);
-            // The label is below the line of the operating speed and its label.
+            // The label of a limit at the operating speed is below the label of that speed; the label of a
+            // limit at rest is above the axis.
             let below = if rpm > 0.0 { 2.1 * LINE } else { -9.0 };
             sheet.text_on_paper([at[0] - 9.0, at[1] + below], letters, &text);
         }
@@ -184,7 +186,7 @@ fn draw_limits(
         limit(found.rise_k, 0.0, ALARM, text);
         return;
     }
-    // The curves end before this temperature, so that the text is at that side with an arrow.
+    // The temperature of buckling is beyond one end of the axis; the text is at that end and has an arrow.
     let (anchor, x, text) = match found.rise_k > 0.0 {
         true => (Anchor::End, SPEEDS.right, format!("{text} →")),
         false => (Anchor::Start, SPEEDS.left + 8.0, format!("← {text}")),

@@ -41,7 +41,7 @@ pub fn goals(map: &MapEntry) -> impl Iterator<Item = f64> {
         .filter_map(|(column, row)| map.goal_rpm[row][column])
 }
 
-/// Colours of goals, between the smallest and the largest in rpm.
+/// Colour scale for the values of the goal, from the smallest to the largest value in rpm.
 pub struct Shades {
     low: f64,
     high: f64,

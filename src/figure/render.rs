@@ -22,7 +22,8 @@ type Area<DB> = DrawingArea<DB, Shift>;
 pub fn png(sheet: &Sheet) -> Result<Vec<u8>, FigureError> {
     let (width, height) = sheet.size();
     let fine_size = (width * FINE, height * FINE);
-    // The buffer is white from the start, because filling it by plotters would take a tenth of the time.
+    // The buffer is white from the start, because filling it by plotters would take a tenth of the rendering
+    // time.
     let mut fine = vec![255; fine_size.0 as usize * fine_size.1 as usize * 3];
     {
         let area = BitMapBackend::with_buffer(&mut fine, fine_size).into_drawing_area();
@@ -59,7 +60,7 @@ fn finish_svg(text: &str, (width, height): (u32, u32), fine_size: (u32, u32)) ->
         "<svg width=\"{width}\" height=\"{height}\" stroke-linejoin=\"round\" stroke-linecap=\"butt\""
     );
     text.replacen(&drawn_size, &shown_size, 1)
-        // Without this, the paper would be visible between areas with a common edge.
+        // Without crisp edges, the paper would be visible between areas with a common edge.
         .replace("<polygon ", "<polygon shape-rendering=\"crispEdges\" ")
         .replace("dy=\"0.76em\"", "dy=\"0.62em\"")
         .replace("font-weight=\"bold\"", "font-weight=\"600\"")
@@ -71,7 +72,8 @@ fn pack(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, FigureError> 
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    // Files are half as large again as with the best compression, and each figure is some hundredths of a second faster.
+    // Files are 1.5 times as large as with the best compression, but each figure is written some hundredths
+    // of a second faster.
     encoder.set_compression(png::Compression::Fast);
     let mut writer = encoder.write_header()?;
     writer.write_image_data(pixels)?;
@@ -210,8 +212,8 @@ where
     DB: DrawingBackend,
     DB::ErrorType: 'static,
 {
-    // In a bitmap plotters places the baseline 0.62 em below the upper anchor; `finish_svg` sets the same distance in
-    // the SVG.
+    // In a bitmap, `Written` draws the baseline 0.62 em below the upper anchor; `finish_svg` sets the same
+    // distance in the SVG.
     let above = 0.62 * lettering.em;
     let horizontal = match lettering.anchor {
         Anchor::Start => HPos::Left,

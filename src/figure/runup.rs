@@ -66,7 +66,8 @@ fn draw_record(sheet: &mut Sheet, report: &RunUpReport, speed: &Axis, deflection
         .flat_map(|(column, [low, high])| {
             let x = PANEL.left + column as f64;
             let ends = [[x, deflection.at(low)], [x, deflection.at(high)]];
-            // Strokes alternate in direction, because their ends are connected.
+            // The strokes of neighbouring columns alternate in direction, because one line connects all of
+            // them.
             match column % 2 == 0 {
                 true => ends,
                 false => [ends[1], ends[0]],

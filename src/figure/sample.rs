@@ -290,7 +290,7 @@ pub fn root_loci(drift: f64) -> RootLociEntry {
         peak * square.abs().sqrt()
     };
     let path = |name: &str, side: f64| {
-        // The frequencies of the two modes have another order above the band than below.
+        // The mode with the higher frequency below the band has the lower frequency above it.
         let turned = |rpm: f64| if rpm < middle { side } else { -side };
         let hz = |&rpm: &f64| {
             let mean = 6.0 + drift * (rpm - middle);

@@ -41,7 +41,8 @@ pub fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
     draw_axes(&mut sheet, &error, &time);
     draw_front(&mut sheet, settings, &error, &time);
     draw_key(&mut sheet);
-    // The labels cover the dashed lines of the accuracies, but not the dots, so that their ground is drawn before these.
+    // The labels cover the dashed lines of the accuracies, but not the dots, so that the background of the
+    // labels is drawn before the dots.
     for (at, letters, label) in labels(settings, &error, &time) {
         sheet.fill(text_frame(at, &letters, &label), PAPER);
     }
@@ -77,8 +78,8 @@ fn labels(settings: &[Setting], error: &Axis, time: &Axis) -> Vec<([f64; 2], Let
         let [x, y] = place(setting, error, time);
         let (colour, _) = look(setting.method);
         let letters = Lettering::regular(LABEL_SIZE, tint(colour, 0.8), Anchor::Middle);
-        // Settings with the same basis and other numbers of speeds may have dots close by: the label is above the
-        // highest of them.
+        // The dots of settings with the same basis and other numbers of speeds may be close to this dot: the
+        // label is above the highest of them.
         let alike = settings
             .iter()
             .filter(|s| s.method == setting.method && s.functions == setting.functions);

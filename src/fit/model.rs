@@ -102,7 +102,7 @@ impl Model<'_> {
         shares: &[f64],
         k: usize,
     ) -> Result<Vec<GyroscopicSystem>, SceneError> {
-        // Values beyond a bound may be refused, so differences are one-sided there.
+        // Values beyond the bounds may be refused, so that the differences near a bound are one-sided.
         let differences = match shares[k] {
             share if share < 2.0 * STEP => Differences::Above,
             share if share > 1.0 - 2.0 * STEP => Differences::Below,
@@ -146,7 +146,7 @@ fn slope_hz(
         change,
     );
     let slope = moved.im / TAU;
-    // Where two modes coalesce the slope is infinite and cannot be used.
+    // The slope is infinite where two modes coalesce, and is replaced by zero.
     if slope.is_finite() { slope } else { 0.0 }
 }
 

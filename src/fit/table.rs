@@ -112,7 +112,7 @@ impl Separator {
                 }
             }
         }
-        // Some spreadsheets write a first line such as "sep=;".
+        // Some spreadsheets write a first line such as "sep=;", which contains no data.
         let blank = |record: &Record| record.cells.is_empty();
         let hint = |record: &Record| record.cells[0].starts_with("sep=");
         records.retain(|record| !blank(record) && !hint(record));
@@ -179,7 +179,7 @@ impl Header {
             let small = name.to_lowercase();
             let foreign = ["rad/s", "khz", "krpm", "1/s", "rps", "rev/s", "(ms)", "[s]"];
             let other = foreign.iter().any(|unit| small.contains(unit));
-            // A whole word is required, since "Drehzahl" contains "zahl".
+            // The unit must be a whole word, since "Drehzahl" contains "hz".
             let mut words = small.split(|c: char| !c.is_alphanumeric());
             let in_hz = column == speed && words.any(|word| word == "hz");
             if other || in_hz {

@@ -314,7 +314,8 @@ impl<'a> Balance<'a> {
             for term in self.terms.iter().filter(|term| !term.is_smooth) {
                 term.force.add_stiffness(&at, &mut stiffness);
             }
-            // (2/Δ + D + K Δ/2) v̄ = 2v₀/Δ − K q₀, q₁ = q₀ + Δ v̄, v₁ = 2v̄ − v₀.
+            // With the step Δ, D = `velocity`, K = `stiffness` and the mean velocity v̄, a step solves
+            // (2/Δ + D + K Δ/2) v̄ = 2v₀/Δ − K q₀ and sets q₁ = q₀ + Δ v̄, v₁ = 2v̄ − v₀.
             let mut left = &self.velocity + Scale(0.5 * step_s) * &stiffness;
             (0..order).for_each(|i| left[(i, i)] += 2.0 / step_s);
             let (q, v) = (state.subrows(0, order), state.subrows(order, order));

@@ -35,7 +35,7 @@ pub(super) fn rises_k(blade: &Blade, cooling: &Cooling, sources: &[(f64, f64)]) 
         (vec![0.0; nodes], vec![0.0; nodes], vec![0.0; nodes]);
     for k in 0..nodes - 1 {
         let width = radii[k + 1] - radii[k];
-        // Two Gauss points integrate the linear functions and the radius exactly.
+        // Two Gauss points integrate the product of two linear functions and the radius exactly.
         for share in [0.5 - 0.5 / 3f64.sqrt(), 0.5 + 0.5 / 3f64.sqrt()] {
             let r = radii[k] + share * width;
             let weight = 0.5 * width * TAU * r;
@@ -55,7 +55,7 @@ pub(super) fn rises_k(blade: &Blade, cooling: &Cooling, sources: &[(f64, f64)]) 
         load[element] += (1.0 - share) * power_w;
         load[element + 1] += share * power_w;
     }
-    // Elimination of a tridiagonal, positive definite matrix.
+    // The system is tridiagonal and positive definite, and is solved by elimination without pivoting.
     for k in 1..nodes {
         let factor = beside[k - 1] / diagonal[k - 1];
         diagonal[k] -= factor * beside[k - 1];

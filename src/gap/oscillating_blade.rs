@@ -130,7 +130,7 @@ impl OscillatingBlade {
             for part in parts {
                 let shape = Col::from_fn(found.nrows(), |i| part(found[i]));
                 let norm = shape.norm_l2();
-                // The imaginary part of an undamped response is rounding.
+                // The imaginary part of an undamped response consists of rounding errors and is omitted.
                 if norm.is_finite() && norm > 1e-9 * found.norm_l2() {
                     further.push(faer::Scale(1.0 / norm) * shape);
                 }

@@ -67,7 +67,7 @@ fn segments(rows: &[Vec<Option<f64>>], level: f64) -> Vec<Segment> {
             }
         }
     }
-    // A level through a corner also gives segments without length, which would end lines there.
+    // A level through a corner also gives segments of length zero, at which a line would end.
     segments.retain(|[a, b]| a != b);
     segments
 }
@@ -80,7 +80,8 @@ fn cell(corners: [f64; 4], [x, y]: [f64; 2], level: f64, segments: &mut Vec<Segm
     for k in 0..4 {
         let next = (k + 1) % 4;
         if above[k] != above[next] {
-            // Both cells at an edge compute its crossing from the same end, so that it has the same bits.
+            // The two cells at an edge compute the crossing from the same corner, so that both obtain the
+            // same bits.
             let (from, to) = match k < 2 {
                 true => (k, next),
                 false => (next, k),
@@ -93,7 +94,7 @@ fn cell(corners: [f64; 4], [x, y]: [f64; 2], level: f64, segments: &mut Vec<Segm
     }
     match crossings[..] {
         [a, b] => segments.push([a, b]),
-        // A saddle: the mean of the corners decides which of them are joined.
+        // At a saddle, the mean of the corner values decides which crossings are joined.
         [a, b, c, d] => {
             let mean = 0.25 * corners.iter().sum::<f64>();
             match (mean > level) == above[0] {

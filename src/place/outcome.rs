@@ -67,7 +67,7 @@ impl Question {
         let lowest = critical_rad_per_s.first().copied();
         let short = match (self.min_critical_rad_per_s, lowest) {
             (Some(asked), Some(found)) => (1.0 - found / asked).max(0.0),
-            // A blade without critical speed keeps every limit.
+            // A blade without a critical speed satisfies every lower limit of the first critical speed.
             _ => 0.0,
         };
         let limit = self

@@ -263,7 +263,8 @@ impl CostFunction for Boxed<'_> {
 
     fn cost(&self, shares: &Vec<f64>) -> Result<f64, Infallible> {
         let least = || self.least.lock().unwrap_or_else(PoisonError::into_inner);
-        // A cost above the smallest one may be inexact, because direct search only compares the two.
+        // A cost above `limit`, the smallest cost so far, may be inexact, because the direct search only
+        // compares it with the smallest one.
         let limit = *least();
         let cost = worst_cost(self.search, shares, limit);
         *least() = limit.min(cost);

@@ -92,7 +92,8 @@ impl InPlaneField {
         for &(radius, force) in load.circle_n {
             right[components * elements.node_at_edge(radius)] += force;
         }
-        // A translation causes no strain, so one node is fixed. Its reaction is zero if the loads balance.
+        // A translation, of order 1, causes no strain, so that one displacement is fixed; its reaction is
+        // zero if the loads balance. A fixed bore has u(a) = 0.
         if order == 1 || load.bore_is_fixed {
             stiffness.fix(0);
             right[0] = 0.0;

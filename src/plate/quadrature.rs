@@ -16,7 +16,8 @@ pub fn panel_edges_m(blade: &Blade, knots_m: &[f64]) -> Vec<f64> {
     edges.extend(knots_m.iter().filter(|r| a < **r && **r < b));
     edges.sort_by(f64::total_cmp);
     edges.dedup_by(|next, kept| *next - *kept < MERGED * b);
-    // A knot just inside the rim replaces it when both are merged.
+    // If a knot just inside the rim is merged with the rim, the list contains the knot, which the rim
+    // replaces.
     *edges.last_mut().expect("a ring has edges") = b;
     edges
 }

@@ -314,7 +314,7 @@ fn knot_powers(blade: &Blade) -> Vec<(f64, i32)> {
     let steps = blade.knots_m().into_iter().map(|r| (r, &AT_STEP[..]));
     let teeth = blade.rim.map(|rim| (rim.radius_m, &AT_MASS[..]));
     let mut kept: Vec<(f64, &[i32])> = Vec::new();
-    // Steps come first: of a step and a circle of teeth that are close to each other, the step is kept.
+    // Steps are added first, so that a step is kept and a circle of teeth close to it is omitted.
     for (radius, powers) in steps.chain(teeth) {
         let alone = kept
             .iter()

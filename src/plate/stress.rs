@@ -78,7 +78,8 @@ impl CentrifugalStress {
         let (p, q) = ((3.0 + nu) / 8.0, (1.0 + 3.0 * nu) / 8.0);
         let inverse_m4 = match blade.bore {
             Bore::Free | Bore::Clamped(InPlane::Free) => p * aa * bb,
-            // u(a) = 0 means σ_θθ = ν σ_rr there; σ_rr(b) = 0 gives A = B/b² + p b².
+            // The fixed bore, u(a) = 0, requires σ_θθ = ν σ_rr at a, and the free rim, σ_rr(b) = 0, requires
+            // A = B/b² + p b².
             Bore::Clamped(InPlane::Fixed) => {
                 ((1.0 - nu * nu) * aa / 8.0 - (1.0 - nu) * p * bb)
                     / ((1.0 - nu) / bb + (1.0 + nu) / aa)

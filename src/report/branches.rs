@@ -150,8 +150,8 @@ impl<'a> Numbered<'a> {
         });
         let candidates: Vec<_> = candidates.collect();
         let best = candidates.iter().map(|c| c.0).fold(0.0, f64::max);
-        // The two waves of a harmonic of a free blade have the same shape; the one that stands still has zero
-        // frequency.
+        // The two waves of a harmonic of a blade without guides have the same shape; near the critical speed
+        // the one that stands still has the smaller frequency.
         let alike = candidates.iter().filter(|c| c.0 >= ALIKE * best);
         let found =
             alike.min_by(|x, y| x.1.mode.lambda.norm().total_cmp(&y.1.mode.lambda.norm()))?;
@@ -216,7 +216,7 @@ impl BranchName {
         let campbell = &analysis.chart.campbell;
         let point = branch.points[naming_point(analysis, branch)];
         let name = &campbell.mode(point).name;
-        // With guides, modes at rest are standing waves.
+        // With guides, modes at rest are standing waves, which have no direction.
         let at_rest = campbell.samples[point.0].speed_rad_per_s == 0.0;
         let direction = match name.direction.on_blade() {
             _ if at_rest => None,

@@ -100,7 +100,8 @@ fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLociEnt
         .instabilities
         .iter()
         .find(|b| b.from_rad_per_s == onset)?;
-    // The name of an event lists reflected waves first, but the path of the reflected mode is the second one.
+    // The names are reversed, because an event lists reflected waves first, while the path of the reflected
+    // mode is the second one.
     let waves = branches
         .event(band)
         .into_iter()

@@ -238,8 +238,8 @@ impl CutRunEntry {
         let transient_verdict = history.fitted.map(|fitted| of(fitted.growth_per_s));
         let criteria = criteria(scene, computed);
         let (growth, decided_by) = worst(&criteria);
-        // With stretching, the record determines the deflection; moving loads are computed by the linear
-        // model only.
+        // With stretching, only the record decides whether the blade leaves the model, because moving loads
+        // are computed by the linear model only.
         let leaves_model = match &history.stretched {
             Some(found) => found.valid_until_s.is_some(),
             None => history.linear_until_s.is_some() || passing.passing_deflection_m.is_none(),

@@ -132,7 +132,7 @@ fn of_band(
     band: &Instability,
 ) -> Result<Option<EventShapeEntry>, SpectrumError> {
     let (model, speed) = (&analysis.model, band.peak_rad_per_s);
-    // In a band of divergence λ is real; a pair with larger growth may exist beside it.
+    // In a band of divergence λ is real, but a complex pair with larger growth may exist at the same speed.
     let is_of_band = |mode: &Mode| match band.kind {
         InstabilityKind::Divergence => mode.lambda.im == 0.0,
         InstabilityKind::Flutter => mode.lambda.im != 0.0,
@@ -170,7 +170,7 @@ fn at_speed(
 ) -> Result<Vec<EventShapeEntry>, SpectrumError> {
     let model = &analysis.model;
     let modes = model.describe(speed_rad_per_s, model.modes(speed_rad_per_s)?);
-    // The decaying partner of a flutter mode, λ = −σ + iω, is not shown separately.
+    // The mirror image λ = −σ + iω of a flutter mode λ = σ + iω is not shown separately.
     let modes = modes
         .iter()
         .filter(|found| found.mode.kind != ModeKind::Decaying);
@@ -269,7 +269,7 @@ impl EventShapeEntry {
         let Some([re, im]) = largest.filter(|value| square(*value) > 0.0) else {
             return;
         };
-        // Division by the largest value gives 1.
+        // Every deflection is divided by the largest deflection re + i·im, which thereby becomes 1.
         let size = square([re, im]);
         let (re, im) = (re / size, -im / size);
         for wave in &mut self.harmonics {

@@ -97,7 +97,7 @@ pub struct OscillationPlaceEntry {
     pub phase_deg: Vec<f64>,
 }
 
-/// A pad over a period.
+/// Forces and contact of a pad over one period of the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OscillationPadEntry {

@@ -115,10 +115,10 @@ pub struct PlacedEntry {
     pub at_bound: bool,
     /// Tolerance of production, the deviation for the next two values.
     pub offset: f64,
-    /// Goal if the number is smaller by this amount; null if there is no such saw or it could not be
-    /// computed.
+    /// Value of the goal if the number is smaller by `offset`; null if there is no such saw or the goal could
+    /// not be computed.
     pub less_rpm: Option<f64>,
-    /// Goal if the number is larger by this amount.
+    /// Value of the goal if the number is larger by `offset`; null in the same cases.
     pub more_rpm: Option<f64>,
 }
 

@@ -152,7 +152,8 @@ impl ResponseReport {
             .collect();
         let board = found.board_deviation_m();
         let operating = scene.file().operating_rpm.and_then(|asked| {
-            // The conversion of speeds to rad/s and back has a rounding error.
+            // The speeds were converted to rad/s and back, so that they agree with the operating speed only
+            // up to rounding.
             let is_same = |rpm: &f64| (rpm / asked - 1.0).abs() < 1e-9;
             let place = rpm_of.iter().position(is_same)?;
             Some(OperatingResponseEntry {

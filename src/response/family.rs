@@ -57,7 +57,8 @@ pub fn readings(
     let factor = factor_at_rest(system)?;
     let mut found: Vec<Option<Vec<c64>>> = vec![None; states.len()];
     let mut vectors: Vec<Col<c64>> = Vec::new();
-    // The basis for few states spans nearly all solutions at the others.
+    // A coarse selection of the states comes first, because a basis for them represents nearly all solutions
+    // at the other states.
     let stride = states.len().div_ceil(COARSE).max(1);
     let (coarse, others): (Vec<usize>, Vec<usize>) =
         (0..states.len()).partition(|k| k.is_multiple_of(stride));
@@ -102,7 +103,8 @@ pub fn readings(
                 }
             }
             left = worst.iter().map(|(k, _)| *k).collect();
-            // The states to solve are far apart, because neighbours need the same directions.
+            // The states to solve next are far apart, because the solutions of neighbouring states are
+            // similar.
             asked = spread(worst.len(), MORE.max(worst.len() / SHARE))
                 .into_iter()
                 .map(|place| worst[place].0)

@@ -119,7 +119,7 @@ impl Options {
     /// # Errors
     /// [`RefusedValue`].
     pub fn checked(&self) -> Result<(), RefusedValue> {
-        // Zero is allowed, because at rest the response is that of a tap test.
+        // A speed of zero is allowed, because at rest the response is that of a tap test.
         if let Some(rpm) = self.rpm.filter(|rpm| *rpm != 0.0) {
             speed_rad_per_s("rpm", rpm)?;
         }
@@ -270,7 +270,7 @@ fn resonances(analysis: &Analysis, order: u32) -> Result<Vec<f64>, SpectrumError
     };
     speeds.retain(|speed| (from..=to).contains(speed));
     speeds.sort_by(f64::total_cmp);
-    // The waves of a free blade are double.
+    // Two waves of a free blade, cos nθ and sin nθ, have the same critical speed, which is kept once.
     speeds.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * *b);
     Ok(speeds)
 }

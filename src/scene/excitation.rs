@@ -61,7 +61,7 @@ impl ExcitationLine {
                 order: multiple.saturating_mul(teeth),
                 tooth_passing: Some(multiple),
             });
-            // A line that is given in both ways is listed as a multiple of tooth passing.
+            // A line whose order is also a multiple of tooth passing is listed only as this multiple.
             let multiples: Vec<Self> = multiples.collect();
             lines.retain(|line| multiples.iter().all(|other| other.order != line.order));
             lines.extend(multiples);

@@ -94,7 +94,8 @@ impl Guide {
         match self.shape {
             GuideShape::Rectangle => radii.extend([b, near.hypot(b), far.hypot(b)]),
             GuideShape::Round => {
-                // The distance of the point (c + a cos t, b sin t) is stationary at cos t = u off the centre line.
+                // The edge of the pad consists of the points (c + a cos t, b sin t). Their distance from the
+                // axis is stationary at sin t = 0 and at cos t = u.
                 let u = c * a / (b * b - a * a);
                 if u.abs() < 1.0 {
                     radii.push((c * c + b * b + c * a * u).sqrt());

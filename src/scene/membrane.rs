@@ -200,7 +200,7 @@ impl Temperature {
 fn rim_shape(typed: &TemperatureFile, blade: &Blade) -> Result<TemperatureShape, SceneError> {
     let from_radius_m = typed.from_radius_m.unwrap_or(blade.inner_radius_m);
     let outer = blade.outer_radius_m;
-    // Beyond this radius the rise is nearly a jump at the rim.
+    // A rise that begins beyond 0.999 of the radius of the rim would be nearly a jump.
     if !(0.0..=0.999 * outer).contains(&from_radius_m) {
         let allowed = format!(
             "from 0 to 0.999 of the radius of the rim ({})",
@@ -240,7 +240,7 @@ fn table(typed: &TemperatureFile, blade: &Blade) -> Result<(f64, TemperatureShap
     let peak = Profile::new(&rows).map_or(0.0, |profile| {
         profile.peak(blade.inner_radius_m, blade.outer_radius_m)
     });
-    // Division by a much smaller peak would overflow.
+    // Division by a peak far below `MIN_RISE_K` could overflow, so a peak below this limit is taken as zero.
     let peak = if peak.abs() < MIN_RISE_K { 0.0 } else { peak };
     let share = if peak == 0.0 { 0.0 } else { 1.0 / peak };
     rows.iter_mut().for_each(|(_, rise)| *rise *= share);

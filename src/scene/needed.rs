@@ -114,7 +114,7 @@ impl SpeedRange {
     pub fn speed_at(&self, key: &str, rpm: f64) -> Result<f64, RefusedValue> {
         let speed = rad_per_s(rpm);
         let (from, to) = (self.from_rad_per_s, self.to_rad_per_s);
-        // Conversion from rpm must not exclude the ends of the sweep.
+        // Rounding in the conversion from rpm must not exclude the ends of the sweep.
         if from <= speed * (1.0 + 1e-12) && speed * (1.0 - 1e-12) <= to {
             return Ok(speed);
         }

@@ -57,7 +57,8 @@ impl Profile {
                 let (start, end) = (self.at(low), self.at(high));
                 let signs_differ = start * end < 0.0;
                 let mean = match signs_differ {
-                    // The value passes through zero between the ends, so that the area consists of two triangles.
+                    // The profile f changes its sign between the ends, so that the area under |f| consists of
+                    // two triangles.
                     true => (start * start + end * end) / (start - end).abs(),
                     false => (start + end).abs(),
                 };

@@ -140,7 +140,7 @@ fn force(hoop_pa: &Profile, blade: &Blade, from: f64) -> f64 {
     if blade.profile.is_none() {
         return hoop_pa.integral(from, to);
     }
-    // Thickness and stress are linear between these radii, so that two Gauss points are exact.
+    // Thickness and stress are linear between the radii `ends`, so that two Gauss points are exact.
     let mut ends = [blade.edges_m(), hoop_pa.knots_m().to_vec()].concat();
     ends.retain(|r| from < *r && *r < to);
     ends.extend([from, to]);

@@ -70,7 +70,8 @@ pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
     if unit.is_empty() {
         return Ok(value);
     }
-    // A change in percent needs the number of the scene, which is not known here; +5% of a share would be 0.05.
+    // A change in percent needs the present number, which is not known here. Without this check, +5% of a
+    // dimensionless number would be read as 0.05.
     if unit == "%" && (text.starts_with('+') || !quantity.unit.is_empty()) {
         return Err(refused(
             "give the new number itself, not its change in percent",
@@ -82,8 +83,8 @@ pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
     let own = Unit::parse(quantity.unit).filter(|own| own.is_of(&given));
     let own = own.ok_or_else(|| refused("give a unit of this quantity, or leave the unit out"))?;
     let factor = given.factor / own.factor;
-    // Division by a whole number is correctly rounded, unlike multiplication by its reciprocal: 2.6 mm are
-    // exactly 0.0026 m.
+    // Division by a whole number is correctly rounded, unlike multiplication by its reciprocal, so that
+    // 2.6 mm give the same number as 0.0026 m.
     Ok(match factor < 1.0 {
         true => value / (own.factor / given.factor),
         false => value * factor,

@@ -107,7 +107,7 @@ impl Spline {
                 typed.contact_damping_n_s_3_2_per_m_3_2,
                 (0.0, MAX_CONTACT),
             )?,
-            // With a gap wider than the bore radius the blade would fall off the arbor.
+            // With a clearance above the radius of the bore the blade would fall off the arbor.
             clearance_m: within("spline.clearance_m", typed.clearance_m, (0.0, bore))?,
             pitch_radius_m: within(
                 "spline.pitch_radius_m",

@@ -283,7 +283,7 @@ impl Blade {
     /// Integral ∫ r^p dm over the plate, p = 0 or 2: three Gauss points are exact between edges.
     fn mass_moment(&self, power: i32) -> f64 {
         if self.profile.is_none() {
-            // The closed form has no rounding error of a quadrature.
+            // For constant thickness the closed form avoids the rounding errors of the quadrature.
             let (a, b) = (self.inner_radius_m, self.outer_radius_m);
             let mass = self.mass_per_area_kg_per_m2() * PI * (b - a) * (b + a);
             return if power == 0 {

@@ -91,7 +91,8 @@ impl Unit {
         let words: Vec<&str> = text.split_whitespace().collect();
         let ends = |word: &str| word.ends_with(SIGNS);
         let begins = |word: &str| word.starts_with(SIGNS);
-        // A blank does not multiply, because `m s` would be read as milliseconds.
+        // Two units that only a blank separates are refused: without the blank, `m s` would be read as
+        // milliseconds.
         if (words.windows(2)).any(|pair| !ends(pair[0]) && !begins(pair[1])) {
             return None;
         }
@@ -179,7 +180,7 @@ fn exponent(rest: &mut &str) -> Option<f64> {
     let marked = rest.strip_prefix('^').or_else(|| rest.strip_prefix("**"));
     *rest = marked.unwrap_or(rest);
     if let Some(inner) = rest.strip_prefix('(') {
-        // A bracket is an exponent only after a mark; otherwise it is a factor.
+        // A bracket without `^` or `**` before it is not an exponent, so that a unit like `m(2)` is refused.
         marked?;
         let (fraction, after) = inner.split_once(')')?;
         *rest = after;

@@ -211,7 +211,7 @@ impl Unusual {
         } else {
             " "
         };
-        // Digits that result from the conversion alone are dropped.
+        // Seven digits hide the rounding error of a conversion of units.
         format!("{}{space}{}", shown_to(7, value), self.unit)
     }
 }

@@ -54,7 +54,7 @@ pub fn lowest_eigenpairs(
     };
     let failed = |_| SpectrumError::no_convergence(2 * system.order(), speed_rad_per_s);
     let mut pairs = found.map_err(failed)?;
-    // Free rigid motions are known exactly; these pairs are their approximations.
+    // The pairs removed here approximate the free rigid motions, which are known exactly.
     pairs.retain(|(lambda, _)| lambda.norm() >= rigid_noise(system));
     Ok(pairs)
 }
@@ -145,7 +145,7 @@ impl Krylov {
             let mut next = operator.apply(self.vectors.col(k));
             let size = next.norm_l2();
             let span = self.vectors.subcols(0, k + 1);
-            // One orthogonalization is not enough if most of the vector lies in the span.
+            // A single orthogonalization leaves rounding errors if most of the vector lies in the span.
             for _ in 0..2 {
                 let shares = span.transpose() * &next;
                 next -= span * &shares;
@@ -155,8 +155,8 @@ impl Krylov {
                 operator.clear(span, &mut next);
             }
             let rest = next.norm_l2();
-            // The product of the operator and the last vector lies in the span: its column of the Hessenberg
-            // matrix is complete and belongs to the invariant subspace.
+            // If hardly anything of the new vector remains, it lies in the span: column k of the Hessenberg
+            // matrix is complete, and the span is invariant.
             self.exhausted = rest.is_nan() || rest <= BREAKDOWN * size;
             if !self.exhausted {
                 self.hessenberg[(k + 1, k)] = rest;

@@ -74,7 +74,7 @@ impl Deflation {
 /// Combinations of the z for which every zᵀDz′ vanishes.
 fn displacements_without_momentum(free: &[Col<f64>], momentum: &[Col<f64>]) -> Mat<f64> {
     let count = free.len();
-    // Row i is the momentum i of each displacement.
+    // Element (i, k) is the product of momentum i and displacement k.
     let coupled =
         nalgebra::DMatrix::from_fn(count, count, |i, k| momentum[i].transpose() * &free[k]);
     let size = momentum.iter().fold(0.0_f64, |top, m| top.max(m.norm_l2()));

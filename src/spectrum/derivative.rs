@@ -60,7 +60,8 @@ pub fn of_all_with_speed(
         let k = column;
         column += width(*lambda);
         if lambda.im > 0.0 {
-            // With the rows a and b of X⁻¹ the left vector of re + i·im is (a − ib)/2.
+            // Columns k and k + 1 of the matrix X = `states` are the real and the imaginary part of a vector.
+            // With the rows a and b of X⁻¹ at the same indices, its left vector is (a − ib)/2.
             let re = slopes[(k, k)] + slopes[(k + 1, k + 1)];
             c64::new(re, slopes[(k, k + 1)] - slopes[(k + 1, k)]) * 0.5
         } else {
@@ -83,8 +84,8 @@ pub fn next_to(
         system.velocity_at(speed_rad_per_s),
     );
     let transposed = velocity.transpose().to_owned();
-    // The iteration must not start orthogonal to the vector that it has to find. No mode of a blade is orthogonal
-    // to these numbers.
+    // The iteration must not start orthogonal to the vector that it has to find. These cosines are unrelated
+    // to the shapes, so that practically no mode is orthogonal to them.
     let start = Col::from_fn(system.order(), |i| c64::new((1.0 + i as f64).cos(), 0.0));
     let (mut lambda, mut x, mut y) = (expected, start.clone(), start);
     for step in 0..NEWTON_STEPS {

@@ -54,7 +54,8 @@ impl EventName {
             lost.max(0.0)
         };
         let amplitude = |wave: &Wave| square(&wave.forward) + square(&wave.backward);
-        // At rest there is no softening by rotation, and follower loads need none.
+        // Rotation softens no wave at rest, and an event caused by follower loads may have no softened wave.
+        // The weights are then squared amplitudes.
         let is_softened = speed_rad_per_s > 0.0 && waves.iter().any(|wave| softened(wave) > 0.0);
         let weight = |wave: &Wave| match is_softened {
             true => softened(wave),

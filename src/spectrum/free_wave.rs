@@ -25,7 +25,8 @@ pub fn eigenpairs(
     speed_rad_per_s: f64,
 ) -> Result<Vec<Eigenpair>, SpectrumError> {
     let radial = plate.basis.count();
-    // The first radial function is the rigid motion, which nothing couples to the others.
+    // If the blade has rigid motions, the first radial function for n ≤ 1 is a rigid motion, which is not
+    // coupled to the other functions.
     let rigid = usize::from(plate.basis.has_rigid_motions() && n <= 1);
     let stiffness = plate.harmonics[n].body_frame_stiffness(speed_rad_per_s);
     let elastic = stiffness.get(rigid.., rigid..).to_owned();

@@ -44,7 +44,7 @@ pub fn singular_multiples(
     let eigen = SelfAdjointEigen::new(whitened.as_ref(), Side::Lower)
         .map_err(|_| SpectrumError::NoConvergence { order, rpm: 0.0 })?;
     let noise = 1e-14 * whitened.norm_l2();
-    // Multiples are the inverses of these eigenvalues, the largest of which comes last.
+    // The multiples m are the inverses of the positive eigenvalues, which ascend.
     let places: Vec<usize> = (0..order).rev().filter(|&i| eigen.S()[i] > noise).collect();
     let mut shapes = Mat::from_fn(order, places.len(), |i, k| eigen.U()[(i, places[k])]);
     solve_upper_triangular_in_place(lower.transpose(), shapes.as_mut(), Par::Seq);

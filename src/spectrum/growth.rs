@@ -21,7 +21,7 @@ pub fn eigenvalues(
     let order = state.nrows();
     let failed = |_| SpectrumError::no_convergence(order, speed_rad_per_s);
     let values = real_eigenvalues(state.as_ref()).map_err(failed)?;
-    // A maximum would ignore NaN.
+    // A value that is NaN must be refused here, because the maximum of the growth rates would ignore it.
     if !values.iter().all(|value| value.is_finite()) {
         return Err(SpectrumError::not_finite(order, speed_rad_per_s));
     }

@@ -185,7 +185,8 @@ impl<'a> Builder<'a> {
                 let height = chart_height(&lambdas, is_conservative).unwrap_or(scale);
                 return Ok((height, Snapshot { speed, pairs }));
             }
-            // Modes that decay without oscillating are not drawn but are among the computed ones.
+            // Modes that decay without oscillation are not drawn but are among the computed ones, so that
+            // more modes must be computed.
             count *= 2;
         }
     }

@@ -139,7 +139,8 @@ fn isotropic(square: &Mat<f64>) -> Option<(Mat<f64>, Mat<f64>)> {
     let cancellation = Cancellation::current();
     let order = square.nrows();
     let half = order / 2;
-    // The columns are v₁, Jv₁, v₂, Jv₂, …, to all of which a new vector is made orthogonal.
+    // The columns of `span` are v₁, Jv₁, v₂, Jv₂, … with the columns vₖ of V. Each new column of V is made
+    // orthogonal to all of them.
     let mut span = Mat::<f64>::zeros(order, 2 * half);
     let mut compressed = Mat::<f64>::zeros(half, half);
     let mut next = scattered(order, 0);

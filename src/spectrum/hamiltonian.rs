@@ -117,7 +117,8 @@ impl HamiltonianReduction {
         if singular {
             return None;
         }
-        // For two modes only [`HamiltonianReduction::pair_invariants`] is needed.
+        // A model of two modes needs no canonical basis, because [`HamiltonianReduction::pair_invariants`]
+        // does not use one.
         let canonical = match form.nrows() > ORDER_OF_TWO_MODES {
             true => canonical_basis(form),
             false => None,

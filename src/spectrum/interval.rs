@@ -85,7 +85,8 @@ pub(super) fn states_between(
     window_rad_per_s: f64,
 ) -> Option<HamiltonianReduction> {
     let system = &projection.reduced;
-    // Two ends do not represent the momentum of free rigid motions, which depends on the speed.
+    // The modes at two speeds do not represent the momentum of free rigid motions, which depends on the
+    // speed.
     if !system.is_conservative() || !system.free_rigid.is_empty() {
         return None;
     }

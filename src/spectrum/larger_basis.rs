@@ -92,7 +92,8 @@ impl LargerBasis {
                 let turned = Scale(c64::new(speed_rad_per_s, 0.0))
                     * real_times(&component.full.gyroscopic, q);
                 let on_blade = (Scale(lambda) * q + &turned).norm_l2();
-                // (ω + Ωγ)‖q‖, γ = −i qᴴGq/qᴴq.
+                // The slope is |ω + Ωγ| ‖q‖ with ω = Im λ, the rotation speed Ω, the gyroscopic matrix G and
+                // γ = −i qᴴGq/qᴴq.
                 let drift: c64 = q.adjoint() * &turned;
                 let slope = (lambda.im * q.norm_l2() + drift.im / q.norm_l2()).abs();
                 if slope > LEAST_SLOPE * on_blade {

@@ -61,8 +61,8 @@ pub fn matrix_slopes<E>(
         }
     }
     let combined = terms.iter_mut().map(|terms| {
-        // If a step of the thickness leaves the ring, the functions at the step vanish and the matrices have
-        // another order. The derivative is then taken as zero.
+        // If a variation moves a step of the thickness out of the moving ring, the basis functions at this
+        // step vanish and the matrices have another order. The derivative is then taken as zero.
         let order = terms.first().map(|(_, system)| system.order());
         if terms
             .iter()

@@ -89,11 +89,13 @@ impl ModePair {
         let stiffness = system.stiffness_at(speed_rad_per_s);
         let velocity = system.velocity_at(speed_rad_per_s);
         let damping = Mat::from_fn(order, order, |i, k| c64::new(velocity[(i, k)], 0.0));
-        // The shifts differ slightly from the eigenvalues, so that L is not exactly singular.
+        // The shifts differ slightly from the eigenvalues, so that the dynamic stiffness is not exactly
+        // singular.
         let shifts = lambdas.map(|lambda| lambda * (1.0 + 1e-9));
         let factors = |shift: c64| dynamic_stiffness(&stiffness, &velocity, shift).partial_piv_lu();
         let first = factors(shifts[0]);
-        // Without damping L(−λ̄) is L(λ)ᴴ.
+        // Without damping the dynamic stiffness L satisfies L(−λ̄) = L(λ)ᴴ, so that one factorization serves
+        // both shifts.
         let are_mirrored = system.is_conservative() && shifts[1] == -shifts[0].conj();
         let second = (!are_mirrored).then(|| factors(shifts[1]));
         let solve = |which: usize, load: Mat<c64>| match (which, &second) {
@@ -104,7 +106,8 @@ impl ModePair {
         let Subspace { mut q, mut v } = start;
         for step in 1..=*STEPS.end() {
             for (which, shift) in shifts.iter().enumerate() {
-                // (A − σ)⁻¹(x, y): u = −L(σ)⁻¹((D + σ)x + y), v = x + σu.
+                // The product (A − σ)⁻¹(q, v) is (u, q + σu) with u = −L(σ)⁻¹((D + σ)q + v), where σ is the
+                // shift, D is `damping` and L is the dynamic stiffness.
                 let load = &damping * &q + Scale(*shift) * &q + &v;
                 let u = Scale(c64::new(-1.0, 0.0)) * solve(which, load);
                 v = &q + Scale(*shift) * &u;
@@ -155,7 +158,7 @@ impl ModePair {
     /// Estimated eigenvalues of the pair at a speed near its own.
     fn eigenvalues(&self, speed_rad_per_s: f64) -> [c64; 2] {
         let [growth, frequency] = self.squares(speed_rad_per_s);
-        // Each square belongs to a real or to an imaginary part.
+        // The root of a negative square lies on the other axis of the complex plane.
         let half = |square: f64, positive: c64, negative: c64| {
             let part = if square >= 0.0 { positive } else { negative };
             part * square.abs().sqrt()

@@ -88,7 +88,8 @@ impl Pencil<'_> {
                 && sought == ritz.multiples.len()
                 && let Some(block) = blocks.next()
             {
-                // Missing waves are added before those on the span have converged.
+                // If no multiple on the span exceeds the limit, further ones may be missing, so that waves
+                // are added before the present multiples have converged.
                 span.add(self, block);
                 continue;
             }

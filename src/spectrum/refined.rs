@@ -89,7 +89,7 @@ impl SpectralModel {
             best.lambda.im = 0.0;
         }
         let others = modes.iter().filter(|other| !std::ptr::eq(*other, mode));
-        // The mirror image of a real eigenvalue is not among the modes.
+        // The mirror image −λ of a real eigenvalue, at the distance 2|λ|, is not among the modes.
         let mirror = 2.0 * mode.lambda.norm();
         let next = others.fold(mirror, |next, other| distance(other.lambda).min(next));
         Ok(best.filter(|best| distance(best.lambda) <= SAME * next))

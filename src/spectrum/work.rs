@@ -67,7 +67,7 @@ impl Cancellation {
     ) -> Result<T, rayon::ThreadPoolBuildError> {
         match self.pool_with(progress, rayon::current_num_threads()) {
             Ok(pool) => Ok(pool.install(work)),
-            // In a browser there is one thread only.
+            // In a browser no further thread can be started, so that this thread does the work.
             Err(_) if cfg!(target_family = "wasm") => Ok(self.on_this_thread(progress, work)),
             Err(error) => Err(error),
         }

@@ -126,12 +126,14 @@ impl Contact {
             if residual.norm() <= target {
                 return Some(q);
             }
-            // The tangent is singular in a direction that no flank resists.
+            // The tangent is singular in a direction that no flank resists, so that a small stiffness is
+            // added to it.
             let shift = damping.max(1e-12 * tangent.trace());
             let step = (tangent + Matrix3::identity() * shift)
                 .lu()
                 .solve(&residual)?;
-            // Close to the equilibrium differences of the energy are rounding.
+            // Close to the equilibrium, differences of the energy are rounding errors, so that a smaller
+            // residual suffices to accept the step.
             let closer = self.residual(q + step, load).0.norm() < residual.norm();
             if closer || total(q + step) < total(q) {
                 q += step;
@@ -142,7 +144,8 @@ impl Contact {
                 damping *= 8.0;
             }
         }
-        // Approaches that are much smaller than the gap have few digits, because each is a displacement minus the gap.
+        // The approach of a flank is a displacement minus the gap. It has few digits if it is much smaller
+        // than the gap, so that this tolerance is wider than `target`.
         let (residual, _) = self.residual(q, load);
         (residual.norm() <= 1e-9 * load.norm()).then_some(q)
     }

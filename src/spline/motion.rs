@@ -78,8 +78,8 @@ impl InPlaneMotion {
         let load_n = Vector3::new(load.force_n[0], load.force_n[1], load.torque_n_m / r);
         let length_m = contact.length_m(load_n.norm());
         let lightest = mass.min(rotary);
-        // The rate of the motion is √(F/mL), at which the load F moves the blade over the length L, or the rotation
-        // speed of the arbor, if this is larger.
+        // The rate of the motion is √(F/(mL)), with the load F, the smaller inertia m and the length L, or
+        // the rotation speed of the arbor if this is larger.
         let fall_per_s = (load_n.norm() / (lightest * length_m)).sqrt();
         let rate_per_s = fall_per_s.max(speed_rad_per_s);
         Ok(InPlaneMotion {

@@ -147,8 +147,8 @@ impl Analysis {
         scene: &Scene,
         options: AnalysisOptions<'_>,
     ) -> Result<Self, AnalysisError> {
-        // Without this check, counting the critical speeds of such a sweep for the expected work would take
-        // minutes.
+        // Without this check of the end of the sweep, counting the critical speeds for the expected work
+        // could take minutes.
         if let Some(sweep) = scene.sweep() {
             check_stretch(scene.blade(), sweep.to_rad_per_s)?;
         }
@@ -158,7 +158,8 @@ impl Analysis {
         let chosen = ChosenBasis::at_least(scene, scene.tolerance(), options.least_size)?;
         let least = chosen.saw.plate.resolution;
         let end_rad_per_s = match Self::on_basis(scene, chosen, options) {
-            // The scene gives no end of the sweep, so the program chooses one that it can chart.
+            // If the scene gives no end of the sweep, the program chooses one up to which it can compute the
+            // diagram.
             Err(AnalysisError::Campbell(CampbellError::TooLarge {
                 largest_end_rpm: Some(end),
                 ..

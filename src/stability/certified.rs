@@ -83,7 +83,7 @@ fn searched(
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let Some(full) = full else {
         evaluator.at_all(speeds)?;
-        // The waves of a free blade are uncoupled, so they cross and never coalesce.
+        // `full` is `None` for a free blade. Its waves are uncoupled, so they cross and never coalesce.
         let certificate = Certificate {
             unproven_rad_per_s: (depth == Depth::Proof).then(Vec::new),
             ..evaluator.certificate()

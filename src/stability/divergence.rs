@@ -100,7 +100,7 @@ fn band(
     for speed in parts.filter(is_clear) {
         samples.extend(at(speed)?);
     }
-    // At a critical speed λ² is zero; its slope is unknown, and the chord replaces it.
+    // At a critical speed λ² is zero. Its slope is unknown there, and the slope of the chord replaces it.
     let zero = |at: f64| Sample {
         at,
         value: 0.0,
@@ -116,7 +116,8 @@ fn band(
     samples.retain(|sample| (from..=to).contains(&sample.at));
     samples.sort_by(|x, y| x.at.total_cmp(&y.at));
     let found = maximize(samples, at)?;
-    // The few states between two speeds locate the largest growth; the projection gives its size.
+    // The signatures, computed with few states, locate the largest growth; the eigenproblem of the projection
+    // gives its value.
     let peak_growth_per_s = match found {
         Some(found) if found.value > 0.0 => {
             let expected = found.value.sqrt();
@@ -209,7 +210,8 @@ fn edge(critical: &[f64], coalescences: &[f64], stable: Option<f64>, unstable: f
         .iter()
         .copied()
         .find(|speed| (low..=high).contains(speed));
-    // Beside a critical speed at which one of two real λ turns stable, both continue up to their coalescence.
+    // If one of two real λ passes through zero at the critical speed, both may continue up to a coalescence
+    // beyond it, which is then the edge.
     let (to, otherwise) = match critical {
         Some(speed) => (speed, (speed, Edge::Critical)),
         None => (unstable, (unstable, Edge::Coalescence)),

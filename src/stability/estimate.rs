@@ -47,7 +47,7 @@ impl BandError {
     /// errors may cancel by chance, so the error of the critical speeds is added. Relative to the width of
     /// the band, its edges are no more accurate than its growth.
     fn of(self, band: &Instability, critical: f64) -> Self {
-        // A band may begin at rest but never ends there.
+        // The width is taken relative to the end, because a band may begin at rest.
         let width = (band.to_rad_per_s - band.from_rad_per_s) / band.to_rad_per_s;
         let of_width = match band.kind {
             InstabilityKind::Divergence => WIDTH_REMAINDER * critical / width,

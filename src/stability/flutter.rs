@@ -188,11 +188,13 @@ impl Quadruple {
         if let Some(edge) = from_inside.filter(is_certain) {
             return Ok(End::Edge(edge));
         }
-        // The nearest speed may be closer to the end than the error of its modes allows.
+        // If the nearest speed is closer to the end than the error of its mode allows, the continuation from
+        // it fails and the next speed is tried.
         if let (None, Some((speed, mode))) = (from_inside, inwards.get(1)) {
             from_inside = followed(*speed, mode)?;
         }
-        // Over a long way the continuation may change to another pair, which ends nearby.
+        // Over a long distance the continuation may change to another pair, which ends nearby, so that it is
+        // repeated from a speed close to the expected end.
         let beside = expected + INSIDE * (inside - expected);
         let near = match stretch.square(beside) {
             Some(square) => evaluator
@@ -294,7 +296,8 @@ impl Quadruple {
         if let Some(cut) = cuts.iter().find(|cut| cut.sample.at == at) {
             return Ok((at, cut.growth_and_frequency));
         }
-        // At the coalescence of two real λ growth is not zero and often largest, so the peak is slightly inside.
+        // At the coalescence of two real λ the growth is not zero and may be the largest of the band. The
+        // peak is then placed slightly inside the band.
         for (end, other) in [(&self.begin, part.to), (&self.end, part.from)] {
             if let End::Edge(edge) = end
                 && edge.speed_rad_per_s == at

@@ -230,7 +230,7 @@ impl Group {
 /// Roots of xⁿ + c₂xⁿ⁻² + … + c_n, as eigenvalues of the companion matrix.
 fn roots(coefficients: &[c64]) -> Vec<c64> {
     let size = coefficients.len() + 1;
-    // With this unit the roots are of size one.
+    // Relative to this unit, no root has a magnitude above 2 (Fujiwara's bound).
     let unit = coefficients
         .iter()
         .enumerate()

@@ -150,7 +150,7 @@ impl<'a> Heating<'a> {
     ) -> Result<Option<HeatLimit>, SpectrumError> {
         let added = AddedStress {
             stiffness: &self.per_kelvin,
-            // The model includes the scene's peak already.
+            // The stiffness of the model already includes the rise with the peak `now_k`.
             from: from_k - self.now_k,
             direction,
         };
@@ -204,7 +204,8 @@ impl<'a> Heating<'a> {
             .par_iter()
             .map(|rise_k| self.lowest_critical(*rise_k))
             .collect();
-        // A wave of a free blade is identified by its name, one of a guided blade by its position.
+        // A wave of a free blade is identified by its number of diameters, a wave of a guided blade by its
+        // place among the critical speeds.
         let free = self.model.plate.is_axisymmetric();
         let mut curves: Vec<HeatCurve> = Vec::new();
         for (rise_k, found) in rises.iter().zip(speeds?) {
@@ -223,7 +224,8 @@ impl<'a> Heating<'a> {
                     });
                     curves.len() - 1
                 });
-                // Waves of a guided blade change places: the name is that at the last peak.
+                // In a guided blade the wave at a place may change with the peak, so that the curve is named
+                // by the wave at the last peak.
                 curves[index].name = wave.name;
                 curves[index].rise_k.push(*rise_k);
                 curves[index].speed_rad_per_s.push(wave.speed_rad_per_s);

@@ -22,13 +22,13 @@ impl Cubic {
     /// Points in (0, 1) with zero slope, and the values there.
     fn stationary(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         let ([f0, f1], [d0, d1]) = (self.values, self.slopes);
-        // f′ = a t² + b t + d0
+        // The slope is f′(t) = a t² + b t + d0.
         let (a, b) = (
             6.0 * (f0 - f1) + 3.0 * (d0 + d1),
             -6.0 * (f0 - f1) - 4.0 * d0 - 2.0 * d1,
         );
         let discriminant = (b * b - 4.0 * a * d0).max(-0.0);
-        // This form avoids cancellation (Press et al., Numerical Recipes, 5.6).
+        // This form of the roots avoids cancellation (Press et al., Numerical Recipes, 5.6).
         let q = -0.5 * (b + b.signum() * discriminant.sqrt());
         let roots = [q / a, d0 / q];
         let inside = roots.into_iter().filter(|t| *t > 0.0 && *t < 1.0);

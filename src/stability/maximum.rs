@@ -85,7 +85,8 @@ fn cubic(ends: &[Sample]) -> Cubic {
 /// Position and value of the maximum of the cubic between two samples.
 fn predicted_maximum(ends: &[Sample]) -> (f64, f64) {
     let (share, value) = cubic(ends).highest();
-    // A maximum so close to an end is hardly larger than the sample at that end.
+    // A maximum so close to an end is hardly larger than the sample at that end, so that it need not be
+    // examined.
     if (1e-6..=1.0 - 1e-6).contains(&share) {
         (share, value)
     } else {

@@ -70,8 +70,9 @@ impl Onsets {
         let critical_rad_per_s: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
         let lowest_critical = critical_rad_per_s.first().copied();
         let functions = saw.plate.degrees_of_freedom();
-        // The waves of a free blade are uncoupled, and none is reflected below the lowest critical speed, so
-        // there are no bands to search for.
+        // Without damping there are no bands to search for if the blade is free, because its waves are
+        // uncoupled, or if the range ends below the lowest critical speed, because no wave is reflected
+        // there.
         let is_damped = !saw.plate.is_conservative();
         let is_slow = lowest_critical.is_none_or(|lowest| lowest > range.1);
         let (instabilities, certificate) = match saw.plate.is_axisymmetric() || is_slow {

@@ -162,7 +162,6 @@ impl<'a> PairContinuation<'a> {
     /// Edge of the quadruple between this speed and `end`, a speed outside it. `None` if the pair is lost on
     /// the way.
     pub fn edge(&self, end: f64) -> Option<Edge> {
-        // The continuation starts at this speed, because the edge may be slightly beyond `end`.
         let direction = (end - self.speed).signum();
         let by_cubics = self.edge_by(end, |here, before| Self::root(here, before, direction));
         by_cubics.or_else(|| self.edge_by(end, |here, _| Self::root(here, None, direction)))

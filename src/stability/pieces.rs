@@ -136,7 +136,8 @@ impl Search<'_> {
         let share = (speed - a) / (b - a);
         let mut pieces = Vec::new();
         for (end, half) in halves.into_iter().enumerate() {
-            // A half keeps the compared groups if their error is small enough over the whole half.
+            // A half of the piece keeps the groups if the error of their prediction is small enough over the
+            // whole half.
             let is_close = left_by(misfit, share, [share, 1.0 - share][end]) <= 1.0;
             let kept = groups.as_ref().zip(predicted.as_ref()).filter(|_| is_close);
             let kept = kept.map(|(groups, predicted)| {
@@ -261,14 +262,15 @@ impl Search<'_> {
         let ends = at_ends.each_ref().map(|numbers| by_growth(numbers));
         let (growth_predicted, growth_found) = (by_growth(predicted), by_growth(found));
         let all = [&ends[0], &ends[1], &growth_predicted, &growth_found];
-        // The error is relative to each number, so that slow growth is predicted as well as fast growth beside it.
+        // The allowed error is relative to each growth rate, so that slow growth is predicted with the same
+        // relative accuracy as fast growth beside it.
         let allowed = |rank: usize| {
             let fastest = all.iter().map(|growth| growth[rank]).fold(0.0, f64::max);
             (self.growth_tolerance * fastest).max(self.noise_per_s)
         };
         let misfit = |rank: usize| {
             let (x, z) = (growth_predicted[rank], growth_found[rank]);
-            // The accuracy of fast decay does not matter.
+            // Fast decay may have an error of 30 %, because it does not affect stability.
             let allowed = allowed(rank).max(0.3 * -x.max(z));
             ((x - z).abs() - self.noise_per_s).max(0.0) / allowed
         };

@@ -132,8 +132,9 @@ impl Proof<'_> {
         if negative <= listed {
             return true;
         }
-        // With free rigid motions n₋(L(iω)) does not start at n₋(K), and in a dense model each count is a
-        // factorization of the order of the basis, so that the proof would take longer than the whole search.
+        // With free rigid motions the number of negative eigenvalues of the dynamic stiffness L(iω) at small
+        // ω differs from that of the stiffness K. In a dense model each count factorizes a matrix of the
+        // order of the basis, so that the proof would take longer than the whole search.
         if self.full.has_free_motions() || self.full.is_dense() {
             return false;
         }
@@ -233,7 +234,8 @@ impl End {
             let gap = Gap { sides, net: x.net };
             let [narrow, wide] = [x, y].map(Gap::width_rad_per_s);
             let [narrow, wide] = [narrow.min(wide), narrow.max(wide)];
-            // Next to a coalescence slopes are unbounded and the cubic is wrong.
+            // A width far from the widths at both ends is refused, because next to a coalescence slopes are
+            // unbounded and the cubic is wrong.
             let is_sound = (0.5 * narrow..2.0 * wide).contains(&gap.width_rad_per_s());
             is_sound.then_some(gap)
         };

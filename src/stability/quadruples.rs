@@ -183,7 +183,7 @@ fn across<'a>(
         }
     }
     // Next to a coalescence the modes of a sample may be coalesced while those of the interpolated group are
-    // not.
+    // not, so that a stretch may end or begin at an end of the piece.
     ended.extend(firsts.filter_map(|place| {
         let end = coalescence(a, b);
         taken(open, place).map(|stretch| Stretch { end, ..stretch })

@@ -250,7 +250,8 @@ impl Merging {
                 None => Self::of_real(analysis, band.from_rad_per_s),
             };
         }
-        // Just below the onset the two vectors are x ± εu, whose mean is x to order ε².
+        // Just below the onset the vectors of the two modes are x ± εu with the vector x at the onset and a
+        // small ε, so that their mean is x up to order ε².
         let before = band.from_rad_per_s * (1.0 - BELOW);
         let modes = model.modes(before)?;
         let pair = closest_opposite(&modes);

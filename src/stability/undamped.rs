@@ -31,7 +31,8 @@ pub(super) fn charted(
     let even = campbell::even_speeds(drawn, count);
     let speeds = match detail {
         Detail::Full => with_critical_speeds(model, drawn, even),
-        // A sketch needs no speeds beside critical ones, because its branches are followed through zero.
+        // A sketch of a guided blade needs no speeds beside critical ones, because its branches are followed
+        // through λ = 0.
         Detail::Sketch if !model.plate.is_axisymmetric() => away_from_critical(model, even),
         Detail::Sketch => with_critical_speeds(model, drawn, even),
     };
@@ -140,8 +141,8 @@ pub(super) fn with_critical_speeds(
 ) -> Vec<f64> {
     let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
     if model.plate.is_axisymmetric() {
-        // A wave of the free blade passes through zero without diverging. Next to this zero its sign is
-        // rounding, so no speed may be there.
+        // A wave of the free blade passes through zero without diverging. Next to this zero its Krein sign is
+        // determined by rounding errors, so that no speed may be there.
         let clear = |s: &f64| {
             critical
                 .iter()

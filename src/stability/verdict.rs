@@ -207,7 +207,8 @@ pub(super) fn growth_between(pair: &[CurvePoint], share: f64) -> f64 {
     let width = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
     let [before, after] = [pair[0], pair[1]].map(|p| (p.lambda.re, p.slope.re * width));
     let straight = before.0 + share * (after.0 - before.0);
-    // At a coalescence slopes are unbounded; the points are so close that a straight line is accurate.
+    // Slopes that are large against the values occur next to a coalescence, where the points are so close
+    // that a straight line is accurate.
     let size = before.0.abs() + after.0.abs();
     let steepness = before.1.abs() + after.1.abs();
     if steepness.is_nan() || steepness > 8.0 * size {

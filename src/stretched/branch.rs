@@ -187,7 +187,7 @@ impl Curve<'_> {
                 let Ok(direction) = self.direction(&equilibrium, &place.direction) else {
                     return Ok(None);
                 };
-                // A change of the direction by up to 25 degrees is accepted.
+                // A change of the direction is accepted up to the angle with the cosine 0.9, 26 degrees.
                 let straight = direction.transpose() * &place.direction > 0.9;
                 let next = Place {
                     equilibrium,
@@ -266,14 +266,16 @@ impl Curve<'_> {
             if at.abs() < LAST * scale {
                 break;
             }
-            // The function value at the end that is kept is halved (the Illinois rule).
+            // The function value at the end that is kept is halved at every step, a variant of the Illinois
+            // method.
             ends = match (at < 0.0) == (at_low < 0.0) {
                 true => [(middle, at), (high, 0.5 * at_high)],
                 false => [(low, 0.5 * at_low), (middle, at)],
             };
         }
         found.negative_eigenvalues = counts[0];
-        // If the curve turns back and the count does not change, the curve touches another one at a pitchfork.
+        // If the curve turns back while the number of negative eigenvalues stays the same, the point is not a
+        // fold but a pitchfork, at which the curve touches another one.
         let kind = match turns_back && counts[0] != counts[1] {
             true => TurnKind::Fold,
             false => TurnKind::Bifurcation,

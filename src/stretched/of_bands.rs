@@ -90,7 +90,7 @@ impl FlutterRise {
             let u = dynamic.partial_piv_lu().solve(&slope);
             let norm = u.norm_l2();
             if !norm.is_finite() {
-                // λ is an eigenvalue to machine precision.
+                // A solution that is not finite shows that λ is an eigenvalue to machine precision.
                 return Ok(Some((lambda, x)));
             }
             let correction = real(x.squared_norm_l2()) / (x.adjoint() * &u);

@@ -87,8 +87,8 @@ impl StretchedBlade {
             let (sin, cos) = turn.sin_cos();
             let second = c64::new(0.0, sin);
             let mean = self.mean_potential_j(&pair, (cos, second))?;
-            // With α = r cos φ and β = i r sin φ, where φ is `turn`, Ū = 2σ|α||β| becomes
-            // r⁴ Ū(cos φ, i sin φ) = σ r² sin 2φ, which gives the size r.
+            // With σ = Re λ, α = r cos φ and β = i r sin φ, where φ is `turn`, the condition Ū = 2σ|α||β| for
+            // the mean potential Ū becomes r⁴ Ū(cos φ, i sin φ) = σ r² sin 2φ, which gives the size r.
             let size = (pair.lambda.re * (2.0 * turn).sin() / mean).sqrt();
             for ((u, v), (place, _)) in readings.iter().zip(sites.iter()) {
                 let amplitude = 2.0 * size * (u * cos + v * second).norm();
@@ -136,7 +136,8 @@ impl StretchedBlade {
         let Some((_, decaying)) = mirrored else {
             return Ok(None);
         };
-        // The product is vᴴ[2λ + 2ΩG]u, because λ − conj(−conj λ) = 2λ.
+        // The product of the growing vector u and the decaying vector v is vᴴ(2λ + 2ΩG)u, because v belongs
+        // to the eigenvalue −λ̄, and λ minus the conjugate of −λ̄ is 2λ.
         let order = growing.nrows();
         let turned = Col::from_fn(order, |i| {
             let gyroscopic: c64 = (0..order)
@@ -145,7 +146,8 @@ impl StretchedBlade {
             growing[i] * *lambda * 2.0 + gyroscopic * (2.0 * speed_rad_per_s)
         });
         let product: c64 = (0..order).map(|i| decaying[i].conj() * turned[i]).sum();
-        // Both vectors get the same length, so that points are evenly distributed along the loop.
+        // Both vectors are multiplied by factors of the same magnitude, so that evenly spaced values of
+        // `turn` in `rise` give points that are evenly distributed along the loop of the amplitudes α and β.
         let factor = (c64::new(0.0, 1.0) / product).conj();
         let length = factor.norm().sqrt();
         Ok(Some(Pair {

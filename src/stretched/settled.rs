@@ -86,8 +86,8 @@ impl StretchedBlade {
             loop {
                 let next = &p + Scale(share) * &step;
                 let lower = self.potential_j(&next, speed_rad_per_s)?;
-                // Where V is nearly constant, such as just above a pitchfork, its last digits are rounding of
-                // the stiffest mode.
+                // Where the potential is nearly constant, such as just above a pitchfork, its last digits are
+                // rounding errors of the stiffest mode.
                 let rounding = ROUNDING * modes.S()[order - 1].abs() * next.squared_norm_l2();
                 if lower <= energy + 1e-4 * share * slope.min(0.0) + rounding {
                     (p, energy) = (next, lower);

@@ -146,7 +146,8 @@ impl<'a> Counts<'a> {
     fn passing(&self) -> Passing {
         let (study, saws) = (self.study, self.saws);
         let confidence = study.file().confidence;
-        // Different points of the grid have the same deviations, so their saws are not independent.
+        // The saws of different points of a grid have the same deviations and are not independent, so that
+        // the interval is given for a single point only.
         let is_drawn = study.file().saws.is_some() && saws == study.drawn();
         let criteria = study.criteria_of_nothing().into_iter().zip(&self.kept);
         Passing {
@@ -206,7 +207,7 @@ fn histogram(values: &mut Values) -> io::Result<Option<Histogram>> {
     let bars = bars.clamp(1, MOST_BARS);
     let mut counts = vec![0; bars];
     values.each(&mut |rpm| {
-        // A range of zero length has one bar.
+        // If all values are equal, they are counted in the first bar.
         let share = if to > from {
             (rpm - from) / (to - from)
         } else {

@@ -195,7 +195,7 @@ impl Log {
             })?;
             saws.push((saw.index, line));
         }
-        // The rows themselves may contain duplicates.
+        // The same saw may occur twice among the rows.
         let mut seen = BTreeSet::new();
         saws.retain(|(index, _)| !self.finished.has(*index) && seen.insert(*index));
         let lines: Vec<&[u8]> = saws.iter().map(|(_, line)| *line).collect();
@@ -319,7 +319,8 @@ fn scan(
     let mut limited = file.by_ref().take(header.len() as u64);
     limited.read_to_end(&mut begun).map_err(io(path))?;
     if begun != header.as_bytes() {
-        // A log whose content is a part of the header belongs to a run that stopped while it wrote the header.
+        // A log that contains only the beginning of the header belongs to a run that stopped while it wrote
+        // the header.
         return match header.as_bytes().starts_with(&begun) {
             true => Ok(None),
             false => Err(differing(path, study)),

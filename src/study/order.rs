@@ -120,7 +120,8 @@ impl Values {
         }
         let mut searches: Vec<Search> = ranks.iter().map(|rank| Search::new(*rank)).collect();
         for shift in (0..u64::BITS).step_by(DIGIT as usize).rev() {
-            // Searches with the same leading digits share their counts; searches ascend.
+            // Searches with the same leading digits share one table of counts. Such searches are neighbours,
+            // because searches ascend.
             let mut heads: Vec<u64> = searches.iter().map(|search| search.head).collect();
             heads.dedup();
             let mut counts = vec![[0_usize; 1 << DIGIT]; heads.len()];

@@ -152,8 +152,8 @@ impl<'a> Tally<'a> {
             }
         });
         let speeds: Vec<f64> = speeds.collect();
-        // Number of saws whose highest operating speed lies below the first speed, between the first and the
-        // second, and so on.
+        // Element k of `below` is the number of saws whose highest operating speed lies between the speeds
+        // k − 1 and k; element 0 counts the saws below the first speed.
         let mut below = vec![0_usize; points];
         self.allowed.each(&mut |allowed| {
             let above = speeds.partition_point(|speed| *speed <= allowed);
@@ -172,7 +172,8 @@ impl<'a> Tally<'a> {
         let curve = curve.collect();
         let mut fastest = Vec::new();
         for share in RELIABLE {
-            // Number of saws that may fail. It is an integer except for rounding, as in 1000 × (1 − 0.95).
+            // `out` is the number of saws that may fail. The margin is needed because the computed
+            // value of 1000 × (1 − 0.9) is slightly below 100.
             let out = (saws as f64 * (1.0 - share) + 1e-6).floor() as usize;
             let rank = out.checked_sub(saws - analysed);
             let rank = rank.filter(|rank| *rank < self.allowed.count());

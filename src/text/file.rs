@@ -132,8 +132,8 @@ fn decode(bytes: &[u8], other_encodings: OtherEncodings) -> Result<String, &'sta
     let utf_16 = match bytes {
         [0xff, 0xfe, rest @ ..] => Some((rest, little)),
         [0xfe, 0xff, rest @ ..] => Some((rest, big)),
-        // Without a mark UTF-16 is recognized by its first two characters, which are ASCII, so that one byte of each
-        // is zero.
+        // Without a byte order mark, UTF-16 is recognized by its first two characters, which are ASCII, so
+        // that one byte of each is zero.
         [1..=255, 0, 1..=255, 0, ..] => Some((bytes, little)),
         [0, 1..=255, 0, 1..=255, ..] => Some((bytes, big)),
         _ => None,

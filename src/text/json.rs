@@ -65,8 +65,8 @@ fn unquoted(text: &str, error: &serde_json::Error) -> Option<String> {
         .into_iter()
         .filter(|token| token.part == Part::Quoted && token.text == found)
         .collect();
-    // The parser stops at the end of the token that it refuses, except in an enum with data, which it reads to its
-    // end first; there a single token with this text is taken.
+    // The parser stops at the end of the token that it refuses, except in an enum with data, which it reads
+    // completely first. There the token is known only if no other token has the same text.
     if let Some(place) = same.iter().position(|token| token.end() == end) {
         same = vec![same[place]];
     }

@@ -176,7 +176,7 @@ fn record(
         if duration_s == 0.0 {
             continue;
         }
-        // A saw at rest without a force remains at rest, even if it is unstable.
+        // A flat saw without a force remains flat, even if it is unstable.
         let moves = force_n != 0.0 || state != State::rest(saw.blade.order());
         let longest_s = match moves {
             true => sample_s.min(longest_step_s(growth)),

@@ -146,8 +146,8 @@ impl Steps {
     ) -> Result<(), TransientError> {
         let (rate, step_s) = (self.rate_rad_per_s2, self.step_s);
         let loads = [moving.load.clone()];
-        // A few steps use the speed in their middle, so that they share one factorization. The error remains of
-        // second order.
+        // `HELD_STEPS` consecutive steps use the speed in the middle of them, so that they share one
+        // factorization. The error remains of second order.
         let held = |step: usize| {
             let middle = self.speed_at(step) + 0.5 * rate * step_s * HELD_STEPS as f64;
             let newmark = Newmark::new(moving.system, (middle, rate), &loads, step_s);

@@ -80,7 +80,7 @@ impl Cutting {
         let plate = chosen_plate(scene, runs)?;
         let (turn_deg, level) = map_steps(scene.accuracy());
         let turns: Vec<f64> = match scene.guides().is_empty() {
-            // A saw without guides is axisymmetric, so that a rotation has no effect.
+            // Without guides the map has no guide angle to vary.
             true => vec![0.0],
             false => even(-MAP_TURN_DEG, MAP_TURN_DEG, turn_deg)
                 .into_iter()

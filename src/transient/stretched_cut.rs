@@ -171,7 +171,7 @@ impl<'a> Samples<'a> {
         let newmark = newmark.with_forces(&forces);
         let stop = Cancellation::current();
         for step in 1..=count {
-            // A saw at rest without a force remains at rest, even if it is unstable.
+            // A flat saw without a force remains flat, even if it is unstable.
             if phase.load.norm_max() > 0.0 || state.displacement.norm_max() > 0.0 {
                 *state = newmark.step(state, [&[1.0], &[1.0]])?;
             }

@@ -28,7 +28,7 @@ impl Force for ReducedStretching {
     fn add_to(&self, displacement: &Col<f64>, force: &mut Col<f64>) {
         match self.gradient(displacement) {
             Ok(gradient) => *force -= gradient,
-            // For a deflection of another basis the force becomes NaN, which no step can balance.
+            // A deflection in another basis makes the force NaN, so that the time step fails.
             Err(_) => force.fill(f64::NAN),
         }
     }

@@ -103,8 +103,8 @@ impl<'a> LoopGains<'a> {
         let mut crossings: Vec<Crossing> = self.crossings().collect();
         crossings.sort_by(|x, y| x.most_negative().total_cmp(&y.most_negative()));
         for crossing in crossings {
-            // A loop gain changes by at most `LARGEST_CHANGE` from one frequency to the next, so that between
-            // them it is taken to be at most 1.5 times its larger value at the two.
+            // A loop gain changes by at most `LARGEST_CHANGE` between two neighbouring frequencies, so that
+            // in this interval it is taken to be at most 1.5 times the larger of its two values there.
             let least = -1.0 / (1.5 * crossing.most_negative());
             if best.is_some_and(|best| best.stiffness_n_per_m <= least) {
                 break;
@@ -232,7 +232,8 @@ fn places(saw: &DelayedSaw, ceiling: f64) -> Vec<f64> {
     places.retain(|omega| (0.0..=to).contains(omega));
     places.sort_by(f64::total_cmp);
     places.dedup();
-    // Intervals in which every factor of the determinant is close to one need no frequencies inside.
+    // Where `matters` is false, every factor of the determinant has a positive real part, so that frequencies
+    // between two such neighbours are not needed.
     let last = places.len() - 1;
     let matter: Vec<bool> = places
         .iter()

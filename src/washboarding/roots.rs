@@ -126,7 +126,7 @@ fn another(
 /// Whether the determinant vanishes: Newton's step for the determinant alone is negligible.
 fn is_root(saw: &DelayedSaw, stiffness: f64, lambda: c64) -> bool {
     let slope = saw.logarithmic_slope(stiffness, lambda);
-    // On the root itself the matrix is singular.
+    // At an exact root the matrix is singular, so that there is no slope.
     lambda.is_finite() && slope.is_none_or(|slope| slope.norm() * NEAR * lambda.norm() >= 1.0)
 }
 

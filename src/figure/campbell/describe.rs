@@ -154,7 +154,8 @@ fn branches(report: &Report, said: bool) -> Vec<Item> {
             }));
         }
         let samples = branch.rpm.len().min(branch.frequency_hz.len());
-        // The direction is that at the end of a segment, because with guides all modes at rest are standing waves.
+        // A segment has the direction of its end, because with guides all modes at rest, where segments may
+        // begin, are standing waves.
         let look = |i| {
             (
                 look_of_segment(report, branch, i),

@@ -270,8 +270,8 @@ pub fn curve(report: &Report, band: &InstabilityEntry) -> Vec<[f64; 2]> {
     let growing = samples.iter().filter(inside).filter(|s| s[1] > 0.0);
     let peak = [band.peak_rpm, band.peak_growth_per_s];
     let squares = growing.chain([&peak]).map(|[rpm, g]| [*rpm, g * g]);
-    // Growth begins at zero where two waves coalesce or a wave stands still. Where two real eigenvalues coalesce, it
-    // continues beyond the band.
+    // The growth rate is zero at an edge where two waves coalesce or a wave stands still. At an edge where
+    // two real eigenvalues coalesce it is positive, also in the next sample outside the band.
     let next = [
         samples.iter().rfind(|s| s[0] <= ends[0]),
         samples.iter().find(|s| s[0] >= ends[1]),

@@ -162,7 +162,7 @@ fn hides_text(sheet: &Sheet, frame: &Frame) -> bool {
 
 /// Whether the frame overlaps a band or the dashed line of a critical speed.
 fn is_on_upright(chart: &Chart, frame: &Frame) -> bool {
-    // Bands begin at the upper edge of the panel, lines of critical speeds above it.
+    // Bands extend up to the upper edge of the panel, the lines of critical speeds beyond it.
     let within = frame.bottom > chart.upper.top;
     let bands = chart.bands().filter(|_| within);
     let bands = bands.filter_map(|band| places(&chart.speed, [band.from, band.to]));

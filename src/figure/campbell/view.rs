@@ -82,7 +82,7 @@ pub fn left_out(report: &Report, [from, to]: [f64; 2], labelled: usize) -> Vec<S
         1 => format!("1 wide band that grows by less than {threshold} 1/s: not shaded"),
         _ => format!("{weak} wide bands that grow by less than {threshold} 1/s: not shaded"),
     };
-    // Bands without shade, which have no labels, are counted in the note before.
+    // The bands without shade have no labels either, and `of_weak` counts them already.
     let others = shown.saturating_sub(labelled + weak);
     let of_others = match others {
         0 => String::new(),

@@ -54,7 +54,7 @@ pub fn highest_shown_hz(report: &Report, [from, to]: [f64; 2]) -> f64 {
         .iter()
         .filter_map(|branch| {
             let at = branch.rpm.iter().rposition(|rpm| *rpm <= from)?;
-            // A branch that ends before this speed does not count.
+            // A branch that ends below the speed `from` is not counted.
             let goes_on = branch.rpm[at] == from || at + 1 < branch.rpm.len();
             branch.frequency_hz.get(at).copied().filter(|_| goes_on)
         })
@@ -112,8 +112,8 @@ pub fn look_of_segment(report: &Report, branch: &BranchEntry, i: usize) -> Stret
             .is_some_and(|&g| g > NEGLIGIBLE_PER_S)
     };
     let reflected = |i: usize| branch.krein_sign.get(i) == Some(&-1);
-    // A segment before or after a band has one end at the edge of the band, where the branch may grow; its middle is
-    // outside the band.
+    // The branch may grow at an end of a segment that is at the edge of a band, although the middle of the
+    // segment is outside the band.
     let middle = (branch.rpm[i] + branch.rpm[i + 1]) / 2.0;
     let mut bands = report.instabilities.iter();
     let in_band = bands.any(|band| band.from_rpm <= middle && middle <= band.to_rpm);
@@ -200,7 +200,7 @@ fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchEntry, f64)]) 
         let colour = last_colour(branch, chart);
         let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Middle);
         let at = [centre, chart.upper.top - 6.0];
-        // Dashed lines of critical speeds pass behind the label.
+        // The label has a background, which covers dashed lines of critical speeds.
         sheet.text_on_paper(at, letters, &short_label(branch));
     }
 }

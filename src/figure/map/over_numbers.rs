@@ -82,7 +82,7 @@ fn draw_contours(sheet: &mut Sheet, contours: &[ContourEntry], x: &Along, y: &Al
         let text = format!("{}", contour.rpm);
         let frame_at = |at: [f64; 2]| text_frame(at, &letters, &text).widened(3.0);
         let long = places.len() >= 3;
-        // Points are tried from the middle of the line to its ends.
+        // Points of the line are tried from its middle towards its ends.
         let middle = places.len() / 2;
         let tried = (0..middle).flat_map(|off| [middle + off, middle - off]);
         let free = tried

@@ -100,8 +100,8 @@ fn areas(saw: &MappedSawEntry, to_rpm: f64) -> Vec<Area> {
 fn pairs(left: &[Area], right: &[Area], scale: f64, farthest: f64) -> Vec<(usize, usize)> {
     let middle = |area: &Area| 0.5 * (area.rpm[0] + area.rpm[1]);
     let (rows, columns) = (left.len() + 1, right.len() + 1);
-    // Smallest sums of distances for the first `i` and `j` areas; an area without a partner counts as half of the largest
-    // distance.
+    // `cost[i][j]` is the smallest sum of distances for the first `i` areas on the left and the first `j` on
+    // the right, where an area without a partner adds half of the largest distance.
     let mut cost = vec![vec![0.0; columns]; rows];
     let distance = |i: usize, j: usize| (scale * middle(&left[i]) - middle(&right[j])).abs();
     let alone = 0.5 * farthest;

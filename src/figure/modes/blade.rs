@@ -97,7 +97,7 @@ fn draw_tile(sheet: &mut Sheet, tile: &[Corner; 4]) {
     });
     for level in -LEVELS..LEVELS {
         let ends = [level, level + 1].map(|level| f64::from(level) / f64::from(LEVELS));
-        // The outermost areas are unbounded, so that rounding errors leave no hole.
+        // The lowest and the highest interval of levels are unbounded, so that rounding errors leave no hole.
         let from = match level == -LEVELS {
             true => f64::NEG_INFINITY,
             false => ends[0],

@@ -22,7 +22,8 @@ impl Contact for Guide {
             terms.add_damping(&(Scale(self.damping_n_s_per_m) * &coupling));
         }
         if self.stiffness_n_per_m > 0.0 {
-            // The matrix is scaled in place, because a copy has hundreds of megabytes for a large basis.
+            // The matrix is scaled in place, because a copy would take hundreds of megabytes for a large
+            // basis.
             coupling *= Scale(self.stiffness_n_per_m);
             terms.add_symmetric_stiffness(coupling);
         }
@@ -98,7 +99,8 @@ fn arcs_in_ellipse(pad: &Guide, r: f64) -> Vec<(f64, f64)> {
     let linear = -2.0 * r * c / (a * a);
     let constant = (c / a).powi(2) + (r / b).powi(2) - 1.0;
     let value = |u: f64| (square * u + linear) * u + constant;
-    // In this form the roots have no cancellation; for a circle the first one is infinite.
+    // These expressions for the two roots avoid cancellation, because `linear` is negative. For a circle
+    // `square` is zero and the first root is infinite.
     let large = -0.5 * (linear - (linear * linear - 4.0 * square * constant).max(0.0).sqrt());
     let mut ends = vec![-1.0, large / square, constant / large, 1.0];
     ends.retain(|u| (-1.0..=1.0).contains(u));

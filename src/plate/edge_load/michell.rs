@@ -108,7 +108,7 @@ fn net_force(blade: &Blade, [p, t]: [f64; 2], [q, s]: [f64; 2]) -> Vec<Term> {
     let k = a / b;
     let force_at_rim = p - t;
     let rim = p - 0.25 * (3.0 + nu) * force_at_rim;
-    // q + c′/2a = (q + s)/2 + c/2a.
+    // The condition at the bore contains q + c′/2a, which equals (q + s)/2 + c/2a.
     let bore = 0.5 * (q + s) - 0.25 * (1.0 + nu) * force_at_rim / k;
     let cubic = (rim - bore * k.powi(3)) / ((1.0 - k) * (1.0 + k) * (1.0 + k * k));
     let inverse = cubic * k - bore;
@@ -140,7 +140,7 @@ fn self_balanced(blade: &Blade, m: f64, [p, t]: [f64; 2], [q, s]: [f64; 2]) -> V
         let (rim, bore) = (term.at(b), term.at(a));
         Vector4::new(rim.radial_pa, rim.shear_pa, bore.radial_pa, bore.shear_pa)
     });
-    // The powers are independent, so that the matrix is singular only if numbers are not finite.
+    // The four powers of r are independent, so that the matrix is singular only if numbers are not finite.
     let amplitudes = Matrix4::from_columns(&tractions)
         .lu()
         .solve(&Vector4::new(p, t, q, s))

@@ -47,8 +47,8 @@ pub fn edge_stiffness(plate: &Plate, stress: &EdgeStress) -> Mat<f64> {
         }
     }
     if plate.basis.has_rigid_motions() {
-        // Heave does no work against a dead force. Rounding must not add a stiffness, which could be negative
-        // and an instability.
+        // Heave does no work against a dead force. A stiffness from rounding errors could be negative and
+        // would then appear as an instability.
         stiffness.row_mut(0).fill(0.0);
         stiffness.col_mut(0).fill(0.0);
     }

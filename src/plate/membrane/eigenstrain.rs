@@ -87,7 +87,8 @@ impl Eigenstrain {
                 exponent: p,
             } => {
                 let width = to_radius_m - from_radius_m;
-                // With ρ = r₀ + s (b − r₀): ∫ s^p (r₀ + s width) width ds.
+                // With ρ = r₀ + s w, r₀ = `from_radius_m` and w = `width`, the integral is
+                // ∫ s^p (r₀ + s w) w ds.
                 let primitive = |r: f64| {
                     let s = ((r - from_radius_m) / width).max(0.0);
                     width * s.powf(p + 1.0) * (from_radius_m / (p + 1.0) + width * s / (p + 2.0))

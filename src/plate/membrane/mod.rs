@@ -89,13 +89,13 @@ impl EigenStress {
         let whole = blade.material.youngs_modulus_pa * eigenstrain.moment_m2(a, b);
         let inverse_n = match blade.bore {
             Bore::Free | Bore::Clamped(InPlane::Free) => whole * aa / (bb - aa),
-            // E u/r = (1−ν) A + (1+ν)(B + E I)/r² vanishes at a.
+            // At the fixed bore E u/r = (1−ν) A + (1+ν)(B + E I)/r² vanishes, where I(a) = 0.
             Bore::Clamped(InPlane::Fixed) => {
                 -(1.0 - nu) * whole / bb / ((1.0 - nu) / bb + (1.0 + nu) / aa)
             }
         };
         EigenStress::Uniform {
-            // The rim is free: σ_rr(b) = 0.
+            // The constant A follows from σ_rr(b) = 0 at the free rim.
             uniform_pa: (inverse_n + whole) / bb,
             inverse_n,
         }
@@ -237,7 +237,8 @@ fn stiffness_with(
     let mut hoop = DMatrix::zeros(size, size);
     for panel in stress.knots_m().windows(2) {
         for (r, w) in quadrature::graded(panel[0], panel[1], points).iter() {
-            // The functions of n = 0 serve for all n: `turned` rotates the block of n = 1.
+            // The functions of n = 0 are used for all n, because `turned` converts the block to the functions
+            // of n = 1.
             let functions = basis.evaluate(0, r);
             let value = DVector::from_vec(functions.value);
             let slope = DVector::from_vec(functions.slope);
@@ -252,8 +253,9 @@ fn stiffness_with(
             let n2 = (n * n) as f64;
             let mut block = basis.turned(n, n, &radial + &hoop * n2);
             if basis.has_rigid_motions() && n <= 1 {
-                // A stress in equilibrium between free edges does no work on heave and tilt: ∫ d(r σ_rr R)/dr
-                // dr is zero. Rounding must not give them a stiffness of either sign.
+                // A stress in equilibrium between free edges does no work on heave and tilt: for tilt and any
+                // radial function R the work is ∫ d(r σ_rr R)/dr dr, which is zero. Rounding must not give
+                // them a stiffness of either sign.
                 block.row_mut(0).fill(0.0);
                 block.column_mut(0).fill(0.0);
             }

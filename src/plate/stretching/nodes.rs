@@ -119,7 +119,7 @@ impl Nodes {
             if !cosines.clone().chain(sines.clone()).any(given) {
                 continue;
             }
-            // c cos nθ + s sin nθ is (c − is)/2 e^{inθ} and its conjugate.
+            // The wave c cos nθ + s sin nθ is the sum of (c − is)/2 e^{inθ} and its complex conjugate.
             let half = if n == 0 { 1.0 / norm } else { 0.5 / norm };
             for (node, [slope, over_r]) in self.functions[usize::from(n == 1)].iter().enumerate() {
                 let sum = |unknowns: &Range<usize>, values: &[f64]| {
@@ -127,7 +127,7 @@ impl Nodes {
                     half * terms.map(|(i, value)| deflection[i] * value).sum::<f64>()
                 };
                 let radial = [sum(cosines, slope), -sum(sines, slope)];
-                // i n (c − is) = n s + i n c.
+                // The derivative by θ multiplies (c − is) by i n, which gives n s + i n c.
                 let n = n as f64;
                 let hoop = [n * sum(sines, over_r), n * sum(cosines, over_r)];
                 slopes.set(n as usize, node, radial, hoop);

@@ -31,7 +31,8 @@ impl ReducedStretching {
             .map(|&(a, b)| stretching.relaxed(&Strain::of(&slopes[a], &slopes[b])))
             .collect();
         let height = columns.first().map_or(0, Vec::len);
-        // The strain of p_a p_b counts once for a = b and twice for a > b, which includes p_b p_a; U₄ = |Z e|².
+        // The product p_a p_b occurs once in the strain for a = b, and twice for a > b, where p_b p_a has the
+        // same column. The potential is U₄ = |Z e|².
         let relaxed = Mat::from_fn(height, pairs.len(), |i, k| {
             let times = if pairs[k].0 == pairs[k].1 { 1.0 } else { 2.0 };
             times * columns[k][i]
@@ -78,7 +79,8 @@ impl ReducedStretching {
         let tension = &self.quartic * self.products(coordinates)?;
         let mut hessian = self.symmetric(&tension);
         let p = coordinates;
-        // ∂z/∂pₐ has one entry for each b, so a product with Q is a sum of r of its columns.
+        // The derivative ∂z/∂pₐ of the products z has one nonzero entry for each b, so that Q ∂z/∂pₐ is a sum
+        // of r columns of Q.
         for a in 0..self.order {
             let mut tension = vec![0.0; self.quartic.nrows()];
             for b in 0..self.order {

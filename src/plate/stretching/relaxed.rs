@@ -135,8 +135,8 @@ struct Point {
 
 impl Points {
     fn new(blade: &Blade, nodes: &Nodes, elements: &Elements) -> Self {
-        // The rule integrates products of the displacement polynomials, and products of the strain polynomials if
-        // a single element has the width of the blade.
+        // The rule has enough points for products of two displacement polynomials, and, if a single element
+        // has the width of the blade, also for products of two strain polynomials.
         let count = DEGREE + 4 + nodes.degree() / elements.count();
         let material = blade.material;
         let (e, nu) = (material.youngs_modulus_pa, material.poisson_ratio);

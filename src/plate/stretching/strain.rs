@@ -96,7 +96,7 @@ impl Strain {
                     im_rr[j] += ar * ci + ai * cr;
                     re_tt[j] += br * dr - bi * di;
                     im_tt[j] += br * di + bi * dr;
-                    // The third strain is stored with the factor i, as i (a d + b c).
+                    // The third strain, a d + b c, is stored multiplied by i.
                     re_rt[j] -= ar * di + ai * dr + br * ci + bi * cr;
                     im_rt[j] += ar * dr - ai * di + br * cr - bi * ci;
                 }
@@ -131,8 +131,8 @@ impl Strain {
     ) {
         let nodes = self.nodes;
         let [re, im] = &self.harmonics[m.unsigned_abs()];
-        // The stresses of −m are the complex conjugates of those of m, except that iτ also changes its sign. Since m
-        // and −m are added separately, each has half the weight of m = 0.
+        // The stresses of harmonic −m are the complex conjugates of those of m, except that the stored shear
+        // iτ also changes its sign. Since m and −m are added separately, each has half the weight of m = 0.
         let share = if m == 0 { 2.0 } else { 1.0 };
         let (side, wave_side) = (conjugation(m), -conjugation(k));
         for j in 0..nodes {
@@ -140,7 +140,7 @@ impl Strain {
             let (dr, di) = (share * wt[j], share * wave_side * wti[j]);
             let (rr, rri) = (re[j], side * im[j]);
             let (tt, tti) = (re[nodes + j], side * im[nodes + j]);
-            // τ is −i times the stored iτ.
+            // The shear stress τ is −i times the stored value iτ.
             let (rt, rti) = (im[2 * nodes + j], -re[2 * nodes + j]);
             let (rt, rti) = (rt, side * rti);
             fr[j] += cr * rr - ci * rri + dr * rt - di * rti;

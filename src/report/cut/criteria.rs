@@ -78,7 +78,8 @@ pub(super) fn criteria(scene: &Scene, computed: &CuttingRun) -> Vec<CutCriterion
         frequency_hz: growing_hz(growth),
     };
     let fitted = history.fitted.map(|fitted| CutCriterionEntry {
-        // A motion that neither grows nor decays, except for rounding, has no frequency.
+        // The frequency is given only if the growth rate reaches the threshold, because a smaller one may be
+        // rounding.
         frequency_hz: growing_hz(fitted)
             .filter(|_| Verdict::of(scene, fitted.growth_per_s) == Verdict::Unstable),
         ..entry(CutCriterion::TimeHistory, fitted)

@@ -67,7 +67,8 @@ fn moving_loads_alone(run: &CutRunEntry) -> Option<String> {
     let alone = run.decided_by == CutCriterion::MovingToothLoads
         && run.verdict == CutVerdict::Unstable
         && others < 0.5 * passing.passing_growth_per_s;
-    // The resonance ends where the tooth frequency is shifted by the growth rate.
+    // The resonance is about as wide as the change of speed that changes the tooth frequency, in rad/s, by
+    // the growth rate.
     let width_rpm = run.rpm * passing.passing_growth_per_s / (TAU * passing.tooth_frequency_hz);
     alone.then(|| {
         format!(

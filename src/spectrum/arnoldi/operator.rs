@@ -97,7 +97,8 @@ impl Velocity {
             let entries = places.map(|(i, k)| (i, k, matrix[(i, k)]));
             entries.filter(|(_, _, value)| *value != 0.0)
         };
-        // An entry takes three times the memory of a number and is accessed out of order.
+        // The sparse form is only used for few entries, because each takes three times the memory of a number
+        // and is accessed out of order.
         if entries().count() <= size * size / 8 {
             return Velocity::Sparse(entries().collect());
         }
@@ -213,7 +214,7 @@ impl Operator for SquaredInverse {
     fn apply(&self, z: ColRef<'_, f64>) -> Col<f64> {
         let ShiftedInverse { inverse, velocity } = &self.shifted;
         let x = z.subrows(0, inverse.order());
-        // (A − σ)⁻¹, then (A + σ)⁻¹.
+        // First (u, v) = (A − σ)⁻¹z is computed, then (A + σ)⁻¹(u, v), both in units of σ.
         let mut load = self.velocity_of(z) + x;
         velocity.add_product(1.0, x, &mut load);
         let u = Scale(-1.0) * inverse.times(&load);
@@ -260,7 +261,7 @@ impl Operator for SquaredInverse {
         let is_sound = |pair: &Eigenpair| pair.1.norm_l2() > CANCELLED * parts;
         let mut pairs: Vec<Eigenpair> = vec![pair(root)];
         if root.re != 0.0 {
-            // −λ has the conjugate vector, and Im(−λ) ≥ 0 if Im λ ≤ 0.
+            // The pair of −λ is replaced by its conjugate, whose eigenvalue has the same imaginary part as λ.
             let (lambda, q) = pair(-root);
             pairs.push((lambda.conj(), Col::from_fn(size, |i| q[i].conj())));
         }

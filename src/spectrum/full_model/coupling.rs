@@ -230,7 +230,8 @@ impl<'a> Relative<'a> {
 /// A symmetric matrix in the basis of waves (cos nθ ± i sin nθ)/√2, e^{inθ} before e^{−inθ}.
 pub fn in_waves(matrix: &Mat<f64>, harmonics: &[Harmonic]) -> Mat<c64> {
     let half = std::f64::consts::FRAC_1_SQRT_2;
-    // Every wave is a cosine plus or minus i times a sine: (index of the cosine, of the sine, sign, share).
+    // Every wave is share · (cosine + i · sign · sine), stored as (index of the cosine, index of the sine,
+    // sign, share). For n = 0 the sign is 0.
     let waves: Vec<(usize, usize, f64, f64)> = harmonics
         .iter()
         .flat_map(|h| {

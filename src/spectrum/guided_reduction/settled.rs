@@ -165,8 +165,8 @@ impl Builder<'_> {
         let [from, to] = ends.map(|end| end.speed_rad_per_s);
         let middle = 0.5 * (from + to);
         let [_, tolerance] = self.tolerances();
-        // The flag is true if the states are accurate enough. It is false if their eigenproblem fails, so
-        // that the eigenproblem of the projection replaces it.
+        // `is_good` is true if the states are accurate enough. It is false also if their eigenproblem fails,
+        // because then the interval is halved or the eigenproblem of the projection replaces it.
         let states_up_to = |height: f64| {
             let states = states_between(projection, ends, &self.standing, height)?;
             let pairs = states_at(&states, middle, self.counters);

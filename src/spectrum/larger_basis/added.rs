@@ -48,7 +48,8 @@ impl AddedFunctions {
         let structured = is_large
             .then(|| StructuredStiffness::nearly(larger))
             .flatten();
-        // The dense method reports an unstable blade, so it is used unless the count proves stability.
+        // The dense method reports a blade that is unstable at rest, so it is used unless the structured
+        // model proves that the stiffness at rest has no negative eigenvalue.
         let structured =
             structured.filter(|larger| larger.full.critical_speeds_below(0.0) == Some(0));
         if let Some(larger) = structured {
@@ -145,7 +146,7 @@ impl DenseFunctions {
                 matrix[(rows[i], columns[k])]
             })
         };
-        // The new functions have no effect on free rigid motions.
+        // Free rigid motions have no component on the added functions.
         let on_old = |z: &Col<f64>| Col::from_fn(kept.len(), |i| z[kept[i]]);
         let free: Vec<Col<f64>> = larger.free_rigid.iter().map(on_old).collect();
         let old = stiffened(&block(&larger.stiffness, kept, kept), &free);

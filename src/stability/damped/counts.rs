@@ -98,7 +98,7 @@ pub fn counted_in_window(
 ) -> Option<Option<Miscount>> {
     let top = window(listed, highest_rad_per_s)?;
     let unlisted = full.unlisted(speed_rad_per_s, listed, [top, top])?;
-    // A complex pair is one mode.
+    // Two conjugate eigenvalues are one mode, and so is a single real eigenvalue.
     let modes = (unlisted + unlisted.signum()) / 2;
     Some((unlisted != 0).then_some(Miscount {
         speed_rad_per_s,

@@ -58,7 +58,7 @@ pub fn curves(pieces: &[Piece], top_rad_per_s: f64, noise_per_s: f64) -> Vec<Cur
             let at = |speed: f64| upper(&group.sloped_at(speed));
             let follower = Follower {
                 at: &at,
-                // A step of rounding size cannot be divided.
+                // Steps of the size of rounding errors of the speed cannot be halved.
                 least_rad_per_s: (LEAST_STEP * (to - from)).max(8.0 * f64::EPSILON * to),
                 noise_per_s,
                 ended: Vec::new(),

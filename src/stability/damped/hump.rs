@@ -71,7 +71,7 @@ fn onset(
     outside: CurvePoint,
     inside: CurvePoint,
 ) -> Result<CurvePoint, SpectrumError> {
-    // If the point outside still grows, the curve leaves the accurate range of frequencies there.
+    // If the mode still grows at the point outside, the curve leaves the accurate range of frequencies there.
     if outside.lambda.re >= 0.0 {
         return Ok(outside);
     }
@@ -173,7 +173,8 @@ fn parted(stretch: Stretch, noise: f64) -> Vec<Instability> {
 /// Adds the indices of the lowest points between humps, deepest first.
 fn valleys(curve: &[CurvePoint], (first, last): (usize, usize), found: &mut Vec<usize>) {
     let growth = |k: usize| curve[k].lambda.re;
-    // Largest growth before and after each point.
+    // For each point, `before` is the largest growth up to the point and `behind` the largest growth from the
+    // point on.
     let mut before = 0.0_f64;
     let mut deepest: Option<(f64, usize)> = None;
     let mut behind: Vec<f64> = (first..=last)

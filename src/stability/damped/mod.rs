@@ -120,7 +120,7 @@ fn bands(
     let mut spectra: Vec<Spectrum> = Vec::new();
     for (pieces, bands) in &searched {
         instabilities.extend(bands.iter().cloned());
-        // With several components, the spectrum of one is not that of the saw.
+        // With several components, the spectrum of one component is not that of the saw.
         if searched.len() == 1 {
             spectra = solver.spectra(pieces);
         }
@@ -202,7 +202,8 @@ fn mismatches(solver: &Solver<'_>, spectra: &[Spectrum], bands: &[Instability]) 
         let covering = bands
             .iter()
             .filter(|b| b.from_rad_per_s < speed && speed < b.to_rad_per_s);
-        // Growth within rounding of zero may have either sign.
+        // A growth rate within rounding errors of zero may have either sign, so that two counts limit the
+        // number of growing modes.
         let growing = |least: f64| {
             let values = spectrum.values.iter();
             let sound = values.filter(|l| l.im <= solver.highest());

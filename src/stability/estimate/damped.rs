@@ -24,7 +24,8 @@ pub fn fastest(
         peak_rad_per_s: peak,
         ..
     } = *band;
-    // A band that still grows at the end of the range has its largest growth there, in any basis.
+    // If the largest growth is at an end of the band, the range cuts the band there, so that no speed beyond
+    // this end is examined.
     let below = if peak > from { to - from } else { 0.0 };
     let above = if peak < to { to - from } else { 0.0 };
     let mut growth = f64::NEG_INFINITY;

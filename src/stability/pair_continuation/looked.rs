@@ -27,7 +27,8 @@ impl Looked {
         let square = 3.0 * rise - 2.0 * slope - end_slope;
         let cube = slope + end_slope - 2.0 * rise;
         let is_ahead = |t: &f64| (t * width * direction > 0.0) == (value > 0.0);
-        // Roots of the parabola in the form that avoids cancellation, then those of the cubic.
+        // Newton's method for the cubic starts at the nearest root of the parabola without the cubic term.
+        // The roots are written in the form that avoids cancellation.
         let discriminant = slope * slope - 4.0 * square * value;
         let q = -0.5 * (slope + slope.signum() * discriminant.sqrt());
         let roots = [q / square, value / q].into_iter();

@@ -9,7 +9,8 @@ use crate::spectrum::full_model::Harmonic;
 #[derive(Debug)]
 pub struct FreeWaves {
     pub of: Eigenvectors,
-    /// A diagonal matrix in these waves that is an upper bound of the weights.
+    /// Diagonal of a matrix that, in the coordinates of these waves, is an upper bound of the `weights` of a
+    /// harmonic.
     pub weights: Vec<f64>,
 }
 

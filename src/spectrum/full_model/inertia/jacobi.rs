@@ -54,7 +54,7 @@ fn rotate(matrix: &mut [f64], vectors: &mut [f64], order: usize, [i, k]: [usize;
     let coupling = matrix[k * order + i];
     let (own_i, own_k) = (matrix[i * order + i], matrix[k * order + k]);
     let half = (own_k - own_i) / (2.0 * coupling);
-    // The smaller root of t² + 2 half t − 1.
+    // The tangent t of the rotation angle is the smaller root of t² + 2 half t − 1 = 0.
     let tangent = half.signum() / (half.abs() + (half * half + 1.0).sqrt());
     let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
     let sine = tangent * cosine;

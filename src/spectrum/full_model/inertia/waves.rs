@@ -168,7 +168,8 @@ impl Waves {
         rest: f64,
     ) -> Option<usize> {
         let count = self.soft.waves.len();
-        // Sum and difference of 1/d for the waves e^{inθ} and e^{−inθ}, with the diagonal element d of A.
+        // For each row, `sum` is the sum of 1/d over the waves e^{inθ} and e^{−inθ} that are not resonant,
+        // and `difference` is the difference of the two 1/d, where d is the diagonal element of A.
         let (mut sum, mut difference) = (vec![0.0; count], vec![0.0; count]);
         let mut resonant: Vec<Resonant> = Vec::new();
         let mut negative = 0;
@@ -240,7 +241,8 @@ impl Waves {
         let Rows { waves, both } = &self.soft;
         let (rows, count) = (waves.len(), both.ncols());
         let (cosine, sine) = both.split_at_row(rows);
-        // CᵀΣC + SᵀΣS, lower triangle, and SᵀΔC.
+        // With C = `cosine`, S = `sine`, Σ = diag(`sum`) and Δ = diag(`difference`), the lower triangle of
+        // CᵀΣC + SᵀΣS is added to `real`, and `mixed` is SᵀΔC.
         let mut scaled = self.soft.scaled([sum, sum]);
         add_lower_product(&mut real, both, &scaled);
         for k in 0..count {
