@@ -57,8 +57,9 @@ export class Pinned {
     return this.#saws.at(-1)?.chart ?? this.#begun;
   }
 
+  // The numbers of this chart; none before the first chart of another saw.
   get facts() {
-    return this.#last.told.facts;
+    return this.#last?.told.facts ?? [];
   }
 
   #unpin(saw) {
