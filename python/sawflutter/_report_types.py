@@ -1883,7 +1883,7 @@ class OscillationPlace(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OscillationPad(Entry):
-    """A pad over a period."""
+    """Forces and contact of a pad over one period of the motion."""
 
     guide: int
     """Index among the guides of the scene."""
@@ -2304,11 +2304,11 @@ class Placed(Entry):
     """Tolerance of production, the deviation for the next two values."""
 
     less_rpm: float | None
-    """Goal if the number is smaller by this amount; null if there is no such saw or it could
-    not be computed."""
+    """Value of the goal if the number is smaller by `offset`; null if there is no such saw or
+    the goal could not be computed."""
 
     more_rpm: float | None
-    """Goal if the number is larger by this amount."""
+    """Value of the goal if the number is larger by `offset`; null in the same cases."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
