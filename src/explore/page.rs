@@ -19,6 +19,7 @@ files! {
     "style.css": STYLE, "page/style.css";
     "main.js": SCRIPT, "page/main.js";
     "talk.js": SCRIPT, "page/talk.js";
+    "times.js": SCRIPT, "page/times.js";
     "backend.js": SCRIPT, "page/backend.js";
     "scene.js": SCRIPT, "page/scene.js";
     "kept.js": SCRIPT, "page/kept.js";

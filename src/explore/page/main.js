@@ -15,6 +15,7 @@ import { Pointed } from "./pointed.js";
 import { SceneState } from "./scene.js";
 import { Refused, influence, progress, start, stayConnected } from "./talk.js";
 import { Tasks } from "./tasks.js";
+import { Times } from "./times.js";
 import { facts, headline, tables, verdict } from "./verdict.js";
 import { dock } from "./dock.js";
 import { write } from "./dom.js";
@@ -32,10 +33,9 @@ let latest = null;
 let refusedKey = null;
 const kept = new Kept(begun.scene);
 
-// Read by the browser test: times from a move, or from the release of a drag, to the painted chart, the parts of these
-// times for drafts, and the state of the page.
+// Read by the browser test: times, and the state of the page.
 /** @type {any} */
-const seen = (/** @type {any} */ (window).sawflutter = { latencies: { critical: [], bands: [], draft: [], scene: [], release: [] }, ahead: 0, computed: [], parts: [], painted: null, newest: null });
+const seen = (/** @type {any} */ (window).sawflutter = new Times());
 
 const state = new SceneState(begun.scene, (scene, { draft, structure, stamp, released }) => {
   live.ask(scene, { draft, stamp, released });
@@ -156,23 +156,12 @@ function onChart(chart, request) {
   if (!request.draft) weigh(chart);
   blade.draw(state.scene, null);
   if (charts.pointed || pointed.isOn) pointed.show(chart.chart, charts.pointed);
-  const drawn = performance.now();
-  painted(() => {
-    const now = performance.now();
-    if (request.draft) seen.parts.push(partsOf(request, chart.milliseconds, read, drawn, now));
-    const kind = request.draft ? "draft" : "scene";
-    seen.latencies[kind].push(...request.stamps.map((stamp) => now - stamp));
-    if (request.released !== undefined) seen.latencies.release.push(now - request.released);
-    seen.computed.push([kind, chart.milliseconds]);
-    seen.painted = request.draft ? null : request.text;
-    seen.newest = request.text;
-  });
+  seen.chart(request, chart.milliseconds, read, performance.now());
 }
 
 // Shows the critical speeds of a scene, and the bands with the verdict once they are known, before its chart.
 function onAhead(found, request) {
   if (!latest) return;
-  seen.ahead += 1;
   charts.moveAhead(found);
   const now = latest.told.facts.map((fact) => {
     const ahead = found.facts.find(({ name }) => name === fact.name);
@@ -180,23 +169,7 @@ function onAhead(found, request) {
   });
   facts(by("facts"), now, pinned.facts);
   if (found.verdict) headline(by("verdict"), found.verdict);
-  if (!request.draft) return;
-  const kind = found.bands ? "bands" : "critical";
-  // Moves of an earlier request for which these results were shown before are not counted again.
-  const counted = request.counted[kind] ?? 0;
-  request.counted[kind] = request.stamps.length;
-  painted(() => {
-    const painting = performance.now();
-    seen.latencies[kind].push(...request.stamps.slice(counted).map((stamp) => painting - stamp));
-  });
-}
-
-// Divides the time from a move to its painted chart, in milliseconds, into waiting for the chart that was being
-// computed at the move, computing, sending, drawing and painting.
-function partsOf({ stamps, asked, answered }, computing, read, drawn, now) {
-  return {
-    waiting: stamps.map((stamp) => asked - stamp), computing, sending: answered - asked - computing, drawing: drawn - read, painting: now - drawn,
-  };
+  seen.early(request, found);
 }
 
 // Requests the influence of the numbers of the form on the speeds of a chart, and shows it in the form.
@@ -219,13 +192,6 @@ async function weigh(chart) {
 function compare() {
   pinned.showWith(latest, by("side").checked && pinned.isNamed);
   tell();
-}
-
-// Calls `then` after the next frame is painted.
-function painted(then) {
-  const channel = new MessageChannel();
-  channel.port1.onmessage = then;
-  requestAnimationFrame(() => channel.port2.postMessage(null));
 }
 
 // Shows an error that belongs to no field.
