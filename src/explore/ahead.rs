@@ -71,11 +71,8 @@ impl Ahead {
         self.bands = Some(evidence.bands.iter().map(shaded).collect());
         let onsets = flutter_onsets(evidence.bands, threshold);
         let growths = evidence.bands.iter().map(|band| band.peak_growth_per_s);
-        let added = of_bands(
-            onsets.map(|onset| onset.map(rpm)),
-            growths.fold(0.0, f64::max),
-        );
-        self.facts.extend(added);
+        let onsets = onsets.map(|onset| onset.map(rpm));
+        self.facts.extend(of_bands(onsets, growths));
         self.verdict = operating_rad_per_s.map(|speed| {
             let operating = OperatingEntry::from_evidence(evidence, speed);
             Verdict {

@@ -39,6 +39,18 @@ pub struct Question {
     pub body: String,
 }
 
+impl Question {
+    /// Whether the request names a diagram or a task, whose answer is sent line by line.
+    #[cfg(feature = "explore")]
+    pub(super) fn is_answered_in_lines(&self) -> bool {
+        match self.path.split_once('/') {
+            Some(("chart", name)) => Fidelity::named(name).is_some(),
+            Some(("task", name)) => Task::named(name).is_some(),
+            _ => false,
+        }
+    }
+}
+
 /// An answer with the status and media type of HTTP.
 #[derive(Debug, Clone)]
 pub struct Answer {

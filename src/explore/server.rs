@@ -17,7 +17,6 @@ use futures_util::stream::unfold;
 use tokio::net::TcpListener;
 
 use super::backend::{Answer, Backend, LINES, Question};
-use super::charts::Fidelity;
 use super::fields::Units;
 use super::guard::{OwnHosts, guard};
 use super::job::Jobs;
@@ -25,7 +24,6 @@ use super::opened::OpenedFile;
 use super::page;
 use super::pages::Pages;
 use super::refusal::Refusal;
-use super::task::Task;
 use crate::scene::{MAX_SCENE_BYTES, Scene};
 use crate::spectrum::SpectrumError;
 
@@ -128,6 +126,11 @@ fn router(server: Server, hosts: OwnHosts) -> Router {
             asked(server, queue, uri, headers, body)
         }
     };
+    let sending_lines = |queue: Queue| {
+        move |State(server): State<Server>, uri: Uri, headers: HeaderMap, body: String| async move {
+            line_by_line(&server, queue, question(&uri, &headers, body))
+        }
+    };
     let at_once = waiting_in(Queue::None);
     let saved = waiting_in(Queue::Charts);
     let weighed = waiting_in(Queue::Influences);
@@ -143,11 +146,11 @@ fn router(server: Server, hosts: OwnHosts) -> Router {
         .route("/measured", post(at_once))
         .route("/part", post(at_once))
         .route("/mode", post(at_once))
-        .route("/chart/{fidelity}", post(chart))
+        .route("/chart/{fidelity}", post(sending_lines(Queue::Charts)))
         .route("/critical", post(ahead))
         .route("/save/{name}", post(saved))
         .route("/influence", post(weighed))
-        .route("/task/{task}", post(task))
+        .route("/task/{task}", post(sending_lines(Queue::Tasks)))
         .route("/file", post(save_to_file))
         .route("/alive", post(alive))
         .route("/leave", post(leave))
@@ -190,10 +193,24 @@ async fn progress(State(server): State<Server>, headers: HeaderMap) -> Response 
 enum Queue {
     /// Diagrams and files.
     Charts,
+    Tasks,
     Influences,
     Criticals,
     /// Requests that take no time and are answered at once.
     None,
+}
+
+impl Server {
+    /// The computations of a queue; `None` for requests that are answered at once.
+    fn jobs_of(&self, queue: Queue) -> Option<&Jobs> {
+        match queue {
+            Queue::Charts => Some(&self.jobs),
+            Queue::Tasks => Some(&self.tasks),
+            Queue::Influences => Some(&self.influences),
+            Queue::Criticals => Some(&self.criticals),
+            Queue::None => None,
+        }
+    }
 }
 
 /// Sends the answer to a request.
@@ -207,11 +224,9 @@ async fn asked(
     let question = question(&uri, &headers, body);
     let backend = server.backend.clone();
     let work = move || backend.answer(&question, |_| ());
-    let answer = match queue {
-        Queue::Charts => server.jobs.run(work).await,
-        Queue::Influences => server.influences.run(work).await,
-        Queue::Criticals => server.criticals.run(work).await,
-        Queue::None => Some(work()),
+    let answer = match server.jobs_of(queue) {
+        Some(jobs) => jobs.run(work).await,
+        None => Some(work()),
     };
     answer.map_or_else(|| StatusCode::SERVICE_UNAVAILABLE.into_response(), sent)
 }
@@ -239,43 +254,19 @@ fn sent(answer: Answer) -> Response {
     (status, kind, answer.content).into_response()
 }
 
-/// Sends early results of a diagram and then the diagram.
-async fn chart(
-    State(server): State<Server>,
-    Path(name): Path<String>,
-    uri: Uri,
-    headers: HeaderMap,
-    body: String,
-) -> Response {
-    if Fidelity::named(&name).is_none() {
+/// Sends early results of a diagram, or the progress of a task, and then the result, line by line. The
+/// computation is cancelled when the connection closes.
+fn line_by_line(server: &Server, queue: Queue, question: Question) -> Response {
+    if !question.is_answered_in_lines() {
         return StatusCode::BAD_REQUEST.into_response();
     }
-    let jobs = server.jobs.clone();
-    line_by_line(server.backend, jobs, question(&uri, &headers, body))
-}
-
-/// Sends the progress of a task and then its result.
-async fn task(
-    State(server): State<Server>,
-    Path(name): Path<String>,
-    uri: Uri,
-    headers: HeaderMap,
-    body: String,
-) -> Response {
-    if Task::named(&name).is_none() {
-        return StatusCode::BAD_REQUEST.into_response();
-    }
-    let tasks = server.tasks.clone();
-    line_by_line(server.backend, tasks, question(&uri, &headers, body))
-}
-
-/// Sends the answer to a request line by line; the computation is cancelled when the connection closes.
-fn line_by_line(backend: Arc<Backend>, queue: Jobs, question: Question) -> Response {
+    let backend = server.backend.clone();
+    let jobs = server.jobs_of(queue).cloned().unwrap_or_default();
     let (tell, told) = tokio::sync::mpsc::unbounded_channel();
     let job = async move {
         // An error of sending is ignored, because the receiver may be closed already.
         let work = move || backend.answer(&question, move |line| drop(tell.send(line)));
-        let done = queue.run(work).await.map(|answer| answer.content);
+        let done = jobs.run(work).await.map(|answer| answer.content);
         done.and_then(|line| String::from_utf8(line).ok())
             .unwrap_or_else(cancelled)
     };

@@ -60,13 +60,16 @@ pub fn of_critical(first_rpm: Option<f64>, share: Option<f64>) -> [Fact; 2] {
 }
 
 /// Flutter speed, onset of the first flutter band, and largest growth rate.
-pub fn of_bands([flutter_rpm, first_merge_rpm]: [Option<f64>; 2], growth_per_s: f64) -> [Fact; 3] {
+pub fn of_bands(
+    [flutter_rpm, first_merge_rpm]: [Option<f64>; 2],
+    peak_growths_per_s: impl Iterator<Item = f64>,
+) -> [Fact; 3] {
     [
         speed("Flutter speed", flutter_rpm),
         speed("First merging", first_merge_rpm),
         Fact {
             name: "Fastest growth",
-            words: shown_to(3, growth_per_s),
+            words: shown_to(3, peak_growths_per_s.fold(0.0, f64::max)),
             unit: "1/s",
         },
     ]
@@ -79,7 +82,7 @@ fn facts(report: &Report) -> Vec<Fact> {
     let [first_critical, share] = of_critical(critical, share);
     let onsets = [report.flutter_speed_rpm, report.first_merge_rpm];
     let mut facts = vec![first_critical];
-    facts.extend(of_bands(onsets, peaks.fold(0.0, f64::max)));
+    facts.extend(of_bands(onsets, peaks));
     facts.push(share);
     let heat = report.membrane.as_ref().and_then(|m| m.heat.as_ref());
     facts.extend(heat.map(|heat| {

@@ -15,7 +15,7 @@ use super::ladder::next_smaller;
 use super::listed::Listed;
 use super::loci::RootLoci;
 use super::onsets::Onsets;
-use super::options::{AnalysisOptions, Interim};
+use super::options::AnalysisOptions;
 use super::out_of_reach::OutOfReach;
 use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
 use crate::campbell::CampbellError;
@@ -186,11 +186,7 @@ impl Analysis {
             estimated_resting_error,
             larger,
         } = chosen;
-        options.report(Interim {
-            critical: &critical,
-            range_rad_per_s: range,
-            bands: None,
-        });
+        options.report(&critical, range, None);
         let strategy = match detail {
             Detail::Full => Strategy::Reduced,
             Detail::Sketch => Strategy::Sketch,

@@ -38,9 +38,18 @@ pub struct Interim<'a> {
 
 impl AnalysisOptions<'_> {
     /// Calls the callback for interim results, if there is one.
-    pub(super) fn report(&self, interim: Interim<'_>) {
+    pub(super) fn report(
+        &self,
+        critical: &[NamedCriticalSpeed],
+        range_rad_per_s: (f64, f64),
+        bands: Option<&[Instability]>,
+    ) {
         if let Some(receive) = self.interim {
-            receive(interim);
+            receive(Interim {
+                critical,
+                range_rad_per_s,
+                bands,
+            });
         }
     }
 }

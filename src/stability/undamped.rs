@@ -6,7 +6,7 @@ use super::certified::{Depth, bands, contradictions};
 use super::detail::Detail;
 use super::error::AnalysisError;
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP};
-use super::options::{AnalysisOptions, Interim};
+use super::options::AnalysisOptions;
 use super::signature::Signature;
 use crate::campbell::{self, Closeness, SpeedSample};
 use crate::spectrum::{SpectralModel, SpectrumError, clear_range, searched_range};
@@ -48,11 +48,7 @@ pub(super) fn charted(
     campbell::check_room(model, &speeds)?;
     let searched = || {
         let found = bands(model, range, &search, depth)?;
-        options.report(Interim {
-            critical: &model.critical,
-            range_rad_per_s: range,
-            bands: Some(&found.0),
-        });
+        options.report(&model.critical, range, Some(&found.0));
         Ok::<_, SpectrumError>(found)
     };
     let (found, samples) = rayon::join(searched, || campbell::sample(model, &speeds, progress));

@@ -16,7 +16,7 @@ use super::band::Instability;
 use super::certificate::Certificate;
 use super::detail::Detail;
 use super::error::AnalysisError;
-use super::options::{AnalysisOptions, Interim};
+use super::options::AnalysisOptions;
 use super::partition::Plane;
 use super::pieces::{Piece, Search};
 use super::undamped::with_critical_speeds;
@@ -46,11 +46,7 @@ pub(super) fn charted(
     let closeness = Closeness::of(options.detail);
     let searched = || {
         let found = bands(model, range, closeness)?;
-        options.report(Interim {
-            critical: &model.critical,
-            range_rad_per_s: range,
-            bands: Some(&found.0),
-        });
+        options.report(&model.critical, range, Some(&found.0));
         Ok::<_, AnalysisError>(found)
     };
     let sampled = || campbell::sample(model, &speeds, options.progress);
