@@ -27,10 +27,18 @@
 //! [`check`], [`gap`] → [`place`], [`study`] → [`map`] → [`report`] → [`figure`] → [`document`]. [`spline`] is on
 //! the level of [`system`] and imports [`scene`] and [`plate`] alone; [`stretched`] is on the level of
 //! [`campbell`]. [`analytical`] imports nothing; it contains closed forms with their sources, with which tests
-//! compare the other modules.
+//! compare the other modules. `linalg` imports nothing either; the other modules call eigenvalue and singular value
+//! solvers through it alone.
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
+#![cfg_attr(
+    test,
+    allow(
+        clippy::disallowed_methods,
+        reason = "tests compare with the solvers themselves"
+    )
+)]
 
 // Unit tests use the random saws of the integration tests, which refer to the crate by its name.
 #[cfg(test)]
@@ -50,6 +58,7 @@ pub mod explore;
 pub mod figure;
 pub mod fit;
 pub mod gap;
+mod linalg;
 pub mod map;
 pub mod place;
 pub mod plate;

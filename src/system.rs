@@ -18,6 +18,7 @@
 use faer::{Col, Mat, MatRef, Scale, c64};
 use nalgebra::DMatrix;
 
+use crate::linalg::SymmetricEigen;
 use crate::plate::{HarmonicBlock, Plate};
 
 /// L(λ) = λ² + λD + K from K(Ω) and D = 2ΩG + C, in 1/s².
@@ -166,16 +167,20 @@ impl GyroscopicSystem {
         if rigid.is_empty() {
             return;
         }
-        let held = DMatrix::from_fn(rigid.len(), rigid.len(), |i, j| {
+        let held = Mat::from_fn(rigid.len(), rigid.len(), |i, j| {
             self.stiffness[(rigid[i], rigid[j])]
         });
-        let eigen = held.symmetric_eigen();
-        let stiffest = eigen.eigenvalues.amax();
+        // A stiffness that is not finite holds every motion here, and is refused by every eigenproblem.
+        let eigen = SymmetricEigen::or_nan(held.as_ref());
+        let stiffest = eigen
+            .values
+            .iter()
+            .fold(0.0_f64, |most, x| most.max(x.abs()));
         let largest = self.stiffness.norm_max();
-        for k in (0..rigid.len()).filter(|&k| eigen.eigenvalues[k] <= ROUNDING * stiffest) {
+        for k in (0..rigid.len()).filter(|&k| eigen.values[k] <= ROUNDING * stiffest) {
             let mut z = Col::zeros(self.order());
             for (i, &index) in rigid.iter().enumerate() {
-                z[index] = eigen.eigenvectors[(i, k)];
+                z[index] = eigen.vectors[(i, k)];
             }
             if (&self.stiffness * &z).norm_max() <= ROUNDING * largest {
                 self.free_rigid.push(z);
@@ -196,15 +201,15 @@ impl GyroscopicSystem {
         let count = turned.len();
         // The matrix `coupled` is Ĝ = ZᵀGZ with the free rigid motions as columns of Z. The null vectors of
         // ĜᵀĜ are those of Ĝ.
-        let coupled = DMatrix::from_fn(count, count, |i, j| {
+        let coupled = Mat::from_fn(count, count, |i, j| {
             self.free_rigid[i].transpose() * &turned[j]
         });
-        let eigen = (coupled.transpose() * coupled).symmetric_eigen();
+        let eigen = SymmetricEigen::or_nan((coupled.transpose() * &coupled).as_ref());
         let mut drift: Option<Mat<f64>> = None;
-        for k in (0..count).filter(|&k| eigen.eigenvalues[k] <= ROUNDING) {
+        for k in (0..count).filter(|&k| eigen.values[k] <= ROUNDING) {
             let mut g = Col::<f64>::zeros(self.order());
             for (i, column) in turned.iter().enumerate() {
-                g += Scale(eigen.eigenvectors[(i, k)]) * column;
+                g += Scale(eigen.vectors[(i, k)]) * column;
             }
             if g.norm_max() > ROUNDING {
                 let order = self.order();

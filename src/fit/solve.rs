@@ -4,9 +4,10 @@ use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, Constraints, DenseMatrix, Executor, Jacobian,
     Residual, TrustRegionReflective,
 };
-use nalgebra::DMatrix;
+use faer::Mat;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
+use crate::linalg::RightSingular;
 use crate::spectrum::SpectrumError;
 
 use super::model::Model;
@@ -145,28 +146,27 @@ pub fn statistics(
     if free.is_empty() {
         return Ok(spread);
     }
-    let jacobian = DMatrix::from_fn(residuals.len(), free.len(), |i, k| slopes.get(i, free[k]));
-    let lengths: Vec<f64> = jacobian.column_iter().map(|c| c.norm()).collect();
+    let jacobian = Mat::from_fn(residuals.len(), free.len(), |i, k| slopes.get(i, free[k]));
+    let lengths: Vec<f64> = jacobian.col_iter().map(|column| column.norm_l2()).collect();
     let student = StudentsT::new(0.0, 1.0, degrees_of_freedom as f64);
     let (Ok(student), true) = (student, lengths.iter().all(|length| *length > 0.0)) else {
         return Ok(spread);
     };
-    let unit = DMatrix::from_fn(residuals.len(), free.len(), |i, k| {
+    let unit = Mat::from_fn(residuals.len(), free.len(), |i, k| {
         jacobian[(i, k)] / lengths[k]
     });
-    let svd = unit.svd(false, true);
-    let Some(turned) = svd.v_t else {
+    let Ok(RightSingular { values, vectors }) = RightSingular::new(unit.as_ref()) else {
         return Ok(spread);
     };
     let variance = residuals.iter().map(|r| r * r).sum::<f64>() / degrees_of_freedom as f64;
     let quantile = student.inverse_cdf(0.5 + 0.5 * confidence);
-    let open = |i: usize| svd.singular_values[i] < DEPENDENT;
+    let open = |i: usize| values[i] < DEPENDENT;
     let loose: Vec<bool> = (0..free.len())
-        .map(|k| (0..free.len()).any(|i| open(i) && turned[(i, k)].abs() > DEPENDENT.sqrt()))
+        .map(|k| (0..free.len()).any(|i| open(i) && vectors[(k, i)].abs() > DEPENDENT.sqrt()))
         .collect();
     let inverse = |k: usize, l: usize| -> f64 {
         let known = (0..free.len()).filter(|&i| !open(i));
-        let terms = known.map(|i| turned[(i, k)] * turned[(i, l)] / svd.singular_values[i].powi(2));
+        let terms = known.map(|i| vectors[(k, i)] * vectors[(l, i)] / values[i].powi(2));
         terms.sum::<f64>()
     };
     for k in (0..free.len()).filter(|&k| !loose[k]) {

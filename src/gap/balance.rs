@@ -15,6 +15,7 @@ use std::f64::consts::TAU;
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, c64};
 
+use crate::linalg::real_eigenvalues;
 use crate::system::GyroscopicSystem;
 use crate::transient::Force;
 
@@ -327,8 +328,8 @@ impl<'a> Balance<'a> {
             state.subrows_mut(0, order).copy_from(&next_q);
             state.subrows_mut(order, order).copy_from(&next_v);
         }
-        let multipliers: Vec<c64> = state.eigenvalues().ok()?;
-        let largest = multipliers
+        let largest = real_eigenvalues(state.as_ref())
+            .ok()?
             .into_iter()
             .max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
         let growth = Growth {

@@ -3,6 +3,7 @@
 use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 
+use crate::linalg::{SymmetricEigen, view};
 use crate::scene::Blade;
 
 use super::radial::RadialBasis;
@@ -108,13 +109,15 @@ impl HarmonicBlock {
                 Some(membrane) => &self.bending + membrane,
                 None => self.bending.clone(),
             };
-            let eigen = stiffness.symmetric_eigen();
+            // Numbers that are not finite are refused by every eigenproblem of the damped blade.
+            let eigen = SymmetricEigen::or_nan(view(&stiffness));
+            let order = stiffness.nrows();
             // A buckled shape has a negative eigenvalue and does not oscillate, so that it has no damping ratio.
-            let twice = eigen
-                .eigenvalues
-                .map(|value| 2.0 * ratio * value.max(0.0).sqrt());
-            let vectors = &eigen.eigenvectors;
-            damping += vectors * DMatrix::from_diagonal(&twice) * vectors.transpose();
+            let scaled = Mat::from_fn(order, order, |i, k| {
+                2.0 * ratio * eigen.values[k].max(0.0).sqrt() * eigen.vectors[(i, k)]
+            });
+            let own = scaled * eigen.vectors.transpose();
+            damping += DMatrix::from_fn(order, order, |i, k| own[(i, k)]);
         }
         self.material_damping = Some(damping);
     }

@@ -8,8 +8,9 @@
 //! A mass m at the radius r, h beside the middle plane, pulls with mrΩ², which does work on the rotation of the rim: the
 //! moment is mrhΩ², the load −mrhΩ² ∂φ/∂r.
 
-use faer::{Col, Side, c64};
+use faer::{Col, c64};
 
+use crate::linalg::SymmetricEigen;
 use crate::plate::Plate;
 use crate::scene::{ResponseFile, Scene};
 
@@ -138,14 +139,13 @@ fn turning(plate: &Plate, n: usize, radial: &[f64]) -> Col<c64> {
 /// motion.
 fn shape_load(plate: &Plate, n: usize, amplitude_m: f64) -> Option<Col<c64>> {
     let stiffness = plate.harmonics.get(n)?.body_frame_stiffness(0.0);
-    let eigen = stiffness.self_adjoint_eigen(Side::Lower).ok()?;
-    let values = eigen.S();
-    let (softest, stiffest) = (values[0], values[values.dim() - 1]);
+    let SymmetricEigen { values, vectors } = SymmetricEigen::new(stiffness.as_ref()).ok()?;
+    let (softest, stiffest) = (*values.first()?, *values.last()?);
     if softest <= RIGID * stiffest {
         return None;
     }
     let rim = plate.basis.evaluate(n, plate.blade.outer_radius_m).value;
-    let shape = eigen.U().col(0);
+    let shape = vectors.col(0);
     let at_rim: f64 = rim.iter().zip(0..).map(|(r, j)| r * shape[j]).sum();
     let scale = softest * amplitude_m * plate.angular_norm(n) / at_rim;
     let radial: Vec<f64> = (0..shape.nrows()).map(|j| scale * shape[j]).collect();

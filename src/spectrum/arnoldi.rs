@@ -16,13 +16,13 @@ mod operator;
 
 use faer::{Col, Mat, Scale};
 
+use crate::linalg::{LinalgError, RealEigen};
 use crate::system::GyroscopicSystem;
 
 use self::operator::{Operator, ShiftedInverse, SquaredInverse};
 use super::error::SpectrumError;
 use super::full_model::FullModel;
 use super::mode::rigid_noise;
-use super::real_eigen::{NoConvergence, RealEigen};
 use super::vectors::{Eigenpair, by_magnitude, unit};
 use crate::tuned::Tuned;
 
@@ -40,7 +40,7 @@ const STEPS_EACH: usize = 12;
 /// if the iteration stalls.
 ///
 /// # Errors
-/// [`SpectrumError::NoConvergence`].
+/// [`SpectrumError::Decomposition`].
 pub fn lowest_eigenpairs(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
@@ -52,7 +52,7 @@ pub fn lowest_eigenpairs(
         true => nearest(&SquaredInverse::new(inverse), count, shift_per_s),
         false => nearest(&inverse, 2 * count, shift_per_s),
     };
-    let failed = |_| SpectrumError::no_convergence(2 * system.order(), speed_rad_per_s);
+    let failed = SpectrumError::at(speed_rad_per_s);
     let mut pairs = found.map_err(failed)?;
     // The pairs removed here approximate the free rigid motions, which are known exactly.
     pairs.retain(|(lambda, _)| lambda.norm() >= rigid_noise(system));
@@ -64,7 +64,7 @@ pub fn lowest_eigenpairs(
 /// the vectors suffice for a reduced basis. `None` without such a structure.
 ///
 /// # Errors
-/// [`SpectrumError::NoConvergence`].
+/// [`SpectrumError::Decomposition`].
 pub(super) fn nearly_lowest_eigenpairs(
     full: &FullModel,
     system: &GyroscopicSystem,
@@ -79,7 +79,7 @@ pub(super) fn nearly_lowest_eigenpairs(
         return Ok(None);
     };
     let found = nearest(&SquaredInverse::new(inverse), count, shift_per_s);
-    let failed = |_| SpectrumError::no_convergence(2 * system.order(), speed_rad_per_s);
+    let failed = SpectrumError::at(speed_rad_per_s);
     found.map(Some).map_err(failed)
 }
 
@@ -95,7 +95,7 @@ fn nearest<O: Operator>(
     operator: &O,
     wanted: usize,
     shift_per_s: f64,
-) -> Result<Vec<Eigenpair>, NoConvergence> {
+) -> Result<Vec<Eigenpair>, LinalgError> {
     let order = O::most_vectors(operator.order());
     let wanted = wanted.min(order);
     let beyond = O::steps_beyond();
@@ -176,7 +176,7 @@ impl Krylov {
         wanted: usize,
         shift: f64,
         finished: bool,
-    ) -> Result<Option<Vec<Eigenpair>>, NoConvergence> {
+    ) -> Result<Option<Vec<Eigenpair>>, LinalgError> {
         let m = self.steps;
         let square = self.hessenberg.get(..m, ..m).to_owned();
         let eigen = match RealEigen::new(square.as_ref()) {

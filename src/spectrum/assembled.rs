@@ -94,7 +94,7 @@ impl Assembled {
     /// The lowest `count` modes at rest, ascending, without damping and without free rigid motions.
     ///
     /// # Errors
-    /// [`SpectrumError::UnstableAtRest`], [`SpectrumError::NoConvergence`].
+    /// [`SpectrumError::UnstableAtRest`], [`SpectrumError::Decomposition`].
     pub fn modes_at_rest(&self, count: usize) -> Result<Vec<RestingMode>, SpectrumError> {
         let structured = self.structured();
         let structured =

@@ -6,6 +6,7 @@ use faer::{Col, Mat, Scale, Side};
 use super::component::Component;
 use super::error::SpectrumError;
 use super::generalized::stiffened;
+use crate::linalg::SymmetricEigen;
 use crate::system::GyroscopicSystem;
 
 /// A mode of the undamped blade at rest.
@@ -34,7 +35,7 @@ const MOST_ROUNDS: usize = 40;
 /// rigid motions.
 ///
 /// # Errors
-/// [`SpectrumError::UnstableAtRest`], [`SpectrumError::NoConvergence`].
+/// [`SpectrumError::UnstableAtRest`], [`SpectrumError::Decomposition`].
 pub fn modes_at_rest(
     components: &[Component],
     count: usize,
@@ -117,13 +118,11 @@ struct Ritz {
 
 impl Ritz {
     fn new(span: Mat<f64>, solved: Mat<f64>) -> Result<Self, SpectrumError> {
-        let order = span.nrows();
         let flexibility = span.transpose() * &solved;
-        let eigen = flexibility.self_adjoint_eigen(Side::Lower);
-        let eigen = eigen.map_err(|_| SpectrumError::NoConvergence { order, rpm: 0.0 })?;
+        let eigen = SymmetricEigen::new(flexibility.as_ref()).map_err(SpectrumError::at(0.0))?;
         let noise = 1e-14 * flexibility.norm_l2();
         let modes = (0..flexibility.nrows()).rev();
-        let modes = modes.map(|k| (eigen.S()[k], eigen.U().col(k).to_owned()));
+        let modes = modes.map(|k| (eigen.values[k], eigen.vectors.col(k).to_owned()));
         Ok(Ritz {
             span,
             solved,

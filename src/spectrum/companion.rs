@@ -3,11 +3,11 @@
 use faer::reborrow::ReborrowMut;
 use faer::{Mat, Scale, c64};
 
+use crate::linalg::RealEigen;
 use crate::system::GyroscopicSystem;
 
 use super::deflation::Deflation;
 use super::error::SpectrumError;
-use super::real_eigen::RealEigen;
 use super::vectors::{Eigenpair, by_magnitude, complex, unit};
 use super::work::Cancellation;
 
@@ -74,14 +74,14 @@ pub(super) fn deflated_companion(
 /// has one, with λ = 0 exactly.
 ///
 /// # Errors
-/// [`SpectrumError::NotFinite`], [`SpectrumError::NoConvergence`] or [`SpectrumError::Cancelled`].
+/// [`SpectrumError::NotFinite`], [`SpectrumError::Decomposition`] or [`SpectrumError::Cancelled`].
 pub fn companion_eigenpairs(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
 ) -> Result<Vec<Eigenpair>, SpectrumError> {
     let (state, scale, deflation) = deflated_companion(system, speed_rad_per_s)?;
     let size = system.order();
-    let failed = |_| SpectrumError::no_convergence(state.nrows(), speed_rad_per_s);
+    let failed = SpectrumError::at(speed_rad_per_s);
     let eigen = RealEigen::new(state.as_ref()).map_err(failed)?;
     let displacement = |i: usize| match &deflation {
         Some(deflation) => deflation.displacement(eigen.values[i], &eigen.vector(i)),
@@ -96,4 +96,91 @@ pub fn companion_eigenpairs(
         .chain(free)
         .collect();
     Ok(by_magnitude(pairs))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::channel;
+    use std::time::Duration;
+
+    use super::*;
+    use crate::plate::{Plate, Resolution};
+    use crate::scene::{DampingFile, Scene, ThicknessRow};
+    use crate::spectrum::Component;
+
+    /// A damped free blade with three thicknesses, from a random test: every wave is double.
+    fn twice_every_wave() -> Plate {
+        let scene = Scene::paper().edited(|saw| {
+            (saw.cut, saw.runup, saw.probe, saw.measured) = (None, None, None, None);
+            saw.guides.clear();
+            let blade = &mut saw.blade;
+            blade.outer_diameter_m = 1.7039005956434714;
+            blade.inner_diameter_m = 1.1401680670583623;
+            blade.thickness_m = 0.000022727469526954823;
+            let steps = [
+                (0.5804473014594919, 0.000035810356070992554),
+                (0.6127822457633207, 4.522951973305025e-6),
+            ];
+            blade.profile = steps
+                .map(|(radius_m, thickness_m)| ThicknessRow {
+                    radius_m,
+                    thickness_m,
+                })
+                .to_vec();
+            blade.material.youngs_modulus_pa = 100186744734.62596;
+            blade.material.poisson_ratio = -0.29091325246051736;
+            blade.material.density_kg_per_m3 = 29644.980423250156;
+            saw.damping = Some(DampingFile {
+                material_retardation_time_s: 1.2609351739477124e-6,
+                air_n_s_per_m3: 1.2154437772463647,
+                air_rotation_share: 0.8173495078965438,
+                ..DampingFile::default()
+            });
+        });
+        let resolution = Resolution {
+            max_diameters: 5,
+            radial_functions: 5,
+        };
+        Plate::new(&scene.unwrap(), resolution)
+    }
+
+    /// The iteration ends, and finds the eigenvalues of each harmonic.
+    #[test]
+    #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
+    fn equal_pairs_do_not_keep_the_iteration_from_its_end() {
+        let (send, receive) = channel();
+        std::thread::spawn(move || {
+            let system = GyroscopicSystem::of_plate(&twice_every_wave());
+            send.send(companion_eigenpairs(&system, 0.0).unwrap())
+        });
+        let limit = Duration::from_secs(60);
+        let whole = receive
+            .recv_timeout(limit)
+            .expect("an end of the iteration");
+        let harmonics = Component::of(&twice_every_wave());
+        let harmonics = harmonics.iter().map(|component| &component.full);
+        let mut apart: Vec<c64> = harmonics
+            .flat_map(|system| companion_eigenpairs(system, 0.0).unwrap())
+            .flat_map(with_conjugate)
+            .collect();
+        let whole: Vec<c64> = whole.into_iter().flat_map(with_conjugate).collect();
+        assert_eq!(whole.len(), apart.len());
+        let largest = whole.last().expect("eigenvalues").norm();
+        for lambda in whole {
+            let distance = |other: &c64| (other - lambda).norm();
+            let nearest = (0..apart.len())
+                .min_by(|&i, &k| distance(&apart[i]).total_cmp(&distance(&apart[k])))
+                .unwrap();
+            let error = distance(&apart.swap_remove(nearest));
+            // Errors are ε times the largest eigenvalue, and the root of ε for double ones.
+            assert!(error <= 1e-7 * largest, "{lambda}: {error:e}");
+        }
+    }
+
+    /// An eigenvalue, and its conjugate if it is complex: rounding may turn two equal real ones into such a
+    /// pair.
+    fn with_conjugate((lambda, _): Eigenpair) -> impl Iterator<Item = c64> {
+        let conjugate = (lambda.im > 0.0).then(|| lambda.conj());
+        [Some(lambda), conjugate].into_iter().flatten()
+    }
 }

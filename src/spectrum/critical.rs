@@ -29,7 +29,7 @@ pub struct CriticalSpeed {
 ///
 /// # Errors
 /// [`SpectrumError::UnstableAtRest`] when A is not positive definite except on free rigid motions;
-/// [`SpectrumError::NoConvergence`].
+/// [`SpectrumError::Decomposition`].
 pub fn critical_speeds(system: &GyroscopicSystem) -> Result<Vec<CriticalSpeed>, SpectrumError> {
     let softening = Scale(-1.0) * system.standing_spin();
     let found = singular_multiples(&system.stiffness, &system.free_rigid, &softening)?;

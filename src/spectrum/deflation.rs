@@ -8,6 +8,7 @@
 
 use faer::{Col, Mat, Scale, c64};
 
+use crate::linalg::SymmetricEigen;
 use crate::system::GyroscopicSystem;
 
 use super::vectors::real_times;
@@ -75,15 +76,14 @@ impl Deflation {
 fn displacements_without_momentum(free: &[Col<f64>], momentum: &[Col<f64>]) -> Mat<f64> {
     let count = free.len();
     // Element (i, k) is the product of momentum i and displacement k.
-    let coupled =
-        nalgebra::DMatrix::from_fn(count, count, |i, k| momentum[i].transpose() * &free[k]);
+    let coupled = Mat::from_fn(count, count, |i, k| momentum[i].transpose() * &free[k]);
     let size = momentum.iter().fold(0.0_f64, |top, m| top.max(m.norm_l2()));
-    let squares = (coupled.transpose() * &coupled).symmetric_eigen();
+    let squares = SymmetricEigen::or_nan((coupled.transpose() * &coupled).as_ref());
     let without: Vec<usize> = (0..count)
-        .filter(|&k| squares.eigenvalues[k].max(0.0).sqrt() <= ROUNDING * size)
+        .filter(|&k| squares.values[k].max(0.0).sqrt() <= ROUNDING * size)
         .collect();
     Mat::from_fn(free[0].nrows(), without.len(), |i, k| {
-        let combination = squares.eigenvectors.column(without[k]);
+        let combination = squares.vectors.col(without[k]);
         (0..count).map(|j| combination[j] * free[j][i]).sum()
     })
 }

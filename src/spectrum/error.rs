@@ -1,11 +1,21 @@
 //! Errors of eigenproblems.
 
+use crate::linalg::LinalgError;
 use crate::scene::rpm;
 
 /// Reason for which a spectrum could not be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum SpectrumError {
-    /// The eigenvalue iteration did not converge.
+    /// A decomposition failed.
+    #[error("{error} at {rpm} rpm")]
+    Decomposition {
+        /// Rotation speed.
+        rpm: f64,
+        /// Decomposition, order and error.
+        #[source]
+        error: LinalgError,
+    },
+    /// An iteration did not converge.
     #[error("the eigenvalues of order {order} did not converge at {rpm} rpm")]
     NoConvergence {
         /// Order of the matrix.
@@ -48,6 +58,15 @@ pub enum SpectrumError {
 }
 
 impl SpectrumError {
+    /// The error of a decomposition at a speed.
+    pub(crate) fn at(speed_rad_per_s: f64) -> impl Fn(LinalgError) -> Self {
+        let rpm = rpm(speed_rad_per_s);
+        move |error| match error {
+            LinalgError::NotFinite { order } => SpectrumError::NotFinite { order, rpm },
+            error => SpectrumError::Decomposition { rpm, error },
+        }
+    }
+
     pub(super) fn no_convergence(order: usize, speed_rad_per_s: f64) -> Self {
         SpectrumError::NoConvergence {
             order,

@@ -10,6 +10,7 @@ use faer::{Col, Mat, Side, c64};
 
 use super::error::SpectrumError;
 use super::vectors::{Eigenpair, by_magnitude, complex, unit};
+use crate::linalg::SymmetricEigen;
 use crate::plate::Plate;
 use crate::system::GyroscopicSystem;
 
@@ -17,7 +18,7 @@ use crate::system::GyroscopicSystem;
 /// one with λ = 0 exactly. `system` is that of the harmonic.
 ///
 /// # Errors
-/// [`SpectrumError::NoConvergence`].
+/// [`SpectrumError::NoConvergence`], [`SpectrumError::Decomposition`].
 pub fn eigenpairs(
     plate: &Plate,
     n: usize,
@@ -69,10 +70,10 @@ fn symmetric_modes(
     let order = matrix.nrows();
     let failed = || SpectrumError::no_convergence(order, speed_rad_per_s);
     let flexibility = matrix.llt(Side::Lower).map_err(|_| failed())?.inverse();
-    let eigen = flexibility.self_adjoint_eigen(Side::Lower);
-    let eigen = eigen.map_err(|_| failed())?;
-    let frequency = |k: usize| eigen.S()[k].sqrt().recip();
-    let modes = (0..order).map(|k| (frequency(k), eigen.U().col(k).to_owned()));
+    let eigen = SymmetricEigen::new(flexibility.as_ref());
+    let eigen = eigen.map_err(SpectrumError::at(speed_rad_per_s))?;
+    let frequency = |k: usize| eigen.values[k].sqrt().recip();
+    let modes = (0..order).map(|k| (frequency(k), eigen.vectors.col(k).to_owned()));
     Ok(modes
         .filter(|(frequency, _)| frequency.is_finite())
         .collect())

@@ -1,6 +1,5 @@
 //! Eigenvalues of the symmetric pencil A − m B.
 
-use faer::linalg::solvers::SelfAdjointEigen;
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
@@ -8,6 +7,7 @@ use faer::{Col, Mat, Par, Scale, Side};
 
 use super::error::SpectrumError;
 use super::work::Cancellation;
+use crate::linalg::SymmetricEigen;
 
 /// K₀ with a stiffness added to its free motions z, K₀z = 0, which makes it definite and changes no other
 /// motion.
@@ -25,7 +25,7 @@ pub fn stiffened(stiffness: &Mat<f64>, free: &[Col<f64>]) -> Mat<f64> {
 ///
 /// # Errors
 /// [`SpectrumError::UnstableAtRest`] when A is not positive definite on the other motions;
-/// [`SpectrumError::NoConvergence`].
+/// [`SpectrumError::Decomposition`].
 pub fn singular_multiples(
     stiffness: &Mat<f64>,
     free: &[Col<f64>],
@@ -41,16 +41,18 @@ pub fn singular_multiples(
     solve_lower_triangular_in_place(lower, whitened.as_mut(), Par::Seq);
     let mut whitened = whitened.transpose().to_owned();
     solve_lower_triangular_in_place(lower, whitened.as_mut(), Par::Seq);
-    let eigen = SelfAdjointEigen::new(whitened.as_ref(), Side::Lower)
-        .map_err(|_| SpectrumError::NoConvergence { order, rpm: 0.0 })?;
+    let eigen = SymmetricEigen::new(whitened.as_ref()).map_err(SpectrumError::at(0.0))?;
     let noise = 1e-14 * whitened.norm_l2();
     // The multiples m are the inverses of the positive eigenvalues, which ascend.
-    let places: Vec<usize> = (0..order).rev().filter(|&i| eigen.S()[i] > noise).collect();
-    let mut shapes = Mat::from_fn(order, places.len(), |i, k| eigen.U()[(i, places[k])]);
+    let places: Vec<usize> = (0..order)
+        .rev()
+        .filter(|&i| eigen.values[i] > noise)
+        .collect();
+    let mut shapes = Mat::from_fn(order, places.len(), |i, k| eigen.vectors[(i, places[k])]);
     solve_upper_triangular_in_place(lower.transpose(), shapes.as_mut(), Par::Seq);
     let multiple = |(k, &i): (usize, &usize)| {
         let x = shapes.col(k);
-        (eigen.S()[i].recip(), Scale(1.0 / x.norm_l2()) * x)
+        (eigen.values[i].recip(), Scale(1.0 / x.norm_l2()) * x)
     };
     let mut multiples: Vec<(f64, Col<f64>)> = places.iter().enumerate().map(multiple).collect();
     multiples.sort_by(|x, y| x.0.total_cmp(&y.0));

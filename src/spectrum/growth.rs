@@ -2,12 +2,12 @@
 
 use faer::c64;
 
+use crate::linalg::real_eigenvalues;
 use crate::system::GyroscopicSystem;
 
 use super::companion::deflated_companion;
 use super::error::SpectrumError;
 use super::mode::{DAMPED_NOISE, GROWTH_NOISE};
-use super::real_eigen::real_eigenvalues;
 
 /// Every eigenvalue with Im λ ≥ 0, in 1/s, without free rigid motions, in no particular order.
 ///
@@ -18,13 +18,8 @@ pub fn eigenvalues(
     speed_rad_per_s: f64,
 ) -> Result<Vec<c64>, SpectrumError> {
     let (state, scale, _) = deflated_companion(system, speed_rad_per_s)?;
-    let order = state.nrows();
-    let failed = |_| SpectrumError::no_convergence(order, speed_rad_per_s);
+    let failed = SpectrumError::at(speed_rad_per_s);
     let values = real_eigenvalues(state.as_ref()).map_err(failed)?;
-    // A value that is NaN must be refused here, because the maximum of the growth rates would ignore it.
-    if !values.iter().all(|value| value.is_finite()) {
-        return Err(SpectrumError::not_finite(order, speed_rad_per_s));
-    }
     let upper = values.into_iter().filter(|value| value.im >= 0.0);
     Ok(upper.map(|value| value * scale).collect())
 }

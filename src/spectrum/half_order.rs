@@ -11,9 +11,9 @@ use faer::{Col, Mat, MatRef, Scale, c64};
 
 use super::companion::{companion_eigenpairs, time_scale};
 use super::error::SpectrumError;
-use super::real_eigen::{NoConvergence, RealEigen};
 use super::vectors::{Eigenpair, by_magnitude, joined, unit};
 use super::work::Cancellation;
+use crate::linalg::{LinalgError, RealEigen};
 use crate::system::GyroscopicSystem;
 
 /// A vector whose part outside the span of the others is below this share is rounding.
@@ -36,7 +36,7 @@ pub fn eigenpairs(
     }
     Cancellation::current().check()?;
     let (matrix, scale) = hamiltonian_matrix(system, speed_rad_per_s);
-    let failed = |_| SpectrumError::no_convergence(matrix.nrows(), speed_rad_per_s);
+    let failed = SpectrumError::at(speed_rad_per_s);
     let Some(found) = hamiltonian_eigenpairs(matrix.as_ref()).map_err(failed)? else {
         return companion_eigenpairs(system, speed_rad_per_s);
     };
@@ -76,10 +76,8 @@ pub struct UpperPairs {
 /// the computation was cancelled.
 ///
 /// # Errors
-/// [`NoConvergence`] where the eigenproblem does not converge.
-pub fn hamiltonian_eigenpairs(
-    matrix: MatRef<'_, f64>,
-) -> Result<Option<UpperPairs>, NoConvergence> {
+/// [`LinalgError`] if the eigenproblem fails.
+pub fn hamiltonian_eigenpairs(matrix: MatRef<'_, f64>) -> Result<Option<UpperPairs>, LinalgError> {
     let square = matrix * matrix;
     let Some((span, compressed)) = isotropic(&square) else {
         return Ok(None);

@@ -9,12 +9,12 @@
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, c64};
 
+use crate::linalg::RealEigen;
 use crate::system::GyroscopicSystem;
 
 use super::canonical::{canonical_basis, turned};
 use super::error::SpectrumError;
 use super::half_order::hamiltonian_eigenpairs;
-use super::real_eigen::{NoConvergence, RealEigen};
 use super::vectors::{Eigenpair, by_magnitude, joined, orthonormal, split, unit};
 
 /// A mode as a state: ‖q‖ = 1 and p = λq + ΩGq.
@@ -144,21 +144,20 @@ impl HamiltonianReduction {
     /// Eigenpairs (λ, q) with Im λ ≥ 0, ‖q‖ = 1, ordered by |λ|.
     ///
     /// # Errors
-    /// [`SpectrumError::NoConvergence`].
+    /// [`SpectrumError::Decomposition`].
     pub fn eigenpairs(&self, speed_rad_per_s: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
-        let failed =
-            |_: NoConvergence| SpectrumError::no_convergence(self.order(), speed_rad_per_s);
+        let failed = || SpectrumError::at(speed_rad_per_s);
         let mut found = None;
         if let Some(canonical) = &self.canonical {
             let matrix = canonical.matrix(speed_rad_per_s);
-            let pairs = hamiltonian_eigenpairs(matrix.as_ref()).map_err(failed)?;
+            let pairs = hamiltonian_eigenpairs(matrix.as_ref()).map_err(failed())?;
             found = pairs.map(|pairs| (pairs.lambdas, &canonical.deflections * pairs.halves));
         }
         let (lambdas, shapes) = match found {
             Some(found) => found,
             None => {
                 let matrix = self.own.matrix(speed_rad_per_s);
-                let eigen = RealEigen::new(matrix.as_ref()).map_err(failed)?;
+                let eigen = RealEigen::new(matrix.as_ref()).map_err(failed())?;
                 let upper = eigen.upper();
                 let lambdas = upper.iter().map(|&i| eigen.values[i]).collect();
                 (lambdas, &self.own.deflections * eigen.halves_of(&upper))

@@ -10,6 +10,8 @@
 
 use faer::{Mat, c64};
 
+use crate::linalg::complex_eigenvalues;
+
 use super::interpolation::{self, sign_changes};
 use super::root::place_of_zero;
 
@@ -244,8 +246,8 @@ fn roots(coefficients: &[c64]) -> Vec<c64> {
         (0, k) => -coefficients[k - 1] / unit.powi(k as i32 + 1),
         (i, k) => c64::new(f64::from(u8::from(i == k + 1)), 0.0),
     });
-    match companion.eigenvalues() {
-        Ok(values) => values.into_iter().map(|z: c64| z * unit).collect(),
+    match complex_eigenvalues(companion.as_ref()) {
+        Ok(values) => values.into_iter().map(|z| z * unit).collect(),
         Err(_) => vec![c64::new(f64::NAN, 0.0); size],
     }
 }

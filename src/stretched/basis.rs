@@ -1,8 +1,9 @@
 //! Bases of a few shapes for a blade that stretches.
 
-use faer::linalg::solvers::SelfAdjointEigen;
-use faer::{Col, Mat, Scale, Side};
+use faer::linalg::solvers::Solve;
+use faer::{Col, Mat, Scale};
 
+use crate::linalg::SymmetricEigen;
 use crate::plate::{GapPotential, Plate, ReducedStretching, Stretching};
 use crate::spectrum::{
     SpectrumError, critical_speeds, frequency_scale, lowest_eigenpairs, orthonormal, split,
@@ -27,7 +28,7 @@ impl StretchedBlade {
     pub fn new(plate: &Plate, shapes: usize) -> Result<Self, StretchedError> {
         let plate = plate.conservative();
         let full = restrained(&plate, shapes)?;
-        let basis = at_rest(&full)?.U().subcols(0, shapes).to_owned();
+        let basis = at_rest(&full)?.vectors.subcols(0, shapes).to_owned();
         Self::on(plate, &full, basis)
     }
 
@@ -84,10 +85,10 @@ impl StretchedBlade {
         let diverging = critical.take_while(|c| c.speed_rad_per_s <= to_rad_per_s);
         let mut shapes: Vec<Col<f64>> = diverging.map(|c| c.shape).collect();
         let values = plate.functions_at(radius_m, angle_rad);
-        let force = rest.U().transpose() * Col::from_fn(order, |i| values[i]);
-        let bent = rest.U() * Col::from_fn(order, |k| force[k] / rest.S()[k]);
+        let force = Col::from_fn(order, |i| values[i]);
+        let bent = full.stiffness.partial_piv_lu().solve(force);
         shapes.push(Scale(1.0 / bent.norm_l2()) * bent);
-        shapes.extend((0..modes).map(|k| rest.U().col(k).to_owned()));
+        shapes.extend((0..modes).map(|k| rest.vectors.col(k).to_owned()));
         shapes.extend_from_slice(further);
         let basis = orthonormal(order, &shapes, INDEPENDENT);
         Self::on(plate, &full, basis)
@@ -118,7 +119,7 @@ impl StretchedBlade {
         let modes = at_rest(&released)?;
         let count = MIN_RELEASED.max(shapes.ncols() / 2).min(order);
         let own = (0..shapes.ncols()).map(|k| shapes.col(k).to_owned());
-        let of_released = (0..count).map(|k| modes.U().col(k).to_owned());
+        let of_released = (0..count).map(|k| modes.vectors.col(k).to_owned());
         let all: Vec<Col<f64>> = own.chain(of_released).collect();
         let shapes = orthonormal(order, &all, INDEPENDENT);
         let gaps = GapPotential::new(&plate, shapes.as_ref());
@@ -160,9 +161,7 @@ fn restrained(plate: &Plate, shapes: usize) -> Result<GyroscopicSystem, Stretche
 }
 
 /// The modes of a blade at rest, ascending.
-fn at_rest(system: &GyroscopicSystem) -> Result<SelfAdjointEigen<f64>, StretchedError> {
-    let order = system.order();
-    let not_found = |_| SpectrumError::NoConvergence { order, rpm: 0.0 };
-    let modes = system.stiffness.self_adjoint_eigen(Side::Lower);
-    Ok(modes.map_err(not_found)?)
+pub(super) fn at_rest(system: &GyroscopicSystem) -> Result<SymmetricEigen, StretchedError> {
+    let modes = SymmetricEigen::new(system.stiffness.as_ref());
+    Ok(modes.map_err(SpectrumError::at(0.0))?)
 }

@@ -35,10 +35,10 @@ pub use saturation::Saturation;
 pub use sites::Sites;
 pub use sweep::Sweep;
 
-use faer::{Col, Mat, MatRef, Scale, Side};
+use faer::{Col, Mat, MatRef, Scale};
 
+use crate::linalg::symmetric_eigenvalues;
 use crate::plate::{GapPotential, Plate, ReducedStretching, StretchingError};
-use crate::scene::rpm;
 use crate::spectrum::SpectrumError;
 use crate::system::GyroscopicSystem;
 
@@ -257,14 +257,8 @@ impl StretchedBlade {
 
     /// Eigenvalues of ∂²V/∂p², ascending.
     fn stiffnesses(&self, p: &Col<f64>, speed: f64) -> Result<Vec<f64>, StretchedError> {
-        let failed = || SpectrumError::NoConvergence {
-            order: p.nrows(),
-            rpm: rpm(speed),
-        };
-        let values = self
-            .hessian(p, speed)?
-            .self_adjoint_eigenvalues(Side::Lower);
-        Ok(values.map_err(|_| failed())?)
+        let values = symmetric_eigenvalues(self.hessian(p, speed)?.as_ref());
+        Ok(values.map_err(SpectrumError::at(speed))?)
     }
 }
 

@@ -1,7 +1,8 @@
 //! The minimum of V that the blade without inertia reaches from a deflection.
 
-use faer::{Col, Scale, Side};
+use faer::{Col, Scale};
 
+use crate::linalg::SymmetricEigen;
 use crate::scene::rpm;
 use crate::spectrum::SpectrumError;
 
@@ -43,26 +44,21 @@ impl StretchedBlade {
         let mut energy = self.potential_j(&p, speed_rad_per_s)?;
         for _ in 0..STEPS {
             let order = p.nrows();
-            let failed = || SpectrumError::NoConvergence {
-                order,
-                rpm: rpm(speed_rad_per_s),
-            };
             let hessian = self.hessian(&p, speed_rad_per_s)?;
-            let modes = hessian
-                .self_adjoint_eigen(Side::Lower)
-                .map_err(|_| failed())?;
+            let modes = SymmetricEigen::new(hessian.as_ref());
+            let modes = modes.map_err(SpectrumError::at(speed_rad_per_s))?;
             let rest = self.residual(&p, speed_rad_per_s)?;
-            let along = modes.U().transpose() * &rest;
-            let softest = SOFTEST * modes.S()[order - 1].abs();
-            let shares = Col::from_fn(order, |k| along[k] / modes.S()[k].abs().max(softest));
-            let mut step = Scale(-1.0) * (modes.U() * shares);
-            let is_minimum = modes.S()[0] >= -SOFTEST * modes.S()[order - 1].abs();
+            let along = modes.vectors.transpose() * &rest;
+            let softest = SOFTEST * modes.values[order - 1].abs();
+            let shares = Col::from_fn(order, |k| along[k] / modes.values[k].abs().max(softest));
+            let mut step = Scale(-1.0) * (&modes.vectors * shares);
+            let is_minimum = modes.values[0] >= -SOFTEST * modes.values[order - 1].abs();
             if step.norm_l2() <= LAST * p.norm_l2().max(size) {
                 if is_minimum {
                     self.directed(&p)?;
                     return self.at(p, speed_rad_per_s);
                 }
-                let lowest = modes.U().col(0);
+                let lowest = modes.vectors.col(0);
                 let forced = lowest.transpose() * &self.force;
                 let first = (0..order).map(|i| lowest[i]).find(|x| x.abs() > PUSH);
                 let side = if forced == 0.0 {
@@ -88,7 +84,7 @@ impl StretchedBlade {
                 let lower = self.potential_j(&next, speed_rad_per_s)?;
                 // Where the potential is nearly constant, such as just above a pitchfork, its last digits are
                 // rounding errors of the stiffest mode.
-                let rounding = ROUNDING * modes.S()[order - 1].abs() * next.squared_norm_l2();
+                let rounding = ROUNDING * modes.values[order - 1].abs() * next.squared_norm_l2();
                 if lower <= energy + 1e-4 * share * slope.min(0.0) + rounding {
                     (p, energy) = (next, lower);
                     break;

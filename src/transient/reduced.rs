@@ -6,6 +6,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, MatRef, Scale, Side};
 
+use crate::linalg::SymmetricEigen;
 use crate::plate::Plate;
 use crate::spectrum::{SpectrumError, frequency_scale, lowest_eigenpairs, orthonormal, split};
 use crate::system::GyroscopicSystem;
@@ -77,21 +78,19 @@ impl ReducedBlade {
     /// frequency.
     ///
     /// # Errors
-    /// [`SpectrumError::NoConvergence`].
+    /// [`SpectrumError::Decomposition`].
     pub fn with_shapes_below(
         &self,
         system: &GyroscopicSystem,
         highest_rad_per_s: f64,
     ) -> Result<Self, SpectrumError> {
         let order = system.order();
-        let shapes = system
-            .stiffness
-            .self_adjoint_eigen(Side::Lower)
-            .map_err(|_| SpectrumError::NoConvergence { order, rpm: 0.0 })?;
-        let below = |k: &usize| shapes.S()[*k] <= highest_rad_per_s * highest_rad_per_s;
+        let shapes = SymmetricEigen::new(system.stiffness.as_ref());
+        let shapes = shapes.map_err(SpectrumError::at(0.0))?;
+        let below = |k: &usize| shapes.values[*k] <= highest_rad_per_s * highest_rad_per_s;
         let slow = (0..order)
             .filter(below)
-            .map(|k| shapes.U().col(k).to_owned());
+            .map(|k| shapes.vectors.col(k).to_owned());
         let own = (0..self.order()).map(|k| self.basis.col(k).to_owned());
         let vectors: Vec<Col<f64>> = own.chain(slow).collect();
         Ok(ReducedBlade {
@@ -103,7 +102,7 @@ impl ReducedBlade {
     /// differ considerably from the lowest modes.
     ///
     /// # Errors
-    /// [`SpectrumError::NoConvergence`].
+    /// [`SpectrumError::Decomposition`].
     pub fn with_buckled_shapes(&self, system: &GyroscopicSystem) -> Result<Self, SpectrumError> {
         match system.stiffness.llt(Side::Lower) {
             Ok(_) => Ok(self.clone()),

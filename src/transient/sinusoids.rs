@@ -9,7 +9,7 @@
 use faer::linalg::solvers::SolveLstsq;
 use faer::{Col, Mat, c64};
 
-use crate::spectrum::real_eigenvalues;
+use crate::linalg::{RightSingular, real_eigenvalues};
 
 /// Re(2 a e^{λt}), or a e^{λt} for a real λ.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -110,13 +110,13 @@ fn pencil_roots(samples: &[f64]) -> Option<Vec<c64>> {
     let width = samples.len() / 2;
     let height = samples.len() - width - 1;
     let hankel = Mat::from_fn(height, width + 1, |i, k| samples[i + k]);
-    let svd = hankel.thin_svd().ok()?;
-    let largest = svd.S()[0];
-    let rank = (0..hankel.nrows().min(hankel.ncols()))
-        .take_while(|&k| svd.S()[k] > RANK_TOLERANCE * largest)
+    let RightSingular { values, vectors } = RightSingular::new(hankel.as_ref()).ok()?;
+    let rank = values
+        .iter()
+        .take_while(|value| **value > RANK_TOLERANCE * values[0])
         .count()
         .min(width);
-    let right = svd.V().subcols(0, rank);
+    let right = vectors.subcols(0, rank);
     let (first, second) = (right.subrows(0, width), right.subrows(1, width));
     let step = first.qr().solve_lstsq(second);
     real_eigenvalues(step.as_ref()).ok()

@@ -8,8 +8,9 @@
 use faer::{Mat, Scale};
 use rayon::prelude::*;
 
-use crate::scene::Probe;
-use crate::spectrum::{SpectrumError, fastest_growing, real_eigenvalues};
+use crate::linalg::real_eigenvalues;
+use crate::scene::{Probe, rad_per_s};
+use crate::spectrum::{SpectrumError, fastest_growing};
 use crate::system::GyroscopicSystem;
 
 use super::cut::finite;
@@ -197,13 +198,8 @@ fn largest_multiplier_ln(
         product *= Scale((-power).exp2());
         doublings += power;
     }
-    let order = product.nrows();
-    let not_converged = || SpectrumError::NoConvergence { order, rpm };
-    let multipliers = real_eigenvalues(product.as_ref()).map_err(|_| not_converged())?;
-    // A maximum ignores NaN, so that multipliers that are not finite are refused before.
-    if !multipliers.iter().all(|z| z.is_finite()) {
-        return Err(not_converged().into());
-    }
+    let multipliers =
+        real_eigenvalues(product.as_ref()).map_err(SpectrumError::at(rad_per_s(rpm)))?;
     let largest = multipliers.iter().fold(0.0_f64, |max, z| max.max(z.norm()));
     let logarithm = largest.ln() + doublings * std::f64::consts::LN_2;
     match logarithm.is_finite() {

@@ -3,11 +3,12 @@
 
 use std::f64::consts::TAU;
 
-use faer::{Mat, Scale, Side};
+use faer::{Mat, Scale};
 use nalgebra::DMatrix;
 
 use super::delayed::DelayedSaw;
 use super::{WashboardError, columns};
+use crate::linalg::{SymmetricEigen, symmetric_eigenvalues};
 use crate::plate::{Contact, ContactTerms, Plate, Resolution};
 use crate::scene::{Cut, CutRun, Scene, SpeedRange, Washboarding, rpm};
 use crate::spectrum::SpectrumError;
@@ -183,14 +184,11 @@ impl Shapes {
         let gyroscopic = &system.gyroscopic;
         let tension = &system.spin + gyroscopic.transpose() * gyroscopic;
         let stiffness = &system.stiffness + Scale(speed_rad_per_s.powi(2)) * tension;
-        let failed = |_| SpectrumError::NoConvergence {
-            order: system.order(),
-            rpm: rpm(speed_rad_per_s),
-        };
-        let eigen = stiffness.self_adjoint_eigen(Side::Lower).map_err(failed)?;
+        let eigen = SymmetricEigen::new(stiffness.as_ref());
+        let eigen = eigen.map_err(SpectrumError::at(speed_rad_per_s))?;
         Ok(Shapes {
-            squares: eigen.S().column_vector().iter().copied().collect(),
-            vectors: eigen.U().to_owned(),
+            squares: eigen.values,
+            vectors: eigen.vectors,
         })
     }
 
@@ -273,7 +271,7 @@ fn complete_to(plate: &Plate, fastest: f64) -> f64 {
 /// Frequency in the body frame of the shape with n nodal diameters and k nodal circles.
 fn body_frequency(plate: &Plate, n: usize, k: usize, speed: f64) -> f64 {
     let block = plate.harmonics[n].body_frame_stiffness(speed);
-    let values = block.self_adjoint_eigenvalues(Side::Lower);
+    let values = symmetric_eigenvalues(block.as_ref());
     let square = values.ok().and_then(|values| values.get(k).copied());
     square.unwrap_or(0.0).max(0.0).sqrt()
 }

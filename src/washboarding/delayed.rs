@@ -4,8 +4,9 @@
 //! determinant, whose factors are 1 + k x_i with the eigenvalues x_i of the loop gain X.
 
 use faer::{Mat, c64};
-use nalgebra::{DMatrix, Schur};
+use nalgebra::DMatrix;
 
+use crate::linalg::{complex_eigenvalues, view};
 use crate::scene::Washboarding;
 use crate::spectrum::SpectrumError;
 use crate::system::GyroscopicSystem;
@@ -61,7 +62,6 @@ impl DelayedSaw {
 
     /// Eigenvalues of X(iω) in m/N; `None` if they are not finite because iω is an eigenvalue of the saw.
     pub fn gains(&self, omega: f64) -> Option<Vec<c64>> {
-        const MOST_ITERATIONS: usize = 10_000;
         let gain = self.gain(c64::new(0.0, omega));
         if !gain.iter().all(|x| x.is_finite()) {
             return None;
@@ -69,9 +69,7 @@ impl DelayedSaw {
         if gain.nrows() == 1 {
             return Some(vec![gain[(0, 0)]]);
         }
-        let schur = Schur::try_new(gain, f64::EPSILON, MOST_ITERATIONS)?;
-        let (_, triangle) = schur.unpack();
-        Some(triangle.diagonal().iter().copied().collect())
+        complex_eigenvalues(view(&gain)).ok()
     }
 
     /// d ln det(1 + k X)/dλ = tr((1 + kX)⁻¹ k dX/dλ); `None` if the matrix is singular.

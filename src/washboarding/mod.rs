@@ -40,6 +40,7 @@ use self::count::LoopGains;
 use self::delayed::DelayedSaw;
 use self::modes::described;
 use crate::campbell::{Progress, even_speeds};
+use crate::linalg::SymmetricEigen;
 use crate::plate::Plate;
 use crate::scene::{CutRun, MAX_CUTTING_STIFFNESS, Scene, SceneError, Washboarding};
 use crate::spectrum::{Cancellation, SpectrumError};
@@ -256,14 +257,12 @@ impl LobePoint {
 fn columns(arc: &Mat<f64>) -> Result<Mat<f64>, SpectrumError> {
     const LEAST: f64 = 1e-8;
     let order = arc.nrows();
-    let eigen = arc
-        .self_adjoint_eigen(faer::Side::Lower)
-        .map_err(|_| SpectrumError::NoConvergence { order, rpm: 0.0 })?;
-    let largest = eigen.S()[order - 1];
+    let eigen = SymmetricEigen::new(arc.as_ref()).map_err(SpectrumError::at(0.0))?;
+    let largest = eigen.values[order - 1];
     let kept: Vec<usize> = (0..order)
-        .filter(|&k| eigen.S()[k] > LEAST * largest)
+        .filter(|&k| eigen.values[k] > LEAST * largest)
         .collect();
     Ok(Mat::from_fn(order, kept.len(), |i, k| {
-        eigen.U()[(i, kept[k])] * eigen.S()[kept[k]].sqrt()
+        eigen.vectors[(i, kept[k])] * eigen.values[kept[k]].sqrt()
     }))
 }

@@ -1,5 +1,10 @@
 //! Goal: the program as users see it: output, files, exit codes, faults.
 
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests compare with the solvers themselves"
+)]
+
 #[path = "../common/mod.rs"]
 mod common;
 #[cfg(target_os = "linux")]

@@ -1,5 +1,10 @@
 //! Goal: `fit`, `place` and studies find results that are known in advance.
 
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests compare with the solvers themselves"
+)]
+
 #[path = "../common/mod.rs"]
 mod common;
 #[path = "../common/measurements.rs"]

@@ -4,6 +4,11 @@
 //! of fifty digits. The table of the errors reached is `docs/extremes.md`; the test fails if it is out of date. It is
 //! written again by `WRITE_EXTREMES=1 cargo test --release --test extremes`.
 
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests compare with the solvers themselves"
+)]
+
 #[path = "../common/mod.rs"]
 mod common;
 

@@ -1,5 +1,10 @@
 //! Goal: laws that hold for every saw hold for random ones, and no input breaks the program.
 
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests compare with the solvers themselves"
+)]
+
 #[path = "../common/bands.rs"]
 mod bands;
 #[path = "../common/certified.rs"]

@@ -4,6 +4,11 @@
 //! each saw; SAWFLUTTER_SHARD=k/n takes every n-th saw of each trial. The daily tests check each claim on the saw that
 //! is computed fastest.
 
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests compare with the solvers themselves"
+)]
+
 #[path = "../common/bands.rs"]
 mod bands;
 #[path = "../common/certified.rs"]

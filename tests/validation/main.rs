@@ -1,6 +1,11 @@
 //! Goal: every number has an independent source: closed forms, other programs, other
 //! formulations, invariants.
 
+#![allow(
+    clippy::disallowed_methods,
+    reason = "tests compare with the solvers themselves"
+)]
+
 #[path = "../common/mod.rs"]
 mod common;
 

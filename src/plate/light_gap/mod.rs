@@ -18,6 +18,7 @@ use super::harmonic::HarmonicBlock;
 use super::membrane::{MembraneStress, membrane_stiffness};
 use super::radial::RadialBasis;
 use super::stress::CentrifugalStress;
+use crate::linalg::{symmetric_eigenvalues, view};
 use crate::scene::{GRAVITY_M_PER_S2, Membrane, RefusedValue, RollBand, StraightEdge};
 use crate::text::shown_to;
 
@@ -164,7 +165,7 @@ impl LyingBlade {
             let lower = wave.bending.clone().cholesky()?.unpack();
             let half = lower.solve_lower_triangular(&wave.rolled)?;
             let relative = lower.solve_lower_triangular(&half.transpose())?;
-            Some(-relative.symmetric_eigenvalues().min())
+            Some(-symmetric_eigenvalues(view(&relative)).ok()?[0])
         };
         let largest = self.waves.iter().filter_map(largest).fold(0.0, f64::max);
         (largest > 0.0).then(|| 1.0 / largest)

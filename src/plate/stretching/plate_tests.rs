@@ -5,6 +5,7 @@ use faer::{Col, Mat, Scale, Side};
 
 use super::test_blades::{Wave, plate, projected};
 use super::*;
+use crate::linalg::SymmetricEigen;
 
 /// Results of CalculiX: load in N (zero for the linear response to one newton), position, deflection in m.
 /// The deflections are extrapolated to zero thickness, for which plate theory is exact.
@@ -54,14 +55,14 @@ impl SupportedBlade {
             .flat_map(|n| plate.offset(n)..plate.offset(n) + plate.basis.count())
             .collect();
         let on_even = Mat::from_fn(even.len(), even.len(), |i, k| supported[(even[i], even[k])]);
-        let modes = on_even.self_adjoint_eigen(Side::Lower).unwrap();
+        let modes = SymmetricEigen::new(on_even.as_ref()).unwrap();
         let force = functions(&plate, load.0, load.1);
         let force = Col::from_fn(even.len(), |i| force[even[i]]);
         let answer = on_even.llt(Side::Lower).unwrap().solve(&force);
         let mut vectors = Mat::zeros(order, shapes);
         for (i, &row) in even.iter().enumerate() {
             for k in 1..shapes {
-                vectors[(row, k)] = modes.U()[(i, k - 1)];
+                vectors[(row, k)] = modes.vectors[(i, k - 1)];
             }
             vectors[(row, 0)] = answer[i];
         }

@@ -118,7 +118,7 @@ impl Columns {
         let mut resting = Mat::zeros(2 * rows, count);
         let mut row = 0;
         for harmonic in harmonics {
-            let (radial, vectors) = (harmonic.radial(), &harmonic.resting.eigenvectors);
+            let (radial, vectors) = (harmonic.radial(), &harmonic.resting.vectors);
             let turn = Mat::from_fn(radial, radial, |i, j| vectors[(j, i)]);
             let norm = match harmonic.diameters {
                 0 => 1.0,
@@ -143,7 +143,7 @@ impl Columns {
 /// Ratio of the weight of every wave to its stiffness at rest.
 fn heavier(harmonics: &[Harmonic]) -> Vec<f64> {
     let of = |h: &Harmonic| -> Vec<f64> {
-        let all = h.weights.iter().zip(h.resting.eigenvalues.iter());
+        let all = h.weights.iter().zip(&h.resting.values);
         all.map(|(weight, own)| weight / (own + h.shift)).collect()
     };
     let blocks = harmonics
@@ -170,7 +170,7 @@ impl<'a> Relative<'a> {
     fn new(coupling: &'a Mat<f64>, harmonics: &[Harmonic]) -> Self {
         let blocks = harmonics.iter().flat_map(|h| {
             h.firsts().map(|first| {
-                let (radial, waves) = (h.radial(), &h.resting.eigenvectors);
+                let (radial, waves) = (h.radial(), &h.resting.vectors);
                 Scaled {
                     first,
                     factor: Mat::from_fn(radial, radial, |i, k| {

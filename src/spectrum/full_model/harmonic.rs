@@ -1,7 +1,8 @@
 //! The waves of one number of nodal diameters, in the body frame.
 
-use nalgebra::{DMatrix, Dyn, SymmetricEigen};
+use nalgebra::DMatrix;
 
+use crate::linalg::{SymmetricEigen, symmetric_eigenvalues, view};
 use crate::plate::HarmonicBlock;
 
 /// One harmonic in the body frame.
@@ -24,7 +25,7 @@ pub struct Harmonic {
     /// Shift σ, in 1/s².
     pub shift: f64,
     /// Eigenvectors of K_b + K_m: the waves at rest, which approximate those at every speed.
-    pub resting: SymmetricEigen<f64, Dyn>,
+    pub resting: SymmetricEigen,
     /// K_σ in the waves at rest.
     pub resting_tension: DMatrix<f64>,
 }
@@ -44,16 +45,18 @@ impl Harmonic {
         if let Some(membrane) = &block.membrane {
             rest += membrane;
         }
-        let least = |matrix: &DMatrix<f64>| matrix.symmetric_eigenvalues().min();
-        let resting = rest.clone().symmetric_eigen();
-        let shift = frequency_scale.powi(2) + 2.0 * (-resting.eigenvalues.min()).max(0.0);
-        let resting_tension = resting.eigenvectors.tr_mul(&tension) * &resting.eigenvectors;
+        // Numbers that are not finite make every count inconclusive.
+        let resting = SymmetricEigen::or_nan(view(&rest));
+        let least_tension = symmetric_eigenvalues(view(&tension)).map_or(f64::NAN, |all| all[0]);
+        let shift = frequency_scale.powi(2) + 2.0 * (-resting.values[0]).max(0.0);
+        let turned = resting.vectors.transpose() * view(&tension) * &resting.vectors;
+        let resting_tension = DMatrix::from_fn(radial, radial, |i, k| turned[(i, k)]);
         Harmonic {
             diameters: block.diameters,
             first,
-            shortfall: (-least(&tension)).max(0.0),
+            shortfall: (-least_tension).max(0.0),
             weights: resting
-                .eigenvalues
+                .values
                 .iter()
                 .map(|own| weight(own + shift, shift))
                 .collect(),

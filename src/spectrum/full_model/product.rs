@@ -66,9 +66,8 @@ impl FullModel {
             .map(|h| h.radial() * h.firsts().count());
         let mut waves = Mat::zeros(order.sum(), places.len());
         for (k, (h, first)) in places.into_iter().enumerate() {
-            let lowest = h.resting.eigenvalues.imin();
             for j in 0..h.radial() {
-                waves[(first + j, k)] = h.resting.eigenvectors[(j, lowest)];
+                waves[(first + j, k)] = h.resting.vectors[(j, 0)];
             }
         }
         waves

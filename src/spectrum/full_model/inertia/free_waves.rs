@@ -17,7 +17,7 @@ pub struct FreeWaves {
 impl FreeWaves {
     pub fn new(harmonic: &Harmonic, speed_rad_per_s: f64) -> Self {
         let mut block = &harmonic.resting_tension * speed_rad_per_s.powi(2);
-        for (i, own) in harmonic.resting.eigenvalues.iter().enumerate() {
+        for (i, own) in harmonic.resting.values.iter().enumerate() {
             block[(i, i)] += own;
         }
         let of = Eigenvectors::of(block);
