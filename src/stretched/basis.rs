@@ -15,6 +15,9 @@ use super::{StretchedBlade, StretchedError, finite};
 /// Smallest number of modes at rest within the gaps that are added to the shapes: heave, tilts, and the first
 /// of two and three diameters.
 const MIN_RELEASED: usize = 8;
+/// Number of speeds at which the deflection of the linear model is in the basis. Between them, on bases up to 1200 rpm, the
+/// compliance of six saws at 700 rpm differs from that of the full model by at most 9e-9.
+const BENT: usize = 3;
 /// Shapes at a smaller relative distance from the span of the others are omitted.
 pub(super) const INDEPENDENT: f64 = 1e-7;
 
@@ -55,8 +58,8 @@ impl StretchedBlade {
     }
 
     /// The blade in a basis for equilibria up to a speed under a force at a point (radius in m, angle in rad): the
-    /// shapes of the critical speeds up to this speed, the static deflection under the force, and the lowest
-    /// `modes` modes at rest.
+    /// shapes of the critical speeds up to this speed, the deflections of the linear model under the force at rest, at this
+    /// speed and between, and the lowest `modes` modes at rest.
     ///
     /// # Errors
     /// [`StretchedError`] as for [`StretchedBlade::new`], and [`StretchedError::Value`].
@@ -86,8 +89,7 @@ impl StretchedBlade {
         let mut shapes: Vec<Col<f64>> = diverging.map(|c| c.shape).collect();
         let values = plate.functions_at(radius_m, angle_rad);
         let force = Col::from_fn(order, |i| values[i]);
-        let bent = full.stiffness.partial_piv_lu().solve(force);
-        shapes.push(Scale(1.0 / bent.norm_l2()) * bent);
+        shapes.extend(bent(&full, &force, to_rad_per_s));
         shapes.extend((0..modes).map(|k| rest.vectors.col(k).to_owned()));
         shapes.extend_from_slice(further);
         let basis = orthonormal(order, &shapes, INDEPENDENT);
@@ -164,4 +166,21 @@ fn restrained(plate: &Plate, shapes: usize) -> Result<GyroscopicSystem, Stretche
 pub(super) fn at_rest(system: &GyroscopicSystem) -> Result<SymmetricEigen, StretchedError> {
     let modes = SymmetricEigen::new(system.stiffness.as_ref());
     Ok(modes.map_err(SpectrumError::at(0.0))?)
+}
+
+/// Deflections K(Ω)⁻¹f, scaled to unit length, at rest, at a speed, and at speeds between whose squares are evenly spaced.
+/// On these shapes the linear model deflects as the full model at these speeds, and nearly so between: K is linear in Ω².
+fn bent(
+    system: &GyroscopicSystem,
+    force: &Col<f64>,
+    to_rad_per_s: f64,
+) -> impl Iterator<Item = Col<f64>> {
+    let speed = move |k: usize| to_rad_per_s * (k as f64 / (BENT - 1) as f64).sqrt();
+    let shape = move |k: usize| {
+        let bent = system.stiffness_at(speed(k)).partial_piv_lu().solve(force);
+        let norm = bent.norm_l2();
+        // At a critical speed there is no such deflection; its shape is in the basis already.
+        (norm > 0.0 && norm.is_finite()).then(|| Scale(1.0 / norm) * bent)
+    };
+    (0..BENT).filter_map(shape)
 }
