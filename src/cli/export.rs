@@ -63,6 +63,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let about = json!({
         "scene": scene.file().name,
+        "condition": scene.condition(),
         "equation": "q'' + (2*W*gyroscopic + damping) q' + (stiffness + W^2*spin + W*circulatory) q = 0, W in rad/s",
         "units": { "stiffness": "1/s^2", "spin": "1", "gyroscopic": "1", "damping": "1/s", "circulatory": "1/s" },
         "unknowns": "n = 0: J cosines; then for each n >= 1: J cosines, J sines; J = radial_functions; mass matrix one",
@@ -77,7 +78,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         .output
         .print(&folder, &files, &OPTIONAL, &json, || {
             format!(
-                "{} functions: n up to {}, {} radial functions each\n{}\n",
+                "Saw: {}\n{} functions: n up to {}, {} radial functions each\n{}\n",
+                scene.condition(),
                 plate.degrees_of_freedom(),
                 plate.resolution.max_diameters,
                 plate.radial_functions(),

@@ -30,22 +30,24 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         tradeoff(&scene, &settings)
     })??;
     let json = serde_json::to_string_pretty(&settings)?;
-    let mut files = pictures::files(&[figure::tradeoff(&scene.file().name, &settings)])?;
+    let saw = format!("{}: {}", scene.file().name, scene.condition());
+    let mut files = pictures::files(&[figure::tradeoff(&saw, &settings)])?;
     files.push(("tradeoff.json", json.clone().into_bytes()));
     arguments
         .common
         .output
-        .print(&folder, &files, &[], &json, || summary(&settings))
+        .print(&folder, &files, &[], &json, || summary(&saw, &settings))
 }
 
-fn summary(settings: &[Setting]) -> String {
+fn summary(saw: &str, settings: &[Setting]) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail, so that the result is ignored.
-    let _ = table(&mut text, settings);
+    let _ = table(&mut text, saw, settings);
     text
 }
 
-fn table(text: &mut String, settings: &[Setting]) -> std::fmt::Result {
+fn table(text: &mut String, saw: &str, settings: &[Setting]) -> std::fmt::Result {
+    writeln!(text, "{saw}")?;
     writeln!(
         text,
         "True error of critical speeds and onsets (* best at its price)\n"

@@ -94,10 +94,9 @@ impl Deflecting {
     /// [`DeflectError`] if an option is refused, the saw cannot be analysed, or no equilibrium is found.
     pub fn new(scene: &Scene, options: &Options) -> Result<Self, DeflectError> {
         let force = options.side_force(scene)?;
-        let idling = scene.idling()?;
         let swept = match options.to_rpm {
-            None => idling,
-            Some(to_rpm) => idling.swept((0.0, rad_per_s(to_rpm)).into())?,
+            None => scene.clone(),
+            Some(to_rpm) => scene.swept((0.0, rad_per_s(to_rpm)).into())?,
         };
         let plate = Plate::new(&swept, Resolution::of(swept.accuracy()));
         if plate.is_axisymmetric() && force.force_n == 0.0 {

@@ -215,7 +215,8 @@ fn facts(report: &Report) -> Vec<String> {
         "band of instability",
         "bands of instability",
     );
-    vec![size, guides, critical, bands, verdict(report)]
+    let saw = report.condition.clone();
+    vec![saw, size, guides, critical, bands, verdict(report)]
 }
 
 fn verdict(report: &Report) -> String {

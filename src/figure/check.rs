@@ -88,6 +88,7 @@ fn facts(report: &CheckReport) -> String {
     let unusual =
         (!report.unusual_numbers.is_empty()).then(|| "with numbers that no saw has".into());
     let facts = [
+        report.condition.clone(),
         format!("operating speed {:.0} rpm", report.operating_rpm),
         format!("margin {:.0} %", 100.0 * report.margin),
         report.rim_stiffness_in_words(),

@@ -108,10 +108,9 @@ pub fn chart(report: &CompareReport) -> ChartData {
         ..AxisData::new("", "")
     };
     let count = labels.len() as f64;
-    let mut facts = vec![format!(
-        "critical speeds, bands and frequencies of {}",
-        labels.join(", ")
-    )];
+    let shown = labels.join(", ");
+    let shown = format!("critical speeds, bands and frequencies of {shown}");
+    let mut facts = vec![report.condition(), shown];
     if labels.len() < report.saws.len() {
         facts.push(format!(
             "the first {} of {} saws",

@@ -5,6 +5,7 @@ use super::axis::{Axis, draw_named, draw_vertical, two_digits};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::draw_inside;
 use super::columns::{Columns, draw_end_of_model, label_end_of_model, name_of_row};
+use super::heading::of_saw;
 use super::style::{
     ALARM, CURVE, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, HAIRLINE, LABEL_SIZE, QUIET,
     SUBTITLE_SIZE, broken, tint,
@@ -25,7 +26,11 @@ const PANELS: Columns = Columns {
 pub fn sheet(report: &CutReport) -> Sheet {
     let title = "Deflection at the probe before, during and after the cut";
     let panels = report.runs.len();
-    let mut sheet = PANELS.sheet(panels, title, &report.scene.name);
+    let mut sheet = PANELS.sheet(
+        panels,
+        title,
+        &of_saw(&report.scene.name, &report.condition),
+    );
     let scale = Scale::of(&report.runs);
     for (index, run) in report.runs.iter().enumerate() {
         let name = name_of_row(index, &scale.name);

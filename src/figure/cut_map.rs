@@ -4,6 +4,7 @@ use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::draw_inside;
 use super::columns::{Columns, name_of_row};
+use super::heading::of_saw;
 use super::heat::{draw_grid, draw_scale, ramp};
 use super::style::{
     CURVE, Colour, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, SUBTITLE_SIZE,
@@ -40,7 +41,11 @@ pub fn sheet(report: &CutReport) -> Sheet {
     }
     let title = "Growth in the cut over the angle of the guides and the load";
     let panels = report.runs.len();
-    let mut sheet = PANELS.sheet(panels, title, &report.scene.name);
+    let mut sheet = PANELS.sheet(
+        panels,
+        title,
+        &of_saw(&report.scene.name, &report.condition),
+    );
     let fastest = fastest_growth(report);
     let shade = |growth: f64| {
         if growth < report.flutter_threshold_per_s {
@@ -130,7 +135,11 @@ fn draw_forces(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
 fn over_load(report: &CutReport) -> Sheet {
     let title = "Growth in the cut over the load";
     let panels = report.runs.len();
-    let mut sheet = PANELS.sheet(panels, title, &report.scene.name);
+    let mut sheet = PANELS.sheet(
+        panels,
+        title,
+        &of_saw(&report.scene.name, &report.condition),
+    );
     let fastest = fastest_growth(report);
     for (index, run) in report.runs.iter().enumerate() {
         let panel = &PANELS.panel(index, panels);

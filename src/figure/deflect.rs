@@ -149,7 +149,7 @@ fn facts(report: &DeflectReport) -> Vec<String> {
         jumps(&report.up),
         jumps(&report.down)
     );
-    vec![force, probe, jumps]
+    vec![report.condition.clone(), force, probe, jumps]
 }
 
 /// Ends of the axis of deflections in millimetres.

@@ -91,7 +91,8 @@ fn facts(report: &FitReport) -> String {
         "{:.3} Hz rms over {} frequencies",
         report.rms_hz, report.measured_frequencies
     );
-    std::iter::once(rms)
+    [report.condition.clone(), rms]
+        .into_iter()
         .chain(found)
         .collect::<Vec<_>>()
         .join(BETWEEN_FACTS)

@@ -61,7 +61,11 @@ fn facts(report: &GapReport) -> Vec<String> {
         "deflection of the rim at {}°, {:.0} rpm",
         report.deviation.angle_deg, report.deviation.rpm
     );
-    [Some(gap), half, Some(map)].into_iter().flatten().collect()
+    let saw = report.condition.clone();
+    [Some(saw), Some(gap), half, Some(map)]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// Difference of the amplitude and the smallest gap in µm; `None` without an amplitude.

@@ -62,7 +62,7 @@ fn facts(report: &GapReport, heat: &FrictionEntry) -> Vec<String> {
     let map = &report.deviation;
     let settled = (!heat.settled).then(|| "not settled".to_owned());
     let all = [
-        Some(report.scene.name.clone()),
+        Some(heading::of_saw(&report.scene.name, &report.condition)),
         Some(format!("{:.0} rpm", map.rpm)),
         Some(format!("{} N at the cut", shown_to(3, map.force_n))),
         Some(format!("coefficient {}", shown_to(3, heat.coefficient))),

@@ -95,7 +95,7 @@ fn facts(report: &GapReport) -> Vec<String> {
         .map(|m| format!("at most {} mm allowed", shown_to(3, 1e3 * m)));
     let place = format!("rim at {}°", shown_to(3, map.angle_deg));
     [
-        Some(report.scene.name.clone()),
+        Some(heading::of_saw(&report.scene.name, &report.condition)),
         Some(place),
         Some(own),
         limit,

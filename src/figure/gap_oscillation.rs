@@ -73,7 +73,7 @@ fn facts(report: &GapReport, found: &OscillationEntry) -> Vec<String> {
         shown_to(3, 1e3 * report.smallest_gap_m)
     );
     let all = [
-        Some(report.scene.name.clone()),
+        Some(heading::of_saw(&report.scene.name, &report.condition)),
         Some(gap),
         Some(steady),
         force,

@@ -1,7 +1,12 @@
 //! Title and subtitle of a figure.
 
 use super::canvas::{Anchor, Lettering, Sheet};
-use super::style::{INK, MARGIN, QUIET, SUBTITLE_SIZE, TITLE_SIZE, Weight, shorten};
+use super::style::{BETWEEN_FACTS, INK, MARGIN, QUIET, SUBTITLE_SIZE, TITLE_SIZE, Weight, shorten};
+
+/// The subtitle of a figure whose title does not name the saw: its name, and whether it idles or is in its cut.
+pub fn of_saw(name: &str, condition: &str) -> String {
+    [condition, name].join(BETWEEN_FACTS)
+}
 
 /// Writes title and subtitle at the upper left, shortened to the width of the sheet.
 pub fn draw(sheet: &mut Sheet, title: &str, subtitle: &str) {

@@ -32,7 +32,7 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     let in_cut = report.in_cut.as_ref()?;
     let idling = in_cut.idling.as_ref()?;
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    heading::draw(&mut sheet, &report.scene.name, &facts(in_cut));
+    heading::draw(&mut sheet, &report.scene.name, &facts(report, in_cut));
     let range = [report.campbell.from_rpm, report.campbell.to_rpm];
     let speed = Axis::linear(range, [LEFT, RIGHT]);
     let critical = report.critical_speeds.iter().map(|critical| critical.rpm);
@@ -72,12 +72,12 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     Some(sheet)
 }
 
-fn facts(in_cut: &InCutEntry) -> String {
+fn facts(report: &Report, in_cut: &InCutEntry) -> String {
     [
-        format!("forces of {:.0} rpm at every speed", in_cut.rpm),
+        report.condition.clone(),
         format!(
-            "{:.0} N against the rotation and {:.0} N inwards on each of {} teeth",
-            in_cut.tangential_n_per_tooth, in_cut.radial_n_per_tooth, in_cut.teeth
+            "{:.0} N against the rotation and {:.0} N inwards on each tooth, at every speed",
+            in_cut.tangential_n_per_tooth, in_cut.radial_n_per_tooth
         ),
     ]
     .join(BETWEEN_FACTS)

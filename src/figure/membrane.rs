@@ -44,7 +44,11 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
         Some(_) => "Membrane stress, and what heat does to the critical speeds",
         None => "Membrane stress",
     };
-    heading::draw(&mut sheet, title, &report.scene.name);
+    heading::draw(
+        &mut sheet,
+        title,
+        &heading::of_saw(&report.scene.name, &report.condition),
+    );
     draw_stress(&mut sheet, membrane);
     if let Some(heat) = heat {
         draw_speeds(&mut sheet, heat, report.operating.as_ref().map(|o| o.rpm));

@@ -59,6 +59,7 @@ fn shown(shapes: &[EventShapeEntry]) -> Vec<&EventShapeEntry> {
 
 fn facts(report: &Report, shown: usize) -> String {
     let mut facts = vec![
+        report.condition.clone(),
         "deflection seen along the axis, in units of its largest".to_owned(),
         "rotation counterclockwise".to_owned(),
         "n: shares in its square".to_owned(),

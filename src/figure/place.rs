@@ -42,7 +42,8 @@ fn facts(report: &PlaceReport) -> String {
         if report.fragile { "fragile, " } else { "" },
         100.0 * report.worst_neighbour_share
     );
-    std::iter::once(best)
+    [report.condition.clone(), best]
+        .into_iter()
         .chain(values)
         .chain([worst])
         .collect::<Vec<_>>()
@@ -151,6 +152,7 @@ mod tests {
         PlaceReport {
             sawflutter: "0".into(),
             scene: Scene::paper().file().clone(),
+            condition: "idling".into(),
             unusual_numbers: Vec::new(),
             goal: GoalEntry::FlutterSpeed,
             min_critical_rpm: Some(1500.0),

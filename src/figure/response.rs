@@ -75,7 +75,7 @@ fn facts(report: &ResponseReport) -> String {
         true => "damped",
         false => "without damping: no amplitude at a resonance",
     };
-    [probe.as_str(), &cut, damping].join(BETWEEN_FACTS)
+    [report.condition.as_str(), &probe, &cut, damping].join(BETWEEN_FACTS)
 }
 
 /// Shades the speeds at which a growth exceeds the threshold.
@@ -279,7 +279,8 @@ fn points_facts(report: &ResponseReport, points: &FrequencyResponseEntry) -> Str
         )
     };
     format!(
-        "{} rpm{BETWEEN_FACTS}force at {}{BETWEEN_FACTS}probe at {}",
+        "{}{BETWEEN_FACTS}{} rpm{BETWEEN_FACTS}force at {}{BETWEEN_FACTS}probe at {}",
+        report.condition,
         shown_to(6, points.rpm),
         place(points.force_radius_m, points.force_angle_deg),
         place(report.probe_radius_m, report.probe_angle_deg)

@@ -70,7 +70,11 @@ struct Map<'a> {
 impl Map<'_> {
     fn sheet(&self, report: &RunUpReport) -> Sheet {
         let mut sheet = Sheet::new(WIDTH, HEIGHT);
-        heading::draw(&mut sheet, self.title, &report.scene.name);
+        heading::draw(
+            &mut sheet,
+            self.title,
+            &heading::of_saw(&report.scene.name, &report.condition),
+        );
         let speed = Axis::over(self.rpm, PANEL.across());
         let frequency = Axis::over(self.frequency_hz, PANEL.upwards());
         // The level is the decimal logarithm of the value in millimetres.

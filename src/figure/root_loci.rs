@@ -74,7 +74,11 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
         "Root loci around the flutter onset at {:.0} rpm",
         entry.onset_rpm
     );
-    heading::draw(&mut sheet, &title, &report.scene.name);
+    heading::draw(
+        &mut sheet,
+        &title,
+        &heading::of_saw(&report.scene.name, &report.condition),
+    );
     draw_axes(&mut sheet, &chart);
     draw_band(&mut sheet, &chart, entry);
     // The first path is drawn last, so that it is visible in the panel over speed, where both have the same frequency.
@@ -117,7 +121,10 @@ pub fn chart(report: &Report) -> Option<ChartData> {
     let [from, to] = [entry.onset_rpm, entry.end_rpm].map(|rpm| chart.rpm(rpm));
     Some(ChartData {
         title: report.scene.name.clone(),
-        facts: vec![format!("flutter from {from} to {to} rpm")],
+        facts: vec![
+            report.condition.clone(),
+            format!("flutter from {from} to {to} rpm"),
+        ],
         panels: vec![
             PanelData::new(growth, hz.clone(), plane),
             PanelData::new(speed, hz, over_speed),

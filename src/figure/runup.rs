@@ -28,7 +28,11 @@ pub fn sheet(report: &RunUpReport) -> Sheet {
         "Deflection at the probe in a run-up at {:.1} rpm/s",
         report.rate_rpm_per_s
     );
-    heading::draw(&mut sheet, &title, &report.scene.name);
+    heading::draw(
+        &mut sheet,
+        &title,
+        &heading::of_saw(&report.scene.name, &report.condition),
+    );
     let speed = Axis::linear([report.from_rpm, report.to_rpm], PANEL.across());
     let sizes = report.deflection_m.iter().map(|w| w.abs());
     let largest_mm = 1e3 * sizes.fold(0.0, f64::max);

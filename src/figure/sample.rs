@@ -48,6 +48,7 @@ pub fn empty_report(name: &str) -> Report {
     Report {
         sawflutter: "0".to_owned(),
         scene,
+        condition: "idling".to_owned(),
         terms: Vec::new(),
         modes_at_rest: Vec::new(),
         overdamped_modes_at_rest: 0,

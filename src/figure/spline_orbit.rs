@@ -4,6 +4,7 @@ use super::axis::{Axis, draw_named, draw_vertical, tick_label};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::clip::draw_inside;
 use super::columns::{Columns, name_of_row};
+use super::heading::of_saw;
 use super::style::{
     CURVE, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, QUIET, STANDING, SUBTITLE_SIZE, tint,
 };
@@ -31,7 +32,11 @@ pub fn sheet(report: &CutReport) -> Option<Sheet> {
     }
     let title = "Orbit of the blade's centre on the splined arbor in the cut";
     let panels = runs.len();
-    let mut sheet = PANELS.sheet(panels, title, &report.scene.name);
+    let mut sheet = PANELS.sheet(
+        panels,
+        title,
+        &of_saw(&report.scene.name, &report.condition),
+    );
     let scale = Scale::of(runs.iter().map(|(_, spline)| *spline));
     for (index, (run, spline)) in runs.into_iter().enumerate() {
         let name = format!("a quarter turn further\u{2003}[{}]", scale.unit);

@@ -40,7 +40,10 @@ pub fn sheet(report: &StudyReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     let count = format!("{} × {}", report.all.saws, report.scene.name);
     let passing = report.all.passing.as_ref().map(verdict);
-    let facts: Vec<String> = std::iter::once(count).chain(passing).collect();
+    let facts: Vec<String> = [report.condition.clone(), count]
+        .into_iter()
+        .chain(passing)
+        .collect();
     heading::draw(&mut sheet, &report.study.name, &facts.join(BETWEEN_FACTS));
     let of = |keys: &[(&str, &'static str)]| limits(report, keys);
     let critical = of(&[("margin", "operating/margin"), ("min_critical", "asked")]);

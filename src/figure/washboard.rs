@@ -165,7 +165,12 @@ fn facts(report: &WashboardReport) -> Vec<String> {
     let pitch = report.growing_mode().and_then(|mode| mode.pattern_pitch_m);
     let pitch = pitch.map(|metres| format!("waves of {:.1} mm along the feed", 1e3 * metres));
     let teeth = format!("{:.0} teeth pass in a second", report.tooth_passing_hz);
-    let all = [Some(verdict), pitch, Some(teeth)];
+    let all = [
+        Some(report.condition.clone()),
+        Some(verdict),
+        pitch,
+        Some(teeth),
+    ];
     all.into_iter().flatten().collect()
 }
 

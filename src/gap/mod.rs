@@ -155,7 +155,7 @@ impl GuideGaps {
     /// [`GapError`].
     pub fn new(scene: &Scene, options: &Options) -> Result<Self, GapError> {
         options.checked(scene)?;
-        let analysis = Analysis::new(&scene.idling()?)?;
+        let analysis = Analysis::new(scene)?;
         let amplitude = AmplitudeChart::new(&analysis)?;
         let first = analysis.model.critical.first();
         let speed = options.rpm.map(rad_per_s);

@@ -98,7 +98,7 @@ impl GapCase {
         scene: &Scene,
         resolution: Resolution,
     ) -> Result<Option<f64>, GapError> {
-        let found = self.deviation(&scene.idling()?, resolution)?;
+        let found = self.deviation(scene, resolution)?;
         Ok(found.map(|found| found.deviation_m.abs()))
     }
 
@@ -116,10 +116,9 @@ impl GapCase {
     /// # Errors
     /// [`GapError`].
     pub fn numbers(&self, scene: &Scene, resolution: Resolution) -> Result<GapNumbers, GapError> {
-        let scene = scene.idling()?;
-        let found = self.deviation(&scene, resolution)?;
+        let found = self.deviation(scene, resolution)?;
         let critical_at_amplitude_rpm = match self.amplitude_m {
-            Some(amplitude_m) => first_critical(&scene, resolution, amplitude_m)?.map(rpm),
+            Some(amplitude_m) => first_critical(scene, resolution, amplitude_m)?.map(rpm),
             None => None,
         };
         Ok(GapNumbers {

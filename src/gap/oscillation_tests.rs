@@ -56,7 +56,7 @@ fn without_a_gap_the_motion_is_the_linear_response() {
         let pad = &mut file.guides[0];
         (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(1e-12));
     });
-    let analysis = Analysis::new(&lifting.unwrap().idling().unwrap()).unwrap();
+    let analysis = Analysis::new(&lifting.unwrap()).unwrap();
     let oscillators = Oscillators::of(&analysis.scene, None).unwrap();
     let speed = rad_per_s(900.0);
     let found = Oscillation::new(&analysis, oscillators, 0.01, speed).unwrap();
@@ -124,7 +124,7 @@ fn compare_with_time_history(turning: bool, force: Option<OscillatingForce>, bas
             file.response = None;
         }
     });
-    let scene = scene.unwrap().idling().unwrap();
+    let scene = scene.unwrap();
     let oscillators = Oscillators::of(&scene, force).unwrap();
     assert_eq!(oscillators.base_order(), base);
     let asked = (1.0, speed, rad_per_s(1400.0));

@@ -46,6 +46,7 @@ impl Analysis {
         Report {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
+            condition: scene.condition(),
             unusual_numbers: scene.file().unusual_numbers(),
             terms: terms(scene, &model.plate),
             modes_at_rest: rest_modes(analysis, &branches),

@@ -18,6 +18,9 @@ pub struct CheckReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
+    /// Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4 teeth)".
+    #[serde(default)]
+    pub condition: String,
     /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
     /// numbers as typed.
     #[serde(default)]
@@ -107,6 +110,7 @@ impl CheckReport {
         CheckReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
+            condition: scene.condition(),
             unusual_numbers: check.unusual_numbers.clone(),
             accept_unusual: check.accept_unusual,
             passed: check.passed(),

@@ -30,6 +30,9 @@ pub struct ComparedEntry {
     pub label: String,
     /// Scene of the saw.
     pub scene: SceneFile,
+    /// Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4 teeth)".
+    #[serde(default)]
+    pub condition: String,
     /// Critical speeds up to the end of its sweep, ascending.
     pub critical_speeds: Vec<CriticalSpeedEntry>,
     /// The bands of instability within its sweep.
@@ -66,6 +69,7 @@ impl ComparedEntry {
         ComparedEntry {
             label,
             scene: report.scene.clone(),
+            condition: report.condition.clone(),
             critical_speeds: report.critical_speeds.clone(),
             instabilities: report.instabilities.clone(),
             flutter_speed_rpm: report.flutter_speed_rpm,
@@ -87,6 +91,15 @@ impl ComparedEntry {
 }
 
 impl CompareReport {
+    /// Whether the saws idle or are in their cuts: one statement, or one for each saw where they differ.
+    pub fn condition(&self) -> String {
+        let mut conditions: Vec<&str> = self.saws.iter().map(|saw| &*saw.condition).collect();
+        if conditions.windows(2).all(|pair| pair[0] == pair[1]) {
+            conditions.truncate(1);
+        }
+        conditions.join(" | ")
+    }
+
     /// Compares saws with the first of them; `None` where there is none.
     pub fn new(saws: Vec<ComparedEntry>) -> Option<Self> {
         let scene = saws.first()?.scene.clone();

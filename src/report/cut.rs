@@ -16,7 +16,7 @@ use self::criteria::{agree, criteria, worst};
 use self::warnings::warnings;
 use super::SplineEntry;
 use super::remarks::lifting_off;
-use crate::scene::{Scene, SceneFile, unusual_number};
+use crate::scene::{CutRun, Scene, SceneFile, in_the_cut, unusual_number};
 use crate::transient::{
     CutHistory, CutStretching, Cutting, CuttingRun, ToothPassing, VerdictMap, linear_limit_m,
 };
@@ -29,6 +29,9 @@ pub struct CutReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
+    /// The cut of the report: "in the cut at 1800 and 2800 rpm (4 teeth)".
+    #[serde(default)]
+    pub condition: String,
     /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
     /// numbers as typed.
     #[serde(default)]
@@ -177,11 +180,13 @@ impl CutReport {
             .iter()
             .map(|run| CutRunEntry::new(scene, run))
             .collect();
+        let speeds: Vec<CutRun> = cutting.runs.iter().map(|run| run.history.run).collect();
         let (thickness_m, _) = scene.blade().thickness_range_m();
         let linear_limit_m = linear_limit_m(scene.blade());
         CutReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
+            condition: in_the_cut(&speeds),
             unusual_numbers: unusual_numbers(scene, cutting),
             degrees_of_freedom: cutting.plate.degrees_of_freedom(),
             flutter_threshold_per_s: scene.flutter_threshold_per_s(),

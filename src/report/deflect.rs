@@ -18,6 +18,9 @@ pub struct DeflectReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
+    /// Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4 teeth)".
+    #[serde(default)]
+    pub condition: String,
     /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
     /// numbers as typed.
     #[serde(default)]
@@ -149,6 +152,7 @@ impl DeflectReport {
         DeflectReport {
             sawflutter: chart.sawflutter,
             scene: found.scene.file().clone(),
+            condition: found.scene.condition(),
             unusual_numbers: chart.unusual_numbers,
             degrees_of_freedom: chart.accuracy.degrees_of_freedom,
             shapes: found.shapes,

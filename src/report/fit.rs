@@ -14,6 +14,9 @@ pub struct FitReport {
     pub sawflutter: String,
     /// The fitted scene.
     pub scene: SceneFile,
+    /// Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4 teeth)".
+    #[serde(default)]
+    pub condition: String,
     /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
     /// numbers as typed.
     #[serde(default)]
@@ -102,6 +105,7 @@ impl FitReport {
         FitReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: fit.scene.file().clone(),
+            condition: fit.scene.condition(),
             unusual_numbers: unusual_numbers(fit),
             source: fit.measurement.source.clone(),
             confidence: fit.confidence,

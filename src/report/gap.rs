@@ -17,6 +17,9 @@ pub struct GapReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
+    /// Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4 teeth)".
+    #[serde(default)]
+    pub condition: String,
     /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
     /// numbers as typed.
     #[serde(default)]
@@ -203,6 +206,7 @@ impl GapReport {
         GapReport {
             sawflutter: chart.sawflutter,
             scene: found.scene.file().clone(),
+            condition: found.scene.condition(),
             unusual_numbers: chart.unusual_numbers,
             degrees_of_freedom: chart.accuracy.degrees_of_freedom,
             from_rpm: chart.campbell.from_rpm,

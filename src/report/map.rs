@@ -16,6 +16,9 @@ pub struct MapReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
+    /// Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4 teeth)".
+    #[serde(default)]
+    pub condition: String,
     /// Numbers that no saw has, each with its key, the usual range, and the remedy.
     #[serde(default)]
     pub unusual_numbers: Vec<String>,
@@ -126,6 +129,7 @@ impl MapReport {
         MapReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: scene.file().clone(),
+            condition: scene.condition(),
             unusual_numbers: scene.file().unusual_numbers(),
             x: MapAxisEntry::new(map.x()),
             y: map.y().map(MapAxisEntry::new),

@@ -19,6 +19,9 @@ pub struct PlaceReport {
     pub sawflutter: String,
     /// The scene with the best numbers.
     pub scene: SceneFile,
+    /// Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4 teeth)".
+    #[serde(default)]
+    pub condition: String,
     /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
     /// numbers as typed.
     #[serde(default)]
@@ -204,6 +207,7 @@ impl PlaceReport {
         PlaceReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: found.scene.file().clone(),
+            condition: found.scene.condition(),
             unusual_numbers: found.scene.file().unusual_numbers(),
             goal: GoalEntry::from(demands.goal),
             min_critical_rpm: demands.min_critical_rad_per_s.map(rpm),

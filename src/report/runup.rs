@@ -17,6 +17,9 @@ pub struct RunUpReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
+    /// Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4 teeth)".
+    #[serde(default)]
+    pub condition: String,
     /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
     /// numbers as typed.
     #[serde(default)]
@@ -133,6 +136,7 @@ impl RunUpReport {
         RunUpReport {
             sawflutter: chart.sawflutter,
             scene: scene.file().clone(),
+            condition: scene.condition(),
             unusual_numbers: chart.unusual_numbers,
             degrees_of_freedom: chart.accuracy.degrees_of_freedom,
             from_rpm: rpm(runup.speeds.from_rad_per_s),

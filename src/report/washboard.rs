@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Verdict;
-use crate::scene::{SceneFile, rpm, unusual_number};
+use crate::scene::{SceneFile, in_the_cut, rpm, unusual_number};
 use crate::spectrum::Direction;
 use crate::text::shown_to;
 use crate::washboarding::{Washboard, WashboardMode};
@@ -20,6 +20,9 @@ pub struct WashboardReport {
     pub sawflutter: String,
     /// The scene, as typed.
     pub scene: SceneFile,
+    /// The cut of the verdict: "in the cut at 2800 rpm (4 teeth)".
+    #[serde(default)]
+    pub condition: String,
     /// Numbers that no saw has, each with its key, the usual range, and the remedy. The results hold for the
     /// numbers as typed.
     #[serde(default)]
@@ -120,6 +123,7 @@ impl WashboardReport {
         WashboardReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: found.scene.file().clone(),
+            condition: in_the_cut(&[*run]),
             unusual_numbers: unusual_numbers(found),
             rpm: run.rpm,
             verdict: match found.growing {

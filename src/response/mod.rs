@@ -1,5 +1,5 @@
-//! Steady-state response of the idling saw: to a constant side force, to a blade that is not flat or not balanced, and to
-//! the teeth.
+//! Steady-state response of a saw, idling or in its cut: to a constant side force, to a blade that is not flat or not
+//! balanced, and to the teeth.
 //!
 //! An excitation f e^{ikΩt} with the order k of the rotation speed gives the steady state q e^{ikΩt} with
 //! L(ikΩ; Ω) q = f. [`ForcedResponse`] has its amplitude and phase at the probe and at the cut, over the speed, and
@@ -66,7 +66,7 @@ pub struct Options {
 pub struct ForcedResponse {
     /// Scene of the saw.
     pub scene: Scene,
-    /// Analysis of the idling saw.
+    /// Analysis of the saw.
     pub analysis: Analysis,
     /// Excitation of the blade.
     pub excitation: ResponseFile,
@@ -157,14 +157,14 @@ impl Options {
 }
 
 impl ForcedResponse {
-    /// Computes the response of the idling saw.
+    /// Computes the response of the saw.
     ///
     /// # Errors
     /// [`ResponseError`].
     pub fn new(scene: &Scene, options: &Options) -> Result<Self, ResponseError> {
         options.checked()?;
         let (excitation, is_assumed) = excitation(scene);
-        let analysis = Analysis::new(&scene.idling()?)?;
+        let analysis = Analysis::new(scene)?;
         let plate = &analysis.model.plate;
         let loads = loads(plate, scene, &excitation).map_err(|waves| rigid(waves, &excitation))?;
         let resonances: Vec<Vec<f64>> = loads

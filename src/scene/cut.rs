@@ -8,7 +8,7 @@ use super::teeth_in_cut::TeethInCut;
 use super::washboarding::Washboarding;
 use super::wood::Wood;
 use super::{Blade, RefusedValue, SceneError, SceneFile, rad_per_s};
-use crate::text::shown;
+use crate::text::{shown, shown_to};
 
 /// A validated cut.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +42,8 @@ pub struct CutRun {
     pub rpm: f64,
     /// Rotation speed.
     pub speed_rad_per_s: f64,
+    /// Mean number of teeth in the cut.
+    pub teeth: f64,
     /// Tangential force on each tooth, against the rotation; given, or computed from the power.
     pub tangential_n: f64,
     /// Radial force on each tooth, towards the axis.
@@ -150,6 +152,7 @@ impl Cut {
         Ok(CutRun {
             rpm,
             speed_rad_per_s,
+            teeth: f64::from(self.teeth),
             tangential_n,
             radial_n: or_none("radial_n_per_tooth", radial, typed.radial_n_per_tooth)?,
             lateral_n: or_none("lateral_n_per_tooth", lateral, typed.lateral_n_per_tooth)?,
@@ -181,6 +184,16 @@ impl Cut {
         let first = -0.5 * f64::from(self.teeth - 1);
         (0..self.teeth).map(move |k| self.angle_rad + (first + f64::from(k)) * self.pitch_rad)
     }
+}
+
+/// The cut at some speeds as reports name it: "in the cut at 1800 and 2800 rpm (4 teeth)".
+pub(crate) fn in_words(runs: &[CutRun]) -> String {
+    let speeds: Vec<String> = runs.iter().map(|run| shown(run.rpm)).collect();
+    let teeth = match runs.first().map_or(0.0, |run| run.teeth) {
+        1.0 => "1 tooth".to_owned(),
+        teeth => format!("{} teeth", shown_to(3, teeth)),
+    };
+    format!("in the cut at {} rpm ({teeth})", speeds.join(" and "))
 }
 
 /// Position and number of the teeth in the cut of a blade with `teeth` teeth.

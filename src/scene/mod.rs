@@ -39,6 +39,7 @@ mod wood;
 
 pub use crate::text::FileError;
 pub(crate) use check::MAX_RPM;
+pub(crate) use cut::in_words as in_the_cut;
 pub use cut::{Cut, CutRun};
 pub use cut_file::{CutFile, CutSpeedFile};
 pub(crate) use entries::in_words;

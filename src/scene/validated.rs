@@ -2,7 +2,7 @@
 
 use super::{
     Accuracy, Cut, ExcitationLine, Guide, InPlane, Material, Membrane, Probe, RimMass, RunUp,
-    SceneError, SceneFile, Spline, SweepFile, ThicknessProfile, rpm,
+    SceneError, SceneFile, Spline, SweepFile, ThicknessProfile, in_the_cut, rpm,
 };
 
 /// A validated saw. It contains the scene as typed and the numbers derived from it, so that it cannot be
@@ -141,6 +141,15 @@ impl Scene {
     /// [`SceneError`] as for [`Scene::edited`]; none for a valid scene.
     pub fn idling(&self) -> Result<Scene, SceneError> {
         self.edited(|file| file.cut.iter_mut().for_each(|cut| cut.chart_rpm = None))
+    }
+
+    /// What the saw of the scene does at every speed, as all reports name it: "idling", or "in the cut at 2800 rpm
+    /// (4 teeth)" with `cut.chart_rpm`. [`Plate::new`](crate::plate::Plate::new) makes the matrices of this saw.
+    pub fn condition(&self) -> String {
+        match self.cut().and_then(|cut| cut.chart) {
+            Some(run) => in_the_cut(&[run]),
+            None => "idling".to_owned(),
+        }
     }
 
     /// The scene as typed.

@@ -115,6 +115,7 @@ impl<'a> Tally<'a> {
         Ok(StudyReport {
             sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
             scene: study.scene().file().clone(),
+            condition: study.scene().condition(),
             unusual_numbers: match study.limits() {
                 Some(limits) => limits.unusual_numbers(study.scene()),
                 None => study.scene().file().unusual_numbers(),

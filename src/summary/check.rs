@@ -5,7 +5,7 @@ use crate::report::{CheckReport, CriterionEntry};
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &CheckReport) -> std::fmt::Result {
-    heading(text, &report.scene.name, &[])?;
+    heading(text, &report.scene.name, &report.condition, &[])?;
     sentence(text, &verdict(report))?;
     for number in &report.unusual_numbers {
         let line = match report.accept_unusual {

@@ -7,7 +7,7 @@ use super::{ROWS, decimals_or, heading, more, sentence, shortened, wrapped};
 use crate::report::{CompareReport, ComparedEntry};
 
 pub fn of_report(text: &mut String, report: &CompareReport) -> std::fmt::Result {
-    heading(text, &report.scene.name, &[])?;
+    heading(text, &report.scene.name, &report.condition(), &[])?;
     writeln!(
         text,
         "\n                        critical   flutter  bands   rim stiff.\n\

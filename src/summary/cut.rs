@@ -9,7 +9,12 @@ use crate::text::fixed;
 use crate::transient::LINEAR_THICKNESSES;
 
 pub fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
-    heading(text, &report.scene.name, &report.unusual_numbers)?;
+    heading(
+        text,
+        &report.scene.name,
+        &report.condition,
+        &report.unusual_numbers,
+    )?;
     for run in &report.runs {
         sentence(text, &in_one_line(run, report.linear_limit_m))?;
     }

@@ -9,7 +9,12 @@ use crate::stretched::TurnKind;
 use crate::text::{fixed, shown_to};
 
 pub fn of_report(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
-    heading(text, &report.scene.name, &report.unusual_numbers)?;
+    heading(
+        text,
+        &report.scene.name,
+        &report.condition,
+        &report.unusual_numbers,
+    )?;
     sentence(text, &verdict(report))?;
     sentence(text, &critical(report))?;
     for (sweep, word) in [(&report.up, "rises"), (&report.down, "falls")] {

@@ -2,13 +2,17 @@
 
 use std::fmt::Write;
 
-use super::{each, more, sentence};
+use super::{each, heading, more, sentence};
 use crate::report::{FitReport, ParameterEntry};
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &FitReport) -> std::fmt::Result {
-    sentence(text, &report.scene.name)?;
-    each(text, "Unusual number", &report.unusual_numbers)?;
+    heading(
+        text,
+        &report.scene.name,
+        &report.condition,
+        &report.unusual_numbers,
+    )?;
     let verdict = format!(
         "Fitted to {} frequencies ({}): {:.3} Hz rms, before {:.3} Hz",
         report.measured_frequencies, report.source, report.rms_hz, report.rms_before_hz

@@ -9,7 +9,12 @@ use crate::report::{
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
-    heading(text, &report.scene.name, &report.unusual_numbers)?;
+    heading(
+        text,
+        &report.scene.name,
+        &report.condition,
+        &report.unusual_numbers,
+    )?;
     sentence(text, &half_way(report))?;
     writeln!(
         text,

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::study::accuracy_of_saws;
-use super::{ROWS, WIDTH, decimals_or, each, more, sentence, shortened};
+use super::{ROWS, WIDTH, decimals_or, each, more, sentence, shortened, stated};
 use crate::report::{MapAxisEntry, MapReport, MappedSawEntry, StabilityState};
 use crate::stability::CRITICAL_MARGIN;
 use crate::text::{shown, shown_to};
@@ -17,6 +17,7 @@ pub fn of_report(text: &mut String, report: &MapReport) -> std::fmt::Result {
     speeds(text, report)?;
     let name = shortened(&report.scene.name, WIDTH - 10);
     writeln!(text, "\n{} saws of {name}", report.saws.len())?;
+    stated(text, &report.condition)?;
     for axis in std::iter::once(&report.x).chain(&report.y) {
         sentence(text, &format!("  {}", range(axis)))?;
     }

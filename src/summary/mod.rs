@@ -94,11 +94,22 @@ fn more(text: &mut String, rows: usize, shown: usize, file: &str) -> std::fmt::R
     }
 }
 
-/// Writes the name of the scene and its unusual numbers. They are written before the verdict, because a
-/// mistyped number makes it the verdict on another saw.
-fn heading(text: &mut String, name: &str, unusual_numbers: &[String]) -> std::fmt::Result {
+/// Writes the name of the scene, its condition and its unusual numbers. They are written before the verdict, because
+/// another load or a mistyped number makes it the verdict on another saw.
+fn heading(
+    text: &mut String,
+    name: &str,
+    condition: &str,
+    unusual_numbers: &[String],
+) -> std::fmt::Result {
     writeln!(text, "{}", shortened(name, WIDTH))?;
+    stated(text, condition)?;
     each(text, "Unusual number", unusual_numbers)
+}
+
+/// Writes whether the saw idles or is in its cut.
+fn stated(text: &mut String, condition: &str) -> std::fmt::Result {
+    sentence(text, &format!("Saw: {condition}"))
 }
 
 /// Writes sentences, each after a word: "Warning: …".

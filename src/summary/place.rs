@@ -2,15 +2,19 @@
 
 use std::fmt::Write;
 
-use super::{decimals_or, each, sentence};
+use super::{decimals_or, each, heading, sentence};
 use crate::report::{
     FragileOptimumEntry, GoalEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
 };
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
-    sentence(text, &report.scene.name)?;
-    each(text, "Unusual number", &report.unusual_numbers)?;
+    heading(
+        text,
+        &report.scene.name,
+        &report.condition,
+        &report.unusual_numbers,
+    )?;
     let goal = match report.goal {
         GoalEntry::FlutterSpeed => "flutter speed",
         GoalEntry::StableWindow => "stable window",

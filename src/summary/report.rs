@@ -9,13 +9,14 @@ use super::excitation::crossings;
 use super::in_cut::in_cut;
 use super::influences::{heat, rolled, sensitivity, straight_edge};
 use super::whirl::whirl;
-use super::{ROWS, WIDTH, each, is_damped, more, numbered, shortened};
+use super::{ROWS, WIDTH, each, is_damped, more, numbered, shortened, stated};
 use crate::report::{Report, RestMode};
 use crate::scene::BladeFile;
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &Report) -> std::fmt::Result {
     header(text, report)?;
+    stated(text, &report.condition)?;
     each(text, "Unusual number", &report.unusual_numbers)?;
     writeln!(text)?;
     for line in answer(report) {

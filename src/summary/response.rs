@@ -2,12 +2,17 @@
 
 use std::fmt::Write;
 
-use super::{ROWS, each, more, sentence};
+use super::{ROWS, each, heading, more, sentence};
 use crate::report::{ResponseLineEntry, ResponseReport};
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &ResponseReport) -> std::fmt::Result {
-    each(text, "Unusual number", &report.unusual_numbers)?;
+    heading(
+        text,
+        &report.scene.name,
+        &report.condition,
+        &report.unusual_numbers,
+    )?;
     sentence(text, &verdict(report))?;
     writeln!(text, "\nAmplitude at the probe [mm]")?;
     let rest = report.lines.iter().map(|line| line.amplitude_m.first());

@@ -8,7 +8,12 @@ use crate::stretched::LARGEST_SLOPE;
 use crate::transient::LINEAR_THICKNESSES;
 
 pub fn of_report(text: &mut String, report: &RunUpReport) -> std::fmt::Result {
-    heading(text, &report.scene.name, &report.unusual_numbers)?;
+    heading(
+        text,
+        &report.scene.name,
+        &report.condition,
+        &report.unusual_numbers,
+    )?;
     sentence(text, &verdict(report))?;
     if report.bands.is_empty() {
         writeln!(

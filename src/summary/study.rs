@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::study::{GapStatistics, Group, NumberEntry, Passing, SpeedEntry, StudyReport};
 use crate::text::{shown, shown_to};
 
-use super::{WIDTH, decimals_or, each, shortened};
+use super::{WIDTH, decimals_or, each, shortened, stated};
 
 /// Largest number of rows of the table of a grid; further rows are counted.
 const ROWS: usize = 24;
@@ -41,6 +41,7 @@ fn header(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     writeln!(text, "{}", shortened(&report.study.name, WIDTH))?;
     let scene = shortened(&report.scene.name, WIDTH - 24);
     writeln!(text, "{} saws of {scene}", report.all.saws)?;
+    stated(text, &report.condition)?;
     for entry in &report.study.parameters {
         writeln!(text, "  {}", shortened(&entry.to_string(), WIDTH - 2))?;
     }

@@ -7,7 +7,12 @@ use crate::report::{Verdict, WashboardModeEntry, WashboardReport};
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &WashboardReport) -> std::fmt::Result {
-    heading(text, &report.scene.name, &report.unusual_numbers)?;
+    heading(
+        text,
+        &report.scene.name,
+        &report.condition,
+        &report.unusual_numbers,
+    )?;
     sentence(text, &verdict(report))?;
     sentence(text, &boundary(report))?;
     let facts = format!(

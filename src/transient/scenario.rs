@@ -168,7 +168,7 @@ impl RunningUp {
     /// [`TransientError`].
     pub fn new(scene: &Scene, progress: Progress<'_>) -> Result<Self, TransientError> {
         let runup = scene.needed_runup().map_err(SceneError::from)?;
-        let swept = scene.idling()?.swept(runup.speeds)?;
+        let swept = scene.swept(runup.speeds)?;
         let analysis = Analysis::new(&swept)?;
         let model = &analysis.model;
         let modes = model.modes(runup.speeds.from_rad_per_s)?;

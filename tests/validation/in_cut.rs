@@ -2,17 +2,26 @@
 
 use std::f64::consts::{PI, TAU};
 
+use faer::linalg::solvers::Solve;
+use faer::{Col, Mat, c64};
+use nalgebra::DMatrix;
 use sawflutter::analytical::free_wave::on_a_bed_rad_per_s;
+use sawflutter::deflect::{self, Deflecting};
+use sawflutter::document::{Documented, page};
 use sawflutter::plate::{Plate, Resolution};
+use sawflutter::report::{DeflectReport, ResponseReport, RunUpReport};
+use sawflutter::response::{self, ForcedResponse};
 use sawflutter::scene::{Accuracy, Scene, SceneFile, WoodFile, rad_per_s, rpm};
 use sawflutter::stability::{Analysis, InstabilityKind, Onsets, StabilityState};
 use sawflutter::system::GyroscopicSystem;
+use sawflutter::transient::RunningUp;
 
 use crate::common::relative_error;
 
 fn in_cut(change: impl FnOnce(&mut SceneFile)) -> Scene {
     let saw = Scene::paper().edited(|saw| {
-        saw.cut.as_mut().expect("the paper's cut").chart_rpm = Some(2800.0);
+        let cut = saw.cut.as_mut().expect("the paper's cut");
+        (cut.chart_rpm, cut.teeth_in_cut) = (Some(2800.0), Some(4));
         change(saw);
     });
     saw.unwrap_or_else(|error| panic!("{error}"))
@@ -196,4 +205,143 @@ fn wood_that_damps_changes_what_the_chart_states() {
     };
     assert!(statement(0.0).starts_with("Krein index matches"));
     assert!(statement(20.0).starts_with("growing modes match"));
+}
+
+/// The saw in the cut at 2800 rpm, against stiff wood that damps, in a small basis.
+fn against_wood() -> Scene {
+    in_cut(|saw| {
+        saw.accuracy = Accuracy::Draft;
+        saw.operating_rpm = Some(1200.0);
+        let runup = saw.runup.as_mut().expect("a run-up");
+        (runup.to_rpm, runup.duration_s) = (1750.0, 1.0);
+        saw.sweep.as_mut().expect("a sweep").to_rpm = 1750.0;
+        saw.cut.as_mut().expect("a cut").wood = Some(WoodFile {
+            stiffness_n_per_m: 6e4,
+            damping_n_s_per_m: 25.0,
+            depth_m: 0.06,
+            arc_deg: None,
+        });
+    })
+}
+
+/// The idling saw with the forces and the wood of the cut added to it, in the basis of a plate.
+fn added_to_the_idling_saw(scene: &Scene, basis: &Plate) -> GyroscopicSystem {
+    let idling = Plate::new(&scene.idling().unwrap(), basis.resolution);
+    let cut = scene.cut().unwrap();
+    GyroscopicSystem::of_plate(&idling.in_cut(cut, &cut.at_rpm(2800.0).unwrap()))
+}
+
+fn functions(plate: &Plate, (radius_m, angle_rad): (f64, f64)) -> Col<c64> {
+    let values = plate.functions_at(radius_m, angle_rad);
+    Col::from_fn(values.len(), |i| c64::new(values[i], 0.0))
+}
+
+/// Deflection at a place per newton at another, from (K + iωD − ω²)⁻¹ of the whole matrices.
+fn receptance(
+    system: &GyroscopicSystem,
+    [force, probe]: [&Col<c64>; 2],
+    (speed, frequency): (f64, f64),
+) -> c64 {
+    let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
+    let dynamic = Mat::from_fn(system.order(), system.order(), |i, k| {
+        let inertia = if i == k { frequency.powi(2) } else { 0.0 };
+        c64::new(stiffness[(i, k)] - inertia, frequency * velocity[(i, k)])
+    });
+    probe.transpose() * dynamic.partial_piv_lu().solve(force)
+}
+
+#[test]
+fn the_response_in_the_cut_is_that_of_the_whole_matrices() {
+    let scene = against_wood();
+    let options = response::Options {
+        to_hz: Some(60.0),
+        ..response::Options::default()
+    };
+    let found = ForcedResponse::new(&scene, &options).unwrap();
+    let plate = &found.analysis.model.plate;
+    let system = added_to_the_idling_saw(&scene, plate);
+    let places = [found.force_place(), found.probe_place()].map(|at| functions(plate, at));
+    let points = found.points.as_ref().unwrap();
+    for place in (0..points.frequency_rad_per_s.len()).step_by(97) {
+        let at = (points.speed_rad_per_s, points.frequency_rad_per_s[place]);
+        let expected = receptance(&system, places.each_ref(), at);
+        let error = (points.receptance_m_per_n[place].unwrap() - expected).norm();
+        assert!(error < 1e-6 * expected.norm(), "{at:?}: {error:e} {expected}");
+    }
+}
+
+/// Text, page and figures say which saw the report is of.
+fn assert_said(report: &impl Documented, condition: &str) {
+    assert_eq!(condition, "in the cut at 2800 rpm (4 teeth)");
+    let summary = report.document().summary;
+    assert!(summary.contains(condition), "{summary}");
+    assert!(page(report).unwrap().contains(condition));
+    for figure in report.figures() {
+        let text = figure.svg().unwrap();
+        assert!(text.contains(condition), "{:?}", figure.names());
+    }
+}
+
+/// The lowest critical speed is 1/√µ with the largest eigenvalue µ of L⁻¹(−S)L⁻ᵀ, K₀ = LLᵀ.
+#[test]
+fn every_command_has_the_same_saw_in_the_cut() {
+    let scene = against_wood();
+    let analysis = Analysis::new(&scene).unwrap();
+    let system = added_to_the_idling_saw(&scene, &analysis.model.plate);
+    let dense = |matrix: &Mat<f64>| {
+        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, k| matrix[(i, k)])
+    };
+    let lower = dense(&system.stiffness).cholesky().unwrap().l();
+    let half = lower.solve_lower_triangular(&-dense(&system.spin)).unwrap();
+    let whole = lower.solve_lower_triangular(&half.transpose()).unwrap();
+    let expected = rpm(1.0 / whole.symmetric_eigenvalues().max().sqrt());
+
+    let report = analysis.report();
+    let response = ForcedResponse::new(&scene, &response::Options::default()).unwrap();
+    let response = ResponseReport::new(&response);
+    let runup = RunUpReport::new(&RunningUp::new(&scene, &|_, _| ()).unwrap());
+    let options = deflect::Options {
+        to_rpm: Some(1300.0),
+        ..deflect::Options::default()
+    };
+    let deflect = DeflectReport::new(&Deflecting::new(&scene, &options).unwrap());
+    let found = [
+        report.critical_speeds[0].rpm,
+        response.lines[0].resonances[0].rpm,
+        runup.critical_speeds[0].rpm,
+    ];
+    for found in found {
+        assert!(relative_error(found, expected) < 1e-9, "{found} {expected}");
+    }
+    assert!(deflect.critical_speeds.is_empty() && expected > 1600.0);
+    assert_said(&report, &report.condition);
+    assert_said(&response, &response.condition);
+    assert_said(&runup, &runup.condition);
+    assert_said(&deflect, &deflect.condition);
+    assert_eq!(scene.idling().unwrap().condition(), "idling");
+}
+
+/// A force so small that the blade does not stretch.
+#[test]
+fn a_small_force_in_the_cut_deflects_the_blade_as_the_whole_matrices_say() {
+    let scene = against_wood();
+    let options = deflect::Options {
+        force_n: Some(1e-4),
+        to_rpm: Some(1300.0),
+        ..deflect::Options::default()
+    };
+    let found = Deflecting::new(&scene, &options).unwrap();
+    let plate = &found.analysis.model.plate;
+    let system = added_to_the_idling_saw(&scene, plate);
+    let rim = (plate.blade.outer_radius_m, found.force.angle_rad);
+    let report = DeflectReport::new(&found);
+    let probe = (report.probe_radius_m, report.probe_angle_deg.to_radians());
+    let places = [rim, probe].map(|at| functions(plate, at));
+    let readings: Vec<_> = found.up.readings().collect();
+    for (place, tolerance) in [(0, 1e-5), (readings.len() - 1, 1e-3)] {
+        let at = readings[place];
+        let expected = 1e-4 * receptance(&system, places.each_ref(), (at.speed_rad_per_s, 0.0)).re;
+        let error = relative_error(at.deflection_m, expected);
+        assert!(error < tolerance, "{}: {error:e}", rpm(at.speed_rad_per_s));
+    }
 }

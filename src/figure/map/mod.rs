@@ -38,7 +38,13 @@ fn facts(report: &MapReport) -> String {
         "flutter counts from {} 1/s on",
         report.flutter_threshold_per_s
     );
-    let facts = [Some(format!("{count} saws")), judged, Some(threshold), lost];
+    let facts = [
+        Some(report.condition.clone()),
+        Some(format!("{count} saws")),
+        judged,
+        Some(threshold),
+        lost,
+    ];
     facts
         .into_iter()
         .flatten()
