@@ -210,8 +210,8 @@ class InCut(Entry):
     """Speed of the cut at which these forces occur; in the diagram they are the same at every
     speed."""
 
-    teeth: int
-    """Number of teeth in the cut."""
+    teeth: float
+    """Mean number of teeth in the cut."""
 
     tangential_n_per_tooth: float
     """Force against the rotation on each tooth."""
@@ -882,6 +882,10 @@ class CampbellReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
+    condition: str
+    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+    teeth)"."""
+
     unusual_numbers: tuple[str, ...]
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
@@ -1008,6 +1012,10 @@ class CheckReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
+    condition: str
+    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+    teeth)"."""
+
     unusual_numbers: tuple[str, ...]
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
@@ -1074,6 +1082,10 @@ class Compared(Entry):
 
     scene: SceneDict
     """Scene of the saw."""
+
+    condition: str
+    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+    teeth)"."""
 
     critical_speeds: tuple[CriticalSpeed, ...]
     """Critical speeds up to the end of its sweep, ascending."""
@@ -1177,7 +1189,7 @@ class ByPower(Entry):
     """A cut with the force that follows from its power."""
 
     tangential_n_per_tooth: float
-    """P/(Ωb) divided by the number of teeth in the cut."""
+    """P/(Ωb) divided by the mean number of teeth in the cut."""
 
     verdict: Verdict
     """Verdict by the eigenvalues."""
@@ -1194,7 +1206,7 @@ class ToothPassing(Entry):
     """Number of teeth that pass per second."""
 
     standing_growth_per_s: float
-    """Growth under stationary loads."""
+    """Growth under stationary loads at the mean places of the teeth."""
 
     mean_growth_per_s: float
     """Growth under the mean of the moving loads."""
@@ -1403,6 +1415,9 @@ class CutReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
+    condition: str
+    """The cut of the report: "in the cut at 1800 and 2800 rpm (4 teeth)"."""
+
     unusual_numbers: tuple[str, ...]
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
@@ -1416,8 +1431,13 @@ class CutReport(Entry):
     linear_limit_m: float
     """Largest deflection that is given; beyond it the linear model is not valid."""
 
-    tooth_angles_deg: FloatArray
-    """Angles of the teeth in the cut."""
+    teeth: float
+    """Mean number of teeth in the cut: its depth over their pitch. Deflections and growth are
+    those of the mean forces of this number of teeth; moving tooth loads are those of single
+    teeth that enter and leave the cut."""
+
+    arc_deg: float
+    """Arc of the rim in which teeth cut."""
 
     runs: tuple[CutRun, ...]
     """One entry for each speed."""
@@ -1535,6 +1555,10 @@ class DeflectReport(Entry):
 
     scene: SceneDict
     """The scene, as typed."""
+
+    condition: str
+    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+    teeth)"."""
 
     unusual_numbers: tuple[str, ...]
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
@@ -1686,6 +1710,10 @@ class FitReport(Entry):
 
     scene: SceneDict
     """The fitted scene."""
+
+    condition: str
+    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+    teeth)"."""
 
     unusual_numbers: tuple[str, ...]
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
@@ -2071,6 +2099,10 @@ class GapReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
+    condition: str
+    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+    teeth)"."""
+
     unusual_numbers: tuple[str, ...]
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
@@ -2211,6 +2243,10 @@ class MapReport(Entry):
 
     scene: SceneDict
     """The scene, as typed."""
+
+    condition: str
+    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+    teeth)"."""
 
     unusual_numbers: tuple[str, ...]
     """Numbers that no saw has, each with its key, the usual range, and the remedy."""
@@ -2409,6 +2445,10 @@ class PlaceReport(Entry):
     scene: SceneDict
     """The scene with the best numbers."""
 
+    condition: str
+    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+    teeth)"."""
+
     unusual_numbers: tuple[str, ...]
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
@@ -2597,6 +2637,10 @@ class ResponseReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
+    condition: str
+    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+    teeth)"."""
+
     unusual_numbers: tuple[str, ...]
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
@@ -2719,6 +2763,10 @@ class RunUpReport(Entry):
 
     scene: SceneDict
     """The scene, as typed."""
+
+    condition: str
+    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+    teeth)"."""
 
     unusual_numbers: tuple[str, ...]
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
@@ -3006,6 +3054,10 @@ class StudyReport(Entry):
     scene: SceneDict
     """The scene without deviations, as typed."""
 
+    condition: str
+    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+    teeth)"."""
+
     unusual_numbers: tuple[str, ...]
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
@@ -3139,6 +3191,9 @@ class WashboardReport(Entry):
 
     scene: SceneDict
     """The scene, as typed."""
+
+    condition: str
+    """The cut of the verdict: "in the cut at 2800 rpm (4 teeth)"."""
 
     unusual_numbers: tuple[str, ...]
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results

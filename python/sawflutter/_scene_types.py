@@ -404,7 +404,7 @@ class WoodDict(TypedDict, total=False):
     rim."""
 
     arc_deg: float | None
-    """Arc of the contact; by default one pitch for each tooth in the cut."""
+    """Arc of the contact; by default that of the teeth in the cut, one pitch for each."""
 
 
 class _WashboardingDict(TypedDict):
@@ -471,12 +471,13 @@ class CutDict(TypedDict, total=False):
     """Angle of the middle of the cut, positive in the direction of rotation."""
 
     depth_m: float | None
-    """Depth of cut; divided by the pitch of the teeth it gives the number of teeth in the cut.
-    Typically 0.25 of the outer diameter, from 0.05 to 0.35 (the paper's saw cuts 0.28 of its
-    diameter)."""
+    """Depth of cut; divided by the pitch of the teeth it gives the mean number of teeth in the
+    cut, which need not be whole. Typically 0.25 of the outer diameter, from 0.05 to 0.35 (the
+    paper's saw cuts 0.28 of its diameter)."""
 
     teeth_in_cut: int | None
-    """Number of teeth that cut at the same time; it has precedence over the depth."""
+    """Number of teeth that cut at the same time, in place of the mean number that follows from
+    the depth; it has precedence."""
 
     tangential_n_per_tooth: float | None
     """Force on each tooth against the rotation; it has precedence over the power."""
@@ -507,8 +508,9 @@ class CutDict(TypedDict, total=False):
     program, to see the blade before and after the cut)."""
 
     chart_rpm: float | None
-    """Speed of the cut whose forces act on the saw in `analyze`, `check`, `fit`, `place` and
-    `study`, as dead loads at every speed. By default these commands compute the idling saw."""
+    """Speed of the cut whose forces, as dead loads at every speed, and wood act on the saw in
+    all commands but `cut` and `washboard`, which have speeds of their own. By default these
+    commands compute the idling saw."""
 
     wood: WoodDict | None
     """Contact of the blade with the wood in the kerf. None by default."""

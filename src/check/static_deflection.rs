@@ -10,7 +10,7 @@ use crate::scene::Cut;
 use crate::spectrum::orthonormal;
 use crate::stability::{Look, bracketed};
 use crate::system::GyroscopicSystem;
-use crate::transient::at_point;
+use crate::transient::{at_point, lateral_load};
 
 /// Squared speeds, relative to the squared lowest critical speed, at which the response is solved on the full
 /// model. The response is a rational function of the squared speed, which the reduced model on these responses
@@ -53,11 +53,7 @@ impl StaticDeflection {
         let rim_radius_m = plate.blade.outer_radius_m;
         let rim = at_point(plate, rim_radius_m, angle_rad);
         let of_teeth = |(cut, lateral_n): (&Cut, f64)| {
-            let mut load = Col::zeros(rim.nrows());
-            for angle in cut.tooth_angles_rad() {
-                load += Scale(lateral_n) * at_point(plate, rim_radius_m, angle);
-            }
-            load
+            Scale(lateral_n) * lateral_load(plate, &cut.teeth.standing())
         };
         let cut = cut.filter(|(_, force)| *force != 0.0).map(of_teeth);
         let mut responses: Vec<Col<f64>> = Vec::new();

@@ -202,13 +202,18 @@ impl Plate {
 
     /// The plate under dead forces at its rim, with reactions at the bore as in [`EdgeStress`].
     pub fn with_edge_loads(&self, loads: &[RimForce]) -> Self {
-        let stress = EdgeStress::new(&self.blade, loads, 2 * self.max_diameters());
-        self.with_edge_stiffness(edge_stiffness(self, &stress))
+        self.with_edge_stiffness(self.edge_stiffness_of(loads))
     }
 
-    /// The plate in a cut: under its forces, as dead loads, and in contact with the wood.
+    /// K_e of dead forces at the rim, in 1/s², N × N.
+    pub(crate) fn edge_stiffness_of(&self, loads: &[RimForce]) -> Mat<f64> {
+        let stress = EdgeStress::new(&self.blade, loads, 2 * self.max_diameters());
+        edge_stiffness(self, &stress)
+    }
+
+    /// The plate in a cut: under its mean forces, as dead loads, and in contact with the wood.
     pub fn in_cut(&self, cut: &Cut, run: &CutRun) -> Self {
-        let loads = RimForce::of_cut(cut, run.tangential_n, run.radial_n);
+        let loads = RimForce::of_teeth(&cut.teeth.standing(), run);
         let loaded = self.with_edge_loads(&loads);
         match &cut.wood {
             Some(wood) => loaded.with_contact(wood),

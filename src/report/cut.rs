@@ -42,8 +42,11 @@ pub struct CutReport {
     pub flutter_threshold_per_s: f64,
     /// Largest deflection that is given; beyond it the linear model is not valid.
     pub linear_limit_m: f64,
-    /// Angles of the teeth in the cut.
-    pub tooth_angles_deg: Vec<f64>,
+    /// Mean number of teeth in the cut: its depth over their pitch. Deflections and growth are those of the mean forces of
+    /// this number of teeth; moving tooth loads are those of single teeth that enter and leave the cut.
+    pub teeth: f64,
+    /// Arc of the rim in which teeth cut.
+    pub arc_deg: f64,
     /// One entry for each speed.
     pub runs: Vec<CutRunEntry>,
     /// Remarks on the forces and on the validity of the result.
@@ -122,7 +125,7 @@ pub struct CutRunEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ByPowerEntry {
-    /// P/(Ωb) divided by the number of teeth in the cut.
+    /// P/(Ωb) divided by the mean number of teeth in the cut.
     pub tangential_n_per_tooth: f64,
     /// Verdict by the eigenvalues.
     pub verdict: Verdict,
@@ -136,7 +139,7 @@ pub struct ByPowerEntry {
 pub struct ToothPassingEntry {
     /// Number of teeth that pass per second.
     pub tooth_frequency_hz: f64,
-    /// Growth under stationary loads.
+    /// Growth under stationary loads at the mean places of the teeth.
     pub standing_growth_per_s: f64,
     /// Growth under the mean of the moving loads.
     pub mean_growth_per_s: f64,
@@ -181,6 +184,7 @@ impl CutReport {
             .map(|run| CutRunEntry::new(scene, run))
             .collect();
         let speeds: Vec<CutRun> = cutting.runs.iter().map(|run| run.history.run).collect();
+        let teeth = cutting.cut.teeth;
         let (thickness_m, _) = scene.blade().thickness_range_m();
         let linear_limit_m = linear_limit_m(scene.blade());
         CutReport {
@@ -191,14 +195,14 @@ impl CutReport {
             degrees_of_freedom: cutting.plate.degrees_of_freedom(),
             flutter_threshold_per_s: scene.flutter_threshold_per_s(),
             linear_limit_m,
-            tooth_angles_deg: cutting
-                .cut
-                .tooth_angles_rad()
-                .map(f64::to_degrees)
-                .collect(),
+            teeth: teeth.mean,
+            arc_deg: (teeth.mean * teeth.pitch_rad).to_degrees(),
             warnings: lifting_off(scene)
                 .into_iter()
-                .chain(runs.iter().flat_map(|run| warnings(run, thickness_m)))
+                .chain(
+                    runs.iter()
+                        .flat_map(|run| warnings(run, teeth.mean, thickness_m)),
+                )
                 .collect(),
             runs,
         }

@@ -13,8 +13,8 @@ use crate::stability::{Analysis, Onsets};
 pub struct InCutEntry {
     /// Speed of the cut at which these forces occur; in the diagram they are the same at every speed.
     pub rpm: f64,
-    /// Number of teeth in the cut.
-    pub teeth: u32,
+    /// Mean number of teeth in the cut.
+    pub teeth: f64,
     /// Force against the rotation on each tooth.
     pub tangential_n_per_tooth: f64,
     /// Force towards the axis on each tooth.
@@ -45,7 +45,7 @@ impl InCutEntry {
         let threshold = analysis.scene.flutter_threshold_per_s();
         Some(InCutEntry {
             rpm: run.rpm,
-            teeth: cut.teeth,
+            teeth: run.teeth,
             tangential_n_per_tooth: run.tangential_n,
             radial_n_per_tooth: run.radial_n,
             idling: analysis

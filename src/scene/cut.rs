@@ -13,12 +13,8 @@ use crate::text::{shown, shown_to};
 /// A validated cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cut {
-    /// Angle of the middle of the cut.
-    pub angle_rad: f64,
-    /// Number of teeth that cut at the same time.
-    pub teeth: u32,
-    /// Angle between successive teeth.
-    pub pitch_rad: f64,
+    /// The teeth that pass the arc of the cut.
+    pub teeth: TeethInCut,
     /// Time before and after the cut, without forces.
     pub idle_s: f64,
     /// Speeds, with the forces at each.
@@ -72,9 +68,7 @@ impl Cut {
     ) -> Result<Self, SceneError> {
         let teeth = teeth_in_cut(typed, file.blade.teeth, blade)?;
         let mut cut = Cut {
-            angle_rad: teeth.angle_rad,
-            teeth: teeth.count,
-            pitch_rad: teeth.pitch_rad,
+            teeth,
             idle_s: within("cut.idle_s", typed.idle_s, (0.0, MAX_DURATION_S))?,
             runs: Vec::new(),
             wood: None,
@@ -130,7 +124,14 @@ impl Cut {
         let typed = &self.file;
         let power_w = number("power_w", own.power_w, typed.power_w, (0.0, SPAN.1))?;
         let tangential_of_power_n =
-            power_w.map(|p| p / (speed_rad_per_s * self.rim_radius_m) / f64::from(self.teeth));
+            power_w.map(|p| p / (speed_rad_per_s * self.rim_radius_m) / self.teeth.mean);
+        if let (Some(force_n), Some(power_w)) = (tangential_of_power_n, power_w)
+            && force_n > MAX_FORCE_N
+        {
+            let allowed = format!("such that a tooth cuts with at most {MAX_FORCE_N:e} N");
+            let remedy = "give a smaller power, a higher speed or a larger cut.depth_m";
+            return Err(refuse("cut.power_w", power_w, allowed, remedy));
+        }
         let given = number(
             "tangential_n_per_tooth",
             own.tangential_n_per_tooth,
@@ -152,7 +153,7 @@ impl Cut {
         Ok(CutRun {
             rpm,
             speed_rad_per_s,
-            teeth: f64::from(self.teeth),
+            teeth: self.teeth.mean,
             tangential_n,
             radial_n: or_none("radial_n_per_tooth", radial, typed.radial_n_per_tooth)?,
             lateral_n: or_none("lateral_n_per_tooth", lateral, typed.lateral_n_per_tooth)?,
@@ -178,12 +179,6 @@ impl Cut {
         }
         Ok(seconds)
     }
-
-    /// Angles of the teeth in the cut: one pitch apart, symmetric about its middle.
-    pub fn tooth_angles_rad(&self) -> impl Iterator<Item = f64> + '_ {
-        let first = -0.5 * f64::from(self.teeth - 1);
-        (0..self.teeth).map(move |k| self.angle_rad + (first + f64::from(k)) * self.pitch_rad)
-    }
 }
 
 /// The cut at some speeds as reports name it: "in the cut at 1800 and 2800 rpm (4 teeth)".
@@ -196,7 +191,7 @@ pub(crate) fn in_words(runs: &[CutRun]) -> String {
     format!("in the cut at {} rpm ({teeth})", speeds.join(" and "))
 }
 
-/// Position and number of the teeth in the cut of a blade with `teeth` teeth.
+/// Places and mean number of the teeth in the cut of a blade with `teeth` teeth.
 fn teeth_in_cut(
     typed: &CutFile,
     teeth: Option<u32>,
@@ -206,17 +201,17 @@ fn teeth_in_cut(
     let all_teeth = needed_teeth(teeth, "where the scene has a cut", remedy)?;
     Ok(TeethInCut {
         angle_rad: within("cut.angle_deg", typed.angle_deg, (-3600.0, 3600.0))?.to_radians(),
-        count: count(typed, all_teeth, blade)?,
+        mean: mean(typed, all_teeth, blade)?,
         pitch_rad: TAU / f64::from(all_teeth),
     })
 }
 
-/// The given number of teeth in the cut, or depth over pitch, rounded, which is their average number.
-fn count(typed: &CutFile, all_teeth: u32, blade: &Blade) -> Result<u32, SceneError> {
+/// The given number of teeth in the cut, or depth over pitch, which is their mean number.
+fn mean(typed: &CutFile, all_teeth: u32, blade: &Blade) -> Result<f64, SceneError> {
     let key = "cut.teeth_in_cut";
     if let Some(teeth) = typed.teeth_in_cut {
         if (1..=all_teeth).contains(&teeth) {
-            return Ok(teeth);
+            return Ok(f64::from(teeth));
         }
         let allowed = format!("between 1 and blade.teeth ({all_teeth})");
         let remedy = "count the teeth that touch the wood at a time";
@@ -237,7 +232,7 @@ fn count(typed: &CutFile, all_teeth: u32, blade: &Blade) -> Result<u32, SceneErr
         return Err(refuse("cut.depth_m", depth_m, allowed, remedy));
     }
     let pitch_m = PI * diameter_m / f64::from(all_teeth);
-    Ok(((depth_m / pitch_m).round() as u32).clamp(1, all_teeth))
+    Ok(depth_m / pitch_m)
 }
 
 #[cfg(test)]
@@ -254,16 +249,43 @@ mod tests {
     }
 
     #[test]
-    fn the_papers_depth_of_cut_has_four_teeth_around_its_middle() {
-        let cut = with(|_, _| {}).unwrap();
-        let pitches: Vec<f64> = cut.tooth_angles_rad().map(|a| a / cut.pitch_rad).collect();
+    fn the_papers_four_teeth_are_around_the_middle_of_the_cut() {
+        let teeth = with(|_, cut| cut.teeth_in_cut = Some(4)).unwrap().teeth;
+        let standing = teeth.standing();
+        let pitches: Vec<f64> = standing
+            .iter()
+            .map(|tooth| tooth.angle_rad / teeth.pitch_rad)
+            .collect();
         assert_eq!(pitches, [-1.5, -0.5, 0.5, 1.5]);
+        assert!(standing.iter().all(|tooth| tooth.share == 1.0));
+    }
+
+    /// The depth of 200 mm is 3.766 of 42 pitches; five teeth have a pitch of 0.343 m at 546 mm.
+    #[test]
+    fn depth_over_pitch_is_the_mean_number_of_teeth() {
+        let mean = |diameter_m: f64, teeth: u32, depth_m: f64| {
+            let cut = with(|file, cut| {
+                file.blade.outer_diameter_m = diameter_m;
+                file.blade.teeth = Some(teeth);
+                (cut.teeth_in_cut, cut.depth_m) = (None, Some(depth_m));
+            });
+            cut.unwrap().teeth.mean
+        };
+        for (found, expected) in [
+            (mean(0.71, 42, 0.2), 3.7659),
+            (mean(0.546, 5, 0.2), 0.58299),
+            (mean(0.546, 5, 0.01), 0.029150),
+            (mean(0.546, 5, 0.5), 1.45748),
+        ] {
+            assert!((found / expected - 1.0).abs() < 1e-4, "{found} {expected}");
+        }
     }
 
     /// 80 hp at 2800 rpm and a radius of 355 mm are 573 N, shared by four teeth.
     #[test]
     fn power_over_rim_speed_gives_the_force() {
         let cut = with(|_, cut| {
+            cut.teeth_in_cut = Some(4);
             cut.tangential_n_per_tooth = None;
             cut.speeds.clear();
             cut.power_w = Some(80.0 * 745.7);

@@ -16,10 +16,12 @@ pub struct CutFile {
     /// Angle of the middle of the cut, positive in the direction of rotation.
     #[serde(default)]
     pub angle_deg: f64,
-    /// Depth of cut; divided by the pitch of the teeth it gives the number of teeth in the cut.
+    /// Depth of cut; divided by the pitch of the teeth it gives the mean number of teeth in the cut, which need not be
+    /// whole.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth_m: Option<f64>,
-    /// Number of teeth that cut at the same time; it has precedence over the depth.
+    /// Number of teeth that cut at the same time, in place of the mean number that follows from the depth; it has
+    /// precedence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub teeth_in_cut: Option<u32>,
     /// Force on each tooth against the rotation; it has precedence over the power.
@@ -43,8 +45,8 @@ pub struct CutFile {
     /// Time shown before and after the cut.
     #[serde(default = "default_idle_s")]
     pub idle_s: f64,
-    /// Speed of the cut whose forces act on the saw in `analyze`, `check`, `fit`, `place` and `study`, as
-    /// dead loads at every speed. By default these commands compute the idling saw.
+    /// Speed of the cut whose forces, as dead loads at every speed, and wood act on the saw in all commands but `cut` and
+    /// `washboard`, which have speeds of their own. By default these commands compute the idling saw.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chart_rpm: Option<f64>,
     /// Contact of the blade with the wood in the kerf. None by default.

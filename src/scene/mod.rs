@@ -78,6 +78,7 @@ pub(crate) use spline::Spline;
 pub use spline::SplineFile;
 pub(crate) use straight_edge::StraightEdge;
 pub use straight_edge::StraightEdgeFile;
+pub use teeth_in_cut::{TeethInCut, Tooth};
 pub use thickness::{RimFile, ThicknessRow};
 pub(crate) use thickness::{RimMass, ThicknessProfile};
 pub(crate) use unusual::unusual_number;

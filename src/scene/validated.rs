@@ -220,7 +220,7 @@ impl Scene {
 
     /// Angle of the middle of the cut; without a cut, zero, the direction from which angles are counted.
     pub fn cut_angle_rad(&self) -> f64 {
-        self.cut.as_ref().map_or(0.0, |cut| cut.angle_rad)
+        self.cut.as_ref().map_or(0.0, |cut| cut.teeth.angle_rad)
     }
 
     /// Run-up under a lateral force.

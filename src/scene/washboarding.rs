@@ -158,7 +158,8 @@ mod tests {
                 pitches_deg: Vec::new(),
             };
             change(&mut washboarding);
-            saw.cut.as_mut().expect("a cut").washboarding = Some(washboarding);
+            let cut = saw.cut.as_mut().expect("a cut");
+            (cut.teeth_in_cut, cut.washboarding) = (Some(4), Some(washboarding));
         });
         let cut = scene.map(|scene| scene.cut().expect("a cut").clone());
         cut.map(|cut| cut.washboarding.expect("washboarding"))

@@ -21,7 +21,7 @@ pub struct WoodFile {
     /// Extent of the contact from the rim towards the axis; by default it is an arc of the rim.
     #[serde(default)]
     pub depth_m: f64,
-    /// Arc of the contact; by default one pitch for each tooth in the cut.
+    /// Arc of the contact; by default that of the teeth in the cut, one pitch for each.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arc_deg: Option<f64>,
 }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::{decimals_or, each, heading, sentence};
 use crate::report::{CutCriterion, CutReport, CutRunEntry, CutVerdict, Verdict};
 use crate::stretched::LARGEST_SLOPE;
-use crate::text::fixed;
+use crate::text::{fixed, shown_to};
 use crate::transient::LINEAR_THICKNESSES;
 
 pub fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
@@ -19,7 +19,7 @@ pub fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
         sentence(text, &in_one_line(run, report.linear_limit_m))?;
     }
     for run in &report.runs {
-        of_run(text, run)?;
+        of_run(text, run, report.teeth)?;
     }
     if !report.warnings.is_empty() {
         writeln!(text)?;
@@ -60,13 +60,14 @@ fn unstable(run: &CutRunEntry) -> String {
     )
 }
 
-fn of_run(text: &mut String, run: &CutRunEntry) -> std::fmt::Result {
+fn of_run(text: &mut String, run: &CutRunEntry, teeth: f64) -> std::fmt::Result {
     let forces = format!(
-        "{} rpm, on each tooth {} N against the rotation, {} N inwards, {} N across",
+        "{} rpm, on each tooth {} N against the rotation, {} N inwards, {} N across ({} N in all)",
         run.rpm,
         run.tangential_n_per_tooth.round(),
         run.radial_n_per_tooth.round(),
-        run.lateral_n_per_tooth
+        run.lateral_n_per_tooth,
+        shown_to(3, teeth * run.lateral_n_per_tooth)
     );
     writeln!(text)?;
     sentence(text, &forces)?;

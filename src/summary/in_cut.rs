@@ -4,6 +4,7 @@ use std::fmt::{Result, Write};
 
 use super::{decimals_or, sentence};
 use crate::report::Report;
+use crate::text::shown_to;
 
 /// Writes the forces of the diagram, and critical speed, flutter speed and growth with and without them.
 pub fn in_cut(text: &mut String, report: &Report) -> Result {
@@ -13,7 +14,10 @@ pub fn in_cut(text: &mut String, report: &Report) -> Result {
     let forces = format!(
         "In the cut: the diagram includes the forces of {:.0} rpm, {:.0} N against the rotation and {:.0} N \
          inwards on each of {} teeth",
-        in_cut.rpm, in_cut.tangential_n_per_tooth, in_cut.radial_n_per_tooth, in_cut.teeth
+        in_cut.rpm,
+        in_cut.tangential_n_per_tooth,
+        in_cut.radial_n_per_tooth,
+        shown_to(3, in_cut.teeth)
     );
     writeln!(text)?;
     sentence(text, &forces)?;

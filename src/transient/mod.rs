@@ -34,6 +34,7 @@ pub(crate) use motion::{Force, Integrator, State};
 pub(crate) use newmark::Newmark;
 pub(crate) use on_spline::OnSpline;
 pub(crate) use reduced::at_point;
+pub(crate) use saw_in_cut::lateral_load;
 pub(crate) use scenario::CuttingRun;
 pub use scenario::{Cutting, RunningUp};
 pub use sinusoids::FitError;

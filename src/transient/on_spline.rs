@@ -35,7 +35,7 @@ pub fn on_spline(
         return Ok(None);
     }
     let speed_rad_per_s = run.speed_rad_per_s;
-    let loads = RimForce::of_cut(cut, run.tangential_n, run.radial_n);
+    let loads = RimForce::of_teeth(&cut.teeth.standing(), run);
     let motion = spline::simulate(scene, &loads, speed_rad_per_s, &spline::Run::default())?;
     let effect = reaction_effect(plate, &loads, &motion.reaction);
     let system = GyroscopicSystem::of_plate(plate);

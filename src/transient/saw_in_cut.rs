@@ -1,9 +1,9 @@
 //! A saw at one speed of a cut, with data common to time history, tooth passing and map.
 
-use faer::{Col, Mat};
+use faer::{Col, Mat, Scale};
 
 use crate::plate::Plate;
-use crate::scene::{Cut, CutRun};
+use crate::scene::{Cut, CutRun, Tooth};
 use crate::spectrum::SpectrumError;
 use crate::system::GyroscopicSystem;
 
@@ -33,11 +33,11 @@ pub struct SawInCut<'a> {
 /// Number of modes of the idle and of the cutting saw in the basis.
 pub(super) const MODES: usize = 14;
 
-/// Load of one newton across the blade on each tooth, Σ φ(b, θ_k), with the cut rotated by an angle.
-pub fn lateral_load(plate: &Plate, cut: &Cut, turn_rad: f64) -> Col<f64> {
+/// Mean load of one newton across the blade on each tooth, Σ s_k φ(b, θ_k) with the shares s_k of the time.
+pub fn lateral_load(plate: &Plate, teeth: &[Tooth]) -> Col<f64> {
     let mut load = Col::zeros(plate.degrees_of_freedom());
-    for angle in cut.tooth_angles_rad() {
-        load += at_point(plate, plate.blade.outer_radius_m, angle + turn_rad);
+    for Tooth { angle_rad, share } in teeth {
+        load += Scale(*share) * at_point(plate, plate.blade.outer_radius_m, *angle_rad);
     }
     load
 }
@@ -57,7 +57,7 @@ impl<'a> SawInCut<'a> {
             system,
             speed_rad_per_s: run.speed_rad_per_s,
         });
-        let load = lateral_load(plate, cut, 0.0);
+        let load = lateral_load(plate, &cut.teeth.standing());
         let blade = ReducedBlade::new(plate, &snapshots, MODES, &[load]);
         let blade = blade.with_buckled_shapes(&systems[1])?;
         let [idle_system, cutting_system] = systems;

@@ -88,7 +88,7 @@ impl Cutting {
                 .collect(),
         };
         let levels = even(0.0, MAP_LOAD, level);
-        let stage_count = (cut.pitch_rad.to_degrees() / STAGE_DEG).ceil() as usize;
+        let stage_count = (cut.teeth.pitch_rad.to_degrees() / STAGE_DEG).ceil() as usize;
         let stages = STAGES.max(stage_count);
         let points = turns.len() * levels.len();
         let parts = Work::of("parts of the cut", PARTS * runs.len());

@@ -63,7 +63,8 @@ fn with_modes(
     let reduced = basis(saw, modes);
     let blade = StretchedBlade::of_shapes(saw.plate, reduced.basis().to_owned())?;
     let shapes = blade.shapes();
-    let load = Scale(run.lateral_n) * (shapes.transpose() * lateral_load(saw.plate, cut, 0.0));
+    let load = Scale(run.lateral_n)
+        * (shapes.transpose() * lateral_load(saw.plate, &cut.teeth.standing()));
     let none = Col::zeros(load.nrows());
     let [idle, cutting] = [saw.plate, &saw.cutting].map(|plate| system(plate, &blade));
     let mut samples = Samples::new(&blade, probe, run.speed_rad_per_s);
@@ -96,7 +97,7 @@ fn basis(saw: &SawInCut<'_>, modes: usize) -> ReducedBlade {
         system,
         speed_rad_per_s: saw.run.speed_rad_per_s,
     });
-    let load = lateral_load(saw.plate, saw.cut, 0.0);
+    let load = lateral_load(saw.plate, &saw.cut.teeth.standing());
     ReducedBlade::new(saw.plate, &snapshots, modes, &[load])
 }
 
@@ -269,7 +270,8 @@ mod tests {
         let saw = SawInCut::new(&plate, &cut, &run).unwrap();
         let reduced = basis(&saw, MODES);
         let blade = StretchedBlade::of_shapes(&plate, reduced.basis().to_owned()).unwrap();
-        let load = Scale(run.lateral_n) * reduced.vector(&lateral_load(&plate, &cut, 0.0));
+        let load =
+            Scale(run.lateral_n) * reduced.vector(&lateral_load(&plate, &cut.teeth.standing()));
         let system = reduced.system(&saw.cutting_system);
         let speed = run.speed_rad_per_s;
         let probe = Probe {

@@ -1,15 +1,17 @@
 //! Tooth loads that move with the teeth, in contrast to stationary loads.
 //!
-//! The teeth in the cut move with their forces by one pitch, then each is replaced by the next one. Within a
-//! tooth period T = pitch/Ω the stiffness K_e turns with them, and the transition over the period is the
-//! product of the steps: a saw is stable if no Floquet multiplier μ of this product exceeds one in magnitude,
-//! and ln|μ|/T is its growth rate.
+//! The teeth in the cut move with their forces, enter the cut at one end of its arc and leave it at the other. After a tooth
+//! period T = pitch/Ω each is at the place of the preceding one. The stiffness K_e changes with their places and their
+//! number, and the transition over the period is the product of the steps: a saw is stable if no Floquet multiplier μ of
+//! this product exceeds one in magnitude, and ln|μ|/T is its growth rate. A tooth that enters or leaves within a step acts
+//! with its mean force over the step, so that the mean over all steps is that of the loads for any number of steps.
 
 use faer::{Mat, Scale};
 use rayon::prelude::*;
 
 use crate::linalg::real_eigenvalues;
-use crate::scene::{Probe, rad_per_s};
+use crate::plate::RimForce;
+use crate::scene::{Probe, Tooth, rad_per_s};
 use crate::spectrum::{SpectrumError, fastest_growing};
 use crate::system::GyroscopicSystem;
 
@@ -44,8 +46,7 @@ pub struct ToothPassing {
 /// growth is 0.25 1/s for multiples of 1.5, 2, 3 and 4.
 const SHAPES_UP_TO: f64 = 2.0;
 
-/// Compares stationary, mean and moving loads, with `stages` positions of the teeth within a pitch and
-/// constant forces at each.
+/// Compares stationary, mean and moving loads, with `stages` steps within a tooth period and constant forces in each.
 ///
 /// # Errors
 /// [`TransientError`].
@@ -55,86 +56,81 @@ pub fn tooth_passing(
     stages: usize,
 ) -> Result<ToothPassing, TransientError> {
     let speed = saw.run.speed_rad_per_s;
-    let period_s = saw.cut.pitch_rad / speed;
+    let period_s = saw.cut.teeth.pitch_rad / speed;
     let tooth_frequency_rad_per_s = std::f64::consts::TAU / period_s;
     let highest = SHAPES_UP_TO * tooth_frequency_rad_per_s;
     let blade = saw.blade.with_shapes_below(&saw.cutting_system, highest)?;
     let loads = MovingLoads::new(saw, &blade, stages);
-    let growth = |edge: &Mat<f64>| -> Result<f64, TransientError> {
-        Ok(Growth::from(fastest_growing(&loads.with(edge), speed)?).growth_per_s)
+    let growth = |teeth: &[Tooth]| -> Result<f64, TransientError> {
+        Ok(Growth::from(fastest_growing(&loads.system(teeth), speed)?).growth_per_s)
     };
+    let standing = saw.cut.teeth.standing();
     let few = MovingLoads::new(saw, &saw.blade, stages);
     let gauge = Gauge::new(saw.plate, &saw.blade, probe);
     Ok(ToothPassing {
         tooth_frequency_rad_per_s,
-        standing_growth_per_s: growth(&loads.edge_at(0.0))?,
+        standing_growth_per_s: growth(&standing)?,
         mean_growth_per_s: growth(&loads.mean())?,
         passing_growth_per_s: loads.floquet_growth()?,
-        standing_deflection_m: few.largest_deflection(&[few.propagator(0.0)?], &gauge)?,
+        standing_deflection_m: few.largest_deflection(&[few.propagator(&standing)?], &gauge)?,
         passing_deflection_m: few.largest_deflection(&few.propagators()?, &gauge)?,
     })
 }
 
-/// The loads at some positions within a pitch, in a reduced basis.
+/// The loads in the steps within a tooth period, in a reduced basis.
 struct MovingLoads<'a> {
     saw: &'a SawInCut<'a>,
     blade: &'a ReducedBlade,
     idle: GyroscopicSystem,
-    turns_rad: Vec<f64>,
+    /// The teeth in each step.
+    steps: Vec<Vec<Tooth>>,
 }
 
 impl<'a> MovingLoads<'a> {
     fn new(saw: &'a SawInCut<'a>, blade: &'a ReducedBlade, stages: usize) -> Self {
-        let turn = |stage: usize| (stage as f64 + 0.5) / stages as f64 - 0.5;
+        let share = |stage: usize| stage as f64 / stages as f64;
         MovingLoads {
             saw,
             blade,
             idle: saw.idle_on(blade),
-            turns_rad: (0..stages)
-                .map(|stage| turn(stage) * saw.cut.pitch_rad)
+            steps: (0..stages)
+                .map(|stage| saw.cut.teeth.passing([stage, stage + 1].map(share)))
                 .collect(),
         }
     }
 
     fn step_s(&self) -> f64 {
-        let pitch_s = self.saw.cut.pitch_rad / self.saw.run.speed_rad_per_s;
-        pitch_s / self.turns_rad.len() as f64
+        let pitch_s = self.saw.cut.teeth.pitch_rad / self.saw.run.speed_rad_per_s;
+        pitch_s / self.steps.len() as f64
     }
 
-    /// K_e of the loads rotated by α, on the basis: that of the loads on the basis rotated by −α.
-    fn edge_at(&self, turn_rad: f64) -> Mat<f64> {
-        let turned = self.blade.turned(self.saw.plate, -turn_rad);
-        turned.matrix(&self.saw.edge_stiffness)
+    /// The teeth of all steps, each for its share of the tooth period.
+    fn mean(&self) -> Vec<Tooth> {
+        let of_period = |tooth: &Tooth| Tooth {
+            share: tooth.share / self.steps.len() as f64,
+            ..*tooth
+        };
+        self.steps.iter().flatten().map(of_period).collect()
     }
 
-    /// Mean of K_e over the positions.
-    fn mean(&self) -> Mat<f64> {
-        let order = self.blade.order();
-        let mut mean = Mat::zeros(order, order);
-        for turn in &self.turns_rad {
-            mean += Scale(1.0 / self.turns_rad.len() as f64) * self.edge_at(*turn);
-        }
-        mean
-    }
-
-    fn with(&self, edge: &Mat<f64>) -> GyroscopicSystem {
+    /// The saw under the forces of some teeth.
+    fn system(&self, teeth: &[Tooth]) -> GyroscopicSystem {
+        let loads = RimForce::of_teeth(teeth, self.saw.run);
+        let edge = self.saw.plate.edge_stiffness_of(&loads);
         let mut system = self.idle.clone();
-        system.stiffness += edge;
+        system.stiffness += self.blade.matrix(&edge);
         system
     }
 
-    fn propagator(&self, turn_rad: f64) -> Result<Propagator, TransientError> {
-        let SawInCut {
-            plate, cut, run, ..
-        } = self.saw;
-        let load = self.blade.vector(&lateral_load(plate, cut, turn_rad));
-        let system = self.with(&self.edge_at(turn_rad));
-        Propagator::new(&system, run.speed_rad_per_s, &[load], self.step_s())
+    fn propagator(&self, teeth: &[Tooth]) -> Result<Propagator, TransientError> {
+        let load = self.blade.vector(&lateral_load(self.saw.plate, teeth));
+        let speed = self.saw.run.speed_rad_per_s;
+        Propagator::new(&self.system(teeth), speed, &[load], self.step_s())
     }
 
     fn propagators(&self) -> Result<Vec<Propagator>, TransientError> {
-        let turns = self.turns_rad.par_iter();
-        turns.map(|turn| self.propagator(*turn)).collect()
+        let steps = self.steps.par_iter();
+        steps.map(|teeth| self.propagator(teeth)).collect()
     }
 
     /// max ln|μ| / T over the multipliers of the product of the stages; zero if nothing grows beyond rounding

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use crate::plate::{Plate, Resolution};
-use crate::scene::{Cut, CutRun, RunUp, Scene, SpeedRange, rad_per_s, rpm};
+use crate::scene::{Cut, CutRun, RunUp, Scene, SceneFile, SpeedRange, rad_per_s, rpm};
 use crate::spectrum::{fastest_growing, lowest_eigenpairs, orthonormal, split};
 use crate::system::GyroscopicSystem;
 use crate::transient::cut::cut_history;
@@ -31,8 +31,10 @@ fn paper_plate(resolution: Resolution) -> Plate {
     Plate::new(&Scene::paper(), resolution)
 }
 
+/// The paper's cut on four teeth, as the independent implementation computes it.
 fn paper_cut() -> Cut {
-    let paper = Scene::paper();
+    let four = |file: &mut SceneFile| file.cut.iter_mut().for_each(|c| c.teeth_in_cut = Some(4));
+    let paper = Scene::paper().edited(four).expect("four teeth");
     paper.cut().expect("the paper's scene has a cut").clone()
 }
 
@@ -169,7 +171,7 @@ fn few_motions_make_the_record_of_the_full_model() {
     let history = cut_history(&SawInCut::new(&plate, &cut, &run).unwrap(), &probe).unwrap();
     let system = GyroscopicSystem::of_plate(&plate.in_cut(&cut, &run));
     let mut load: Col<f64> = Col::zeros(system.order());
-    for angle in cut.tooth_angles_rad() {
+    for angle in cut.teeth.standing().iter().map(|tooth| tooth.angle_rad) {
         load += at_point(&plate, plate.blade.outer_radius_m, angle);
     }
     let read = at_point(&plate, probe.radius_m, probe.angle_rad);

@@ -95,7 +95,7 @@ fn map_basis(
             speed_rad_per_s: saw.run.speed_rad_per_s,
         })
         .collect();
-    let load = lateral_load(saw.plate, saw.cut, 0.0);
+    let load = lateral_load(saw.plate, &saw.cut.teeth.standing());
     let mut blade = ReducedBlade::new(saw.plate, &snapshots, MODES, &[load]);
     let highest = load_levels.iter().copied().fold(1.0, f64::max);
     let place = |system: &GyroscopicSystem| &system.stiffness - &saw.idle_system.stiffness;

@@ -50,10 +50,11 @@ fn a_violent_saw_is_unstable() {
     assert_unstable(1e4);
 }
 
-/// The paper's saw in its cut at a speed, under a lateral force on each tooth.
+/// The paper's saw in a cut of four teeth at a speed, under a lateral force on each tooth.
 fn pushed(rpm: f64, lateral_n: f64) -> SceneFile {
     let mut file = Scene::paper().file().clone();
     let cut = file.cut.as_mut().unwrap();
+    cut.teeth_in_cut = Some(4);
     cut.lateral_n_per_tooth = Some(lateral_n);
     cut.speeds = vec![CutSpeedFile {
         rpm,

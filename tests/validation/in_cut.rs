@@ -266,7 +266,10 @@ fn the_response_in_the_cut_is_that_of_the_whole_matrices() {
         let at = (points.speed_rad_per_s, points.frequency_rad_per_s[place]);
         let expected = receptance(&system, places.each_ref(), at);
         let error = (points.receptance_m_per_n[place].unwrap() - expected).norm();
-        assert!(error < 1e-6 * expected.norm(), "{at:?}: {error:e} {expected}");
+        assert!(
+            error < 1e-6 * expected.norm(),
+            "{at:?}: {error:e} {expected}"
+        );
     }
 }
 
@@ -288,9 +291,8 @@ fn every_command_has_the_same_saw_in_the_cut() {
     let scene = against_wood();
     let analysis = Analysis::new(&scene).unwrap();
     let system = added_to_the_idling_saw(&scene, &analysis.model.plate);
-    let dense = |matrix: &Mat<f64>| {
-        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, k| matrix[(i, k)])
-    };
+    let dense =
+        |matrix: &Mat<f64>| DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, k| matrix[(i, k)]);
     let lower = dense(&system.stiffness).cholesky().unwrap().l();
     let half = lower.solve_lower_triangular(&-dense(&system.spin)).unwrap();
     let whole = lower.solve_lower_triangular(&half.transpose()).unwrap();
@@ -338,7 +340,8 @@ fn a_small_force_in_the_cut_deflects_the_blade_as_the_whole_matrices_say() {
     let probe = (report.probe_radius_m, report.probe_angle_deg.to_radians());
     let places = [rim, probe].map(|at| functions(plate, at));
     let readings: Vec<_> = found.up.readings().collect();
-    for (place, tolerance) in [(0, 1e-5), (readings.len() - 1, 1e-3)] {
+    // At rest the basis contains the deflection; at speed its few shapes promise 1 %.
+    for (place, tolerance) in [(0, 1e-5), (readings.len() - 1, 1e-2)] {
         let at = readings[place];
         let expected = 1e-4 * receptance(&system, places.each_ref(), (at.speed_rad_per_s, 0.0)).re;
         let error = relative_error(at.deflection_m, expected);

@@ -19,7 +19,9 @@ fn saw(gap_m: Option<f64>) -> Scene {
     let saw = Scene::paper().edited(|saw| {
         saw.accuracy = Accuracy::Draft;
         saw.guides[0].gap_m = gap_m;
-        saw.cut.as_mut().expect("a cut").speeds.clear();
+        let cut = saw.cut.as_mut().expect("a cut");
+        cut.teeth_in_cut = Some(4);
+        cut.speeds.clear();
     });
     saw.unwrap_or_else(|error| panic!("{error}"))
 }

@@ -38,7 +38,11 @@ def saw(scene: Scene) -> Chart:
     if scene.cut is not None:
         middle = float(scene.cut.get("angle_deg", 0.0))
         teeth, of = scene.cut.get("teeth_in_cut"), blade.get("teeth")
-        half = 180.0 * teeth / of if teeth and of else CUT_DEG / 2.0
+        depth_m = scene.cut.get("depth_m")
+        if teeth and of:
+            half = 180.0 * teeth / of
+        else:
+            half = np.degrees(depth_m / rim) / 2.0 if depth_m else CUT_DEG / 2.0
         ends = (middle - half, middle + half)
         items.append(_arc(rim, *ends, colours()["alarm"], "cut", width=4.0, end="cut"))
     probe: Mapping[str, Any] = scene.get("probe") or {}

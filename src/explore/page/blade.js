@@ -171,7 +171,7 @@ export class Blade {
     const b = 0.5 * scene.blade.outer_diameter_m;
     const teeth = scene.blade.teeth ?? 1;
     const pitch = (Math.PI * 2 * b) / Math.max(teeth, 1);
-    const count = cut.teeth_in_cut ?? Math.max((cut.depth_m ?? pitch) / pitch, 1);
+    const count = cut.teeth_in_cut ?? (cut.depth_m ?? pitch) / pitch;
     const half = Math.min((180 * count) / Math.max(teeth, 1), 90);
     const angle = cut.angle_deg ?? 0;
     const [r, w] = [b * 1.035, 6 * this.pixel];

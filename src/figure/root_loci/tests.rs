@@ -48,7 +48,7 @@ fn the_largest_growth_and_the_speeds_of_all_ends_are_written() {
     let written = texts(&drawn);
     for text in [
         "Root loci around the flutter onset at 2256 rpm",
-        "Guided blade, 864 mm",
+        &heading::of_saw("Guided blade, 864 mm", "idling"),
         "(+) 4 diameters, backward",
         "(\u{2212}) 4 diameters, reflected",
         "flutter 2256–2267",

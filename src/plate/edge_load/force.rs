@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::scene::{Blade, Cut};
+use crate::scene::{Blade, CutRun, Tooth};
 
 /// A force at a point of the rim r = b, fixed in place and direction in space.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -16,16 +16,14 @@ pub struct RimForce {
 }
 
 impl RimForce {
-    /// The forces of the teeth in a cut: `tangential_n` against the rotation and `radial_n` towards the axis on
-    /// each tooth.
-    pub fn of_cut(cut: &Cut, tangential_n: f64, radial_n: f64) -> Vec<Self> {
-        cut.tooth_angles_rad()
-            .map(|angle_rad| RimForce {
-                angle_rad,
-                radial_n: -radial_n,
-                tangential_n: -tangential_n,
-            })
-            .collect()
+    /// The mean forces of a cut on teeth, each at its place for a share of the time.
+    pub fn of_teeth(teeth: &[Tooth], run: &CutRun) -> Vec<Self> {
+        let of_tooth = |tooth: &Tooth| RimForce {
+            angle_rad: tooth.angle_rad,
+            radial_n: -tooth.share * run.radial_n,
+            tangential_n: -tooth.share * run.tangential_n,
+        };
+        teeth.iter().map(of_tooth).collect()
     }
 }
 

@@ -9,8 +9,9 @@ use crate::transient::LINEAR_THICKNESSES;
 /// Beyond this many thicknesses a plate stretches as it bends and is stiffer than the linear model.
 const SMALL_THICKNESSES: f64 = 1.0;
 
-pub(super) fn warnings(run: &CutRunEntry, thickness_m: f64) -> Vec<String> {
+pub(super) fn warnings(run: &CutRunEntry, teeth: f64, thickness_m: f64) -> Vec<String> {
     let all = [
+        single_blows(run, teeth),
         against_power(run),
         without_lateral_force(run),
         moving_loads_alone(run),
@@ -19,6 +20,16 @@ pub(super) fn warnings(run: &CutRunEntry, thickness_m: f64) -> Vec<String> {
         contradicted(run),
     ];
     all.into_iter().flatten().collect()
+}
+
+fn single_blows(run: &CutRunEntry, teeth: f64) -> Option<String> {
+    (teeth < 1.0).then(|| {
+        format!(
+            "at {:.0} rpm a tooth is in the cut for {:.0} % of the time: the mean forces leave the blows of single teeth out, which only the criterion of moving tooth loads includes",
+            run.rpm,
+            100.0 * teeth
+        )
+    })
 }
 
 fn contradicted(run: &CutRunEntry) -> Option<String> {
