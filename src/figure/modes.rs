@@ -62,7 +62,7 @@ fn facts(report: &Report, shown: usize) -> String {
         report.condition.clone(),
         "deflection seen along the axis, in units of its largest".to_owned(),
         "rotation counterclockwise".to_owned(),
-        "n: shares in its square".to_owned(),
+        "n: shares in the name".to_owned(),
     ];
     if shown < report.shapes.len() {
         let all = report.shapes.len();
@@ -116,7 +116,7 @@ fn motion(shape: &EventShapeEntry) -> String {
     parts.join(", ")
 }
 
-/// Largest shares of harmonics: "n = 2: 78 %, 0: 15 %".
+/// Largest shares of harmonics in the name: "n = 2: 78 %, 3: 15 %".
 fn shares(shape: &EventShapeEntry) -> String {
     let all = shape.harmonics.iter();
     let shares = all
@@ -166,7 +166,9 @@ mod tests {
         let sheet = sheet(&report).unwrap();
         assert_tidy(&sheet);
         let all: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
-        assert!(all.iter().any(|text| text.starts_with("n = ")), "{all:?}");
+        // The name "4 diameters" is above, and its shares are below the shape.
+        let at = all.iter().rposition(|text| *text == "4 diameters").unwrap();
+        assert!(all[at + 1].starts_with("n = 4: "), "{all:?}");
         let critical = format!("{:.0} rpm, critical", report.critical_speeds[0].rpm);
         assert!(all.contains(&critical.as_str()), "{all:?}");
         assert!(all.contains(&"1000 rpm, mode"), "{all:?}");

@@ -48,14 +48,15 @@ pub struct EventShapeEntry {
     pub growth_per_s: f64,
     /// Radii of the profiles.
     pub radius_m: Vec<f64>,
-    /// Harmonics whose share of the squared deflection is visible, the largest first.
+    /// Harmonics that are visible in the deflection, by descending share in the name. The guided blade also tilts
+    /// (n = 1) and heaves (n = 0), which rotation does not soften: in the name of an event their share is zero.
     pub harmonics: Vec<WaveEntry>,
 }
 
-/// Smallest share of the squared deflection of a listed harmonic; its amplitude is of the order of 1e-4 of the
+/// Smallest part of the squared deflection of a listed harmonic; its amplitude is of the order of 1e-4 of the
 /// largest. A blade on a stiff pad has many small harmonics: with a limit of 1e-6 the error of the deflection of the
 /// paper's saw exceeded a thousandth.
-const LEAST_SHARE: f64 = 1e-8;
+const VISIBLE: f64 = 1e-8;
 /// Number of modes of lowest frequency that are listed at a single speed, because a slow side force excites them
 /// most. Growing modes of higher frequency are listed in addition.
 const LOWEST: usize = 4;
@@ -108,6 +109,7 @@ fn standing(analysis: &Analysis) -> Vec<EventShapeEntry> {
         let found = Found {
             occasion: ShapeOccasion::CriticalSpeed,
             name: critical.name.in_words(),
+            share: &|n| critical.name.share(n),
             direction: Direction::Standing,
             speed_rad_per_s: speed,
             frequency_rad_per_s: 0.0,
@@ -152,6 +154,7 @@ fn of_band(
                 InstabilityKind::Flutter => ShapeOccasion::Flutter,
             },
             name: name.in_words(),
+            share: &|n| name.share(n),
             direction: described.name.direction,
             speed_rad_per_s: speed,
             frequency_rad_per_s: described.mode.frequency_rad_per_s(),
@@ -181,6 +184,7 @@ fn at_speed(
         let found = Found {
             occasion,
             name: described.name.in_shares(),
+            share: &|n| described.name.share(n),
             direction: described.name.direction,
             speed_rad_per_s,
             frequency_rad_per_s: described.mode.frequency_rad_per_s(),
@@ -196,6 +200,8 @@ fn at_speed(
 struct Found<'a> {
     occasion: ShapeOccasion,
     name: String,
+    /// Share of n nodal diameters in the name.
+    share: &'a dyn Fn(usize) -> f64,
     direction: Direction,
     speed_rad_per_s: f64,
     frequency_rad_per_s: f64,
@@ -214,29 +220,30 @@ impl Found<'_> {
             frequency_hz: self.frequency_rad_per_s / TAU,
             growth_per_s: self.growth_per_s,
             radius_m: plate.sampled_radii_m().collect(),
-            harmonics: harmonics(plate, self.shape),
+            harmonics: harmonics(plate, self.shape, self.share),
         };
         entry.normalize();
         entry
     }
 }
 
-/// Visible harmonics of a shape, the largest first. The basis functions are orthonormal with respect to mass, so that
-/// the squares of their coordinates are shares of the squared deflection.
-fn harmonics(plate: &Plate, shape: &Col<c64>) -> Vec<WaveEntry> {
+/// Visible harmonics of a shape, by descending share. The basis functions are orthonormal with respect to mass, so
+/// that the squares of their coordinates are shares of the squared deflection, which decide what is visible.
+fn harmonics(plate: &Plate, shape: &Col<c64>, share: &dyn Fn(usize) -> f64) -> Vec<WaveEntry> {
     let size = plate.basis.count();
     let square = |n: usize| {
         let own = plate.offset(n)..plate.offset(n) + if n == 0 { size } else { 2 * size };
         own.map(|k| shape[k].norm_sqr()).sum::<f64>()
     };
     let squares: Vec<f64> = (0..=plate.max_diameters()).map(square).collect();
-    let total = squares.iter().sum::<f64>().max(f64::MIN_POSITIVE);
-    let mut seen: Vec<(usize, f64)> = squares.iter().map(|s| s / total).enumerate().collect();
-    seen.retain(|(_, share)| *share >= LEAST_SHARE);
-    seen.sort_by(|(_, x), (_, y)| y.total_cmp(x));
-    let seen = seen.into_iter();
-    seen.map(|(n, share)| profile(plate, shape, n, share))
-        .collect()
+    let least = VISIBLE * squares.iter().sum::<f64>();
+    let seen =
+        (squares.iter().enumerate()).filter(|(_, square)| **square > 0.0 && **square >= least);
+    let mut seen: Vec<WaveEntry> = seen
+        .map(|(n, _)| profile(plate, shape, n, share(n)))
+        .collect();
+    seen.sort_by(|x, y| y.share.total_cmp(&x.share));
+    seen
 }
 
 impl EventShapeEntry {

@@ -40,8 +40,8 @@ pub struct ModeEntry {
 pub struct WaveEntry {
     /// Number n of nodal diameters.
     pub nodal_diameters: usize,
-    /// Share between 0 and 1: of the kinetic energy of a mode, or of the squared deflection of the shape at an
-    /// event.
+    /// Share in the name, between 0 and 1: of the kinetic energy of a mode; among the reflected or the other waves
+    /// of a critical speed or band.
     pub share: f64,
     /// Coefficient of cos nθ at the radii.
     pub cosine: ComplexEntry,

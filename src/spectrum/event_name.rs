@@ -14,7 +14,7 @@
 use faer::{Col, c64};
 
 use super::mode::{Mode, ModeKind};
-use super::mode_name::{Direction, HarmonicShare, STANDING, in_words, mixed, short};
+use super::mode_name::{Direction, HarmonicShare, STANDING, in_words, mixed, share_of, short};
 use super::wave::{Wave, circles, square};
 use crate::plate::Plate;
 
@@ -119,6 +119,13 @@ impl EventName {
 
     fn first(&self) -> Option<&HarmonicShare> {
         self.waves.first()?.shares.first()
+    }
+
+    /// Share of n nodal diameters, between 0 and 1, among the waves of its direction, as in the name.
+    pub fn share(&self, diameters: usize) -> f64 {
+        let shares = self.waves.iter();
+        let shares = shares.map(|waves| share_of(&waves.shares, diameters));
+        shares.fold(0.0, f64::max)
     }
 
     /// Name in words, such as "2 diameters" or "4 reflected with 2 forward".

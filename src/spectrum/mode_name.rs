@@ -45,8 +45,8 @@ impl Direction {
     }
 }
 
-/// Share of the waves of n nodal diameters in a mode, by kinetic energy, or in an event, by the weights of its
-/// waves.
+/// Share of the waves of n nodal diameters in the name of a mode, by kinetic energy, or of an event, by the weights
+/// of its waves. There is no other measure of a harmonic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HarmonicShare {
     /// Number n of nodal diameters.
@@ -124,11 +124,23 @@ impl ModeName {
         }
     }
 
+    /// Share of n nodal diameters, between 0 and 1.
+    pub fn share(&self, diameters: usize) -> f64 {
+        share_of(&self.harmonics, diameters)
+    }
+
     /// Short form: "1", "0/1", "0 (54 %) + 1 (45 %)".
     pub fn in_short(&self) -> String {
         let dominant = || short(self.diameters, self.circles);
         mixed(&self.harmonics, 2).unwrap_or_else(dominant)
     }
+}
+
+/// Share of n nodal diameters; zero if they are not listed.
+pub(super) fn share_of(harmonics: &[HarmonicShare], diameters: usize) -> f64 {
+    let mut harmonics = harmonics.iter();
+    let found = harmonics.find(|h| h.diameters == diameters);
+    found.map_or(0.0, |h| h.share)
 }
 
 /// At most `most` harmonics with their shares, largest first; `None` if one dominates.
