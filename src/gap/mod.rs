@@ -31,10 +31,13 @@ pub use oscillators::{OscillatingForce, Oscillators};
 pub use pressed::Deviation;
 
 use crate::deflect;
-use crate::scene::{RefusedValue, Scene, SceneError, rad_per_s, rpm, speed_rad_per_s};
+use crate::scene::{
+    Blade, Bore, Guide, RefusedValue, Scene, SceneError, rad_per_s, rpm, speed_rad_per_s,
+};
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError};
-use crate::stretched::StretchedError;
+use crate::stretched::{LARGEST_SLOPE, StretchedError};
+use crate::text::shown_to;
 
 /// Reason for which the guides of a saw could not be evaluated.
 #[derive(Debug, thiserror::Error)]
@@ -128,6 +131,8 @@ impl Options {
             let remedy = "a side force presses the blade on its guides; give it, such as 5";
             return Err(RefusedValue::new("force_n", force_n, allowed, remedy));
         }
+        let mut guides = scene.guides().iter();
+        guides.try_for_each(|guide| check_reached(scene.blade(), guide))?;
         match scene.guides().iter().any(|guide| guide.lifting.is_some()) {
             true => Ok(()),
             false => Err(RefusedValue::missing(
@@ -145,6 +150,27 @@ impl Options {
             ..deflect::Options::default()
         };
         Ok(options.side_force(scene)?.force_n)
+    }
+}
+
+/// Refuses a gap that a clamped blade does not cross at any deflection for which the model is valid: with slopes up to
+/// [`LARGEST_SLOPE`] the deflection at a distance from the collar is at most this share of the distance. A blade on a
+/// spline crosses any gap, because it moves along its arbor.
+fn check_reached(blade: &Blade, guide: &Guide) -> Result<(), RefusedValue> {
+    let (Some(lifting), Bore::Clamped(_)) = (guide.lifting, blade.bore) else {
+        return Ok(());
+    };
+    let (_, farthest_m) = guide.reach_m();
+    let free_m = farthest_m.min(blade.outer_radius_m) - blade.inner_radius_m;
+    let most_m = LARGEST_SLOPE * free_m + lifting.offset_m.abs();
+    match lifting.gap_m <= most_m {
+        true => Ok(()),
+        false => Err(RefusedValue::new(
+            format!("guides[{}].gap_m", guide.index),
+            lifting.gap_m,
+            format!("at most {} m", shown_to(3, most_m)),
+            "with slopes up to 0.1, to which the model is valid, the blade between its collars does not deflect as far: give the gap in metres, such as 5e-5, or leave this pad out",
+        )),
     }
 }
 

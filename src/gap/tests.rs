@@ -165,6 +165,45 @@ fn what_cannot_be_answered_is_refused() {
     }
 }
 
+/// The pad of the paper's saw reaches from 0.1 to 0.355 m at most. Between collars of 200 mm the blade has a slope of 0.1
+/// if it deflects there in a straight line by a tenth of the distance; without collars it moves as a whole. No basis
+/// is made, and the same holds for the numbers of a study.
+#[test]
+fn a_gap_that_the_blade_cannot_cross_is_refused_before_any_work() {
+    let clamped = |gap_m: f64| {
+        let scene = lifting(gap_m).edited(|file| {
+            file.mount = crate::scene::Mount::Collar {
+                diameter_m: 0.2,
+                in_plane: crate::scene::InPlane::Free,
+            };
+            file.guides[0].radius_m = 0.2;
+            (
+                file.guides[0].radial_length_m,
+                file.guides[0].tangential_length_m,
+            ) = (0.0, 0.0);
+        });
+        scene.unwrap()
+    };
+    let options = Options::default();
+    let checked = |gap_m: f64| options.checked(&clamped(gap_m));
+    assert!(checked(0.0099).is_ok());
+    let refused = checked(0.02).unwrap_err();
+    assert_eq!(refused.key, "guides[0].gap_m");
+    let message = refused.to_string();
+    assert!(
+        message.contains("is 0.02, but must be at most 0.01 m"),
+        "{message}"
+    );
+    let study = GapCase::new(&clamped(0.02), &options, None).unwrap_err();
+    assert_eq!(study.to_string(), message);
+    // A cancelled computation ends before its first eigenproblem.
+    let cancelled = crate::spectrum::Cancellation::default();
+    cancelled.cancel();
+    let answer = cancelled.watched(|| GuideGaps::new(&clamped(0.02), &options));
+    assert_eq!(answer.unwrap().unwrap_err().to_string(), message);
+    assert!(options.checked(&lifting(0.02)).is_ok());
+}
+
 /// A point pad touches a clamped blade at one place. The power follows from its force, and the temperature is that of the
 /// closed form for this power; the heat changes the critical speed.
 #[test]

@@ -77,19 +77,23 @@ impl ChosenBasis {
         loop {
             cancellation.check()?;
             let saw = Assembled::from(Plate::new(scene, resolution(LADDER[rung])));
-            let is_within_reach = saw.is_structured() && saw.plate.is_conservative();
-            let is_largest = rung + 1 >= DENSE_LADDER.len() && !is_within_reach;
-            let is_last = is_largest || rung + 1 == LADDER.len();
+            let is_last = is_last(&saw, rung);
             let range = |lowest: Option<f64>| match scene.sweep() {
                 Some(sweep) => (sweep.from_rad_per_s, sweep.to_rad_per_s),
                 None => (0.0, chosen_end(scene, lowest)),
             };
             let top = |lowest: Option<f64>| PAST_THE_RANGE * range(lowest).1;
             let top_of_sweep = scene.sweep().map(|sweep| sweep.to_rad_per_s);
-            if !is_last && top_of_sweep.is_some_and(|to| is_too_small(&saw, to)) {
-                rung += 1;
-                sizes.advance();
-                continue;
+            if let Some(to) = top_of_sweep
+                && is_too_small(&saw, to)
+            {
+                if !is_last {
+                    rung += 1;
+                    sizes.advance();
+                    continue;
+                }
+                // Refused before anything else is computed on the largest basis.
+                unresolved(&saw.plate, &contained_critical_speeds(&saw, &top)?, to)?;
             }
             let ((critical, resting), larger) = rayon::join(
                 || {
@@ -128,6 +132,13 @@ impl ChosenBasis {
             rung = larger;
         }
     }
+}
+
+/// Whether no larger size of the ladder is possible for a saw.
+pub(super) fn is_last(saw: &Assembled, rung: usize) -> bool {
+    let is_within_reach = saw.is_structured() && saw.plate.is_conservative();
+    let is_largest = rung + 1 >= DENSE_LADDER.len() && !is_within_reach;
+    is_largest || rung + 1 == LADDER.len()
 }
 
 /// Index of the first size that may reduce an error of `excess` times the tolerance to the tolerance. The
@@ -313,6 +324,7 @@ mod tests {
     use super::*;
     use crate::scene::SpeedRange;
     use crate::spectrum::SpectralModel;
+    use crate::stability::{Analysis, AnalysisOptions};
 
     /// A blade of an eighth of the thickness has reflected waves of many more than the ten diameters of the
     /// smallest basis below 1600 rpm. The inertia of the stiffness on the largest basis gives their number.
@@ -331,6 +343,32 @@ mod tests {
         let (saw, critical) = resolved(&thin, resolution(LADDER[0]), top).unwrap();
         assert!(saw.plate.max_diameters() > LADDER[0].0);
         assert_eq!(below(&critical), exact);
+    }
+
+    /// The largest basis has waves of up to 70 diameters, of which a blade of a tenth of the thickness has more below half
+    /// of the speed at which it would be torn. No expected work is announced.
+    #[test]
+    fn a_sweep_that_no_basis_contains_is_refused_without_an_estimate_of_the_work() {
+        let sweep = SpeedRange {
+            from_rad_per_s: 0.0,
+            to_rad_per_s: rad_per_s(20_000.0),
+        };
+        let thin = Scene::paper().edited(|saw| {
+            saw.guides.clear();
+            saw.blade.thickness_m /= 10.0;
+        });
+        let thin = thin.unwrap().swept(sweep).unwrap();
+        let told = std::sync::atomic::AtomicBool::new(false);
+        let tell = |_| told.store(true, std::sync::atomic::Ordering::Relaxed);
+        let options = AnalysisOptions {
+            expected: Some(&tell),
+            ..AnalysisOptions::default()
+        };
+        match Analysis::with_options(&thin, options) {
+            Err(AnalysisError::Unresolved { diameters, .. }) => assert_eq!(diameters, 70),
+            other => panic!("{other:?}"),
+        }
+        assert!(!told.into_inner());
     }
 
     /// Hoop strain ρ(Ωb)²/E of the paper's blade: 0.1 at 43 400 rpm.

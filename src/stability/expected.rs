@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::basis::last_of_all_pairs;
+use super::basis::{is_last, last_of_all_pairs};
 use super::ladder::{LADDER, resolution};
 use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
@@ -36,7 +36,8 @@ impl ExpectedWork {
     /// Expected work for the sweep of a scene, from the number of critical speeds in the first basis that
     /// contains them. In large bases the inertia of the stiffness gives this number, because computing
     /// hundreds of critical speeds takes minutes. `None` for a scene without a sweep, if the smallest basis
-    /// contains all critical speeds, so that the search is short, and if they cannot be computed.
+    /// contains all critical speeds, so that the search is short, if they cannot be computed, and if no basis contains
+    /// them, so that the sweep is refused.
     pub(super) fn of_sweep(scene: &Scene) -> Option<Self> {
         let to_rad_per_s = scene.sweep()?.to_rad_per_s;
         let mut counted = None;
@@ -50,11 +51,11 @@ impl ExpectedWork {
                 }
             };
             let is_held = count <= last_of_all_pairs(&saw.plate);
-            if rung == 0 && is_held {
-                return None;
-            }
-            counted = Some((saw, count));
             if is_held {
+                counted = (rung > 0).then_some((saw, count));
+                break;
+            }
+            if is_last(&saw, rung) {
                 break;
             }
         }
