@@ -374,8 +374,8 @@ class Wave(Entry):
     """Number n of nodal diameters."""
 
     share: float
-    """Share between 0 and 1: of the kinetic energy of a mode, or of the squared deflection of
-    the shape at an event."""
+    """Share in the name, between 0 and 1: of the kinetic energy of a mode; among the reflected
+    or the other waves of a critical speed or band."""
 
     cosine: Complex
     """Coefficient of cos nθ at the radii."""
@@ -411,7 +411,9 @@ class EventShape(ModeMethods):
     """Radii of the profiles."""
 
     harmonics: tuple[Wave, ...]
-    """Harmonics whose share of the squared deflection is visible, the largest first."""
+    """Harmonics that are visible in the deflection, by descending share in the name. The guided
+    blade also tilts (n = 1) and heaves (n = 0), which rotation does not soften: in the name of
+    an event their share is zero."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -3177,6 +3179,11 @@ class Lobes(Entry):
 
     frequency_hz: FloatArray
     """Frequency of this motion."""
+
+    stable_to_n_per_m: FloatArray
+    """Cutting stiffness up to which it is known that no motion grows: the critical one, or the
+    largest of the search; less where only damping prevents the growth of omitted modes, zero
+    where the count does not confirm it."""
 
     confirmed: BoolArray
     """Whether the argument principle confirms that nothing grows just below this stiffness."""

@@ -26,7 +26,7 @@ impl Spread {
         match self {
             Spread::Linear => value,
             Spread::SignedRoot => value.signum() * value.abs().sqrt(),
-            Spread::Logarithmic => value.max(f64::MIN_POSITIVE).log10(),
+            Spread::Logarithmic => value.clamp(f64::MIN_POSITIVE, f64::INFINITY).log10(),
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use std::sync::LazyLock;
 
-use super::canvas::Mark;
+use super::canvas::{Mark, Sheet};
+use super::style::BLANK;
 use super::tidy::{assert_tidy, texts};
 use super::{cut, cut_map, response_map, runup, spline_orbit, washboard};
 use crate::report::{CutReport, RunUpReport, WashboardReport};
@@ -172,6 +173,49 @@ fn the_figures_of_a_run_up_are_tidy() {
     assert_tidy(&response_map::sheet(&report));
     let chart = found.analysis.report();
     assert_eq!(chart.instabilities.len(), report.bands.len());
+}
+
+/// The search ends at a thousand times the stiffness of the cut. Above, the areas are grey, the key names them, and the
+/// numbers for other programs say so: a boundary that a search up to a higher stiffness finds there is not in an area
+/// that looks stable.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn stiffnesses_that_were_not_searched_look_unknown() {
+    let scene = include_str!("../../scenes/gallery/washboarding.json");
+    let scene = Scene::from_json(scene).unwrap();
+    let report = |stiffness: f64| {
+        let scene = scene.edited(|saw| {
+            coarse(saw);
+            let delayed = saw.cut.as_mut().unwrap().washboarding.as_mut().unwrap();
+            delayed.stiffness_n_per_m = stiffness;
+        });
+        let scene = scene.unwrap();
+        let run = scene.cut().unwrap().at_rpm(2400.0).unwrap();
+        WashboardReport::new(&Washboard::new(&scene, &run, &|_, _| ()).unwrap())
+    };
+    let (searched, report) = (report(3e4), report(10.0));
+    let known = |k: usize| report.lobes.stable_to_n_per_m[k];
+    assert_eq!(report.critical_stiffness_n_per_m, None);
+    assert!(searched.critical_stiffness_n_per_m.unwrap() > report.ceiling_n_per_m);
+    let critical = report.lobes.critical_stiffness_n_per_m.iter();
+    let open = critical.enumerate().filter(|(_, k)| k.is_none());
+    let open: Vec<usize> = open.map(|(k, _)| k).collect();
+    assert!(open.len() > 50, "{open:?}");
+    assert!(open.iter().all(|k| known(*k) == report.ceiling_n_per_m));
+    let sheet = washboard::sheet(&report);
+    assert_tidy(&sheet);
+    let key = |sheet: &Sheet| {
+        let mut all = texts(sheet).into_iter();
+        all.any(|(_, text)| text == "not searched, or not confirmed")
+    };
+    assert!(key(&sheet) && !key(&washboard::sheet(&searched)));
+    let grey = |mark: &&Mark| matches!(mark, Mark::Fill(_, colour) if *colour == BLANK);
+    assert!(sheet.marks().iter().filter(grey).count() >= open.len());
+    let chart = serde_json::to_value(washboard::chart(&report)).unwrap();
+    let items = &chart["panels"][0]["items"];
+    assert_eq!(items[0]["name"], "not searched or not confirmed above");
+    assert_eq!(items[0]["y"][open[0]], report.ceiling_n_per_m);
+    assert_eq!(items[1]["y"][open[0]], serde_json::Value::Null);
 }
 
 /// The diagrams are unstable, stable, unstable without the force, and without a boundary.

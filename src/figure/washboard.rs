@@ -7,7 +7,7 @@ use super::heading;
 use super::key::Key;
 use super::paint::Ground;
 use super::palette::Hue;
-use super::style::{BETWEEN_FACTS, FINE_DASH, FLUTTER_SHADE, HAIRLINE, QUIET};
+use super::style::{BETWEEN_FACTS, BLANK, FINE_DASH, FLUTTER_SHADE, HAIRLINE, QUIET};
 use crate::report::{Verdict, WashboardReport};
 use crate::text::shown_to;
 
@@ -32,6 +32,8 @@ const DOT_SIZE: f64 = 4.4;
 const DECADES: f64 = 2.5;
 /// Space below and above the boundary, in decades.
 const ROOM: f64 = 0.3;
+/// Name of the stiffnesses for which it is not known whether a motion grows.
+const UNKNOWN: &str = "not searched or not confirmed above";
 
 pub fn sheet(report: &WashboardReport) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
@@ -47,7 +49,7 @@ pub fn sheet(report: &WashboardReport) -> Sheet {
         y: &stiffness,
         frame: &LOBES,
     };
-    draw_unstable(&mut sheet, report, &speed, &stiffness);
+    draw_areas(&mut sheet, report, &speed, &stiffness);
     draw_vertical(&mut sheet, &stiffness, &LOBES, &lobes.y.title());
     upper.draw_lines(&mut sheet, &lobes.items);
     draw_horizontal(&mut sheet, &speed, LOBES.bottom, false);
@@ -85,7 +87,11 @@ pub fn chart(report: &WashboardReport) -> ChartData {
         )
     };
     let stiffness = AxisData::new("lateral cutting stiffness", "N/m").within(decades);
-    let boundary = vec![Item::Line(boundary(report, decades)), Item::Points(own)];
+    let boundary = vec![
+        Item::Line(unknown_from(report, decades)),
+        Item::Line(boundary(report, decades)),
+        Item::Points(own),
+    ];
     let teeth = [
         (0.5, "half the tooth passing frequency"),
         (1.0, "tooth passing frequency"),
@@ -126,29 +132,64 @@ pub fn chart(report: &WashboardReport) -> ChartData {
     }
 }
 
-/// The boundary in a panel between two stiffnesses. At speeds without growth it is above the panel, and where motions
-/// grow at any stiffness below it.
-fn boundary(report: &WashboardReport, [least, most]: [f64; 2]) -> Line {
+/// The boundary in a panel from a smallest stiffness on. Where no motion grows up to the largest stiffness of the search
+/// it is interrupted, and where motions grow at any stiffness it is below the panel.
+fn boundary(report: &WashboardReport, [least, _]: [f64; 2]) -> Line {
     let lobes = &report.lobes;
     let points = lobes.rpm.iter().zip(&lobes.critical_stiffness_n_per_m);
-    let points = points.map(|(rpm, k)| [*rpm, k.unwrap_or(10.0 * most).max(0.1 * least)]);
+    let points = points.map(|(rpm, k)| [*rpm, k.map_or(f64::NAN, |k| k.max(0.1 * least))]);
     Line {
         said: said(report),
         ..Line::new(points, Hue::Flutter, "a motion grows above")
     }
 }
 
+/// The stiffness from which on it is not known whether a motion grows, at speeds where this is below the boundary.
+fn unknown_from(report: &WashboardReport, [least, _]: [f64; 2]) -> Line {
+    let lobes = &report.lobes;
+    let points = lobes.rpm.iter().enumerate().map(|(k, rpm)| {
+        let [from, to] = unknown(report, k);
+        let from = if from < to {
+            from.max(0.1 * least)
+        } else {
+            f64::NAN
+        };
+        [*rpm, from]
+    });
+    Line {
+        width: HAIRLINE,
+        dashed: true,
+        said: said(report),
+        ..Line::new(points, Hue::Quiet, UNKNOWN)
+    }
+}
+
+/// Ends of the stiffnesses at the k-th speed for which it is not known whether a motion grows; they are equal if there are
+/// none.
+fn unknown(report: &WashboardReport, k: usize) -> [f64; 2] {
+    let from = report.lobes.stable_to_n_per_m.get(k);
+    let to = critical(report, k).unwrap_or(f64::INFINITY);
+    [from.copied().unwrap_or(0.0), to]
+}
+
+fn critical(report: &WashboardReport, k: usize) -> Option<f64> {
+    let lobes = &report.lobes;
+    lobes.critical_stiffness_n_per_m.get(k).copied().flatten()
+}
+
 /// Description of the boundary at each speed.
 fn said(report: &WashboardReport) -> Vec<String> {
     let lobes = &report.lobes;
-    let at = lobes.rpm.iter().zip(&lobes.critical_stiffness_n_per_m);
-    let at = at.zip(&lobes.frequency_hz);
-    let said = at.map(|((rpm, k), hz)| {
-        let k = k.map_or("no motion grows".to_owned(), |k| {
-            format!("{} N/m", shown_to(3, k))
-        });
-        let hz = hz.map_or(String::new(), |hz| format!("\n{hz:.1} Hz"));
-        format!("{rpm:.0} rpm\n{k}{hz}")
+    let said = lobes.rpm.iter().enumerate().map(|(k, rpm)| {
+        let critical =
+            critical(report, k).map(|k| format!("a motion grows above {} N/m", shown_to(3, k)));
+        let [from, to] = unknown(report, k);
+        let unknown = (from < to).then(|| format!("{UNKNOWN} {} N/m", shown_to(3, from)));
+        let hz = lobes.frequency_hz.get(k).copied().flatten();
+        let hz = hz.map(|hz| format!("{hz:.1} Hz"));
+        let lines = [Some(format!("{rpm:.0} rpm")), unknown, critical, hz];
+        let lines: Vec<String> = lines.into_iter().flatten().collect();
+        lines.join("\n")
     });
     said.collect()
 }
@@ -185,26 +226,28 @@ fn decades(report: &WashboardReport) -> [f64; 2] {
     [(own.min(least) - ROOM).floor(), (most + ROOM).ceil()].map(|log| 10f64.powf(log))
 }
 
-/// Shades the unstable stiffnesses: at each speed a column from the boundary upwards, half way to the next speeds.
-fn draw_unstable(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis, stiffness: &Axis) {
+/// Shades the unstable stiffnesses, and those for which it is not known whether a motion grows: at each speed a column,
+/// half way to the next speeds.
+fn draw_areas(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis, stiffness: &Axis) {
     let lobes = &report.lobes;
     let places: Vec<f64> = lobes.rpm.iter().map(|rpm| speed.at(*rpm)).collect();
-    for (k, critical) in lobes.critical_stiffness_n_per_m.iter().enumerate() {
-        let Some(critical) = critical else {
-            continue;
-        };
-        let y = stiffness.at(critical.max(stiffness.values()[0]));
-        let x = places[k];
-        let before = k.checked_sub(1).map_or(x, |before| places[before]);
-        let after = places.get(k + 1).copied().unwrap_or(x);
-        let frame = Frame {
-            left: 0.5 * (x + before),
-            right: 0.5 * (x + after),
-            top: LOBES.top,
-            bottom: y.min(LOBES.bottom),
-        };
-        if frame.bottom > frame.top {
-            sheet.fill(frame, FLUTTER_SHADE);
+    let [least, most] = stiffness.values();
+    let height = |k: f64| stiffness.at(k.clamp(least, most));
+    for (k, x) in places.iter().enumerate() {
+        let before = k.checked_sub(1).map_or(*x, |before| places[before]);
+        let after = places.get(k + 1).copied().unwrap_or(*x);
+        let column = LOBES.between([0.5 * (x + before), 0.5 * (x + after)]);
+        let [from, to] = unknown(report, k);
+        for (from, to, shade) in [(from, to, BLANK), (to, f64::INFINITY, FLUTTER_SHADE)] {
+            let (bottom, top) = (height(from), height(to));
+            if bottom > top {
+                let frame = Frame {
+                    top,
+                    bottom,
+                    ..column
+                };
+                sheet.fill(frame, shade);
+            }
         }
     }
 }
@@ -218,10 +261,15 @@ fn own_hue(report: &WashboardReport) -> Hue {
 
 fn draw_key(sheet: &mut Sheet, report: &WashboardReport) {
     let colour = own_hue(report).colour();
-    Key::new(sheet, LOBES.left, f64::from(HEIGHT) - 24.0)
-        .shade(FLUTTER_SHADE)
-        .word("above the smallest stiffness at which a motion grows")
-        .ring(12.0, 6.0, Stroke::solid(colour, 2.5))
+    let mut key = Key::new(sheet, LOBES.left, f64::from(HEIGHT) - 24.0);
+    key.shade(FLUTTER_SHADE)
+        .word("above the smallest stiffness at which a motion grows");
+    let [_, most] = decades(report);
+    let is_unknown = |k: usize| unknown(report, k)[0] < unknown(report, k)[1].min(most);
+    if (0..report.lobes.rpm.len()).any(is_unknown) {
+        key.shade(BLANK).word("not searched, or not confirmed");
+    }
+    key.ring(12.0, 6.0, Stroke::solid(colour, 2.5))
         .word("this cut")
         .line(26.0, Stroke::dashed(QUIET, HAIRLINE, FINE_DASH))
         .word("tooth passing frequency, and half of it");

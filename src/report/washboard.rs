@@ -107,6 +107,9 @@ pub struct LobesEntry {
     pub critical_stiffness_n_per_m: Vec<Option<f64>>,
     /// Frequency of this motion.
     pub frequency_hz: Vec<Option<f64>>,
+    /// Cutting stiffness up to which it is known that no motion grows: the critical one, or the largest of the
+    /// search; less where only damping prevents the growth of omitted modes, zero where the count does not confirm it.
+    pub stable_to_n_per_m: Vec<f64>,
     /// Whether the argument principle confirms that nothing grows just below this stiffness.
     pub confirmed: Vec<bool>,
 }
@@ -181,6 +184,9 @@ fn lobes(found: &Washboard) -> LobesEntry {
             .collect(),
         frequency_hz: points()
             .map(|point| point.boundary.map(|b| b.frequency_rad_per_s / TAU))
+            .collect(),
+        stable_to_n_per_m: points()
+            .map(|point| found.stable_to_n_per_m(point))
             .collect(),
         confirmed: points().map(|point| point.confirmed).collect(),
     }

@@ -188,6 +188,15 @@ impl Washboard {
         })
     }
 
+    /// Cutting stiffness up to which no motion grows at a speed of the diagram; zero if this is not confirmed.
+    pub(crate) fn stable_to_n_per_m(&self, point: &LobePoint) -> f64 {
+        let searched = point.boundary.map(|b| b.stiffness_n_per_m);
+        match point.confirmed {
+            true => (searched.unwrap_or(self.ceiling_n_per_m)).min(self.safe_beyond_n_per_m),
+            false => 0.0,
+        }
+    }
+
     /// Number of speeds whose boundary the count does not confirm.
     pub fn unconfirmed(&self) -> usize {
         self.lobes.iter().filter(|point| !point.confirmed).count()
