@@ -24,6 +24,7 @@ mod light_gap;
 mod membrane;
 mod paper;
 mod paper_free_blade;
+mod published;
 mod rigid_motions;
 mod run_up;
 mod saws;
