@@ -31,7 +31,7 @@ struct Published {
 }
 
 /// Bound of the distance from the exact roots, which for the disk are those without its bore of a two-hundredth of the radius.
-const EXACT: f64 = 1e-3;
+const EXACT: f64 = 1e-4;
 
 /// Each row has its own tolerance: the sources print three digits of λ², or frequencies that follow from these, and are off
 /// the exact roots by up to half a percent. The program is not.
