@@ -113,7 +113,12 @@ impl Axis {
         match self.spread {
             Spread::Linear => self.even_ticks(apart),
             Spread::SignedRoot => self.root_ticks(apart),
-            Spread::Logarithmic => self.decades(apart),
+            // Between neighbouring ones of 1, 2, 5, 10, … there are even values, which lie up to twice as close as on
+            // average.
+            Spread::Logarithmic => match self.decades(apart) {
+                few if few.len() < 2 => self.even_ticks(2.0 * apart),
+                ticks => ticks,
+            },
         }
     }
 
@@ -368,6 +373,27 @@ mod tests {
             ticks([1e-10, 1e10], 40.0),
             "10⁻¹⁰ 10⁻⁸ 10⁻⁶ 10⁻⁴ 0.01 1 100 10000 10⁶ 10⁸ 10¹⁰"
         );
+    }
+
+    #[test]
+    fn a_short_logarithmic_range_has_numbers_too() {
+        let axis = Axis::new([22.05, 22.5], [0.0, 400.0], Spread::Logarithmic);
+        let labels: Vec<_> = axis
+            .ticks(40.0)
+            .iter()
+            .map(|tick| axis.label(*tick))
+            .collect();
+        assert_eq!(labels, ["22.1", "22.2", "22.3", "22.4", "22.5"]);
+        for k in 1..100 {
+            let end = 3.0 * (1.0 + 0.1 * f64::from(k));
+            let axis = Axis::new([3.0, end], [0.0, 400.0], Spread::Logarithmic);
+            let places: Vec<f64> = axis.ticks(40.0).iter().map(|tick| axis.at(*tick)).collect();
+            assert!(places.len() >= 2, "{end}");
+            assert!(
+                places.windows(2).all(|pair| pair[1] - pair[0] >= 38.0),
+                "{end} {places:?}"
+            );
+        }
     }
 
     #[test]
