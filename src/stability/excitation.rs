@@ -56,11 +56,25 @@ pub fn crossings(
             }
         };
         for branch in &campbell.branches {
-            for pair in branch.points.windows(2) {
-                let (low, high) = (at(&pair[0]), at(&pair[1]));
-                if off((low.0, low.1)) * off((high.0, high.1)) < 0.0 {
-                    brackets.push((*line, pair[0], low, high));
+            // Points on the line itself lie between two others: a line may cross the branch at a drawn speed.
+            let sides = branch.points.iter().map(|point| {
+                let place = at(point);
+                (point, place, off((place.0, place.1)))
+            });
+            let mut beside = sides.clone().filter(|(_, _, off)| *off != 0.0);
+            let mut last = beside.next();
+            for next in beside {
+                if let Some((point, low, _)) = last.filter(|(_, _, off)| off * next.2 < 0.0) {
+                    brackets.push((*line, *point, low, next.1));
                 }
+                last = Some(next);
+            }
+            // The last point, if it is on the line and the one before is not.
+            let mut ends = sides.rev();
+            if let (Some((_, high, 0.0)), Some((point, low, off))) = (ends.next(), ends.next())
+                && off != 0.0
+            {
+                brackets.push((*line, *point, low, high));
             }
         }
     }

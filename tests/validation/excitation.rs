@@ -86,6 +86,29 @@ fn crossings_are_the_eigenvalues_of_the_problem_in_the_square_of_the_speed() {
     assert!(count >= 12, "{count}");
 }
 
+/// A crossing at a speed of the chart itself, in its middle and at its end.
+#[test]
+fn a_line_through_a_drawn_speed_crosses_there() {
+    let scene = asked(&Scene::paper(), 2);
+    let system = GyroscopicSystem::of_plate(&Plate::new(&scene, RESOLUTION));
+    for order in [1, 2] {
+        let within = |speed: &f64| (400.0..1200.0).contains(&rpm(*speed));
+        let speed = exact(&system, order).into_iter().find(within).unwrap();
+        for beyond in [0.0, 50.0] {
+            let range = [rpm(speed) - 50.0, rpm(speed) + beyond];
+            let analysis = dense_analysis(&scene, RESOLUTION, range, 11);
+            let mut samples = analysis.chart.campbell.samples.iter();
+            let drawn = |s: f64| (s / speed - 1.0).abs() < 1e-12;
+            assert!(samples.any(|sample| drawn(sample.speed_rad_per_s)));
+            let found = crossings(&analysis.model, &analysis.chart, scene.excitation()).unwrap();
+            let here = |c: &&sawflutter::stability::Crossing| {
+                c.line.order == order && (c.speed_rad_per_s / speed - 1.0).abs() < 1e-7
+            };
+            assert_eq!(found.iter().filter(here).count(), 1, "{order}: {found:?}");
+        }
+    }
+}
+
 /// In the fixed frame the wave of n diameters has ω_b ± nΩ: the line k crosses it where a wave of
 /// k ∓ n
 /// diameters with the same frequency and tension would be stationary.
