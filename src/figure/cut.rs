@@ -123,7 +123,7 @@ fn length(metres: f64) -> String {
 fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis) {
     let in_cut = panel.between([run.forces_from_s, run.forces_to_s].map(|s| time.at(s)));
     let shade = match run.verdict {
-        CutVerdict::Unstable | CutVerdict::LeavesModel => FLUTTER_SHADE,
+        CutVerdict::Unstable | CutVerdict::LeavesModel | CutVerdict::AtCritical => FLUTTER_SHADE,
         CutVerdict::Stable => tint(FORWARD, 0.12),
     };
     sheet.fill(in_cut, shade);
@@ -187,7 +187,7 @@ fn draw_verdict(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
     let verdict = format!("{} rpm: {}", run.rpm, run.verdict);
     let (text, colour) = match run.verdict {
         CutVerdict::Stable => (verdict, FORWARD),
-        CutVerdict::LeavesModel => (verdict, ALARM),
+        CutVerdict::LeavesModel | CutVerdict::AtCritical => (verdict, ALARM),
         CutVerdict::Unstable => (format!("{verdict} ({})", run.decided_by), ALARM),
     };
     let title = Lettering::title(SUBTITLE_SIZE + 2.0, colour);

@@ -10,7 +10,7 @@ use super::style::{
     CURVE, Colour, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, SUBTITLE_SIZE,
     Weight, shorten,
 };
-use crate::report::{CutReport, CutRunEntry};
+use crate::report::{CutReport, CutRunEntry, Verdict};
 
 const PANELS: Columns = Columns {
     lefts: [92.0, 610.0],
@@ -47,12 +47,10 @@ pub fn sheet(report: &CutReport) -> Sheet {
         &of_saw(&report.scene.name, &report.condition),
     );
     let fastest = fastest_growth(report);
-    let shade = |growth: f64| {
-        if growth < report.flutter_threshold_per_s {
-            STABLE
-        } else {
-            ramp(&GROWING, growth / fastest)
-        }
+    let shade = |growth: f64| ramp(&GROWING, growth / fastest);
+    let on_scale = |growth: f64| match growth < report.flutter_threshold_per_s {
+        true => STABLE,
+        false => shade(growth),
     };
     for (index, run) in report.runs.iter().enumerate() {
         let panel = PANELS.panel(index, panels);
@@ -64,7 +62,7 @@ pub fn sheet(report: &CutReport) -> Sheet {
         (&PANELS.panel(0, panels), 10.0, SCALE),
         ([0.0, fastest], Spread::Linear),
         "growth [1/s]",
-        (shade, |v| Some(tick_label(v))),
+        (on_scale, |v| Some(tick_label(v))),
     );
     sheet
 }
@@ -106,12 +104,14 @@ fn draw_map(
         (&angle, &run.map.guide_angle_deg),
         (&level, &run.map.load_level),
         |column, row| {
-            let growth = run
-                .map
-                .growth_per_s
-                .get(row)
-                .and_then(|row| row.get(column));
-            growth.map_or(PAPER, |growth| shade(*growth))
+            let cell = |row: &Vec<f64>| row.get(column).copied();
+            let growth = run.map.growth_per_s.get(row).and_then(cell);
+            let verdict = run.map.verdict.get(row).and_then(|row| row.get(column));
+            match (verdict, growth) {
+                (Some(Verdict::Stable), _) => STABLE,
+                (_, Some(growth)) => shade(growth),
+                (_, None) => PAPER,
+            }
         },
     );
     let name = "angle of the first guide, the cut at its own\u{2003}[°]";

@@ -16,9 +16,10 @@ use self::criteria::{agree, criteria, worst};
 use self::warnings::warnings;
 use super::SplineEntry;
 use super::remarks::lifting_off;
-use crate::scene::{CutRun, Scene, SceneFile, in_the_cut, unusual_number};
+use crate::scene::{CutRun, Scene, SceneFile, in_the_cut, rpm, unusual_number};
 use crate::transient::{
-    CutHistory, CutStretching, Cutting, CuttingRun, ToothPassing, VerdictMap, linear_limit_m,
+    CutHistory, CutStretching, Cutting, CuttingRun, Growth, ToothPassing, VerdictMap,
+    linear_limit_m,
 };
 
 /// Report of a cut (`cut.json`).
@@ -65,8 +66,12 @@ pub struct CutRunEntry {
     pub radial_n_per_tooth: f64,
     /// Force across the blade on each tooth.
     pub lateral_n_per_tooth: f64,
-    /// The worst of the criteria; if no motion grows, whether the deflection stays within the model.
+    /// The worst of the criteria; if no motion grows, whether the deflection stays within the model, and the speed
+    /// away from critical speeds.
     pub verdict: CutVerdict,
+    /// Critical speed within 5 % of this speed, of the saw in the cut or out of it; null if there is none.
+    #[serde(default)]
+    pub at_critical_rpm: Option<f64>,
     /// Criterion of fastest growth among those with this verdict.
     pub decided_by: CutCriterion,
     /// The result of each criterion.
@@ -162,6 +167,8 @@ pub struct VerdictMapEntry {
     pub load_level: Vec<f64>,
     /// Growth rates, one row for each load level, one column for each angle; one column without guides.
     pub growth_per_s: Vec<Vec<f64>>,
+    /// Verdicts by these growth rates, in the same rows and columns.
+    pub verdict: Vec<Vec<Verdict>>,
 }
 
 impl CutRunEntry {
@@ -242,9 +249,9 @@ impl CutRunEntry {
             map,
             spline,
         } = computed;
-        let of = |growth: f64| Verdict::of(scene, growth);
+        let of = |growth: Growth| Verdict::of(scene, growth);
         let run = history.run;
-        let transient_verdict = history.fitted.map(|fitted| of(fitted.growth_per_s));
+        let transient_verdict = history.fitted.map(of);
         let criteria = criteria(scene, computed);
         let (growth, decided_by) = worst(&criteria);
         // With stretching, only the record decides whether the blade leaves the model, because moving loads
@@ -260,7 +267,8 @@ impl CutRunEntry {
             tangential_n_per_tooth: run.tangential_n,
             radial_n_per_tooth: run.radial_n,
             lateral_n_per_tooth: run.lateral_n,
-            verdict: CutVerdict::new(growth, leaves_model),
+            verdict: CutVerdict::new(growth, leaves_model, history.critical_rad_per_s.is_some()),
+            at_critical_rpm: history.critical_rad_per_s.map(rpm),
             decided_by,
             criteria,
             growth_per_s: history.in_cut.growth_per_s,
@@ -272,16 +280,16 @@ impl CutRunEntry {
             transient_growth_per_s: history.fitted.map(|fitted| fitted.growth_per_s),
             transient_frequency_hz: history
                 .fitted
-                .filter(|fitted| of(fitted.growth_per_s) == Verdict::Unstable)
+                .filter(|fitted| of(*fitted) == Verdict::Unstable)
                 .map(|fitted| hertz(fitted.frequency_rad_per_s)),
             dominant_frequency_hz: dominant.map(hertz),
-            idle_verdict: of(history.idle.growth_per_s),
+            idle_verdict: of(history.idle),
             idle_growth_per_s: history.idle.growth_per_s,
             certificate: CutCertificateEntry::new(history),
             by_power: run.tangential_of_power_n.zip(history.in_cut_by_power).map(
                 |(tangential_n_per_tooth, growth)| ByPowerEntry {
                     tangential_n_per_tooth,
-                    verdict: of(growth.growth_per_s),
+                    verdict: of(growth),
                     growth_per_s: growth.growth_per_s,
                 },
             ),
@@ -317,6 +325,10 @@ fn largest_deflections(history: &CutHistory) -> [Option<f64>; 2] {
 
 impl VerdictMapEntry {
     fn new(scene: &Scene, map: &VerdictMap) -> Self {
+        fn each<T>(map: &VerdictMap, of: impl Fn(&Growth) -> T) -> Vec<Vec<T>> {
+            let rows = map.growth.iter();
+            rows.map(|row| row.iter().map(&of).collect()).collect()
+        }
         let first_guide = scene.guides().first();
         let angles = first_guide.map(|guide| {
             let turns = map.turns_rad.iter();
@@ -325,7 +337,8 @@ impl VerdictMapEntry {
         VerdictMapEntry {
             guide_angle_deg: angles.into_iter().flatten().collect(),
             load_level: map.load_levels.clone(),
-            growth_per_s: map.growth_per_s.clone(),
+            growth_per_s: each(map, |growth| growth.growth_per_s),
+            verdict: each(map, |growth| Verdict::of(scene, *growth)),
         }
     }
 }

@@ -53,12 +53,11 @@ impl SplineEntry {
     pub(super) fn new(scene: &Scene, found: &OnSpline) -> Self {
         let motion = &found.motion;
         let (reaction, teeth) = (&motion.reaction, &motion.reaction.teeth);
-        let growth = found.in_cut.growth_per_s;
         let stride = motion.orbit.len().div_ceil(ORBIT_POINTS).max(1);
         let orbit = || motion.orbit.iter().step_by(stride);
         SplineEntry {
-            verdict: Verdict::of(scene, growth),
-            growth_per_s: growth,
+            verdict: Verdict::of(scene, found.in_cut),
+            growth_per_s: found.in_cut.growth_per_s,
             frequency_hz: growing_hz(found.in_cut),
             stiffness_change: found.stiffness_change,
             force_n: reaction.force_n,

@@ -33,6 +33,39 @@ pub fn grows(lambda: c64, speed_rad_per_s: f64, is_undamped: bool) -> bool {
     lambda.re > noise
 }
 
+/// How the motions of a system grow at one speed.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Growing {
+    /// The eigenvalue of largest real part, Im λ ≥ 0; `None` for an undamped system without growth beyond
+    /// rounding.
+    pub fastest: Option<c64>,
+    /// Whether a motion grows without oscillation, the fastest one or another.
+    pub diverges: bool,
+}
+
+impl Growing {
+    /// Growth of a system at a speed.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn at(system: &GyroscopicSystem, speed_rad_per_s: f64) -> Result<Self, SpectrumError> {
+        let values = eigenvalues(system, speed_rad_per_s)?;
+        Ok(Self::of(&values, speed_rad_per_s, system.is_conservative()))
+    }
+
+    /// Growth of a system with these eigenvalues at a speed.
+    pub fn of(values: &[c64], speed_rad_per_s: f64, is_undamped: bool) -> Self {
+        let grows = |lambda: &c64| grows(*lambda, speed_rad_per_s, is_undamped);
+        let known = values.iter().filter(|lambda| !is_undamped || grows(lambda));
+        Growing {
+            fastest: known.max_by(|x, y| x.re.total_cmp(&y.re)).copied(),
+            diverges: values
+                .iter()
+                .any(|lambda| lambda.im == 0.0 && grows(lambda)),
+        }
+    }
+}
+
 /// The eigenvalue of largest real part, Im λ ≥ 0; `None` for an undamped system without growth beyond
 /// rounding.
 ///
@@ -42,9 +75,5 @@ pub fn fastest_growing(
     system: &GyroscopicSystem,
     speed_rad_per_s: f64,
 ) -> Result<Option<c64>, SpectrumError> {
-    let is_undamped = system.is_conservative();
-    let counts = |lambda: &c64| !is_undamped || grows(*lambda, speed_rad_per_s, is_undamped);
-    let values = eigenvalues(system, speed_rad_per_s)?.into_iter();
-    let fastest = values.filter(counts).max_by(|x, y| x.re.total_cmp(&y.re));
-    Ok(fastest)
+    Ok(Growing::at(system, speed_rad_per_s)?.fastest)
 }

@@ -73,7 +73,7 @@ pub use event_name::{EventName, EventWaves};
 pub(crate) use full_model::{AtSpeed, FullModel};
 #[doc(hidden)]
 pub use growth::fastest_growing;
-pub(crate) use growth::{eigenvalues, grows};
+pub(crate) use growth::{Growing, eigenvalues, grows};
 pub(crate) use hamiltonian::{HamiltonianReduction, State};
 pub(crate) use hermitian::negative_eigenvalues;
 pub(crate) use interval::SearchModel;

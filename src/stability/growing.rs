@@ -11,8 +11,8 @@ use super::mode_counts::{Miscount, claims, of_claims};
 use super::signature::Signature;
 use crate::plate::Plate;
 use crate::spectrum::{
-    FullModel, LowestModes, Mode, SpectrumError, eigenvalues, grows, krein_index,
-    negative_eigenvalues,
+    FullModel, Growing, LowestModes, Mode, ModeKind, SpectrumError, eigenvalues, grows,
+    krein_index, negative_eigenvalues,
 };
 use crate::system::GyroscopicSystem;
 
@@ -21,8 +21,8 @@ use crate::system::GyroscopicSystem;
 pub(crate) struct GrowingModes {
     /// Number of growing modes; two conjugate eigenvalues are one mode.
     pub modes: usize,
-    /// Eigenvalue of largest real part, Im λ ≥ 0; `None` for an undamped saw without a growing mode.
-    pub fastest: Option<c64>,
+    /// The fastest growing mode, and whether one grows without oscillation.
+    pub growing: Growing,
     /// n₋(K) and the Krein index of the modes, for an undamped saw.
     pub krein: Option<[usize; 2]>,
     /// Number of conclusive mode counts on the full model.
@@ -71,12 +71,13 @@ impl GrowingModes {
 
     fn undamped(plate: &Plate, lowest: &LowestModes, speed: f64, modes: &[Mode]) -> Self {
         let growing = modes.iter().filter(|mode| mode.growth_per_s() > 0.0);
-        let fastest = growing
-            .clone()
-            .max_by(|x, y| x.lambda.re.total_cmp(&y.lambda.re));
+        let values = growing.clone().map(|mode| mode.lambda);
         let mut found = GrowingModes {
-            modes: growing.count(),
-            fastest: fastest.map(|mode| mode.lambda),
+            modes: growing.clone().count(),
+            growing: Growing {
+                fastest: values.max_by(|x, y| x.re.total_cmp(&y.re)),
+                diverges: growing.clone().any(|mode| mode.kind == ModeKind::Divergent),
+            },
             ..GrowingModes::default()
         };
         let systems = lowest.components.iter().map(|component| &component.full);
@@ -126,12 +127,9 @@ impl GrowingModes {
 
     fn of_values(values: &[c64], speed: f64, is_undamped: bool) -> Self {
         let grows = |lambda: &&c64| grows(**lambda, speed, is_undamped);
-        let fastest = values.iter().max_by(|x, y| x.re.total_cmp(&y.re));
         GrowingModes {
             modes: values.iter().filter(grows).count(),
-            fastest: fastest
-                .filter(|fastest| !is_undamped || grows(fastest))
-                .copied(),
+            growing: Growing::of(values, speed, is_undamped),
             ..GrowingModes::default()
         }
     }
@@ -153,7 +151,7 @@ mod tests {
     use super::*;
     use crate::plate::{Resolution, RimForce};
     use crate::scene::{Accuracy, Scene, rad_per_s};
-    use crate::spectrum::{ModeKind, companion_eigenpairs};
+    use crate::spectrum::companion_eigenpairs;
 
     /// The paper's saw with a force at its rim, idling, and with a damper.
     fn plates() -> [Plate; 3] {
@@ -184,7 +182,10 @@ mod tests {
                     .filter(|re| *re > noise);
                 let fastest = grows.clone().fold(0.0, f64::max);
                 assert_eq!(found.modes, grows.clone().count(), "{rpm}: {found:?}");
-                let growth = found.fastest.map_or(0.0, |lambda| lambda.re.max(0.0));
+                let growth = found
+                    .growing
+                    .fastest
+                    .map_or(0.0, |lambda| lambda.re.max(0.0));
                 let off = (growth - fastest).abs();
                 assert!(off <= 1e-6 * (1.0 + fastest), "{rpm}: {off:e}");
                 assert!(found.is_clean(), "{rpm}: {found:?}");

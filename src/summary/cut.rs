@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::{decimals_or, each, heading, sentence};
 use crate::report::{CutCriterion, CutReport, CutRunEntry, CutVerdict, Verdict};
+use crate::stability::CRITICAL_MARGIN;
 use crate::stretched::LARGEST_SLOPE;
 use crate::text::{fixed, shown_to};
 use crate::transient::LINEAR_THICKNESSES;
@@ -29,9 +30,14 @@ pub fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
 
 /// The verdict at a speed; `linear_limit_m` is the largest deflection of the linear model.
 fn in_one_line(run: &CutRunEntry, linear_limit_m: f64) -> String {
-    let rpm = run.rpm;
+    let (rpm, critical) = (run.rpm, run.at_critical_rpm);
     match run.verdict {
         CutVerdict::Stable => format!("{rpm} rpm: stable"),
+        CutVerdict::AtCritical => format!(
+            "{rpm} rpm: STABLE, but within {:.0} % of the critical speed{}",
+            100.0 * CRITICAL_MARGIN,
+            critical.map_or(String::new(), |critical| format!(" {critical:.1} rpm"))
+        ),
         CutVerdict::LeavesModel if run.stretching.is_some() => format!(
             "{rpm} rpm: NO GROWTH, BUT THE DEFLECTION LEAVES THE MODEL: slopes of the blade exceed {LARGEST_SLOPE}, where the model with stretching ends"
         ),

@@ -1,11 +1,11 @@
 //! The saw before, during and after a cut at one speed.
 
-use faer::{Col, c64};
+use faer::Col;
 
 use crate::plate::Plate;
 use crate::scene::{CutRun, Probe};
-use crate::spectrum::companion_eigenpairs;
-use crate::stability::GrowingModes;
+use crate::spectrum::{Assembled, Growing, SpectrumError, companion_eigenpairs};
+use crate::stability::{CRITICAL_MARGIN, GrowingModes, critical_at};
 use crate::system::GyroscopicSystem;
 
 use super::linear::Gauge;
@@ -22,6 +22,8 @@ pub struct Growth {
     pub growth_per_s: f64,
     /// Im λ of this motion.
     pub frequency_rad_per_s: f64,
+    /// Whether a motion grows without oscillation, this one or another.
+    pub diverges: bool,
 }
 
 impl Growth {
@@ -31,23 +33,30 @@ impl Growth {
     /// [`TransientError::Spectrum`].
     pub fn of_plate(plate: &Plate, speed_rad_per_s: f64) -> Result<Self, TransientError> {
         Ok(GrowingModes::of_plate(plate, speed_rad_per_s)?
-            .fastest
+            .growing
             .into())
     }
 }
 
-impl From<Option<c64>> for Growth {
-    /// `None` means an undamped saw without growing mode.
-    fn from(lambda: Option<c64>) -> Self {
-        lambda.unwrap_or_default().into()
-    }
-}
-
-impl From<c64> for Growth {
-    fn from(lambda: c64) -> Self {
+impl From<Growing> for Growth {
+    /// An undamped saw without growing mode has a growth rate of zero.
+    fn from(found: Growing) -> Self {
+        let lambda = found.fastest.unwrap_or_default();
         Growth {
             growth_per_s: lambda.re,
             frequency_rad_per_s: lambda.im,
+            diverges: found.diverges,
+        }
+    }
+}
+
+impl From<Sinusoid> for Growth {
+    /// A static response has a growth rate that is rounding, and does not diverge.
+    fn from(fitted: Sinusoid) -> Self {
+        Growth {
+            growth_per_s: fitted.lambda.re,
+            frequency_rad_per_s: fitted.lambda.im,
+            diverges: fitted.moves && fitted.lambda.im == 0.0 && fitted.lambda.re > 0.0,
         }
     }
 }
@@ -63,6 +72,8 @@ pub(crate) struct CutHistory {
     pub in_cut: Growth,
     /// Growing modes compared with counts on the full model, without the forces and in the cut.
     pub growing: [GrowingModes; 2],
+    /// Critical speed within 5 % of the speed, of the saw in the cut or without the forces; of several, the nearest.
+    pub critical_rad_per_s: Option<f64>,
     /// Eigenvalues in a cut with the tangential force that follows from the power.
     pub in_cut_by_power: Option<Growth>,
     /// Growth fitted to the deflection in the cut; `None` without a lateral force.
@@ -109,7 +120,7 @@ pub fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, Tran
         GrowingModes::of_plate(plate, speed)?,
         GrowingModes::of_plate(&saw.cutting, speed)?,
     ];
-    let [idle, in_cut] = growing.each_ref().map(|found| Growth::from(found.fastest));
+    let [idle, in_cut] = growing.each_ref().map(|found| Growth::from(found.growing));
     let gauge = Gauge::new(plate, &saw.blade, probe);
     let (record, stretched) = match cut.stretching {
         false => (record(saw, &gauge, [idle, in_cut])?, None),
@@ -119,8 +130,14 @@ pub fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, Tran
         }
     };
     let sinusoids = sinusoids_in_cut(saw, &gauge, in_cut)?;
+    let critical = [
+        critical_near(plate, speed)?,
+        critical_near(&saw.cutting, speed)?,
+    ]
+    .concat();
     Ok(CutHistory {
         run: **run,
+        critical_rad_per_s: critical_at(&critical, speed).map(|place| critical[place]),
         idle,
         in_cut,
         growing,
@@ -133,6 +150,16 @@ pub fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, Tran
         time_s: record.time_s,
         deflection_m: record.deflection_m,
     })
+}
+
+/// Critical speeds up to slightly above a speed; none of a saw that has no stiffness at rest under the forces.
+fn critical_near(plate: &Plate, speed_rad_per_s: f64) -> Result<Vec<f64>, SpectrumError> {
+    let end = speed_rad_per_s / (1.0 - CRITICAL_MARGIN);
+    match Assembled::from(plate.clone()).critical_speeds(Some(&|_| end)) {
+        Ok(found) => Ok(found.iter().map(|c| c.speed_rad_per_s).collect()),
+        Err(SpectrumError::UnstableAtRest { .. } | SpectrumError::Buckled { .. }) => Ok(Vec::new()),
+        Err(other) => Err(other),
+    }
 }
 
 /// The record of the probe.

@@ -95,13 +95,12 @@ fn largest(samples: &[f64]) -> f64 {
     samples.iter().fold(0.0_f64, |max, x| max.max(x.abs()))
 }
 
-/// λ of the sinusoid that grows fastest, in 1/s. The static response counts only if nothing moves. `None`
-/// without sinusoids.
-pub fn fitted_growth(sinusoids: &[Sinusoid]) -> Option<c64> {
+/// The sinusoid that grows fastest. The static response counts only if nothing moves. `None` without
+/// sinusoids.
+pub fn fitted_growth(sinusoids: &[Sinusoid]) -> Option<Sinusoid> {
     let fastest = |x: &&Sinusoid, y: &&Sinusoid| x.lambda.re.total_cmp(&y.lambda.re);
     let moving = sinusoids.iter().filter(|s| s.moves).max_by(fastest);
-    let fastest = moving.or_else(|| sinusoids.iter().max_by(fastest));
-    fastest.map(|s| s.lambda)
+    moving.or_else(|| sinusoids.iter().max_by(fastest)).copied()
 }
 
 /// z with samples Σ a zᵏ: eigenvalues of the pencil of two shifted Hankel matrices, projected on their
@@ -151,7 +150,8 @@ mod tests {
     }
 
     fn fitted(record: &[f64], step_s: f64) -> c64 {
-        fitted_growth(&damped_sinusoids(record, step_s).unwrap()).unwrap()
+        let found = fitted_growth(&damped_sinusoids(record, step_s).unwrap());
+        found.unwrap().lambda
     }
 
     /// The record contains a growing tone, a larger steady one, a static offset and a decaying tone.

@@ -323,6 +323,7 @@ mod tests {
         let growth = Growth {
             growth_per_s: predicted.growth_per_s,
             frequency_rad_per_s: predicted.frequency_rad_per_s,
+            diverges: false,
         };
         let (record, found) = stretched_cut(&saw, &probe, [growth; 2]).unwrap();
         let seen = largest(&record.deflection_m);
@@ -341,6 +342,7 @@ mod tests {
         let none = Growth {
             growth_per_s: 0.0,
             frequency_rad_per_s: 0.0,
+            diverges: false,
         };
         let seen = [8, 12].map(|modes| {
             let (record, _) = with_modes(&saw, Scene::paper().probe(), [none; 2], modes).unwrap();

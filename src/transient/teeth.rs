@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use crate::linalg::real_eigenvalues;
 use crate::plate::RimForce;
 use crate::scene::{Probe, Tooth, rad_per_s};
-use crate::spectrum::{SpectrumError, fastest_growing};
+use crate::spectrum::{Growing, SpectrumError};
 use crate::system::GyroscopicSystem;
 
 use super::cut::finite;
@@ -33,6 +33,9 @@ pub struct ToothPassing {
     pub mean_growth_per_s: f64,
     /// Growth under the moving loads, from Floquet multipliers.
     pub passing_growth_per_s: f64,
+    /// Whether a motion grows without oscillation under the mean of the moving loads. A multiplier does not show
+    /// this, because it leaves multiples of the tooth frequency open.
+    pub diverges: bool,
     /// Largest deflection at the probe in the cut under stationary loads; `None` if the linear model ends
     /// before the cut does.
     pub standing_deflection_m: Option<f64>,
@@ -61,16 +64,18 @@ pub fn tooth_passing(
     let highest = SHAPES_UP_TO * tooth_frequency_rad_per_s;
     let blade = saw.blade.with_shapes_below(&saw.cutting_system, highest)?;
     let loads = MovingLoads::new(saw, &blade, stages);
-    let growth = |teeth: &[Tooth]| -> Result<f64, TransientError> {
-        Ok(Growth::from(fastest_growing(&loads.system(teeth), speed)?).growth_per_s)
+    let growth = |teeth: &[Tooth]| -> Result<Growth, TransientError> {
+        Ok(Growing::at(&loads.system(teeth), speed)?.into())
     };
     let standing = saw.cut.teeth.standing();
+    let mean = growth(&loads.mean())?;
     let few = MovingLoads::new(saw, &saw.blade, stages);
     let gauge = Gauge::new(saw.plate, &saw.blade, probe);
     Ok(ToothPassing {
         tooth_frequency_rad_per_s,
-        standing_growth_per_s: growth(&standing)?,
-        mean_growth_per_s: growth(&loads.mean())?,
+        standing_growth_per_s: growth(&standing)?.growth_per_s,
+        mean_growth_per_s: mean.growth_per_s,
+        diverges: mean.diverges,
         passing_growth_per_s: loads.floquet_growth()?,
         standing_deflection_m: few.largest_deflection(&[few.propagator(&standing)?], &gauge)?,
         passing_deflection_m: few.largest_deflection(&few.propagators()?, &gauge)?,

@@ -246,7 +246,7 @@ fn the_map_holds_what_moved_guides_and_scaled_loads_do() {
             let system = GyroscopicSystem::of_plate(&cutting);
             let exact = fastest_growing(&system, run.speed_rad_per_s).unwrap();
             let exact = exact.map_or(0.0, |lambda| lambda.re);
-            let mapped = map.growth_per_s[row][column];
+            let mapped = map.growth[row][column].growth_per_s;
             let scale = exact.max(0.1);
             assert!(
                 (mapped - exact).abs() < 5e-3 * scale,

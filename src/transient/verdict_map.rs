@@ -6,7 +6,7 @@ use faer::{Mat, Scale};
 use rayon::prelude::*;
 
 use crate::campbell::Progress;
-use crate::spectrum::{SpectrumError, fastest_growing};
+use crate::spectrum::{Growing, SpectrumError};
 use crate::system::GyroscopicSystem;
 
 use super::reduced::{ReducedBlade, Snapshot};
@@ -20,8 +20,8 @@ pub(crate) struct VerdictMap {
     pub turns_rad: Vec<f64>,
     /// Factors of the radial and tangential forces.
     pub load_levels: Vec<f64>,
-    /// Growth rates, with one row for each load level and one column for each angle.
-    pub growth_per_s: Vec<Vec<f64>>,
+    /// Growth, with one row for each load level and one column for each angle.
+    pub growth: Vec<Vec<Growth>>,
 }
 
 /// Number of angles at which the modes in the cut are added to the basis.
@@ -50,7 +50,7 @@ pub fn verdict_map(
         .collect();
     let done = AtomicUsize::new(0);
     let of = turns_rad.len() * load_levels.len();
-    let growth_per_s = load_levels
+    let growth = load_levels
         .par_iter()
         .map(|level| {
             edges
@@ -58,17 +58,17 @@ pub fn verdict_map(
                 .map(|edge| {
                     let mut system = reduced.clone();
                     system.stiffness += Scale(*level) * edge;
-                    let fastest = fastest_growing(&system, speed)?;
+                    let found = Growing::at(&system, speed)?;
                     progress(done.fetch_add(1, Ordering::Relaxed) + 1, of);
-                    Ok(Growth::from(fastest).growth_per_s)
+                    Ok(Growth::from(found))
                 })
-                .collect::<Result<Vec<f64>, TransientError>>()
+                .collect::<Result<Vec<Growth>, TransientError>>()
         })
         .collect::<Result<Vec<_>, _>>()?;
     Ok(VerdictMap {
         turns_rad: turns_rad.to_vec(),
         load_levels: load_levels.to_vec(),
-        growth_per_s,
+        growth,
     })
 }
 

@@ -2,8 +2,9 @@
 //!
 //! Source: the equations of `cut` and `runup`; the limit of five thicknesses of the blade.
 
-use sawflutter::report::{CutReport, CutVerdict, RunUpReport};
-use sawflutter::scene::{CutSpeedFile, Scene, SceneFile};
+use sawflutter::report::{CutReport, CutVerdict, InstabilityKind, RunUpReport, Verdict};
+use sawflutter::scene::{Accuracy, CutSpeedFile, Scene, SceneFile};
+use sawflutter::stability::Analysis;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -96,6 +97,50 @@ fn a_cut_that_deflects_the_blade_beyond_the_model_is_not_called_stable() {
         assert!(
             summary.contains(&format!("{rpm} rpm: {headline}")),
             "{summary}"
+        );
+    }
+}
+
+/// The bands and critical speeds of the idling saw come from an analysis, the verdicts on a cut with hardly any force
+/// from eigenvalues at one speed. The threshold of flutter does not excuse divergence.
+#[test]
+fn a_cut_in_a_band_of_divergence_or_beside_a_critical_speed_is_not_called_stable() {
+    let saw = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft);
+    let report = Analysis::new(&saw.unwrap()).unwrap().report();
+    let mut bands = report.instabilities.iter();
+    let band = bands.find(|band| band.kind == InstabilityKind::Divergence);
+    let (band, critical) = (band.unwrap(), report.critical_speeds[0].rpm);
+    for (rpm, verdict) in [
+        (band.peak_rpm, CutVerdict::Unstable),
+        (critical - 2.0, CutVerdict::AtCritical),
+        (0.9 * critical, CutVerdict::Stable),
+    ] {
+        let mut file = pushed(rpm, 0.0);
+        file.flutter_threshold_per_s = 10.0 * band.peak_growth_per_s;
+        let cut = file.cut.as_mut().unwrap();
+        (cut.tangential_n_per_tooth, cut.radial_n_per_tooth) = (Some(0.1), Some(0.0));
+        let (summary, json) = done("cut", &file);
+        let report: CutReport = serde_json::from_slice(&json).unwrap();
+        let run = &report.runs[0];
+        assert_eq!(run.verdict, verdict, "{summary}");
+        let near = run.at_critical_rpm.map(|found| found / critical - 1.0);
+        match verdict {
+            CutVerdict::AtCritical => assert!(near.unwrap().abs() < 1e-3, "{near:?}"),
+            CutVerdict::Stable => assert_eq!(near, None),
+            _ => assert!((run.growth_per_s / band.peak_growth_per_s - 1.0).abs() < 0.02),
+        }
+        let own = run
+            .map
+            .guide_angle_deg
+            .iter()
+            .map(|deg| deg - file.guides[0].angle_deg);
+        let column = own.into_iter().position(|turn| turn.abs() < 1e-9).unwrap();
+        let grows = run.map.verdict[0][column] == Verdict::Unstable;
+        assert_eq!(
+            grows,
+            verdict == CutVerdict::Unstable,
+            "{:?}",
+            run.map.verdict
         );
     }
 }

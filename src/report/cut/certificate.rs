@@ -103,13 +103,14 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
+    use crate::spectrum::Growing;
     use crate::stability::Miscount;
 
     #[test]
     fn the_sentence_says_what_agrees_and_what_does_not() {
         let found = GrowingModes {
             modes: 1,
-            fastest: Some(faer::c64::new(3.0, 0.0)),
+            growing: Growing::of(&[faer::c64::new(3.0, 0.0)], 100.0, true),
             krein: Some([2, 2]),
             full_basis_counts: 5,
             miscounts: Vec::new(),

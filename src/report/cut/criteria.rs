@@ -23,6 +23,8 @@ pub enum Verdict {
 pub enum CutVerdict {
     /// No motion grows as fast as the threshold, and the deflection stays within the model.
     Stable,
+    /// The same, but the speed is within 5 % of a critical speed of the saw, in the cut or out of it.
+    AtCritical,
     /// No motion grows as fast, but the forces alone deflect the blade beyond the linear model and any kerf,
     /// or with stretching to slopes beyond 0.1.
     LeavesModel,
@@ -73,7 +75,7 @@ pub(super) fn criteria(scene: &Scene, computed: &CuttingRun) -> Vec<CutCriterion
     } = computed;
     let entry = |criterion: CutCriterion, growth: Growth| CutCriterionEntry {
         criterion,
-        verdict: Verdict::of(scene, growth.growth_per_s),
+        verdict: Verdict::of(scene, growth),
         growth_per_s: growth.growth_per_s,
         frequency_hz: growing_hz(growth),
     };
@@ -81,14 +83,17 @@ pub(super) fn criteria(scene: &Scene, computed: &CuttingRun) -> Vec<CutCriterion
         // The frequency is given only if the growth rate reaches the threshold, because a smaller one may be
         // rounding.
         frequency_hz: growing_hz(fitted)
-            .filter(|_| Verdict::of(scene, fitted.growth_per_s) == Verdict::Unstable),
+            .filter(|_| Verdict::of(scene, fitted) == Verdict::Unstable),
         ..entry(CutCriterion::TimeHistory, fitted)
     });
-    let moving = CutCriterionEntry {
-        criterion: CutCriterion::MovingToothLoads,
-        verdict: Verdict::of(scene, passing.passing_growth_per_s),
+    let moving = Growth {
         growth_per_s: passing.passing_growth_per_s,
+        frequency_rad_per_s: 0.0,
+        diverges: passing.diverges,
+    };
+    let moving = CutCriterionEntry {
         frequency_hz: None,
+        ..entry(CutCriterion::MovingToothLoads, moving)
     };
     let spline = spline.as_ref();
     [
@@ -126,7 +131,7 @@ pub(super) fn worst(criteria: &[CutCriterionEntry]) -> (Verdict, CutCriterion) {
 
 /// Whether a time history agrees with the eigenvalues.
 pub(super) fn agree(scene: &Scene, fitted: Growth, eigenvalue: Growth) -> bool {
-    let of = |growth: Growth| Verdict::of(scene, growth.growth_per_s);
+    let of = |growth: Growth| Verdict::of(scene, growth);
     let apart = (fitted.growth_per_s / eigenvalue.growth_per_s - 1.0).abs();
     of(fitted) == of(eigenvalue) && (of(fitted) == Verdict::Stable || apart <= AGREEMENT)
 }
@@ -137,8 +142,11 @@ pub(in crate::report) fn growing_hz(growth: Growth) -> Option<f64> {
 }
 
 impl Verdict {
-    pub(in crate::report) fn of(scene: &Scene, growth_per_s: f64) -> Self {
-        match growth_per_s < scene.flutter_threshold_per_s() || growth_per_s <= 0.0 {
+    /// The threshold is one of flutter: divergence always counts, as in a band.
+    pub(in crate::report) fn of(scene: &Scene, growth: Growth) -> Self {
+        let rate = growth.growth_per_s;
+        let is_slow = rate < scene.flutter_threshold_per_s() || rate <= 0.0;
+        match is_slow && !growth.diverges {
             true => Verdict::Stable,
             false => Verdict::Unstable,
         }
@@ -155,10 +163,11 @@ impl std::fmt::Display for Verdict {
 }
 
 impl CutVerdict {
-    pub(super) fn new(growth: Verdict, leaves_model: bool) -> Self {
+    pub(super) fn new(growth: Verdict, leaves_model: bool, is_critical: bool) -> Self {
         match growth {
             Verdict::Unstable => CutVerdict::Unstable,
             Verdict::Stable if leaves_model => CutVerdict::LeavesModel,
+            Verdict::Stable if is_critical => CutVerdict::AtCritical,
             Verdict::Stable => CutVerdict::Stable,
         }
     }
@@ -168,6 +177,7 @@ impl std::fmt::Display for CutVerdict {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.write_str(match self {
             CutVerdict::Stable => "stable",
+            CutVerdict::AtCritical => "stable, but at a critical speed",
             CutVerdict::LeavesModel => "no growth, but the deflection leaves the model",
             CutVerdict::Unstable => "unstable",
         })
@@ -190,11 +200,20 @@ impl std::fmt::Display for CutCriterion {
 mod tests {
     use super::*;
 
+    /// A growing oscillation.
+    fn flutter(growth_per_s: f64) -> Growth {
+        Growth {
+            growth_per_s,
+            frequency_rad_per_s: 30.0,
+            diverges: false,
+        }
+    }
+
     fn entries(growths: &[(CutCriterion, f64)]) -> Vec<CutCriterionEntry> {
         let scene = Scene::paper();
         let entry = |(criterion, growth_per_s): &(CutCriterion, f64)| CutCriterionEntry {
             criterion: *criterion,
-            verdict: Verdict::of(&scene, *growth_per_s),
+            verdict: Verdict::of(&scene, flutter(*growth_per_s)),
             growth_per_s: *growth_per_s,
             frequency_hz: None,
         };
@@ -224,7 +243,8 @@ mod tests {
     #[test]
     fn a_growth_rate_that_is_not_a_number_is_not_stable() {
         let scene = Scene::paper();
-        assert_eq!(Verdict::of(&scene, f64::NAN), Verdict::Unstable);
-        assert_eq!(Verdict::of(&scene, f64::INFINITY), Verdict::Unstable);
+        for growth in [f64::NAN, f64::INFINITY] {
+            assert_eq!(Verdict::of(&scene, flutter(growth)), Verdict::Unstable);
+        }
     }
 }
