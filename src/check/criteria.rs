@@ -3,10 +3,10 @@
 use super::Criterion;
 use super::limits::Limits;
 use super::static_deflection::StaticDeflection;
+use crate::deflect::Rise;
 use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
 use crate::stability::{Analysis, Evidence, Instability, InstabilityKind, flutter_onsets};
-use crate::stretched::Saturation;
 use crate::text::{shown, shown_to};
 use crate::transient::at_point;
 
@@ -116,18 +116,19 @@ const AT_AN_EDGE: f64 = std::f64::consts::SQRT_2;
 impl Limits {
     /// Criterion of the amplitude of flutter, with the first band whose amplitude exceeds the limit; `None` without a
     /// limit.
-    pub(super) fn of_amplitude(
+    pub(crate) fn of_amplitude(
         &self,
         analysis: &Analysis,
-        saturations: &[Option<Saturation>],
+        saturations: &[Rise],
     ) -> Option<Criterion> {
         let limit_m = self.max_amplitude_m?;
         let limit_mm = shown(1e3 * limit_m);
         let bands = analysis.chart.instabilities.iter().zip(saturations);
         let flutter = bands.filter(|(band, _)| band.kind == InstabilityKind::Flutter);
         // A band of unknown amplitude counts as exceeding the limit.
-        let beyond = |(_, found): &(&Instability, &Option<Saturation>)| {
-            found.is_none_or(|found| AT_AN_EDGE * found.amplitude_m > limit_m)
+        let beyond = |(_, found): &(&Instability, &Rise)| match found {
+            Ok(Some(found)) => AT_AN_EDGE * found.amplitude_m > limit_m,
+            Ok(None) | Err(_) => true,
         };
         let first = flutter.filter(beyond).min_by(|x, y| {
             let onsets = [x, y].map(|(band, _)| band.from_rad_per_s);
@@ -138,11 +139,15 @@ impl Limits {
                 "no flutter rises above the limit up to {:.0} rpm, where the search ends",
                 rpm(analysis.range_rad_per_s.1)
             ),
-            Some((band, None)) => format!(
+            Some((band, Err(reason))) => format!(
+                "not computed for flutter from {:.0} rpm on: {reason}",
+                rpm(band.from_rad_per_s)
+            ),
+            Some((band, Ok(None))) => format!(
                 "not known for flutter from {:.0} rpm on, which only damping causes",
                 rpm(band.from_rad_per_s)
             ),
-            Some((band, Some(found))) => format!(
+            Some((band, Ok(Some(found)))) => format!(
                 "flutter from {:.0} rpm on rises to {} mm",
                 rpm(band.from_rad_per_s),
                 shown_to(3, 1e3 * AT_AN_EDGE * found.amplitude_m)

@@ -20,12 +20,12 @@ mod static_deflection;
 
 use faer::linalg::solvers::Solve;
 
-use crate::deflect::saturations;
+use crate::deflect::{Rise, saturations};
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError};
-use crate::stretched::{Saturation, StretchedError};
+use crate::stretched::StretchedError;
 use crate::system::GyroscopicSystem;
 use crate::transient::at_point;
 
@@ -87,7 +87,7 @@ pub struct Check {
     /// K(Ω) is not positive definite there and the ratio of force to deflection may have any value and sign.
     pub rim_stiffness_n_per_m: Option<f64>,
     /// Amplitude to which the flutter of each band rises; empty if the amplitude has no limit.
-    pub saturations: Vec<Option<Saturation>>,
+    pub saturations: Vec<Rise>,
     /// Unusual numbers of the scene and of the limits.
     pub unusual_numbers: Vec<String>,
     /// Whether a saw with unusual numbers may pass.

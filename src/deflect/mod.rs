@@ -26,7 +26,7 @@ mod tests;
 
 pub use options::{Options, SideForce};
 pub use reading::{Curve, Jump, Reading, SlowSweep};
-pub use saturated::saturations;
+pub use saturated::{Rise, saturations};
 
 use faer::Col;
 

@@ -77,6 +77,7 @@ fn label(band: &InstabilityEntry, [first, last]: [f64; 2]) -> String {
         format!("{kind} {from}–{to}")
     };
     match band.saturated_amplitude_m {
+        None if band.amplitude_not_computed.is_some() => format!("{label}, amplitude not computed"),
         None => label,
         Some(metres) => format!("{label}, ±{} mm", two_digits(1e3 * metres)),
     }

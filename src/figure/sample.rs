@@ -160,6 +160,7 @@ pub fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64, hz: f64) -> 
         modes: Vec::new(),
         counted_rpm: vec![[from, to]],
         saturated_amplitude_m: None,
+        amplitude_not_computed: None,
         estimated_relative_error: None,
         estimated_relative_growth_error: None,
     }

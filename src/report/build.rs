@@ -304,6 +304,7 @@ impl InstabilityEntry {
             modes: Vec::new(),
             counted_rpm: counted.map(|(from, to)| [rpm(from), rpm(to)]).collect(),
             saturated_amplitude_m: None,
+            amplitude_not_computed: None,
             estimated_relative_error: None,
             estimated_relative_growth_error: None,
         }

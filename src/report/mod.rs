@@ -210,9 +210,12 @@ pub struct InstabilityEntry {
     pub counted_rpm: Vec<[f64; 2]>,
     /// Amplitude to which flutter rises from a small motion at the speed of largest growth, limited by
     /// stretching, without damping; up to 1.41 times as large near one edge of the band. Null unless
-    /// requested, for divergence, and if only damping makes the blade flutter.
+    /// requested, for divergence, if only damping makes the blade flutter, and if it was not computed.
     #[serde(default)]
     pub saturated_amplitude_m: Option<f64>,
+    /// Reason for which the amplitude was not computed, although it was requested; null if there is none.
+    #[serde(default)]
+    pub amplitude_not_computed: Option<String>,
     /// Estimated relative error of the onset.
     #[serde(default)]
     pub estimated_relative_error: Option<f64>,

@@ -1,24 +1,27 @@
 //! Amplitude to which the flutter of each band rises, computed on request.
 
 use super::{InstabilityEntry, Report};
-use crate::deflect::saturations;
+use crate::deflect::{Rise, saturations};
 use crate::stability::Analysis;
-use crate::stretched::{Saturation, StretchedError};
+use crate::stretched::StretchedError;
 
 impl Report {
     /// Adds the amplitude to which the flutter of each band rises.
     ///
     /// # Errors
-    /// [`StretchedError`] if the amplitude of a band cannot be computed.
+    /// [`StretchedError`] if no amplitude of this blade can be computed.
     pub fn add_amplitudes(&mut self, analysis: &Analysis) -> Result<(), StretchedError> {
         add_amplitudes(&mut self.instabilities, &saturations(analysis)?);
         Ok(())
     }
 }
 
-/// Adds one amplitude to each band.
-pub(super) fn add_amplitudes(bands: &mut [InstabilityEntry], found: &[Option<Saturation>]) {
+/// Adds one amplitude to each band, or the reason for which it was not computed.
+pub(super) fn add_amplitudes(bands: &mut [InstabilityEntry], found: &[Rise]) {
     for (entry, found) in bands.iter_mut().zip(found) {
-        entry.saturated_amplitude_m = found.map(|found| found.amplitude_m);
+        match found {
+            Ok(found) => entry.saturated_amplitude_m = found.map(|found| found.amplitude_m),
+            Err(reason) => entry.amplitude_not_computed = Some(reason.to_string()),
+        }
     }
 }

@@ -3,23 +3,27 @@
 use std::fmt::{Result, Write};
 
 use super::{ROWS, decimals_or, more, sentence};
-use crate::report::{InstabilityKind, Report};
+use crate::report::{InstabilityEntry, InstabilityKind, Report};
 
 /// Writes a table of the flutter bands, in millimetres, if the report contains an amplitude.
 pub fn amplitudes(text: &mut String, report: &Report) -> Result {
     let bands = report.instabilities.iter();
     let flutter = bands.filter(|band| band.kind == InstabilityKind::Flutter);
     let flutter: Vec<_> = flutter.collect();
-    if flutter
-        .iter()
-        .all(|band| band.saturated_amplitude_m.is_none())
-    {
+    let is_known = |band: &&InstabilityEntry| {
+        band.saturated_amplitude_m.is_some() || band.amplitude_not_computed.is_some()
+    };
+    if !flutter.iter().any(is_known) {
         return Ok(());
     }
     writeln!(text, "\nFlutter           from       to    rises to")?;
     writeln!(text, "                 [rpm]    [rpm]        [mm]")?;
     for band in flutter.iter().take(ROWS) {
-        let rises = decimals_or("-", 3, band.saturated_amplitude_m.map(|m| 1e3 * m));
+        let unknown = match &band.amplitude_not_computed {
+            Some(_) => "not computed",
+            None => "-",
+        };
+        let rises = decimals_or(unknown, 3, band.saturated_amplitude_m.map(|m| 1e3 * m));
         writeln!(
             text,
             "              {:>8.1} {:>8.1} {rises:>11}",
@@ -27,6 +31,13 @@ pub fn amplitudes(text: &mut String, report: &Report) -> Result {
         )?;
     }
     more(text, flutter.len(), ROWS, "report.json")?;
+    for (band, reason) in flutter
+        .iter()
+        .filter_map(|band| Some((band, band.amplitude_not_computed.as_ref()?)))
+    {
+        let line = format!("Flutter from {:.1} rpm: {reason}", band.from_rpm);
+        sentence(text, &line)?;
+    }
     sentence(text, MEANING)
 }
 
