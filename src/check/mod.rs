@@ -16,23 +16,21 @@
 
 mod criteria;
 mod limits;
+mod rim;
 mod static_deflection;
 
-use faer::linalg::solvers::Solve;
-
 use crate::deflect::{Rise, saturations};
-use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError};
 use crate::stretched::StretchedError;
-use crate::system::GyroscopicSystem;
-use crate::transient::at_point;
 
 use criteria::{of_gaps, without_stiffness};
 #[cfg(feature = "cli")]
 pub(crate) use limits::RIM_LIMIT_M_PER_S;
 pub use limits::{Limits, LimitsFile};
+use rim::{point_load_plate, rim_compliance_m_per_n};
+pub(crate) use rim::{rim_stiffness_at_rest_n_per_m, side_force_factor};
 use static_deflection::StaticDeflection;
 
 /// Reason for which a check failed to run.
@@ -86,6 +84,9 @@ pub struct Check {
     /// Lateral stiffness of this point at the operating speed; `None` from the first critical speed on, because
     /// K(Ω) is not positive definite there and the ratio of force to deflection may have any value and sign.
     pub rim_stiffness_n_per_m: Option<f64>,
+    /// Deflection of this point under a constant side force, relative to that at rest, for a stable saw within 5 % of
+    /// a critical speed; negative if it moves against the force.
+    pub side_force_factor: Option<f64>,
     /// Amplitude to which the flutter of each band rises; empty if the amplitude has no limit.
     pub saturations: Vec<Rise>,
     /// Unusual numbers of the scene and of the limits.
@@ -96,13 +97,6 @@ pub struct Check {
     pub analysis: Analysis,
 }
 
-/// A point load deforms the rim in waves of all lengths; the contribution of n diameters falls only with n³.
-/// The stiffness of a point therefore needs a larger basis than critical speeds do.
-const POINT_LOAD_BASIS: Resolution = Resolution {
-    max_diameters: 30,
-    radial_functions: 12,
-};
-
 impl Check {
     /// Analyses a saw from rest to the end of its sweep, or further if the limits require it, and compares the
     /// results with the limits. They equal those of an [`Analysis`] of the scene.
@@ -112,7 +106,7 @@ impl Check {
     pub fn new(scene: &Scene, limits: &Limits) -> Result<Self, CheckError> {
         let analysis = analysed(scene, limits.reach_rad_per_s())?;
         let angle = scene.cut_angle_rad();
-        let plate = &Plate::new(scene, POINT_LOAD_BASIS);
+        let plate = &point_load_plate(&analysis);
         let lowest_critical = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
         let operating = limits.operating_rad_per_s;
         let is_stiff = lowest_critical.is_none_or(|lowest| operating < lowest);
@@ -132,7 +126,13 @@ impl Check {
         let mut components = analysis.model.components.iter();
         let is_free = components.any(|component| !component.full.free_rigid.is_empty());
         of_rim_and_gaps.extend(is_free.then(|| without_stiffness(operating)));
+        // Nothing resists a side force where rigid motions are free, or where K(Ω) is singular.
+        let stiffness = |speed: f64| {
+            let compliance = rim_compliance_m_per_n(plate, angle, speed);
+            compliance.map_or(0.0, |m_per_n| 1.0 / m_per_n)
+        };
         Ok(Check {
+            side_force_factor: side_force_factor(&analysis, operating),
             of_rim_and_gaps,
             rim_stiffness_over_speed: bending
                 .as_ref()
@@ -141,8 +141,8 @@ impl Check {
             saturations,
             unusual_numbers: limits.unusual_numbers(scene),
             accept_unusual: limits.accept_unusual,
-            rim_stiffness_at_rest_n_per_m: rim_stiffness_n_per_m(plate, angle, 0.0),
-            rim_stiffness_n_per_m: is_stiff.then(|| rim_stiffness_n_per_m(plate, angle, operating)),
+            rim_stiffness_at_rest_n_per_m: stiffness(0.0),
+            rim_stiffness_n_per_m: is_stiff.then(|| stiffness(operating)),
             analysis,
         })
     }
@@ -197,33 +197,6 @@ fn analysed(scene: &Scene, least_end_rad_per_s: f64) -> Result<Analysis, CheckEr
 impl std::fmt::Display for Criterion {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(formatter, "{}: {}", self.name, self.finding)
-    }
-}
-
-/// Lateral stiffness of a point of the rim at the middle of the cut, at rest, in N/m; `None` if rigid motions are free.
-pub(crate) fn rim_stiffness_at_rest_n_per_m(scene: &Scene) -> Option<f64> {
-    let angle = scene.cut_angle_rad();
-    let plate = Plate::new(scene, POINT_LOAD_BASIS);
-    Some(rim_stiffness_n_per_m(&plate, angle, 0.0)).filter(|stiffness| *stiffness != 0.0)
-}
-
-/// 1/(φᵀ K(Ω)⁻¹ φ) with the basis functions φ at the rim: force over deflection at a point fixed in space
-/// while the saw turns. Zero if rigid motions are free.
-fn rim_stiffness_n_per_m(plate: &Plate, angle_rad: f64, speed_rad_per_s: f64) -> f64 {
-    let point = at_point(plate, plate.blade.outer_radius_m, angle_rad);
-    let system = GyroscopicSystem::of_plate(plate);
-    if !system.free_rigid.is_empty() {
-        return 0.0;
-    }
-    let answer = system
-        .stiffness_at(speed_rad_per_s)
-        .partial_piv_lu()
-        .solve(&point);
-    let stiffness = 1.0 / (point.transpose() * answer);
-    if stiffness.is_finite() {
-        stiffness
-    } else {
-        0.0
     }
 }
 

@@ -231,12 +231,14 @@ mod tests {
         let mut report = empty_report("A hot saw");
         report.operating = Some(OperatingEntry {
             rpm: 3000.0,
+            lowest_critical_rpm: Some(3000.0 / 0.7),
             of_lowest_critical: Some(0.7),
             limit: 0.85,
             within_limit: Some(true),
             verdict: crate::report::StabilityState::Stable,
             inside_instability: None,
             at_critical_rpm: None,
+            side_force_factor: None,
             safe_window_rpm: None,
             growth_per_s: None,
             frequency_hz: None,

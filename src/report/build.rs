@@ -12,6 +12,7 @@ use super::{
     HarmonicEntry, InCutEntry, InstabilityEntry, MembraneEntry, OperatingEntry, Report, RestMode,
     RootLociEntry, RootPathEntry, SensitivityEntry, ShapeEntry, WorkEntry,
 };
+use crate::check::side_force_factor;
 use crate::plate::Plate;
 use crate::scene::rpm;
 use crate::spectrum::{DescribedMode, EventName, EventWaves, WorkCounters};
@@ -336,12 +337,14 @@ impl OperatingEntry {
         let window = evidence.window_without_instability(speed_rad_per_s);
         OperatingEntry {
             rpm: rpm(speed_rad_per_s),
+            lowest_critical_rpm: critical.first().copied().map(rpm),
             of_lowest_critical,
             limit: OPERATING_LIMIT,
             within_limit: of_lowest_critical.map(|ratio| ratio <= OPERATING_LIMIT),
             verdict: verdict.state,
             inside_instability: verdict.band,
             at_critical_rpm: verdict.critical.map(|place| rpm(critical[place])),
+            side_force_factor: None,
             safe_window_rpm: window.map(|(from, to)| [rpm(from), rpm(to)]),
             growth_per_s: None,
             frequency_hz: None,
@@ -355,6 +358,7 @@ fn operating(analysis: &Analysis, speed_rad_per_s: f64) -> OperatingEntry {
     OperatingEntry {
         growth_per_s: fastest.map(|lambda| lambda.re),
         frequency_hz: fastest.map(|lambda| lambda.im.abs() / TAU),
+        side_force_factor: side_force_factor(analysis, speed_rad_per_s),
         ..OperatingEntry::from_evidence(&analysis.evidence(&critical), speed_rad_per_s)
     }
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::InstabilityEntry;
 use super::branches::Numbered;
-use super::remarks::lifting_off;
+use super::remarks::{lifting_off, side_force_in_words};
 use super::saturated::add_amplitudes;
 use crate::check::{Check, Criterion, Limits};
 use crate::scene::{Scene, SceneFile, rpm};
@@ -143,8 +143,10 @@ fn warnings(scene: &Scene, limits: &Limits, check: &Check) -> Vec<String> {
     let mut warnings: Vec<String> = lifting_off(scene).into_iter().collect();
     let operating = limits.operating_rad_per_s;
     if let Some(critical_rpm) = check.analysis.critical_rpm_at(operating) {
+        let deflection = side_force_in_words(rpm(operating), check.side_force_factor);
+        let deflection = deflection.map_or(String::new(), |words| format!("; {words}"));
         warnings.push(format!(
-            "the operating speed is within 5 % of the critical speed {critical_rpm:.1} rpm, where a constant side force deflects the blade at least ten times as far as at rest"
+            "the operating speed is within 5 % of the critical speed {critical_rpm:.1} rpm{deflection}"
         ));
     }
     let gaps = scene.file().guides.iter().filter(|g| g.gap_m.is_some());

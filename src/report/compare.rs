@@ -84,7 +84,7 @@ impl ComparedEntry {
     /// Makes the entry of an analysed saw, with the stiffness of its rim.
     pub fn of_analysis(label: String, analysis: &Analysis) -> Self {
         ComparedEntry {
-            rim_stiffness_at_rest_n_per_m: rim_stiffness_at_rest_n_per_m(&analysis.scene),
+            rim_stiffness_at_rest_n_per_m: rim_stiffness_at_rest_n_per_m(analysis),
             ..Self::of_report(label, &analysis.report())
         }
     }

@@ -70,6 +70,7 @@ pub use self::place::{
     FragileOptimumEntry, GoalEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceCertificateEntry,
     PlaceReport, PlacedEntry,
 };
+pub(crate) use self::remarks::side_force_in_words;
 pub use self::response::{
     CauseEntry, FrequencyResponseEntry, OperatingResponseEntry, ResonanceEntry, ResponseLineEntry,
     ResponseReport,
@@ -231,6 +232,9 @@ pub struct InstabilityEntry {
 pub struct OperatingEntry {
     /// The scene's operating speed.
     pub rpm: f64,
+    /// Lowest critical speed, also above the sweep; null if the blade has none.
+    #[serde(default)]
+    pub lowest_critical_rpm: Option<f64>,
     /// Ratio of operating speed to lowest critical speed; null if the blade has no critical speed.
     pub of_lowest_critical: Option<f64>,
     /// Usual limit of that ratio, 0.85.
@@ -241,10 +245,14 @@ pub struct OperatingEntry {
     pub verdict: StabilityState,
     /// Index into `instabilities` of the band that makes it unstable.
     pub inside_instability: Option<usize>,
-    /// Critical speed within 5 % of the operating speed: there a constant side force deflects the blade, in
-    /// the shape of the wave that stands still, at least ten times as far as at rest. Null if there is none.
+    /// Critical speed within 5 % of the operating speed; null if there is none.
     #[serde(default)]
     pub at_critical_rpm: Option<f64>,
+    /// Deflection of the rim at the cut under a constant side force there, relative to that at rest; negative if the
+    /// blade moves against the force. Null unless the saw is stable and within 5 % of a critical speed, if nothing
+    /// holds the blade's rigid motions, and so close to the critical speed that its error decides.
+    #[serde(default)]
+    pub side_force_factor: Option<f64>,
     /// The window without instability: speeds of the sweep around the operating speed at which no instability
     /// counts, and which are at least 5 % from critical speeds; null if the saw is unstable or at a critical
     /// speed.

@@ -16,6 +16,21 @@ const LEAST_DIGITS: f64 = 1e-6;
 /// Stiffness of the stiffest pad in the trials that calibrated the error estimate.
 const CALIBRATED_N_PER_M: f64 = 1e9;
 
+/// How far a side force at the cut deflects the blade at a speed, from the factor of
+/// [`OperatingEntry::side_force_factor`](super::OperatingEntry::side_force_factor); `None` without a factor.
+pub fn side_force_in_words(rpm: f64, factor: Option<f64>) -> Option<String> {
+    let factor = factor?;
+    let direction = match factor < 0.0 {
+        true => ", in the opposite direction",
+        false => "",
+    };
+    Some(format!(
+        "at {} rpm a side force at the cut deflects the blade {} times as far as at rest{direction}",
+        shown_to(6, rpm),
+        shown_to(2, factor.abs())
+    ))
+}
+
 /// Terms of the equation of motion that were assembled.
 pub fn terms(scene: &Scene, plate: &Plate) -> Vec<String> {
     let always = [

@@ -19,8 +19,9 @@ use super::root::share_of_zero;
 use crate::spectrum::smallest;
 
 /// Relative distance from a critical speed within which a saw is considered to run at it. Because of K(Ω) =
-/// K₀ − Ω²B, a side force fixed in space deflects the wave of the critical speed Ω_c by 1/|1 − (Ω/Ω_c)²|
-/// times its deflection at rest: ten times at this margin. The 85 % rule allows 3.6 times.
+/// K₀ − Ω²B, a side force fixed in space deflects the wave of the critical speed Ω_c alone by 1/|1 − (Ω/Ω_c)²|
+/// times its deflection at rest: ten times at this margin. The whole deflection of a saw has its own factor,
+/// [`side_force_factor`](crate::report::OperatingEntry::side_force_factor).
 pub const CRITICAL_MARGIN: f64 = 0.05;
 
 /// The answer to whether a saw is stable at one speed.
@@ -332,7 +333,7 @@ mod tests {
         }
         assert_eq!(at(100.0).state, StabilityState::Stable);
         assert_eq!(window(100.0), None);
-        // At the margin, on either side, the deflection is ten times that at rest.
+        // At the margin, on either side, the wave alone is deflected ten times as far as at rest.
         for ratio in [1.0 - CRITICAL_MARGIN, 1.0 + CRITICAL_MARGIN] {
             let times = 1.0 / (1.0 - ratio * ratio).abs();
             assert!((times - 10.0).abs() < 0.3, "{times}");

@@ -3,7 +3,9 @@
 use std::fmt::{Result, Write};
 
 use super::{each, is_damped, sentence, wrapped};
-use crate::report::{InstabilityEntry, InstabilityKind, OperatingEntry, Report, StabilityState};
+use crate::report::{
+    InstabilityEntry, InstabilityKind, OperatingEntry, Report, StabilityState, side_force_in_words,
+};
 use crate::stability::CRITICAL_MARGIN;
 use crate::text::shown_to;
 
@@ -90,7 +92,7 @@ fn at_operating_speed(report: &Report, operating: &OperatingEntry) -> Vec<String
         lines.push("  widen `sweep` so that it includes operating_rpm".to_owned());
     }
     if let (Some(growth), Some(hz)) = (operating.growth_per_s, operating.frequency_hz) {
-        lines.push(format!("  {}", fastest(report, growth, hz)));
+        lines.push(format!("  {}", fastest(report, growth, hz, band.is_some())));
     }
     if let Some([from, to]) = operating.safe_window_rpm {
         lines.push(format!(
@@ -113,9 +115,12 @@ fn inside(band: &InstabilityEntry) -> String {
     )
 }
 
-/// Describes the motion with the largest growth rate, in 1/s, at the operating speed.
-fn fastest(report: &Report, growth: f64, hz: f64) -> String {
+/// Describes the motion with the largest growth rate, in 1/s, at the operating speed, which may be inside a band.
+fn fastest(report: &Report, growth: f64, hz: f64, is_inside: bool) -> String {
     let threshold = report.flutter_threshold_per_s;
+    if is_inside && growth <= 0.0 {
+        return "the speed is an edge of this band, where the growth is zero".to_owned();
+    }
     if growth > 0.0 {
         let compared = match growth >= threshold {
             true => "reaches",
@@ -143,8 +148,10 @@ fn at_critical_speed(report: &Report, operating: &OperatingEntry) -> Option<Stri
     let rpm = operating.at_critical_rpm?;
     let critical = report.critical_speeds.iter().find(|c| c.rpm == rpm);
     let name = critical.map_or(String::new(), |c| format!(" ({})", c.name));
+    let deflection = side_force_in_words(operating.rpm, operating.side_force_factor);
+    let deflection = deflection.map_or(String::new(), |words| format!(": {words}"));
     let line = format!(
-        "  within {:.0} % of the critical speed {rpm:.1} rpm{name}: a constant side force deflects the blade at least ten times as far as at rest",
+        "  within {:.0} % of the critical speed {rpm:.1} rpm{name}{deflection}",
         100.0 * CRITICAL_MARGIN
     );
     Some(wrapped(&line))
@@ -152,7 +159,9 @@ fn at_critical_speed(report: &Report, operating: &OperatingEntry) -> Option<Stri
 
 /// Compares the operating speed with the 85 % rule; `None` without a critical speed.
 fn rule(operating: &OperatingEntry) -> Option<String> {
-    let ratio = operating.of_lowest_critical?;
+    let (ratio, lowest_rpm) = operating
+        .of_lowest_critical
+        .zip(operating.lowest_critical_rpm)?;
     let verdict = match operating.within_limit {
         Some(false) => "breaks",
         _ => "keeps",
@@ -161,7 +170,7 @@ fn rule(operating: &OperatingEntry) -> Option<String> {
         "  {:.0} % of the lowest critical speed {verdict} the {:.0} % rule (at most {:.0} rpm)",
         100.0 * ratio,
         100.0 * operating.limit,
-        operating.limit * operating.rpm / ratio
+        operating.limit * lowest_rpm
     ))
 }
 

@@ -233,3 +233,44 @@ fn an_unrestrained_blade_does_not_pass() {
     );
     assert_eq!(guided.status.code(), Some(0), "{}", text(&guided.stdout));
 }
+
+/// The summary of the paper's saw at an operating speed in rpm.
+fn at_operating(operating_rpm: f64) -> sawflutter::report::Report {
+    let saw = Scene::paper().edited(|saw| {
+        saw.accuracy = Accuracy::Draft;
+        saw.operating_rpm = Some(operating_rpm);
+    });
+    let analysis = sawflutter::stability::Analysis::new(&saw.unwrap()).unwrap();
+    analysis.report()
+}
+
+#[test]
+fn a_standing_saw_has_a_limit_of_its_speed() {
+    let report = at_operating(0.0);
+    let (summary, critical) = (report.summary(), report.critical_speeds[0].rpm);
+    fits(&summary);
+    assert!(!summary.contains("NaN"), "{summary}");
+    let limit = format!("(at most {:.0} rpm)", 0.85 * critical);
+    assert!(summary.contains(&limit), "{summary}");
+}
+
+#[test]
+fn the_edge_of_a_band_is_not_contradicted() {
+    let band = at_operating(1250.0).instabilities[0].clone();
+    for rpm in [band.from_rpm, band.to_rpm] {
+        let report = at_operating(rpm);
+        let summary = report.summary();
+        let unstable = summary.contains("UNSTABLE");
+        assert!(
+            !(unstable && summary.contains("no motion grows")),
+            "{summary}"
+        );
+        let operating = report.operating.unwrap();
+        let is_zero = operating.growth_per_s == Some(0.0);
+        assert_eq!(
+            summary.contains("an edge of this band"),
+            unstable && is_zero,
+            "{summary}"
+        );
+    }
+}

@@ -1,0 +1,154 @@
+//! Lateral stiffness of a point of the rim at the middle of the cut, while the saw turns below a force fixed in
+//! space.
+
+use faer::linalg::solvers::Solve;
+
+use crate::plate::{Plate, Resolution};
+use crate::stability::{Analysis, StabilityState};
+use crate::system::GyroscopicSystem;
+use crate::transient::at_point;
+
+/// A point load deforms the rim in waves of all lengths; the contribution of n diameters falls only with n³.
+/// The stiffness of a point therefore needs a larger basis than critical speeds do.
+const POINT_LOAD_BASIS: Resolution = Resolution {
+    max_diameters: 30,
+    radial_functions: 12,
+};
+
+/// Largest relative error of the distance from a critical speed at which a factor of the deflection is given: near
+/// the critical speed the factor has the same relative error.
+const DISTANCE_ERROR: f64 = 0.1;
+
+/// The plate of an analysis on a basis for point loads, in which critical speeds are at least as accurate as in the
+/// analysis.
+pub(super) fn point_load_plate(analysis: &Analysis) -> Plate {
+    let own = analysis.model.plate.resolution;
+    let resolution = Resolution {
+        max_diameters: own.max_diameters.max(POINT_LOAD_BASIS.max_diameters),
+        radial_functions: own.radial_functions.max(POINT_LOAD_BASIS.radial_functions),
+    };
+    Plate::new(&analysis.scene, resolution)
+}
+
+/// φᵀ K(Ω)⁻¹ φ in m/N with the basis functions φ at the rim: deflection over force at a point fixed in space while
+/// the saw turns. `None` if rigid motions are free, and where K(Ω) is singular.
+pub(super) fn rim_compliance_m_per_n(
+    plate: &Plate,
+    angle_rad: f64,
+    speed_rad_per_s: f64,
+) -> Option<f64> {
+    let point = at_point(plate, plate.blade.outer_radius_m, angle_rad);
+    let system = GyroscopicSystem::of_plate(plate);
+    if !system.free_rigid.is_empty() {
+        return None;
+    }
+    let stiffness = system.stiffness_at(speed_rad_per_s);
+    let compliance = point.transpose() * stiffness.partial_piv_lu().solve(&point);
+    Some(compliance).filter(|m_per_n| m_per_n.is_finite())
+}
+
+/// Lateral stiffness at rest, in N/m; `None` if rigid motions are free.
+pub(crate) fn rim_stiffness_at_rest_n_per_m(analysis: &Analysis) -> Option<f64> {
+    let angle = analysis.scene.cut_angle_rad();
+    let compliance = rim_compliance_m_per_n(&point_load_plate(analysis), angle, 0.0)?;
+    Some(1.0 / compliance)
+}
+
+/// Deflection of the rim at the cut under a constant side force there, relative to that at rest: φᵀK(Ω)⁻¹φ /
+/// φᵀK(0)⁻¹φ, negative above a critical speed whose wave dominates, where the blade moves against the force.
+///
+/// Only for a stable saw within 5 % of a critical speed; `None` elsewhere, if rigid motions are free, and if the
+/// estimated error of the critical speed is more than a tenth of the distance from it.
+pub(crate) fn side_force_factor(analysis: &Analysis, speed_rad_per_s: f64) -> Option<f64> {
+    let verdict = analysis.verdict(speed_rad_per_s);
+    let critical = analysis.model.critical.get(verdict.critical?)?;
+    let distance = (speed_rad_per_s / critical.speed_rad_per_s - 1.0).abs();
+    let error = analysis.estimated_relative_error?;
+    if verdict.state != StabilityState::Stable || error > DISTANCE_ERROR * distance {
+        return None;
+    }
+    let (plate, angle) = (point_load_plate(analysis), analysis.scene.cut_angle_rad());
+    let at = |speed: f64| rim_compliance_m_per_n(&plate, angle, speed);
+    Some(at(speed_rad_per_s)? / at(0.0)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::response::{ForcedResponse, Options};
+    use crate::scene::{Accuracy, ResponseFile, Scene};
+
+    /// A clamped blade at an operating speed, and at a share of its first critical speed.
+    fn clamped(operating_rpm: f64) -> Scene {
+        let json = include_str!("../../scenes/collar-400mm.json");
+        let saw = Scene::from_json(json).unwrap();
+        let saw = saw.edited(|saw| {
+            (saw.accuracy, saw.operating_rpm) = (Accuracy::Draft, Some(operating_rpm));
+        });
+        saw.unwrap()
+    }
+
+    /// Spectral expansion with the waves x of K₀x = Ω_c²(N − K_σ)x, φᵀK(Ω)⁻¹φ = Σ (φᵀx)²/xᵀK₀x · 1/(1 − (Ω/Ω_c)²):
+    /// close to Ω_c the terms of that speed remain, and the other ones cancel in the difference of both sides.
+    #[test]
+    fn next_to_a_critical_speed_the_factor_is_that_of_its_wave() {
+        let saw = clamped(3800.0);
+        let analysis = Analysis::new(&saw).unwrap();
+        let plate = point_load_plate(&analysis);
+        let system = GyroscopicSystem::of_plate(&plate);
+        let point = at_point(&plate, plate.blade.outer_radius_m, saw.cut_angle_rad());
+        let at_rest = rim_compliance_m_per_n(&plate, saw.cut_angle_rad(), 0.0).unwrap();
+        let waves = crate::spectrum::critical_speeds(&system).unwrap();
+        let critical = waves[0].speed_rad_per_s;
+        let waves = waves
+            .iter()
+            .filter(|c| (c.speed_rad_per_s / critical - 1.0).abs() < 1e-3);
+        let share: f64 = waves
+            .map(|c| {
+                let reached: f64 = point.transpose() * &c.shape;
+                reached * reached / (c.shape.transpose() * &system.stiffness * &c.shape)
+            })
+            .sum();
+        let sides = [0.997, 1.003].map(|ratio| {
+            let one_wave = 1.0 / (1.0 - ratio * ratio);
+            let at = rim_compliance_m_per_n(&plate, saw.cut_angle_rad(), ratio * critical);
+            (at.unwrap() / at_rest, one_wave * share / at_rest)
+        });
+        let [below, above] = sides;
+        let error = (below.0 - above.0) / (below.1 - above.1) - 1.0;
+        assert!(error.abs() < 0.01, "{sides:?}");
+        assert!(below.0 > 0.0 && above.0 < 0.0, "{sides:?}");
+        // A single wave would give 167.
+        assert!(below.0 < 35.0, "{sides:?}");
+    }
+
+    /// The response at zero frequency, by its own basis of complex solutions.
+    #[test]
+    fn the_factor_is_that_of_the_response() {
+        let analysis = Analysis::new(&clamped(3800.0)).unwrap();
+        let critical = analysis.model.critical[0].speed_rad_per_s;
+        for ratio in [0.96, 1.045] {
+            let saw = clamped(crate::scene::rpm(ratio * critical)).edited(|saw| {
+                saw.response = Some(ResponseFile {
+                    force_n: 1e-3,
+                    angle_deg: clamped(3800.0).cut_angle_rad().to_degrees(),
+                    ..ResponseFile::default()
+                });
+            });
+            let saw = saw.unwrap();
+            let found = ForcedResponse::new(&saw, &Options::default()).unwrap();
+            let at = |speed: f64| {
+                let speeds = &found.speeds_rad_per_s;
+                let place = speeds.partition_point(|s| *s < speed * (1.0 - 1e-12));
+                found.lines[0].deflections[place].unwrap().at_cut.re
+            };
+            let expected = at(ratio * critical) / at(0.0);
+            let own = Analysis::new(&saw).unwrap();
+            let factor = side_force_factor(&own, ratio * critical).unwrap();
+            assert!(
+                (factor / expected - 1.0).abs() < 0.03,
+                "{factor} {expected}"
+            );
+        }
+    }
+}
