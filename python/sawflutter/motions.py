@@ -114,7 +114,7 @@ class DeflectResults(Result, DeflectReport):
         return frame(rows)
 
     def _facts(self) -> str:
-        jumps = f"{len(self.up.jumps)} ends of stable stretches while the speed rises"
+        jumps = f"{len(self.up.jumps)} jumps while the speed rises"
         return f"{self.force_n:g} N across the rim, {jumps}, {len(self.down.jumps)} while it falls"
 
 

@@ -50,6 +50,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let folder = arguments.common.folder()?;
     let found = watched(|_| Deflecting::new(&scene, &options))?;
     let found = found.map_err(|error| match error {
+        DeflectError::Refused(refused) if refused.key.contains('.') => refused.into(),
         DeflectError::Refused(refused) => of_option(refused),
         other => other.into(),
     })?;

@@ -34,7 +34,9 @@ use crate::plate::{Plate, Resolution};
 use crate::scene::{RefusedValue, Scene, SceneError, rad_per_s};
 use crate::spectrum::{Cancellation, Work};
 use crate::stability::{Analysis, AnalysisError};
-use crate::stretched::{Branch, Equilibrium, Extent, StretchedBlade, StretchedError, Sweep};
+use crate::stretched::{
+    Branch, Equilibrium, Extent, LARGEST_SLOPE, StretchedBlade, StretchedError, Sweep,
+};
 
 use reading::Reader;
 
@@ -106,7 +108,11 @@ impl Deflecting {
         let range = analysis.range_rad_per_s;
         let plate = &analysis.model.plate;
         let parts = Work::of("parts of the deflection", PARTS);
-        let (blade, up, error) = resolved(&force, plate, range)?;
+        let blade = force.on(plate, range.1, MODES.min(plate.degrees_of_freedom()))?;
+        if let Some(gentle_n) = gentler(&force, &blade, range.0)? {
+            return Err(options.steep(scene, &force, gentle_n).into());
+        }
+        let (blade, up, error) = resolved(&force, plate, blade, range)?;
         parts.advance();
         let top = up.arcs.last().and_then(|arc| arc.last());
         let down = blade.sweep(
@@ -136,16 +142,62 @@ impl Deflecting {
 /// Number of parts: the sweep up, the sweep down, the other curves, and their evaluation.
 const PARTS: usize = 4;
 
+/// The largest force in N, to one percent, under which slopes of the blade do not exceed 0.1 at a speed; `None` if they
+/// do not under the given one, or exceed it without a force too.
+fn gentler(
+    force: &SideForce,
+    blade: &StretchedBlade,
+    speed_rad_per_s: f64,
+) -> Result<Option<f64>, StretchedError> {
+    let is_gentle = |force_n: f64| {
+        let pressed = SideForce { force_n, ..*force }.presses(blade)?;
+        match pressed.settled(speed_rad_per_s, &pressed.flat()) {
+            Ok(found) => Ok(pressed.largest_slope(&found) <= LARGEST_SLOPE),
+            Err(StretchedError::NotFound { .. }) => Ok(false),
+            Err(other) => Err(other),
+        }
+    };
+    let mut steep_n = force.force_n;
+    if is_gentle(steep_n)? {
+        return Ok(None);
+    }
+    let mut gentle_n = None;
+    for power in 1..=TENTHS {
+        let force_n = 0.1_f64.powi(power) * force.force_n;
+        if is_gentle(force_n)? {
+            gentle_n = Some(force_n);
+            break;
+        }
+        steep_n = force_n;
+    }
+    let Some(mut gentle_n) = gentle_n else {
+        return Ok(None);
+    };
+    for _ in 0..HALVINGS {
+        let middle_n = steep_n.signum() * (steep_n * gentle_n).sqrt();
+        match is_gentle(middle_n)? {
+            true => gentle_n = middle_n,
+            false => steep_n = middle_n,
+        }
+    }
+    Ok(Some(gentle_n))
+}
+
+/// Number of tenths of a force that are tried: from 1e6 to 1e-3 N.
+const TENTHS: i32 = 9;
+/// Number of halvings, on a logarithmic scale, of the interval between a tenth and the next: to one percent.
+const HALVINGS: usize = 8;
+
 /// A blade with so many shapes that half as many modes more hardly change the deflection, its sweep for rising speed,
 /// and the relative change with more modes; `None` for the change if the blade remains flat.
 fn resolved(
     force: &SideForce,
     plate: &Plate,
+    mut blade: StretchedBlade,
     range: (f64, f64),
 ) -> Result<(StretchedBlade, Sweep, Option<f64>), DeflectError> {
     let on = |modes: usize| force.on(plate, range.1, modes.min(plate.degrees_of_freedom()));
     let mut modes = MODES;
-    let mut blade = on(modes)?;
     loop {
         let more = modes + modes / 2;
         let finer = on(more)?;
@@ -184,7 +236,8 @@ fn change(
     Ok(largest)
 }
 
-/// The curves that the blade follows from one jump to the next, continued through their folds; the curves through
+/// The curves that the blade follows from one jump to the next, from both ends and continued through their folds; the
+/// curves through
 /// mirror images of its equilibria; and the curves that branch from the flat blade at its critical speeds, on both
 /// sides.
 fn curves(
@@ -194,8 +247,13 @@ fn curves(
 ) -> Result<Vec<Branch>, DeflectError> {
     let mut curves: Vec<Branch> = Vec::new();
     for (sweep, upwards) in sweeps {
-        for start in sweep.arcs.iter().filter_map(|arc| arc.first()) {
-            add_curve(blade, &mut curves, (start, &[upwards]), range)?;
+        for arc in &sweep.arcs {
+            let ends = [(arc.first(), upwards), (arc.last(), !upwards)];
+            for (start, upwards) in ends {
+                if let Some(start) = start {
+                    add_curve(blade, &mut curves, (start, &[upwards]), range)?;
+                }
+            }
         }
     }
     for start in mirrored(blade, sweeps.map(|(sweep, _)| sweep))? {

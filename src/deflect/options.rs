@@ -2,7 +2,8 @@
 
 use crate::plate::Plate;
 use crate::scene::{RefusedValue, Scene, speed_rad_per_s};
-use crate::stretched::{StretchedBlade, StretchedError};
+use crate::stretched::{LARGEST_SLOPE, StretchedBlade, StretchedError};
+use crate::text::shown_to;
 
 /// Options of the computation of equilibria.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -65,6 +66,22 @@ impl Options {
             angle_rad: angle_deg.to_radians(),
         })
     }
+
+    /// The refusal of a force that deflects the blade beyond the model at the first speed; a `gentle_n` does not.
+    pub(super) fn steep(&self, scene: &Scene, force: &SideForce, gentle_n: f64) -> RefusedValue {
+        let key = match (self.force_n, scene.file().runup.as_ref()) {
+            (None, Some(_)) => "runup.force_n",
+            _ => "force_n",
+        };
+        // Two digits, rounded down.
+        let unit = 10_f64.powf(gentle_n.abs().log10().floor() - 1.0);
+        let most = shown_to(2, (gentle_n.abs() / unit).floor() * unit);
+        let allowed = format!(
+            "between -{most} and {most} for this saw: a larger force deflects it to slopes above {LARGEST_SLOPE}, where the model ends"
+        );
+        let remedy = "give a smaller force";
+        RefusedValue::new(key, force.force_n, allowed, remedy)
+    }
 }
 
 impl SideForce {
@@ -78,5 +95,12 @@ impl SideForce {
     ) -> Result<StretchedBlade, StretchedError> {
         let place = (plate.blade.outer_radius_m, self.angle_rad);
         StretchedBlade::up_to(plate, to_rad_per_s, place, modes)?.pressed(self.force_n, place)
+    }
+
+    /// A blade under this force instead of its own.
+    pub(super) fn presses(&self, blade: &StretchedBlade) -> Result<StretchedBlade, StretchedError> {
+        let radius_m = blade.blade().outer_radius_m;
+        let pressed = blade.clone();
+        pressed.pressed(self.force_n, (radius_m, self.angle_rad))
     }
 }

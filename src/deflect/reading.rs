@@ -51,6 +51,9 @@ pub struct SlowSweep {
     /// Speed Ω from which on slopes exceed 0.1, where von Kármán's strains are not valid; equilibria beyond it are
     /// omitted. `None` if no slope exceeds 0.1.
     pub valid_until_rad_per_s: Option<f64>,
+    /// Speed Ω at which the sweep stopped at its largest number of equilibria, before an end of the range; `None` if it
+    /// did not, or if the model ends earlier.
+    pub stopped_rad_per_s: Option<f64>,
 }
 
 impl SlowSweep {
@@ -67,6 +70,8 @@ pub struct Curve {
     pub readings: Vec<Reading>,
     /// Folds and bifurcations: kind, Ω, and deflection at the probe.
     pub turns: Vec<(TurnKind, f64, f64)>,
+    /// Whether the curve ends at an end of the range, and not at the largest number of equilibria of a figure.
+    pub is_whole: bool,
 }
 
 /// Evaluates equilibria of a blade.
@@ -144,6 +149,10 @@ impl<'a> Reader<'a> {
             arcs,
             jumps,
             valid_until_rad_per_s,
+            stopped_rad_per_s: match valid_until_rad_per_s {
+                None => sweep.stopped_rad_per_s,
+                Some(_) => None,
+            },
         })
     }
 
@@ -163,6 +172,7 @@ impl<'a> Reader<'a> {
                 })
                 .collect(),
             readings,
+            is_whole: curve.is_whole,
         }
     }
 }

@@ -24,8 +24,10 @@ fn without_a_force_the_blade_deflects_from_its_first_critical_speed_on() {
     for sweep in [&found.up, &found.down] {
         assert!(sweep.readings().all(|at| at.negative_eigenvalues == 0));
         let flat = |at: &Reading| at.largest_m < 1e-9;
-        let edge = sweep.jumps.iter().map(|jump| jump.speed_rad_per_s);
-        let edge = edge.min_by(f64::total_cmp).unwrap();
+        assert!(sweep.jumps.is_empty() && sweep.arcs.len() == 1, "{sweep:?}");
+        let leaned = sweep.readings().filter(|at| !flat(at));
+        let edge = leaned.map(|at| at.speed_rad_per_s).min_by(f64::total_cmp);
+        let edge = edge.unwrap();
         assert!((edge / critical - 1.0).abs() < 1e-4, "{edge} {critical}");
         let below = sweep
             .readings()
@@ -125,4 +127,61 @@ fn every_equilibrium_that_the_blade_reaches_is_on_a_curve() {
         }
     }
     assert!(seen.len() > 1, "{seen:?}");
+}
+
+/// At the edge of a band two eigenvalues are equal, and Newton's method for one of them does not converge: the other
+/// bands keep their amplitudes, and this one says that it has none.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn an_amplitude_that_does_not_converge_leaves_the_others() {
+    let mut analysis = Analysis::new(&draft()).unwrap();
+    let whole = saturations(&analysis).unwrap();
+    let flutters = |found: &Rise| matches!(found, Ok(Some(_)));
+    let place = whole.iter().position(flutters).unwrap();
+    let band = &mut analysis.chart.instabilities[place];
+    (band.peak_rad_per_s, band.peak_growth_per_s) = (band.from_rad_per_s, 0.0);
+    let found = saturations(&analysis).unwrap();
+    assert!(found[place].is_err(), "{:?}", found[place]);
+    for (k, (one, other)) in whole.iter().zip(&found).enumerate() {
+        let equal = one.as_ref().ok() == other.as_ref().ok();
+        assert_eq!(equal, k != place, "{one:?} {other:?}");
+    }
+    let mut report = analysis.report();
+    report.add_amplitudes(&analysis).unwrap();
+    let entry = &report.instabilities[place];
+    assert_eq!(entry.saturated_amplitude_m, None);
+    assert!(entry.amplitude_not_computed.is_some());
+    let summary = report.summary();
+    assert!(summary.contains("not computed"), "{summary}");
+    let limits = crate::check::Limits {
+        max_amplitude_m: Some(1.0),
+        ..crate::check::Limits::at(rad_per_s(1000.0))
+    };
+    let criterion = limits.of_amplitude(&analysis, &found).unwrap();
+    assert!(criterion.finding.contains("not computed"), "{criterion}");
+}
+
+/// The force that the refusal allows is accepted.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+fn a_force_that_deflects_the_blade_beyond_the_model_is_refused() {
+    let at = |force_n: f64| {
+        let options = Options {
+            force_n: Some(force_n),
+            to_rpm: Some(300.0),
+            ..Options::default()
+        };
+        Deflecting::new(&draft(), &options)
+    };
+    for force_n in [1e6, -1e4] {
+        let Err(DeflectError::Refused(refused)) = at(force_n) else {
+            panic!("{force_n}");
+        };
+        assert_eq!(refused.key, "force_n");
+        let allowed: f64 = refused.allowed.split(' ').nth(3).unwrap().parse().unwrap();
+        assert!(allowed < force_n.abs(), "{refused}");
+        let found = at(allowed.copysign(force_n)).unwrap();
+        assert_eq!(found.up.valid_until_rad_per_s, None, "{refused}");
+        assert!(found.up.readings().all(|at| at.largest_slope > 0.0));
+    }
 }

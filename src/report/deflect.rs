@@ -74,6 +74,10 @@ pub struct SlowSweepEntry {
     /// Speed from which on slopes of the blade exceed 0.1, where the model is not valid; there are no results
     /// beyond it. Null if they do not.
     pub valid_until_rpm: Option<f64>,
+    /// Speed at which the sweep stopped at its largest number of equilibria; there are no results beyond it. Null if it
+    /// did not.
+    #[serde(default)]
+    pub stopped_at_rpm: Option<f64>,
 }
 
 /// Stable equilibria. All lists have one entry for each speed.
@@ -174,9 +178,20 @@ impl DeflectReport {
             critical_speeds: chart.critical_speeds,
             instabilities: chart.instabilities,
             campbell: chart.campbell,
-            warnings: chart.warnings,
+            warnings: chart.warnings.into_iter().chain(cut_off(found)).collect(),
         }
     }
+}
+
+/// Remark on curves that end at the largest number of equilibria of a figure.
+fn cut_off(found: &Deflecting) -> Option<String> {
+    let count = found.curves.iter().filter(|curve| !curve.is_whole).count();
+    (count > 0).then(|| {
+        format!(
+            "{count} of {} curves of equilibria end at the largest number of equilibria of a figure, within the range of speeds",
+            found.curves.len()
+        )
+    })
 }
 
 /// Speed at which the largest deflection first exceeds a limit, by linear interpolation between two
@@ -215,6 +230,7 @@ impl SlowSweepEntry {
                 .collect(),
             jumps: jumps.collect(),
             valid_until_rpm: sweep.valid_until_rad_per_s.map(rpm),
+            stopped_at_rpm: sweep.stopped_rad_per_s.map(rpm),
         }
     }
 }

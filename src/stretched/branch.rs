@@ -15,6 +15,8 @@ pub struct Branch {
     pub equilibria: Vec<Equilibrium>,
     /// Points at which ∂²V/∂p² is singular, in the order of the curve.
     pub turns: Vec<Turn>,
+    /// Whether the curve ends where its extent says, and not at the largest number of equilibria.
+    pub is_whole: bool,
 }
 
 /// A fold or a bifurcation of a curve of equilibria.
@@ -61,11 +63,9 @@ pub enum Extent {
 }
 
 impl Extent {
-    /// Whether the curve is complete.
-    fn is_reached(self, branch: &Branch) -> bool {
-        let most = if self == Extent::Drawn { DRAWN } else { MOST };
-        let has_turned = self == Extent::ToTurn && !branch.turns.is_empty();
-        branch.equilibria.len() >= most || has_turned
+    /// Largest number of equilibria.
+    fn most(self) -> usize {
+        if self == Extent::Drawn { DRAWN } else { MOST }
     }
 }
 
@@ -118,9 +118,10 @@ impl StretchedBlade {
         let mut branch = Branch {
             equilibria: vec![start.clone()],
             turns: Vec::new(),
+            is_whole: false,
         };
         let mut step = 0.1 * LONGEST;
-        while !extent.is_reached(&branch) {
+        while branch.equilibria.len() < extent.most() {
             let Some((next, iterations)) = curve.advanced(&place, step)? else {
                 step *= 0.5;
                 if step < SHORTEST * LONGEST {
@@ -141,9 +142,14 @@ impl StretchedBlade {
                     (from_rad_per_s..=to_rad_per_s).contains(&speed)
                 });
                 branch.equilibria.push(last);
+                branch.is_whole = true;
                 break;
             }
             branch.equilibria.push(next.equilibrium.clone());
+            if extent == Extent::ToTurn && !branch.turns.is_empty() {
+                branch.is_whole = true;
+                break;
+            }
             place = next;
             if iterations < 3 {
                 step = (2.0 * step).min(LONGEST);

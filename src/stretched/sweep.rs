@@ -11,19 +11,27 @@ use super::{Equilibrium, Extent, StretchedBlade, StretchedError, Turn};
 pub struct Sweep {
     /// Arcs without a jump; in each the speed rises, or in each it falls.
     pub arcs: Vec<Vec<Equilibrium>>,
-    /// Ends of all arcs but the last. The blade then reaches the first equilibrium of the next arc.
+    /// Ends of all arcs but the last. The blade then jumps to the first equilibrium of the next arc.
     pub ends: Vec<Turn>,
+    /// Speed at which the largest number of equilibria or of arcs was reached, before the end of the range; `None` if
+    /// the sweep is whole.
+    pub stopped_rad_per_s: Option<f64>,
 }
 
 /// Distance past the end of an arc, as a share of the range of speeds, at which the next arc starts.
 const PAST: f64 = 1e-5;
 /// Largest number of arcs; a blade has a few in each band.
 const MOST_ARCS: usize = 200;
+/// Largest share of a move at the distance [`PAST`] that is left at a quarter of the distance if the blade does not
+/// jump: past a pitchfork it moves with the square root of the distance, a half, and along a smooth curve less.
+const NO_JUMP: f64 = 0.75;
+/// Smallest jump, in thicknesses over the whole blade.
+const LEAST_JUMP: f64 = 1e-4;
 
 impl StretchedBlade {
     /// Follows the stable equilibrium from one end of a range of speeds to the other. Where the equilibrium becomes
-    /// unstable the blade jumps to the one found by [`StretchedBlade::settled`]; a vibrating blade may reach another
-    /// one.
+    /// unstable the blade moves to the one found by [`StretchedBlade::settled`]; a vibrating blade may reach another
+    /// one. At a pitchfork that it leaves without a jump, its arc goes on.
     ///
     /// # Errors
     /// [`StretchedError`] as for [`StretchedBlade::branch`] and [`StretchedBlade::settled`].
@@ -34,47 +42,64 @@ impl StretchedBlade {
         range: (f64, f64),
     ) -> Result<Sweep, StretchedError> {
         let (from, to) = range;
-        let (mut speed, end, sign) = match upwards {
+        let (speed, end, sign) = match upwards {
             true => (from, to, 1.0),
             false => (to, from, -1.0),
         };
-        let mut p = begun.clone();
+        let mut start = self.settled(speed, begun)?;
         let mut sweep = Sweep {
-            arcs: Vec::new(),
+            arcs: vec![Vec::new()],
             ends: Vec::new(),
+            stopped_rad_per_s: None,
         };
-        while sweep.arcs.len() < MOST_ARCS {
+        for _ in 0..MOST_ARCS {
             Cancellation::current().check()?;
-            let start = self.settled(speed, &p)?;
             let curve = self.branch(&start, upwards, range, Extent::ToTurn)?;
-            let is_before_turn = |e: &&Equilibrium| match curve.turns.first() {
+            let turn = curve.turns.first();
+            let is_before_turn = |e: &&Equilibrium| match turn {
                 None => true,
                 Some(turn) => {
                     sign * (turn.equilibrium.speed_rad_per_s - e.speed_rad_per_s) >= 0.0
                         && e.negative_eigenvalues == 0
                 }
             };
-            let mut arc: Vec<Equilibrium> = curve
-                .equilibria
-                .iter()
-                .take_while(is_before_turn)
-                .cloned()
-                .collect();
-            let Some(turn) = curve.turns.first().cloned() else {
-                sweep.arcs.push(arc);
-                break;
-            };
-            arc.retain(monotone(sign));
-            arc.push(turn.equilibrium.clone());
-            sweep.arcs.push(arc);
-            speed = turn.equilibrium.speed_rad_per_s + sign * PAST * (to - from);
-            if sign * (end - speed) <= 0.0 {
-                break;
+            let stable = curve.equilibria.iter().take_while(is_before_turn);
+            let mut stable: Vec<Equilibrium> = stable.cloned().collect();
+            if turn.is_some() {
+                stable.retain(monotone(sign));
             }
-            p = turn.equilibrium.coordinates.clone();
-            sweep.ends.push(turn);
+            stable.extend(turn.map(|turn| turn.equilibrium.clone()));
+            let last = stable.last().map_or(speed, |e| e.speed_rad_per_s);
+            if let Some(arc) = sweep.arcs.last_mut() {
+                arc.append(&mut stable);
+            }
+            let Some(turn) = turn else {
+                sweep.stopped_rad_per_s = (!curve.is_whole).then_some(last);
+                return Ok(sweep);
+            };
+            let past = last + sign * PAST * (to - from);
+            if sign * (end - past) <= 0.0 {
+                return Ok(sweep);
+            }
+            start = self.settled(past, &turn.equilibrium.coordinates)?;
+            if self.jumps(turn, &start)? {
+                sweep.ends.push(turn.clone());
+                sweep.arcs.push(Vec::new());
+            }
         }
+        sweep.arcs.retain(|arc| !arc.is_empty());
+        sweep.stopped_rad_per_s = Some(start.speed_rad_per_s);
         Ok(sweep)
+    }
+
+    /// Whether the blade jumps from the end of an arc to an equilibrium at a slightly different speed.
+    fn jumps(&self, turn: &Turn, next: &Equilibrium) -> Result<bool, StretchedError> {
+        let from = &turn.equilibrium;
+        let quarter = from.speed_rad_per_s + 0.25 * (next.speed_rad_per_s - from.speed_rad_per_s);
+        let closer = self.settled(quarter, &from.coordinates)?;
+        let moved = |e: &Equilibrium| (&e.coordinates - &from.coordinates).norm_l2();
+        let least = LEAST_JUMP * self.size();
+        Ok(moved(&closer) > NO_JUMP * moved(next).max(least))
     }
 }
 

@@ -225,6 +225,39 @@ fn a_sweep_jumps_where_the_cubic_folds() {
     assert!(p * force > 0.0);
 }
 
+/// One shape without a force: p² = −κ/γ past the pitchfork, which the blade leaves and reaches without a jump.
+#[test]
+fn a_sweep_does_not_jump_at_a_pitchfork() {
+    let (blade, critical, gamma) = one_shape();
+    let blade = blade.unforced();
+    let range = (0.0, 2.0 * critical);
+    let up = blade.sweep(&blade.flat(), true, range).unwrap();
+    let top = up.arcs[0].last().unwrap().coordinates.clone();
+    let down = blade.sweep(&top, false, range).unwrap();
+    for sweep in [up, down] {
+        assert_eq!((sweep.arcs.len(), sweep.ends.len()), (1, 0), "{sweep:?}");
+        assert_eq!(sweep.stopped_rad_per_s, None);
+        for at in &sweep.arcs[0] {
+            let softness = -blade.system.stiffness_at(at.speed_rad_per_s)[(0, 0)];
+            let expected = (softness.max(0.0) / gamma).sqrt();
+            let off = (at.coordinates[0].abs() - expected).abs();
+            // The root amplifies the error of the speed of the pitchfork.
+            assert!(off < 1e-3 * blade.size(), "{off:e} of {expected:e}");
+        }
+    }
+}
+
+/// One shape far beyond its critical speed, where it deflects by hundreds of thicknesses in steps of a fiftieth.
+#[test]
+fn a_sweep_says_where_its_number_of_equilibria_ends_it() {
+    let (blade, critical, _) = one_shape();
+    let range = (0.0, 500.0 * critical);
+    let up = blade.sweep(&blade.flat(), true, range).unwrap();
+    let last = up.arcs.last().unwrap().last().unwrap().speed_rad_per_s;
+    assert!(last < range.1);
+    assert_eq!(up.stopped_rad_per_s, Some(last));
+}
+
 /// Damping fixed in space only dissipates energy (Thomson, Tait & Chetaev): from a flat blade under a force,
 /// within a band and between bands, where without damping gyroscopic forces stabilize it, H decreases at
 /// every step.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::{ROWS, each, heading, more, sentence};
 use crate::report::{ArcEntry, DeflectReport, JumpEntry, SlowSweepEntry};
 use crate::scene::ContactLaw;
-use crate::stretched::TurnKind;
+use crate::stretched::{LARGEST_SLOPE, TurnKind};
 use crate::text::{fixed, shown_to};
 
 pub fn of_report(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
@@ -18,10 +18,18 @@ pub fn of_report(text: &mut String, report: &DeflectReport) -> std::fmt::Result 
     sentence(text, &verdict(report))?;
     sentence(text, &critical(report))?;
     for (sweep, word) in [(&report.up, "rises"), (&report.down, "falls")] {
-        jumps(text, sweep, (word, report.scene.blade.thickness_m))?;
+        if !sweep.arcs.is_empty() {
+            jumps(text, sweep, (word, report.scene.blade.thickness_m))?;
+        }
         if let Some(rpm) = sweep.valid_until_rpm {
             let end = format!(
                 "While the speed {word} slopes of the blade exceed 0.1 from {rpm:.1} rpm on: the model is not valid there, and no results are given."
+            );
+            sentence(text, &end)?;
+        }
+        if let Some(rpm) = sweep.stopped_at_rpm {
+            let end = format!(
+                "While the speed {word} the search stopped at {rpm:.1} rpm at its largest number of equilibria: no results are given beyond. Give a shorter range of speeds."
             );
             sentence(text, &end)?;
         }
@@ -46,13 +54,17 @@ fn verdict(report: &DeflectReport) -> String {
     );
     let up = report.up.arcs.iter();
     let all = up.flat_map(|arc| arc.rpm.iter().zip(&arc.largest_deflection_m));
+    let last = all.clone().last();
     let largest = all.max_by(|x, y| x.1.total_cmp(y.1));
-    let (rpm, largest_m) = largest.map_or((report.from_rpm, 0.0), |(rpm, m)| (*rpm, *m));
+    let (Some((rpm, largest_m)), Some((last_rpm, _))) = (largest, last) else {
+        return format!(
+            "{force} slopes of the blade exceed {LARGEST_SLOPE} at the first speed: the model is not valid, and no deflection is given"
+        );
+    };
     let within = match report.beyond_thickness_rpm {
-        None => format!(
-            "the deflection does not exceed the thickness up to {:.0} rpm",
-            report.to_rpm
-        ),
+        None => {
+            format!("the deflection does not exceed the thickness up to {last_rpm:.0} rpm")
+        }
         Some(beyond) if beyond <= report.from_rpm => {
             format!("the deflection exceeds the thickness at {beyond:.0} rpm already")
         }
@@ -62,7 +74,7 @@ fn verdict(report: &DeflectReport) -> String {
     };
     format!(
         "{force} {within}; the largest deflection is {}, at {rpm:.0} rpm",
-        millimetres(largest_m)
+        millimetres(*largest_m)
     )
 }
 

@@ -43,6 +43,7 @@ fn a_force_or_a_saw_without_an_answer_is_refused() {
     let folder = TempDir::new().unwrap();
     for (options, said) in [
         (&["--force-n", "1e9"][..], "--force-n"),
+        (&["--force-n", "1e5", "--accuracy", "draft"], "--force-n"),
         (&["--angle-deg", "inf"], "--angle-deg"),
         (&["--to-rpm", "-5"], "--to-rpm"),
     ] {
