@@ -22,7 +22,7 @@ ShapeOccasion: TypeAlias = Literal["critical_speed", "divergence", "flutter", "o
 
 Accuracy: TypeAlias = Literal["draft", "design", "reference"]
 
-CutVerdict: TypeAlias = Literal["stable", "leaves_model", "unstable"]
+CutVerdict: TypeAlias = Literal["stable", "at_critical", "leaves_model", "unstable"]
 
 CutCriterion: TypeAlias = Literal["eigenvalues", "time_history", "moving_tooth_loads", "spline_reaction", "out_of_cut"]
 
@@ -175,7 +175,12 @@ class Instability(Entry):
     saturated_amplitude_m: float | None
     """Amplitude to which flutter rises from a small motion at the speed of largest growth,
     limited by stretching, without damping; up to 1.41 times as large near one edge of the band.
-    Null unless requested, for divergence, and if only damping makes the blade flutter."""
+    Null unless requested, for divergence, if only damping makes the blade flutter, and if it
+    was not computed."""
+
+    amplitude_not_computed: str | None
+    """Reason for which the amplitude was not computed, although it was requested; null if there
+    is none."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the onset."""
@@ -273,6 +278,9 @@ class Operating(Entry):
     rpm: float
     """The scene's operating speed."""
 
+    lowest_critical_rpm: float | None
+    """Lowest critical speed, also above the sweep; null if the blade has none."""
+
     of_lowest_critical: float | None
     """Ratio of operating speed to lowest critical speed; null if the blade has no critical
     speed."""
@@ -290,9 +298,13 @@ class Operating(Entry):
     """Index into `instabilities` of the band that makes it unstable."""
 
     at_critical_rpm: float | None
-    """Critical speed within 5 % of the operating speed: there a constant side force deflects
-    the blade, in the shape of the wave that stands still, at least ten times as far as at rest.
-    Null if there is none."""
+    """Critical speed within 5 % of the operating speed; null if there is none."""
+
+    side_force_factor: float | None
+    """Deflection of the rim at the cut under a constant side force there, relative to that at
+    rest; negative if the blade moves against the force. Null unless the saw is stable and
+    within 5 % of a critical speed, if nothing holds the blade's rigid motions, and so close to
+    the critical speed that its error decides."""
 
     safe_window_rpm: FloatArray | None
     """The window without instability: speeds of the sweep around the operating speed at which
@@ -1255,6 +1267,9 @@ class VerdictMap(Entry):
     """Growth rates, one row for each load level, one column for each angle; one column without
     guides."""
 
+    verdict: tuple[tuple[Verdict, ...], ...]
+    """Verdicts by these growth rates, in the same rows and columns."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Spline(Entry):
@@ -1329,7 +1344,11 @@ class CutRun(Entry):
 
     verdict: CutVerdict
     """The worst of the criteria; if no motion grows, whether the deflection stays within the
-    model."""
+    model, and the speed away from critical speeds."""
+
+    at_critical_rpm: float | None
+    """Critical speed within 5 % of this speed, of the saw in the cut or out of it; null if there
+    is none."""
 
     decided_by: CutCriterion
     """Criterion of fastest growth among those with this verdict."""
@@ -1510,6 +1529,10 @@ class SlowSweep(Entry):
     valid_until_rpm: float | None
     """Speed from which on slopes of the blade exceed 0.1, where the model is not valid; there
     are no results beyond it. Null if they do not."""
+
+    stopped_at_rpm: float | None
+    """Speed at which the sweep stopped at its largest number of equilibria; there are no results
+    beyond it. Null if it did not."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
