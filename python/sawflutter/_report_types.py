@@ -438,6 +438,11 @@ class AccuracyEntry(Entry):
     max_diameters: int
     """Largest number of nodal diameters."""
 
+    complete_to_rpm: float
+    """Speed up to which no wave with more nodal diameters can stand still in space: at least the
+    end of the sweep and the lowest critical speed. Critical speeds, bands, errors and the
+    certificate hold up to it."""
+
     radial_functions: int
     """Number of radial functions for each number of nodal diameters, including those that steps
     and kinks of the thickness add."""
@@ -1784,7 +1789,7 @@ class FitReport(Entry):
     """Largest number of nodal diameters of the basis."""
 
     radial_functions: int
-    """Number of polynomials over the radius for each number of nodal diameters."""
+    """Number of radial functions for each number of nodal diameters."""
 
     estimated_relative_error: float | None
     """Estimated relative error of the critical speeds on this basis."""

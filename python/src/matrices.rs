@@ -4,6 +4,7 @@ use faer::Mat;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use sawflutter::plate::{Plate, Resolution};
+use sawflutter::scene::Scene;
 use sawflutter::stability::ChosenBasis;
 use sawflutter::system::GyroscopicSystem;
 
@@ -22,7 +23,7 @@ pub fn matrices<'py>(
     basis: Option<(usize, usize)>,
 ) -> PyResult<(Bound<'py, PyDict>, usize, usize)> {
     let scene = arguments::scene(scene)?;
-    let basis = basis.map(resolution).transpose()?;
+    let basis = basis.map(|basis| resolution(basis, &scene)).transpose()?;
     let (named, diameters, functions) = compute(py, None, move |_| {
         let plate = match basis {
             Some(resolution) => Plate::new(&scene, resolution),
@@ -65,15 +66,15 @@ pub fn functions_at<'py>(
             Failure::argument("radius_m", off, allowed, "name a point of the blade").into(),
         );
     }
-    let plate = Plate::new(&scene, resolution(basis)?);
+    let plate = Plate::new(&scene, resolution(basis, &scene)?);
     let points = radius_m.iter().zip(&angle_rad);
     let values = points.flat_map(|(radius, angle)| plate.functions_at(*radius, *angle));
     let bytes: Vec<u8> = values.flat_map(f64::to_le_bytes).collect();
     Ok(PyBytes::new(py, &bytes))
 }
 
-fn resolution((diameters, radial): (usize, usize)) -> Result<Resolution, Failure> {
-    Ok(Resolution::new(diameters, radial)?)
+fn resolution((diameters, radial): (usize, usize), scene: &Scene) -> Result<Resolution, Failure> {
+    Ok(Resolution::new(diameters, radial, scene.blade())?)
 }
 
 fn bytes(matrix: &Mat<f64>) -> Vec<u8> {

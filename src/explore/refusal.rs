@@ -52,6 +52,7 @@ impl From<AnalysisError> for Refusal {
             AnalysisError::Unresolved { .. } | AnalysisError::Overstretched { .. } => {
                 Some("sweep.to_rpm".to_owned())
             }
+            AnalysisError::TooNarrow { .. } => Some("mount.diameter_m".to_owned()),
             _ => None,
         };
         Refusal {

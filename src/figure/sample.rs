@@ -64,6 +64,7 @@ pub fn empty_report(name: &str) -> Report {
         accuracy: AccuracyEntry {
             name: Accuracy::Draft,
             max_diameters: 8,
+            complete_to_rpm: 5000.0,
             radial_functions: 4,
             degrees_of_freedom: 68,
             tolerance: 1e-2,

@@ -88,16 +88,23 @@ impl HarmonicBlock {
         block
     }
 
+    /// Stiffness K_b + K_m + Ω²(K_σ − N) in the frame fixed in space, in 1/s²: it is singular at the speeds at which
+    /// a wave of the free blade stands still.
+    pub(crate) fn stiffness_at(&self, speed_rad_per_s: f64) -> Mat<f64> {
+        let speed2 = speed_rad_per_s.powi(2);
+        Mat::from_fn(self.bending.nrows(), self.bending.ncols(), |j, k| {
+            let membrane = self.membrane.as_ref().map_or(0.0, |m| m[(j, k)]);
+            self.bending[(j, k)] + membrane + speed2 * self.spin[(j, k)]
+        })
+    }
+
     /// Stiffness K_b + K_m + Ω²K_σ in the body frame, in 1/s²: its eigenvalues are ω² of the undamped free
     /// blade. K_σ = (K_σ − N) + n².
     pub fn body_frame_stiffness(&self, speed_rad_per_s: f64) -> Mat<f64> {
-        let n2 = (self.diameters * self.diameters) as f64;
-        let speed2 = speed_rad_per_s.powi(2);
-        Mat::from_fn(self.bending.nrows(), self.bending.ncols(), |j, k| {
-            let inertia = if j == k { n2 } else { 0.0 };
-            let membrane = self.membrane.as_ref().map_or(0.0, |m| m[(j, k)]);
-            self.bending[(j, k)] + membrane + speed2 * (self.spin[(j, k)] + inertia)
-        })
+        let turned2 = (self.diameters as f64 * speed_rad_per_s).powi(2);
+        let mut stiffness = self.stiffness_at(speed_rad_per_s);
+        (0..stiffness.nrows()).for_each(|j| stiffness[(j, j)] += turned2);
+        stiffness
     }
 
     /// Sets the material damping η K_b + 2ζ(K_b + K_m)^½ of a retardation time η and a damping ratio ζ. By the

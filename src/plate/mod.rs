@@ -37,6 +37,8 @@ pub(crate) use membrane::{MembraneSource, MembraneStress, membrane_stiffness};
 pub(crate) use radial::RadialBasis;
 pub use stretching::{ReducedStretching, Stretching, StretchingError};
 
+use std::ops::RangeInclusive;
+
 use faer::Mat;
 
 use stress::CentrifugalStress;
@@ -53,26 +55,41 @@ pub struct Resolution {
     pub radial_functions: usize,
 }
 
-/// Largest numbers of nodal diameters and of radial functions, which memory limits: those of the finest basis
-/// that a tolerance selects.
-const LARGEST: (usize, usize) = (70, 30);
+/// Largest number of nodal diameters, that of the slowest standing wave of a blade whose flange has 0.994 of its
+/// diameter.
+pub(crate) const MOST_DIAMETERS: usize = 300;
+/// Largest number of radial functions; polynomials of more lose digits.
+const MOST_FUNCTIONS: usize = 30;
+/// Largest number of unknowns, which memory limits: that of the finest basis that a tolerance selects.
+pub(crate) const MOST_UNKNOWNS: usize = 4230;
 
 impl Resolution {
-    /// A basis of a given size.
+    /// A basis with a given number of radial functions of a blade, as reports state it: see
+    /// [`Resolution::radial_functions_on`].
     ///
     /// # Errors
     /// [`RefusedValue`] if the basis is too small to bend, or larger than memory allows.
-    pub fn new(max_diameters: usize, radial_functions: usize) -> Result<Self, RefusedValue> {
-        let (diameters, functions) = LARGEST;
-        if (2..=diameters).contains(&max_diameters) && (2..=functions).contains(&radial_functions) {
+    pub fn new(
+        max_diameters: usize,
+        radial_functions: usize,
+        blade: &Blade,
+    ) -> Result<Self, RefusedValue> {
+        let knots = RadialBasis::functions_at_knots(blade);
+        let most = |diameters: usize| MOST_FUNCTIONS.min(MOST_UNKNOWNS / (2 * diameters + 1));
+        let diameters = max_diameters.clamp(2, MOST_DIAMETERS);
+        let (least, most) = (2 + knots, most(diameters) + knots);
+        if max_diameters == diameters && (least..=most).contains(&radial_functions) {
             return Ok(Resolution {
                 max_diameters,
-                radial_functions,
+                radial_functions: radial_functions - knots,
             });
         }
         let given = format!("{max_diameters},{radial_functions}");
-        let allowed = format!("diameters 2 to {diameters} and radial functions 2 to {functions}");
-        Err(RefusedValue::new("basis", given, allowed, "16,8 is usual"))
+        let allowed = format!(
+            "diameters 2 to {MOST_DIAMETERS} and, for {diameters} diameters of this blade, radial functions {least} to {most}"
+        );
+        let remedy = "16,8 is usual, and more functions for a thickness with steps";
+        Err(RefusedValue::new("basis", given, allowed, remedy))
     }
 
     /// The basis of a named accuracy.
@@ -86,6 +103,17 @@ impl Resolution {
             max_diameters,
             radial_functions,
         }
+    }
+
+    /// Number of radial functions of a blade for each n: the polynomials, and the functions that steps and kinks of
+    /// the thickness add.
+    pub fn radial_functions_on(&self, blade: &Blade) -> usize {
+        self.radial_functions + RadialBasis::functions_at_knots(blade)
+    }
+
+    /// Number of unknowns of a blade, with these functions.
+    pub fn degrees_of_freedom_on(&self, blade: &Blade) -> usize {
+        self.radial_functions_on(blade) * (2 * self.max_diameters + 1)
     }
 
     /// Number of unknowns of a blade of uniform thickness, J (2 n_max + 1).
@@ -103,6 +131,8 @@ pub struct Plate {
     pub resolution: Resolution,
     /// Radial functions R_nj.
     pub(crate) basis: RadialBasis,
+    /// Centrifugal stress.
+    spinning: CentrifugalStress,
     /// Stiffness matrices K_b, K_m and K_σ − N of n = 0 … n_max nodal diameters.
     pub harmonics: Vec<HarmonicBlock>,
     /// Terms of the guides and of the contacts that [`Plate::with_contact`] adds.
@@ -127,22 +157,35 @@ fn sampled_radii(blade: &Blade) -> impl Iterator<Item = f64> + use<> {
     (0..SAMPLED_RADII).map(move |k| a + (b - a) * k as f64 / (SAMPLED_RADII - 1) as f64)
 }
 
+/// Stiffness of the free blade in a range of nodal diameters, without damping.
+fn harmonics(
+    blade: &Blade,
+    basis: &RadialBasis,
+    spinning: &CentrifugalStress,
+    membrane: Option<&MembraneStress>,
+    diameters: RangeInclusive<usize>,
+) -> Vec<HarmonicBlock> {
+    let blocks = diameters.clone();
+    let blocks = blocks.map(|n| HarmonicBlock::new(blade, spinning, basis, n));
+    let mut blocks: Vec<HarmonicBlock> = blocks.collect();
+    if let Some(stress) = membrane {
+        let stiffness = membrane_stiffness(basis, stress, diameters);
+        for (block, stiffness) in blocks.iter_mut().zip(stiffness) {
+            block.membrane = Some(stiffness);
+        }
+    }
+    blocks
+}
+
 impl Plate {
     /// Assembles the matrices of a scene in a basis of a size that [`Resolution::new`] accepts.
     pub fn new(scene: &Scene, resolution: Resolution) -> Self {
         let basis = RadialBasis::new(scene.blade(), resolution.radial_functions);
-        let stress = CentrifugalStress::new(scene.blade());
-        let mut harmonics: Vec<HarmonicBlock> = (0..=resolution.max_diameters)
-            .map(|n| HarmonicBlock::new(scene.blade(), &stress, &basis, n))
-            .collect();
+        let spinning = CentrifugalStress::new(scene.blade());
         let membrane = scene.membrane();
         let membrane = membrane.and_then(|named| MembraneStress::new(scene.blade(), named));
-        if let Some(stress) = &membrane {
-            let stiffness = membrane_stiffness(&basis, stress, resolution.max_diameters);
-            for (harmonic, block) in harmonics.iter_mut().zip(stiffness) {
-                harmonic.membrane = Some(block);
-            }
-        }
+        let all = 0..=resolution.max_diameters;
+        let mut harmonics = harmonics(scene.blade(), &basis, &spinning, membrane.as_ref(), all);
         let damping = scene.damping();
         if let Some(damping) = damping.as_ref().filter(|damping| damping.is_material()) {
             for (n, block) in harmonics.iter_mut().enumerate() {
@@ -159,6 +202,7 @@ impl Plate {
             blade: *scene.blade(),
             resolution,
             basis,
+            spinning,
             harmonics,
             contact: ContactTerms::default(),
             lifting: None,
@@ -247,6 +291,13 @@ impl Plate {
             damping: None,
             ..self.clone()
         }
+    }
+
+    /// Stiffness of the free blade in a range of nodal diameters that the basis may lack, in the radial functions
+    /// of the plate and without damping.
+    pub(crate) fn harmonics_of(&self, diameters: RangeInclusive<usize>) -> Vec<HarmonicBlock> {
+        let (blade, basis, membrane) = (&self.blade, &self.basis, self.membrane.as_ref());
+        harmonics(blade, basis, &self.spinning, membrane, diameters)
     }
 
     /// Largest number n_max of nodal diameters.

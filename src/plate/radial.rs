@@ -93,6 +93,11 @@ impl RadialBasis {
         basis
     }
 
+    /// Number of functions that steps, kinks and the mass of teeth of a blade add.
+    pub fn functions_at_knots(blade: &Blade) -> usize {
+        knot_powers(blade).len()
+    }
+
     /// Number of radial functions, including those of the knots.
     pub fn count(&self) -> usize {
         self.diag.len() + self.knots.as_ref().map_or(0, |knots| knots.powers.len())

@@ -68,6 +68,7 @@ impl Analysis {
             accuracy: AccuracyEntry {
                 name: scene.accuracy(),
                 max_diameters: resolution.max_diameters,
+                complete_to_rpm: rpm(analysis.complete_to_rad_per_s),
                 radial_functions: model.plate.radial_functions(),
                 degrees_of_freedom: model.plate.degrees_of_freedom(),
                 tolerance: scene.tolerance(),

@@ -47,7 +47,7 @@ pub struct FitReport {
     pub starts: Vec<Start>,
     /// Largest number of nodal diameters of the basis.
     pub max_diameters: usize,
-    /// Number of polynomials over the radius for each number of nodal diameters.
+    /// Number of radial functions for each number of nodal diameters.
     pub radial_functions: usize,
     /// Estimated relative error of the critical speeds on this basis.
     pub estimated_relative_error: Option<f64>,
@@ -124,7 +124,7 @@ impl FitReport {
             curves: fit.compared.curves.clone(),
             starts: fit.starts.clone(),
             max_diameters: fit.resolution.max_diameters,
-            radial_functions: fit.resolution.radial_functions,
+            radial_functions: fit.resolution.radial_functions_on(fit.scene.blade()),
             estimated_relative_error: fit.estimated_relative_error,
             warnings: warnings(fit),
         }

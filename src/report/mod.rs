@@ -271,6 +271,9 @@ pub struct AccuracyEntry {
     pub name: Accuracy,
     /// Largest number of nodal diameters.
     pub max_diameters: usize,
+    /// Speed up to which no wave with more nodal diameters can stand still in space: at least the end of the sweep and
+    /// the lowest critical speed. Critical speeds, bands, errors and the certificate hold up to it.
+    pub complete_to_rpm: f64,
     /// Number of radial functions for each number of nodal diameters, including those that steps and kinks of the
     /// thickness add.
     pub radial_functions: usize,

@@ -241,7 +241,7 @@ impl PlaceReport {
             saws: found.tally.saws,
             failed_saws: found.tally.failed,
             max_diameters: found.resolution.max_diameters,
-            radial_functions: found.resolution.radial_functions,
+            radial_functions: found.resolution.radial_functions_on(found.scene.blade()),
             warnings: warnings(&found.scene, demands, found),
         }
     }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::plate::{MembraneSource, Plate};
 use crate::scene::{Blade, Bore, Scene, rpm};
 use crate::spectrum::DescribedMode;
-use crate::stability::{Analysis, chosen_end};
+use crate::stability::{Analysis, CHARTED, is_cut_short, usual_end};
 use crate::text::{shown, shown_to};
 
 use super::CertificateEntry;
@@ -145,13 +145,20 @@ fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
 
 /// Warning that the sweep chosen by the program ends at a lower speed than usual.
 fn ended_early(scene: &Scene, analysis: &Analysis) -> Option<String> {
-    let lowest = analysis.model.critical.first().map(|c| c.speed_rad_per_s);
-    let (end, usual) = (analysis.range_rad_per_s.1, chosen_end(scene, lowest));
+    let critical = analysis.critical_rad_per_s();
+    let usual = usual_end(scene, critical.first().copied());
+    let end = analysis.range_rad_per_s.1;
     let is_early = scene.sweep().is_none() && end < 0.99 * usual;
+    let reason = match is_cut_short(scene, &critical) {
+        true => format!(
+            "{CHARTED} critical speeds are below its end; name sweep.to_rpm for a longer one"
+        ),
+        false => "the modes of so many speeds would not fit into the memory allowed; a coarser accuracy permits a longer sweep".to_owned(),
+    };
     is_early.then(|| {
         format!(
-            "the sweep ends at {} rpm, and not at {}: the modes of so many speeds would not fit into the memory allowed; a coarser accuracy permits a longer sweep",
-            shown_to(3, rpm(end)),
+            "the sweep ends at {} rpm, and not at {}: {reason}",
+            shown_to(5, rpm(end)),
             shown_to(3, rpm(usual))
         )
     })

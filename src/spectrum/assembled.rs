@@ -43,6 +43,12 @@ impl Assembled {
         self.structured().is_some() || self.components.len() > 1
     }
 
+    /// Whether these computations need no dense eigenproblem, now or, for a small basis, on a larger one.
+    pub fn may_be_structured(&self) -> bool {
+        let is_small = self.plate.degrees_of_freedom() < LARGE;
+        self.is_structured() || (is_small && self.plate.edge_stiffness.is_none())
+    }
+
     /// The structure, and the only component; `None` for small systems, several components, and free rigid
     /// motions.
     fn structured(&self) -> Option<(&StructuredStiffness, &Component)> {

@@ -82,6 +82,8 @@ pub struct SpectralModel {
 
 /// Number of modes that a diagram shows at the lowest speed.
 pub(super) const CHART_MODES: usize = 12;
+/// Height of a diagram, relative to the highest of these modes.
+pub(crate) const ABOVE_LAST: f64 = 1.02;
 
 /// A frequency slightly above that of the twelfth mode, or of the last one if there are fewer, from the
 /// eigenvalues of one speed in ascending order. For a damped blade only oscillating modes count; if there are
@@ -95,7 +97,7 @@ pub(super) fn chart_height(lambdas: &[c64], is_conservative: bool) -> Option<f64
     let of_all = lambdas.iter().map(|lambda| lambda.norm());
     last(of_seen.collect())
         .or_else(|| last(of_all.collect()))
-        .map(|frequency| 1.02 * frequency)
+        .map(|frequency| ABOVE_LAST * frequency)
 }
 
 /// At rest the two waves of equal n are degenerate. A rotation by this share of the blade's frequency scale

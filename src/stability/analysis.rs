@@ -3,7 +3,7 @@
 use faer::c64;
 
 use super::band::{Instability, InstabilityKind};
-use super::basis::{ChosenBasis, FALL, check_stretch, two_digits_down};
+use super::basis::{ChosenBasis, FALL};
 use super::chart::{CHART_SPEEDS, StabilityChart, drawn};
 use super::detail::Detail;
 use super::error::AnalysisError;
@@ -17,6 +17,7 @@ use super::loci::RootLoci;
 use super::onsets::Onsets;
 use super::options::AnalysisOptions;
 use super::out_of_reach::OutOfReach;
+use super::reach::{check_stretch, two_digits_down};
 use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
 use crate::campbell::CampbellError;
 use crate::plate::{Resolution, StraightEdgeReading};
@@ -83,6 +84,9 @@ pub struct Analysis {
     pub model: SpectralModel,
     /// Range of speeds, in rad/s.
     pub range_rad_per_s: (f64, f64),
+    /// Speed up to which no wave with more nodal diameters than the basis can stand still, in rad/s: at least the
+    /// end of the range and the lowest critical speed.
+    pub complete_to_rad_per_s: f64,
     /// Branches, bands and certificate.
     pub chart: StabilityChart,
     /// Flutter speed: lowest speed of flutter that counts, in rad/s, see [`Instability::counted`].
@@ -185,6 +189,7 @@ impl Analysis {
             estimated_relative_error,
             estimated_resting_error,
             larger,
+            complete_to_rad_per_s,
         } = chosen;
         options.report(&critical, range, None);
         let strategy = match detail {
@@ -223,6 +228,7 @@ impl Analysis {
             out_of_reach: None,
             model,
             range_rad_per_s: range,
+            complete_to_rad_per_s,
             chart,
             flutter_speed_rad_per_s: flutter_speed,
             first_merge_rad_per_s: first_merge,

@@ -1,6 +1,7 @@
 //! Errors of an analysis.
 
 use crate::campbell::CampbellError;
+use crate::plate::MOST_DIAMETERS;
 use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
 
@@ -30,14 +31,22 @@ pub enum AnalysisError {
     },
     /// Waves missing from the basis become critical within the sweep.
     #[error(
-        "sweep.to_rpm is {to_rpm}, but must be below {limit_rpm:.1}: waves of {diameters} nodal diameters, the most in the largest basis, are critical there; end the sweep earlier"
+        "sweep.to_rpm is {to_rpm}, but must be below {limit_rpm:.1}: waves of {diameters} and more nodal diameters, which the largest basis lacks, are critical there; end the sweep earlier"
     )]
     Unresolved {
         /// End of the sweep.
         to_rpm: f64,
-        /// Lowest critical speed of the waves with most diameters.
+        /// Lowest critical speed of the waves that the largest basis lacks.
         limit_rpm: f64,
-        /// Largest number of nodal diameters in the basis.
+        /// Smallest number of their nodal diameters.
+        diameters: usize,
+    },
+    /// The lowest critical speed belongs to a wave missing from the largest basis.
+    #[error(
+        "the waves that stand still at the lowest critical speed have up to {diameters} nodal diameters, more than the {MOST_DIAMETERS} of the largest basis: the blade is too narrow outside its flange; lower mount.diameter_m"
+    )]
+    TooNarrow {
+        /// Their largest number of nodal diameters.
         diameters: usize,
     },
 }

@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-use super::basis::{is_last, last_of_all_pairs};
-use super::ladder::{LADDER, resolution};
+use super::ladder::{LADDER, resolution, sized};
+use super::reach::SWEPT;
 use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
-use crate::spectrum::Assembled;
+use crate::spectrum::{Assembled, StandingWaves};
 
 /// Work above this number of seconds of processor time is announced to the user before it begins.
 const LONG_S: f64 = 10.0;
@@ -21,6 +21,9 @@ const DAMPED: (f64, i32) = (1.3, 2 + 3);
 /// speeds, 2.5 s for 46 and 6.9 s for 68.
 const FREE: (f64, i32) = (0.022, 3);
 
+/// The search is short if the free blade has at most this number of critical speeds within the sweep.
+const FEW: usize = 17;
+
 /// Work expected for a chart before it begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExpectedWork {
@@ -33,33 +36,26 @@ pub struct ExpectedWork {
 }
 
 impl ExpectedWork {
-    /// Expected work for the sweep of a scene, from the number of critical speeds in the first basis that
-    /// contains them. In large bases the inertia of the stiffness gives this number, because computing
-    /// hundreds of critical speeds takes minutes. `None` for a scene without a sweep, if the smallest basis
-    /// contains all critical speeds, so that the search is short, if they cannot be computed, and if no basis contains
-    /// them, so that the sweep is refused.
+    /// Expected work for the sweep of a scene, from the number of critical speeds. In large bases the inertia of the
+    /// stiffness gives this number, because computing hundreds of critical speeds takes minutes. `None` for a scene
+    /// without a sweep, if there are few, so that the search is short, or too many, so that the sweep is refused, and
+    /// if they cannot be computed.
     pub(super) fn of_sweep(scene: &Scene) -> Option<Self> {
         let to_rad_per_s = scene.sweep()?.to_rad_per_s;
-        let mut counted = None;
-        for (rung, size) in LADDER.into_iter().enumerate() {
-            let saw = Assembled::from(Plate::new(scene, resolution(size)));
-            let count = match saw.critical_speeds_below(to_rad_per_s) {
-                Some(count) => count,
-                None => {
-                    let found = saw.critical_speeds(Some(&|_| to_rad_per_s)).ok()?;
-                    found.partition_point(|c| c.speed_rad_per_s <= to_rad_per_s)
-                }
-            };
-            let is_held = count <= last_of_all_pairs(&saw.plate);
-            if is_held {
-                counted = (rung > 0).then_some((saw, count));
-                break;
-            }
-            if is_last(&saw, rung) {
-                break;
-            }
+        let smallest = Plate::new(scene, resolution(LADDER[0]));
+        let waves = StandingWaves::up_to(&smallest, &|_| to_rad_per_s).ok()?;
+        let is_short = waves.speeds_rad_per_s.len() <= FEW;
+        if is_short || waves.most_diameters > SWEPT + waves.lowest_diameters {
+            return None;
         }
-        let (saw, critical_speeds) = counted?;
+        let saw = Assembled::from(Plate::new(scene, sized(0, waves.most_diameters)));
+        let critical_speeds = match saw.critical_speeds_below(to_rad_per_s) {
+            Some(count) => count,
+            None => {
+                let found = saw.critical_speeds(Some(&|_| to_rad_per_s)).ok()?;
+                found.partition_point(|c| c.speed_rad_per_s <= to_rad_per_s)
+            }
+        };
         let (seconds, power) = match (saw.plate.is_axisymmetric(), saw.plate.is_conservative()) {
             (true, _) => FREE,
             (false, true) => GUIDED,

@@ -125,7 +125,7 @@ impl<'a> Heating<'a> {
         let now_k = temperature.peak_rise_k;
         Heating {
             model,
-            per_kelvin: membrane_stiffness(&plate.basis, &stress, plate.max_diameters()),
+            per_kelvin: membrane_stiffness(&plate.basis, &stress, 0..=plate.max_diameters()),
             now_k,
             direction: if now_k < 0.0 { -1.0 } else { 1.0 },
         }

@@ -29,18 +29,31 @@ const fn steps_ahead(rung: usize) -> usize {
     if rung <= 4 { 3 } else { 2 }
 }
 
-/// Size that measures the error of a size of the ladder.
-pub(super) fn ahead(rung: usize) -> Resolution {
-    let mut sizes = LADDER.into_iter().chain(BEYOND);
-    let larger = sizes.nth(rung + steps_ahead(rung));
-    resolution(larger.unwrap_or(BEYOND[1]))
+/// Size of the ladder with at least a given number of nodal diameters.
+pub(super) fn sized(rung: usize, diameters: usize) -> Resolution {
+    let (own, functions) = LADDER[rung];
+    resolution((own.max(diameters), functions))
 }
 
-/// Sizes with more nodal diameters than a given size, ascending.
-pub(super) fn larger_than(least: Resolution) -> impl Iterator<Item = Resolution> {
-    let larger = LADDER.into_iter();
-    let larger = larger.filter(move |(max_diameters, _)| *max_diameters > least.max_diameters);
-    larger.map(resolution)
+/// Number of nodal diameters of a size from [`sized`] if it has more than the ladder; 0 otherwise.
+pub(super) fn diameters_beyond(size: Resolution) -> usize {
+    match size.max_diameters > LADDER[rung_of(size)].0 {
+        true => size.max_diameters,
+        false => 0,
+    }
+}
+
+/// Size that measures the error of a size from [`sized`]. It has more diameters in the same proportion.
+pub(super) fn ahead(size: Resolution) -> Resolution {
+    let rung = rung_of(size);
+    let mut sizes = LADDER.into_iter().chain(BEYOND);
+    let larger = sizes.nth(rung + steps_ahead(rung));
+    let larger = resolution(larger.unwrap_or(BEYOND[1]));
+    let diameters = (size.max_diameters * larger.max_diameters).div_ceil(LADDER[rung].0);
+    Resolution {
+        max_diameters: larger.max_diameters.max(diameters),
+        ..larger
+    }
 }
 
 /// The next smaller size of the ladder, if there is one.
@@ -48,9 +61,10 @@ pub(super) fn next_smaller(size: Resolution) -> Resolution {
     resolution(LADDER[rung_of(size).saturating_sub(1)])
 }
 
-/// Index of a size in the ladder; 0 for any other size.
+/// Index of the size in the ladder with the same number of radial functions; 0 for any other size.
 pub(super) fn rung_of(size: Resolution) -> usize {
-    let place = LADDER.iter().position(|rung| resolution(*rung) == size);
+    let functions = size.radial_functions;
+    let place = LADDER.iter().position(|rung| rung.1 == functions);
     place.unwrap_or(0)
 }
 

@@ -6,8 +6,8 @@ use faer::{Col, Mat};
 use super::basis::{MODES_AT_REST, REMAINDER};
 use super::error::AnalysisError;
 use super::estimate::Estimates;
-use super::ladder::{DENSE_LADDER, LADDER, ahead, resolution, rung_of};
-use crate::plate::{Contact, ContactTerms, Plate};
+use super::ladder::{DENSE_LADDER, LADDER, ahead, diameters_beyond, resolution, rung_of, sized};
+use crate::plate::{Contact, ContactTerms, Plate, Resolution};
 use crate::scene::{Guide, Scene};
 use crate::spectrum::{Assembled, LargerBasis};
 
@@ -46,17 +46,21 @@ impl OutOfReach {
         if rung < STEPS_BACK {
             return Ok(None);
         }
-        let coarse = Smaller::new(scene, rung - STEPS_BACK, to_rad_per_s)?;
+        let diameters = diameters_beyond(plate.resolution);
+        let coarse = Smaller::new(scene, sized(rung - STEPS_BACK, diameters), to_rad_per_s)?;
         let critical = estimates.critical.iter().copied();
         let fine = critical.fold(estimates.at_rest, f64::max);
         let orders = [&coarse.plate, plate].map(|plate| plate.degrees_of_freedom() as f64);
         let power = (coarse.error / fine).ln() / (orders[1] / orders[0]).ln();
         let functions = orders[1] * (error / scene.tolerance()).powf(1.0 / power);
         let is_advice = power > 0.0 && functions < MOST_FUNCTIONS;
+        let most = resolution(DENSE_LADDER[DENSE_LADDER.len() - 1]).degrees_of_freedom();
+        let next = (rung + 1 < LADDER.len()).then(|| sized(rung + 1, diameters));
+        let is_within = plate.resolution.degrees_of_freedom() <= most;
         Ok(Some(OutOfReach {
             guide: coarse.sharpest(scene.guides()),
             functions: is_advice.then_some(functions),
-            is_dense: rung + 1 == DENSE_LADDER.len(),
+            is_dense: is_within && next.is_some_and(|size| size.degrees_of_freedom() > most),
         }))
     }
 }
@@ -76,9 +80,9 @@ struct Smaller {
 }
 
 impl Smaller {
-    fn new(scene: &Scene, rung: usize, to_rad_per_s: f64) -> Result<Self, AnalysisError> {
-        let saw = Assembled::from(Plate::new(scene, resolution(LADDER[rung])));
-        let finer = Plate::new(scene, ahead(rung));
+    fn new(scene: &Scene, size: Resolution, to_rad_per_s: f64) -> Result<Self, AnalysisError> {
+        let saw = Assembled::from(Plate::new(scene, size));
+        let finer = Plate::new(scene, ahead(size));
         let larger = LargerBasis::new(&saw.plate, &finer)?;
         let critical = saw.critical_speeds(Some(&|_| to_rad_per_s))?;
         let within = critical.into_iter();

@@ -6,10 +6,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::band::InstabilityKind;
-use super::basis::{ChosenBasis, PAST_THE_RANGE};
+use super::basis::ChosenBasis;
 use super::chart::{StabilityChart, chart};
 use super::error::AnalysisError;
-use super::ladder::{LADDER, resolution};
+use super::ladder::{LADDER, diameters_beyond, resolution};
+use super::reach::PAST_THE_RANGE;
 use crate::campbell::Progress;
 use crate::plate::{Plate, Resolution};
 use crate::scene::Scene;
@@ -78,7 +79,12 @@ struct Events {
 /// # Errors
 /// [`AnalysisError`] when an eigenproblem fails.
 pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, AnalysisError> {
-    let range = ChosenBasis::new(scene, 1e-3)?.range_rad_per_s;
+    let chosen = ChosenBasis::new(scene, 1e-3)?;
+    let range = chosen.range_rad_per_s;
+    // Every size contains the waves that stand still within the range.
+    let needed = diameters_beyond(chosen.saw.plate.resolution);
+    let sized =
+        |(diameters, functions): (usize, usize)| resolution((needed.max(diameters), functions));
     let mut runs: Vec<(Method, (usize, usize), usize)> = Vec::new();
     let mut add = |method: Method, sizes: &[(usize, usize)], speeds: usize| {
         runs.extend(sizes.iter().map(|size| (method, *size, speeds)));
@@ -90,11 +96,11 @@ pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, A
     add(Method::Dense, &SIZES[..DENSE_SIZES], SPEEDS);
     add(Method::CriticalSpeeds, SIZES, 0);
     let count = runs.len() + 1;
-    let truth = events(scene, Method::Reduced, resolution(TRUTH), SPEEDS, range)?;
+    let truth = events(scene, Method::Reduced, sized(TRUTH), SPEEDS, range)?;
     progress(1, count);
     let mut settings = Vec::new();
     for (done, (method, size, speeds)) in runs.into_iter().enumerate() {
-        let resolution = resolution(size);
+        let resolution = sized(size);
         let timed = || -> Result<(Events, f64), AnalysisError> {
             let start = Instant::now();
             let found = events(scene, method, resolution, speeds, range)?;
@@ -108,9 +114,9 @@ pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, A
         }
         settings.push(Setting {
             method,
-            max_diameters: size.0,
-            radial_functions: size.1,
-            functions: resolution.degrees_of_freedom(),
+            max_diameters: resolution.max_diameters,
+            radial_functions: resolution.radial_functions_on(scene.blade()),
+            functions: resolution.degrees_of_freedom_on(scene.blade()),
             speeds,
             seconds,
             error: found.error(&truth),

@@ -39,7 +39,7 @@ use faer::{Col, Mat, MatRef, Scale};
 
 use crate::linalg::symmetric_eigenvalues;
 use crate::plate::{GapPotential, Plate, ReducedStretching, StretchingError};
-use crate::scene::{Blade, rpm};
+use crate::scene::Blade;
 use crate::spectrum::SpectrumError;
 use crate::system::GyroscopicSystem;
 

@@ -300,6 +300,12 @@ pub fn trust(text: &mut String, report: &Report) -> Result {
             report.accuracy.degrees_of_freedom
         )?;
     }
+    let accuracy = &report.accuracy;
+    writeln!(
+        text,
+        "Waves of up to {} nodal diameters; none of more stands still up to {:.0} rpm",
+        accuracy.max_diameters, accuracy.complete_to_rpm
+    )?;
     each(text, "Warning", &report.warnings)
 }
 

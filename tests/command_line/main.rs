@@ -25,6 +25,7 @@ mod faults;
 mod gap;
 mod growth;
 mod input;
+mod large_flange;
 mod map;
 mod matrices;
 mod membrane;

@@ -57,6 +57,10 @@ fn blocks_of_the_matrices_are_where_their_description_says() {
         let (diameters, radial) = (number("max_diameters"), number("radial_functions"));
         assert_eq!(report.accuracy.max_diameters, diameters);
         assert_eq!(report.accuracy.radial_functions, radial);
+        // These two numbers name the same basis when they are given to the command.
+        let named = format!("{diameters},{radial}");
+        let again = said("export", &["--matrices", "--basis", &named]);
+        assert_eq!(again, console);
         let all = radial * (1 + 2 * diameters);
         let expected =
             format!("{all} functions: n up to {diameters}, {radial} radial functions each");

@@ -109,7 +109,10 @@ fn no_critical_speed_is_named_by_none_or_one_diameter() {
         let path = entry.unwrap().path();
         let text = std::fs::read_to_string(&path).unwrap();
         let saw = Scene::from_json(&text).unwrap();
-        let resolution = Resolution::new(6, 4).unwrap();
+        let resolution = Resolution {
+            max_diameters: 6,
+            radial_functions: 4,
+        };
         let critical = SpectralModel::critical_speeds(&Plate::new(&saw, resolution)).unwrap();
         for critical in &critical {
             let waves = &critical.name.waves;

@@ -66,6 +66,7 @@ pub fn dense_analysis(
     Analysis {
         model,
         range_rad_per_s: range,
+        complete_to_rad_per_s: range.1,
         chart,
         flutter_speed_rad_per_s: None,
         first_merge_rad_per_s: None,

@@ -107,7 +107,7 @@ impl LyingBlade {
         let basis = RadialBasis::new(blade, functions);
         let centrifugal = CentrifugalStress::new(blade);
         let stress = MembraneStress::new(blade, &Membrane::of_bands(bands));
-        let stiffness = stress.map(|stress| membrane_stiffness(&basis, &stress, most));
+        let stiffness = stress.map(|stress| membrane_stiffness(&basis, &stress, 0..=most));
         let weight_n = GRAVITY_M_PER_S2 * blade.mass_kg();
         let wave = |n: usize| {
             // The first function of n = 0 is the rigid heave, that of n = 1 the rigid tilt.

@@ -18,6 +18,8 @@ mod eigenstrain;
 
 pub use eigenstrain::Eigenstrain;
 
+use std::ops::RangeInclusive;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::in_plane::{InPlaneField, InPlaneLoad};
@@ -215,20 +217,20 @@ impl MembraneStress {
     }
 }
 
-/// Geometric stiffness K_m of n = 0 … n_max in the mass-normalised basis, in 1/s²:
+/// Geometric stiffness K_m of a range of nodal diameters n in the mass-normalised basis, in 1/s²:
 /// (1/ρ) ∫ h/h₀ [σ_rr R′R′ + n² σ_θθ RR/r²] r dr. Panels end where the stress is not smooth.
 pub fn membrane_stiffness(
     basis: &RadialBasis,
     stress: &MembraneStress,
-    max_diameters: usize,
+    diameters: RangeInclusive<usize>,
 ) -> Vec<DMatrix<f64>> {
-    stiffness_with(basis, stress, max_diameters, stress.points(basis.count()))
+    stiffness_with(basis, stress, diameters, stress.points(basis.count()))
 }
 
 fn stiffness_with(
     basis: &RadialBasis,
     stress: &MembraneStress,
-    max_diameters: usize,
+    diameters: RangeInclusive<usize>,
     points: usize,
 ) -> Vec<DMatrix<f64>> {
     let size = basis.count();
@@ -248,7 +250,7 @@ fn stiffness_with(
             hoop.ger(w / r * at.hoop_pa / density, &value, &value, 1.0);
         }
     }
-    (0..=max_diameters)
+    diameters
         .map(|n| {
             let n2 = (n * n) as f64;
             let mut block = basis.turned(n, n, &radial + &hoop * n2);
