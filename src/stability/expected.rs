@@ -23,6 +23,9 @@ const FREE: (f64, i32) = (0.022, 3);
 
 /// The search is short if the free blade has at most this number of critical speeds within the sweep.
 const FEW: usize = 17;
+/// Index of the size of the ladder whose radial functions count the others: ten represent the waves of 24 diameters of the
+/// paper's blade.
+const COUNTED: usize = 3;
 
 /// Work expected for a chart before it begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,7 +51,7 @@ impl ExpectedWork {
         if is_short || waves.most_diameters > SWEPT + waves.lowest_diameters {
             return None;
         }
-        let saw = Assembled::from(Plate::new(scene, sized(0, waves.most_diameters)));
+        let saw = Assembled::from(Plate::new(scene, sized(COUNTED, waves.most_diameters)));
         let critical_speeds = match saw.critical_speeds_below(to_rad_per_s) {
             Some(count) => count,
             None => {
