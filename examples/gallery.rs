@@ -4,8 +4,8 @@ use std::path::Path;
 
 use anyhow::Context;
 use sawflutter::check::{Check, Limits};
+use sawflutter::commands::CommandReport;
 use sawflutter::deflect::{Deflecting, Options};
-use sawflutter::figure::Figures;
 use sawflutter::fit::{Fit, Measurement};
 use sawflutter::gap::{self, GuideGaps};
 use sawflutter::map::{self, Map, Range};
@@ -178,14 +178,14 @@ fn cut(scene: &Scene) -> anyhow::Result<CutReport> {
     Ok(CutReport::new(&cutting))
 }
 
-fn pngs(report: &impl Figures) -> anyhow::Result<Vec<Figure>> {
+fn pngs(report: &impl CommandReport) -> anyhow::Result<Vec<Figure>> {
     let figures = report.figures().into_iter();
     figures
         .map(|figure| Ok((figure.names()[0], figure.png()?)))
         .collect()
 }
 
-fn svgs(report: &impl Figures) -> anyhow::Result<Vec<Figure>> {
+fn svgs(report: &impl CommandReport) -> anyhow::Result<Vec<Figure>> {
     let figures = report.figures().into_iter();
     figures
         .map(|figure| Ok((figure.names()[1], figure.svg()?.into_bytes())))

@@ -24,11 +24,6 @@ if TYPE_CHECKING:
 R = TypeVar("R", bound="Result")
 
 
-def pictures(*names: str) -> tuple[str, ...]:
-    """The files of figures."""
-    return tuple(f"{name}.{kind}" for name in names for kind in ("svg", "png"))
-
-
 class Report(Drawn):
     """Base of all reports. It keeps the JSON of the program unchanged: :meth:`save` writes the
     same bytes as the program.
@@ -130,6 +125,10 @@ class Result(Report, Entry):
 
     command: ClassVar[str] = ""
     """The command of the program that reports it."""
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        cls.figure_names = tuple(_native.figure_names(cls.command))
 
     _steps: ClassVar[str] = "speeds"
     """Name of its steps, for the progress bar."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ._report_types import CheckReport
-from ._result import Result, pictures
+from ._result import Result
 
 
 class CheckResults(Result, CheckReport):
@@ -12,7 +12,6 @@ class CheckResults(Result, CheckReport):
     """
 
     command, table = "check", "criteria"
-    figure_names = pictures("check")
 
     def __bool__(self) -> bool:
         return self.passed

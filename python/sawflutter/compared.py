@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from . import _native
 from ._progress import Progress, reporting
 from ._report_types import CompareReport
-from ._result import Result, pictures
+from ._result import Result
 
 if TYPE_CHECKING:
     from .results import CampbellResults
@@ -20,7 +20,6 @@ class CompareResults(Result, CompareReport):
     differences between their scenes. Its chart overlays their Campbell diagrams."""
 
     command, table = "compare", "saws"
-    figure_names = pictures("compare")
 
     def _warnings(self) -> tuple[str, ...]:
         return tuple(f"{saw.label}: {text}" for saw in self.saws for text in saw.warnings)

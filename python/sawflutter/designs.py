@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from ._drawn import Drawn
 from ._entry import Entry, FloatArray
 from ._report_types import FitReport, PlaceReport, Setting
-from ._result import Report, Result, pictures
+from ._result import Report, Result
 
 if TYPE_CHECKING:
     from .plot.chart import Chart
@@ -21,7 +21,6 @@ class FitResults(Result, FitReport):
     """A saw fitted to measured frequencies; :attr:`saw` is the calibrated scene."""
 
     command, table, _steps = "fit", "parameters", "starts"
-    figure_names = pictures("fit")
 
     def _facts(self) -> str:
         found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
@@ -33,7 +32,6 @@ class PlaceResults(Result, PlaceReport):
     panel without a map."""
 
     command, table, _steps = "place", "parameters", "saws"
-    figure_names = pictures("place")
 
     def _facts(self) -> str:
         found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)

@@ -10,7 +10,7 @@ from . import _native
 from ._entry import FloatArray, array
 from ._extras import extra
 from ._report_types import MapReport
-from ._result import Result, pictures
+from ._result import Result
 from ._values import plain
 
 if TYPE_CHECKING:
@@ -24,7 +24,6 @@ class MapResults(Result, MapReport):
     """Stability over one number of a saw and the speed, or over two numbers."""
 
     command, table = "map", "saws"
-    figure_names = pictures("map")
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from ._extras import frame
 from ._report_types import CutReport, DeflectReport, GapReport, ResponseReport, RunUpReport, WashboardReport
-from ._result import Result, pictures
+from ._result import Result
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -18,7 +18,6 @@ class CutResults(Result, CutReport):
     """A saw in a cut, at one or several speeds."""
 
     command, table, _steps = "cut", "runs", "points of the map"
-    figure_names = pictures("cut", "cut-map", "spline-orbit")
 
     def map_chart(self, run: int = 0) -> Chart:
         """Growth over guide angle and load for one of the runs.
@@ -60,7 +59,6 @@ class RunUpResults(Result, RunUpReport):
     """A run-up under a lateral force."""
 
     command, _steps = "runup", "steps"
-    figure_names = pictures("runup", "response-map", "runup-map")
 
     def _rows(self) -> pd.DataFrame:
         return frame({"rpm": self.rpm, "deflection_m": self.deflection_m})
@@ -101,7 +99,6 @@ class DeflectResults(Result, DeflectReport):
     """Equilibrium deflection of the blade while its speed slowly rises and falls."""
 
     command, _steps = "deflect", "equilibria"
-    figure_names = pictures("deflect")
 
     def _rows(self) -> pd.DataFrame:
         names = ("rpm", "deflection_m", "largest_deflection_m", "largest_slope")
@@ -122,7 +119,6 @@ class ResponseResults(Result, ResponseReport):
     """Steady-state amplitude and phase over the speed, and over the frequency at one speed."""
 
     command = "response"
-    figure_names = pictures("response", "frequency-response")
 
     def _rows(self) -> pd.DataFrame:
         columns = {line.name: line.amplitude_m for line in self.lines}
@@ -141,7 +137,6 @@ class GapResults(Result, GapReport):
     """Guides with a gap: the chart over the amplitude, and the deflection at the cut."""
 
     command, _steps = "gap", "amplitudes"
-    figure_names = pictures("gap")
 
     def _rows(self) -> pd.DataFrame:
         found = self.deviation
@@ -165,7 +160,6 @@ class WashboardResults(Result, WashboardReport):
     motion grow."""
 
     command, table = "washboard", "modes"
-    figure_names = pictures("washboard")
 
     def _facts(self) -> str:
         least = self.critical_stiffness_n_per_m

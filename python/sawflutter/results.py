@@ -14,7 +14,7 @@ from ._entry import FloatArray, array
 from ._extras import entries, extra, read
 from ._methods import know_bands
 from ._report_types import Branch, CampbellReport, Instability, Mode
-from ._result import Result, pictures
+from ._result import Result
 from .designs import TradeoffResults
 from .errors import InputError
 
@@ -31,7 +31,6 @@ class CampbellResults(Result, CampbellReport):
     """Campbell diagram, critical speeds and bands of instability of a saw."""
 
     command = "analyze"
-    figure_names = pictures("campbell", "root-loci", "membrane", "in-cut", "modes")
 
     @property
     def critical_rpm(self) -> FloatArray:

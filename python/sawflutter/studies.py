@@ -9,7 +9,7 @@ import numpy as np
 
 from ._extras import extra, read
 from ._report_types import StudyReport
-from ._result import Result, pictures
+from ._result import Result
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -21,7 +21,6 @@ class StudyResults(Result, StudyReport):
     """Summary of many saws; :meth:`sawflutter.Study.run` returns it."""
 
     command = "study"
-    figure_names = pictures("study")
 
     _table: Path | str | None = None
     """``study.csv``: where it is, or what is in it."""

@@ -2,42 +2,27 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use sawflutter::document;
-use sawflutter::figure::{self, Figures};
-use sawflutter::report::{
-    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
-    PlaceReport, Report, ResponseReport, RunUpReport, WashboardReport,
-};
-use sawflutter::study::StudyReport;
+use sawflutter::commands::{Command, CommandReport};
+use sawflutter::figure;
+use sawflutter::report::Report;
 
 use crate::failure::Failure;
 
-/// Reads a report of the command of this name and applies a function to it. Callers add the kinds of reports that not
-/// every function accepts.
-macro_rules! read {
-    ($command:expr, |$report:ident| $answer:expr $(, $also:literal => $more:ty)?) => {{
-        macro_rules! of {
-            ($kind:ty) => {
-                serde_json::from_str::<$kind>($report).map(|$report| $answer)
-            };
-        }
-        let read = match $command {
-            "check" => of!(CheckReport),
-            "compare" => of!(CompareReport),
-            "cut" => of!(CutReport),
-            "response" => of!(ResponseReport),
-            "runup" => of!(RunUpReport),
-            "deflect" => of!(DeflectReport),
-            "gap" => of!(GapReport),
-            "washboard" => of!(WashboardReport),
-            "fit" => of!(FitReport),
-            "map" => of!(MapReport),
-            "place" => of!(PlaceReport),
-            $($also => of!($more),)?
-            _ => of!(Report),
-        };
-        read.map_err(Failure::from)?
-    }};
+/// The command of a name.
+fn named(command: &str) -> Result<&'static Command, Failure> {
+    Command::named(command).ok_or_else(|| Failure::Failed(format!("no command {command:?}")))
+}
+
+/// Reads a report of the command of this name.
+fn read(command: &str, report: &str) -> Result<Box<dyn CommandReport>, Failure> {
+    Ok(named(command)?.read(report)?)
+}
+
+/// File names of the figures that reports of the command of this name may have, SVG before PNG.
+#[pyfunction]
+pub fn figure_names(command: &str) -> PyResult<Vec<&'static str>> {
+    let figures = named(command)?.figures.iter();
+    Ok(figures.flat_map(|[png, svg]| [*svg, *png]).collect())
 }
 
 /// A figure of a report by the name of its file; `None` if the saw has no data for it.
@@ -48,14 +33,13 @@ pub fn picture(
     name: &str,
     report: &str,
 ) -> PyResult<Option<Py<PyBytes>>> {
-    let bytes = py.detach(|| -> Result<_, Failure> {
-        read!(command, |report| drawn(&report, name), "study" => StudyReport)
-    })?;
+    let bytes = py.detach(|| drawn(&*read(command, report)?, name))?;
     Ok(bytes.map(|bytes| PyBytes::new(py, &bytes).unbind()))
 }
 
-fn drawn<R: Figures>(report: &R, name: &str) -> Result<Option<Vec<u8>>, Failure> {
-    if !R::NAMES.iter().flatten().any(|own| *own == name) {
+fn drawn(report: &dyn CommandReport, name: &str) -> Result<Option<Vec<u8>>, Failure> {
+    let mut names = report.command().figures.iter().flatten();
+    if !names.any(|own| *own == name) {
         return Err(Failure::argument(
             "name",
             format!("{name:?}"),
@@ -70,7 +54,7 @@ fn drawn<R: Figures>(report: &R, name: &str) -> Result<Option<Vec<u8>>, Failure>
 /// The summary that the program prints for a report of the command of this name.
 #[pyfunction]
 pub fn summary(command: &str, report: &str) -> PyResult<String> {
-    Ok(read!(command, |report| report.summary(), "study" => StudyReport))
+    Ok(read(command, report)?.summary())
 }
 
 /// The page of a report of the command of this name; `None` if reports of this kind have none.
@@ -79,14 +63,14 @@ pub fn page(command: &str, report: &str) -> PyResult<Option<String>> {
     if command == "study" {
         return Ok(None);
     }
-    let page = read!(command, |report| document::page(&report));
-    Ok(Some(page.map_err(Failure::from)?))
+    let page = read(command, report)?.page().map_err(Failure::from)?;
+    Ok(Some(page))
 }
 
 /// The description of a figure of this name, as JSON; `None` if the report has no data for it.
 #[pyfunction]
 pub fn chart(command: &str, name: &str, report: &str) -> PyResult<Option<String>> {
-    let chart = read!(command, |report| report.chart(name), "study" => StudyReport);
+    let chart = read(command, report)?.chart(name);
     let text = chart.map(|chart| serde_json::to_string(&chart));
     Ok(text.transpose().map_err(Failure::from)?)
 }

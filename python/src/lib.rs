@@ -21,7 +21,9 @@ mod _native {
     #[pymodule_export]
     use super::commands::{compare, run};
     #[pymodule_export]
-    use super::figures::{campbell_csv, chart, page, palette, picture, summary, vtk_files};
+    use super::figures::{
+        campbell_csv, chart, figure_names, page, palette, picture, summary, vtk_files,
+    };
     #[pymodule_export]
     use super::map::Map;
     #[pymodule_export]
@@ -92,7 +94,7 @@ fn schema() -> String {
     serde_json::json!({
         "scene": sawflutter::scene::json_schema(),
         "study": sawflutter::study::json_schema(),
-        "reports": sawflutter::report::json_schema(),
+        "reports": sawflutter::commands::json_schema(),
     })
     .to_string()
 }

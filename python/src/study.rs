@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use sawflutter::figure::Figures;
+use sawflutter::commands::CommandReport;
 use sawflutter::study::{
     self, CsvTable, Log, LogError, Outcome, ParquetTable, Rows, Saw, Shard, StudyFile, Table,
 };
@@ -177,7 +177,7 @@ impl Study {
             files.push((svg, figure.svg()?.into_bytes()));
         }
         let json = serde_json::to_string_pretty(&report)?;
-        files.push(("study.json", json.into_bytes()));
+        files.push((study::StudyReport::COMMAND.file, json.into_bytes()));
         Ok(files)
     }
 }

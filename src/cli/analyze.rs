@@ -12,7 +12,7 @@ use clap::Args;
 use super::common::{Changes, NamedFile, Output, number, read_scene};
 use super::output::OutputFolder;
 use super::page::Page;
-use super::pictures::{self, figure_names};
+use super::pictures;
 use super::progress::watched_with_remarks;
 use super::several;
 
@@ -177,7 +177,7 @@ fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
 
 /// Names of files that not every run writes.
 fn optional_names() -> Vec<&'static str> {
-    [&figure_names::<Report>()[..], &VTK_NAMES].concat()
+    [&Report::COMMAND.figures.concat()[..], &VTK_NAMES].concat()
 }
 
 /// Charts a saw into a folder of its own.
@@ -237,6 +237,6 @@ fn files(arguments: &Arguments, report: &Report) -> anyhow::Result<(Vec<NamedFil
         let vtk = report.vtk_files().into_iter();
         files.extend(vtk.map(|(name, text)| (name, text.into_bytes())));
     }
-    files.push(("report.json", json.clone().into_bytes()));
+    files.push((Report::COMMAND.file, json.clone().into_bytes()));
     Ok((files, json))
 }

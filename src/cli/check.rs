@@ -82,7 +82,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     let json = serde_json::to_string_pretty(&report)?;
     if let Some(folder) = folder {
         let mut files = drawn(&report)?;
-        files.push(("check.json", json.clone().into_bytes()));
+        files.push((CheckReport::COMMAND.file, json.clone().into_bytes()));
         folder.write_together(&files, &[])?;
     }
     match arguments.json {

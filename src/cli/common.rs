@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::document::Documented;
+use crate::commands::CommandReport;
 use crate::scene::{Accuracy, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting};
 use crate::text::{FileError, Kind, printable, read_path, read_stream};
 use anyhow::Context;
@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::output::{OutputFolder, Writing};
 use super::page::Page;
 use super::paint::Paint;
-use super::pictures::{drawn, figure_names};
+use super::pictures::drawn;
 
 /// The scene of a command, and changes of it.
 #[derive(Args, Default)]
@@ -202,23 +202,22 @@ impl Output {
         OutputFolder::open(path.unwrap_or(Path::new("sawflutter-out")))
     }
 
-    /// Writes the page of a report, its figures, the `others` and, under `name`, the report itself, and prints the
-    /// report.
-    pub fn report<R: Documented + Serialize>(
+    /// Writes the page of a report, its figures, the `others` and the report itself, and prints the report.
+    pub fn report<R: CommandReport + Serialize>(
         &self,
         folder: &OutputFolder,
         page: &Page,
         report: &R,
         others: Vec<NamedFile>,
-        name: &'static str,
     ) -> anyhow::Result<()> {
+        let command = report.command();
         page.write(report)?;
         let json = serde_json::to_string_pretty(report)?;
         let mut files = drawn(report)?;
         files.extend(others);
-        files.push((name, json.clone().into_bytes()));
-        let summary = || report.document().summary;
-        self.print(folder, &files, &figure_names::<R>(), &json, summary)
+        files.push((command.file, json.clone().into_bytes()));
+        let optional = command.figures.concat();
+        self.print(folder, &files, &optional, &json, || report.summary())
     }
 
     /// Writes the files as [`Writing::finish`] describes, and prints the report, as a summary or as JSON.

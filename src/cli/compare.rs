@@ -74,13 +74,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         CompareReport::new(compared).ok_or_else(|| anyhow!("there is no saw to compare"))
     })??;
     let output = &arguments.output;
-    output.report(
-        &folder,
-        &arguments.page,
-        &report,
-        Vec::new(),
-        "compare.json",
-    )
+    output.report(&folder, &arguments.page, &report, Vec::new())
 }
 
 /// Reads the saws and labels them. Scenes without a sweep get a common one.

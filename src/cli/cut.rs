@@ -113,5 +113,5 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     })??;
     let report = CutReport::new(&cutting);
     let output = &arguments.common.output;
-    output.report(&folder, &arguments.page, &report, Vec::new(), "cut.json")
+    output.report(&folder, &arguments.page, &report, Vec::new())
 }

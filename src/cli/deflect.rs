@@ -56,11 +56,5 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     })?;
     let report = DeflectReport::new(&found);
     let output = &arguments.common.output;
-    output.report(
-        &folder,
-        &arguments.page,
-        &report,
-        Vec::new(),
-        "deflect.json",
-    )
+    output.report(&folder, &arguments.page, &report, Vec::new())
 }

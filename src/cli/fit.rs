@@ -86,7 +86,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let fitted = serde_json::to_string_pretty(&report.scene)?;
     let others = vec![("fitted-scene.json", fitted.into_bytes())];
     let output = &arguments.common.output;
-    output.report(&folder, &arguments.page, &report, others, "fit.json")
+    output.report(&folder, &arguments.page, &report, others)
 }
 
 /// The frequencies of the table, or those of the scene.

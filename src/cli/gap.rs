@@ -98,5 +98,5 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     })?;
     let report = GapReport::new(&found);
     let output = &arguments.common.output;
-    output.report(&folder, &arguments.page, &report, Vec::new(), "gap.json")
+    output.report(&folder, &arguments.page, &report, Vec::new())
 }

@@ -81,7 +81,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let rows = Rows::of(study, Log::all_in(folder.path())?)?;
     let report = MapReport::of_rows(&map, &rows)?;
     let output = &arguments.output;
-    output.report(&folder, &arguments.page, &report, Vec::new(), "map.json")
+    output.report(&folder, &arguments.page, &report, Vec::new())
 }
 
 fn planned(arguments: &Arguments) -> anyhow::Result<Map> {

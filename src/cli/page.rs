@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::document::{self, Documented};
+use crate::commands::CommandReport;
 use anyhow::Context;
 use clap::Args;
 
@@ -33,11 +33,11 @@ impl Page {
     }
 
     /// Writes the page, if it is requested, as a whole.
-    pub fn write(&self, report: &impl Documented) -> anyhow::Result<()> {
+    pub fn write(&self, report: &impl CommandReport) -> anyhow::Result<()> {
         let Some(path) = &self.report else {
             return Ok(());
         };
-        let page = document::page(report)?;
+        let page = report.page()?;
         let mut file = begun(path)?;
         let refused = || format!("cannot write {}", path.display());
         file.write_all(page.as_bytes()).with_context(refused)?;

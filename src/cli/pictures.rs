@@ -3,10 +3,11 @@
 use rayon::prelude::*;
 
 use super::common::NamedFile;
-use crate::figure::{Figure, FigureError, Figures};
+use crate::commands::CommandReport;
+use crate::figure::{Figure, FigureError};
 
 /// Draws every figure of a report as PNG and SVG.
-pub fn drawn(report: &impl Figures) -> Result<Vec<NamedFile>, FigureError> {
+pub fn drawn(report: &impl CommandReport) -> Result<Vec<NamedFile>, FigureError> {
     files(&report.figures())
 }
 
@@ -24,9 +25,4 @@ pub fn files(figures: &[Figure]) -> Result<Vec<NamedFile>, FigureError> {
         })
         .collect();
     files.into_iter().flatten().collect()
-}
-
-/// Names of the files of all figures that a report of this type may have.
-pub fn figure_names<R: Figures>() -> Vec<&'static str> {
-    R::NAMES.iter().flatten().copied().collect()
 }

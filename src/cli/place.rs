@@ -111,7 +111,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     let placed = serde_json::to_string_pretty(&report.scene)?;
     let others = vec![("placed-scene.json", placed.into_bytes())];
     let output = &arguments.common.output;
-    output.report(&folder, &arguments.page, &report, others, "place.json")?;
+    output.report(&folder, &arguments.page, &report, others)?;
     Ok(report.kept)
 }
 

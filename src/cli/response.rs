@@ -56,5 +56,5 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         other => other.into(),
     })?;
     let (output, page) = (&arguments.common.output, &arguments.page);
-    output.report(&folder, page, &report, Vec::new(), "response.json")
+    output.report(&folder, page, &report, Vec::new())
 }

@@ -96,5 +96,5 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     })??;
     let report = RunUpReport::new(&found);
     let output = &arguments.common.output;
-    output.report(&folder, &arguments.page, &report, Vec::new(), "runup.json")
+    output.report(&folder, &arguments.page, &report, Vec::new())
 }

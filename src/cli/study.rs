@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::scene::{SCENE_TEXT, Scene};
 use crate::study::{
-    self, CsvTable, Log, Rows, Shard, Study, StudyFile, Table, read_inputs, sum_up,
+    self, CsvTable, Log, Rows, Shard, Study, StudyFile, StudyReport, Table, read_inputs, sum_up,
 };
 use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
@@ -235,7 +235,7 @@ fn print(output: &Output, folder: &OutputFolder, rows: &Rows<'_>) -> anyhow::Res
     #[cfg(feature = "parquet")]
     writing.stage("study.parquet", parquet)?;
     writing.stage("study.csv", csv)?;
-    writing.stage_bytes("study.json", json.as_bytes())?;
+    writing.stage_bytes(StudyReport::COMMAND.file, json.as_bytes())?;
     // Only a program that was built with the feature `parquet` writes this file.
     let optional = ["study.parquet"];
     output.print_written(folder, writing, &optional, &json, || report.summary())

@@ -42,11 +42,5 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     })??;
     let report = WashboardReport::new(&found);
     let output = &arguments.common.output;
-    output.report(
-        &folder,
-        &arguments.page,
-        &report,
-        Vec::new(),
-        "washboard.json",
-    )
+    output.report(&folder, &arguments.page, &report, Vec::new())
 }

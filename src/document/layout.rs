@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::inputs::inputs;
-use super::{Document, Documented, Table};
-use crate::figure::FigureError;
+use super::{Document, Table};
+use crate::figure::{Figure, FigureError};
 use crate::scene::SceneFile;
 use crate::text::escaped;
 
@@ -19,17 +19,16 @@ pre{font-size:.85em;overflow-x:auto;white-space:pre-wrap}\
 figure{margin:1em 0;break-inside:avoid}figure svg{width:100%;height:auto}tr{break-inside:avoid}\
 @media print{body{margin:0;max-width:none;font-size:11px}h2{break-after:avoid}}@page{margin:15mm}";
 
-/// Returns the page of a report as HTML.
+/// Returns a page with its figures as HTML.
 ///
 /// # Errors
 /// [`FigureError`] if a figure cannot be drawn.
-pub fn page(report: &impl Documented) -> Result<String, FigureError> {
-    let figures = report.figures();
+pub fn page(document: &Document<'_>, figures: &[Figure]) -> Result<String, FigureError> {
     let figures = figures.iter().map(|figure| figure.svg());
     let figures = figures.collect::<Result<Vec<String>, _>>()?;
     let mut text = String::new();
     // Writing to a string cannot fail, so that the result is ignored.
-    let _ = write_page(&mut text, &report.document(), &figures);
+    let _ = write_page(&mut text, document, &figures);
     Ok(text)
 }
 
@@ -138,8 +137,7 @@ fn scene(text: &mut String, scene: &SceneFile) -> std::fmt::Result {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::figure::Figures;
+    use crate::commands::CommandReport;
     use crate::report::Report;
     use crate::scene::{Accuracy, Scene};
     use crate::stability::Analysis;
@@ -153,36 +151,9 @@ mod tests {
         Analysis::new(&scene.unwrap()).unwrap().report()
     }
 
-    /// The page contains the numbers of the report and every table, figure and key.
-    #[test]
-    fn a_page_contains_the_report_and_refers_to_no_other_file() {
-        let report = report("A saw");
-        let page = page(&report).unwrap();
-        let critical = format!(
-            "<td>{:.1}</td><td>{}</td>",
-            report.critical_speeds[0].rpm, report.critical_speeds[0].name
-        );
-        assert!(page.contains(&critical), "{critical}");
-        let summary = report.summary();
-        let verdict = summary.lines().find(|line| line.contains("1800 rpm?"));
-        assert!(page.contains(&escaped(verdict.unwrap())), "{verdict:?}");
-        assert!(page.contains(&escaped(&report.certificate.statement)));
-        assert!(page.contains(
-            "<td>blade.thickness_m</td><td>thickness of the blade</td><td>0.0028 m</td>"
-        ));
-        assert_eq!(page.matches("<svg").count(), report.figures().len());
-        assert_eq!(page.matches("<tr>").count(), page.matches("</tr>").count());
-        for outside in ["src=", "href=", "@import", "url("] {
-            assert!(!page.contains(outside), "{outside}");
-        }
-        let scene = page.split("id=\"scene\">").nth(1).unwrap();
-        let scene = Scene::from_json(scene.split("</script>").next().unwrap()).unwrap();
-        assert_eq!(*scene.file(), report.scene);
-    }
-
     #[test]
     fn texts_of_a_scene_are_no_tags() {
-        let page = page(&report("</script><b>&\"")).unwrap();
+        let page = report("</script><b>&\"").page().unwrap();
         assert!(!page.contains("<b>"), "a tag of the name");
         assert!(page.contains("&lt;/script&gt;&lt;b&gt;&amp;&quot;"));
         assert_eq!(page.matches("</script>").count(), 1);

@@ -9,11 +9,8 @@ mod of_report;
 
 pub use layout::page;
 
-use crate::figure::Figures;
-use crate::report::{
-    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
-    PlaceReport, Report, ResponseReport, RunUpReport, WashboardReport,
-};
+use crate::commands::CommandReport;
+use crate::report::Report;
 use crate::scene::SceneFile;
 
 /// Content of the page of a report.
@@ -48,72 +45,28 @@ pub struct Table {
     pub rows: Vec<Vec<String>>,
 }
 
-/// A report that has a page.
-pub trait Documented: Figures {
-    /// Returns the content of the page.
-    fn document(&self) -> Document<'_>;
-}
-
-/// Document of a report without answer, tables and certificate of its own.
-macro_rules! document {
-    ($report:ident, $command:literal, $warnings:expr) => {
+impl<'a> Document<'a> {
+    /// Content of a report without answer, tables and certificate of its own.
+    pub(crate) fn of_summary<R: CommandReport + ?Sized>(report: &'a R) -> Self {
         Document {
-            command: $command,
-            version: &$report.sawflutter,
-            scene: &$report.scene,
+            command: report.command().name,
+            version: report.version(),
+            scene: report.scene(),
             answer: Vec::new(),
-            warnings: $warnings,
+            warnings: report.warnings(),
             tables: Vec::new(),
             certificate: Vec::new(),
-            summary: $report.summary(),
+            summary: report.summary(),
         }
-    };
-    ($report:ident, $command:literal) => {{
-        let warnings = $report.unusual_numbers.iter().chain(&$report.warnings);
-        document!($report, $command, warnings.cloned().collect())
-    }};
-}
-
-macro_rules! documented {
-    ($($report:ty: $command:literal,)*) => {$(
-        impl Documented for $report {
-            fn document(&self) -> Document<'_> {
-                document!(self, $command)
-            }
-        }
-    )*};
-}
-
-documented! {
-    CheckReport: "check",
-    CutReport: "cut",
-    DeflectReport: "deflect",
-    GapReport: "gap",
-    FitReport: "fit",
-    MapReport: "map",
-    PlaceReport: "place",
-    ResponseReport: "response",
-    RunUpReport: "runup",
-    WashboardReport: "washboard",
-}
-
-impl Documented for CompareReport {
-    fn document(&self) -> Document<'_> {
-        let of_saws = self.saws.iter().flat_map(|saw| {
-            let warnings = saw.warnings.iter();
-            warnings.map(|warning| format!("{}: {warning}", saw.label))
-        });
-        document!(self, "compare", of_saws.collect())
     }
 }
 
-impl Documented for Report {
-    fn document(&self) -> Document<'_> {
-        Document {
-            answer: of_report::answer_lines(self),
-            tables: of_report::tables(self),
-            certificate: of_report::certificate(self),
-            ..document!(self, "analyze")
-        }
+/// Content of the page of a Campbell diagram.
+pub(crate) fn of_report(report: &Report) -> Document<'_> {
+    Document {
+        answer: of_report::answer_lines(report),
+        tables: of_report::tables(report),
+        certificate: of_report::certificate(report),
+        ..Document::of_summary(report)
     }
 }

@@ -11,7 +11,8 @@ use super::answers::{
 use super::meter::Meter;
 use super::refusal::Refusal;
 use super::tolerances::{Tolerance, Typed, study as study_of};
-use crate::figure::{Figure, Figures};
+use crate::commands::CommandReport;
+use crate::figure::Figure;
 use crate::fit::{self, Fit, FitError, Measurement};
 use crate::gap::{self, GapError, GuideGaps};
 use crate::map::{self, Map, Range};
@@ -26,28 +27,26 @@ use crate::study::{Saw, Study, StudyReport};
 use crate::transient::{Cutting, RunningUp, TransientError};
 use crate::washboarding::{Washboard, WashboardError};
 
-/// A command of the program.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Task {
-    /// `sawflutter cut`.
-    Cut,
-    /// `sawflutter runup`.
-    Runup,
-    /// `sawflutter washboard`.
-    Washboard,
-    /// `sawflutter fit`, to the scene's own measured frequencies.
-    Fit,
-    /// `sawflutter place`.
-    Place,
-    /// `sawflutter study` with tolerances.
-    Study,
-    /// `sawflutter response`.
-    Response,
-    /// `sawflutter map` within the usual bounds of one or two numbers.
-    Map,
-    /// `sawflutter gap`.
-    Gap,
-}
+/// Computes the answer to a request as JSON.
+type Work = fn(Scene, &Asked, &Meter<'_>) -> Result<String, Refusal>;
+
+/// The commands of the program that are tasks.
+const TASKS: [(&str, Work); 9] = [
+    (CutReport::COMMAND.name, cut),
+    (RunUpReport::COMMAND.name, runup),
+    (WashboardReport::COMMAND.name, washboard),
+    (FitReport::COMMAND.name, fit),
+    (PlaceReport::COMMAND.name, place),
+    (StudyReport::COMMAND.name, study),
+    (ResponseReport::COMMAND.name, response),
+    (MapReport::COMMAND.name, map),
+    (GapReport::COMMAND.name, gap),
+];
+
+/// A command of the program: `fit` to the scene's own measured frequencies, `study` with tolerances, `map` within the
+/// usual bounds of one or two numbers, and others as on the command line.
+#[derive(Clone, Copy)]
+pub struct Task(Work);
 
 /// A request for a task.
 #[derive(Deserialize)]
@@ -84,18 +83,8 @@ struct Answer<'a, R> {
 impl Task {
     /// Returns the task with the name of its command.
     pub fn named(name: &str) -> Option<Self> {
-        Some(match name {
-            "cut" => Task::Cut,
-            "runup" => Task::Runup,
-            "washboard" => Task::Washboard,
-            "fit" => Task::Fit,
-            "place" => Task::Place,
-            "study" => Task::Study,
-            "response" => Task::Response,
-            "map" => Task::Map,
-            "gap" => Task::Gap,
-            _ => return None,
-        })
+        let own = TASKS.iter().find(|(command, _)| *command == name);
+        own.map(|(_, work)| Task(*work))
     }
 
     /// Runs a request; returns JSON.
@@ -105,23 +94,12 @@ impl Task {
     pub fn run(self, asked: &str, meter: &Meter<'_>) -> Result<String, Refusal> {
         let asked: Asked = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
         let scene = Scene::from_json(&asked.scene.to_string())?;
-        match self {
-            Task::Cut => cut(&scene, meter),
-            Task::Runup => runup(&scene, meter),
-            Task::Washboard => washboard(&scene, meter),
-            Task::Fit => fit(&scene, meter),
-            Task::Place => place(&scene, &asked, meter),
-            Task::Study => study(scene, &asked, meter),
-            Task::Response => response(&scene),
-            Task::Map => map(scene, &asked, meter),
-            Task::Gap => gap(&scene),
-        }
+        (self.0)(scene, &asked, meter)
     }
 }
 
-fn answer<R: Figures + Serialize>(
+fn answer<R: CommandReport + Serialize>(
     report: &R,
-    summary: String,
     answers: Vec<TaskAnswer>,
     scene: Option<&SceneFile>,
 ) -> Result<String, Refusal> {
@@ -131,7 +109,7 @@ fn answer<R: Figures + Serialize>(
     });
     let figures = figures.collect::<Result<_, Refusal>>()?;
     let answer = Answer {
-        summary,
+        summary: report.summary(),
         answers,
         report,
         figures,
@@ -144,69 +122,59 @@ fn refused(error: TransientError) -> Refusal {
     Refusal::of(&error)
 }
 
-fn cut(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
+fn cut(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     let runs = scene.needed_cut()?.runs_at(&[])?;
     let progress = |done, of| meter.show("points of the map", done, of);
-    let cutting = Cutting::new(scene, &runs, &progress).map_err(refused)?;
+    let cutting = Cutting::new(&scene, &runs, &progress).map_err(refused)?;
     let report = CutReport::new(&cutting);
-    answer(&report, report.summary(), of_cut(&report), None)
+    answer(&report, of_cut(&report), None)
 }
 
-fn runup(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
+fn runup(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     scene.needed_runup()?;
     let progress = |done, of| meter.show("steps", done, of);
-    let found = RunningUp::new(scene, &progress).map_err(refused)?;
+    let found = RunningUp::new(&scene, &progress).map_err(refused)?;
     let report = RunUpReport::new(&found);
-    answer(&report, report.summary(), of_runup(&report), None)
+    answer(&report, of_runup(&report), None)
 }
 
-fn washboard(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
+fn washboard(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     let cut = scene.needed_washboarding()?;
     let run = cut.at_rpm(scene.needed_operating_rpm(None)?)?;
     let progress = |done, of| meter.show("speeds", done, of);
-    let found = Washboard::new(scene, &run, &progress);
+    let found = Washboard::new(&scene, &run, &progress);
     let found = found.map_err(|error: WashboardError| Refusal::of(&error))?;
     let report = WashboardReport::new(&found);
-    answer(&report, report.summary(), of_washboard(&report), None)
+    answer(&report, of_washboard(&report), None)
 }
 
-fn fit(scene: &Scene, meter: &Meter<'_>) -> Result<String, Refusal> {
+fn fit(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     let measurement = Measurement::of_scene(scene.needed_measured()?);
     let options = fit::Options::default().checked(&measurement)?;
-    let freed = Freed::to_fit(scene, &[])?;
+    let freed = Freed::to_fit(&scene, &[])?;
     let progress = |done, of| meter.show("starts", done, of);
-    let fit = Fit::new(scene, &measurement, &freed, &options, &progress);
+    let fit = Fit::new(&scene, &measurement, &freed, &options, &progress);
     let report = FitReport::new(&fit.map_err(|error: FitError| Refusal::of(&error))?);
-    answer(
-        &report,
-        report.summary(),
-        of_fit(&report),
-        Some(&report.scene),
-    )
+    answer(&report, of_fit(&report), Some(&report.scene))
 }
 
 const NO_LIMIT: &str = "The lower limit of the first critical speed must be above 0 rpm";
 
-fn place(scene: &Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
+fn place(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     let goal = match asked.window {
         false => Goal::FlutterSpeed,
-        true => Goal::window_of(scene)?,
+        true => Goal::window_of(&scene)?,
     };
     let limit = asked.min_critical_rpm.as_ref().map(Typed::number);
     let demands = Demands::new(goal, limit.transpose()?);
     let demands = demands.map_err(|_| Refusal::with_message(NO_LIMIT))?;
-    let freed = Freed::to_place(scene, &[])?;
+    let freed = Freed::to_place(&scene, &[])?;
     let progress = |what: &'static str, done, of| meter.show(what, done, of);
     let options = place::Options::default();
-    let found = Placement::new(scene, &freed, &demands, &options, &progress);
+    let found = Placement::new(&scene, &freed, &demands, &options, &progress);
     let found = found.map_err(|error: PlaceError| Refusal::of(&error))?;
     let report = PlaceReport::new(&demands, &found);
-    answer(
-        &report,
-        report.summary(),
-        of_place(&report),
-        Some(&report.scene),
-    )
+    answer(&report, of_place(&report), Some(&report.scene))
 }
 
 fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
@@ -218,7 +186,7 @@ fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
     };
     let saws = analysed(&study, meter, &so_far);
     let report = StudyReport::new(&study, &saws).map_err(|error| Refusal::of(&error))?;
-    answer(&report, report.summary(), Vec::new(), None)
+    answer(&report, Vec::new(), None)
 }
 
 /// Computes the saws of a study and returns them in the order of their numbers. In the meantime, it sends figures of
@@ -241,13 +209,13 @@ fn analysed(
     saws.into_inner().unwrap_or_else(|e| e.into_inner())
 }
 
-fn response(scene: &Scene) -> Result<String, Refusal> {
-    let found = ForcedResponse::new(scene, &response::Options::default());
+fn response(scene: Scene, _: &Asked, _: &Meter<'_>) -> Result<String, Refusal> {
+    let found = ForcedResponse::new(&scene, &response::Options::default());
     let report = ResponseReport::new(&found.map_err(|error| match error {
         ResponseError::Refused(refused) => refused.into(),
         other => Refusal::of(&other),
     })?);
-    answer(&report, report.summary(), of_response(&report), None)
+    answer(&report, of_response(&report), None)
 }
 
 const NO_AXIS: &str = "A map needs one or two numbers of the scene";
@@ -274,14 +242,14 @@ fn map(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal
     let map = Map::new(scene, &options).map_err(|error| Refusal::of(&error))?;
     let saws = analysed(map.study(), meter, &|_| None);
     let report = MapReport::new(&map, &saws);
-    answer(&report, report.summary(), Vec::new(), None)
+    answer(&report, Vec::new(), None)
 }
 
-fn gap(scene: &Scene) -> Result<String, Refusal> {
-    let found = GuideGaps::new(scene, &gap::Options::default());
+fn gap(scene: Scene, _: &Asked, _: &Meter<'_>) -> Result<String, Refusal> {
+    let found = GuideGaps::new(&scene, &gap::Options::default());
     let report = GapReport::new(&found.map_err(|error| match error {
         GapError::Refused(refused) => refused.into(),
         other => Refusal::of(&other),
     })?);
-    answer(&report, report.summary(), of_gap(&report), None)
+    answer(&report, of_gap(&report), None)
 }

@@ -1,24 +1,24 @@
 //! Figures, drawn from a [`report`](crate::report) alone.
 //!
-//! [`Figures::figures`] returns the figures of a report. A [`Figure`] is a list of marks in figure units, which is
+//! [`CommandReport::figures`](crate::commands::CommandReport::figures) returns the figures of a report. A [`Figure`] is a list of marks in figure units, which is
 //! rendered to PNG bytes or to SVG text. This module writes no files.
 
 mod along;
 mod axis;
 mod bands;
-mod campbell;
+pub(crate) mod campbell;
 mod canvas;
 mod chart_data;
-mod check;
+pub(crate) mod check;
 mod clip;
 mod columns;
-mod compare;
-mod cut;
-mod cut_map;
+pub(crate) mod compare;
+pub(crate) mod cut;
+pub(crate) mod cut_map;
 #[cfg(test)]
 mod cutting_tests;
 mod declutter;
-mod deflect;
+pub(crate) mod deflect;
 mod drawn;
 #[cfg(test)]
 mod drawn_tests;
@@ -26,44 +26,44 @@ mod drawn_tests;
 #[allow(dead_code, reason = "helpers of other properties")]
 #[path = "../../tests/common/draws.rs"]
 mod draws;
-mod fit;
-mod gap;
-mod gap_friction;
-mod gap_map;
-mod gap_oscillation;
+pub(crate) mod fit;
+pub(crate) mod gap;
+pub(crate) mod gap_friction;
+pub(crate) mod gap_map;
+pub(crate) mod gap_oscillation;
 mod heading;
 mod heat;
-mod in_cut;
+pub(crate) mod in_cut;
 mod key;
 mod letters;
-mod map;
+pub(crate) mod map;
 mod meeting;
-mod membrane;
-mod modes;
+pub(crate) mod membrane;
+pub(crate) mod modes;
 mod paint;
 mod palette;
-mod place;
+pub(crate) mod place;
 mod place_map;
 mod render;
-mod response;
-mod response_map;
-mod root_loci;
-mod runup;
+pub(crate) mod response;
+pub(crate) mod response_map;
+pub(crate) mod root_loci;
+pub(crate) mod runup;
 #[cfg(test)]
 mod sample;
-mod spline_orbit;
-mod study;
+pub(crate) mod spline_orbit;
+pub(crate) mod study;
 mod style;
 #[cfg(test)]
 mod tidy;
 mod tradeoff;
-mod washboard;
+pub(crate) mod washboard;
 mod written;
 
 pub use axis::Spread;
 pub use campbell::CampbellView;
 pub use chart_data::{AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright};
-pub use drawn::{Figure, Figures, tradeoff};
+pub use drawn::{Figure, tradeoff};
 pub use palette::Hue;
 #[doc(hidden)]
 pub use palette::{PALETTE, Palette};

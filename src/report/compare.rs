@@ -100,6 +100,15 @@ impl CompareReport {
         conditions.join(" | ")
     }
 
+    /// Warnings of every saw, with its label.
+    pub(crate) fn warnings_of_saws(&self) -> Vec<String> {
+        let of_saws = self.saws.iter().flat_map(|saw| {
+            let warnings = saw.warnings.iter();
+            warnings.map(|warning| format!("{}: {warning}", saw.label))
+        });
+        of_saws.collect()
+    }
+
     /// Compares saws with the first of them; `None` where there is none.
     pub fn new(saws: Vec<ComparedEntry>) -> Option<Self> {
         let scene = saws.first()?.scene.clone();

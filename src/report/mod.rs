@@ -29,7 +29,6 @@ mod response;
 mod resting;
 mod runup;
 mod saturated;
-mod schema;
 mod spline;
 mod vtu;
 mod washboard;
@@ -77,7 +76,6 @@ pub use self::response::{
 };
 pub use self::resting::{HarmonicEntry, RestMode, ShapeEntry};
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport, StretchingEntry};
-pub use self::schema::json_schema;
 pub use self::spline::SplineEntry;
 pub use self::vtu::VTK_NAMES;
 pub use self::washboard::{LobesEntry, WashboardModeEntry, WashboardReport};

@@ -5,22 +5,22 @@
 mod amplitudes;
 mod answer;
 mod bands;
-mod check;
-mod compare;
-mod cut;
-mod deflect;
+pub(crate) mod check;
+pub(crate) mod compare;
+pub(crate) mod cut;
+pub(crate) mod deflect;
 mod excitation;
-mod fit;
-mod gap;
+pub(crate) mod fit;
+pub(crate) mod gap;
 mod in_cut;
 mod influences;
-mod map;
-mod place;
-mod report;
-mod response;
-mod runup;
-mod study;
-mod washboard;
+pub(crate) mod map;
+pub(crate) mod place;
+pub(crate) mod report;
+pub(crate) mod response;
+pub(crate) mod runup;
+pub(crate) mod study;
+pub(crate) mod washboard;
 mod whirl;
 
 use std::fmt::Write;
@@ -30,42 +30,8 @@ pub use self::answer::Answer;
 pub use self::answer::answer;
 #[cfg(feature = "page")]
 pub use self::answer::headline;
-use crate::report::{
-    CheckReport, CompareReport, CutReport, DeflectReport, FitReport, GapReport, MapReport,
-    PlaceReport, Report, ResponseReport, RunUpReport, WashboardReport,
-};
-use crate::study::StudyReport;
+use crate::report::Report;
 use textwrap::{Options, WordSeparator, WordSplitter};
-
-macro_rules! summaries {
-    ($($report:ty: $module:ident,)*) => {$(
-        impl $report {
-            /// Returns the report as text of at most 80 columns, with the answer in the first lines.
-            pub fn summary(&self) -> String {
-                let mut text = String::new();
-                // Writing to a string cannot fail.
-                let _ = $module::of_report(&mut text, self);
-                text
-            }
-        }
-    )*};
-}
-
-summaries! {
-    CheckReport: check,
-    CompareReport: compare,
-    CutReport: cut,
-    DeflectReport: deflect,
-    FitReport: fit,
-    GapReport: gap,
-    MapReport: map,
-    PlaceReport: place,
-    Report: report,
-    ResponseReport: response,
-    RunUpReport: runup,
-    StudyReport: study,
-    WashboardReport: washboard,
-}
 
 /// Largest number of rows of a table; further rows are counted.
 const ROWS: usize = 12;

@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use sawflutter::commands::COMMANDS;
 use sawflutter::report::{CheckReport, Report, StabilityState};
 use sawflutter::scene::{Accuracy, Scene};
 use tempfile::TempDir;
@@ -126,24 +127,9 @@ fn rim_stiffness_past_the_first_critical_speed_is_left_out() {
 /// A terminal or pager that wraps longer lines would break the columns of the examples.
 #[test]
 fn examples_of_every_help_fit_80_columns() {
-    let commands = [
-        "",
-        "analyze",
-        "cut",
-        "runup",
-        "check",
-        "fit",
-        "place",
-        "study",
-        "tradeoff",
-        "export",
-        "keys",
-        "schema",
-        "deflect",
-        "gap",
-        "washboard",
-    ];
-    for command in commands {
+    let others = ["", "tradeoff", "export", "keys", "schema"];
+    let commands = COMMANDS.iter().map(|command| command.name);
+    for command in commands.chain(others) {
         let arguments: Vec<&str> = [command, "--help"]
             .into_iter()
             .filter(|a| !a.is_empty())
