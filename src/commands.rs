@@ -3,6 +3,9 @@
 //! The program, its help, the live page, the Python package and the tests of the documentation read [`COMMANDS`]. All
 //! faces of a report are methods of [`CommandReport`].
 
+#[cfg(test)]
+mod golden_tests;
+
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;

@@ -186,32 +186,6 @@ fn draw_key(sheet: &mut Sheet, report: &FitReport, some_left_out: bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figure::tidy::assert_tidy;
-    use crate::fit::{Fit, Measurement, Options};
-    use crate::plate::Resolution;
-    use crate::scene::{Freed, Scene};
-
-    #[test]
-    fn nothing_is_cut_off_or_hidden() {
-        let scene = Scene::paper();
-        let table = Measurement::of_scene(scene.file().measured.as_ref().unwrap());
-        let freed = Freed::with_usual_bounds(&scene, "guides[0].radius_m").unwrap();
-        let options = Options {
-            starts: 1,
-            resolution: Some(Resolution {
-                max_diameters: 4,
-                radial_functions: 3,
-            }),
-            ..Options::default()
-        };
-        for to_rpm in [0.0, 500.0] {
-            let options = Options { to_rpm, ..options };
-            let freed = std::slice::from_ref(&freed);
-            let fit = Fit::new(&scene, &table, freed, &options, &|_, _| ()).unwrap();
-            let report = FitReport::new(&fit);
-            assert_tidy(&sheet(&report));
-        }
-    }
 
     #[test]
     fn residuals_are_distinguished_without_colours() {

@@ -1,7 +1,7 @@
 //! The deflection at the cut over gap and side force, and over gap and speed, with the line of the largest deflection
 //! allowed.
 
-use super::axis::{Axis, Spread, draw_named, draw_vertical, extremes, tick_label};
+use super::axis::{Axis, Spread, draw_named, draw_vertical, extremes, name_upright, tick_label};
 use super::canvas::{Frame, Lettering, Sheet, Stroke};
 use super::heading;
 use super::heat::{draw_grid, draw_scale, ramp};
@@ -75,6 +75,7 @@ pub fn sheet(report: &GapReport) -> Option<Sheet> {
     for (frame, panel) in PANELS.iter().zip(&panels) {
         panel.draw(&mut sheet, frame, report, &shade);
     }
+    name_upright(&mut sheet, 28.0, &PANELS[0], "smallest gap\u{2003}[mm]");
     let place = (&PANELS[1], 20.0, SCALE);
     let label = |mm: f64| Some(tick_label(mm));
     let colour = |mm: f64| shade.colour(mm);
@@ -145,7 +146,7 @@ impl Panel<'_> {
         let gaps: Vec<f64> = rows.iter().map(|row| gaps_mm[*row]).collect();
         let y = Axis::of_cells(&gaps, frame.upwards(), Spread::Logarithmic);
         let x = Axis::of_cells(self.values, frame.across(), self.spread);
-        draw_vertical(sheet, &y, frame, "smallest gap\u{2003}[mm]");
+        draw_vertical(sheet, &y, frame, "");
         draw_grid(sheet, (&x, self.values), (&y, &gaps), |column, row| {
             let found = self.deflection_m[rows[row]][column];
             found.map_or(BLANK, |m| shade.colour(1e3 * m.abs()))

@@ -67,6 +67,8 @@ pub use drawn::{Figure, tradeoff};
 pub use palette::Hue;
 #[doc(hidden)]
 pub use palette::{PALETTE, Palette};
+#[cfg(test)]
+pub(crate) use tidy::assert_tidy;
 #[cfg(feature = "page")]
 pub(crate) use written::name as number_name;
 

@@ -286,35 +286,3 @@ fn points_facts(report: &ResponseReport, points: &FrequencyResponseEntry) -> Str
         place(report.probe_radius_m, report.probe_angle_deg)
     )
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::figure::tidy::assert_tidy;
-    use crate::report::ResponseReport;
-    use crate::response::{ForcedResponse, Options};
-    use crate::scene::{Accuracy, ResponseFile, Scene};
-
-    #[test]
-    fn nothing_is_cut_off() {
-        let scene = Scene::paper().edited(|saw| {
-            saw.accuracy = Accuracy::Draft;
-            saw.response = Some(ResponseFile {
-                force_n: 2.0,
-                flatness_m: 5e-5,
-                imbalance_kg_m2: 1e-6,
-                tooth_force_n: 1.0,
-                ..ResponseFile::default()
-            });
-        });
-        let options = Options {
-            rpm: Some(1000.0),
-            to_hz: None,
-        };
-        let found = ForcedResponse::new(&scene.unwrap(), &options).unwrap();
-        let report = ResponseReport::new(&found);
-        assert_tidy(&sheet(&report));
-        assert_tidy(&points_sheet(&report).unwrap());
-        assert!(!serde_json::to_string(&report).unwrap().contains("NaN"));
-    }
-}
