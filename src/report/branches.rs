@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use faer::{Col, c64};
 
-use super::BranchEntry;
+use super::chart::BranchEntry;
 use crate::campbell::{Branch, Campbell, SpeedSample};
 use crate::scene::rpm;
 use crate::spectrum::{

@@ -5,13 +5,20 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
+use super::accuracy::{AccuracyEntry, WorkEntry};
+use super::analysis::Report;
 use super::branches::Numbered;
+use super::certificate::CertificateEntry;
+use super::chart::{CampbellEntry, RootLociEntry, RootPathEntry};
+use super::critical_speed::CriticalSpeedEntry;
+use super::excitation::ExcitationEntry;
+use super::in_cut::InCutEntry;
+use super::instability::InstabilityEntry;
+use super::membrane::MembraneEntry;
+use super::operating::OperatingEntry;
 use super::remarks::{terms, warnings};
-use super::{
-    AccuracyEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, ExcitationEntry,
-    HarmonicEntry, InCutEntry, InstabilityEntry, MembraneEntry, OperatingEntry, Report, RestMode,
-    RootLociEntry, RootPathEntry, SensitivityEntry, ShapeEntry, WorkEntry,
-};
+use super::resting::{HarmonicEntry, RestMode, ShapeEntry};
+use super::sensitivity::SensitivityEntry;
 use crate::check::side_force_factor;
 use crate::plate::Plate;
 use crate::scene::rpm;

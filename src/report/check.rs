@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::InstabilityEntry;
 use super::branches::Numbered;
+use super::instability::InstabilityEntry;
 use super::remarks::{lifting_off, side_force_in_words};
 use super::saturated::add_amplitudes;
 use crate::check::{Check, Criterion, Limits};

@@ -1,6 +1,6 @@
 //! `campbell.csv`, with one row for each branch and speed.
 
-use super::Report;
+use super::analysis::Report;
 
 impl Report {
     /// The branches as comma-separated values.

@@ -14,8 +14,8 @@ pub(super) use self::criteria::growing_hz;
 pub use self::criteria::{CutCriterion, CutCriterionEntry, CutVerdict, Verdict};
 use self::criteria::{agree, criteria, worst};
 use self::warnings::warnings;
-use super::SplineEntry;
 use super::remarks::lifting_off;
+use super::spline::SplineEntry;
 use crate::scene::{CutRun, Scene, SceneFile, in_the_cut, rpm, unusual_number};
 use crate::transient::{
     CutHistory, CutStretching, Cutting, CuttingRun, Growth, ToothPassing, VerdictMap,

@@ -5,7 +5,9 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry};
+use super::chart::CampbellEntry;
+use super::critical_speed::CriticalSpeedEntry;
+use super::instability::InstabilityEntry;
 use crate::deflect::{Curve, Deflecting, Reading, SlowSweep};
 use crate::scene::{SceneFile, rpm};
 use crate::stretched::TurnKind;

@@ -6,7 +6,7 @@ use faer::{Col, c64};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Report;
+use super::analysis::Report;
 use super::mode::{WaveEntry, profile};
 use crate::plate::Plate;
 use crate::scene::rpm;

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::InstabilityEntry;
 use super::gap_oscillation::{self, OscillationEntry};
+use super::instability::InstabilityEntry;
 use crate::gap::{AtAmplitude, BasisError, Deviation, DeviationMap, FrictionHeat, GuideGaps};
 use crate::scene::{Guide, Scene, SceneFile, rpm};
 use crate::text::shown_to;

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::InstabilityEntry;
+use super::instability::InstabilityEntry;
 use crate::scene::rpm;
 use crate::stability::{Analysis, Onsets};
 

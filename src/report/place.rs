@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::InstabilityEntry;
 use super::certificate::statement;
+use super::instability::InstabilityEntry;
 use crate::place::{
     Demands, FragileOptimum, Goal, Map, Neighbour, Neighbours, Outcome, PlacedParameter, Placement,
 };

@@ -8,7 +8,7 @@ use crate::spectrum::DescribedMode;
 use crate::stability::{Analysis, CHARTED, is_cut_short, usual_end};
 use crate::text::{shown, shown_to};
 
-use super::CertificateEntry;
+use super::certificate::CertificateEntry;
 
 /// Relative rounding error above which a frequency has fewer than six valid digits.
 const LEAST_DIGITS: f64 = 1e-6;

@@ -11,7 +11,7 @@ use crate::scene::{SceneFile, rad_per_s, rpm};
 use crate::stability::StabilityState;
 use crate::text::shown;
 
-use super::InstabilityEntry;
+use super::instability::InstabilityEntry;
 
 /// Report of steady-state responses (`response.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

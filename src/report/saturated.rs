@@ -1,6 +1,7 @@
 //! Amplitude to which the flutter of each band rises, computed on request.
 
-use super::{InstabilityEntry, Report};
+use super::analysis::Report;
+use super::instability::InstabilityEntry;
 use crate::deflect::{Rise, saturations};
 use crate::stability::Analysis;
 use crate::stretched::StretchedError;

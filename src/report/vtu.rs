@@ -6,7 +6,8 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use super::{EventShapeEntry, Report};
+use super::analysis::Report;
+use super::event_shape::EventShapeEntry;
 use crate::text::escaped;
 
 /// File names of the list and of the grids.

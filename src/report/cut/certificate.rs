@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::MiscountEntry;
+use crate::report::certificate::MiscountEntry;
 use crate::stability::GrowingModes;
 use crate::transient::CutHistory;
 
