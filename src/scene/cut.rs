@@ -294,35 +294,4 @@ mod tests {
         let force = cut.at_rpm(2800.0).unwrap().tangential_n;
         assert!((force - 143.28).abs() < 0.01, "{force}");
     }
-
-    #[test]
-    fn refusals_name_the_key() {
-        type Change = fn(&mut SceneFile, &mut CutFile);
-        let cases: [(&str, Change); 7] = [
-            ("blade.teeth", |file, _| file.blade.teeth = None),
-            ("cut.teeth_in_cut", |_, cut| cut.teeth_in_cut = Some(43)),
-            ("cut.depth_m", |_, cut| cut.depth_m = Some(-0.2)),
-            ("cut.speeds[1].rpm", |_, cut| cut.speeds[1].rpm = 0.0),
-            ("cut.chart_rpm", |_, cut| cut.chart_rpm = Some(-5.0)),
-            ("cut.board_length_m", |_, cut| {
-                cut.board_length_m = Some(1e9)
-            }),
-            ("cut.tangential_n_per_tooth", |_, cut| {
-                *cut = CutFile {
-                    teeth_in_cut: Some(1),
-                    speeds: vec![CutSpeedFile {
-                        rpm: 1000.0,
-                        ..CutSpeedFile::default()
-                    }],
-                    ..CutFile::default()
-                }
-            }),
-        ];
-        for (expected, change) in cases {
-            match with(change) {
-                Err(SceneError::Value(refused)) => assert_eq!(refused.key, expected),
-                other => panic!("{expected}: {other:?}"),
-            }
-        }
-    }
 }

@@ -19,6 +19,8 @@ mod parameter;
 mod profile;
 mod quantity;
 mod read;
+#[cfg(test)]
+mod refusal_tests;
 mod refused;
 mod residual;
 mod response;

@@ -126,58 +126,7 @@ impl Spline {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{InPlane, Scene};
-
-    fn with(change: impl FnOnce(&mut SceneFile, &mut SplineFile)) -> Result<Scene, SceneError> {
-        let mut file = Scene::paper().file().clone();
-        let mut spline = SplineFile {
-            teeth: 20,
-            pressure_angle_deg: 30.0,
-            contact_stiffness_n_per_m_3_2: 7e9,
-            contact_damping_n_s_3_2_per_m_3_2: 0.0,
-            clearance_m: papers_clearance_m(),
-            pitch_radius_m: None,
-            weight_angle_deg: None,
-        };
-        change(&mut file, &mut spline);
-        file.spline = Some(spline);
-        Scene::try_from(file)
-    }
-
-    #[test]
-    fn refusals_name_the_key() {
-        let collar = Mount::Collar {
-            diameter_m: 0.3,
-            in_plane: InPlane::Free,
-        };
-        let cases: [(&str, Result<Scene, SceneError>); 7] = [
-            ("mount.kind", with(|file, _| file.mount = collar)),
-            ("spline.teeth", with(|_, s| s.teeth = 0)),
-            (
-                "spline.pressure_angle_deg",
-                with(|_, s| s.pressure_angle_deg = 90.0),
-            ),
-            (
-                "spline.contact_stiffness_n_per_m_3_2",
-                with(|_, s| s.contact_stiffness_n_per_m_3_2 = 0.0),
-            ),
-            (
-                "spline.contact_damping_n_s_3_2_per_m_3_2",
-                with(|_, s| s.contact_damping_n_s_3_2_per_m_3_2 = f64::NAN),
-            ),
-            ("spline.clearance_m", with(|_, s| s.clearance_m = 0.25)),
-            (
-                "spline.pitch_radius_m",
-                with(|_, s| s.pitch_radius_m = Some(100.0)),
-            ),
-        ];
-        for (expected, result) in cases {
-            match result {
-                Err(SceneError::Value(refused)) => assert_eq!(refused.key, expected),
-                other => panic!("{expected}: {other:?}"),
-            }
-        }
-    }
+    use crate::scene::Scene;
 
     #[test]
     fn the_papers_clearance_and_the_bore_are_the_only_defaults() {

@@ -219,45 +219,6 @@ mod tests {
     }
 
     #[test]
-    fn refusals_name_the_key() {
-        let cases: [(&str, Result<Scene, SceneError>); 7] = [
-            ("blade.thickness_m", with(|f| f.blade.thickness_m = -1.0)),
-            (
-                "blade.thickness_m",
-                with(|f| f.blade.thickness_m = f64::NAN),
-            ),
-            (
-                "blade.inner_diameter_m",
-                with(|f| f.blade.inner_diameter_m = 0.8),
-            ),
-            (
-                "blade.material.poisson_ratio",
-                with(|f| f.blade.material.poisson_ratio = 0.5),
-            ),
-            ("guides[0].radius_m", with(|f| f.guides[0].radius_m = 3.0)),
-            (
-                "guides[0].tangential_length_m",
-                with(|f| f.guides[0].tangential_length_m = 0.0),
-            ),
-            (
-                "sweep.to_rpm",
-                with(|f| {
-                    f.sweep = Some(SweepFile {
-                        from_rpm: 9.0,
-                        to_rpm: 9.0,
-                    })
-                }),
-            ),
-        ];
-        for (expected, result) in cases {
-            match result {
-                Err(SceneError::Value(refused)) => assert_eq!(refused.key, expected),
-                other => panic!("{expected}: {other:?}"),
-            }
-        }
-    }
-
-    #[test]
     fn a_guide_without_stiffness_is_not_in_the_scene() {
         let scene = with(|f| f.guides[0].stiffness_n_per_m = 0.0).unwrap();
         assert!(scene.guides.is_empty());
