@@ -6,8 +6,8 @@ use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, c64};
 use nalgebra::DMatrix;
 use sawflutter::analytical::free_wave::on_a_bed_rad_per_s;
+use sawflutter::commands::CommandReport;
 use sawflutter::deflect::{self, Deflecting};
-use sawflutter::document::{Documented, page};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::report::{DeflectReport, ResponseReport, RunUpReport};
 use sawflutter::response::{self, ForcedResponse};
@@ -274,11 +274,11 @@ fn the_response_in_the_cut_is_that_of_the_whole_matrices() {
 }
 
 /// Text, page and figures say which saw the report is of.
-fn assert_said(report: &impl Documented, condition: &str) {
+fn assert_said(report: &impl CommandReport, condition: &str) {
     assert_eq!(condition, "in the cut at 2800 rpm (4 teeth)");
     let summary = report.document().summary;
     assert!(summary.contains(condition), "{summary}");
-    assert!(page(report).unwrap().contains(condition));
+    assert!(report.page().unwrap().contains(condition));
     for figure in report.figures() {
         let text = figure.svg().unwrap();
         assert!(text.contains(condition), "{:?}", figure.names());
