@@ -80,7 +80,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         .output
         .print(&folder, &files, &OPTIONAL, &json, || {
             format!(
-                "Saw: {}\n{} functions: n up to {}, {} radial functions each\n{}\n",
+                "{}: {}\n{} functions: n up to {}, {} radial functions each\n{}\n",
+                scene.file().name,
                 scene.condition(),
                 plate.degrees_of_freedom(),
                 plate.resolution.max_diameters,

@@ -45,8 +45,8 @@ impl ExpectedWork {
     /// if they cannot be computed.
     pub(super) fn of_sweep(scene: &Scene) -> Option<Self> {
         let to_rad_per_s = scene.sweep()?.to_rad_per_s;
-        let smallest = Plate::new(scene, resolution(LADDER[0]));
-        let waves = StandingWaves::up_to(&smallest, &|_| to_rad_per_s).ok()?;
+        let plate = Plate::new(scene, resolution(LADDER[COUNTED]));
+        let waves = StandingWaves::up_to(&plate, &|_| to_rad_per_s).ok()?;
         let is_short = waves.speeds_rad_per_s.len() <= FEW;
         if is_short || waves.most_diameters > SWEPT + waves.lowest_diameters {
             return None;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::study::accuracy_of_saws;
-use super::{ROWS, WIDTH, decimals_or, each, more, sentence, shortened, stated};
+use super::{ROWS, decimals_or, each, more, named, sentence, shortened};
 use crate::report::{MapAxisEntry, MapReport, MappedSawEntry, StabilityState};
 use crate::stability::CRITICAL_MARGIN;
 use crate::text::{shown, shown_to};
@@ -15,9 +15,9 @@ pub fn of_report(text: &mut String, report: &MapReport) -> std::fmt::Result {
     each(text, "Unusual number", &report.unusual_numbers)?;
     sentence(text, &verdict(report))?;
     speeds(text, report)?;
-    let name = shortened(&report.scene.name, WIDTH - 10);
-    writeln!(text, "\n{} saws of {name}", report.saws.len())?;
-    stated(text, &report.condition)?;
+    let saws = format!("{} saws of {}", report.saws.len(), report.scene.name);
+    writeln!(text)?;
+    named(text, &saws, &report.condition)?;
     for axis in std::iter::once(&report.x).chain(&report.y) {
         sentence(text, &format!("  {}", range(axis)))?;
     }

@@ -37,6 +37,8 @@ use textwrap::{Options, WordSeparator, WordSplitter};
 const ROWS: usize = 12;
 /// Largest number of characters of a line.
 const WIDTH: usize = 80;
+/// Number of characters of a name that precedes a long condition of the saw.
+const SHORT_NAME: usize = 40;
 
 /// Whether the modes at rest have damping ratios.
 pub fn is_damped(report: &Report) -> bool {
@@ -68,14 +70,15 @@ fn heading(
     condition: &str,
     unusual_numbers: &[String],
 ) -> std::fmt::Result {
-    writeln!(text, "{}", shortened(name, WIDTH))?;
-    stated(text, condition)?;
+    named(text, name, condition)?;
     each(text, "Unusual number", unusual_numbers)
 }
 
-/// Writes whether the saw idles or is in its cut.
-fn stated(text: &mut String, condition: &str) -> std::fmt::Result {
-    sentence(text, &format!("Saw: {condition}"))
+/// Writes a name, and whether the saw idles or is in its cut.
+fn named(text: &mut String, name: &str, condition: &str) -> std::fmt::Result {
+    let room = WIDTH.saturating_sub(": ".len() + condition.chars().count());
+    let name = shortened(name, room.max(SHORT_NAME));
+    sentence(text, &format!("{name}: {condition}"))
 }
 
 /// Writes sentences, each after a word: "Warning: …".

@@ -9,14 +9,13 @@ use super::excitation::crossings;
 use super::in_cut::in_cut;
 use super::influences::{heat, rolled, sensitivity, straight_edge};
 use super::whirl::whirl;
-use super::{ROWS, WIDTH, each, is_damped, more, numbered, shortened, stated};
+use super::{ROWS, each, is_damped, more, named, numbered};
 use crate::report::{Report, RestMode};
 use crate::scene::BladeFile;
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &Report) -> std::fmt::Result {
     header(text, report)?;
-    stated(text, &report.condition)?;
     each(text, "Unusual number", &report.unusual_numbers)?;
     writeln!(text)?;
     for line in answer(report) {
@@ -39,7 +38,7 @@ pub fn of_report(text: &mut String, report: &Report) -> std::fmt::Result {
 /// Writes name and size of the saw, and the range of speeds.
 fn header(text: &mut String, report: &Report) -> std::fmt::Result {
     let blade = &report.scene.blade;
-    writeln!(text, "{}", shortened(&report.scene.name, WIDTH))?;
+    named(text, &report.scene.name, &report.condition)?;
     writeln!(
         text,
         "{:.1} mm outside, {:.1} mm bore, {} thick; {} to {} rpm",

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::study::{GapStatistics, Group, NumberEntry, Passing, SpeedEntry, StudyReport};
 use crate::text::{shown, shown_to};
 
-use super::{WIDTH, decimals_or, each, shortened, stated};
+use super::{WIDTH, decimals_or, each, named, shortened};
 
 /// Largest number of rows of the table of a grid; further rows are counted.
 const ROWS: usize = 24;
@@ -39,9 +39,8 @@ pub fn of_report(text: &mut String, report: &StudyReport) -> std::fmt::Result {
 
 fn header(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     writeln!(text, "{}", shortened(&report.study.name, WIDTH))?;
-    let scene = shortened(&report.scene.name, WIDTH - 24);
-    writeln!(text, "{} saws of {scene}", report.all.saws)?;
-    stated(text, &report.condition)?;
+    let saws = format!("{} saws of {}", report.all.saws, report.scene.name);
+    named(text, &saws, &report.condition)?;
     for entry in &report.study.parameters {
         writeln!(text, "  {}", shortened(&entry.to_string(), WIDTH - 2))?;
     }
