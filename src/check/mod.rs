@@ -19,7 +19,7 @@ mod limits;
 mod rim;
 mod static_deflection;
 
-use crate::deflect::{Rise, saturations};
+use crate::deflect::{Rise, rim_compliance_m_per_n, saturations};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError};
@@ -29,7 +29,7 @@ use criteria::{of_gaps, without_stiffness};
 #[cfg(feature = "cli")]
 pub(crate) use limits::RIM_LIMIT_M_PER_S;
 pub use limits::{Limits, LimitsFile};
-use rim::{point_load_plate, rim_compliance_m_per_n};
+use rim::point_load_plate;
 pub(crate) use rim::{rim_stiffness_at_rest_n_per_m, side_force_factor};
 use static_deflection::StaticDeflection;
 

@@ -1,12 +1,9 @@
 //! Lateral stiffness of a point of the rim at the middle of the cut, while the saw turns below a force fixed in
 //! space.
 
-use faer::linalg::solvers::Solve;
-
+use crate::deflect::rim_compliance_m_per_n;
 use crate::plate::{Plate, Resolution};
 use crate::stability::{Analysis, StabilityState};
-use crate::system::GyroscopicSystem;
-use crate::transient::at_point;
 
 /// A point load deforms the rim in waves of all lengths; the contribution of n diameters falls only with n³.
 /// The stiffness of a point therefore needs a larger basis than critical speeds do.
@@ -28,23 +25,6 @@ pub(super) fn point_load_plate(analysis: &Analysis) -> Plate {
         radial_functions: own.radial_functions.max(POINT_LOAD_BASIS.radial_functions),
     };
     Plate::new(&analysis.scene, resolution)
-}
-
-/// φᵀ K(Ω)⁻¹ φ in m/N with the basis functions φ at the rim: deflection over force at a point fixed in space while
-/// the saw turns. `None` if rigid motions are free, and where K(Ω) is singular.
-pub(super) fn rim_compliance_m_per_n(
-    plate: &Plate,
-    angle_rad: f64,
-    speed_rad_per_s: f64,
-) -> Option<f64> {
-    let point = at_point(plate, plate.blade.outer_radius_m, angle_rad);
-    let system = GyroscopicSystem::of_plate(plate);
-    if !system.free_rigid.is_empty() {
-        return None;
-    }
-    let stiffness = system.stiffness_at(speed_rad_per_s);
-    let compliance = point.transpose() * stiffness.partial_piv_lu().solve(&point);
-    Some(compliance).filter(|m_per_n| m_per_n.is_finite())
 }
 
 /// Lateral stiffness at rest, in N/m; `None` if rigid motions are free.
@@ -77,6 +57,8 @@ mod tests {
     use super::*;
     use crate::response::{ForcedResponse, Options};
     use crate::scene::{Accuracy, ResponseFile, Scene};
+    use crate::system::GyroscopicSystem;
+    use crate::transient::at_point;
 
     /// A clamped blade at an operating speed, and at a share of its first critical speed.
     fn clamped(operating_rpm: f64) -> Scene {

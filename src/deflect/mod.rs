@@ -19,12 +19,14 @@
 //! ```
 
 mod options;
+mod point_load;
 mod reading;
 mod saturated;
 #[cfg(test)]
 mod tests;
 
 pub use options::{Options, SideForce};
+pub(crate) use point_load::rim_compliance_m_per_n;
 pub use reading::{Curve, Jump, Reading, SlowSweep};
 pub use saturated::{Rise, saturations};
 
@@ -38,6 +40,7 @@ use crate::stretched::{
     Branch, Equilibrium, Extent, LARGEST_SLOPE, StretchedBlade, StretchedError, Sweep,
 };
 
+use point_load::basis_error;
 use reading::Reader;
 
 /// Reason for which the equilibria of a blade could not be computed.
@@ -81,6 +84,9 @@ pub struct Deflecting {
     /// Largest relative change of the deflection with half as many modes more; `None` if the blade remains
     /// flat.
     pub estimated_relative_error: Option<f64>,
+    /// Estimated relative error of a small deflection at the force, at rest, on the basis from which the shapes are
+    /// made; `None` without a force, and for a blade that is buckled at rest.
+    pub basis_error: Option<f64>,
     /// Equilibria for rising speed.
     pub up: SlowSweep,
     /// Equilibria for falling speed, starting from the last one of `up`.
@@ -130,6 +136,10 @@ impl Deflecting {
             curves: curves.iter().map(|curve| reader.curve(curve)).collect(),
             shapes: blade.shapes().ncols(),
             estimated_relative_error: error,
+            basis_error: match force.force_n {
+                0.0 => None,
+                _ => basis_error(&swept, plate, force.angle_rad),
+            },
             scene: scene.clone(),
             force,
             analysis,

@@ -34,6 +34,10 @@ pub struct DeflectReport {
     /// Largest relative change of the deflection with half as many modes more; null if the blade remains
     /// flat.
     pub estimated_relative_error: Option<f64>,
+    /// Estimated relative error of a small deflection at the force, at rest, on the basis from which the shapes are
+    /// made; null without a force, and for a blade that is buckled at rest.
+    #[serde(default)]
+    pub basis_error: Option<f64>,
     /// First speed.
     pub from_rpm: f64,
     /// Last speed.
@@ -163,6 +167,7 @@ impl DeflectReport {
             degrees_of_freedom: chart.accuracy.degrees_of_freedom,
             shapes: found.shapes,
             estimated_relative_error: found.estimated_relative_error,
+            basis_error: found.basis_error,
             from_rpm: chart.campbell.from_rpm,
             to_rpm: chart.campbell.to_rpm,
             force_n: found.force.force_n,

@@ -44,7 +44,7 @@ pub(super) fn diameters_beyond(size: Resolution) -> usize {
 }
 
 /// Size that measures the error of a size from [`sized`]. It has more diameters in the same proportion.
-pub(super) fn ahead(size: Resolution) -> Resolution {
+pub(crate) fn ahead(size: Resolution) -> Resolution {
     let rung = rung_of(size);
     let mut sizes = LADDER.into_iter().chain(BEYOND);
     let larger = sizes.nth(rung + steps_ahead(rung));

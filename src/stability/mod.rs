@@ -71,7 +71,7 @@ pub use excitation::crossings;
 pub use expected::ExpectedWork;
 pub(crate) use growing::GrowingModes;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
-pub(crate) use ladder::DENSE_LADDER;
+pub(crate) use ladder::{DENSE_LADDER, ahead};
 pub(crate) use mode_counts::Miscount;
 pub use onsets::Onsets;
 #[doc(hidden)]

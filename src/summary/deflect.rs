@@ -226,17 +226,27 @@ fn accuracy(report: &DeflectReport) -> String {
         "{} shapes of a basis of {}",
         report.shapes, report.degrees_of_freedom
     );
-    match report.estimated_relative_error {
-        None => format!("The deflection is made of {shapes}."),
-        Some(error) if error < 1e-3 => {
-            format!(
-                "The deflection is made of {shapes}; with more of them it changes by less than 0.1 %."
-            )
-        }
-        Some(error) => format!(
-            "The deflection is made of {shapes}; with more of them it changes by {:.1} % at most.",
-            1e2 * error
-        ),
+    let with_more = report.estimated_relative_error.map(|error| {
+        let change = at_most(error);
+        format!("with more shapes it changes by {change}")
+    });
+    let of_basis = report.basis_error.map(|error| {
+        let change = at_most(error);
+        format!("with a larger basis, a small deflection at the force changes by about {change}")
+    });
+    let made = format!("The deflection is made of {shapes}");
+    let facts: Vec<String> = [Some(made), with_more, of_basis]
+        .into_iter()
+        .flatten()
+        .collect();
+    format!("{}.", facts.join("; "))
+}
+
+/// A share in percent with one decimal; "less than 0.1 %" below.
+fn at_most(share: f64) -> String {
+    match share < 1e-3 {
+        true => "less than 0.1 %".to_owned(),
+        false => format!("{:.1} %", 1e2 * share),
     }
 }
 
