@@ -3,12 +3,13 @@
 //! | decomposition | matrix | by |
 //! |---|---|---|
 //! | [`SymmetricEigen`], [`symmetric_eigenvalues`] | real, symmetric | divide and conquer, QR iteration |
-//! | [`RealEigen`], [`real_eigenvalues`] | real | double-shift QR iteration |
+//! | [`RealEigen`], [`real_eigenvalues`] | real | double-shift QR iteration, inverse iteration for wrong vectors |
 //! | [`complex_eigenvalues`] | complex | single-shift QR iteration |
 //! | [`RightSingular`] | real, rectangular | divide and conquer |
 //!
-//! Every result is checked where it is made, except the vectors of [`RealEigen`]. Vectors V and values Λ are checked with one
-//! vector x that has components along all of them: ‖A(Vx) − V(Λx)‖ is a rounding error of ‖A‖‖Vx‖, and ‖Vᵀ(Vx) − x‖ one of ‖x‖ if the vectors are
+//! Every result is checked where it is made. Each vector of [`RealEigen`] is checked by its own residual, because faer finds
+//! single ones wrong, which are then found anew. Other vectors V and values Λ are checked with one vector x that has components
+//! along all of them: ‖A(Vx) − V(Λx)‖ is a rounding error of ‖A‖‖Vx‖, and ‖Vᵀ(Vx) − x‖ one of ‖x‖ if the vectors are
 //! orthonormal. This takes O(n²) operations, the decomposition O(n³), and an error e of a single vector changes the
 //! residual by about e/√n (R. Freivalds, *Probabilistic machines can use less running time*, IFIP Congress 1977, 839–842).
 //! Values alone are checked by the traces of the matrix and of its square.
@@ -21,6 +22,7 @@
 )]
 
 mod complex;
+mod inverse;
 mod real;
 mod singular;
 mod symmetric;

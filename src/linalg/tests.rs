@@ -47,9 +47,9 @@ fn symmetric_values_and_vectors_are_those_of_a_chain_of_springs_in_any_unit() {
     }
 }
 
-/// Only the lower triangle is read; orders 0 and 1, and zero, have decompositions.
+/// Of a symmetric matrix only the lower triangle is read; orders 0 and 1, and zero, have decompositions.
 #[test]
-fn symmetric_matrices_of_any_order_are_decomposed() {
+fn matrices_of_any_order_are_decomposed() {
     let half = Mat::from_fn(3, 3, |i, k| if i >= k { 1.0 } else { f64::NAN });
     let found = SymmetricEigen::new(half.as_ref()).unwrap();
     assert!((found.values[2] - 3.0).abs() < 1e-14);
@@ -65,6 +65,10 @@ fn symmetric_matrices_of_any_order_are_decomposed() {
     );
     let zero = SymmetricEigen::new(Mat::zeros(150, 150).as_ref()).unwrap();
     assert!(zero.values.iter().all(|value| *value == 0.0));
+    for order in [0, 1, 2, 80] {
+        let zero = RealEigen::new(Mat::zeros(order, order).as_ref()).unwrap();
+        assert_eq!(zero.values, vec![c64::new(0.0, 0.0); order]);
+    }
 }
 
 /// An error of 2.5e-9 of the norm in one of 200 values, two vectors that are turned in their plane, and two that are not
@@ -123,6 +127,69 @@ fn wrong_eigenvalues_are_refused() {
     }
     let lower = eigen.values.iter().filter(|value| value.im < 0.0).count();
     assert_eq!(eigen.upper().len(), 6 - lower);
+    let mut wrong = eigen;
+    wrong.values[0] += 1e-6;
+    let said = wrong.checked(matrix.as_ref()).unwrap_err().to_string();
+    assert!(
+        said.contains("eigenvectors of a matrix of order 6 are wrong"),
+        "{said}"
+    );
+}
+
+/// State matrix of two equal chains, q̈ + Cq̇ + Kq = 0, C = 0.02K + damping, whose coordinates are mixed by a
+/// reflection: every eigenvalue is double.
+fn two_damped_chains(masses: usize, damping: impl Fn(usize) -> f64) -> Mat<f64> {
+    let order = 2 * masses;
+    let axis = probe(order);
+    let mirror = Scale(-2.0 / axis.squared_norm_l2()) * &axis * axis.transpose()
+        + Mat::<f64>::identity(order, order);
+    let of_both = |of_one: &Mat<f64>| {
+        let apart = Mat::from_fn(order, order, |i, k| match i % 2 == k % 2 {
+            true => of_one[(i / 2, k / 2)],
+            false => 0.0,
+        });
+        &mirror * apart * &mirror
+    };
+    let stiffness = chain(masses, 1.0);
+    let mut velocity = Scale(0.02) * &stiffness;
+    (0..masses).for_each(|i| velocity[(i, i)] += damping(i));
+    let (stiffness, velocity) = (of_both(&stiffness), of_both(&velocity));
+    Mat::from_fn(2 * order, 2 * order, |i, k| match (i < order, k < order) {
+        (true, _) => f64::from(u8::from(i + order == k)),
+        (false, true) => -stiffness[(i - order, k)],
+        (false, false) => -velocity[(i - order, k - order)],
+    })
+}
+
+/// With light damping each double pair has two vectors. Critical damping of a wave makes four λ equal, which have two
+/// vectors between them.
+#[test]
+fn vectors_of_double_pairs_satisfy_their_equation_and_are_independent() {
+    for (masses, unit) in [(5, 1.0), (10, 1e100), (10, 1e-100), (30, 1.0)] {
+        let frequency = wave_of_chain(masses, masses / 2).0.sqrt();
+        let critical = 2.0 * frequency - 0.02 * frequency * frequency;
+        let uneven = |i| 0.01 + 0.03 * i as f64 / masses as f64;
+        let light = two_damped_chains(masses, uneven);
+        let heavy = two_damped_chains(masses, |_| critical);
+        for (matrix, is_light) in [(light, true), (heavy, false)] {
+            let matrix = Scale(unit) * matrix;
+            let eigen = RealEigen::new(matrix.as_ref()).unwrap();
+            let vectors: Vec<Col<c64>> = (0..4 * masses).map(|i| eigen.vector(i)).collect();
+            for (i, (v, lambda)) in vectors.iter().zip(&eigen.values).enumerate() {
+                let off = Col::from_fn(v.nrows(), |row| {
+                    let terms = (0..v.nrows()).map(|k| v[k] * matrix[(row, k)]);
+                    terms.sum::<c64>() - lambda * v[row]
+                });
+                let error = off.norm_l2() / (matrix.norm_l2() * v.norm_l2());
+                assert!(error < 1e-13, "{masses} {is_light} {lambda}: {error:e}");
+                for other in vectors.iter().take(i).filter(|_| is_light) {
+                    let share = (other.adjoint() * v) / other.squared_norm_l2();
+                    let rest = (v - Scale(share) * other).norm_l2() / v.norm_l2();
+                    assert!(rest > 1e-4, "{masses} {lambda}: {rest:e}");
+                }
+            }
+        }
+    }
 }
 
 /// The matrix that moves each coordinate to the next one has the N-th roots of unity as eigenvalues.

@@ -103,6 +103,8 @@ mod tests {
     use std::sync::mpsc::channel;
     use std::time::Duration;
 
+    use faer::Col;
+
     use super::*;
     use crate::plate::{Plate, Resolution};
     use crate::scene::{DampingFile, Scene, ThicknessRow};
@@ -174,6 +176,25 @@ mod tests {
             let error = distance(&apart.swap_remove(nearest));
             // Errors are ε times the largest eigenvalue, and the root of ε for double ones.
             assert!(error <= 1e-7 * largest, "{lambda}: {error:e}");
+        }
+    }
+
+    /// Where waves are double, and where they are nearly double, (λ² + λD + K)q = 0 within the rounding of K.
+    #[test]
+    #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
+    fn modes_of_a_free_blade_at_rest_and_near_it_satisfy_the_equation_of_motion() {
+        let system = GyroscopicSystem::of_plate(&twice_every_wave());
+        for speed in [0.0, 1e-6] {
+            let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
+            for (lambda, q) in companion_eigenpairs(&system, speed).unwrap() {
+                let off = Col::from_fn(q.nrows(), |row| {
+                    let factor = |k| stiffness[(row, k)] + lambda * velocity[(row, k)];
+                    let terms = (0..q.nrows()).map(|k| factor(k) * q[k]);
+                    terms.sum::<c64>() + lambda.powi(2) * q[row]
+                });
+                let error = off.norm_l2() / stiffness.norm_l2();
+                assert!(error < 1e-13, "{speed} {lambda}: {error:e}");
+            }
         }
     }
 
