@@ -75,6 +75,8 @@ pub(crate) use full_model::{AtSpeed, FullModel};
 #[doc(hidden)]
 pub use growth::fastest_growing;
 pub(crate) use growth::{Growing, eigenvalues, grows};
+#[doc(hidden)]
+pub use half_order::eigenpairs as undamped_eigenpairs;
 pub(crate) use hamiltonian::{HamiltonianReduction, State};
 pub(crate) use hermitian::negative_eigenvalues;
 pub(crate) use interval::SearchModel;

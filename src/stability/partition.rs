@@ -45,6 +45,7 @@ impl Plane {
 /// Numbers of the low eigenvalues of a saw at a speed.
 #[derive(Debug, Clone)]
 pub struct Sample {
+    /// Rotation speed Ω, in rad/s.
     pub speed_rad_per_s: f64,
     /// Numbers by frequency. Conjugate eigenvalues lie symmetrically about the middle, conjugate squares side
     /// by side.

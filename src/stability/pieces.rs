@@ -26,6 +26,7 @@ pub struct Grouped {
 /// Piece between two neighbouring computed speeds.
 #[derive(Debug, Clone)]
 pub struct Piece {
+    /// Samples at both speeds.
     pub ends: [Arc<Sample>; 2],
     /// Groups from the real axis upwards; empty if the piece was not settled, because it is too narrow or the
     /// allowed number of speeds is used up.

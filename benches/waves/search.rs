@@ -1,0 +1,147 @@
+//! The search by pieces on the reduced model, interval by interval.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use faer::c64;
+use sawflutter::stability::{Piece, Plane, Sample, Search};
+
+use super::interval::{Interval, REAL, Root};
+
+/// Largest number of eigenproblems of one interval.
+const MOST: usize = 4000;
+/// Number of eigenvalues above the window that a sample has.
+const BESIDES: usize = 8;
+
+/// Pieces of one interval.
+pub struct Searched {
+    /// Pieces, by speed.
+    pub pieces: Vec<Piece>,
+    /// Number of eigenproblems.
+    pub eigenproblems: usize,
+    plane: Plane,
+}
+
+/// |λ| of a free rigid motion, which is zero except for rounding, as a share of the window.
+const RIGID: f64 = 3e-6;
+
+/// What a search of an interval needs besides its model.
+#[derive(Debug, Clone, Copy)]
+pub struct Scope {
+    /// Top of the window, in 1/s.
+    pub window: f64,
+    /// |λ| up to which the model is accurate enough to be followed, in 1/s.
+    pub reach: f64,
+    /// Relative error allowed for eigenvalues and growth.
+    pub tolerance: f64,
+    /// Growth that does not matter, in 1/s.
+    pub noise_per_s: f64,
+    /// Number of free rigid motions, each of which has λ = 0 twice at every speed.
+    pub rigid: usize,
+}
+
+/// Eigenvalues at a speed as a sample of the search, without those beyond the reach of the model.
+fn sample(interval: &Interval, speed: f64, scope: Scope, plane: Plane) -> Sample {
+    let Scope {
+        window,
+        reach,
+        rigid,
+        ..
+    } = scope;
+    let mut roots: Vec<Root> = interval.roots(speed, reach);
+    roots.sort_by(|x, y| x.lambda.norm().total_cmp(&y.lambda.norm()));
+    let zeros = roots.partition_point(|root| root.lambda.norm() < RIGID * window);
+    roots.drain(..zeros.min(2 * rigid));
+    roots.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
+    let followed = roots.partition_point(|root| root.lambda.im <= window);
+    roots.truncate(followed + BESIDES);
+    let finite = |z: c64| if z.is_finite() { z } else { c64::new(0.0, 0.0) };
+    if plane == Plane::Eigenvalues {
+        let sloped = roots.iter().map(|r| (r.lambda, finite(r.slope)));
+        return Sample::new(speed, sloped);
+    }
+    let mut squares = Vec::new();
+    for root in &roots {
+        let (lambda, slope) = (root.lambda, root.slope);
+        let is_part = |part: f64| part.abs() > REAL * (lambda.norm() + 1e-3 * window);
+        let (square, slope) = (lambda * lambda, finite(2.0 * lambda * slope));
+        let real = |z: c64| c64::new(z.re, 0.0);
+        match (is_part(lambda.re), is_part(lambda.im)) {
+            // Both modes of a quadruple ±σ + iω have Im λ > 0, and their squares are conjugates.
+            (true, true) => squares.push(((square, slope), 0)),
+            // Of two real eigenvalues ±σ one gives the square.
+            (true, false) if lambda.re < 0.0 => (),
+            (true, false) => squares.push(((real(square), real(slope)), 0)),
+            _ => squares.push(((real(square), real(slope)), root.sign)),
+        }
+    }
+    Sample::of_squares(speed, squares)
+}
+
+impl Searched {
+    /// Searches an interval.
+    pub fn new(interval: &Interval, scope: Scope) -> Self {
+        let plane = if interval.is_conservative {
+            Plane::Squares
+        } else {
+            Plane::Eigenvalues
+        };
+        let spent = AtomicUsize::new(0);
+        let solve = |speed: f64| {
+            if spent.fetch_add(1, Ordering::Relaxed) >= MOST {
+                return Ok(None);
+            }
+            Ok(Some(sample(interval, speed, scope, plane)))
+        };
+        let search = Search {
+            plane,
+            top_rad_per_s: scope.window,
+            tolerance: scope.tolerance,
+            growth_tolerance: scope.tolerance,
+            noise_per_s: scope.noise_per_s,
+            solve: &solve,
+        };
+        let speeds = [
+            interval.from,
+            0.5 * (interval.from + interval.to),
+            interval.to,
+        ];
+        let pieces = search.pieces(&speeds).expect("no eigenproblem fails");
+        Searched {
+            pieces,
+            eigenproblems: spent.load(Ordering::Relaxed),
+            plane,
+        }
+    }
+
+    /// Width of the pieces that were given up, in rad/s.
+    pub fn lost(&self) -> f64 {
+        let lost = self.pieces.iter().filter(|piece| piece.groups.is_empty());
+        lost.map(|p| p.ends[1].speed_rad_per_s - p.ends[0].speed_rad_per_s)
+            .sum()
+    }
+
+    /// Eigenvalues with Im λ ≥ 0 at a speed, read off the pieces; for an undamped saw those that grow and the waves.
+    pub fn eigenvalues(&self, speed: f64) -> Vec<c64> {
+        let inside = |piece: &&Piece| {
+            piece.ends[0].speed_rad_per_s <= speed && speed <= piece.ends[1].speed_rad_per_s
+        };
+        let Some(piece) = self.pieces.iter().find(inside) else {
+            return Vec::new();
+        };
+        let numbers = piece.groups.iter().flat_map(|g| g.group.at(speed));
+        let mut found = Vec::new();
+        for number in numbers {
+            match self.plane {
+                Plane::Eigenvalues if number.im >= 0.0 => found.push(number),
+                Plane::Eigenvalues => (),
+                Plane::Squares => {
+                    let root = number.sqrt();
+                    if number.im > REAL * number.norm() || number.im.abs() <= REAL * number.norm() {
+                        found.push(c64::new(root.re, root.im.abs()));
+                    }
+                }
+            }
+        }
+        found
+    }
+}
