@@ -90,6 +90,43 @@ impl Interval {
         }
     }
 
+    /// The parts that do not act on one another: saws with equal pads have several. Entries below `negligible` in all
+    /// terms are zero.
+    pub fn parts(&self, negligible: f64) -> Vec<Interval> {
+        let size = self.size;
+        let mut part: Vec<usize> = (0..size).collect();
+        let all = self.terms.iter().flatten();
+        let coupled = |i: usize, k: usize| {
+            let mut entries = all.clone().map(|m| m[(i, k)].abs().max(m[(k, i)].abs()));
+            entries.any(|entry| entry > negligible)
+        };
+        for i in 0..size {
+            for k in 0..i {
+                if part[i] != part[k] && coupled(i, k) {
+                    let (from, to) = (part[i], part[k]);
+                    part.iter_mut()
+                        .filter(|p| **p == from)
+                        .for_each(|p| *p = to);
+                }
+            }
+        }
+        let mut names = part.clone();
+        names.sort_unstable();
+        names.dedup();
+        let of = |name: &usize| {
+            let kept: Vec<usize> = (0..size).filter(|k| part[*k] == *name).collect();
+            let cut =
+                |m: &Mat<f64>| Mat::from_fn(kept.len(), kept.len(), |i, k| m[(kept[i], kept[k])]);
+            let terms = self.terms.iter().map(|term| term.iter().map(cut).collect());
+            Interval {
+                size: kept.len(),
+                terms: terms.collect(),
+                ..*self
+            }
+        };
+        names.iter().map(of).collect()
+    }
+
     /// Last coefficient of K̃ relative to the first: the error of the series.
     pub fn tail(&self) -> f64 {
         let size = |m: &Mat<f64>| m.norm_max();

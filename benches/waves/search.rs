@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
-use sawflutter::stability::{Piece, Plane, Sample, Search};
+use sawflutter::stability::{Grouped, Piece, Plane, Sample, Search};
 
 use super::interval::{Interval, REAL, Root};
 
@@ -14,8 +14,10 @@ const BESIDES: usize = 8;
 
 /// Pieces of one interval.
 pub struct Searched {
-    /// Pieces, by speed.
-    pub pieces: Vec<Piece>,
+    /// Pieces, by speed, of each part of the saw.
+    pub pieces: Vec<Vec<Piece>>,
+    /// Numbers of unknowns of the parts.
+    pub sizes: Vec<usize>,
     /// Number of eigenproblems.
     pub eigenproblems: usize,
     plane: Plane,
@@ -23,6 +25,9 @@ pub struct Searched {
 
 /// |λ| of a free rigid motion, which is zero except for rounding, as a share of the window.
 const RIGID: f64 = 3e-6;
+
+/// Frequency of a mode above all others of every sample, in multiples of the reach.
+const FENCE: f64 = 3.0;
 
 /// What a search of an interval needs besides its model.
 #[derive(Debug, Clone, Copy)]
@@ -35,6 +40,8 @@ pub struct Scope {
     pub tolerance: f64,
     /// Growth that does not matter, in 1/s.
     pub noise_per_s: f64,
+    /// Entries of the model that are zero, in units of the window.
+    pub negligible: f64,
     /// Number of free rigid motions, each of which has λ = 0 twice at every speed.
     pub rigid: usize,
 }
@@ -54,6 +61,13 @@ fn sample(interval: &Interval, speed: f64, scope: Scope, plane: Plane) -> Sample
     roots.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
     let followed = roots.partition_point(|root| root.lambda.im <= window);
     roots.truncate(followed + BESIDES);
+    // A part of a saw may have nothing above the window for the search to end in.
+    roots.push(Root {
+        lambda: c64::new(0.0, FENCE * reach),
+        slope: c64::new(0.0, 0.0),
+        error: c64::new(0.0, 0.0),
+        sign: 1,
+    });
     let finite = |z: c64| if z.is_finite() { z } else { c64::new(0.0, 0.0) };
     if plane == Plane::Eigenvalues {
         let sloped = roots.iter().map(|r| (r.lambda, finite(r.slope)));
@@ -77,37 +91,46 @@ fn sample(interval: &Interval, speed: f64, scope: Scope, plane: Plane) -> Sample
     Sample::of_squares(speed, squares)
 }
 
+/// Whether all numbers of a group are waves of one Krein sign at both ends.
+fn is_definite(piece: &Piece, grouped: &Grouped) -> bool {
+    let mut signs = [0, 1].into_iter().flat_map(|end| {
+        let places = grouped.places[end].iter();
+        places.map(move |place| piece.ends[end].signs.get(*place).copied().unwrap_or(0))
+    });
+    let first = signs.next().unwrap_or(0);
+    first != 0 && signs.all(|sign| sign == first)
+}
+
 impl Searched {
-    /// Searches an interval.
+    /// Searches an interval, part by part.
     pub fn new(interval: &Interval, scope: Scope) -> Self {
-        let plane = if interval.is_conservative {
-            Plane::Squares
-        } else {
-            Plane::Eigenvalues
+        let plane = match interval.is_conservative {
+            true => Plane::Squares,
+            false => Plane::Eigenvalues,
         };
+        let parts = interval.parts(scope.negligible);
         let spent = AtomicUsize::new(0);
-        let solve = |speed: f64| {
-            if spent.fetch_add(1, Ordering::Relaxed) >= MOST {
-                return Ok(None);
-            }
-            Ok(Some(sample(interval, speed, scope, plane)))
+        let searched = |part: &Interval| {
+            let solve = |speed: f64| {
+                let found = sample(part, speed, scope, plane);
+                let most = spent.fetch_add(1, Ordering::Relaxed) >= MOST;
+                Ok(Some(found).filter(|_| !most))
+            };
+            let search = Search {
+                plane,
+                top_rad_per_s: scope.window,
+                tolerance: scope.tolerance,
+                growth_tolerance: scope.tolerance,
+                noise_per_s: scope.noise_per_s,
+                solve: &solve,
+            };
+            let (from, to) = (part.from, part.to);
+            let found = search.pieces(&[from, 0.5 * (from + to), to]);
+            found.expect("no eigenproblem fails")
         };
-        let search = Search {
-            plane,
-            top_rad_per_s: scope.window,
-            tolerance: scope.tolerance,
-            growth_tolerance: scope.tolerance,
-            noise_per_s: scope.noise_per_s,
-            solve: &solve,
-        };
-        let speeds = [
-            interval.from,
-            0.5 * (interval.from + interval.to),
-            interval.to,
-        ];
-        let pieces = search.pieces(&speeds).expect("no eigenproblem fails");
         Searched {
-            pieces,
+            pieces: parts.iter().map(searched).collect(),
+            sizes: parts.iter().map(|part| part.size).collect(),
             eigenproblems: spent.load(Ordering::Relaxed),
             plane,
         }
@@ -115,7 +138,11 @@ impl Searched {
 
     /// Width of the pieces that were given up, in rad/s.
     pub fn lost(&self) -> f64 {
-        let lost = self.pieces.iter().filter(|piece| piece.groups.is_empty());
+        let lost = self
+            .pieces
+            .iter()
+            .flatten()
+            .filter(|piece| piece.groups.is_empty());
         lost.map(|p| p.ends[1].speed_rad_per_s - p.ends[0].speed_rad_per_s)
             .sum()
     }
@@ -125,10 +152,21 @@ impl Searched {
         let inside = |piece: &&Piece| {
             piece.ends[0].speed_rad_per_s <= speed && speed <= piece.ends[1].speed_rad_per_s
         };
-        let Some(piece) = self.pieces.iter().find(inside) else {
-            return Vec::new();
-        };
-        let numbers = piece.groups.iter().flat_map(|g| g.group.at(speed));
+        let here = self
+            .pieces
+            .iter()
+            .filter_map(|part| part.iter().find(inside));
+        let numbers = here.flat_map(|piece| {
+            let of = |grouped: &Grouped| {
+                let mut numbers = grouped.group.at(speed);
+                // Waves of one Krein sign do not coalesce: what their interpolation shows beside the axis is its error.
+                if is_definite(piece, grouped) {
+                    numbers.iter_mut().for_each(|z| z.im = 0.0);
+                }
+                numbers
+            };
+            piece.groups.iter().flat_map(of)
+        });
         let mut found = Vec::new();
         for number in numbers {
             match self.plane {

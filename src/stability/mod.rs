@@ -81,7 +81,7 @@ pub use out_of_reach::OutOfReach;
 #[doc(hidden)]
 pub use partition::{Plane, Sample};
 #[doc(hidden)]
-pub use pieces::{Piece, Search};
+pub use pieces::{Grouped, Piece, Search};
 pub(crate) use reach::{CHARTED, is_cut_short, usual_end};
 pub(crate) use root::{Look, bracketed};
 pub use sensitivity::{Sensitivity, SensitivityError};

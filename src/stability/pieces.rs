@@ -16,6 +16,7 @@ use crate::spectrum::{SpectrumError, Work, smallest};
 /// A group between two samples.
 #[derive(Debug, Clone)]
 pub struct Grouped {
+    /// Its eigenvalues over the piece.
     pub group: Group,
     /// Indices of its numbers in the two samples.
     pub places: Places,

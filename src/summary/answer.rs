@@ -303,7 +303,7 @@ pub fn trust(text: &mut String, report: &Report) -> Result {
     let accuracy = &report.accuracy;
     writeln!(
         text,
-        "Waves of up to {} nodal diameters; none of more stands still up to {:.0} rpm",
+        "Waves of up to {} nodal diameters; no wave with more stands still up to {:.0} rpm",
         accuracy.max_diameters, accuracy.complete_to_rpm
     )?;
     each(text, "Warning", &report.warnings)
