@@ -86,20 +86,6 @@ impl Near {
         self
     }
 
-    /// The same waves for a larger basis, whose first functions are those of this one: all others are far.
-    pub fn enlarged(mut self, saw: &Saw) -> Self {
-        for block in &saw.blocks[self.blocks.len()..] {
-            let vectors = Mat::identity(block.radial, block.radial);
-            self.blocks.push(NearBlock {
-                vectors,
-                near: 0,
-                squares: Vec::new(),
-            });
-        }
-        self.rotations = saw.columns.iter().map(|_| None).collect();
-        self
-    }
-
     /// Number of displacements of columns that are kept.
     pub fn strong(&self) -> usize {
         self.rotations.iter().flatten().map(|r| r.strong).sum()

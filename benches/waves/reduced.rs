@@ -56,14 +56,10 @@ impl Frame {
         for (block, part) in saw.blocks.iter().zip(&near.blocks) {
             let (radial, copies) = (block.radial, block.copies());
             let order = unknowns(radial, copies, part.near);
-            let known = part.vectors.nrows();
             let turn = Mat::from_fn(copies * radial, copies * radial, |i, k| {
                 let (copy, wave) = order[k];
-                let row = i % radial;
                 match i / radial == copy {
-                    true if row < known && wave < known => part.vectors[(row, wave)],
-                    // Functions of a larger basis, which are far as they are.
-                    true => f64::from(u8::from(row == wave)),
+                    true => part.vectors[(i % radial, wave)],
                     false => 0.0,
                 }
             });

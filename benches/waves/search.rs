@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use faer::c64;
 use sawflutter::stability::{Grouped, Piece, Plane, Sample, Search};
 
-use super::interval::{Interval, REAL, Root};
+use super::interval::{Interval, Root};
+use super::vectors::REAL;
 
 /// Largest number of eigenproblems of one interval.
 const MOST: usize = 4000;
@@ -16,8 +17,6 @@ const BESIDES: usize = 8;
 pub struct Searched {
     /// Pieces, by speed, of each part of the saw.
     pub pieces: Vec<Vec<Piece>>,
-    /// Numbers of unknowns of the parts.
-    pub sizes: Vec<usize>,
     /// Number of eigenproblems.
     pub eigenproblems: usize,
     plane: Plane,
@@ -130,7 +129,6 @@ impl Searched {
         };
         Searched {
             pieces: parts.iter().map(searched).collect(),
-            sizes: parts.iter().map(|part| part.size).collect(),
             eigenproblems: spent.load(Ordering::Relaxed),
             plane,
         }

@@ -53,16 +53,6 @@ impl Middle {
         }
     }
 
-    /// Number of unknowns after stage one.
-    pub fn size(&self) -> usize {
-        self.unknowns.len()
-    }
-
-    /// Error of the series of stage one.
-    pub fn tail(&self) -> f64 {
-        self.series.tail()
-    }
-
     /// The model of `count` equal intervals, for a cut in 1/s.
     pub fn intervals(&self, count: usize, cut: f64, terms: usize, nodes: usize) -> Vec<Interval> {
         let (low, high) = self.sweep;
