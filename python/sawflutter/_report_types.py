@@ -439,8 +439,8 @@ class AccuracyEntry(Entry):
     """Largest number of nodal diameters."""
 
     complete_to_rpm: float
-    """Speed up to which no wave with more nodal diameters can stand still in space: at least the
-    end of the sweep and the lowest critical speed. Critical speeds, bands, errors and the
+    """Speed up to which no wave with more nodal diameters can stand still in space: at least
+    the end of the sweep and the lowest critical speed. Critical speeds, bands, errors and the
     certificate hold up to it."""
 
     radial_functions: int
@@ -1352,8 +1352,8 @@ class CutRun(Entry):
     model, and the speed away from critical speeds."""
 
     at_critical_rpm: float | None
-    """Critical speed within 5 % of this speed, of the saw in the cut or out of it; null if there
-    is none."""
+    """Critical speed within 5 % of this speed, of the saw in the cut or out of it; null if
+    there is none."""
 
     decided_by: CutCriterion
     """Criterion of fastest growth among those with this verdict."""
@@ -1536,8 +1536,8 @@ class SlowSweep(Entry):
     are no results beyond it. Null if they do not."""
 
     stopped_at_rpm: float | None
-    """Speed at which the sweep stopped at its largest number of equilibria; there are no results
-    beyond it. Null if it did not."""
+    """Speed at which the sweep stopped at its largest number of equilibria; there are no
+    results beyond it. Null if it did not."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -1603,6 +1603,10 @@ class DeflectReport(Entry):
     estimated_relative_error: float | None
     """Largest relative change of the deflection with half as many modes more; null if the blade
     remains flat."""
+
+    basis_error: float | None
+    """Estimated relative error of a small deflection at the force, at rest, on the basis from
+    which the shapes are made; null without a force, and for a blade that is buckled at rest."""
 
     from_rpm: float
     """First speed."""

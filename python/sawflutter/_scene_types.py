@@ -661,7 +661,8 @@ class SceneDict(_SceneDict, total=False):
     """Lines of the Campbell diagram at multiples of the rotation speed. None by default."""
 
     sweep: SweepDict | None
-    """Range of speeds; by default from rest to twice the lowest critical speed, or to the fortieth."""
+    """Range of speeds; by default from rest to twice the lowest critical speed, or to the
+    fortieth."""
 
     accuracy: Accuracy
     """Accuracy by name; a lower one is faster."""
