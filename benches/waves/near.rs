@@ -32,7 +32,7 @@ pub struct Rotation {
     pub strong: usize,
 }
 
-/// What is kept over an interval.
+/// Waves and displacements of dampers that are kept over an interval.
 pub struct Near {
     /// By number of nodal diameters.
     pub blocks: Vec<NearBlock>,
@@ -47,7 +47,7 @@ pub fn is_near(square: f64, turned: f64, cut: f64) -> bool {
 }
 
 impl Near {
-    /// What is kept from `from` to `to`, in rad/s, for a window and a cut in 1/s.
+    /// The coordinates that are kept from `from` to `to`, in rad/s, for a window and a cut in 1/s.
     pub fn new(saw: &Saw, (from, to): (f64, f64), (window, cut): (f64, f64)) -> Self {
         let middle = 0.5 * (from + to);
         let mut blocks = Vec::new();

@@ -28,7 +28,7 @@ const RIGID: f64 = 3e-6;
 /// Frequency of a mode above all others of every sample, in multiples of the reach.
 const FENCE: f64 = 3.0;
 
-/// What a search of an interval needs besides its model.
+/// Data that a search of an interval needs besides its model.
 #[derive(Debug, Clone, Copy)]
 pub struct Scope {
     /// Top of the window, in 1/s.

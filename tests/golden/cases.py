@@ -77,7 +77,7 @@ CASES = {
     "schema": (None, {}, ["schema"]),
     "schema-of-a-study": (None, {}, ["schema", "--study"]),
     "version": (None, {}, ["--version"]),
-    # What is refused.
+    # Refusals.
     "refused-value": ("paper", {"blade.thickness_m": -1}, ["analyze", "saw"]),
     "refused-key": ("paper", {"blade.thicknes_m": 0.003}, ["analyze", "saw"]),
     "refused-option": ("paper", {}, ["gap", "saw", "--friction", "-1"]),
