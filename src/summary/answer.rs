@@ -301,11 +301,11 @@ pub fn trust(text: &mut String, report: &Report) -> Result {
         )?;
     }
     let accuracy = &report.accuracy;
-    writeln!(
-        text,
+    let complete = format!(
         "Waves of up to {} nodal diameters; no wave with more stands still up to {:.0} rpm",
         accuracy.max_diameters, accuracy.complete_to_rpm
-    )?;
+    );
+    sentence(text, &complete)?;
     each(text, "Warning", &report.warnings)
 }
 
