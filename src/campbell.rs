@@ -14,8 +14,11 @@ mod refine;
 use faer::c64;
 use rayon::prelude::*;
 
+use crate::plate::Plate;
 use crate::scene::rpm;
-use crate::spectrum::{DescribedMode, HarmonicShare, SpectralModel, SpectrumError, Work};
+use crate::spectrum::{
+    DescribedMode, HarmonicShare, NamedCriticalSpeed, SpectralModel, SpectrumError, Work,
+};
 
 use matching::Match;
 pub(crate) use matching::{Sighted, match_modes};
@@ -33,10 +36,10 @@ pub enum CampbellError {
     Spectrum(#[from] SpectrumError),
     /// The modes at all speeds of a chart exceed the allowed memory.
     #[error(
-        "the chart would take {needed_mb} MiB of memory for {modes} modes at each of {speeds} speeds, but must not take more than {allowed_mb} MiB; {}choose a coarser accuracy", end_in_words(*.largest_end_rpm)
+        "the chart would take at least {needed_mb} MiB of memory for {modes} modes at each of {speeds} speeds, but must not take more than {allowed_mb} MiB; {}choose a coarser accuracy", end_in_words(*.largest_end_rpm)
     )]
     TooLarge {
-        /// Memory needed, in MiB.
+        /// Memory needed at least, in MiB.
         needed_mb: usize,
         /// Memory allowed, in MiB.
         allowed_mb: usize,
@@ -93,33 +96,40 @@ const MEMORY_BUDGET_MB: usize = 1024;
 
 /// Memory for a mode of a chart, in bytes: its shape, its projected coordinates of at most the same length, and
 /// a share for each harmonic.
-fn bytes_of_mode(model: &SpectralModel) -> usize {
-    let shape = 2 * model.plate.degrees_of_freedom() * size_of::<c64>();
-    let shares = model.plate.max_diameters() * size_of::<HarmonicShare>();
+fn bytes_of_mode(plate: &Plate) -> usize {
+    let shape = 2 * plate.degrees_of_freedom() * size_of::<c64>();
+    let shares = plate.max_diameters() * size_of::<HarmonicShare>();
     size_of::<DescribedMode>() + shape + shares
 }
 
 /// Number of speeds with this many modes each that fit into the allowed memory.
-fn most_speeds(model: &SpectralModel, modes: usize) -> usize {
-    (MEMORY_BUDGET_MB << 20) / (modes.max(1) * bytes_of_mode(model))
+fn most_speeds(plate: &Plate, modes: usize) -> usize {
+    (MEMORY_BUDGET_MB << 20) / (modes.max(1) * bytes_of_mode(plate))
 }
 
 /// Number of speeds that a chart has room for in addition to its own.
 pub(crate) fn room_for_more(model: &SpectralModel, samples: &[SpeedSample]) -> usize {
     let modes = samples.iter().map(|sample| sample.modes.len()).max();
-    most_speeds(model, modes.unwrap_or(0)).saturating_sub(samples.len())
+    most_speeds(&model.plate, modes.unwrap_or(0)).saturating_sub(samples.len())
 }
 
-/// Checks the memory for a chart by the number of modes at its last speed, which is the largest of all speeds.
-fn check_memory(model: &SpectralModel, modes: usize, speeds: &[f64]) -> Result<(), CampbellError> {
-    let most = most_speeds(model, modes);
+/// Checks the memory for a chart of a saw with some critical speeds by the number of modes at its last speed, which is the
+/// largest of all speeds.
+///
+/// # Errors
+/// [`CampbellError::TooLarge`].
+pub(crate) fn check_memory(
+    (plate, critical): (&Plate, &[NamedCriticalSpeed]),
+    modes: usize,
+    speeds: &[f64],
+) -> Result<(), CampbellError> {
+    let most = most_speeds(plate, modes);
     if speeds.len() <= most {
         return Ok(());
     }
-    let critical = model.critical.iter().map(|c| c.speed_rad_per_s);
-    let critical: Vec<f64> = critical.collect();
+    let critical: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
     Err(CampbellError::TooLarge {
-        needed_mb: (speeds.len() * modes * bytes_of_mode(model)) >> 20,
+        needed_mb: (speeds.len() * modes * bytes_of_mode(plate)) >> 20,
         allowed_mb: MEMORY_BUDGET_MB,
         modes,
         speeds: speeds.len(),
@@ -135,7 +145,8 @@ pub(crate) fn check_room(model: &SpectralModel, speeds: &[f64]) -> Result<(), Ca
     let Some(last) = speeds.last() else {
         return Ok(());
     };
-    check_memory(model, model.drawn_modes(*last)?.len(), speeds)
+    let modes = model.drawn_modes(*last)?.len();
+    check_memory((&model.plate, &model.critical), modes, speeds)
 }
 
 /// Highest critical speed at which a sweep may end so that its chart has at most `most` speeds. An earlier end
@@ -186,7 +197,7 @@ pub fn sample(
         })
     };
     let last = sampled(last)?;
-    check_memory(model, last.modes.len(), speeds)?;
+    check_memory((&model.plate, &model.critical), last.modes.len(), speeds)?;
     let samples: Vec<Result<SpeedSample, CampbellError>> = others.par_iter().map(sampled).collect();
     samples.into_iter().chain([Ok(last)]).collect()
 }

@@ -96,7 +96,7 @@ pub use progress::{Progress, Stage};
 pub(crate) use refined::RefinedPair;
 pub(crate) use scale::frequency_scale;
 pub use standing_waves::StandingWaves;
-pub(crate) use standing_waves::{diameters_within, highest_reflected};
+pub(crate) use standing_waves::{diameters_within, highest_reflected, waves_within};
 pub(crate) use vectors::{complex, halves, orthonormal, smallest, split};
 pub use work::Cancellation;
 #[doc(hidden)]

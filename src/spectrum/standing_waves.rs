@@ -155,6 +155,34 @@ pub fn highest_reflected(plate: &Plate, speed_rad_per_s: f64) -> Result<f64, Spe
     Ok(highest)
 }
 
+/// Number of waves of the free blade, among the harmonics of a plate, whose frequency in space is within a window at a
+/// speed: |ω − nΩ| or ω + nΩ.
+///
+/// # Errors
+/// [`SpectrumError::Decomposition`].
+pub fn waves_within(
+    plate: &Plate,
+    speed_rad_per_s: f64,
+    window_rad_per_s: f64,
+) -> Result<usize, SpectrumError> {
+    let mut count = 0;
+    for block in &plate.harmonics {
+        let body = block.body_frame_stiffness(speed_rad_per_s);
+        let squares =
+            symmetric_eigenvalues(body.as_ref()).map_err(SpectrumError::at(speed_rad_per_s))?;
+        let turned = block.diameters as f64 * speed_rad_per_s;
+        let own = squares.iter().map(|square| square.max(0.0).sqrt());
+        let in_space = own.flat_map(|own| match block.diameters {
+            0 => vec![own],
+            _ => vec![(own - turned).abs(), own + turned],
+        });
+        count += in_space
+            .filter(|frequency| *frequency <= window_rad_per_s)
+            .count();
+    }
+    Ok(count)
+}
+
 /// Stiffness of the free blade for n, n + 1, …
 fn harmonics_from(fewest: usize, plate: &Plate) -> impl Iterator<Item = HarmonicBlock> + '_ {
     let starts = (fewest..=SEARCHED).step_by(AT_ONCE);

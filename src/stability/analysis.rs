@@ -17,7 +17,8 @@ use super::loci::RootLoci;
 use super::onsets::Onsets;
 use super::options::AnalysisOptions;
 use super::out_of_reach::OutOfReach;
-use super::reach::{check_stretch, two_digits_down};
+use super::reach::two_digits_down;
+use super::room::check_room;
 use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
 use crate::campbell::CampbellError;
 use crate::plate::{Resolution, StraightEdgeReading};
@@ -151,14 +152,6 @@ impl Analysis {
         scene: &Scene,
         options: AnalysisOptions<'_>,
     ) -> Result<Self, AnalysisError> {
-        // Without this check of the end of the sweep, counting the critical speeds for the expected work
-        // could take minutes.
-        if let Some(sweep) = scene.sweep() {
-            check_stretch(scene.blade(), sweep.to_rad_per_s)?;
-        }
-        if let Some(tell) = options.expected {
-            ExpectedWork::of_sweep(scene).into_iter().for_each(tell);
-        }
         let chosen = ChosenBasis::at_least(scene, scene.tolerance(), options.least_size)?;
         let least = chosen.saw.plate.resolution;
         let end_rad_per_s = match Self::on_basis(scene, chosen, options) {
@@ -181,6 +174,14 @@ impl Analysis {
         options: AnalysisOptions<'_>,
     ) -> Result<Self, AnalysisError> {
         let detail = options.detail;
+        if detail == Detail::Full {
+            check_room(&chosen)?;
+        }
+        if let Some(tell) = options.expected {
+            ExpectedWork::of_sweep(scene, &chosen)
+                .into_iter()
+                .for_each(tell);
+        }
         let straight_edge = straight_edge(scene)?;
         let ChosenBasis {
             saw,

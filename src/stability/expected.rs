@@ -2,11 +2,8 @@
 
 use std::fmt;
 
-use super::ladder::{LADDER, resolution, sized};
-use super::reach::SWEPT;
-use crate::plate::Plate;
+use super::basis::ChosenBasis;
 use crate::scene::{Scene, rpm};
-use crate::spectrum::{Assembled, StandingWaves};
 
 /// Work above this number of seconds of processor time is announced to the user before it begins.
 const LONG_S: f64 = 10.0;
@@ -21,12 +18,6 @@ const DAMPED: (f64, i32) = (1.3, 2 + 3);
 /// speeds, 2.5 s for 46 and 6.9 s for 68.
 const FREE: (f64, i32) = (0.022, 3);
 
-/// The search is short if the free blade has at most this number of critical speeds within the sweep.
-const FEW: usize = 17;
-/// Index of the size of the ladder whose radial functions count the others: ten represent the waves of 24 diameters of the
-/// paper's blade.
-const COUNTED: usize = 3;
-
 /// Work expected for a chart before it begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExpectedWork {
@@ -39,26 +30,12 @@ pub struct ExpectedWork {
 }
 
 impl ExpectedWork {
-    /// Expected work for the sweep of a scene, from the number of critical speeds. In large bases the inertia of the
-    /// stiffness gives this number, because computing hundreds of critical speeds takes minutes. `None` for a scene
-    /// without a sweep, if there are few, so that the search is short, or too many, so that the sweep is refused, and
-    /// if they cannot be computed.
-    pub(super) fn of_sweep(scene: &Scene) -> Option<Self> {
+    /// Expected work for the sweep of a scene, from the number of critical speeds within it. `None` for a scene without a
+    /// sweep.
+    pub(super) fn of_sweep(scene: &Scene, chosen: &ChosenBasis) -> Option<Self> {
         let to_rad_per_s = scene.sweep()?.to_rad_per_s;
-        let plate = Plate::new(scene, resolution(LADDER[COUNTED]));
-        let waves = StandingWaves::up_to(&plate, &|_| to_rad_per_s).ok()?;
-        let is_short = waves.speeds_rad_per_s.len() <= FEW;
-        if is_short || waves.most_diameters > SWEPT + waves.lowest_diameters {
-            return None;
-        }
-        let saw = Assembled::from(Plate::new(scene, sized(COUNTED, waves.most_diameters)));
-        let critical_speeds = match saw.critical_speeds_below(to_rad_per_s) {
-            Some(count) => count,
-            None => {
-                let found = saw.critical_speeds(Some(&|_| to_rad_per_s)).ok()?;
-                found.partition_point(|c| c.speed_rad_per_s <= to_rad_per_s)
-            }
-        };
+        let ChosenBasis { saw, critical, .. } = chosen;
+        let critical_speeds = critical.partition_point(|c| c.speed_rad_per_s <= to_rad_per_s);
         let (seconds, power) = match (saw.plate.is_axisymmetric(), saw.plate.is_conservative()) {
             (true, _) => FREE,
             (false, true) => GUIDED,

@@ -43,6 +43,7 @@ mod pieces;
 mod proof;
 mod quadruples;
 mod reach;
+mod room;
 mod root;
 mod seen;
 mod sensitivity;

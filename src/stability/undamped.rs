@@ -9,7 +9,10 @@ use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP};
 use super::options::AnalysisOptions;
 use super::signature::Signature;
 use crate::campbell::{self, Closeness, SpeedSample};
-use crate::spectrum::{SpectralModel, SpectrumError, clear_range, searched_range};
+use crate::plate::Plate;
+use crate::spectrum::{
+    NamedCriticalSpeed, SpectralModel, SpectrumError, clear_range, searched_range,
+};
 
 /// Number of even speeds at the start of the search for bands; the bands do not depend on it.
 pub(super) const SEARCH_SPEEDS: usize = 9;
@@ -30,11 +33,11 @@ pub(super) fn charted(
     let drawn = clear_range(&model.critical, range);
     let even = campbell::even_speeds(drawn, count);
     let speeds = match detail {
-        Detail::Full => with_critical_speeds(model, drawn, even),
+        Detail::Full => with_critical_speeds((&model.plate, &model.critical), drawn, even),
         // A sketch of a guided blade needs no speeds beside critical ones, because its branches are followed
         // through λ = 0.
         Detail::Sketch if !model.plate.is_axisymmetric() => away_from_critical(model, even),
-        Detail::Sketch => with_critical_speeds(model, drawn, even),
+        Detail::Sketch => with_critical_speeds((&model.plate, &model.critical), drawn, even),
     };
     // A free blade has no bands to search for; only the Krein index is checked.
     let search = match model.plate.is_axisymmetric() {
@@ -90,7 +93,10 @@ pub fn undamped_bands(
 pub(super) fn search_speeds(model: &SpectralModel, range: (f64, f64), count: usize) -> Vec<f64> {
     let searched = searched_range(&model.critical, range);
     let even = campbell::even_speeds(searched, count);
-    from_lowest_critical(model, with_critical_speeds(model, searched, even))
+    from_lowest_critical(
+        model,
+        with_critical_speeds((&model.plate, &model.critical), searched, even),
+    )
 }
 
 /// Share of |ω| + Ω below which growth of a drawn mode is not compared with the bands: frequencies are
@@ -131,12 +137,12 @@ const CLEAR: f64 = 1e-5;
 
 /// Adds both sides of each group of critical speeds in the range.
 pub(super) fn with_critical_speeds(
-    model: &SpectralModel,
+    (plate, critical): (&Plate, &[NamedCriticalSpeed]),
     range: (f64, f64),
     mut speeds: Vec<f64>,
 ) -> Vec<f64> {
-    let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
-    if model.plate.is_axisymmetric() {
+    let critical: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
+    if plate.is_axisymmetric() {
         // A wave of the free blade passes through zero without diverging. Next to this zero its Krein sign is
         // determined by rounding errors, so that no speed may be there.
         let clear = |s: &f64| {

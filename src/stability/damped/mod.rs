@@ -42,7 +42,11 @@ pub(super) fn charted(
     options: AnalysisOptions<'_>,
 ) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
     let drawn = clear_range(&model.critical, range);
-    let speeds = with_critical_speeds(model, drawn, campbell::even_speeds(drawn, count));
+    let speeds = with_critical_speeds(
+        (&model.plate, &model.critical),
+        drawn,
+        campbell::even_speeds(drawn, count),
+    );
     let closeness = Closeness::of(options.detail);
     let searched = || {
         let found = bands(model, range, closeness)?;
