@@ -89,8 +89,8 @@ def test_a_long_sweep_is_estimated_before_its_search(draft: sf.Scene) -> None:
     handler, logger = Handler(), logging.getLogger("sawflutter")
     logger.addHandler(handler)
     try:
-        # The sweep has 42 critical speeds, and 22 already take some seconds.
-        with pytest.raises(Enough, match="42 critical speeds.*minutes.*estimate.*sweep.to_rpm"):
+        # On the basis of a draft the sweep has 40 critical speeds, and 22 already take some seconds.
+        with pytest.raises(Enough, match="40 critical speeds.*minutes.*estimate.*sweep.to_rpm"):
             draft.run_campbell(speed_range=(0, 10_000))
         draft.run_campbell()
     finally:
