@@ -247,9 +247,8 @@ fn change(
 }
 
 /// The curves that the blade follows from one jump to the next, from both ends and continued through their folds; the
-/// curves through
-/// mirror images of its equilibria; and the curves that branch from the flat blade at its critical speeds, on both
-/// sides.
+/// curves through mirror images of its equilibria; and the curves that branch from the flat blade at its critical
+/// speeds, on both sides.
 fn curves(
     blade: &StretchedBlade,
     range: (f64, f64),

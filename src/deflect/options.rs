@@ -3,7 +3,7 @@
 use crate::plate::Plate;
 use crate::scene::{RefusedValue, Scene, speed_rad_per_s};
 use crate::stretched::{LARGEST_SLOPE, StretchedBlade, StretchedError};
-use crate::text::shown_to;
+use crate::text::{rounded_down, shown_to};
 
 /// Options of the computation of equilibria.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -73,9 +73,7 @@ impl Options {
             (None, Some(_)) => "runup.force_n",
             _ => "force_n",
         };
-        // Two digits, rounded down.
-        let unit = 10_f64.powf(gentle_n.abs().log10().floor() - 1.0);
-        let most = shown_to(2, (gentle_n.abs() / unit).floor() * unit);
+        let most = shown_to(2, rounded_down(2, gentle_n.abs()));
         let allowed = format!(
             "between -{most} and {most} for this saw: a larger force deflects it to slopes above {LARGEST_SLOPE}, where the model ends"
         );

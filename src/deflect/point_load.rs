@@ -47,7 +47,7 @@ mod tests {
 
     use super::*;
     use crate::plate::Resolution;
-    use crate::scene::SceneFile;
+    use crate::stretched::basis_tests::saws;
 
     const fn basis(max_diameters: usize, radial_functions: usize) -> Resolution {
         Resolution {
@@ -61,39 +61,17 @@ mod tests {
     #[test]
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
     fn the_error_of_the_compliance_is_estimated_within_a_factor_of_two() {
-        let two_pads = Scene::from_json(include_str!("../../scenes/two-pads.json")).unwrap();
-        let edited = |change: &dyn Fn(&mut SceneFile)| Scene::paper().edited(|saw| change(saw));
-        let small = |saw: &mut SceneFile| {
-            let pad = &mut saw.guides[0];
-            (pad.radius_m, pad.radial_length_m, pad.tangential_length_m) = (0.3, 0.02, 0.02);
-        };
-        let small_and_stiff = |saw: &mut SceneFile| {
-            small(saw);
-            saw.guides[0].stiffness_n_per_m *= 100.0;
-        };
-        let mirrored = two_pads.edited(|saw| {
-            (saw.guides[0].angle_deg, saw.guides[1].angle_deg) = (-55.0, 55.0);
-        });
-        let saws = [
-            edited(&|_| ()),
-            edited(&|saw| saw.guides[0].angle_deg = 0.0),
-            edited(&small),
-            edited(&small_and_stiff),
-            mirrored,
-            Ok(two_pads),
-        ];
-        for saw in saws.map(Result::unwrap) {
+        for (name, saw) in saws() {
             let of = |plate: &Plate| rim_compliance_m_per_n(plate, PI, 0.0).unwrap();
             let exact = of(&Plate::new(&saw, basis(40, 18)));
             for size in [basis(12, 7), basis(14, 9)] {
                 let plate = Plate::new(&saw, size);
                 let error = 1.0 - of(&plate) / exact;
                 let estimate = basis_error(&saw, &plate, PI).unwrap();
-                println!("{size:?} {error:e} {estimate:e}");
                 let ratio = estimate / error;
                 assert!(
                     (0.5..2.0).contains(&ratio),
-                    "{size:?}: {error:e} {estimate:e}"
+                    "{name} {size:?}: {error:e} {estimate:e}"
                 );
             }
         }

@@ -32,7 +32,7 @@ pub(crate) use real::{RealEigen, real_eigenvalues};
 pub(crate) use singular::RightSingular;
 pub(crate) use symmetric::{SymmetricEigen, symmetric_eigenvalues};
 
-use faer::{Col, MatRef};
+use faer::{Col, Mat, MatRef};
 use nalgebra::{DMatrix, Scalar};
 
 /// Reason for which a decomposition failed.
@@ -107,6 +107,12 @@ impl Sought {
                 error,
             }),
         }
+    }
+
+    /// Refuses vectors that are not orthonormal, by the error of Vᵀ(Vx) = x for a vector x of their shares.
+    fn orthonormal(self, vectors: &Mat<f64>, shares: &Col<f64>) -> Result<(), LinalgError> {
+        let turned_back = vectors.transpose() * (vectors * shares) - shares;
+        self.within(relative(turned_back.norm_l2(), shares.norm_l2()), TOLERANCE)
     }
 }
 

@@ -53,9 +53,7 @@ impl RightSingular {
         let size = values.first().copied().unwrap_or_default() * sum.norm_l2();
         sought.within(relative(residual.norm_l2(), size), TOLERANCE)?;
         for vectors in [&left, &right] {
-            let turned_back = vectors.transpose() * (vectors * &shares) - &shares;
-            let error = relative(turned_back.norm_l2(), shares.norm_l2());
-            sought.within(error, TOLERANCE)?;
+            sought.orthonormal(vectors, &shares)?;
         }
         Ok(RightSingular {
             values,

@@ -57,9 +57,7 @@ impl SymmetricEigen {
         let residual = times(matrix, &sum) - &self.vectors * stretched;
         let size = largest(&self.values) * sum.norm_l2();
         sought.within(relative(residual.norm_l2(), size), TOLERANCE)?;
-        let turned_back = self.vectors.transpose() * &sum - &shares;
-        let error = relative(turned_back.norm_l2(), shares.norm_l2());
-        sought.within(error, TOLERANCE)?;
+        sought.orthonormal(&self.vectors, &shares)?;
         Ok(self)
     }
 }

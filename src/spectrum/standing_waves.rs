@@ -145,12 +145,10 @@ pub fn diameters_within(plate: &Plate, to_rad_per_s: f64, window_rad_per_s: f64)
 pub fn highest_reflected(plate: &Plate, speed_rad_per_s: f64) -> Result<f64, SpectrumError> {
     let mut highest = 0.0_f64;
     for block in &plate.harmonics {
-        let body = block.body_frame_stiffness(speed_rad_per_s);
-        let squares =
-            symmetric_eigenvalues(body.as_ref()).map_err(SpectrumError::at(speed_rad_per_s))?;
-        let lowest = squares.first().copied().unwrap_or(f64::INFINITY);
+        let own = body_frequencies(block, speed_rad_per_s)?;
+        let lowest = own.first().copied().unwrap_or(f64::INFINITY);
         let turned = block.diameters as f64 * speed_rad_per_s;
-        highest = highest.max(turned - lowest.max(0.0).sqrt());
+        highest = highest.max(turned - lowest);
     }
     Ok(highest)
 }
@@ -167,12 +165,9 @@ pub fn waves_within(
 ) -> Result<usize, SpectrumError> {
     let mut count = 0;
     for block in &plate.harmonics {
-        let body = block.body_frame_stiffness(speed_rad_per_s);
-        let squares =
-            symmetric_eigenvalues(body.as_ref()).map_err(SpectrumError::at(speed_rad_per_s))?;
         let turned = block.diameters as f64 * speed_rad_per_s;
-        let own = squares.iter().map(|square| square.max(0.0).sqrt());
-        let in_space = own.flat_map(|own| match block.diameters {
+        let own = body_frequencies(block, speed_rad_per_s)?;
+        let in_space = own.into_iter().flat_map(|own| match block.diameters {
             0 => vec![own],
             _ => vec![(own - turned).abs(), own + turned],
         });
@@ -181,6 +176,20 @@ pub fn waves_within(
             .count();
     }
     Ok(count)
+}
+
+/// Frequencies ω of the waves of a harmonic in the frame of the blade, ascending, in rad/s; zero for a buckled one.
+fn body_frequencies(
+    block: &HarmonicBlock,
+    speed_rad_per_s: f64,
+) -> Result<Vec<f64>, SpectrumError> {
+    let body = block.body_frame_stiffness(speed_rad_per_s);
+    let squares = symmetric_eigenvalues(body.as_ref());
+    let squares = squares.map_err(SpectrumError::at(speed_rad_per_s))?;
+    Ok(squares
+        .into_iter()
+        .map(|square| square.max(0.0).sqrt())
+        .collect())
 }
 
 /// Stiffness of the free blade for n, n + 1, …

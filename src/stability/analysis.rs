@@ -17,13 +17,13 @@ use super::loci::RootLoci;
 use super::onsets::Onsets;
 use super::options::AnalysisOptions;
 use super::out_of_reach::OutOfReach;
-use super::reach::two_digits_down;
 use super::room::check_room;
 use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
 use crate::campbell::CampbellError;
 use crate::plate::{Resolution, StraightEdgeReading};
 use crate::scene::{Accuracy, Scene, SceneError, rad_per_s, rpm};
 use crate::spectrum::{DescribedMode, SpectralModel, SpectrumError, Strategy};
+use crate::text::rounded_down;
 
 /// Largest share of the lowest critical speed at which saw makers run a saw.
 pub const OPERATING_LIMIT: f64 = 0.85;
@@ -160,7 +160,7 @@ impl Analysis {
             Err(AnalysisError::Campbell(CampbellError::TooLarge {
                 largest_end_rpm: Some(end),
                 ..
-            })) if scene.sweep().is_none() => rad_per_s(two_digits_down(end)),
+            })) if scene.sweep().is_none() => rad_per_s(rounded_down(2, end)),
             analysed => return analysed,
         };
         let shorter = scene.swept((0.0, end_rad_per_s).into())?;

@@ -13,6 +13,7 @@ use crate::spectrum::{
     ABOVE_LAST, Assembled, NamedCriticalSpeed, RestingMode, SpectrumError, StandingWaves,
     diameters_within, highest_reflected,
 };
+use crate::text::rounded_down;
 
 /// Strain of the rim above which a sweep is refused: ten times the yield strain of the strongest steel.
 const LARGEST_STRETCH: f64 = 0.1;
@@ -208,7 +209,7 @@ fn fastest_rad_per_s(blade: &Blade) -> f64 {
 ///
 /// # Errors
 /// [`AnalysisError::Overstretched`].
-pub(super) fn check_stretch(blade: &Blade, to_rad_per_s: f64) -> Result<(), AnalysisError> {
+fn check_stretch(blade: &Blade, to_rad_per_s: f64) -> Result<(), AnalysisError> {
     let fastest = fastest_rad_per_s(blade);
     match to_rad_per_s > fastest {
         true => Err(AnalysisError::Overstretched {
@@ -242,19 +243,9 @@ pub(crate) fn usual_end(scene: &Scene, lowest_critical_rad_per_s: Option<f64>) -
     default_top(lowest_critical_rad_per_s).min(fastest_rad_per_s(scene.blade()))
 }
 
-/// A speed in rpm rounded down to two digits.
-pub(super) fn two_digits_down(rpm: f64) -> f64 {
-    rounded_down(rpm, 2)
-}
-
-fn rounded_down(rpm: f64, digits: i32) -> f64 {
-    let digit = 10_f64.powf(rpm.log10().floor() + 1.0 - f64::from(digits));
-    (rpm / digit).floor() * digit
-}
-
 /// The number of fewest digits between two numbers, at most nine.
 fn round_between(low: f64, high: f64) -> f64 {
-    let rounded = (2..=9).map(|digits| rounded_down(high, digits));
+    let rounded = (2..=9).map(|digits| rounded_down(digits, high));
     let mut between = rounded.filter(|rounded| *rounded > low && *rounded < high);
     between.next().unwrap_or(low)
 }

@@ -20,7 +20,7 @@ const RESOLUTION: Resolution = Resolution {
 };
 
 /// Saws with large and small, soft and stiff, single and mirrored pads.
-fn saws() -> Vec<(&'static str, Scene)> {
+pub(crate) fn saws() -> Vec<(&'static str, Scene)> {
     let two_pads = Scene::from_json(include_str!("../../scenes/two-pads.json")).unwrap();
     let paper = |change: &dyn Fn(&mut SceneFile)| Scene::paper().edited(|saw| change(saw)).unwrap();
     let small = |saw: &mut SceneFile| {

@@ -296,7 +296,7 @@ fn finite(what: &'static str, value: f64) -> Result<f64, StretchedError> {
 }
 
 #[cfg(test)]
-mod basis_tests;
+pub(crate) mod basis_tests;
 #[cfg(test)]
 mod gap_tests;
 #[cfg(test)]

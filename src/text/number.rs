@@ -35,6 +35,12 @@ pub fn fixed(decimals: usize, value: f64) -> String {
     unsigned.map_or_else(|| text.clone(), str::to_owned)
 }
 
+/// A positive number rounded down to a number of significant digits.
+pub fn rounded_down(digits: i32, value: f64) -> f64 {
+    let unit = 10_f64.powf(value.log10().floor() + 1.0 - f64::from(digits));
+    (value / unit).floor() * unit
+}
+
 #[cfg(test)]
 mod tests {
     use super::{fixed, shown};
