@@ -44,6 +44,7 @@
 #[cfg(test)]
 extern crate self as sawflutter;
 
+pub mod analyses;
 pub mod analytical;
 pub mod campbell;
 pub mod check;
