@@ -4,7 +4,7 @@ use super::campbell::{self, CampbellView};
 use super::canvas::Sheet;
 #[cfg(feature = "page")]
 use super::chart_data::ChartData;
-use super::{FigureError, render};
+use super::{FigureError, raster, svg};
 use crate::commands::CommandReport;
 use crate::report::Report;
 use crate::stability::Setting;
@@ -48,7 +48,7 @@ impl Figure {
     /// # Errors
     /// [`FigureError`] if the figure cannot be drawn or encoded.
     pub fn png(&self) -> Result<Vec<u8>, FigureError> {
-        render::png(&self.sheet)
+        raster::png(&self.sheet)
     }
 
     /// Renders the figure as SVG. Equal reports give equal text.
@@ -56,7 +56,7 @@ impl Figure {
     /// # Errors
     /// [`FigureError`] if the figure cannot be drawn.
     pub fn svg(&self) -> Result<String, FigureError> {
-        render::svg(&self.sheet)
+        svg::svg(&self.sheet)
     }
 
     /// Renders the file with one of the [`names`](Self::names); `None` for another name.
@@ -92,7 +92,7 @@ impl Report {
     /// # Errors
     /// [`FigureError`] if the figure cannot be drawn.
     pub fn campbell_svg(&self) -> Result<String, FigureError> {
-        render::svg(&campbell::sheet(self, CampbellView::default()))
+        svg::svg(&campbell::sheet(self, CampbellView::default()))
     }
 
     /// Renders the Campbell diagram as PNG of 1200 × 918 pixels.
@@ -100,7 +100,7 @@ impl Report {
     /// # Errors
     /// [`FigureError`] if the figure cannot be drawn or encoded.
     pub fn campbell_png(&self) -> Result<Vec<u8>, FigureError> {
-        render::png(&campbell::sheet(self, CampbellView::default()))
+        raster::png(&campbell::sheet(self, CampbellView::default()))
     }
 }
 

@@ -1,11 +1,11 @@
 //! Width and drawing of text in the built-in fonts.
 //!
-//! In a browser plotters measures text by the fonts of the page and cannot draw text into a PNG. With the built-in
-//! fonts a figure has the same bytes wherever it is drawn.
+//! With the built-in fonts a figure has the same bytes wherever it is drawn, in a browser too.
 
+use std::convert::Infallible;
 use std::sync::OnceLock;
 
-use ab_glyph::{Font, FontRef, PxScaleFont, ScaleFont};
+use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point, PxScaleFont, ScaleFont};
 use plotters::element::{Drawable, PointCollection};
 use plotters::style::Color;
 use plotters_backend::text_anchor::Pos;
@@ -13,6 +13,8 @@ use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
     FontFamily, FontStyle, FontTransform,
 };
+
+use tiny_skia::{Path, PathBuilder};
 
 use super::style::{Colour, Weight};
 
@@ -38,36 +40,69 @@ fn font(weight: Weight) -> Option<&'static FontRef<'static>> {
     }
 }
 
-/// Error of reading a built-in font.
-#[derive(Debug, thiserror::Error)]
-#[error("a built-in font cannot be read")]
-pub struct UnreadableFont;
-
 /// The built-in font of a weight in a size.
 fn scaled(em: f64, weight: Weight) -> Option<PxScaleFont<&'static FontRef<'static>>> {
     Some(font(weight)?.as_scaled((em * SIZE_PER_EM) as f32))
 }
 
-/// Sum of the advances of the letters of a text with kerning, in the unit of `em`.
-fn advance(text: &str, em: f64, weight: Weight) -> Option<f32> {
+/// Letters of a text with their abscissae, and the abscissa of its end, with kerning, in the unit of `em`.
+fn laid_out(text: &str, em: f64, weight: Weight) -> Option<(Vec<(GlyphId, f32)>, f32)> {
     let font = scaled(em, weight)?;
-    let mut width = 0.0;
-    let mut before = None;
+    let mut right = 0.0;
+    let mut letters: Vec<(GlyphId, f32)> = Vec::new();
     for letter in text.chars() {
         let glyph = font.glyph_id(letter);
-        width += font.h_advance(glyph);
-        width += before.map_or(0.0, |before| font.kern(before, glyph));
-        before = Some(glyph);
+        right += letters
+            .last()
+            .map_or(0.0, |(before, _)| font.kern(*before, glyph));
+        letters.push((glyph, right));
+        right += font.h_advance(glyph);
     }
-    Some(width)
+    Some((letters, right))
+}
+
+/// Outlines of the letters of a text that begins at the origin, on the baseline; ordinates are downwards. `None` if
+/// there is nothing to draw.
+pub fn outlines(text: &str, em: f64, weight: Weight) -> Option<Path> {
+    let font = scaled(em, weight)?;
+    let scale = font.scale_factor();
+    let mut path = PathBuilder::new();
+    for (glyph, left) in laid_out(text, em, weight)?.0 {
+        let at = |p: Point| (left + scale.horizontal * p.x, -scale.vertical * p.y);
+        let mut end = None;
+        // A space has no outline.
+        let curves = font.font().outline(glyph).map(|outline| outline.curves);
+        for curve in curves.unwrap_or_default() {
+            let (from, to) = match curve {
+                OutlineCurve::Line(from, to)
+                | OutlineCurve::Quad(from, _, to)
+                | OutlineCurve::Cubic(from, _, _, to) => (from, to),
+            };
+            if end != Some(from) {
+                path.close();
+                path.move_to(at(from).0, at(from).1);
+            }
+            let (x, y) = at(to);
+            match curve {
+                OutlineCurve::Line(..) => path.line_to(x, y),
+                OutlineCurve::Quad(_, by, _) => path.quad_to(at(by).0, at(by).1, x, y),
+                OutlineCurve::Cubic(_, by, and, _) => {
+                    path.cubic_to(at(by).0, at(by).1, at(and).0, at(and).1, x, y);
+                }
+            }
+            end = Some(to);
+        }
+        path.close();
+    }
+    path.finish()
 }
 
 /// Width of a line of text in the unit of `em`.
 pub fn text_width(text: &str, em: f64, weight: Weight) -> f64 {
     // Widths are truncated to sixteenths of the unit, so that rounding errors of the sum rarely change them.
     const FINE: f64 = 16.0;
-    match advance(text, em * FINE, weight) {
-        Some(width) => f64::from(width).trunc() / FINE,
+    match laid_out(text, em * FINE, weight) {
+        Some((_, width)) => f64::from(width).trunc() / FINE,
         None => 0.6 * em * text.chars().count() as f64,
     }
 }
@@ -108,7 +143,7 @@ impl<DB: DrawingBackend> Drawable<DB> for Written<'_> {
 }
 
 impl BackendTextStyle for Written<'_> {
-    type FontError = UnreadableFont;
+    type FontError = Infallible;
 
     fn color(&self) -> BackendColor {
         BackendStyle::color(&self.colour.to_rgba())
@@ -137,40 +172,17 @@ impl BackendTextStyle for Written<'_> {
         FontFamily::Name(FAMILY)
     }
 
-    fn layout_box(&self, text: &str) -> Result<((i32, i32), (i32, i32)), UnreadableFont> {
-        let width = advance(text, self.em, self.weight).ok_or(UnreadableFont)?;
-        Ok(((0, 0), (width as i32, self.em as i32)))
+    // Only renderers of pixels measure and draw; an SVG contains the text itself.
+    fn layout_box(&self, _: &str) -> Result<((i32, i32), (i32, i32)), Self::FontError> {
+        Ok(((0, 0), (0, 0)))
     }
 
     fn draw<E, Pixel: FnMut(i32, i32, BackendColor) -> Result<(), E>>(
         &self,
-        text: &str,
-        (left, top): BackendCoord,
-        mut pixel: Pixel,
-    ) -> Result<Result<(), E>, UnreadableFont> {
-        let font = scaled(self.em, self.weight).ok_or(UnreadableFont)?;
-        let colour = BackendTextStyle::color(self);
-        let mut right = 0.0_f32;
-        let mut before = None;
-        for letter in text.chars() {
-            let glyph = font.glyph_id(letter);
-            right += before.map_or(0.0, |before| font.kern(before, glyph));
-            before = Some(glyph);
-            if let Some(outline) = font.outline_glyph(font.scaled_glyph(letter)) {
-                let upper = (self.size() as f32 / 2.0 + outline.px_bounds().min.y) as i32;
-                let mut drawn = Ok(());
-                outline.draw(|x, y, share| {
-                    if drawn.is_ok() {
-                        let at = (left + x as i32 + right as i32, top + y as i32 + upper);
-                        drawn = pixel(at.0, at.1, colour.mix(f64::from(share)));
-                    }
-                });
-                if drawn.is_err() {
-                    return Ok(drawn);
-                }
-            }
-            right += font.h_advance(glyph);
-        }
+        _: &str,
+        _: BackendCoord,
+        _: Pixel,
+    ) -> Result<Result<(), E>, Self::FontError> {
         Ok(Ok(()))
     }
 }

@@ -44,7 +44,7 @@ mod paint;
 mod palette;
 pub(crate) mod place;
 mod place_map;
-mod render;
+mod raster;
 pub(crate) mod response;
 pub(crate) mod response_map;
 pub(crate) mod root_loci;
@@ -54,6 +54,7 @@ mod sample;
 pub(crate) mod spline_orbit;
 pub(crate) mod study;
 mod style;
+mod svg;
 #[cfg(test)]
 mod tidy;
 mod tradeoff;

@@ -1,4 +1,4 @@
-//! Renders a sheet as PNG or SVG. Equal sheets give equal bytes.
+//! Renders a sheet as SVG. Equal sheets give equal text.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -9,32 +9,11 @@ use super::canvas::{Anchor, Lettering, Mark, Sheet, Stroke};
 use super::letters::Written;
 use super::style::PAPER;
 
-/// Pixels of plotters, whose coordinates are integers, in a figure unit. A PNG is the mean of so many pixels in both
-/// directions, and an SVG has a view box in them, so that lines of any slope are smooth.
+/// Pixels of plotters, whose coordinates are integers, in a figure unit: the view box is in them, so that lines of any
+/// slope are smooth.
 const FINE: u32 = 4;
 
-type Area<DB> = DrawingArea<DB, Shift>;
-
-/// Renders a sheet as PNG, with one pixel for each figure unit.
-///
-/// # Errors
-/// [`FigureError`] if plotters refuses a mark, or the picture cannot be encoded.
-pub fn png(sheet: &Sheet) -> Result<Vec<u8>, FigureError> {
-    let (width, height) = sheet.size();
-    let fine_size = (width * FINE, height * FINE);
-    // The buffer is white from the start, because filling it by plotters would take a tenth of the rendering
-    // time.
-    let mut fine = vec![255; fine_size.0 as usize * fine_size.1 as usize * 3];
-    {
-        let area = BitMapBackend::with_buffer(&mut fine, fine_size).into_drawing_area();
-        draw(&area, sheet, draw_by_segments)?;
-    }
-    pack(
-        &average(&fine, width as usize, height as usize),
-        width,
-        height,
-    )
-}
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Renders a sheet as SVG.
 ///
@@ -47,7 +26,7 @@ pub fn svg(sheet: &Sheet) -> Result<String, FigureError> {
     {
         let area = SVGBackend::with_string(&mut text, fine_size).into_drawing_area();
         area.fill(&PAPER).map_err(refused)?;
-        draw(&area, sheet, draw_in_one)?;
+        draw(&area, sheet)?;
     }
     Ok(finish_svg(&text, (width, height), fine_size))
 }
@@ -67,54 +46,10 @@ fn finish_svg(text: &str, (width, height): (u32, u32), fine_size: (u32, u32)) ->
         .replace("opacity=\"1\" ", "")
 }
 
-fn pack(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, FigureError> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    // Files are 1.5 times as large as with the best compression, but each figure is written some hundredths
-    // of a second faster.
-    encoder.set_compression(png::Compression::Fast);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(pixels)?;
-    writer.finish()?;
-    Ok(bytes)
-}
-
-/// Mean colours of blocks of `FINE`² pixels. Columns are summed first, because that vectorizes well.
-fn average(fine: &[u8], width: usize, height: usize) -> Vec<u8> {
-    let block = FINE as usize;
-    let count = (FINE * FINE) as u16;
-    let mut columns = vec![0u16; width * block * 3];
-    let mut pixels = Vec::with_capacity(width * height * 3);
-    for rows in fine.chunks_exact(columns.len() * block) {
-        columns.fill(0);
-        for row in rows.chunks_exact(columns.len()) {
-            for (sum, cell) in columns.iter_mut().zip(row) {
-                *sum += u16::from(*cell);
-            }
-        }
-        for cells in columns.chunks_exact(3 * block) {
-            for colour in 0..3 {
-                let sum: u16 = cells[colour..].iter().step_by(3).sum();
-                pixels.push(((sum + count / 2) / count) as u8);
-            }
-        }
-    }
-    pixels
-}
-
-/// A function that draws a solid line.
-type DrawLine<DB> = fn(&Area<DB>, &[[f64; 2]], Stroke) -> Result<(), FigureError>;
-
-fn draw<DB>(area: &Area<DB>, sheet: &Sheet, draw_line: DrawLine<DB>) -> Result<(), FigureError>
-where
-    DB: DrawingBackend,
-    DB::ErrorType: 'static,
-{
+fn draw(area: &Area<'_>, sheet: &Sheet) -> Result<(), FigureError> {
     for mark in sheet.marks() {
         match mark {
-            Mark::Line(points, stroke) => draw_stroke(area, points, *stroke, draw_line)?,
+            Mark::Line(points, stroke) => draw_stroke(area, points, *stroke)?,
             Mark::Fill(frame, colour) => {
                 let corners = [[frame.left, frame.top], [frame.right, frame.bottom]];
                 let shape = Rectangle::new(corners.map(fine_point), colour.filled());
@@ -135,15 +70,7 @@ where
     area.present().map_err(refused)
 }
 
-fn draw_stroke<DB>(
-    area: &Area<DB>,
-    points: &[[f64; 2]],
-    stroke: Stroke,
-    draw_line: DrawLine<DB>,
-) -> Result<(), FigureError>
-where
-    DB: DrawingBackend,
-{
+fn draw_stroke(area: &Area<'_>, points: &[[f64; 2]], stroke: Stroke) -> Result<(), FigureError> {
     match stroke.dash {
         None => draw_line(area, points, stroke),
         Some(dash) => dashes(points, dash)
@@ -152,68 +79,19 @@ where
     }
 }
 
-/// Draws a line as one path, for SVG.
-fn draw_in_one<DB>(area: &Area<DB>, points: &[[f64; 2]], stroke: Stroke) -> Result<(), FigureError>
-where
-    DB: DrawingBackend,
-    DB::ErrorType: 'static,
-{
+fn draw_line(area: &Area<'_>, points: &[[f64; 2]], stroke: Stroke) -> Result<(), FigureError> {
     let style = stroke.colour.stroke_width(fine_width(stroke.width));
     let points: Vec<_> = points.iter().map(|&p| fine_point(p)).collect();
     area.draw(&PathElement::new(points, style)).map_err(refused)
 }
 
-/// Draws a line for PNG: each segment as a polygon, with discs at the joints, because the outline with mitred corners
-/// that plotters fills for a whole curve has spikes at sharp turns.
-fn draw_by_segments<DB>(
-    area: &Area<DB>,
-    points: &[[f64; 2]],
-    stroke: Stroke,
-) -> Result<(), FigureError>
-where
-    DB: DrawingBackend,
-    DB::ErrorType: 'static,
-{
-    let fill = stroke.colour.filled();
-    for (i, segment) in points.windows(2).enumerate() {
-        if let Some(corners) = outline(segment[0], segment[1], stroke.width) {
-            area.draw(&Polygon::new(corners.map(fine_point), fill))
-                .map_err(refused)?;
-        }
-        let radius = fine_width(stroke.width) / 2;
-        if i > 0 && radius > 1 {
-            let joint = Circle::new(fine_point(segment[0]), radius, fill);
-            area.draw(&joint).map_err(refused)?;
-        }
-    }
-    Ok(())
-}
-
-/// Corners of a line segment of a given width; `None` for a segment of zero length.
-fn outline(a: [f64; 2], b: [f64; 2], width: f64) -> Option<[[f64; 2]; 4]> {
-    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-    let length = dx.hypot(dy);
-    let (nx, ny) = (-dy / length * width / 2.0, dx / length * width / 2.0);
-    (length > 0.0).then_some([
-        [a[0] + nx, a[1] + ny],
-        [b[0] + nx, b[1] + ny],
-        [b[0] - nx, b[1] - ny],
-        [a[0] - nx, a[1] - ny],
-    ])
-}
-
-fn draw_text<DB>(
-    area: &Area<DB>,
+fn draw_text(
+    area: &Area<'_>,
     [x, y]: [f64; 2],
     lettering: &Lettering,
     text: &str,
-) -> Result<(), FigureError>
-where
-    DB: DrawingBackend,
-    DB::ErrorType: 'static,
-{
-    // In a bitmap, `Written` draws the baseline 0.62 em below the upper anchor; `finish_svg` sets the same
-    // distance in the SVG.
+) -> Result<(), FigureError> {
+    // `finish_svg` sets the distance of the baseline below the upper anchor.
     let above = 0.62 * lettering.em;
     let horizontal = match lettering.anchor {
         Anchor::Start => HPos::Left,
@@ -288,13 +166,5 @@ mod tests {
         let cut = dashes(&bent, [3.0, 3.0]);
         let expected = [vec![[0.0, 0.0], [3.0, 0.0]], vec![[5.0, 1.0], [5.0, 4.0]]];
         assert_eq!(cut, expected);
-    }
-
-    #[test]
-    fn averaging_takes_the_mean_of_each_block() {
-        let block = FINE as usize;
-        let mut fine = vec![0; 2 * block * block * 3];
-        fine[..3].fill(160);
-        assert_eq!(average(&fine, 2, 1), [10, 10, 10, 0, 0, 0]);
     }
 }
