@@ -12,8 +12,8 @@ use serde_json::Value;
 
 use crate::document::{self, Document};
 use crate::figure::{
-    CampbellView, ChartData, Figure, FigureError, campbell, check, compare, cut, cut_map, deflect,
-    fit, gap, gap_friction, gap_map, gap_oscillation, in_cut, map, membrane, modes, place,
+    CampbellView, ChartData, Drawing, Figure, FigureError, campbell, check, compare, cut, cut_map,
+    deflect, fit, gap, gap_friction, gap_map, gap_oscillation, in_cut, map, membrane, modes, place,
     response, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
@@ -80,9 +80,7 @@ pub trait CommandReport {
 
     /// Returns the contents of a figure as numbers, for other programs that draw it; `name` is its file name without
     /// extension. `None` if the figure has no such description or the report has no data for it.
-    fn chart(&self, _name: &str) -> Option<ChartData> {
-        None
-    }
+    fn chart(&self, name: &str) -> Option<ChartData>;
 
     /// Returns the content of the page.
     fn document(&self) -> Document<'_> {
@@ -121,8 +119,8 @@ fn schema<T: JsonSchema>() -> Value {
 }
 
 /// Defines [`COMMANDS`], and implements [`CommandReport`] for the reports: name of the command, name of the file, type of
-/// the report; module of its summary; names of its figures, with the functions that draw them and, for some, that
-/// describe them as numbers.
+/// the report; module of its summary; names of its figures, with the functions that describe them as numbers, or draw
+/// them; for some that are drawn, the functions that also describe them.
 macro_rules! commands {
     ($($command:literal, $file:literal, $report:ident {
         summary: $summary:ident,
@@ -175,15 +173,18 @@ macro_rules! commands {
             }
 
             fn figures(&self) -> Vec<Figure> {
-                Figure::named(Self::COMMAND.figures, [$(($sheet)(self).into()),*])
+                Figure::named(Self::COMMAND.figures, [$(Drawing::from(($sheet)(self))),*])
             }
 
-            $(fn chart(&self, name: &str) -> Option<ChartData> {
+            fn chart(&self, name: &str) -> Option<ChartData> {
+                $($(if name == $described {
+                    return ($chart)(self).into();
+                })*)?
                 match name {
-                    $($described => ($chart)(self).into(),)*
+                    $($name => Drawing::from(($sheet)(self)).chart(),)*
                     _ => None,
                 }
-            })?
+            }
 
             $(fn document(&self) -> Document<'_> {
                 ($document)(self)
@@ -218,8 +219,7 @@ commands! {
     }
     "compare", "compare.json", CompareReport {
         summary: compare,
-        figures: ["compare" => compare::sheet],
-        charts: ["compare" => compare::chart],
+        figures: ["compare" => compare::chart],
         warnings: CompareReport::warnings_of_saws,
     }
     "cut", "cut.json", CutReport {
@@ -232,8 +232,7 @@ commands! {
     }
     "deflect", "deflect.json", DeflectReport {
         summary: deflect,
-        figures: ["deflect" => deflect::sheet],
-        charts: ["deflect" => deflect::chart],
+        figures: ["deflect" => deflect::chart],
     }
     "fit", "fit.json", FitReport {
         summary: fit,
@@ -259,14 +258,14 @@ commands! {
     "response", "response.json", ResponseReport {
         summary: response,
         figures: [
-            "response" => response::sheet,
-            "frequency-response" => response::points_sheet,
+            "response" => response::chart,
+            "frequency-response" => response::points_chart,
         ],
     }
     "runup", "runup.json", RunUpReport {
         summary: runup,
         figures: [
-            "runup" => runup::sheet,
+            "runup" => runup::chart,
             "response-map" => response_map::sheet,
             "runup-map" => response_map::stretched_sheet,
         ],
@@ -278,7 +277,6 @@ commands! {
     }
     "washboard", "washboard.json", WashboardReport {
         summary: washboard,
-        figures: ["washboard" => washboard::sheet],
-        charts: ["washboard" => washboard::chart],
+        figures: ["washboard" => washboard::chart],
     }
 }

@@ -281,12 +281,17 @@ pub fn draw_vertical(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str) 
         // Ticks on these scales are closer to each other, so that small values have ticks too.
         Spread::SignedRoot | Spread::Logarithmic => 21.0,
     };
-    for tick in axis.ticks(apart) {
-        let y = axis.at(tick);
+    draw_vertical_at(sheet, axis, panel, name, &axis.ticks(apart));
+}
+
+/// Draws a vertical axis with ticks at given values.
+pub fn draw_vertical_at(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str, ticks: &[f64]) {
+    for tick in ticks {
+        let y = axis.at(*tick);
         sheet.horizontal(y, panel, Stroke::solid(GRID, HAIRLINE));
         let short = Stroke::solid(QUIET, HAIRLINE);
         sheet.line([[panel.left - 5.0, y], [panel.left, y]], short);
-        number_beside(sheet, panel, y, &axis.label(tick));
+        number_beside(sheet, panel, y, &axis.label(*tick));
     }
     name_upright(sheet, 28.0, panel, name);
 }

@@ -63,6 +63,16 @@ impl Band {
     }
 }
 
+impl Band {
+    /// A band of which only speeds whose growth exceeds the threshold are shaded.
+    pub(crate) fn grown(band: &InstabilityEntry, speeds: [f64; 2]) -> Self {
+        Self {
+            shaded: band.counted_rpm.clone(),
+            ..Self::new(band, speeds)
+        }
+    }
+}
+
 /// Kind and range of a band in rpm, and the amplitude of its flutter if the report contains it.
 fn label(band: &InstabilityEntry, [first, last]: [f64; 2]) -> String {
     let kind = band.kind;

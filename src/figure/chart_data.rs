@@ -18,6 +18,8 @@ pub struct ChartData {
     pub facts: Vec<String>,
     /// Panels from top to bottom.
     pub panels: Vec<PanelData>,
+    /// Samples of the marks, each with its meaning as name; they have no points.
+    pub key: Vec<Item>,
 }
 
 /// Axes and contents of a panel.
@@ -66,6 +68,8 @@ pub struct AxisData {
     pub range: Option<[f64; 2]>,
     /// Scale of the axis.
     pub spread: Spread,
+    /// Values with a tick; empty if they follow from the range.
+    pub ticks: Vec<f64>,
     /// Names of the values 1, 2, 3, …, which are written in the place of numbers; empty if numbers are written.
     pub names: Vec<String>,
 }
@@ -78,6 +82,7 @@ impl AxisData {
             unit: unit.to_owned(),
             range: None,
             spread: Spread::Linear,
+            ticks: Vec::new(),
             names: Vec::new(),
         }
     }
@@ -123,6 +128,8 @@ pub enum Item {
     Line(Line),
     /// Dots or rings at points.
     Points(Points),
+    /// An area between two curves.
+    Area(Area),
 }
 
 /// A band of instability: speeds that are shaded over the height of the panel.
@@ -206,6 +213,8 @@ pub struct Line {
     pub width: f64,
     /// Whether the curve is dashed.
     pub dashed: bool,
+    /// Whether the curve has the head of an arrow at its end.
+    pub arrow: bool,
     /// Text that the page shows while the mouse pointer is on the curve.
     pub name: String,
     /// Text with line breaks that the page shows for each point; empty if `name` describes all of them.
@@ -227,12 +236,23 @@ impl Line {
             tint: 1.0,
             width: CURVE,
             dashed: false,
+            arrow: false,
             name: name.to_owned(),
             said: Vec::new(),
             end: String::new(),
             branch: None,
         }
     }
+}
+
+/// Points of a series with a factor for its values; a value that is not known interrupts the curve.
+pub(super) fn series<'a>(
+    x: &'a [f64],
+    y: &'a [Option<f64>],
+    factor: f64,
+) -> impl Iterator<Item = [f64; 2]> + 'a {
+    let pairs = x.iter().zip(y);
+    pairs.map(move |(x, y)| [*x, y.map_or(f64::NAN, |y| factor * y)])
 }
 
 /// Dots or rings at points.
@@ -275,6 +295,71 @@ impl Points {
             name: name.to_owned(),
             said: Vec::new(),
         }
+    }
+}
+
+/// An area between two curves, of one colour.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Area {
+    /// Abscissae, ascending; each ordinate holds half way to the next abscissae.
+    pub x: Vec<f64>,
+    /// Ordinates of the lower edge.
+    pub low: Vec<f64>,
+    /// Ordinates of the upper edge; there is no area where it is not above the lower one.
+    pub high: Vec<f64>,
+    /// Colour of the area.
+    pub colour: Hue,
+    /// Share of the colour in a mixture with that of the paper, from 0 to 1.
+    pub tint: f64,
+    /// Meaning of the area.
+    pub name: String,
+}
+
+impl Area {
+    /// An area of columns with an abscissa, a lower and an upper end.
+    pub(super) fn new(
+        columns: impl IntoIterator<Item = [f64; 3]>,
+        colour: Hue,
+        name: &str,
+    ) -> Self {
+        let mut area = Self {
+            x: Vec::new(),
+            low: Vec::new(),
+            high: Vec::new(),
+            colour,
+            tint: 1.0,
+            name: name.to_owned(),
+        };
+        for [x, low, high] in columns {
+            area.x.push(x);
+            area.low.push(low);
+            area.high.push(high);
+        }
+        area
+    }
+}
+
+impl Item {
+    /// A sample of a line for the key.
+    pub(super) fn line_sample(width: f64, dashed: bool, colour: Hue, name: &str) -> Self {
+        Item::Line(Line {
+            width,
+            dashed,
+            ..Line::new([], colour, name)
+        })
+    }
+
+    /// A sample of dots, or of rings, for the key.
+    pub(super) fn points_sample(size: f64, hollow: bool, colour: Hue, name: &str) -> Self {
+        Item::Points(Points {
+            hollow,
+            ..Points::new([], colour, size, name)
+        })
+    }
+
+    /// A sample of an area for the key.
+    pub(super) fn area_sample(colour: Hue, name: &str) -> Self {
+        Item::Area(Area::new([], colour, name))
     }
 }
 

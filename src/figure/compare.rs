@@ -1,32 +1,15 @@
 //! Campbell diagrams of several saws, one over the other, and their critical speeds and bands below.
 
-use super::axis::{draw_horizontal, draw_named, draw_vertical, extremes, proper_range};
+use super::axis::{extremes, proper_range};
 use super::campbell::NEGLIGIBLE_PER_S;
-use super::canvas::{Frame, Lettering, Sheet, Stroke};
 use super::chart_data::{AxisData, ChartData, Item, Line, PanelData, Points, lines_by_look};
-use super::heading;
-use super::key::Key;
-use super::paint::Ground;
 use super::palette::Hue;
-use super::style::{
-    BETWEEN_FACTS, CURVE, DASH, GRID, HAIRLINE, INK, LABEL_SIZE, QUIET, STRONG_CURVE, Weight,
-    shorten,
-};
+use super::style::{CURVE, STRONG_CURVE};
 use crate::report::{BranchEntry, CompareReport, ComparedEntry};
 
-const WIDTH: u32 = 1200;
-const FREQUENCIES: Frame = Frame {
-    left: 92.0,
-    top: 92.0,
-    right: 1160.0,
-    bottom: 560.0,
-};
-/// Space between the panels.
-const BETWEEN: f64 = 46.0;
-/// Height of the row of a saw in the lower panel.
-const ROW: f64 = 44.0;
-/// Space below the lower panel.
-const BELOW: f64 = 96.0;
+/// Heights of the diagram and of the row of a saw, relative to a panel of usual height.
+const DIAGRAM: f64 = 1.2;
+const ROW: f64 = 0.115;
 /// Colours of the saws, and their largest number: more colours could not be distinguished.
 const HUES: [Hue; 6] = [
     Hue::Ink,
@@ -46,49 +29,6 @@ const BAND: f64 = 9.0;
 fn drawn(report: &CompareReport) -> impl DoubleEndedIterator<Item = (usize, &ComparedEntry, Hue)> {
     let saws = report.saws.iter().take(HUES.len()).enumerate();
     saws.map(|(place, saw)| (place, saw, HUES[place]))
-}
-
-pub fn sheet(report: &CompareReport) -> Sheet {
-    let data = chart(report);
-    let rows = drawn(report).count() as f64;
-    let speeds = Frame {
-        top: FREQUENCIES.bottom + BETWEEN,
-        bottom: FREQUENCIES.bottom + BETWEEN + ROW * rows,
-        ..FREQUENCIES
-    };
-    let mut sheet = Sheet::new(WIDTH, (speeds.bottom + BELOW) as u32);
-    heading::draw(&mut sheet, &data.title, &data.facts.join(BETWEEN_FACTS));
-    let [upper, lower] = &data.panels[..] else {
-        return sheet;
-    };
-    let speed = upper.x.placed(FREQUENCIES.across());
-    let frequency = upper.y.placed(FREQUENCIES.upwards());
-    draw_vertical(&mut sheet, &frequency, &FREQUENCIES, &upper.y.title());
-    let ground = Ground {
-        x: &speed,
-        y: &frequency,
-        frame: &FREQUENCIES,
-    };
-    ground.draw(&mut sheet, &upper.items);
-    draw_horizontal(&mut sheet, &speed, FREQUENCIES.bottom, true);
-    let place = lower.y.placed([speeds.top, speeds.bottom]);
-    for (row, saw, hue) in drawn(report) {
-        let y = place.at(1.0 + row as f64);
-        sheet.horizontal(y, &speeds, Stroke::solid(GRID, HAIRLINE));
-        let letters = Lettering::title(LABEL_SIZE, hue.colour());
-        let room = speeds.right - speeds.left;
-        let label = shorten(&saw.label, LABEL_SIZE, Weight::SemiBold, room);
-        sheet.text([speeds.left, y - 10.0], letters, &label);
-    }
-    let ground = Ground {
-        x: &speed,
-        y: &place,
-        frame: &speeds,
-    };
-    ground.draw(&mut sheet, &lower.items);
-    draw_named(&mut sheet, &speed, speeds.bottom, &lower.x.title());
-    draw_key(&mut sheet, speeds.bottom + BELOW - 22.0);
-    sheet
 }
 
 /// Frequencies over speed, and critical speeds and bands of each saw, as numbers.
@@ -123,7 +63,7 @@ pub fn chart(report: &CompareReport) -> ChartData {
         facts,
         panels: vec![
             PanelData {
-                share: 3.0,
+                share: DIAGRAM,
                 harmonics: true,
                 ..PanelData::new(
                     speed.clone(),
@@ -131,8 +71,12 @@ pub fn chart(report: &CompareReport) -> ChartData {
                     frequencies.collect(),
                 )
             },
-            PanelData::new(speed, names.within([0.4, count + 0.6]), speeds.collect()),
+            PanelData {
+                share: ROW * count,
+                ..PanelData::new(speed, names.within([0.4, count + 0.6]), speeds.collect())
+            },
         ],
+        key: key(),
     }
 }
 
@@ -218,29 +162,22 @@ fn events(row: usize, saw: &ComparedEntry, hue: Hue) -> Vec<Item> {
     strips.chain([critical]).chain(operating).collect()
 }
 
-fn draw_key(sheet: &mut Sheet, baseline: f64) {
-    Key::new(sheet, FREQUENCIES.left, baseline)
-        .line(24.0, Stroke::solid(QUIET, STRONG_CURVE))
-        .word("grows")
-        .line(24.0, Stroke::dashed(QUIET, CURVE, DASH))
-        .word("reflected wave")
-        .dot(7.0, 3.5, INK)
-        .word("critical speed")
-        .mark(11.0, |sheet, [x, y]| {
-            sheet.ring([x + 5.0, y], 5.0, Stroke::solid(INK, 2.0));
-        })
-        .word("operating speed")
-        .shade(Hue::DivergenceStreak.colour())
-        .word("divergence")
-        .shade(Hue::FlutterStreak.colour())
-        .word("flutter");
+fn key() -> Vec<Item> {
+    vec![
+        Item::line_sample(STRONG_CURVE, false, Hue::Quiet, "grows"),
+        Item::line_sample(CURVE, true, Hue::Quiet, "reflected wave"),
+        Item::points_sample(CRITICAL_SIZE, false, Hue::Ink, "critical speed"),
+        Item::points_sample(1.5 * CRITICAL_SIZE, true, Hue::Ink, "operating speed"),
+        Item::area_sample(Hue::DivergenceStreak, "divergence"),
+        Item::area_sample(Hue::FlutterStreak, "flutter"),
+    ]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figure::sample;
     use crate::figure::tidy::{assert_tidy, texts};
+    use crate::figure::{layout, sample};
 
     #[test]
     fn every_saw_has_its_row_and_nothing_is_cut_off() {
@@ -248,7 +185,7 @@ mod tests {
         for count in [1, 2, 6, 9] {
             let saws = (1..=count).map(|k| ComparedEntry::of_report(format!("saw {k}"), &report));
             let compared = CompareReport::new(saws.collect()).unwrap();
-            let sheet = sheet(&compared);
+            let sheet = layout::sheet(&chart(&compared));
             assert_tidy(&sheet);
             let all: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
             assert!(all.contains(&"saw 1"), "{all:?}");

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use super::canvas::{Mark, Sheet};
 use super::style::BLANK;
 use super::tidy::{assert_tidy, texts};
-use super::{cut, cut_map, response_map, runup, spline_orbit, washboard};
+use super::{cut, cut_map, layout, response_map, runup, spline_orbit, washboard};
 use crate::report::{CutReport, RunUpReport, WashboardReport};
 use crate::scene::{Accuracy, CutRun, Scene, SceneFile};
 use crate::transient::{Cutting, RunningUp};
@@ -169,7 +169,7 @@ fn the_figures_of_a_run_up_are_tidy() {
     });
     let found = RunningUp::new(&scene.unwrap(), &|_, _| ()).unwrap();
     let report = RunUpReport::new(&found);
-    assert_tidy(&runup::sheet(&report));
+    assert_tidy(&layout::sheet(&runup::chart(&report)));
     assert_tidy(&response_map::sheet(&report));
     let chart = found.analysis.report();
     assert_eq!(chart.instabilities.len(), report.bands.len());
@@ -202,20 +202,24 @@ fn stiffnesses_that_were_not_searched_look_unknown() {
     let open: Vec<usize> = open.map(|(k, _)| k).collect();
     assert!(open.len() > 50, "{open:?}");
     assert!(open.iter().all(|k| known(*k) == report.ceiling_n_per_m));
-    let sheet = washboard::sheet(&report);
+    let sheet = layout::sheet(&washboard::chart(&report));
     assert_tidy(&sheet);
     let key = |sheet: &Sheet| {
         let mut all = texts(sheet).into_iter();
         all.any(|(_, text)| text == "not searched, or not confirmed")
     };
-    assert!(key(&sheet) && !key(&washboard::sheet(&searched)));
-    let grey = |mark: &&Mark| matches!(mark, Mark::Fill(_, colour) if *colour == BLANK);
-    assert!(sheet.marks().iter().filter(grey).count() >= open.len());
+    assert!(key(&sheet) && !key(&layout::sheet(&washboard::chart(&searched))));
+    let corners = |mark: &Mark| match mark {
+        Mark::Polygon(corners, colour) if *colour == BLANK => corners.len(),
+        _ => 0,
+    };
+    let corners: usize = sheet.marks().iter().map(corners).sum();
+    assert!(corners >= 4 * open.len());
     let chart = serde_json::to_value(washboard::chart(&report)).unwrap();
     let items = &chart["panels"][0]["items"];
-    assert_eq!(items[0]["name"], "not searched or not confirmed above");
-    assert_eq!(items[0]["y"][open[0]], report.ceiling_n_per_m);
-    assert_eq!(items[1]["y"][open[0]], serde_json::Value::Null);
+    assert_eq!(items[2]["name"], "not searched or not confirmed above");
+    assert_eq!(items[2]["y"][open[0]], report.ceiling_n_per_m);
+    assert_eq!(items[3]["y"][open[0]], serde_json::Value::Null);
 }
 
 /// The diagrams are unstable, stable, unstable without the force, and without a boundary.
@@ -240,7 +244,7 @@ fn the_lobe_diagram_is_tidy_and_says_the_verdict() {
         let scene = scene.unwrap();
         let run = scene.cut().unwrap().at_rpm(2400.0).unwrap();
         let found = Washboard::new(&scene, &run, &|_, _| ()).unwrap();
-        let sheet = washboard::sheet(&WashboardReport::new(&found));
+        let sheet = layout::sheet(&washboard::chart(&WashboardReport::new(&found)));
         assert_tidy(&sheet);
         let mut all = texts(&sheet).into_iter();
         assert!(all.any(|(_, text)| text.contains(said)), "{said}");

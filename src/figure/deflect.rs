@@ -1,35 +1,14 @@
 //! Equilibria over speed, and the frequencies of small motions about them beside the frequencies of the flat blade.
 
-use super::axis::{Axis, draw_horizontal, draw_named, draw_vertical, proper_range};
-use super::canvas::{Frame, Sheet, Stroke};
+use super::axis::proper_range;
 use super::chart_data::{
     AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright, lines_by_look,
 };
-use super::columns::draw_end_of_model;
-use super::key::Key;
-use super::paint::Ground;
 use super::palette::Hue;
-use super::style::{
-    BETWEEN_FACTS, Colour, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, HAIRLINE, INK, STANDING,
-    STRONG_CURVE, tint,
-};
-use super::{bands, heading};
+use super::style::{HAIRLINE, STRONG_CURVE};
 use crate::report::{DeflectReport, EquilibriumCurveEntry, JumpEntry, SlowSweepEntry};
 use crate::text::shown_to;
 
-const WIDTH: u32 = 1200;
-const HEIGHT: u32 = 1000;
-const LEAN: Frame = Frame {
-    left: 92.0,
-    top: 92.0,
-    right: 1160.0,
-    bottom: 460.0,
-};
-const FREQUENCIES: Frame = Frame {
-    top: 500.0,
-    bottom: 880.0,
-    ..LEAN
-};
 const UP: Hue = Hue::Forward;
 const DOWN: Hue = Hue::Backward;
 /// Diameter of the ring at a fold or bifurcation.
@@ -43,52 +22,6 @@ const NARROWER: f64 = 1.4;
 /// Number of frequencies at the first speed that the diagram includes.
 const SHOWN: usize = 6;
 
-pub fn sheet(report: &DeflectReport) -> Sheet {
-    let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    let data = chart(report);
-    heading::draw(&mut sheet, &data.title, &data.facts.join(BETWEEN_FACTS));
-    let [lean, frequencies] = &data.panels[..] else {
-        return sheet;
-    };
-    let speed = lean.x.placed(LEAN.across());
-    let bands = report.instabilities.iter();
-    bands::shade(&mut sheet, &speed, bands, &[LEAN, FREQUENCIES]);
-    let deflection = lean.y.placed(LEAN.upwards());
-    draw_vertical(&mut sheet, &deflection, &LEAN, &lean.y.title());
-    let upper = Ground {
-        x: &speed,
-        y: &deflection,
-        frame: &LEAN,
-    };
-    upper.draw_lines(&mut sheet, &lean.items);
-    for (sweep, hue, ..) in sweeps(report) {
-        for jump in shown_jumps(report, sweep) {
-            draw_head(&mut sheet, jump, (&speed, &deflection), hue.colour());
-        }
-        if let Some(rpm) = sweep.valid_until_rpm {
-            draw_end_of_model(&mut sheet, &LEAN, speed.at(rpm));
-        }
-    }
-    upper.draw_points(&mut sheet, &lean.items);
-    draw_horizontal(&mut sheet, &speed, LEAN.bottom, false);
-    let frequency = frequencies.y.placed(FREQUENCIES.upwards());
-    draw_vertical(&mut sheet, &frequency, &FREQUENCIES, &frequencies.y.title());
-    let lower = Ground {
-        x: &speed,
-        y: &frequency,
-        frame: &FREQUENCIES,
-    };
-    lower.draw(&mut sheet, &frequencies.items);
-    draw_named(
-        &mut sheet,
-        &speed,
-        FREQUENCIES.bottom,
-        &frequencies.x.title(),
-    );
-    draw_key(&mut sheet);
-    sheet
-}
-
 /// Equilibria, and the frequencies of small motions about them, as numbers.
 pub fn chart(report: &DeflectReport) -> ChartData {
     let speeds = proper_range([report.from_rpm, report.to_rpm]);
@@ -99,6 +32,7 @@ pub fn chart(report: &DeflectReport) -> ChartData {
     ChartData {
         title: report.scene.name.clone(),
         facts: facts(report),
+        key: key(),
         panels: vec![
             PanelData::new(
                 speed.clone(),
@@ -183,6 +117,7 @@ fn leans(report: &DeflectReport) -> Vec<Item> {
             let ends = [jump.from_m, jump.to_m].map(|m| [jump.rpm, 1e3 * m]);
             Item::Line(Line {
                 width: HAIRLINE,
+                arrow: true,
                 ..Line::new(ends, colour, "jump")
             })
         }));
@@ -226,21 +161,6 @@ fn curve_lines(curve: &EquilibriumCurveEntry) -> Vec<Item> {
     lines.collect()
 }
 
-/// Draws the head of the arrow of a jump, unless the jump is short on the sheet.
-fn draw_head(sheet: &mut Sheet, jump: &JumpEntry, (speed, lean): (&Axis, &Axis), colour: Colour) {
-    let x = speed.at(jump.rpm);
-    let [from, to] = [jump.from_m, jump.to_m].map(|m| lean.at(1e3 * m));
-    let back = 7.0_f64.copysign(from - to);
-    if (from - to).abs() > 9.0 {
-        for aside in [-4.0, 4.0] {
-            sheet.line(
-                [[x + aside, to + back], [x, to]],
-                Stroke::solid(colour, NARROWER),
-            );
-        }
-    }
-}
-
 /// Ends of the axis of frequencies in Hz.
 fn shown_hz(report: &DeflectReport) -> [f64; 2] {
     let branches = report.campbell.branches.iter();
@@ -274,24 +194,19 @@ fn frequencies(report: &DeflectReport) -> Vec<Item> {
     branches.chain(dots).collect()
 }
 
-fn draw_key(sheet: &mut Sheet) {
-    let y = f64::from(HEIGHT);
-    Key::new(sheet, LEAN.left, y - 52.0)
-        .line(24.0, Stroke::solid(UP.colour(), WIDER))
-        .word("stable, while the speed rises")
-        .line(24.0, Stroke::solid(DOWN.colour(), NARROWER))
-        .word("while it falls")
-        .line(24.0, Stroke::solid(STANDING, NARROWER))
-        .word("stable, not reached")
-        .line(24.0, Stroke::dashed(STANDING, HAIRLINE, FINE_DASH))
-        .word("unstable")
-        .ring(6.0, 3.0, Stroke::solid(INK, HAIRLINE))
-        .word("fold or bifurcation");
-    Key::new(sheet, LEAN.left, y - 26.0)
-        .line(24.0, Stroke::solid(tint(STANDING, FLAT_TINT), NARROWER))
-        .word("frequencies of the flat blade")
-        .shade(DIVERGENCE_SHADE)
-        .word("the flat blade diverges")
-        .shade(FLUTTER_SHADE)
-        .word("the flat blade flutters");
+fn key() -> Vec<Item> {
+    vec![
+        Item::line_sample(WIDER, false, UP, "stable, while the speed rises"),
+        Item::line_sample(NARROWER, false, DOWN, "while it falls"),
+        Item::line_sample(NARROWER, false, Hue::Standing, "stable, not reached"),
+        Item::line_sample(HAIRLINE, true, Hue::Standing, "unstable"),
+        Item::points_sample(TURN_SIZE, true, Hue::Ink, "fold or bifurcation"),
+        Item::Line(Line {
+            tint: FLAT_TINT,
+            width: NARROWER,
+            ..Line::new([], Hue::Standing, "frequencies of the flat blade")
+        }),
+        Item::area_sample(Hue::DivergenceShade, "the flat blade diverges"),
+        Item::area_sample(Hue::FlutterShade, "the flat blade flutters"),
+    ]
 }

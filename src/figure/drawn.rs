@@ -2,12 +2,49 @@
 
 use super::campbell::{self, CampbellView};
 use super::canvas::Sheet;
-#[cfg(feature = "page")]
 use super::chart_data::ChartData;
-use super::{FigureError, raster, svg};
+use super::{FigureError, layout, raster, svg};
 use crate::commands::CommandReport;
 use crate::report::Report;
 use crate::stability::Setting;
+
+/// A chart, which the layout draws, or a drawing of its own.
+pub(crate) enum Drawing {
+    /// A chart.
+    Chart(ChartData),
+    /// Marks.
+    Sheet(Sheet),
+    /// The report has no data for the figure.
+    Nothing,
+}
+
+impl Drawing {
+    /// The chart, if it is one.
+    pub(crate) fn chart(self) -> Option<ChartData> {
+        match self {
+            Drawing::Chart(data) => Some(data),
+            _ => None,
+        }
+    }
+}
+
+impl From<ChartData> for Drawing {
+    fn from(data: ChartData) -> Self {
+        Drawing::Chart(data)
+    }
+}
+
+impl From<Sheet> for Drawing {
+    fn from(sheet: Sheet) -> Self {
+        Drawing::Sheet(sheet)
+    }
+}
+
+impl<T: Into<Drawing>> From<Option<T>> for Drawing {
+    fn from(drawing: Option<T>) -> Self {
+        drawing.map_or(Drawing::Nothing, Into::into)
+    }
+}
 
 /// A figure: marks that are rendered on request, and file names.
 #[derive(Debug)]
@@ -20,14 +57,16 @@ impl Figure {
     /// The figures that have data, with the file names of each.
     pub(crate) fn named<const N: usize>(
         names: &[[&'static str; 2]],
-        sheets: [Option<Sheet>; N],
+        drawings: [Drawing; N],
     ) -> Vec<Self> {
-        let pairs = names.iter().copied().zip(sheets);
-        let drawn = pairs.filter_map(|(names, sheet)| {
-            Some(Figure {
-                names,
-                sheet: sheet?,
-            })
+        let pairs = names.iter().copied().zip(drawings);
+        let drawn = pairs.filter_map(|(names, drawing)| {
+            let sheet = match drawing {
+                Drawing::Chart(data) => layout::sheet(&data),
+                Drawing::Sheet(sheet) => sheet,
+                Drawing::Nothing => return None,
+            };
+            Some(Figure { names, sheet })
         });
         drawn.collect()
     }

@@ -1,12 +1,80 @@
 //! The key below a figure, which explains its marks.
 
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::style::{Colour, LABEL_SIZE, QUIET, label_width};
+use super::chart_data::Item;
+use super::layout::upright_stroke;
+use super::paint::{point_stroke, stroke};
+use super::style::{Colour, LABEL_SIZE, QUIET, label_width, tint};
 
 /// Space after each word.
 const AFTER_WORD: f64 = 24.0;
 /// Space between a mark and its word.
 const AFTER_MARK: f64 = 8.0;
+
+/// Height of a line.
+const LINE: f64 = 26.0;
+/// Space below the last line.
+const BELOW: f64 = 12.0;
+/// Length of the sample of a line.
+const SAMPLE: f64 = 24.0;
+
+/// Word of a sample, and width of its mark.
+fn measure(sample: &Item) -> (&str, f64) {
+    match sample {
+        Item::Line(line) => (&line.name, SAMPLE),
+        Item::Points(points) => (&points.name, points.size),
+        Item::Upright(upright) => (&upright.name, 2.0),
+        Item::Area(area) => (&area.name, 16.0),
+        Item::Band(band) => (&band.name, 16.0),
+    }
+}
+
+/// The samples of each line of a key.
+fn lines(samples: &[Item], width: f64) -> Vec<&[Item]> {
+    let mut room = 0.0;
+    let begins = |sample: &Item| {
+        let (word, mark) = measure(sample);
+        let needed = mark + AFTER_MARK + label_width(word);
+        let begins = needed > room;
+        room = if begins { width } else { room } - needed - AFTER_WORD;
+        begins
+    };
+    let is_first: Vec<bool> = samples.iter().map(begins).collect();
+    let starts = (0..samples.len()).filter(|k| is_first[*k]);
+    let ends = starts.clone().skip(1).chain([samples.len()]);
+    starts
+        .zip(ends)
+        .map(|(from, to)| &samples[from..to])
+        .collect()
+}
+
+/// Height of the key of a chart.
+pub fn height(samples: &[Item], width: f64) -> f64 {
+    LINE * lines(samples, width).len() as f64 + BELOW
+}
+
+/// Draws the key of a chart below an upper left corner.
+pub fn draw(sheet: &mut Sheet, samples: &[Item], [left, top]: [f64; 2], width: f64) {
+    for (row, line) in lines(samples, width).into_iter().enumerate() {
+        let mut key = Key::new(sheet, left, top + LINE * row as f64 + 14.0);
+        for sample in line {
+            match sample {
+                Item::Line(line) => key.line(SAMPLE, stroke(line)),
+                Item::Points(points) => {
+                    let (size, colour) = (points.size, tint(points.colour.colour(), points.tint));
+                    match points.hollow {
+                        true => key.ring(size, size / 2.0, point_stroke(points)),
+                        false => key.dot(size, size / 2.0, colour),
+                    }
+                }
+                Item::Upright(line) => key.upright(2.0, 7.0, upright_stroke(line)),
+                Item::Area(area) => key.shade(tint(area.colour.colour(), area.tint)),
+                Item::Band(band) => key.shade(band.shade.colour()),
+            };
+            key.word(measure(sample).0);
+        }
+    }
+}
 
 /// A line of marks and words, which is written from left to right.
 pub struct Key<'a> {

@@ -35,6 +35,7 @@ mod heading;
 mod heat;
 pub(crate) mod in_cut;
 mod key;
+mod layout;
 mod letters;
 pub(crate) mod map;
 mod meeting;
@@ -63,7 +64,10 @@ mod written;
 
 pub use axis::Spread;
 pub use campbell::CampbellView;
-pub use chart_data::{AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright};
+pub use chart_data::{
+    Area, AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright,
+};
+pub(crate) use drawn::Drawing;
 pub use drawn::{Figure, tradeoff};
 pub use palette::Hue;
 #[doc(hidden)]

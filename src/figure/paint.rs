@@ -6,8 +6,26 @@ use super::chart_data::{Item, Line, Points};
 use super::clip::clip;
 use super::style::{DASH, FINE_DASH, HAIRLINE, tint};
 
+/// Width of the head of an arrow relative to that of its line.
+const HEAD: f64 = 1.4;
 /// Width of the edge of a ring relative to its diameter.
 const EDGE: f64 = 0.2;
+
+/// Number of points of a curve for each figure unit from which on it is drawn by its extremes in each unit.
+const DENSE: f64 = 4.0;
+
+/// The lowest and the highest point of a curve in each column of a figure unit, in the order of the curve: many points with
+/// the same pixel as abscissa look like a stroke from the lowest to the highest of them.
+fn strokes(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let columns = places.chunk_by(|a, b| a[0].floor() == b[0].floor());
+    let strokes = columns.flat_map(|column| {
+        let by_height = |a: &usize, b: &usize| column[*a][1].total_cmp(&column[*b][1]);
+        let low = (0..column.len()).min_by(by_height).unwrap_or(0);
+        let high = (0..column.len()).max_by(by_height).unwrap_or(0);
+        [low.min(high), low.max(high)].map(|k| column[k])
+    });
+    strokes.collect()
+}
 
 /// A panel on a sheet: axes and frame.
 pub struct Ground<'a> {
@@ -32,7 +50,11 @@ impl Ground<'_> {
         let places: Vec<_> = points
             .map(|(x, y)| [self.x.at(*x), self.y.at(*y)])
             .collect();
-        clip(&places, self.frame)
+        let columns = self.frame.right - self.frame.left;
+        match places.len() as f64 > DENSE * columns {
+            true => clip(&strokes(&places), self.frame),
+            false => clip(&places, self.frame),
+        }
     }
 
     /// Draws the curves.
@@ -43,6 +65,29 @@ impl Ground<'_> {
                 for part in self.parts(line) {
                     sheet.line(part, stroke);
                 }
+                if line.arrow {
+                    self.draw_head(sheet, line, stroke);
+                }
+            }
+        }
+    }
+
+    /// Draws the head of an arrow at the end of a vertical line, unless the line is short on the sheet.
+    fn draw_head(&self, sheet: &mut Sheet, line: &Line, stroke: Stroke) {
+        let place = |k: usize| [self.x.at(line.x[k]), self.y.at(line.y[k])];
+        let last = line.x.len().saturating_sub(1);
+        if last == 0 {
+            return;
+        }
+        let ([_, from], [x, to]) = (place(last - 1), place(last));
+        let back = 7.0_f64.copysign(from - to);
+        if (from - to).abs() > 9.0 {
+            for aside in [-4.0, 4.0] {
+                let width = HEAD * stroke.width;
+                sheet.line(
+                    [[x + aside, to + back], [x, to]],
+                    Stroke { width, ..stroke },
+                );
             }
         }
     }
@@ -65,11 +110,17 @@ impl Ground<'_> {
             }
             let at = [self.x.at(*x), self.y.at(*y)];
             match points.hollow {
-                true => sheet.ring(at, radius, Stroke::solid(colour, EDGE * points.size)),
+                true => sheet.ring(at, radius, point_stroke(points)),
                 false => sheet.disc(at, radius, colour),
             }
         }
     }
+}
+
+/// Style of the edge of rings.
+pub fn point_stroke(points: &Points) -> Stroke {
+    let colour = tint(points.colour.colour(), points.tint);
+    Stroke::solid(colour, EDGE * points.size)
 }
 
 /// Style of a curve; dashed lines no wider than a hairline have finer dashes.

@@ -42,6 +42,7 @@ colours! {
     Ink, ink, INK;
     Quiet, quiet, QUIET;
     Grid, grid, GRID;
+    Blank, blank, BLANK;
     Forward, forward, FORWARD;
     Backward, backward, BACKWARD;
     Standing, standing, STANDING;

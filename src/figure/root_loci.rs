@@ -120,6 +120,7 @@ pub fn chart(report: &Report) -> Option<ChartData> {
     let speed = AxisData::speed().within(chart.speed.values());
     let [from, to] = [entry.onset_rpm, entry.end_rpm].map(|rpm| chart.rpm(rpm));
     Some(ChartData {
+        key: Vec::new(),
         title: report.scene.name.clone(),
         facts: vec![
             report.condition.clone(),

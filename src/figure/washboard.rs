@@ -1,29 +1,12 @@
 //! The lobe diagram: smallest cutting stiffness at which a motion grows, over the speed, and its frequency.
 
-use super::axis::{Axis, Spread, draw_horizontal, draw_named, draw_vertical, proper_range};
-use super::canvas::{Frame, Sheet, Stroke};
-use super::chart_data::{AxisData, ChartData, Item, Line, PanelData, Points};
-use super::heading;
-use super::key::Key;
-use super::paint::Ground;
+use super::axis::{Spread, proper_range};
+use super::chart_data::{Area, AxisData, ChartData, Item, Line, PanelData, Points};
 use super::palette::Hue;
-use super::style::{BETWEEN_FACTS, BLANK, FINE_DASH, FLUTTER_SHADE, HAIRLINE, QUIET};
+use super::style::HAIRLINE;
 use crate::report::{Verdict, WashboardReport};
 use crate::text::shown_to;
 
-const WIDTH: u32 = 1200;
-const HEIGHT: u32 = 780;
-const LOBES: Frame = Frame {
-    left: 104.0,
-    top: 92.0,
-    right: 1160.0,
-    bottom: 440.0,
-};
-const FREQUENCY: Frame = Frame {
-    top: 480.0,
-    bottom: 680.0,
-    ..LOBES
-};
 /// Diameter of the ring at the cut's own stiffness, and of the dots at frequencies.
 const OWN_SIZE: f64 = 12.0;
 const DOT_SIZE: f64 = 4.4;
@@ -32,40 +15,10 @@ const DOT_SIZE: f64 = 4.4;
 const DECADES: f64 = 2.5;
 /// Space below and above the boundary, in decades.
 const ROOM: f64 = 0.3;
+/// Name of the stiffnesses at which a motion grows.
+const GROWS: &str = "above the smallest stiffness at which a motion grows";
 /// Name of the stiffnesses for which it is not known whether a motion grows.
 const UNKNOWN: &str = "not searched or not confirmed above";
-
-pub fn sheet(report: &WashboardReport) -> Sheet {
-    let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    let data = chart(report);
-    heading::draw(&mut sheet, &data.title, &data.facts.join(BETWEEN_FACTS));
-    let [lobes, frequencies] = &data.panels[..] else {
-        return sheet;
-    };
-    let speed = lobes.x.placed(LOBES.across());
-    let stiffness = lobes.y.placed(LOBES.upwards());
-    let upper = Ground {
-        x: &speed,
-        y: &stiffness,
-        frame: &LOBES,
-    };
-    draw_areas(&mut sheet, report, &speed, &stiffness);
-    draw_vertical(&mut sheet, &stiffness, &LOBES, &lobes.y.title());
-    upper.draw_lines(&mut sheet, &lobes.items);
-    draw_horizontal(&mut sheet, &speed, LOBES.bottom, false);
-    let frequency = frequencies.y.placed(FREQUENCY.upwards());
-    let lower = Ground {
-        x: &speed,
-        y: &frequency,
-        frame: &FREQUENCY,
-    };
-    draw_vertical(&mut sheet, &frequency, &FREQUENCY, &frequencies.y.title());
-    lower.draw(&mut sheet, &frequencies.items);
-    draw_named(&mut sheet, &speed, FREQUENCY.bottom, &frequencies.x.title());
-    upper.draw_points(&mut sheet, &lobes.items);
-    draw_key(&mut sheet, report);
-    sheet
-}
 
 /// The boundary and its frequencies, as numbers.
 pub fn chart(report: &WashboardReport) -> ChartData {
@@ -87,11 +40,11 @@ pub fn chart(report: &WashboardReport) -> ChartData {
         )
     };
     let stiffness = AxisData::new("lateral cutting stiffness", "N/m").within(decades);
-    let boundary = vec![
+    let boundary = areas(report, decades).into_iter().chain([
         Item::Line(unknown_from(report, decades)),
         Item::Line(boundary(report, decades)),
         Item::Points(own),
-    ];
+    ]);
     let teeth = [
         (0.5, "half the tooth passing frequency"),
         (1.0, "tooth passing frequency"),
@@ -118,10 +71,11 @@ pub fn chart(report: &WashboardReport) -> ChartData {
             PanelData::new(
                 speed.clone(),
                 stiffness.spread(Spread::Logarithmic),
-                boundary,
+                boundary.collect(),
             ),
             PanelData {
                 harmonics: true,
+                share: 0.55,
                 ..PanelData::new(
                     speed,
                     AxisData::new("frequency there", "Hz").within([0.0, top]),
@@ -129,6 +83,7 @@ pub fn chart(report: &WashboardReport) -> ChartData {
                 )
             },
         ],
+        key: key(report),
     }
 }
 
@@ -226,30 +181,21 @@ fn decades(report: &WashboardReport) -> [f64; 2] {
     [(own.min(least) - ROOM).floor(), (most + ROOM).ceil()].map(|log| 10f64.powf(log))
 }
 
-/// Shades the unstable stiffnesses, and those for which it is not known whether a motion grows: at each speed a column,
-/// half way to the next speeds.
-fn draw_areas(sheet: &mut Sheet, report: &WashboardReport, speed: &Axis, stiffness: &Axis) {
-    let lobes = &report.lobes;
-    let places: Vec<f64> = lobes.rpm.iter().map(|rpm| speed.at(*rpm)).collect();
-    let [least, most] = stiffness.values();
-    let height = |k: f64| stiffness.at(k.clamp(least, most));
-    for (k, x) in places.iter().enumerate() {
-        let before = k.checked_sub(1).map_or(*x, |before| places[before]);
-        let after = places.get(k + 1).copied().unwrap_or(*x);
-        let column = LOBES.between([0.5 * (x + before), 0.5 * (x + after)]);
-        let [from, to] = unknown(report, k);
-        for (from, to, shade) in [(from, to, BLANK), (to, f64::INFINITY, FLUTTER_SHADE)] {
-            let (bottom, top) = (height(from), height(to));
-            if bottom > top {
-                let frame = Frame {
-                    top,
-                    bottom,
-                    ..column
-                };
-                sheet.fill(frame, shade);
-            }
-        }
-    }
+/// The unstable stiffnesses, and those for which it is not known whether a motion grows.
+fn areas(report: &WashboardReport, [least, most]: [f64; 2]) -> [Item; 2] {
+    let column = |k: usize, [low, high]: [f64; 2]| {
+        let rpm = report.lobes.rpm[k];
+        [rpm, low.clamp(least, most), high.clamp(least, most)]
+    };
+    let all = 0..report.lobes.rpm.len();
+    let grows = all
+        .clone()
+        .map(|k| column(k, [unknown(report, k)[1], most]));
+    let open = all.map(|k| column(k, unknown(report, k)));
+    [
+        Item::Area(Area::new(open, Hue::Blank, UNKNOWN)),
+        Item::Area(Area::new(grows, Hue::FlutterShade, GROWS)),
+    ]
 }
 
 fn own_hue(report: &WashboardReport) -> Hue {
@@ -259,18 +205,20 @@ fn own_hue(report: &WashboardReport) -> Hue {
     }
 }
 
-fn draw_key(sheet: &mut Sheet, report: &WashboardReport) {
-    let colour = own_hue(report).colour();
-    let mut key = Key::new(sheet, LOBES.left, f64::from(HEIGHT) - 24.0);
-    key.shade(FLUTTER_SHADE)
-        .word("above the smallest stiffness at which a motion grows");
+fn key(report: &WashboardReport) -> Vec<Item> {
     let [_, most] = decades(report);
     let is_unknown = |k: usize| unknown(report, k)[0] < unknown(report, k)[1].min(most);
-    if (0..report.lobes.rpm.len()).any(is_unknown) {
-        key.shade(BLANK).word("not searched, or not confirmed");
-    }
-    key.ring(12.0, 6.0, Stroke::solid(colour, 2.5))
-        .word("this cut")
-        .line(26.0, Stroke::dashed(QUIET, HAIRLINE, FINE_DASH))
-        .word("tooth passing frequency, and half of it");
+    let open = (0..report.lobes.rpm.len()).any(is_unknown);
+    let open = open.then(|| Item::area_sample(Hue::Blank, "not searched, or not confirmed"));
+    let others = [
+        Item::points_sample(OWN_SIZE, true, own_hue(report), "this cut"),
+        Item::line_sample(
+            HAIRLINE,
+            true,
+            Hue::Quiet,
+            "tooth passing frequency, and half of it",
+        ),
+    ];
+    let grows = Item::area_sample(Hue::FlutterShade, GROWS);
+    [grows].into_iter().chain(open).chain(others).collect()
 }

@@ -7,11 +7,12 @@ program's figures.
 
 from __future__ import annotations
 
-from .chart import Bars, Chart, Heat, Line, Panel, Points, Shade, Upright, colours
+from .chart import Area, Bars, Chart, Heat, Line, Panel, Points, Shade, Upright, colours
 from .motion import Animation, animate
 
 __all__ = [
     "Animation",
+    "Area",
     "Bars",
     "Chart",
     "Heat",

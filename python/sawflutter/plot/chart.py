@@ -91,6 +91,17 @@ class Heat:
 
 
 @dataclass(frozen=True)
+class Area:
+    """Columns from a lower to an upper value, half way to the next ones."""
+
+    x: FloatArray
+    low: FloatArray
+    high: FloatArray
+    colour: str
+    name: str = ""
+
+
+@dataclass(frozen=True)
 class Shade:
     """An interval of the x axis, coloured over the height of the panel."""
 
@@ -110,7 +121,7 @@ class Upright:
     name: str = ""
 
 
-Item: TypeAlias = "Line | Points | Bars | Heat | Shade | Upright"
+Item: TypeAlias = "Line | Points | Area | Bars | Heat | Shade | Upright"
 
 
 @dataclass(frozen=True)
@@ -127,6 +138,8 @@ class Panel:
     y_root: bool = False
     """Whether the y axis shows signed square roots, so that small values next to large ones are
     seen."""
+    y_ticks: Sequence[float] = ()
+    """Values of the y axis that have a number; empty if the range determines them."""
     y_names: Sequence[str] = ()
     """Words at the places 1, 2, 3 … of the y axis, in place of numbers."""
     share: float = 1.0

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from .. import _native
-from .chart import Chart, Item, Line, Panel, Points, Shade, Upright, colours
+from .chart import Area, Chart, Item, Line, Panel, Points, Shade, Upright, colours
 from .design import check, fit, place, study
-from .histories import cut, run_up
+from .histories import cut
 
 # The program does not describe the figures of these commands. A function makes the chart of a report
 # and of its answer in one line.
@@ -20,7 +20,6 @@ OWN: dict[str, Callable[[Any, str], Chart]] = {
     "cut": cut,
     "fit": fit,
     "place": place,
-    "runup": run_up,
     "study": study,
 }
 # Narrower bands, as a share of the axis, get a stronger colour.
@@ -53,6 +52,7 @@ def _panel(panel: dict[str, Any]) -> Panel:
         x_log=x["spread"] == "logarithmic",
         y_log=y["spread"] == "logarithmic",
         y_root=y["spread"] == "signed_root",
+        y_ticks=y["ticks"],
         y_names=y["names"],
         share=panel["share"],
         title=panel["title"],
@@ -73,6 +73,9 @@ def _items(of: dict[str, Any], x_range: tuple[float, float] | None) -> Iterator[
             narrow = x_range is not None and end - start < NARROW * (x_range[1] - x_range[0])
             colour = colours()[of["streak" if narrow else "shade"]]
             yield Shade(start, end, colour, of["name"])
+    elif of["item"] == "area":
+        x, low, high = (np.array(of[edge], float) for edge in ("x", "low", "high"))
+        yield Area(x, low, high, _tinted(colours()[of["colour"]], of["tint"]), of["name"])
     elif of["item"] == "upright":
         yield Upright(of["x"], colours()[of["colour"]], of["dashed"], of["name"])
     else:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from .._report_types import CutReport, RunUpReport
-from .chart import Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours, shade
+from .chart import Chart, Heat, Item, Line, Panel, Points, Shade, colours
 
 
 def cut(r: CutReport, facts: str) -> Chart:
@@ -34,28 +32,6 @@ def cut_map(r: CutReport, run: int) -> Chart:
     name = "angle of the first guide, all guides moving with it [°]"
     panel = Panel(name, "multiple of the forces", [heat])
     return Chart(r.scene["name"], f"growth at {of.rpm:.0f} rpm", (panel,))
-
-
-def run_up(r: RunUpReport, facts: str) -> Chart:
-    """Deflection at the probe over speed, on a scale of signed roots."""
-    shades = [shade(entry.band) for entry in r.bands]
-    critical = [Upright(c.rpm, colours()["divergence"]) for c in r.critical_speeds]
-    millimetres = 1e3 * r.deflection_m
-    hover = [f"{rpm:.1f} rpm<br>{w:.4g} mm" for rpm, w in zip(r.rpm, millimetres)]
-    line = Line(r.rpm, millimetres, colours()["forward"], "deflection at the probe", hover=hover)
-    largest = float(np.nanmax(np.abs(millimetres), initial=0.0))
-    # The linear plate is invalid beyond this deflection, so that the axis ends a little above it.
-    limit = math.inf if r.stretching is not None else 1.2e3 * r.linear_limit_m
-    top = max(min(largest, limit), 1e-9)
-    panel = Panel(
-        "rotation speed Ω [rpm]",
-        "deflection [mm], square root scale",
-        [*shades, *critical, line],
-        x_range=(float(r.rpm[0]), float(r.rpm[-1])),
-        y_range=(-1.1 * top, 1.1 * top),
-        y_root=True,
-    )
-    return Chart(r.scene["name"], facts, (panel,))
 
 
 def response(r: RunUpReport) -> Chart:

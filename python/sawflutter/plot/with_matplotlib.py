@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._extras import extra
-from .chart import Bars, Chart, Heat, Item, Panel, Points, Shade, Upright, colours
+from .chart import Area, Bars, Chart, Heat, Item, Panel, Points, Shade, Upright, colours
 from .chart import end_labels, root_ticks, signed_root
 
 if TYPE_CHECKING:
@@ -75,6 +75,8 @@ def _panel(ax: Axes, panel: Panel, last: bool) -> None:
         ax.set_ylim(*panel.y_range)
     if panel.equal:
         ax.set_aspect("equal")
+    if panel.y_ticks:
+        ax.set_yticks(panel.y_ticks)
     if panel.y_names:
         ax.set_yticks(range(1, len(panel.y_names) + 1), panel.y_names)
     if last:
@@ -97,6 +99,11 @@ def _add(ax: Axes, item: Item) -> None:
     elif isinstance(item, Upright):
         style: Any = (0, (4, 4)) if item.dashed else "solid"
         ax.axvline(item.x, color=item.colour, linewidth=0.8, linestyle=style, zorder=1.5)
+    elif isinstance(item, Area):
+        ax.fill_between(
+            item.x, item.low, item.high, where=list(item.high > item.low), step="mid",
+            color=item.colour, linewidth=0.0, zorder=0.4, label=item.name,
+        )  # fmt: skip
     elif isinstance(item, Heat):
         _heat(ax, item)
     elif isinstance(item, Bars):

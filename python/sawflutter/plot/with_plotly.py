@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._extras import extra
-from .chart import Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
+from .chart import Area, Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
 from .chart import end_labels, root_ticks, signed_root
 
 if TYPE_CHECKING:
@@ -128,6 +128,13 @@ def _add(figure: Figure, item: Item, panel: Panel, at: dict[str, int]) -> None:
             ),
             **at,
         )  # fmt: skip
+    elif isinstance(item, Area):
+        height = np.maximum(item.high - item.low, 0.0)
+        columns = go.Bar(
+            x=item.x, y=height, base=item.low, width=np.gradient(item.x), name=item.name,
+            marker={"color": item.colour, "line": {"width": 0}},
+        )  # fmt: skip
+        figure.add_trace(columns, **at)
     elif isinstance(item, Bars):
         centres, widths = (item.edges[:-1] + item.edges[1:]) / 2.0, np.diff(item.edges)
         bar = go.Bar(
@@ -170,6 +177,8 @@ def _axes(figure: Figure, panel: Panel, at: dict[str, int], last: bool) -> None:
         figure.update_yaxes(range=ends.tolist(), **at)
         if panel.equal:
             figure.update_yaxes(scaleanchor="x", **at)
+        if panel.y_ticks:
+            figure.update_yaxes(tickvals=list(panel.y_ticks), **at)
         if panel.y_names:
             places = list(range(1, len(panel.y_names) + 1))
             figure.update_yaxes(tickvals=places, ticktext=list(panel.y_names), **at)

@@ -46,6 +46,7 @@ pub fn describe(report: &Report, shown: &Shown, said: bool) -> ChartData {
         )
     };
     ChartData {
+        key: Vec::new(),
         title: report.scene.name.clone(),
         facts: facts(report)
             .into_iter()
