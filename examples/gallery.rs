@@ -3,16 +3,16 @@
 use std::path::Path;
 
 use anyhow::Context;
+use sawflutter::analyses::fit::{self, FitReport, Measurement};
 use sawflutter::check::{Check, Limits};
 use sawflutter::commands::CommandReport;
 use sawflutter::deflect::{Deflecting, Options};
-use sawflutter::fit::{Fit, Measurement};
 use sawflutter::gap::{self, GuideGaps};
 use sawflutter::map::{self, Map, Range};
 use sawflutter::place::{Demands, Placement};
 use sawflutter::report::{
-    CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, FitReport, GapReport,
-    MapReport, PlaceReport, ResponseReport, RunUpReport,
+    CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, GapReport, MapReport,
+    PlaceReport, ResponseReport, RunUpReport,
 };
 use sawflutter::response::{self, ForcedResponse};
 use sawflutter::scene::{Accuracy, ContactLaw, Freed, Scene, SceneFile, rad_per_s};
@@ -210,12 +210,11 @@ fn fit(scene: &Scene) -> anyhow::Result<FitReport> {
     let freed = ["radius_m", "stiffness_n_per_m"]
         .map(|name| Freed::with_usual_bounds(scene, &format!("guides[0].{name}")));
     let freed = freed.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let options = sawflutter::fit::Options {
+    let options = fit::Options {
         to_rpm: 1250.0,
         ..Default::default()
     };
-    let fit = Fit::new(scene, &measurement, &freed, &options, &|_, _| ())?;
-    Ok(FitReport::new(&fit))
+    Ok(fit::fit(scene, &measurement, &freed, &options, &|_, _| ())?)
 }
 
 /// Computes the report of `sawflutter place` with radius and angle of the first guide free.

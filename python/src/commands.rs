@@ -3,16 +3,16 @@
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
 use sawflutter::check::{Check, Limits, LimitsFile};
 use sawflutter::deflect::{Deflecting, Options as DeflectOptions};
-use sawflutter::fit::{Fit, Measurement, Options as FitOptions};
 use sawflutter::gap::{Friction, GuideGaps, Options as GapOptions, OscillatingForce};
 use sawflutter::place::{
     Demands, GapDemands, Goal, Options as PlaceOptions, Placement, Tolerances,
 };
 use sawflutter::report::{
-    CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, FitReport, GapReport,
-    ModeEntry, PlaceReport, ResponseReport, RunUpReport, SensitivityEntry, WashboardReport,
+    CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, GapReport, ModeEntry,
+    PlaceReport, ResponseReport, RunUpReport, SensitivityEntry, WashboardReport,
     over_common_speeds,
 };
 use sawflutter::response::{ForcedResponse, Options as ResponseOptions};
@@ -271,8 +271,7 @@ fn fit(options: &Options<'_>) -> PyResult<Work> {
         let options = options.checked(&measurement)?;
         let freed = Freed::to_fit(scene, &free)?;
         let progress = |done, of| meter.show(done, of);
-        let fit = Fit::new(scene, &measurement, &freed, &options, &progress)?;
-        json(&FitReport::new(&fit))
+        json(&fit::fit(scene, &measurement, &freed, &options, &progress)?)
     }))
 }
 

@@ -3,3 +3,5 @@
 //! A function named like the command returns the report: `deflect(&scene, &options)` gives a
 //! [`DeflectReport`](crate::report::DeflectReport), in the units of its JSON. States between (matrices, coordinates)
 //! are private to the folder.
+
+pub mod fit;

@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::fit::{Fit, Measurement, Options};
-use crate::report::FitReport;
+use crate::analyses::fit::{Measurement, Options, fit};
 use crate::scene::{Freed, Scene};
 use crate::text::{Kind, OtherEncodings};
 use clap::Args;
@@ -78,11 +77,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let freed = Freed::to_fit(&scene, &named_bounds(&arguments.free)?)?;
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;
-    let fit = watched(|progress| {
+    let report = watched(|progress| {
         let starts = |done, of| progress.show("starts", done, of);
-        Fit::new(&scene, &measurement, &freed, &options, &starts)
+        fit(&scene, &measurement, &freed, &options, &starts)
     })??;
-    let report = FitReport::new(&fit);
     let fitted = serde_json::to_string_pretty(&report.scene)?;
     let others = vec![("fitted-scene.json", fitted.into_bytes())];
     let output = &arguments.common.output;

@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
+use crate::analyses::fit::FitReport;
 use crate::figure::number_name;
 use crate::report::{
-    AtAmplitudeEntry, CutReport, FitReport, GapReport, PlaceReport, ResponseReport, RunUpReport,
+    AtAmplitudeEntry, CutReport, GapReport, PlaceReport, ResponseReport, RunUpReport,
     WashboardReport,
 };
 use crate::scene::Quantity;

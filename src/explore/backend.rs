@@ -11,7 +11,7 @@ use super::reply::FileNote;
 use super::reply::{SavedFile, Start};
 use super::task::Task;
 use super::{ahead, mode, parts};
-use crate::fit::Measurement;
+use crate::analyses::fit::Measurement;
 use crate::scene::Scene;
 use crate::spectrum::Stage;
 

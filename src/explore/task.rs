@@ -11,15 +11,14 @@ use super::answers::{
 use super::meter::Meter;
 use super::refusal::Refusal;
 use super::tolerances::{Tolerance, Typed, study as study_of};
+use crate::analyses::fit::{self, FitReport, Measurement};
 use crate::commands::CommandReport;
 use crate::figure::Figure;
-use crate::fit::{self, Fit, FitError, Measurement};
 use crate::gap::{self, GapError, GuideGaps};
 use crate::map::{self, Map, Range};
 use crate::place::{self, Demands, Goal, PlaceError, Placement};
 use crate::report::{
-    CutReport, FitReport, GapReport, MapReport, PlaceReport, ResponseReport, RunUpReport,
-    WashboardReport,
+    CutReport, GapReport, MapReport, PlaceReport, ResponseReport, RunUpReport, WashboardReport,
 };
 use crate::response::{self, ForcedResponse, ResponseError};
 use crate::scene::{Freed, Scene, SceneError, SceneFile};
@@ -153,8 +152,8 @@ fn fit(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     let options = fit::Options::default().checked(&measurement)?;
     let freed = Freed::to_fit(&scene, &[])?;
     let progress = |done, of| meter.show("starts", done, of);
-    let fit = Fit::new(&scene, &measurement, &freed, &options, &progress);
-    let report = FitReport::new(&fit.map_err(|error: FitError| Refusal::of(&error))?);
+    let report = fit::fit(&scene, &measurement, &freed, &options, &progress);
+    let report = report.map_err(|error| Refusal::of(&error))?;
     answer(&report, of_fit(&report), Some(&report.scene))
 }
 

@@ -11,7 +11,7 @@ use super::style::{
     STANDING, shorten_label,
 };
 use super::written::in_words;
-use crate::report::{FitReport, ResidualEntry};
+use crate::analyses::fit::{FitReport, Residual};
 
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 820;
@@ -53,11 +53,11 @@ pub fn sheet(report: &FitReport) -> Sheet {
     // The axis begins below zero, which leaves room for measured points at rest.
     let speed = Axis::linear([-0.025 * last, last], UPPER.across());
     let shown = report.residuals.iter().filter(|r| speed.shows(r.rpm));
-    let shown: Vec<&ResidualEntry> = shown.collect();
+    let shown: Vec<&Residual> = shown.collect();
     let fitted = || shown.iter().filter(|r| r.fitted);
     let highest = fitted().fold(1.0_f64, |top, r| top.max(r.measured_hz).max(r.fitted_hz));
     let frequency = Axis::linear([0.0, 1.12 * highest], UPPER.upwards());
-    let off = |r: &ResidualEntry| r.fitted_hz - r.measured_hz;
+    let off = |r: &Residual| r.fitted_hz - r.measured_hz;
     let largest = fitted().fold(1e-3_f64, |top, r| top.max(off(r).abs()));
     // The axis ends at round numbers, so that both signs have a tick.
     let reach = round_up(1.05 * largest);
@@ -118,13 +118,7 @@ fn draw_curves(
 }
 
 /// Draws a measured point, a line to the fitted frequency, and the residual.
-fn draw_pair(
-    sheet: &mut Sheet,
-    r: &ResidualEntry,
-    speed: &Axis,
-    frequency: &Axis,
-    residual: &Axis,
-) {
+fn draw_pair(sheet: &mut Sheet, r: &Residual, speed: &Axis, frequency: &Axis, residual: &Axis) {
     let x = speed.at(r.rpm);
     if !frequency.shows(r.measured_hz) {
         return;

@@ -19,7 +19,6 @@ mod cut;
 mod deflect;
 mod event_shape;
 mod excitation;
-mod fit;
 mod gap;
 mod gap_oscillation;
 mod in_cut;
@@ -56,7 +55,6 @@ pub use self::deflect::{
 };
 pub use self::event_shape::{EventShapeEntry, ShapeOccasion};
 pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
-pub use self::fit::{FitReport, ParameterEntry, ResidualEntry};
 pub use self::gap::{
     AtAmplitudeEntry, BasisErrorEntry, DeviationEntry, FrictionEntry, FrictionPadEntry, GapReport,
 };

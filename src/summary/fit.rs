@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::{each, heading, more, sentence};
-use crate::report::{FitReport, ParameterEntry};
+use crate::analyses::fit::{FitReport, FittedParameter};
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &FitReport) -> std::fmt::Result {
@@ -28,7 +28,7 @@ pub fn of_report(text: &mut String, report: &FitReport) -> std::fmt::Result {
         100.0 * report.confidence
     )?;
     for found in &report.parameters {
-        let ParameterEntry {
+        let FittedParameter {
             path, start, value, ..
         } = found;
         let interval = match (found.interval_from, found.interval_to) {

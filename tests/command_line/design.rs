@@ -4,7 +4,8 @@
 
 use std::path::PathBuf;
 
-use sawflutter::report::{CheckReport, FitReport, NeighbourEntry, PlaceReport};
+use sawflutter::analyses::fit::FitReport;
+use sawflutter::report::{CheckReport, NeighbourEntry, PlaceReport};
 use sawflutter::scene::Scene;
 use tempfile::TempDir;
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use sawflutter::fit::{Measurement, Row};
+use sawflutter::analyses::fit::{Measurement, Row};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Scene, rad_per_s};
 use sawflutter::spectrum::LowestModes;

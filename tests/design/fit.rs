@@ -4,9 +4,8 @@
 //! measurements of known saws with drawn noise.
 
 use crate::common::{assert_close, scene};
-use sawflutter::fit::{Fit, FitError, Measurement, Options, Row};
+use sawflutter::analyses::fit::{FitError, Measurement, Options, Row, fit};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::report::FitReport;
 use sawflutter::scene::{Accuracy, Scene};
 use sawflutter::spectrum::LowestModes;
 use std::f64::consts::TAU;
@@ -41,28 +40,28 @@ fn the_calibration_of_the_papers_saw_is_found_from_a_distant_start() {
             (ANGLE, -120.0, 60.0),
         ],
     );
-    let fit = Fit::new(&far, &table_5(&far), &free, &Options::default(), &|_, _| ()).unwrap();
+    let fit = fit(&far, &table_5(&far), &free, &Options::default(), &|_, _| ()).unwrap();
     for p in &fit.parameters {
         println!(
             "{} {} -> {} {:?}",
-            p.freed.parameter.path(),
+            p.path,
             p.start,
             p.value,
-            p.interval
+            [p.interval_from, p.interval_to]
         );
     }
     println!(
-        "{} -> {} Hz rms, {:?}",
-        fit.rms_before_hz, fit.rms_hz, fit.resolution
+        "{} -> {} Hz rms, {} diameters",
+        fit.rms_before_hz, fit.rms_hz, fit.max_diameters
     );
     assert_eq!(fit.parameters.len(), 2);
-    assert_eq!(fit.without_effect[0].parameter.path(), ANGLE);
-    assert_eq!(fit.scene.file().guides[0].angle_deg, -55.0);
+    assert_eq!(fit.without_effect, [ANGLE]);
+    assert_eq!(fit.scene.guides[0].angle_deg, -55.0);
     assert!(fit.rms_before_hz > 3.0, "{}", fit.rms_before_hz);
     assert!(fit.rms_hz < 0.9875, "{}", fit.rms_hz);
     // The rounded calibration lies within the intervals.
     for (p, expected) in fit.parameters.iter().zip([0.2, 2.0e7]) {
-        let (low, high) = p.interval.unwrap();
+        let (low, high) = (p.interval_from.unwrap(), p.interval_to.unwrap());
         assert!(low < expected && expected < high, "{p:?}");
     }
     // The start is 5 mm and 10 % away from the rounded calibration.
@@ -70,7 +69,7 @@ fn the_calibration_of_the_papers_saw_is_found_from_a_distant_start() {
     assert_close("stiffness", fit.parameters[1].value, 2.0e7, 0.15);
     // Every start leads to the optimum, also the farthest; the coarser basis of the starts gives a minimum that is
     // higher by about the effect of rounding above.
-    for start in FitReport::new(&fit).starts {
+    for start in fit.starts {
         let rms_hz = start.rms_hz.expect("an end");
         assert!((rms_hz - fit.rms_hz).abs() < 0.003, "{rms_hz}");
     }
@@ -107,7 +106,7 @@ fn exact_frequencies_recover_the_saw() {
         let bounds: Vec<(&str, f64, f64)> = numbers.iter().map(|n| (n.0, n.2, n.3)).collect();
         let truth = with(saw, &values);
         let measurement = measured(&exact(&truth, &SPEEDS, 6), || 0.0);
-        let fit = Fit::new(
+        let fit = fit(
             saw,
             &measurement,
             &freed(saw, &bounds),
@@ -148,10 +147,10 @@ fn numbers_that_the_data_do_not_determine_have_no_interval() {
         resolution: Some(SMALL),
         ..Options::default()
     };
-    let fit = Fit::new(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
+    let fit = fit(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
     assert!(fit.rms_hz < 1e-5);
     assert!(
-        fit.parameters.iter().all(|p| p.interval.is_none()),
+        fit.parameters.iter().all(|p| p.interval_from.is_none()),
         "{:?}",
         fit.parameters
     );
@@ -169,7 +168,7 @@ fn measurements_that_cannot_be_fitted_are_refused() {
         ..Options::default()
     };
     let fit = |measurement: &Measurement, numbers: &[(&str, f64, f64)]| {
-        Fit::new(
+        fit(
             &saw,
             measurement,
             &freed(&saw, numbers),
@@ -211,10 +210,10 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
             .num_threads(threads)
             .build()
             .unwrap();
-        pool.install(|| Fit::new(&saw, &table_5(&saw), &free, &options, &|_, _| ()).unwrap())
+        pool.install(|| fit(&saw, &table_5(&saw), &free, &options, &|_, _| ()).unwrap())
     };
     let (one, three) = (on(1), on(3));
-    assert_eq!(FitReport::new(&one), FitReport::new(&three));
+    assert_eq!(one, three);
 }
 
 /// Root mean square of the residuals of a measurement.
@@ -247,9 +246,9 @@ fn numbers_that_all_end_at_bounds_are_answered_without_intervals() {
     ] {
         let measurement = table_5(&saw);
         let free = freed(&saw, &[(path, from, to)]);
-        let fit = Fit::new(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
+        let fit = fit(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
         let found = &fit.parameters[0];
-        assert!(found.at_bound && found.interval.is_none(), "{found:?}");
+        assert!(found.at_bound && found.interval_from.is_none(), "{found:?}");
         assert_eq!(fit.correlation, [[0.0]]);
         assert_eq!(fit.degrees_of_freedom, measurement.count());
         let on_grid = |k: i32| {
@@ -271,7 +270,7 @@ fn a_start_outside_the_bounds_is_reported_unchanged() {
         ..Options::default()
     };
     let free = freed(&saw, &[(RADIUS, 0.21, 0.25)]);
-    let fit = Fit::new(&saw, &table_5(&saw), &free, &options, &|_, _| ()).unwrap();
+    let fit = fit(&saw, &table_5(&saw), &free, &options, &|_, _| ()).unwrap();
     assert_eq!(fit.parameters[0].start, 0.2);
     assert_close(
         "before",
@@ -303,7 +302,7 @@ fn a_tap_test_at_rest_recovers_the_pad() {
         starts: 4,
         ..Options::default()
     };
-    let fit = Fit::new(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
+    let fit = fit(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
     for (p, (path, value)) in fit.parameters.iter().zip(numbers) {
         assert_close(path, p.value, value, 0.03);
     }
@@ -328,15 +327,14 @@ fn frequencies_that_the_saw_cannot_have_are_reported() {
         resolution: Some(SMALL),
         ..Options::default()
     };
-    let fit = Fit::new(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
-    let report = FitReport::new(&fit);
-    let warned = |words: &str| report.warnings.iter().any(|w| w.contains(words));
+    let fit = fit(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
+    let warned = |words: &str| fit.warnings.iter().any(|w| w.contains(words));
     assert!(fit.rms_hz > 60.0 && warned("does not have these frequencies"));
-    for found in &report.parameters {
+    for found in &fit.parameters {
         let none = found.interval_from.is_none() && found.interval_to.is_none();
         assert!(none, "{found:?}");
         let open = format!("do not determine {}", found.path);
-        assert!(found.at_bound || warned(&open), "{:?}", report.warnings);
+        assert!(found.at_bound || warned(&open), "{:?}", fit.warnings);
     }
 }
 
@@ -353,8 +351,8 @@ fn speeds_in_thousands_of_rpm_are_noticed() {
         resolution: Some(SMALL),
         ..Options::default()
     };
-    let fit = Fit::new(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
-    let summary = FitReport::new(&fit).summary();
+    let fit = fit(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
+    let summary = fit.summary();
     let summary = summary.split_whitespace().collect::<Vec<_>>().join(" ");
     let said = "are these thousands of rpm? That would be 1250 rpm";
     assert!(summary.contains(said), "{summary}");

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
-use sawflutter::fit::{Fit, Measurement, Options};
+use sawflutter::analyses::fit::{FitReport, Measurement, Options, fit};
 
 use crate::common::scene;
 use crate::measurements::{SMALL, SPEEDS, exact, measured};
@@ -71,14 +71,14 @@ fn covered() -> [usize; 2] {
     let drawn: Vec<Measurement> = (0..DRAWS)
         .map(|_| measured(&exact, || 0.1 * noise.normal()))
         .collect();
-    let fits: Vec<Fit> = drawn
+    let fits: Vec<FitReport> = drawn
         .par_iter()
-        .map(|drawn| Fit::new(&saw, drawn, &free, &options, &|_, _| ()).unwrap())
+        .map(|drawn| fit(&saw, drawn, &free, &options, &|_, _| ()).unwrap())
         .collect();
     [(0, 0.21), (1, 8e6)].map(|(k, truth)| {
-        let covers = |fit: &&Fit| {
-            let (low, high) = fit.parameters[k].interval.unwrap();
-            low <= truth && truth <= high
+        let covers = |fit: &&FitReport| {
+            let found = &fit.parameters[k];
+            found.interval_from.unwrap() <= truth && truth <= found.interval_to.unwrap()
         };
         fits.iter().filter(covers).count()
     })

@@ -3,27 +3,13 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
-use super::Options;
 use super::model::Model;
 use super::solve::{Found, minimum};
+use super::{Options, Start};
 use crate::campbell::Progress;
 use crate::scene::spread;
 use crate::spectrum::SpectrumError;
-
-/// A start and its result.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Start {
-    /// Initial values.
-    pub from: Vec<f64>,
-    /// Final values; null for a start that is not a valid saw.
-    pub to: Option<Vec<f64>>,
-    /// Root mean square of the residuals at the final values; null without them.
-    pub rms_hz: Option<f64>,
-}
 
 /// Largest number of starts with different results that are refined.
 const REFINED: usize = 3;

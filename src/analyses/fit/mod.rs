@@ -1,0 +1,256 @@
+//! Calibration: determines numbers of a scene from frequencies measured over speed.
+//!
+//! The sum of squares is minimized within bounds by the trust-region reflective method from several starts,
+//! which are spread over the bounds. The search uses a coarse basis; the best results are refined on the
+//! basis that the scene's tolerance requires. Frequencies are |Im λ|/2π in space, and zero for a wave that
+//! diverges. The measured frequencies of a row, sorted, are compared with the lowest computed ones, as in the
+//! calibration of the paper's saw with its Table 5.
+//!
+//! ```
+//! use sawflutter::analyses::fit::{Measurement, Options, fit};
+//! use sawflutter::plate::Resolution;
+//! use sawflutter::scene::{Freed, Scene};
+//!
+//! let scene = Scene::paper();
+//! let measured = scene.file().measured.as_ref().expect("the paper's Table 5");
+//! let measurement = Measurement::of_scene(measured).up_to(1250.0);
+//! let radius = Freed::new(scene.file(), "guides[0].radius_m", 0.1, 0.355)?;
+//! let small = Resolution { max_diameters: 8, radial_functions: 4 };
+//! let options = Options { resolution: Some(small), ..Options::default() };
+//! let found = fit(&scene, &measurement, &[radius], &options, &|_, _| ())?;
+//! assert!(found.rms_hz < 1.2 && (found.parameters[0].value - 0.2).abs() < 0.02);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod compared;
+mod error;
+mod measurement;
+mod model;
+mod options;
+mod report;
+mod solve;
+mod starts;
+mod table;
+
+use crate::campbell::{Progress, even_speeds};
+use crate::plate::Resolution;
+use crate::scene::{
+    Freed, Scene, SceneError, SceneFile, effective, rad_per_s, scene_at, unusual_number,
+};
+use crate::spectrum::SpectrumError;
+use crate::stability::ChosenBasis;
+
+use compared::Compared;
+pub use error::FitError;
+pub use measurement::{Measurement, Row};
+use model::Model;
+pub use options::Options;
+pub use report::{Curves, FitReport, FittedParameter, Residual, Start};
+use solve::{Found, at_bound, statistics};
+use starts::{refined, search};
+
+/// Shares at which the effect of a number is examined.
+const LOOKED_AT: [f64; 3] = [0.1, 0.37, 0.83];
+/// A number whose changes move every measured frequency by less than this, in Hz, has no effect.
+const IDLE_HZ: f64 = 1e-5;
+/// Tolerance that suffices to compare starts and to find numbers without effect.
+const COARSE_TOLERANCE: f64 = 1e-2;
+
+/// Number of speeds of the curves.
+const CURVE_SPEEDS: usize = 121;
+/// End of the curves, relative to the last fitted speed.
+const BEYOND: f64 = 1.12;
+
+/// Fits the freed numbers p of a scene: minimizes Σ (f_k(p) − f̂_k)², with the k-th lowest computed
+/// frequency f_k of a row in Hz and the measured one f̂_k. Intervals follow from the linearized problem
+/// with Student's t; the covariance is (JᵀJ)⁻¹ times the variance of the residuals.
+///
+/// # Errors
+/// [`FitError`] if the measurement does not determine the freed numbers, or no start between the bounds
+/// can be analysed.
+pub fn fit(
+    scene: &Scene,
+    measured: &Measurement,
+    freed: &[Freed],
+    options: &Options,
+    progress: Progress<'_>,
+) -> Result<FitReport, FitError> {
+    let measurement = &measured.up_to(options.to_rpm);
+    let coarse = match options.resolution {
+        Some(resolution) => resolution,
+        None => basis(scene, measurement, scene.tolerance().max(COARSE_TOLERANCE))?.0,
+    };
+    let (freed, without_effect) = moving(scene, measurement, freed, coarse)?;
+    check_determined(freed.len(), measurement.count())?;
+    let model = |resolution| Model {
+        scene: scene.file(),
+        freed: &freed,
+        measurement,
+        resolution,
+    };
+    let (starts, candidates) = search(&model(coarse), options, progress)?;
+    let Some(best) = candidates.first() else {
+        let starts = starts.len();
+        return Err(FitError::NoStart { starts });
+    };
+    let (resolution, estimated_relative_error) = match options.resolution {
+        Some(resolution) => (resolution, None),
+        None => {
+            let near = scene_at(scene.file(), &freed, &best.shares)?;
+            let (resolution, error) = basis(&near, measurement, scene.tolerance())?;
+            (resolution, Some(error))
+        }
+    };
+    let fine = model(resolution);
+    let best = refined(&fine, &candidates)?.unwrap_or_else(|| best.clone());
+    let spread = statistics(&fine, &best.shares, options.confidence)?;
+    let before = fine.residuals_of_saw_hz(scene)?;
+    let fitted = calibrated(scene, measurement, &freed, &best)?;
+    let compared = Compared::new(scene, &fitted, resolution);
+    let end_rpm = BEYOND * measurement.end_of_range_rpm();
+    let mut report = FitReport {
+        sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
+        scene: fitted.file().clone(),
+        condition: fitted.condition(),
+        unusual_numbers: unusual_numbers(fitted.file(), measurement),
+        source: measurement.source.clone(),
+        confidence: options.confidence,
+        parameters: parameters(scene, &freed, &best.shares, &spread.half_widths)?,
+        without_effect: without_effect.iter().map(path).collect(),
+        correlation: spread.correlation,
+        measured_frequencies: measurement.count(),
+        degrees_of_freedom: spread.degrees_of_freedom,
+        rms_hz: best.rms_hz,
+        rms_before_hz: rms(&before),
+        residuals: compared.residuals(measured, options.to_rpm)?,
+        curves: compared.curves(
+            even_speeds((0.0, end_rpm), CURVE_SPEEDS),
+            measurement.depth(),
+        )?,
+        starts,
+        max_diameters: resolution.max_diameters,
+        radial_functions: resolution.radial_functions_on(fitted.blade()),
+        estimated_relative_error,
+        warnings: Vec::new(),
+    };
+    report.warnings = report.remarks(measurement);
+    Ok(report)
+}
+
+/// Unusual numbers of the scene, and the highest measured speed if it is unusual and the scene does not contain the
+/// measurement.
+fn unusual_numbers(scene: &SceneFile, measurement: &Measurement) -> Vec<String> {
+    let mut unusual = scene.unusual_numbers();
+    let of_measurement = |sentence: &String| sentence.contains("measured.rows");
+    if !unusual.iter().any(of_measurement) {
+        let label = "the highest measured speed";
+        let top_rpm = measurement.top_rpm();
+        unusual.extend(unusual_number(scene, label, "sweep.to_rpm", top_rpm));
+    }
+    unusual
+}
+
+/// Checks that the measured frequencies can determine so many free numbers.
+fn check_determined(free: usize, measured: usize) -> Result<(), FitError> {
+    match free {
+        0 => Err(FitError::NothingFree),
+        free if measured <= free => Err(FitError::TooFew { measured, free }),
+        _ => Ok(()),
+    }
+}
+
+/// Divides the freed numbers into those that change a measured frequency and the others.
+fn moving(
+    scene: &Scene,
+    measurement: &Measurement,
+    freed: &[Freed],
+    resolution: Resolution,
+) -> Result<(Vec<Freed>, Vec<Freed>), SpectrumError> {
+    let model = Model {
+        scene: scene.file(),
+        freed,
+        measurement,
+        resolution,
+    };
+    let residuals = |shares: &[f64]| {
+        let residuals = model.residuals_hz(shares)?;
+        Ok((!residuals.iter().any(|r| r.is_nan())).then_some(residuals))
+    };
+    let differ = |x: &Vec<f64>, y: &Vec<f64>| {
+        let mut pairs = x.iter().zip(y);
+        pairs.any(|(x, y)| (x - y).abs() > IDLE_HZ)
+    };
+    effective(scene, freed, &LOOKED_AT, residuals, differ)
+}
+
+/// Widest half of an interval as a share of the bounds: a wider interval contains no more information than
+/// the bounds.
+const WIDEST_HALF: f64 = 0.5;
+
+/// The free numbers with their results, from shares of the bounds.
+fn parameters(
+    scene: &Scene,
+    freed: &[Freed],
+    shares: &[f64],
+    half_widths: &[Option<f64>],
+) -> Result<Vec<FittedParameter>, SceneError> {
+    let numbers = freed.iter().enumerate().map(|(k, freed)| {
+        let half_width = half_widths[k].filter(|h| *h <= WIDEST_HALF);
+        let end = |half_width: f64| freed.value(shares[k] + half_width);
+        Ok(FittedParameter {
+            path: path(freed),
+            start: freed.parameter.get(scene.file())?,
+            value: freed.value(shares[k]),
+            interval_from: half_width.map(|h| end(-h)),
+            interval_to: half_width.map(end),
+            bound_from: freed.from,
+            bound_to: freed.to,
+            at_bound: at_bound(shares[k]),
+        })
+    });
+    numbers.collect()
+}
+
+fn path(freed: &Freed) -> String {
+    freed.parameter.path().to_owned()
+}
+
+/// Root mean square of residuals.
+fn rms(residuals: &[f64]) -> f64 {
+    (residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len() as f64).sqrt()
+}
+
+/// The basis for a tolerance up to the measured speeds, with its estimated error.
+fn basis(
+    scene: &Scene,
+    measurement: &Measurement,
+    tolerance: f64,
+) -> Result<(Resolution, f64), FitError> {
+    let end_rad_per_s = rad_per_s(measurement.end_of_range_rpm());
+    let swept = scene.swept((0.0, end_rad_per_s).into())?;
+    let chosen = ChosenBasis::new(&swept, tolerance)?;
+    Ok((chosen.saw.plate.resolution, chosen.estimated_relative_error))
+}
+
+/// The scene with the fitted numbers, and a note on their origin.
+fn calibrated(
+    scene: &Scene,
+    measurement: &Measurement,
+    freed: &[Freed],
+    best: &Found,
+) -> Result<Scene, SceneError> {
+    let names: Vec<&str> = freed.iter().map(|f| f.parameter.path()).collect();
+    let note = format!(
+        "{}: fitted to {} measured frequencies ({}), {:.4} Hz rms",
+        names.join(", "),
+        measurement.count(),
+        measurement.source,
+        best.rms_hz
+    );
+    scene_at(scene.file(), freed, &best.shares)?.edited(|file| {
+        file.notes.push(note);
+        if file.measured.is_none() {
+            file.measured = Some(measurement.as_scene_block());
+        }
+    })
+}
