@@ -4,15 +4,15 @@ use std::path::Path;
 
 use anyhow::Context;
 use sawflutter::analyses::fit::{self, FitReport, Measurement};
+use sawflutter::analyses::place::{self, Demands, PlaceReport};
 use sawflutter::check::{Check, Limits};
 use sawflutter::commands::CommandReport;
 use sawflutter::deflect::{Deflecting, Options};
 use sawflutter::gap::{self, GuideGaps};
 use sawflutter::map::{self, Map, Range};
-use sawflutter::place::{Demands, Placement};
 use sawflutter::report::{
     CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, GapReport, MapReport,
-    PlaceReport, ResponseReport, RunUpReport,
+    ResponseReport, RunUpReport,
 };
 use sawflutter::response::{self, ForcedResponse};
 use sawflutter::scene::{Accuracy, ContactLaw, Freed, Scene, SceneFile, rad_per_s};
@@ -221,11 +221,16 @@ fn fit(scene: &Scene) -> anyhow::Result<FitReport> {
 fn place(scene: &Scene) -> anyhow::Result<PlaceReport> {
     let radius = Freed::new(scene.file(), "guides[0].radius_m", 0.2, 0.3)?;
     let angle = Freed::new(scene.file(), "guides[0].angle_deg", -120.0, 0.0)?;
-    let options = sawflutter::place::Options {
+    let options = place::Options {
         map: 21,
         ..Default::default()
     };
     let demands = Demands::default();
-    let found = Placement::new(scene, &[radius, angle], &demands, &options, &|_, _, _| ())?;
-    Ok(PlaceReport::new(&demands, &found))
+    Ok(place::place(
+        scene,
+        &[radius, angle],
+        &demands,
+        &options,
+        &|_, _, _| (),
+    )?)
 }

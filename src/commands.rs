@@ -11,6 +11,7 @@ use schemars::generate::SchemaSettings;
 use serde_json::Value;
 
 use crate::analyses::fit::FitReport;
+use crate::analyses::place::PlaceReport;
 use crate::document::{self, Document};
 use crate::figure::{
     CampbellView, ChartData, Drawing, Figure, FigureError, campbell, check, compare, cut, cut_map,
@@ -18,8 +19,8 @@ use crate::figure::{
     response, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
-    CheckReport, CompareReport, CutReport, DeflectReport, GapReport, MapReport, ModeEntry,
-    PlaceReport, Report, ResponseReport, RunUpReport, WashboardReport,
+    CheckReport, CompareReport, CutReport, DeflectReport, GapReport, MapReport, ModeEntry, Report,
+    ResponseReport, RunUpReport, WashboardReport,
 };
 use crate::scene::SceneFile;
 use crate::stability::Setting;

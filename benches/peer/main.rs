@@ -5,8 +5,8 @@
 
 use std::time::Instant;
 
+use sawflutter::analyses::place::{Demands, Options, place};
 use sawflutter::campbell::even_speeds;
-use sawflutter::place::{Demands, Options, Placement};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Accuracy, Freed, Scene, SceneFile, SweepFile, rad_per_s};
 use sawflutter::spectrum::{Assembled, SpectralModel, Strategy};
@@ -189,7 +189,7 @@ fn placed() -> Result<(), Failure> {
     let freed = paths.map(|key| Freed::with_usual_bounds(&scene, &format!("guides[0].{key}")));
     let freed: Vec<Freed> = freed.into_iter().collect::<Result<_, _>>()?;
     let (demands, options) = (Demands::default(), Options::default());
-    Placement::new(&scene, &freed, &demands, &options, &|_, _, _| ())?;
+    place(&scene, &freed, &demands, &options, &|_, _, _| ())?;
     Ok(())
 }
 

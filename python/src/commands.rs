@@ -4,16 +4,13 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
+use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::check::{Check, Limits, LimitsFile};
 use sawflutter::deflect::{Deflecting, Options as DeflectOptions};
 use sawflutter::gap::{Friction, GuideGaps, Options as GapOptions, OscillatingForce};
-use sawflutter::place::{
-    Demands, GapDemands, Goal, Options as PlaceOptions, Placement, Tolerances,
-};
 use sawflutter::report::{
     CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, GapReport, ModeEntry,
-    PlaceReport, ResponseReport, RunUpReport, SensitivityEntry, WashboardReport,
-    over_common_speeds,
+    ResponseReport, RunUpReport, SensitivityEntry, WashboardReport, over_common_speeds,
 };
 use sawflutter::response::{ForcedResponse, Options as ResponseOptions};
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
@@ -297,9 +294,9 @@ fn place(options: &Options<'_>) -> PyResult<Work> {
         ..PlaceOptions::default()
     };
     Ok(Box::new(move |scene, meter| {
-        let goal = match goal.as_str() {
-            "flutter" => Goal::FlutterSpeed,
-            "window" => Goal::window_of(scene)?,
+        let around_rpm = match goal.as_str() {
+            "flutter" => None,
+            "window" => Some(scene.needed_operating_rpm(None)?),
             _ => {
                 let allowed = "\"flutter\" or \"window\"".to_owned();
                 let value = format!("{goal:?}");
@@ -313,12 +310,11 @@ fn place(options: &Options<'_>) -> PyResult<Work> {
         };
         let demands = Demands {
             gap: GapDemands::new(scene, amplitude_mm, max_deviation_mm, force_n)?,
-            ..Demands::new(goal, min_critical_rpm)?
+            ..Demands::new(around_rpm, min_critical_rpm)?
         };
         let options = options.checked()?;
         let freed = Freed::to_place(scene, &free)?;
         let progress = |what, done, of| meter.show_of(what, done, of);
-        let found = Placement::new(scene, &freed, &demands, &options, &progress)?;
-        json(&PlaceReport::new(&demands, &found))
+        json(&place::place(scene, &freed, &demands, &options, &progress)?)
     }))
 }

@@ -5,3 +5,4 @@
 //! are private to the folder.
 
 pub mod fit;
+pub mod place;

@@ -1,7 +1,6 @@
 //! `sawflutter place`.
 
-use crate::place::{Demands, GapDemands, Goal, Options, Placement, Tolerances};
-use crate::report::PlaceReport;
+use crate::analyses::place::{Demands, GapDemands, Options, Tolerances, place};
 use crate::scene::{Freed, RefusedValue, Scene};
 use clap::{Args, ValueEnum};
 
@@ -103,11 +102,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     let freed = Freed::to_place(&scene, &named_bounds(&arguments.free)?)?;
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;
-    let found = watched(|progress| {
+    let report = watched(|progress| {
         let steps = |what, done, of| progress.show(what, done, of);
-        Placement::new(&scene, &freed, &demands, &options, &steps)
+        place(&scene, &freed, &demands, &options, &steps)
     })??;
-    let report = PlaceReport::new(&demands, &found);
     let placed = serde_json::to_string_pretty(&report.scene)?;
     let others = vec![("placed-scene.json", placed.into_bytes())];
     let output = &arguments.common.output;
@@ -116,11 +114,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
 }
 
 fn demands(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Demands> {
-    let goal = match arguments.goal {
-        GoalName::Flutter => Goal::FlutterSpeed,
-        GoalName::Window => Goal::window_of(scene)?,
+    let around_rpm = match arguments.goal {
+        GoalName::Flutter => None,
+        GoalName::Window => Some(scene.needed_operating_rpm(None)?),
     };
-    let demands = Demands::new(goal, arguments.min_critical_rpm).map_err(of_option)?;
+    let demands = Demands::new(around_rpm, arguments.min_critical_rpm).map_err(of_option)?;
     let Arguments {
         amplitude_mm,
         max_deviation_mm,

@@ -3,10 +3,10 @@
 use serde::Serialize;
 
 use crate::analyses::fit::FitReport;
+use crate::analyses::place::PlaceReport;
 use crate::figure::number_name;
 use crate::report::{
-    AtAmplitudeEntry, CutReport, GapReport, PlaceReport, ResponseReport, RunUpReport,
-    WashboardReport,
+    AtAmplitudeEntry, CutReport, GapReport, ResponseReport, RunUpReport, WashboardReport,
 };
 use crate::scene::Quantity;
 

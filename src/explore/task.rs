@@ -12,13 +12,13 @@ use super::meter::Meter;
 use super::refusal::Refusal;
 use super::tolerances::{Tolerance, Typed, study as study_of};
 use crate::analyses::fit::{self, FitReport, Measurement};
+use crate::analyses::place::{self, Demands, PlaceReport};
 use crate::commands::CommandReport;
 use crate::figure::Figure;
 use crate::gap::{self, GapError, GuideGaps};
 use crate::map::{self, Map, Range};
-use crate::place::{self, Demands, Goal, PlaceError, Placement};
 use crate::report::{
-    CutReport, GapReport, MapReport, PlaceReport, ResponseReport, RunUpReport, WashboardReport,
+    CutReport, GapReport, MapReport, ResponseReport, RunUpReport, WashboardReport,
 };
 use crate::response::{self, ForcedResponse, ResponseError};
 use crate::scene::{Freed, Scene, SceneError, SceneFile};
@@ -160,19 +160,18 @@ fn fit(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
 const NO_LIMIT: &str = "The lower limit of the first critical speed must be above 0 rpm";
 
 fn place(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
-    let goal = match asked.window {
-        false => Goal::FlutterSpeed,
-        true => Goal::window_of(&scene)?,
+    let around_rpm = match asked.window {
+        false => None,
+        true => Some(scene.needed_operating_rpm(None)?),
     };
     let limit = asked.min_critical_rpm.as_ref().map(Typed::number);
-    let demands = Demands::new(goal, limit.transpose()?);
+    let demands = Demands::new(around_rpm, limit.transpose()?);
     let demands = demands.map_err(|_| Refusal::with_message(NO_LIMIT))?;
     let freed = Freed::to_place(&scene, &[])?;
     let progress = |what: &'static str, done, of| meter.show(what, done, of);
     let options = place::Options::default();
-    let found = Placement::new(&scene, &freed, &demands, &options, &progress);
-    let found = found.map_err(|error: PlaceError| Refusal::of(&error))?;
-    let report = PlaceReport::new(&demands, &found);
+    let report = place::place(&scene, &freed, &demands, &options, &progress);
+    let report = report.map_err(|error| Refusal::of(&error))?;
     answer(&report, of_place(&report), Some(&report.scene))
 }
 

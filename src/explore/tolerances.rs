@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::refusal::Refusal;
 use super::wording::which_number;
-use crate::place::Tolerances;
+use crate::analyses::place::Tolerances;
 use crate::scene::SceneFile;
 use crate::study::StudyFile;
 

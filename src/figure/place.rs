@@ -8,7 +8,7 @@ use super::key::Key;
 use super::place_map::{HEIGHT, PANEL, Shades, WIDTH, draw_panel, goals, title};
 use super::style::{ALARM, BETWEEN_FACTS, BLANK, INK, PAPER, STRONG_CURVE};
 use super::written::in_words;
-use crate::report::{GoalEntry, MapEntry, PlaceReport};
+use crate::analyses::place::{Goal, GoalMap, PlaceReport};
 
 /// Draws the map; `None` if the report contains none.
 pub fn sheet(report: &PlaceReport) -> Option<Sheet> {
@@ -24,11 +24,11 @@ pub fn sheet(report: &PlaceReport) -> Option<Sheet> {
 
 fn facts(report: &PlaceReport) -> String {
     let goal = match report.goal {
-        GoalEntry::FlutterSpeed => "flutter",
-        GoalEntry::StableWindow => "window of",
+        Goal::FlutterSpeed => "flutter",
+        Goal::StableWindow => "window of",
     };
     let beyond = match (report.goal, report.best.flutter_rpm) {
-        (GoalEntry::FlutterSpeed, None) => "beyond ",
+        (Goal::FlutterSpeed, None) => "beyond ",
         _ => "",
     };
     let best = format!(
@@ -51,7 +51,7 @@ fn facts(report: &PlaceReport) -> String {
 }
 
 /// Marks the scene, the fragile optimum and the best saw.
-fn draw_marks(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry, x: &Along, y: &Along) {
+fn draw_marks(sheet: &mut Sheet, report: &PlaceReport, map: &GoalMap, x: &Along, y: &Along) {
     let place = |value_of: &dyn Fn(usize) -> Option<f64>| {
         let number = |path: &str| {
             let index = report.parameters.iter().position(|p| p.path == path)?;
@@ -92,7 +92,7 @@ fn draw_best(sheet: &mut Sheet, [x, y]: [f64; 2]) {
     }
 }
 
-fn draw_key(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry) {
+fn draw_key(sheet: &mut Sheet, report: &PlaceReport, map: &GoalMap) {
     let mut key = Key::new(sheet, PANEL.left, f64::from(HEIGHT) - 26.0);
     key.mark(22.0, |sheet, [x, y]| draw_best(sheet, [x + 11.0, y]))
         .word("best in the worst case of its tolerances")
@@ -114,14 +114,14 @@ fn draw_key(sheet: &mut Sheet, report: &PlaceReport, map: &MapEntry) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figure::tidy::{assert_tidy, texts};
-    use crate::report::{
-        FragileOptimumEntry, NeighbourEntry, OutcomeEntry, PlaceCertificateEntry, PlacedEntry,
+    use crate::analyses::place::{
+        FragileOptimum, Neighbour, Outcome, PlaceCertificate, PlacedParameter,
     };
+    use crate::figure::tidy::{assert_tidy, texts};
     use crate::scene::Scene;
 
     fn report(y_path: Option<&str>) -> PlaceReport {
-        let outcome = OutcomeEntry {
+        let outcome = Outcome {
             goal_rpm: 2300.0,
             flutter_rpm: Some(2300.0),
             critical_rpm: Some(1600.0),
@@ -129,14 +129,14 @@ mod tests {
             deflection_m: None,
             kept: true,
         };
-        let neighbour = |goal_rpm: f64, values: [f64; 2]| NeighbourEntry {
+        let neighbour = |goal_rpm: f64, values: [f64; 2]| Neighbour {
             values: values.into(),
-            outcome: Some(OutcomeEntry {
+            outcome: Some(Outcome {
                 goal_rpm,
                 ..outcome
             }),
         };
-        let placed = |path: &str, value: f64, bound_to: f64| PlacedEntry {
+        let placed = |path: &str, value: f64, bound_to: f64| PlacedParameter {
             path: path.into(),
             start: 0.9 * value,
             value,
@@ -154,7 +154,7 @@ mod tests {
             scene: Scene::paper().file().clone(),
             condition: "idling".into(),
             unusual_numbers: Vec::new(),
-            goal: GoalEntry::FlutterSpeed,
+            goal: Goal::FlutterSpeed,
             min_critical_rpm: Some(1500.0),
             amplitude_m: None,
             max_deflection_m: None,
@@ -173,7 +173,7 @@ mod tests {
             worst_before: neighbour(2000.0, [0.22, 1.8e7]),
             best: outcome,
             bands: Vec::new(),
-            certificate: PlaceCertificateEntry {
+            certificate: PlaceCertificate {
                 statement: "Krein index matches at 9 of 9 speeds".into(),
                 is_clean: true,
                 speeds_checked: 9,
@@ -182,12 +182,12 @@ mod tests {
             fragile: true,
             worst_neighbour: Some(neighbour(2093.0, [0.248, 2e7])),
             worst_neighbour_share: 0.91,
-            fragile_optimum: Some(FragileOptimumEntry {
+            fragile_optimum: Some(FragileOptimum {
                 saw: neighbour(2400.0, [0.21, 5e6]),
                 worst: neighbour(1900.0, [0.212, 5e6]),
             }),
             almost: Vec::new(),
-            map: Some(MapEntry {
+            map: Some(GoalMap {
                 x_path: "guides[0].radius_m".into(),
                 x,
                 y_path: y_path.map(str::to_owned),

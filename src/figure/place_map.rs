@@ -5,7 +5,7 @@ use super::axis::{Spread, draw_named, draw_vertical, extremes, tick_label};
 use super::canvas::{Frame, Sheet};
 use super::heat::{draw_grid, draw_scale, ramp};
 use super::style::{BLANK, Colour};
-use crate::report::{GoalEntry, MapEntry};
+use crate::analyses::place::{Goal, GoalMap};
 
 pub const WIDTH: u32 = 1100;
 pub const HEIGHT: u32 = 760;
@@ -26,15 +26,15 @@ const LOW_TO_HIGH: [Colour; 5] = [
 ];
 
 /// Title of the figure.
-pub fn title(goal: GoalEntry) -> &'static str {
+pub fn title(goal: Goal) -> &'static str {
     match goal {
-        GoalEntry::FlutterSpeed => "Flutter speed over the position of the guide",
-        GoalEntry::StableWindow => "Stable window around the operating speed",
+        Goal::FlutterSpeed => "Flutter speed over the position of the guide",
+        Goal::StableWindow => "Stable window around the operating speed",
     }
 }
 
 /// Goals in rpm of the cells that keep the limit of the critical speed.
-pub fn goals(map: &MapEntry) -> impl Iterator<Item = f64> {
+pub fn goals(map: &GoalMap) -> impl Iterator<Item = f64> {
     let cells = (0..map.x.len() * map.y.len()).map(|k| (k % map.x.len(), k / map.x.len()));
     cells
         .filter(|&(column, row)| map.kept[row][column])
@@ -62,7 +62,7 @@ impl Shades {
         ramp(&LOW_TO_HIGH, (rpm - self.low) / (self.high - self.low))
     }
 
-    fn cell(&self, map: &MapEntry, column: usize, row: usize) -> Colour {
+    fn cell(&self, map: &GoalMap, column: usize, row: usize) -> Colour {
         match map.goal_rpm[row][column] {
             Some(rpm) if map.kept[row][column] => self.colour(rpm),
             _ => BLANK,
@@ -71,7 +71,7 @@ impl Shades {
 }
 
 /// Draws axes, cells and colour bar; returns the axes.
-pub fn draw_panel(sheet: &mut Sheet, map: &MapEntry, shades: &Shades) -> (Along, Along) {
+pub fn draw_panel(sheet: &mut Sheet, map: &GoalMap, shades: &Shades) -> (Along, Along) {
     let x = Along::of_cells(&map.x_path, &map.x, PANEL.across());
     let y_path = map.y_path.as_deref();
     let y = Along::of_cells(y_path.unwrap_or_default(), &map.y, PANEL.upwards());

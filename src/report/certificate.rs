@@ -182,7 +182,7 @@ impl From<&Mismatch> for MismatchEntry {
 }
 
 /// The statement shown in every output.
-pub(super) fn statement(
+pub(crate) fn statement(
     certificate: &Certificate,
     is_undamped: bool,
     proven_share: Option<f64>,

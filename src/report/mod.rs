@@ -27,7 +27,6 @@ mod map;
 mod membrane;
 mod mode;
 mod operating;
-mod place;
 mod remarks;
 mod response;
 mod resting;
@@ -41,6 +40,7 @@ mod whirl;
 
 pub use self::accuracy::{AccuracyEntry, WorkEntry};
 pub use self::analysis::Report;
+pub(crate) use self::certificate::statement;
 pub use self::certificate::{CertificateEntry, MiscountEntry, MismatchEntry};
 pub use self::chart::{BranchEntry, CampbellEntry, RootLociEntry, RootPathEntry};
 pub use self::check::{CheckReport, CriterionEntry, RimStiffnessEntry};
@@ -71,10 +71,6 @@ pub use self::membrane::{
 };
 pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
 pub use self::operating::OperatingEntry;
-pub use self::place::{
-    FragileOptimumEntry, GoalEntry, MapEntry, NeighbourEntry, OutcomeEntry, PlaceCertificateEntry,
-    PlaceReport, PlacedEntry,
-};
 pub(crate) use self::remarks::side_force_in_words;
 pub use self::response::{
     CauseEntry, FrequencyResponseEntry, OperatingResponseEntry, ResonanceEntry, ResponseLineEntry,

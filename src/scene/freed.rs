@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::{Kind, Parameter, Quantity, RefusedValue, Scene, SceneError, SceneFile};
 use crate::text::shown;
 
-/// A number of a scene and its bounds. [`fit`](crate::analyses::fit) and [`crate::place`] work with its share, between 0 and
+/// A number of a scene and its bounds. [`fit`](crate::analyses::fit) and [`place`](crate::analyses::place) work with its share, between 0 and
 /// 1: the position between the bounds, on a linear or a logarithmic scale.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Freed {

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::{decimals_or, each, heading, sentence};
-use crate::report::{
-    FragileOptimumEntry, GoalEntry, NeighbourEntry, OutcomeEntry, PlaceReport, PlacedEntry,
+use crate::analyses::place::{
+    FragileOptimum, Goal, Neighbour, Outcome, PlaceReport, PlacedParameter,
 };
 use crate::text::shown_to;
 
@@ -16,8 +16,8 @@ pub fn of_report(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
         &report.unusual_numbers,
     )?;
     let goal = match report.goal {
-        GoalEntry::FlutterSpeed => "flutter speed",
-        GoalEntry::StableWindow => "stable window",
+        Goal::FlutterSpeed => "flutter speed",
+        Goal::StableWindow => "stable window",
     };
     if let Some(amplitude) = report.amplitude_m {
         let line = format!(
@@ -31,20 +31,20 @@ pub fn of_report(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
         let [before, best] = [before, best].map(|rpm| decimals_or("none", 0, rpm));
         writeln!(text, "{name:<30} {before:>10} {best:>10}")
     };
-    let mut both = |name: &str, of: fn(&OutcomeEntry) -> Option<f64>| {
+    let mut both = |name: &str, of: fn(&Outcome) -> Option<f64>| {
         line(name, of(&report.before), of(&report.best))
     };
     both("flutter speed [rpm]", |o| o.flutter_rpm)?;
     both("lowest critical speed [rpm]", |o| o.critical_rpm)?;
-    if report.goal == GoalEntry::StableWindow {
+    if report.goal == Goal::StableWindow {
         both("stable from [rpm]", |o| o.window_rpm.map(|w| w[0]))?;
         both("stable to [rpm]", |o| o.window_rpm.map(|w| w[1]))?;
     }
-    let worst = |saw: Option<&NeighbourEntry>| {
+    let worst = |saw: Option<&Neighbour>| {
         let outcome = saw?.outcome?;
         match report.goal {
-            GoalEntry::FlutterSpeed => outcome.flutter_rpm,
-            GoalEntry::StableWindow => Some(outcome.goal_rpm),
+            Goal::FlutterSpeed => outcome.flutter_rpm,
+            Goal::StableWindow => Some(outcome.goal_rpm),
         }
     };
     line(
@@ -53,7 +53,7 @@ pub fn of_report(text: &mut String, report: &PlaceReport) -> std::fmt::Result {
         worst(report.worst_neighbour.as_ref()),
     )?;
     if report.max_deflection_m.is_some() {
-        let mm = |saw: &OutcomeEntry| {
+        let mm = |saw: &Outcome| {
             let found = saw.deflection_m.map(|m| shown_to(4, 1e3 * m));
             found.unwrap_or_else(|| "unknown".to_owned())
         };
@@ -101,7 +101,7 @@ fn neighbours(text: &mut String, report: &PlaceReport, goal: &str) -> std::fmt::
         "\nWith one number changed by its tolerance the {goal} is [rpm]"
     )?;
     for p in &report.parameters {
-        let PlacedEntry {
+        let PlacedParameter {
             less_rpm, more_rpm, ..
         } = p;
         writeln!(
@@ -124,8 +124,8 @@ fn neighbours(text: &mut String, report: &PlaceReport, goal: &str) -> std::fmt::
 
 /// Describes the saw that is better than the best at its nominal numbers and worse in the worst case of the
 /// tolerances.
-fn fragile_optimum(report: &PlaceReport, fragile: &FragileOptimumEntry, goal: &str) -> String {
-    let rpm = |saw: &NeighbourEntry| {
+fn fragile_optimum(report: &PlaceReport, fragile: &FragileOptimum, goal: &str) -> String {
+    let rpm = |saw: &Neighbour| {
         let goal = saw.outcome.map(|outcome| outcome.goal_rpm);
         goal.map_or("unknown".to_owned(), |rpm| format!("{rpm:.0} rpm"))
     };

@@ -5,7 +5,8 @@
 use std::path::PathBuf;
 
 use sawflutter::analyses::fit::FitReport;
-use sawflutter::report::{CheckReport, NeighbourEntry, PlaceReport};
+use sawflutter::analyses::place::{Neighbour, PlaceReport};
+use sawflutter::report::CheckReport;
 use sawflutter::scene::Scene;
 use tempfile::TempDir;
 
@@ -166,7 +167,7 @@ fn a_place_is_found_and_written() {
     assert_eq!(names_in(&out(&folder)), expected);
     assert_in_80_columns(text(&output.stdout));
     let report: PlaceReport = written(&folder, "place.json");
-    let goal = |saw: &NeighbourEntry| saw.outcome.unwrap().goal_rpm;
+    let goal = |saw: &Neighbour| saw.outcome.unwrap().goal_rpm;
     let worst = report.worst_neighbour.as_ref().unwrap();
     assert!(report.kept && goal(worst) >= goal(&report.worst_before));
     let summary = text(&output.stdout).replace("\n  ", " ");

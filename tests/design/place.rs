@@ -4,10 +4,11 @@
 
 use crate::common::{assert_close, scene};
 use rayon::prelude::*;
+use sawflutter::analyses::place::{
+    self, Demands, GapDemands, Options, PlaceError, PlaceReport, Tolerances,
+};
 use sawflutter::gap::{self, GuideGaps};
-use sawflutter::place::{Demands, GapDemands, Goal, Options, PlaceError, Placement, Tolerances};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::report::PlaceReport;
 use sawflutter::scene::{
     Accuracy, ContactLaw, Freed, Parameter, Scene, SpeedRange, rad_per_s, rpm,
 };
@@ -40,8 +41,8 @@ fn swept(name: &str) -> Scene {
     with(&scene(name), &[("sweep.to_rpm", TOP_RPM)])
 }
 
-fn place(scene: &Scene, freed: &[Freed], demands: &Demands, options: &Options) -> Placement {
-    Placement::new(scene, freed, demands, options, &|_, _, _| ()).unwrap()
+fn place(scene: &Scene, freed: &[Freed], demands: &Demands, options: &Options) -> PlaceReport {
+    place::place(scene, freed, demands, options, &|_, _, _| ()).unwrap()
 }
 
 /// Bands of a saw by other functions of the library than those of `place`.
@@ -120,9 +121,17 @@ fn guides_that_turn_together_are_the_same_saw() {
     }
 }
 
-fn held(found: &Placement) -> Vec<&str> {
-    let held = found.without_effect.iter();
-    held.map(|f| f.parameter.path()).collect()
+fn worst_rpm(found: &PlaceReport) -> f64 {
+    let worst = found.worst_neighbour.as_ref().unwrap();
+    worst.outcome.unwrap().goal_rpm
+}
+
+fn worst_before_rpm(found: &PlaceReport) -> f64 {
+    found.worst_before.outcome.unwrap().goal_rpm
+}
+
+fn placed(found: &PlaceReport) -> Scene {
+    Scene::try_from(found.scene.clone()).unwrap()
 }
 
 #[test]
@@ -130,15 +139,15 @@ fn an_angle_without_effect_is_fixed_and_named() {
     let one = swept("paper");
     let free = freed(&one, &[(RADIUS, 0.19, 0.21), (ANGLE, -90.0, 0.0)]);
     let found = place(&one, &free, &Demands::default(), &quick());
-    assert_eq!(held(&found), [ANGLE]);
-    assert_eq!(found.scene.file().guides[0].angle_deg, -55.0);
+    assert_eq!(found.without_effect, [ANGLE]);
+    assert_eq!(found.scene.guides[0].angle_deg, -55.0);
     let two = swept("two-pads");
     let both = freed(
         &two,
         &[(ANGLE, -90.0, 0.0), ("guides[1].angle_deg", 30.0, 90.0)],
     );
     let found = place(&two, &both, &Demands::default(), &quick());
-    assert_eq!(held(&found), [ANGLE]);
+    assert_eq!(found.without_effect, [ANGLE]);
 }
 
 /// If saw and bounds are turned by 40°, the best saw is turned by 40°.
@@ -153,8 +162,8 @@ fn the_best_place_turns_with_the_saw() {
     let (here, there) = (best(&here, -90.0), best(&there, -50.0));
     assert_close(
         "flutter speed",
-        there.best.value_rad_per_s,
-        here.best.value_rad_per_s,
+        there.best.goal_rpm,
+        here.best.goal_rpm,
         1e-6,
     );
     let turn = there.parameters[0].value - here.parameters[0].value;
@@ -173,11 +182,8 @@ fn brute_force_finds_no_better_worst_case_of_the_tolerances() {
     );
     let options = Options { map: 7, ..quick() };
     let found = place(&saw, &free, &Demands::default(), &options);
-    let (best, worst) = (
-        rpm(found.best.value_rad_per_s),
-        rpm(found.worst_rad_per_s()),
-    );
-    let answered = found.scene.swept(saw.sweep().unwrap()).unwrap();
+    let (best, worst) = (found.best.goal_rpm, worst_rpm(&found));
+    let answered = placed(&found).swept(saw.sweep().unwrap()).unwrap();
     assert_close("its own saw", flutter_rpm(&answered), best, 1e-6);
     let own = worst_flutter_rpm(&answered, &[RADIUS, ANGLE]);
     assert_close("its worst neighbour", own, worst, 1e-6);
@@ -189,18 +195,17 @@ fn brute_force_finds_no_better_worst_case_of_the_tolerances() {
     let brute = grid.fold(0.0, f64::max);
     println!(
         "worst {worst} of {best}, of {} saws, brute force {brute}, before {}",
-        found.evaluations(),
-        rpm(found.worst_before_rad_per_s())
+        found.saws,
+        worst_before_rpm(&found)
     );
     assert!(brute <= 1.005 * worst, "{brute} is better than {worst}");
-    assert!(found.worst_rad_per_s() >= found.worst_before_rad_per_s());
-    let report = PlaceReport::new(&Demands::default(), &found);
-    let summary = report.summary().replace("\n  ", " ");
+    assert!(worst_rpm(&found) >= worst_before_rpm(&found));
+    let summary = found.summary().replace("\n  ", " ");
     assert!(summary.contains("0.22 to 0.28"), "bounds: {summary}");
-    let certificate = &report.certificate;
+    let certificate = &found.certificate;
     assert!(certificate.is_clean && certificate.speeds_checked > 0);
     assert!(summary.contains(&certificate.statement), "{summary}");
-    let map = report.map.unwrap();
+    let map = found.map.unwrap();
     assert_eq!((map.x.len(), map.y.len(), map.goal_rpm.len()), (7, 7, 7));
 }
 
@@ -218,22 +223,21 @@ fn where_no_saw_keeps_the_limit_the_nearest_is_answered() {
         let saws = within_tolerances(saw, &[ANGLE]);
         saws.iter().map(lowest).fold(f64::INFINITY, f64::min)
     };
-    let demands = Demands::new(Goal::FlutterSpeed, Some(5000.0)).unwrap();
+    let demands = Demands::new(None, Some(5000.0)).unwrap();
     let found = place(&saw, &free, &demands, &quick());
-    let answered = worst(&found.scene);
+    let answered = worst(&placed(&found));
     let grid = (0..=17).map(|k| worst(&with(&saw, &[(ANGLE, -115.0 + 5.0 * f64::from(k))])));
     let nearest = grid.fold(0.0, f64::max);
     assert!(answered >= 0.999 * nearest, "{answered} {nearest}");
-    let report = PlaceReport::new(&demands, &found);
-    assert!(!report.kept);
+    assert!(!found.kept);
     let missed = format!(
         "misses it by the smallest amount, {:.0} rpm",
         5000.0 - answered
     );
     assert!(
-        report.warnings.iter().any(|w| w.contains(&missed)),
+        found.warnings.iter().any(|w| w.contains(&missed)),
         "{missed}: {:?}",
-        report.warnings
+        found.warnings
     );
 }
 
@@ -247,13 +251,12 @@ fn saws_that_cannot_be_computed_are_counted() {
     let saw = saw.unwrap();
     let free = freed(&saw, &[("membrane.temperature.rim_rise_k", 0.0, 66.0)]);
     let found = place(&saw, &free, &Demands::default(), &quick());
-    let report = PlaceReport::new(&Demands::default(), &found);
-    assert!(report.failed_saws > 0 && report.failed_saws < report.saws);
-    let said = format!("{} of the {} saws tried", report.failed_saws, report.saws);
+    assert!(found.failed_saws > 0 && found.failed_saws < found.saws);
+    let said = format!("{} of the {} saws tried", found.failed_saws, found.saws);
     assert!(
-        report.warnings.iter().any(|w| w.starts_with(&said)),
+        found.warnings.iter().any(|w| w.starts_with(&said)),
         "{:?}",
-        report.warnings
+        found.warnings
     );
 }
 
@@ -264,25 +267,17 @@ fn a_limit_on_the_critical_speed_is_active_and_kept() {
     let saw = swept("two-pads");
     let free = freed(&saw, &[(ANGLE, -115.0, -60.0)]);
     let unlimited = place(&saw, &free, &Demands::default(), &quick());
-    let loose = unlimited.best.critical_rad_per_s.unwrap();
-    let at_least = |rad_per_s: f64| Demands {
-        min_critical_rad_per_s: Some(rad_per_s),
-        ..Demands::default()
-    };
+    let loose = unlimited.best.critical_rpm.unwrap();
     let limit = 1.02 * loose;
-    let limited = place(&saw, &free, &at_least(limit), &quick());
-    let kept = limited.best.critical_rad_per_s.unwrap();
+    let at_least = Demands::new(None, Some(limit)).unwrap();
+    let limited = place(&saw, &free, &at_least, &quick());
+    let kept = limited.best.critical_rpm.unwrap();
     println!(
         "flutter {} critical {}; limited to {}: flutter {} critical {}",
-        rpm(unlimited.best.value_rad_per_s),
-        rpm(loose),
-        rpm(limit),
-        rpm(limited.best.value_rad_per_s),
-        rpm(kept)
+        unlimited.best.goal_rpm, loose, limit, limited.best.goal_rpm, kept
     );
-    assert!(limited.best.is_kept() && kept >= limit);
-    assert!(PlaceReport::new(&at_least(limit), &limited).kept);
-    assert!(limited.best.value_rad_per_s < unlimited.best.value_rad_per_s);
+    assert!(limited.kept && limited.best.kept && kept >= limit);
+    assert!(limited.best.goal_rpm < unlimited.best.goal_rpm);
 }
 
 /// Guides with a gap that are too far from the blade come closer, until the deflection that `gap` finds keeps its limit.
@@ -306,12 +301,12 @@ fn the_gap_is_as_narrow_as_the_deflection_demands() {
         ..quick()
     };
     let found = place(&saw, &free, &demands, &few);
-    assert!(!found.before.is_kept() && found.best.is_kept() && found.improved);
+    assert!(!found.before.kept && found.best.kept && found.improved);
     let options = gap::Options {
         force_n: Some(2.0),
         ..gap::Options::default()
     };
-    let map = GuideGaps::new(&found.scene, &options).unwrap().deviation;
+    let map = GuideGaps::new(&placed(&found), &options).unwrap().deviation;
     let of = |own: &[f64], value: f64| {
         let place = own.iter().position(|own| (own / value - 1.0).abs() < 1e-9);
         place.unwrap()
@@ -320,7 +315,7 @@ fn the_gap_is_as_narrow_as_the_deflection_demands() {
     let at = row[of(&map.forces_n, 2.0)].as_ref().unwrap();
     // This test's basis is a small one.
     assert!(at.deviation_m < 1.02 * 3e-4, "{}", at.deviation_m);
-    let idle = Placement::new(&saw, &free, &Demands::default(), &quick(), &|_, _, _| ());
+    let idle = place::place(&saw, &free, &Demands::default(), &quick(), &|_, _, _| ());
     assert!(matches!(idle, Err(PlaceError::NothingFree)));
     let alone = GapDemands::new(&saw, None, None, Some(2.0)).unwrap_err();
     assert_eq!(alone.key, "force_n");
@@ -330,22 +325,19 @@ fn the_gap_is_as_narrow_as_the_deflection_demands() {
 fn the_window_is_free_of_bands_and_wider_than_before() {
     let saw = swept("two-pads");
     // The limit is above the divergence of the first pair, which this basis places near 1800 rpm.
-    let around_rad_per_s = rad_per_s(1900.0);
-    let demands = Demands {
-        goal: Goal::StableWindow { around_rad_per_s },
-        ..Demands::default()
-    };
+    let around_rpm = 1900.0;
+    let demands = Demands::new(Some(around_rpm), None).unwrap();
     let free = freed(&saw, &[(RADIUS, 0.2, 0.3)]);
     let found = place(&saw, &free, &demands, &quick());
-    let (from, to) = found.best.window.unwrap();
-    assert!(from < around_rad_per_s && around_rad_per_s < to);
-    assert!(found.worst_rad_per_s() >= found.worst_before_rad_per_s());
+    let [from, to] = found.best.window_rpm.unwrap();
+    assert!(from < around_rpm && around_rpm < to);
+    assert!(worst_rpm(&found) >= worst_before_rpm(&found));
     let threshold = saw.flutter_threshold_per_s();
-    for band in &found.best.bands {
+    for band in &found.bands {
         let counts =
             band.kind == InstabilityKind::Divergence || band.peak_growth_per_s >= threshold;
         assert!(
-            !counts || band.to_rad_per_s <= from || band.from_rad_per_s >= to,
+            !counts || band.to_rpm <= from || band.from_rpm >= to,
             "{band:?}"
         );
     }
@@ -374,10 +366,7 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
         })
     };
     let (one, three) = (on(1), on(3));
-    assert_eq!(one.parameters, three.parameters);
-    assert_eq!(one.best, three.best);
-    let report = |found: &Placement| PlaceReport::new(&Demands::default(), found);
-    assert_eq!(report(&one), report(&three));
+    assert_eq!(one, three);
 }
 
 /// With zero tolerances the value of a saw is its own; otherwise its neighbours are those of the stated tolerances.
@@ -397,8 +386,7 @@ fn the_tolerances_are_those_that_are_stated() {
             tolerances,
             ..quick()
         };
-        let found = place(&saw, &free, &Demands::default(), &options);
-        PlaceReport::new(&Demands::default(), &found)
+        place(&saw, &free, &Demands::default(), &options)
     };
     let exact = found(0.0, 0.0);
     assert_eq!(exact.worst_neighbour_share, 1.0);
@@ -418,7 +406,7 @@ fn draft(name: &str) -> Scene {
     saw.unwrap()
 }
 
-fn one_radius(saw: &Scene, demands: &Demands) -> Placement {
+fn one_radius(saw: &Scene, demands: &Demands) -> PlaceReport {
     let options = Options {
         samples: 32,
         refine: 20,
@@ -434,23 +422,22 @@ fn one_radius(saw: &Scene, demands: &Demands) -> Placement {
 fn the_answer_is_never_below_the_start() {
     let saw = draft("paper");
     let found = one_radius(&saw, &Demands::default());
-    let flutter = |saw: &Scene| Onsets::new(saw).unwrap().flutter_speed_rad_per_s.unwrap();
+    let flutter = |saw: &Scene| {
+        let speed = Onsets::new(saw).unwrap().flutter_speed_rad_per_s;
+        rpm(speed.unwrap())
+    };
     let worst = |saw: &Scene| {
         let saws = within_tolerances(saw, &[RADIUS]);
         saws.iter().map(flutter).fold(f64::INFINITY, f64::min)
     };
-    let (before, after) = (worst(&saw), worst(&found.scene));
-    println!("{} -> {} rpm", rpm(before), rpm(after));
+    let placed = placed(&found);
+    let (before, after) = (worst(&saw), worst(&placed));
+    println!("{before} -> {after} rpm");
     assert!(after >= before);
-    assert_close("before", found.before.value_rad_per_s, flutter(&saw), 1e-3);
-    assert_close("worst before", found.worst_before_rad_per_s(), before, 1e-3);
-    assert_close(
-        "after",
-        found.best.value_rad_per_s,
-        flutter(&found.scene),
-        1e-3,
-    );
-    assert_close("worst after", found.worst_rad_per_s(), after, 1e-3);
+    assert_close("before", found.before.goal_rpm, flutter(&saw), 1e-3);
+    assert_close("worst before", worst_before_rpm(&found), before, 1e-3);
+    assert_close("after", found.best.goal_rpm, flutter(&placed), 1e-3);
+    assert_close("worst after", worst_rpm(&found), after, 1e-3);
     assert_eq!(found.improved, after > before);
 }
 
@@ -459,11 +446,7 @@ fn the_answer_is_never_below_the_start() {
 fn the_window_is_never_narrower_than_before() {
     let saw = draft("paper");
     let around_rad_per_s = rad_per_s(1800.0);
-    let goal = Goal::StableWindow { around_rad_per_s };
-    let demands = Demands {
-        goal,
-        ..Demands::default()
-    };
+    let demands = Demands::new(Some(1800.0), None).unwrap();
     let found = one_radius(&saw, &demands);
     let window = |saw: &Scene| {
         let threshold = saw.flutter_threshold_per_s();
@@ -483,10 +466,11 @@ fn the_window_is_never_narrower_than_before() {
         let saws = within_tolerances(saw, &[RADIUS]);
         saws.iter().map(window).fold(f64::INFINITY, f64::min)
     };
-    let (before, after) = (worst(&saw), worst(&found.scene));
+    let placed = placed(&found);
+    let (before, after) = (worst(&saw), worst(&placed));
     assert!(after >= before, "{} {}", rpm(before), rpm(after));
-    let own = window(&found.scene);
-    assert_close("window", found.best.value_rad_per_s, own, 1e-2);
+    let own = rpm(window(&placed));
+    assert_close("window", found.best.goal_rpm, own, 1e-2);
 }
 
 /// On the coarse basis the cells of highest flutter speed lie next to jumps and are worse in the worst case of their
@@ -504,12 +488,15 @@ fn a_robust_saw_next_to_fragile_cells_of_the_map_is_found() {
     };
     let found = place(&saw, &free, &Demands::default(), &options);
     let known = with(&saw, &[(RADIUS, 0.2525), (ANGLE, -117.6)]);
-    let flutter = |saw: &Scene| Onsets::new(saw).unwrap().flutter_speed_rad_per_s.unwrap();
+    let flutter = |saw: &Scene| {
+        let speed = Onsets::new(saw).unwrap().flutter_speed_rad_per_s;
+        rpm(speed.unwrap())
+    };
     let saws = within_tolerances(&known, &[RADIUS, ANGLE]);
     let known = saws.iter().map(flutter).fold(f64::INFINITY, f64::min);
-    let worst = found.worst_rad_per_s();
-    println!("{} of a known {} rpm", rpm(worst), rpm(known));
-    assert!(worst > 0.995 * known, "{} {}", rpm(worst), rpm(known));
+    let worst = worst_rpm(&found);
+    println!("{worst} of a known {known} rpm");
+    assert!(worst > 0.995 * known, "{worst} {known}");
 }
 
 /// Below 1600 rpm no saw flutters, so that none is better than another: the result is the start, to the last digit and
@@ -520,7 +507,7 @@ fn a_start_that_nothing_beats_is_the_answer() {
     let free = freed(&saw, &[(RADIUS, 0.19, 0.21)]);
     let found = place(&saw, &free, &Demands::default(), &quick());
     assert!(!found.improved);
-    assert_eq!(found.scene, saw);
+    assert_eq!(found.scene, *saw.file());
     assert_eq!(found.parameters[0].value, found.parameters[0].start);
     assert_eq!(found.best, found.before);
 }
@@ -533,15 +520,10 @@ fn a_start_outside_the_bounds_is_reported_unchanged() {
     let free = freed(&saw, &[(RADIUS, own + 0.02, own + 0.04)]);
     let found = place(&saw, &free, &Demands::default(), &quick());
     assert_eq!(found.parameters[0].start, own);
-    assert_close(
-        "before",
-        rpm(found.before.value_rad_per_s),
-        flutter_rpm(&saw),
-        1e-6,
-    );
+    assert_close("before", found.before.goal_rpm, flutter_rpm(&saw), 1e-6);
     let value = found.parameters[0].value;
     assert!((own + 0.02..=own + 0.04).contains(&value), "{value}");
-    let gained = found.worst_rad_per_s() > found.worst_before_rad_per_s();
+    let gained = worst_rpm(&found) > worst_before_rpm(&found);
     assert_eq!(found.improved, gained);
 }
 
@@ -554,7 +536,7 @@ fn cells_of_the_map_hold_the_flutter_speeds_of_their_saws() {
     let options = Options { map: 3, ..quick() };
     let demands = Demands::default();
     let found = place(&saw, &free, &demands, &options);
-    let map = PlaceReport::new(&demands, &found).map.unwrap();
+    let map = found.map.unwrap();
     for (row, stiffness) in map.y.iter().enumerate() {
         for (column, radius) in map.x.iter().enumerate() {
             let cell = with(&saw, &[(RADIUS, *radius), (STIFFNESS, *stiffness)]);

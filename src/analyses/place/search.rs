@@ -21,11 +21,11 @@ use rayon::prelude::*;
 
 use crate::scene::{Freed, SceneFile, scene_at, spread};
 
+use super::computed::{Computed, Question, REFUSED};
 use super::neighbours::worst_cost;
-use super::outcome::{Outcome, Question, REFUSED};
 
 /// The result of a saw, or the reason why it could not be computed (`None` if there is no such saw).
-type Known = Result<Outcome, Option<String>>;
+type Known = Result<Computed, Option<String>>;
 
 /// The saws of a search. Each is computed once.
 pub struct Search<'a> {
@@ -66,8 +66,8 @@ impl Tally {
 }
 
 impl Tried {
-    pub fn new(shares: Vec<f64>, outcome: Option<&Outcome>) -> Self {
-        let cost = outcome.map_or(REFUSED, Outcome::cost);
+    pub fn new(shares: Vec<f64>, saw: Option<&Computed>) -> Self {
+        let cost = saw.map_or(REFUSED, Computed::cost);
         Tried { shares, cost }
     }
 
@@ -95,7 +95,7 @@ impl<'a> Search<'a> {
     }
 
     /// Result of the saw with the given shares; `None` if it is refused or cannot be analysed.
-    pub fn outcome(&self, shares: &[f64]) -> Option<Outcome> {
+    pub fn computed(&self, shares: &[f64]) -> Option<Computed> {
         let key: Vec<u64> = shares.iter().map(|share| share.to_bits()).collect();
         let known = self.known().get(&key).cloned();
         let found = known.unwrap_or_else(|| {
@@ -116,7 +116,14 @@ impl<'a> Search<'a> {
 
     /// Cost of the saw with the given shares.
     pub fn cost(&self, shares: &[f64]) -> f64 {
-        self.outcome(shares).as_ref().map_or(REFUSED, Outcome::cost)
+        let saw = self.computed(shares);
+        saw.as_ref().map_or(REFUSED, Computed::cost)
+    }
+
+    /// Values of the freed numbers.
+    pub fn values(&self, shares: &[f64]) -> Vec<f64> {
+        let numbers = self.freed.iter().zip(shares);
+        numbers.map(|(freed, share)| freed.value(*share)).collect()
     }
 
     /// Counts of the saws computed so far.
@@ -150,19 +157,19 @@ impl<'a> Search<'a> {
 
     /// Computes `count` saws on all threads and returns, in their order, the values that `kept` makes of shares and
     /// result.
-    pub fn outcomes<T: Send>(
+    pub fn each<T: Send>(
         &self,
         count: usize,
         shares_of: impl Fn(usize) -> Vec<f64> + Sync,
         see: See<'_>,
-        kept: impl Fn(Vec<f64>, Option<Outcome>) -> T + Sync,
+        kept: impl Fn(Vec<f64>, Option<Computed>) -> T + Sync,
     ) -> Vec<T> {
         let done = AtomicUsize::new(0);
         let one = |index: usize| {
             let shares = shares_of(index);
-            let outcome = self.outcome(&shares);
+            let saw = self.computed(&shares);
             see(done.fetch_add(1, Relaxed) + 1);
-            kept(shares, outcome)
+            kept(shares, saw)
         };
         (0..count).into_par_iter().map(one).collect()
     }
@@ -173,8 +180,8 @@ impl<'a> Search<'a> {
             None => own.to_vec(),
             Some(index) => spread(self.freed.len(), 0, index),
         };
-        let mut tried = self.outcomes(count, shares_of, see, |shares, outcome| {
-            Tried::new(shares, outcome.as_ref())
+        let mut tried = self.each(count, shares_of, see, |shares, saw| {
+            Tried::new(shares, saw.as_ref())
         });
         // The sort is stable, so that the order of equal saws does not depend on the threads.
         tried.sort_by(|x, y| x.cost.total_cmp(&y.cost));

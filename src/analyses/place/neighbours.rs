@@ -2,41 +2,49 @@
 
 use rayon::prelude::*;
 
-use crate::scene::scene_at;
+use crate::scene::{rpm, scene_at};
 use crate::stability::{Instability, InstabilityKind};
 
-use super::outcome::{Outcome, REFUSED};
+use super::Neighbour;
+use super::computed::{Computed, REFUSED};
 use super::search::Search;
 
-/// A saw whose numbers deviate by their tolerances.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Neighbour {
-    /// Values of the free numbers.
-    pub values: Vec<f64>,
-    /// Result; `None` if it could not be computed.
-    pub outcome: Option<Outcome>,
-}
-
-impl Neighbour {
-    fn cost(&self) -> f64 {
-        self.outcome.as_ref().map_or(REFUSED, Outcome::cost)
-    }
-}
-
 /// The neighbours of a saw and the worst of them.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Neighbours {
+#[derive(Debug, Clone)]
+pub struct Neighbours {
     /// Tolerance of each number, in its unit.
     pub offsets: Vec<f64>,
-    /// For each number, the saws in which it alone is smaller and larger; `None` if there is no such saw.
-    pub along: Vec<[Option<Neighbour>; 2]>,
+    /// For each number, the goal of the saws in which it alone is smaller and larger; `None` if there is no such saw
+    /// or it could not be computed.
+    pub along_rpm: Vec<[Option<f64>; 2]>,
     /// The worst of the saw itself, these neighbours and the corners of the tolerances.
     pub worst: Neighbour,
+    pub worst_cost: f64,
     /// Ratio of the goal of the worst to that of the saw itself; 1 if the latter is 0.
     pub worst_share: f64,
     /// Bands of the saw that lie slightly below the threshold and before the flutter speed. If their growth
     /// rose above it, the flutter speed would fall to their onset.
     pub almost: Vec<Instability>,
+}
+
+/// A neighbour with its cost and its goal.
+struct Rated {
+    saw: Neighbour,
+    cost: f64,
+    value_rad_per_s: f64,
+}
+
+impl Rated {
+    fn new(values: Vec<f64>, saw: Option<&Computed>) -> Self {
+        Rated {
+            cost: saw.map_or(REFUSED, Computed::cost),
+            value_rad_per_s: saw.map_or(0.0, |saw| saw.value_rad_per_s),
+            saw: Neighbour {
+                values,
+                outcome: saw.map(|saw| saw.outcome),
+            },
+        }
+    }
 }
 
 /// A saw that loses more than this share of its goal within its tolerances is fragile.
@@ -102,53 +110,45 @@ pub fn worst_cost(search: &Search<'_>, shares: &[f64], limit: f64) -> f64 {
 }
 
 impl Neighbours {
-    pub(super) fn new(search: &Search<'_>, shares: &[f64], own: &Outcome) -> Self {
+    pub fn new(search: &Search<'_>, shares: &[f64], own: &Computed) -> Self {
         let numbers = shares.len();
         let of = |direction: &Vec<f64>| {
             let (values, shares) = moved(search, shares, direction)?;
-            let outcome = search.outcome(&shares);
-            Some(Neighbour { values, outcome })
+            Some(Rated::new(values, search.computed(&shares).as_ref()))
         };
         let directions = directions(numbers);
-        let mut around: Vec<Option<Neighbour>> = directions.par_iter().map(of).collect();
+        let mut around: Vec<Option<Rated>> = directions.par_iter().map(of).collect();
         let alone = around.split_off(directions.len() - 2 * numbers);
-        let pairs = search.freed.iter().zip(shares);
-        let values: Vec<f64> = pairs.map(|(freed, share)| freed.value(*share)).collect();
+        let values = search.values(shares);
         let offsets = search.freed.iter().zip(&values);
         let offsets = offsets.map(|(f, v)| search.tolerance(f, *v)).collect();
-        let nominal = Neighbour {
-            values,
-            outcome: Some(own.clone()),
-        };
-        let all = around.iter().chain(&alone).flatten();
-        let worst = all.fold(nominal, |worst, other| match other.cost() > worst.cost() {
-            true => other.clone(),
+        let goal_rpm = |saw: &Option<Rated>| Some(saw.as_ref()?.saw.outcome?.goal_rpm);
+        let pairs = alone.chunks(2);
+        let along_rpm = pairs
+            .map(|pair| [goal_rpm(&pair[0]), goal_rpm(&pair[1])])
+            .collect();
+        let all = around.into_iter().chain(alone).flatten();
+        let nominal = Rated::new(values, Some(own));
+        let worst = all.fold(nominal, |worst, other| match other.cost > worst.cost {
+            true => other,
             false => worst,
         });
-        let worth = worst.outcome.as_ref().map_or(0.0, |o| o.value_rad_per_s);
         Neighbours {
             offsets,
+            along_rpm,
             worst_share: match own.value_rad_per_s > 0.0 {
-                true => worth / own.value_rad_per_s,
+                true => worst.value_rad_per_s / own.value_rad_per_s,
                 false => 1.0,
             },
-            worst,
-            along: alone
-                .chunks(2)
-                .map(|pair| [pair[0].clone(), pair[1].clone()])
-                .collect(),
+            worst_cost: worst.cost,
+            worst: worst.saw,
             almost: almost(own, search.scene.flutter_threshold_per_s),
         }
     }
 
-    /// Cost of the worst neighbour.
-    pub(super) fn worst_cost(&self) -> f64 {
-        self.worst.cost()
-    }
-
     /// Whether every neighbour keeps the limits.
     pub fn keep_limit(&self) -> bool {
-        self.worst.outcome.as_ref().is_some_and(Outcome::is_kept)
+        self.worst.outcome.is_some_and(|outcome| outcome.kept)
     }
 
     /// Whether the worst neighbour loses a considerable share of the goal.
@@ -158,11 +158,11 @@ impl Neighbours {
 }
 
 /// Flutter bands before the flutter speed whose growth is close to the threshold.
-fn almost(best: &Outcome, threshold_per_s: f64) -> Vec<Instability> {
-    let before = best.flutter_rad_per_s.unwrap_or(f64::INFINITY);
+fn almost(best: &Computed, threshold_per_s: f64) -> Vec<Instability> {
+    let before = best.outcome.flutter_rpm.unwrap_or(f64::INFINITY);
     let near = |b: &&Instability| {
         b.kind == InstabilityKind::Flutter
-            && b.from_rad_per_s < before
+            && rpm(b.from_rad_per_s) < before
             && b.peak_growth_per_s >= NEAR * threshold_per_s
     };
     best.bands.iter().filter(near).cloned().collect()

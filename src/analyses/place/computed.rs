@@ -2,29 +2,21 @@
 
 use crate::gap::GapError;
 use crate::plate::Resolution;
-use crate::scene::Scene;
+use crate::scene::{Scene, rpm};
 use crate::stability::{
     Certificate, Evidence, Instability, flutter_onsets, resolved, search_bands,
 };
 
-use super::{GapDemands, Goal, Tolerances};
+use super::{Demands, Outcome, Tolerances};
 
-/// The result of a saw.
+/// A saw of a search.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Outcome {
-    /// Value of the goal, to be maximized, in rad/s.
+pub struct Computed {
+    pub outcome: Outcome,
+    /// Value of the goal, to be maximized.
     pub value_rad_per_s: f64,
-    /// Flutter speed; `None` if it exceeds the sweep.
-    pub flutter_rad_per_s: Option<f64>,
-    /// Lowest critical speed, if the blade has one.
-    pub critical_rad_per_s: Option<f64>,
-    /// Window without instability around the operating speed, in rad/s, if it is the goal; `None` if the operating
-    /// speed lies in a band that counts or within 5 % of a critical speed.
-    pub window: Option<(f64, f64)>,
-    /// Deflection at the cut, if it has a limit; `None` also where the model is not valid.
-    pub deflection_m: Option<f64>,
     /// Sum of the shares by which limits are missed; zero if they are kept.
-    pub short: f64,
+    short: f64,
     /// All bands of the sweep.
     pub bands: Vec<Instability>,
     /// Certificate of this list of bands.
@@ -34,10 +26,7 @@ pub struct Outcome {
 /// Goal, limits, speeds and basis with which every saw of a search is computed.
 #[derive(Debug, Clone)]
 pub struct Question {
-    pub goal: Goal,
-    pub min_critical_rad_per_s: Option<f64>,
-    /// Limit of the deflection, and amplitude, for guides with a gap.
-    pub gap: Option<GapDemands>,
+    pub demands: Demands,
     /// Range of speeds, the same for every saw.
     pub range: (f64, f64),
     /// The basis, or its lower limit if each saw chooses its own.
@@ -57,20 +46,21 @@ impl Question {
     /// # Errors
     /// [`GapError`] if an eigenproblem fails, no basis represents the waves of the sweep, or the deflection cannot be
     /// computed.
-    pub fn ask(&self, scene: &Scene) -> Result<Outcome, GapError> {
-        let charted = match &self.gap {
+    pub fn ask(&self, scene: &Scene) -> Result<Computed, GapError> {
+        let demands = &self.demands;
+        let charted = match &demands.gap {
             Some(gap) => &gap.case.at_amplitude(scene)?,
             None => scene,
         };
         let (saw, critical) = resolved(charted, self.resolution, self.range.1)?;
         let critical_rad_per_s: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
         let lowest = critical_rad_per_s.first().copied();
-        let short = match (self.min_critical_rad_per_s, lowest) {
+        let short = match (demands.min_critical_rad_per_s, lowest) {
             (Some(asked), Some(found)) => (1.0 - found / asked).max(0.0),
             // A blade without a critical speed satisfies every lower limit of the first critical speed.
             _ => 0.0,
         };
-        let limit = self
+        let limit = demands
             .gap
             .and_then(|gap| Some((gap.case, gap.max_deflection_m?)));
         let (deflection_m, beyond) = match limit {
@@ -84,47 +74,43 @@ impl Question {
         let (bands, certificate) = search_bands(saw, critical, self.range)?;
         let threshold = scene.flutter_threshold_per_s();
         let [flutter, _] = flutter_onsets(&bands, threshold);
-        let window = match self.goal {
-            Goal::FlutterSpeed => None,
-            Goal::StableWindow { around_rad_per_s } => {
-                let evidence = Evidence {
-                    bands: &bands,
-                    critical_rad_per_s: &critical_rad_per_s,
-                    threshold_per_s: threshold,
-                    range_rad_per_s: self.range,
-                };
-                evidence.window_without_instability(around_rad_per_s)
-            }
+        let evidence = Evidence {
+            bands: &bands,
+            critical_rad_per_s: &critical_rad_per_s,
+            threshold_per_s: threshold,
+            range_rad_per_s: self.range,
         };
-        let value = match self.goal {
-            Goal::FlutterSpeed => flutter.unwrap_or(self.range.1),
-            Goal::StableWindow { .. } => window.map_or(0.0, |(from, to)| to - from),
+        let around = demands.around_rad_per_s;
+        let window = around.and_then(|speed| evidence.window_without_instability(speed));
+        let value_rad_per_s = match around {
+            None => flutter.unwrap_or(self.range.1),
+            Some(_) => window.map_or(0.0, |(from, to)| to - from),
         };
-        Ok(Outcome {
-            value_rad_per_s: value,
-            flutter_rad_per_s: flutter,
-            critical_rad_per_s: lowest,
-            window,
-            deflection_m,
-            short: short + beyond,
+        let short = short + beyond;
+        Ok(Computed {
+            outcome: Outcome {
+                goal_rpm: rpm(value_rad_per_s),
+                flutter_rpm: flutter.map(rpm),
+                critical_rpm: lowest.map(rpm),
+                window_rpm: window.map(|(from, to)| [rpm(from), rpm(to)]),
+                deflection_m,
+                kept: short == 0.0,
+            },
+            value_rad_per_s,
+            short,
             bands,
             certificate,
         })
     }
 }
 
-impl Outcome {
+impl Computed {
     /// The cost to minimize: the negative goal in rad/s if the limits are kept, otherwise the share by which they are
     /// missed, which is positive.
-    pub(crate) fn cost(&self) -> f64 {
-        match self.is_kept() {
+    pub fn cost(&self) -> f64 {
+        match self.outcome.kept {
             true => -self.value_rad_per_s,
             false => self.short,
         }
-    }
-
-    /// Whether the limits of the critical speed and of the deflection are kept.
-    pub fn is_kept(&self) -> bool {
-        self.short == 0.0
     }
 }

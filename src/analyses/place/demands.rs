@@ -1,39 +1,17 @@
 //! The goal of a placement, its limits, and the extent of the search.
 
+use super::Goal;
 use crate::gap::{self, GapCase};
 use crate::plate::Resolution;
 use crate::scene::{Kind, Parameter, Quantity, RefusedValue, Scene, rad_per_s, speed_rad_per_s};
 use crate::text::shown;
 
-/// The quantity to maximize.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Goal {
-    /// Onset of the first flutter band that reaches the scene's threshold.
-    FlutterSpeed,
-    /// Width of the window without instability around a speed, from the end of the last band below it to the
-    /// onset of the first above it.
-    StableWindow {
-        /// Speed inside the window.
-        around_rad_per_s: f64,
-    },
-}
-
-impl Goal {
-    /// The widest window around the operating speed of a scene as goal.
-    ///
-    /// # Errors
-    /// [`RefusedValue`] if the scene has no operating speed.
-    pub fn window_of(scene: &Scene) -> Result<Self, RefusedValue> {
-        let around_rad_per_s = rad_per_s(scene.needed_operating_rpm(None)?);
-        Ok(Goal::StableWindow { around_rad_per_s })
-    }
-}
-
-/// The goal of a placement, and its limit.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The goal of a placement, and its limits.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Demands {
-    /// The quantity to maximize.
-    pub goal: Goal,
+    /// Speed inside a window without instability, from the end of the last band below it to the onset of the first
+    /// above it, whose width is maximized; without it, the flutter speed is.
+    pub around_rad_per_s: Option<f64>,
     /// Lower limit of the first critical speed.
     pub min_critical_rad_per_s: Option<f64>,
     /// Limit of the deflection, and amplitude, for guides with a gap.
@@ -83,26 +61,28 @@ impl GapDemands {
 }
 
 impl Demands {
-    /// A goal with a lower limit of the first critical speed in rpm.
+    /// The window around a speed in rpm as goal, or else the flutter speed, with a lower limit of the first critical
+    /// speed in rpm.
     ///
     /// # Errors
     /// [`RefusedValue`] if the limit is not a valid speed.
-    pub fn new(goal: Goal, min_critical_rpm: Option<f64>) -> Result<Self, RefusedValue> {
+    pub fn new(
+        around_rpm: Option<f64>,
+        min_critical_rpm: Option<f64>,
+    ) -> Result<Self, RefusedValue> {
         let limit = min_critical_rpm.map(|rpm| speed_rad_per_s("min_critical_rpm", rpm));
         Ok(Demands {
-            goal,
+            around_rad_per_s: around_rpm.map(rad_per_s),
             min_critical_rad_per_s: limit.transpose()?,
             gap: None,
         })
     }
-}
 
-impl Default for Demands {
-    fn default() -> Self {
-        Demands {
-            goal: Goal::FlutterSpeed,
-            min_critical_rad_per_s: None,
-            gap: None,
+    /// The quantity to maximize.
+    pub fn goal(&self) -> Goal {
+        match self.around_rad_per_s {
+            None => Goal::FlutterSpeed,
+            Some(_) => Goal::StableWindow,
         }
     }
 }

@@ -9,8 +9,8 @@ use crate::plate::Resolution;
 use crate::scene::{Freed, Scene, SceneError, scene_at};
 use crate::stability::ChosenBasis;
 
+use super::computed::Computed;
 use super::neighbours::{Neighbours, worst_cost};
-use super::outcome::Outcome;
 use super::search::{Search, Tried};
 use super::{IDLE, PlaceError, Progress, cheapest};
 
@@ -21,16 +21,16 @@ const FINE_STEPS: (f64, f64) = (0.02, 1e-3);
 #[derive(Clone)]
 pub struct Weighed {
     pub shares: Vec<f64>,
-    pub outcome: Outcome,
+    pub computed: Computed,
     pub neighbours: Neighbours,
 }
 
 impl Weighed {
-    pub fn new(search: &Search<'_>, shares: Vec<f64>, outcome: Outcome) -> Self {
+    pub fn new(search: &Search<'_>, shares: Vec<f64>, computed: Computed) -> Self {
         Weighed {
-            neighbours: Neighbours::new(search, &shares, &outcome),
+            neighbours: Neighbours::new(search, &shares, &computed),
             shares,
-            outcome,
+            computed,
         }
     }
 }
@@ -57,11 +57,11 @@ impl Choice {
             own.is_ok_and(|own| (f.from..=f.to).contains(&own))
         });
         let found = found.and_then(|best| {
-            let outcome = search.outcome(&best.shares)?;
-            Some(Weighed::new(search, best.shares, outcome))
+            let computed = search.computed(&best.shares)?;
+            Some(Weighed::new(search, best.shares, computed))
         });
-        let own = before.neighbours.worst_cost();
-        let better = |found: &Weighed| found.neighbours.worst_cost() < own - IDLE * own.abs();
+        let own = before.neighbours.worst_cost;
+        let better = |found: &Weighed| found.neighbours.worst_cost < own - IDLE * own.abs();
         match found {
             Some(best) if better(&best) || !own_is_allowed => Ok(Choice {
                 scene: placed(scene, freed, &best.shares)?,

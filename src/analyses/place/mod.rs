@@ -1,0 +1,294 @@
+//! Placement of guides: radius, angle and stiffness of a pad within bounds, for the highest flutter speed or
+//! the widest window without instability around the operating speed, under a lower limit of the first
+//! critical speed.
+//!
+//! The flutter speed is a discontinuous function: it jumps where the peak of a band passes the threshold. A
+//! saw next to such a jump is of little use, because production deviates from every number. A saw is
+//! therefore rated by the worst of its neighbours, whose numbers deviate by the tolerances of production,
+//! [`Tolerances`]: by default 2 mm of a radius, 1° of an angle, 10 % of a stiffness, damping or gap, 1 % of other
+//! numbers. The saw that is best without tolerances is reported in addition. Bands are searched without the
+//! forces of a cut. If all guides may turn, one angle is held fixed, because a common rotation changes
+//! nothing.
+//!
+//! ```
+//! use sawflutter::analyses::place::{Demands, Options, place};
+//! use sawflutter::plate::Resolution;
+//! use sawflutter::scene::{Freed, Scene};
+//!
+//! let scene = Scene::paper();
+//! let radius = Freed::new(scene.file(), "guides[0].radius_m", 0.18, 0.28)?;
+//! let resolution = Some(Resolution { max_diameters: 7, radial_functions: 3 });
+//! let options = Options { resolution, samples: 4, places: 1, refine: 6, map: 0, ..Options::default() };
+//! let found = place(&scene, &[radius], &Demands::default(), &options, &|_, _, _| ())?;
+//! assert!(found.worst_rad_per_s() >= found.worst_before_rad_per_s());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod computed;
+mod demands;
+mod error;
+mod map;
+mod neighbours;
+mod report;
+mod search;
+mod settle;
+
+use std::convert::Infallible;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use crate::report::{InstabilityEntry, statement};
+use crate::scene::{Freed, Scene, SceneError, effective, rpm};
+use crate::spectrum::Cancellation;
+use crate::stability::ChosenBasis;
+
+use computed::{Computed, Question, REFUSED};
+pub use demands::{Demands, GapDemands, Options, Tolerances};
+pub use error::PlaceError;
+use neighbours::Neighbours;
+pub use report::{
+    FragileOptimum, Goal, GoalMap, Neighbour, Outcome, PlaceCertificate, PlaceReport,
+    PlacedParameter,
+};
+use search::{Search, Tried};
+use settle::{Choice, Weighed, basis_of_all, settle};
+
+/// Progress callback: name of the step, number of its finished saws, number of all its saws.
+pub type Progress<'a> = &'a (dyn Fn(&'static str, usize, usize) + Sync);
+
+/// Tolerance that determines the basis of the coarse search. The best saws are compared and refined with the
+/// tolerance of the scene.
+const COARSE_TOLERANCE: f64 = 5e-2;
+/// Smallest distance between samples that are refined, as a share of the bounds.
+const APART: f64 = 0.08;
+/// First and last step of a refinement, as shares of the bounds.
+const COARSE_STEPS: (f64, f64) = (0.08, 5e-3);
+/// Factor by which the refinement on the fine basis has fewer steps: it moves an optimum only a little, and each
+/// saw takes ten times as long.
+const SETTLED: u64 = 3;
+/// Number of samples, and of cells of the map, best at their nominal numbers, that are compared on the finer
+/// basis too.
+const MOST_PROMISING: usize = 3;
+/// A share nearer to a bound than this is taken for the bound.
+const AT_BOUND: f64 = 1e-3;
+/// Shares at which the effect of a number is examined.
+const LOOKED_AT: [f64; 2] = [0.23, 0.71];
+/// Smaller relative changes of speeds are no effect.
+const IDLE: f64 = 1e-7;
+
+/// Searches for the saw that is best in the worst case of its tolerances: it computes even samples of the
+/// bounds, refines the best of them by direct search (MADS), draws a map through the result, and refines the
+/// best saws on the basis that the tolerance of the scene requires.
+///
+/// # Errors
+/// [`PlaceError`] if no free number has an effect, or no saw can be analysed.
+pub fn place(
+    scene: &Scene,
+    freed: &[Freed],
+    demands: &Demands,
+    options: &Options,
+    progress: Progress<'_>,
+) -> Result<PlaceReport, PlaceError> {
+    let basis = ChosenBasis::new(scene, scene.tolerance().max(COARSE_TOLERANCE))?;
+    let mut question = Question {
+        demands: *demands,
+        range: basis.range_rad_per_s,
+        resolution: options.resolution.unwrap_or(basis.saw.plate.resolution),
+        tolerances: options.tolerances,
+    };
+    let all = Search::new(scene.file(), freed, question.clone());
+    let (freed, without_effect) = moving(scene, &all);
+    if freed.is_empty() {
+        return Err(PlaceError::NothingFree);
+    }
+    let own: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
+    let coarse = Search::new(scene.file(), &freed, question.clone());
+    let (candidates, map) = look_everywhere(&coarse, &own, options, progress)?;
+    if options.resolution.is_none() {
+        question.resolution = basis_of_all(scene, &freed, &candidates, question.range)?;
+    }
+    let fine = Search::new(scene.file(), &freed, question.clone());
+    let settled = settle(&fine, &candidates, options.refine / SETTLED, progress);
+    let before = question.ask(scene)?;
+    let own = exact_shares(scene, &freed)?;
+    let before = Weighed::new(&fine, own, before);
+    let Choice {
+        scene: placed,
+        saw: best,
+        improved,
+    } = Choice::between(&fine, scene, settled, &before)?;
+    let fragile_optimum = fragile_optimum(&fine, &best);
+    Cancellation::current().check()?;
+    let tally = all.tally().and(coarse.tally()).and(fine.tally());
+    let threshold_per_s = placed.flutter_threshold_per_s();
+    let listed = |band| InstabilityEntry::new(band, threshold_per_s);
+    let certificate = &best.computed.certificate;
+    let mut report = PlaceReport {
+        sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
+        scene: placed.file().clone(),
+        condition: placed.condition(),
+        unusual_numbers: placed.file().unusual_numbers(),
+        goal: demands.goal(),
+        min_critical_rpm: demands.min_critical_rad_per_s.map(rpm),
+        amplitude_m: demands.gap.and_then(|gap| gap.case.amplitude_m()),
+        max_deflection_m: demands.gap.and_then(|gap| gap.max_deflection_m),
+        force_n: demands
+            .gap
+            .and_then(|gap| gap.max_deflection_m.map(|_| gap.case.force_n())),
+        kept: best.neighbours.keep_limit(),
+        improved,
+        from_rpm: rpm(question.range.0),
+        to_rpm: rpm(question.range.1),
+        flutter_threshold_per_s: threshold_per_s,
+        parameters: parameters(scene, &placed, &freed, &best)?,
+        without_effect: without_effect.iter().map(path).collect(),
+        before: before.computed.outcome,
+        worst_before: before.neighbours.worst,
+        best: best.computed.outcome,
+        bands: best.computed.bands.iter().map(listed).collect(),
+        certificate: PlaceCertificate {
+            statement: statement(certificate, basis.saw.plate.is_conservative(), None),
+            is_clean: certificate.is_clean(),
+            speeds_checked: certificate.speeds_checked,
+            full_basis_counts: certificate.full_basis_counts,
+        },
+        fragile: best.neighbours.are_fragile(),
+        worst_neighbour_share: best.neighbours.worst_share,
+        almost: best.neighbours.almost.iter().map(listed).collect(),
+        worst_neighbour: Some(best.neighbours.worst),
+        fragile_optimum,
+        map,
+        saws: tally.saws,
+        failed_saws: tally.failed,
+        max_diameters: question.resolution.max_diameters,
+        radial_functions: question.resolution.radial_functions_on(placed.blade()),
+        warnings: Vec::new(),
+    };
+    report.warnings = report.remarks(tally.why.as_deref());
+    Ok(report)
+}
+
+fn path(freed: &Freed) -> String {
+    freed.parameter.path().to_owned()
+}
+
+/// Shares of the original numbers, which may lie outside the bounds.
+fn exact_shares(scene: &Scene, freed: &[Freed]) -> Result<Vec<f64>, SceneError> {
+    let shares = freed.iter();
+    let shares = shares.map(|f| Ok(f.share(f.parameter.get(scene.file())?)));
+    shares.collect()
+}
+
+/// The saw with the best nominal goal among those computed on the final basis, if it is better than the
+/// answer and loses this advantage within its tolerances.
+fn fragile_optimum(search: &Search<'_>, answer: &Weighed) -> Option<FragileOptimum> {
+    let cheapest = search.cheapest()?;
+    if cheapest.cost >= answer.computed.cost() {
+        return None;
+    }
+    let computed = search.computed(&cheapest.shares)?;
+    let neighbours = Neighbours::new(search, &cheapest.shares, &computed);
+    neighbours.are_fragile().then(|| FragileOptimum {
+        worst: neighbours.worst,
+        saw: Neighbour {
+            values: search.values(&cheapest.shares),
+            outcome: Some(computed.outcome),
+        },
+    })
+}
+
+/// The free numbers with their best values.
+fn parameters(
+    scene: &Scene,
+    placed: &Scene,
+    freed: &[Freed],
+    best: &Weighed,
+) -> Result<Vec<PlacedParameter>, SceneError> {
+    let numbers = freed.iter().enumerate().map(|(k, freed)| {
+        let [less_rpm, more_rpm] = best.neighbours.along_rpm[k];
+        Ok(PlacedParameter {
+            path: path(freed),
+            start: freed.parameter.get(scene.file())?,
+            value: freed.parameter.get(placed.file())?,
+            bound_from: freed.from,
+            bound_to: freed.to,
+            at_bound: !(AT_BOUND..=1.0 - AT_BOUND).contains(&best.shares[k]),
+            offset: best.neighbours.offsets[k],
+            less_rpm,
+            more_rpm,
+        })
+    });
+    numbers.collect()
+}
+
+/// Samples the bounds, refines the best samples and draws the map through the best saw; a better cell of the
+/// map is refined too. Returns the candidates for the finer basis: the results of the refinements, the
+/// original scene, the samples that are best within their tolerances, and the samples and cells that are best at
+/// their nominal numbers, because the finer basis may move a jump past a saw, or away from it.
+fn look_everywhere(
+    search: &Search<'_>,
+    own: &[f64],
+    options: &Options,
+    progress: Progress<'_>,
+) -> Result<(Vec<Tried>, Option<GoalMap>), PlaceError> {
+    let samples = options.samples.max(1);
+    let tried = search.sample(own, samples, &|done| progress("samples", done, samples));
+    Cancellation::current().check()?;
+    if tried.first().is_none_or(|best| best.cost >= REFUSED) {
+        return Err(PlaceError::NoSaw { tried: samples });
+    }
+    let places = options.places.max(1);
+    let starts = search.most_robust(&tried, places, APART);
+    let (done, budget) = (AtomicUsize::new(0), options.refine as usize * starts.len());
+    let see = || {
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        progress("refinement", done.min(budget), budget);
+    };
+    let refined = |start: &Tried| search.refine(start, COARSE_STEPS, options.refine, &see);
+    let mut candidates: Vec<Tried> = starts.par_iter().map(refined).collect();
+    let best = cheapest(&candidates).ok_or(PlaceError::NoSaw { tried: samples })?;
+    let mapped =
+        (options.map > 1).then(|| map::through(search, &best.shares, options.map, progress));
+    let (map, cells) = mapped.unzip();
+    let cells = cells.unwrap_or_default();
+    let of_map = search.most_robust(&cells, 1, 0.0).pop();
+    let better = of_map.filter(|cell| cell.cost < best.cost);
+    candidates.extend(better.map(|cell| refined(&cell)));
+    candidates.extend(starts);
+    candidates.extend(search.cheapest());
+    candidates.extend(tried.iter().find(|one| one.shares == own).cloned());
+    candidates.extend(tried.into_iter().take(MOST_PROMISING));
+    candidates.extend(cells.into_iter().take(MOST_PROMISING));
+    candidates.retain(|one| one.cost < REFUSED);
+    candidates.sort_by(|x, y| x.cost.total_cmp(&y.cost));
+    candidates.dedup_by(|x, y| x.shares == y.shares);
+    Ok((candidates, map))
+}
+
+fn cheapest(tried: &[Tried]) -> Option<Tried> {
+    let cheapest = tried.iter().min_by(|x, y| x.cost.total_cmp(&y.cost));
+    cheapest.cloned()
+}
+
+/// Divides the free numbers into those that move a critical speed or a band, and the others.
+fn moving(scene: &Scene, search: &Search<'_>) -> (Vec<Freed>, Vec<Freed>) {
+    let speeds = |shares: &[f64]| {
+        let of = |saw: Computed| {
+            let first = saw.bands.first();
+            [
+                saw.value_rad_per_s,
+                saw.outcome.deflection_m.unwrap_or(0.0),
+                saw.outcome.critical_rpm.unwrap_or(0.0),
+                first.map_or(0.0, |band| band.from_rad_per_s),
+            ]
+        };
+        Ok::<_, Infallible>(search.computed(shares).map(of))
+    };
+    let differ = |x: &[f64; 4], y: &[f64; 4]| {
+        let mut pairs = x.iter().zip(y);
+        pairs.any(|(x, y)| (x - y).abs() > IDLE * x.abs().max(y.abs()))
+    };
+    let Ok(parted) = effective(scene, search.freed, &LOOKED_AT, speeds, differ);
+    parted
+}
