@@ -4,15 +4,15 @@ use std::path::Path;
 
 use anyhow::Context;
 use sawflutter::analyses::fit::{self, FitReport, Measurement};
+use sawflutter::analyses::map::{self, Range};
 use sawflutter::analyses::place::{self, Demands, PlaceReport};
 use sawflutter::check::{Check, Limits};
 use sawflutter::commands::CommandReport;
 use sawflutter::deflect::{Deflecting, Options};
 use sawflutter::gap::{self, GuideGaps};
-use sawflutter::map::{self, Map, Range};
 use sawflutter::report::{
-    CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, GapReport, MapReport,
-    ResponseReport, RunUpReport,
+    CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, GapReport, ResponseReport,
+    RunUpReport,
 };
 use sawflutter::response::{self, ForcedResponse};
 use sawflutter::scene::{Accuracy, ContactLaw, Freed, Scene, SceneFile, rad_per_s};
@@ -163,11 +163,9 @@ fn further(root: &Path) -> anyhow::Result<Vec<Figure>> {
         from: 2.4e-3,
         to: 3.2e-3,
     };
-    let map = Map::new(draft("paper", &|_| ())?, &map::Options::over(thickness))?;
-    let saws: Vec<_> = (0..map.study().count())
-        .map(|index| map.study().saw(index))
-        .collect();
-    figures.extend(svgs(&MapReport::new(&map, &saws))?);
+    let options = map::Options::over(thickness);
+    let map = map::map(draft("paper", &|_| ())?, &options, &|_, _| ())?;
+    figures.extend(svgs(&map)?);
     Ok(figures)
 }
 

@@ -11,6 +11,7 @@ use schemars::generate::SchemaSettings;
 use serde_json::Value;
 
 use crate::analyses::fit::FitReport;
+use crate::analyses::map::MapReport;
 use crate::analyses::place::PlaceReport;
 use crate::document::{self, Document};
 use crate::figure::{
@@ -19,7 +20,7 @@ use crate::figure::{
     response, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
-    CheckReport, CompareReport, CutReport, DeflectReport, GapReport, MapReport, ModeEntry, Report,
+    CheckReport, CompareReport, CutReport, DeflectReport, GapReport, ModeEntry, Report,
     ResponseReport, RunUpReport, WashboardReport,
 };
 use crate::scene::SceneFile;

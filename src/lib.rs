@@ -24,7 +24,7 @@
 //! The modules are listed in the order in which a scene passes through them, and each imports only from those
 //! before it; modules separated by commas are on one level: [`scene`] → [`plate`] → [`system`] → [`spectrum`] →
 //! [`campbell`] → [`stability`] → [`transient`] → [`washboarding`], [`response`], [`deflect`] →
-//! [`check`], [`gap`] → [`study`] → [`map`] → [`report`], [`analyses`] → [`figure`] → [`document`] → [`commands`]. [`spline`] is on
+//! [`check`], [`gap`] → [`study`] → [`report`], [`analyses`] → [`figure`] → [`document`] → [`commands`]. [`spline`] is on
 //! the level of [`system`] and imports [`scene`] and [`plate`] alone; [`stretched`] is on the level of
 //! [`campbell`]. [`analytical`] imports nothing; it contains closed forms with their sources, with which tests
 //! compare the other modules. `linalg` imports nothing either; the other modules call eigenvalue and singular value
@@ -60,7 +60,6 @@ pub mod explore;
 pub mod figure;
 pub mod gap;
 mod linalg;
-pub mod map;
 pub mod plate;
 pub mod report;
 pub mod response;

@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use sawflutter::map::{self, Options, Range};
-use sawflutter::report::MapReport;
+use sawflutter::analyses::map::{self, Options, Range};
 use sawflutter::study::Rows;
 
 use crate::arguments;
@@ -57,7 +56,7 @@ impl Map {
     fn report(&self, py: Python<'_>, folder: PathBuf) -> PyResult<String> {
         let report = || {
             let rows = Rows::in_folder(self.0.study(), &folder)?;
-            json(&MapReport::of_rows(&self.0, &rows)?)
+            json(&self.0.report_of_rows(&rows)?)
         };
         Ok(py.detach(report)?)
     }

@@ -5,4 +5,5 @@
 //! are private to the folder.
 
 pub mod fit;
+pub mod map;
 pub mod place;

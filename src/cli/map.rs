@@ -1,7 +1,6 @@
 //! `sawflutter map`.
 
-use crate::map::{Map, Options, Range};
-use crate::report::MapReport;
+use crate::analyses::map::{Map, Options, Range};
 use crate::study::{Log, Rows, Shard, StudyError};
 use anyhow::Context;
 use clap::Args;
@@ -79,7 +78,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         return print_part(&arguments.output, study, shard, &folder, next);
     }
     let rows = Rows::of(study, Log::all_in(folder.path())?)?;
-    let report = MapReport::of_rows(&map, &rows)?;
+    let report = map.report_of_rows(&rows)?;
     let output = &arguments.output;
     output.report(&folder, &arguments.page, &report, Vec::new())
 }

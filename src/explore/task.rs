@@ -1,8 +1,6 @@
 //! Tasks of the page besides the diagram: each is a command of the program, with its report, summary and
 //! figures.
 
-use std::sync::Mutex;
-
 use serde::{Deserialize, Serialize};
 
 use super::answers::{
@@ -12,14 +10,11 @@ use super::meter::Meter;
 use super::refusal::Refusal;
 use super::tolerances::{Tolerance, Typed, study as study_of};
 use crate::analyses::fit::{self, FitReport, Measurement};
+use crate::analyses::map::{self, MapReport, Range};
 use crate::analyses::place::{self, Demands, PlaceReport};
 use crate::commands::CommandReport;
-use crate::figure::Figure;
 use crate::gap::{self, GapError, GuideGaps};
-use crate::map::{self, Map, Range};
-use crate::report::{
-    CutReport, GapReport, MapReport, ResponseReport, RunUpReport, WashboardReport,
-};
+use crate::report::{CutReport, GapReport, ResponseReport, RunUpReport, WashboardReport};
 use crate::response::{self, ForcedResponse, ResponseError};
 use crate::scene::{Freed, Scene, SceneError, SceneFile};
 use crate::study::{Saw, Study, StudyReport};
@@ -182,29 +177,12 @@ fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
         let so_far = StudyReport::new(&study, saws).ok()?;
         so_far.figures().into_iter().next()
     };
-    let saws = analysed(&study, meter, &so_far);
+    let saws = study.saws(&|saws| {
+        meter.show("saws", saws.len(), study.count());
+        meter.draw(|| so_far(saws));
+    });
     let report = StudyReport::new(&study, &saws).map_err(|error| Refusal::of(&error))?;
     answer(&report, Vec::new(), None)
-}
-
-/// Computes the saws of a study and returns them in the order of their numbers. In the meantime, it sends figures of
-/// the finished ones.
-fn analysed(
-    study: &Study,
-    meter: &Meter<'_>,
-    so_far: &(dyn Fn(&[Saw]) -> Option<Figure> + Sync),
-) -> Vec<Saw> {
-    let saws = Mutex::new(Vec::<Saw>::new());
-    let done = |saw: Saw| {
-        let mut saws = saws.lock().unwrap_or_else(|e| e.into_inner());
-        let place = saws.partition_point(|other| other.index < saw.index);
-        saws.insert(place, saw);
-        meter.show("saws", saws.len(), study.count());
-        meter.draw(|| so_far(&saws));
-        Ok::<_, std::convert::Infallible>(())
-    };
-    let Ok(()) = study.run(None, 0..study.count(), &done);
-    saws.into_inner().unwrap_or_else(|e| e.into_inner())
 }
 
 fn response(scene: Scene, _: &Asked, _: &Meter<'_>) -> Result<String, Refusal> {
@@ -237,9 +215,8 @@ fn map(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal
         y,
         ..map::Options::over(x)
     };
-    let map = Map::new(scene, &options).map_err(|error| Refusal::of(&error))?;
-    let saws = analysed(map.study(), meter, &|_| None);
-    let report = MapReport::new(&map, &saws);
+    let progress = |done, of| meter.show("saws", done, of);
+    let report = map::map(scene, &options, &progress).map_err(|error| Refusal::of(&error))?;
     answer(&report, Vec::new(), None)
 }
 

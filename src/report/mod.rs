@@ -23,7 +23,6 @@ mod gap;
 mod gap_oscillation;
 mod in_cut;
 mod instability;
-mod map;
 mod membrane;
 mod mode;
 mod operating;
@@ -64,7 +63,6 @@ pub use self::gap_oscillation::{
 };
 pub use self::in_cut::{IdlingEntry, InCutEntry};
 pub use self::instability::InstabilityEntry;
-pub use self::map::{ContourEntry, ContouredEntry, MapAxisEntry, MapReport, MappedSawEntry};
 pub use self::membrane::{
     HeatCurveEntry, HeatEntry, HeatLimitEntry, MeasuredGapEntry, MembraneEntry, RollBandEntry,
     StraightEdgeEntry,

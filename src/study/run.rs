@@ -1,5 +1,6 @@
 //! Analyses saws in parallel.
 
+use std::convert::Infallible;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -8,6 +9,21 @@ use super::saw::Saw;
 use crate::spectrum::Cancellation;
 
 impl Study {
+    /// Analyses all saws on all threads of the current pool, and returns them in the order of their numbers. Calls
+    /// `done` with those that are finished after each one.
+    pub fn saws(&self, done: &(dyn Fn(&[Saw]) + Sync)) -> Vec<Saw> {
+        let saws = Mutex::new(Vec::<Saw>::new());
+        let finished = |saw: Saw| {
+            let mut saws = saws.lock().unwrap_or_else(PoisonError::into_inner);
+            let place = saws.partition_point(|other| other.index < saw.index);
+            saws.insert(place, saw);
+            done(&saws);
+            Ok::<_, Infallible>(())
+        };
+        let Ok(()) = self.run(None, 0..self.count(), &finished);
+        saws.into_inner().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// Analyses saws on `threads` threads, by default as many as the current pool has, and passes each saw to `done`
     /// when it is finished: in the order of `indices` on one thread, in any order on several. Each thread computes
     /// whole saws, because a second thread speeds up a single saw by a factor of only 1.3.

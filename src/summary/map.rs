@@ -4,12 +4,12 @@ use std::fmt::Write;
 
 use super::study::accuracy_of_saws;
 use super::{ROWS, decimals_or, each, more, named, sentence, shortened};
-use crate::report::{MapAxisEntry, MapReport, MappedSawEntry, StabilityState};
-use crate::stability::CRITICAL_MARGIN;
+use crate::analyses::map::{MapAxis, MapReport, MappedSaw};
+use crate::stability::{CRITICAL_MARGIN, StabilityState};
 use crate::text::{shown, shown_to};
 
 /// A function that returns a speed of a saw in rpm; `None` if the saw has no such speed in the sweep.
-type Speed = fn(&MappedSawEntry) -> Option<f64>;
+type Speed = fn(&MappedSaw) -> Option<f64>;
 
 pub fn of_report(text: &mut String, report: &MapReport) -> std::fmt::Result {
     each(text, "Unusual number", &report.unusual_numbers)?;
@@ -33,7 +33,7 @@ pub fn of_report(text: &mut String, report: &MapReport) -> std::fmt::Result {
 }
 
 /// Key and name of a number, its range, and its value in the scene.
-fn range(axis: &MapAxisEntry) -> String {
+fn range(axis: &MapAxis) -> String {
     let ends = [axis.values.first(), axis.values.last()].map(|end| end.copied().unwrap_or(0.0));
     let [from, to] = ends.map(|value| shown_to(6, value));
     let unit = match axis.unit.as_str() {
@@ -88,14 +88,14 @@ fn speeds(text: &mut String, report: &MapReport) -> std::fmt::Result {
     ];
     for (name, of) in kinds {
         let known = report.saws.iter().filter_map(|saw| Some((of(saw)?, saw)));
-        let by_speed = |a: &(f64, &MappedSawEntry), b: &(f64, &MappedSawEntry)| a.0.total_cmp(&b.0);
+        let by_speed = |a: &(f64, &MappedSaw), b: &(f64, &MappedSaw)| a.0.total_cmp(&b.0);
         let ends = known.clone().min_by(by_speed).zip(known.max_by(by_speed));
         let Some((low, high)) = ends else {
             let to = report.to_rpm;
             writeln!(text, "{name}: none up to {to:.0} rpm")?;
             continue;
         };
-        let place = |saw: &MappedSawEntry| {
+        let place = |saw: &MappedSaw| {
             let y = report.y.as_ref().zip(saw.y);
             let all = std::iter::once((&report.x, saw.x)).chain(y);
             let all = all.map(|(axis, value)| {

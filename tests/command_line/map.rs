@@ -3,8 +3,8 @@
 //! Independent values: `analyze` of the scene with the numbers typed in; the critical speed of a blade without guides is
 //! proportional to its thickness.
 
-use sawflutter::map::{Map, Options, Range};
-use sawflutter::report::{MapReport, Report, StabilityState};
+use sawflutter::analyses::map::{MapReport, Options, Range, map};
+use sawflutter::report::{Report, StabilityState};
 use sawflutter::scene::{Accuracy, Scene, SweepFile, rad_per_s};
 use sawflutter::stability::Analysis;
 use tempfile::TempDir;
@@ -204,9 +204,7 @@ fn a_saw_runs_at_a_critical_speed_that_lies_just_beyond_the_sweep() {
         points: Some(2),
         ..Options::over(x)
     };
-    let map = Map::new(scene, &options).unwrap();
-    let saws: Vec<_> = (0..2).map(|index| map.study().saw(index)).collect();
-    let report = MapReport::new(&map, &saws);
+    let report = map(scene, &options, &|_, _| ()).unwrap();
     let critical = [0, 1].map(|saw| report.saws[saw].at_critical_rpm);
     assert!((critical[0].unwrap() / alone_rpm - 1.0).abs() < 1e-3);
     // The thicker blade has its critical speeds beyond 1.05 times the operating speed.

@@ -5,7 +5,7 @@ mod over_speed;
 
 use super::canvas::{Frame, Sheet};
 use super::style::BETWEEN_FACTS;
-use crate::report::MapReport;
+use crate::analyses::map::MapReport;
 
 const WIDTH: u32 = 1100;
 const HEIGHT: u32 = 780;

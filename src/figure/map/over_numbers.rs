@@ -1,6 +1,7 @@
 //! Areas of stable, diverging and fluttering saws over two numbers, with contours of speeds.
 
 use super::{HEIGHT, KEYS, PANEL, WIDTH, facts};
+use crate::analyses::map::{Contour, Contoured, MapAxis, MapReport, MappedSaw};
 use crate::figure::along::Along;
 use crate::figure::axis::{draw_named, draw_vertical};
 use crate::figure::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
@@ -11,7 +12,6 @@ use crate::figure::style::{
     BLANK, CURVE, Colour, DASH, DIVERGENCE_STREAK, FLUTTER, FLUTTER_STREAK, FORWARD, INK,
     LABEL_SIZE, PAPER, tint,
 };
-use crate::report::{ContourEntry, ContouredEntry, MapAxisEntry, MapReport, MappedSawEntry};
 use crate::stability::{CRITICAL_MARGIN, StabilityState};
 
 /// Colour of stable saws within 5 % of a critical speed.
@@ -19,7 +19,7 @@ const AT_CRITICAL: Colour = plotters::style::RGBColor(196, 216, 232);
 /// Colour of stable saws, lighter than those of instability in grey prints too.
 const STABLE: Colour = plotters::style::RGBColor(228, 240, 228);
 
-pub fn sheet(report: &MapReport, y: &MapAxisEntry) -> Sheet {
+pub fn sheet(report: &MapReport, y: &MapAxis) -> Sheet {
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     heading::draw(&mut sheet, &report.scene.name, &facts(report));
     let across = Along::of_cells(&report.x.path, &report.x.values, PANEL.across());
@@ -45,7 +45,7 @@ pub fn sheet(report: &MapReport, y: &MapAxisEntry) -> Sheet {
     sheet
 }
 
-fn colour(saw: &MappedSawEntry) -> Colour {
+fn colour(saw: &MappedSaw) -> Colour {
     match saw.state {
         _ if saw.not_analysed.is_some() => BLANK,
         None | Some(StabilityState::OutsideSweep) => PAPER,
@@ -56,16 +56,16 @@ fn colour(saw: &MappedSawEntry) -> Colour {
     }
 }
 
-fn stroke(quantity: ContouredEntry) -> Stroke {
+fn stroke(quantity: Contoured) -> Stroke {
     match quantity {
-        ContouredEntry::FlutterSpeed => Stroke::solid(FLUTTER, CURVE),
-        ContouredEntry::LowestCriticalSpeed => Stroke::dashed(FORWARD, CURVE, DASH),
+        Contoured::FlutterSpeed => Stroke::solid(FLUTTER, CURVE),
+        Contoured::LowestCriticalSpeed => Stroke::dashed(FORWARD, CURVE, DASH),
     }
 }
 
 /// Draws contours, and writes on each its speed in rpm, as close to its middle as there is room.
-fn draw_contours(sheet: &mut Sheet, contours: &[ContourEntry], x: &Along, y: &Along) {
-    let lines: Vec<(Vec<[f64; 2]>, &ContourEntry)> = contours
+fn draw_contours(sheet: &mut Sheet, contours: &[Contour], x: &Along, y: &Along) {
+    let lines: Vec<(Vec<[f64; 2]>, &Contour)> = contours
         .iter()
         .map(|contour| {
             let places = contour.points.iter().map(|[a, b]| [x.at(*a), y.at(*b)]);
@@ -124,9 +124,9 @@ fn draw_key(sheet: &mut Sheet, report: &MapReport) {
         key.shade(BLANK).word("not analysed");
     }
     Key::new(sheet, PANEL.left, KEYS[1])
-        .line(24.0, stroke(ContouredEntry::FlutterSpeed))
+        .line(24.0, stroke(Contoured::FlutterSpeed))
         .word("flutter speed [rpm]")
-        .line(24.0, stroke(ContouredEntry::LowestCriticalSpeed))
+        .line(24.0, stroke(Contoured::LowestCriticalSpeed))
         .word("lowest critical speed [rpm]")
         .ring(10.0, 5.0, Stroke::solid(INK, 2.0))
         .word("the scene");

@@ -1,6 +1,7 @@
 //! Bands as areas over a number and the speed.
 
 use super::{HEIGHT, KEYS, PANEL, WIDTH, facts};
+use crate::analyses::map::{MapReport, MappedSaw};
 use crate::figure::along::Along;
 use crate::figure::axis::{Axis, SPEED, draw_named, draw_vertical};
 use crate::figure::canvas::{Anchor, Lettering, Sheet, Stroke};
@@ -10,7 +11,7 @@ use crate::figure::style::{
     ALARM, BLANK, CURVE, Colour, DIVERGENCE_STREAK, FINE_DASH, FLUTTER_STREAK, FORWARD, HAIRLINE,
     INK, LABEL_SIZE, QUIET, tint,
 };
-use crate::report::{InstabilityKind, MapReport, MappedSawEntry};
+use crate::stability::InstabilityKind;
 
 /// Areas of two neighbouring saws are not joined if they are further apart than this share of the sweep, after their speeds
 /// have been scaled by the critical speeds of the saws.
@@ -22,7 +23,7 @@ const WIDEST_WEAK: f64 = 0.03;
 const THINNEST: f64 = 1.5;
 
 /// A function that returns a speed of a saw in rpm; `None` if the saw has no such speed in the sweep.
-type Speed = fn(&MappedSawEntry) -> Option<f64>;
+type Speed = fn(&MappedSaw) -> Option<f64>;
 
 /// A band of a saw, or a part of one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,7 +77,7 @@ pub fn sheet(report: &MapReport) -> Sheet {
 }
 
 /// The areas of a saw in a sweep up to `to_rpm`.
-fn areas(saw: &MappedSawEntry, to_rpm: f64) -> Vec<Area> {
+fn areas(saw: &MappedSaw, to_rpm: f64) -> Vec<Area> {
     let mut areas = Vec::new();
     for band in &saw.instabilities {
         let look = match band.kind {
@@ -190,7 +191,7 @@ fn draw_curve(
     of: Speed,
 ) {
     let stroke = Stroke::solid(colour, CURVE);
-    let shown = |saw: &MappedSawEntry| of(saw).filter(|rpm| speed.shows(*rpm));
+    let shown = |saw: &MappedSaw| of(saw).filter(|rpm| speed.shows(*rpm));
     for pair in report.saws.windows(2) {
         if let [Some(a), Some(b)] = [&pair[0], &pair[1]].map(shown)
             && (a - b).abs() <= JUMP * report.to_rpm

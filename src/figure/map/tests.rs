@@ -1,6 +1,6 @@
 use super::*;
+use crate::analyses::map::{Map, MappedSaw, Options, Range};
 use crate::figure::tidy::{assert_tidy, texts};
-use crate::map::{Map, Options, Range};
 use crate::scene::Scene;
 use crate::stability::InstabilityKind;
 use crate::study::{Found, FoundBand, Outcome, Saw};
@@ -50,7 +50,7 @@ fn report(with_y: bool) -> MapReport {
         }
     };
     let saws: Vec<Saw> = (0..map.study().count()).map(saw).collect();
-    MapReport::new(&map, &saws)
+    map.report(&saws)
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn nothing_is_cut_off_and_the_key_names_what_is_drawn() {
         saws: report(true)
             .saws
             .into_iter()
-            .map(|saw| crate::report::MappedSawEntry { state: None, ..saw })
+            .map(|saw| MappedSaw { state: None, ..saw })
             .collect(),
         ..report(true)
     };

@@ -1,26 +1,29 @@
 //! Contours of a speed over a grid, by marching squares.
 
-/// A line of equal speed over the two numbers of a map.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Contour {
-    /// Speed along the line.
-    pub rpm: f64,
-    /// Points of the line in the grid: column and row, counted from 0, with fractions between two of them.
-    pub places: Vec<[f64; 2]>,
-}
+use super::{Contour, Contoured};
 
 /// Number of contours aimed at.
 const LEVELS: f64 = 8.0;
 
 /// Contours at round speeds of values over a grid, one row for each value of y. Between the corners of a cell the values vary
-/// linearly along its edges. A cell of which a corner has no value has no contours.
-pub fn contours(rows: &[Vec<Option<f64>>]) -> Vec<Contour> {
-    let levels = levels(rows.iter().flatten().flatten().copied());
-    let level = |rpm: f64| {
-        let lines = joined(segments(rows, rpm)).into_iter();
-        lines.map(move |places| Contour { rpm, places })
-    };
-    levels.into_iter().flat_map(level).collect()
+/// linearly along its edges. A cell of which a corner has no value has no contours. `point` is the point at a column and
+/// a row, counted from 0, with fractions between two of them.
+pub fn contours(
+    quantity: Contoured,
+    rows: &[&[Option<f64>]],
+    point: impl Fn([f64; 2]) -> [f64; 2],
+) -> Vec<Contour> {
+    let mut contours = Vec::new();
+    for rpm in levels(rows.iter().copied().flatten().flatten().copied()) {
+        for places in joined(segments(rows, rpm)) {
+            contours.push(Contour {
+                quantity,
+                rpm,
+                points: places.into_iter().map(&point).collect(),
+            });
+        }
+    }
+    contours
 }
 
 /// Round speeds strictly between the smallest and the largest value.
@@ -47,7 +50,7 @@ fn levels(values: impl Iterator<Item = f64>) -> Vec<f64> {
 
 type Segment = [[f64; 2]; 2];
 
-fn segments(rows: &[Vec<Option<f64>>], level: f64) -> Vec<Segment> {
+fn segments(rows: &[&[Option<f64>]], level: f64) -> Vec<Segment> {
     let mut segments = Vec::new();
     for (row, pair) in rows.windows(2).enumerate() {
         for column in 0..pair[0].len().saturating_sub(1) {

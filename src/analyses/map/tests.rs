@@ -1,36 +1,44 @@
-use super::*;
-use crate::stability::InstabilityKind;
+use super::contour::contours;
+use super::saws::state_at;
+use super::{Contour, Contoured};
+use crate::stability::{InstabilityKind, StabilityState};
+use crate::study::FoundBand;
 
 fn grid(size: usize, value: impl Fn(f64, f64) -> f64) -> Vec<Vec<Option<f64>>> {
     let row = |y: usize| (0..size).map(|x| Some(value(x as f64, y as f64))).collect();
     (0..size).map(row).collect()
 }
 
+fn lines(rows: &[Vec<Option<f64>>]) -> Vec<Contour> {
+    let rows: Vec<&[Option<f64>]> = rows.iter().map(Vec::as_slice).collect();
+    contours(Contoured::FlutterSpeed, &rows, |place| place)
+}
+
 /// Reference: the contours of a plane are straight lines, those of a cone closed circles.
 #[test]
 fn contours_of_a_plane_and_of_a_cone_are_lines_and_circles() {
-    let plane = contours(&grid(9, |x, y| 1000.0 + 30.0 * x + 10.0 * y));
+    let plane = lines(&grid(9, |x, y| 1000.0 + 30.0 * x + 10.0 * y));
     assert_eq!(plane.len(), 6, "every 50 rpm from 1050 to 1300");
     for line in &plane {
-        for [x, y] in &line.places {
+        for [x, y] in &line.points {
             assert!((1000.0 + 30.0 * x + 10.0 * y - line.rpm).abs() < 1e-9);
         }
     }
     let middle = 20.0;
-    let cone = contours(&grid(41, |x, y| (x - middle).hypot(y - middle)));
+    let cone = lines(&grid(41, |x, y| (x - middle).hypot(y - middle)));
     let within: Vec<&Contour> = cone.iter().filter(|line| line.rpm < 19.0).collect();
     assert!(within.len() >= 3);
     for line in within {
-        assert_eq!(line.places.first(), line.places.last());
-        for [x, y] in &line.places {
+        assert_eq!(line.points.first(), line.points.last());
+        for [x, y] in &line.points {
             let radius = (x - middle).hypot(y - middle);
             // The distance of the chord in a cell from the circle is at most 1/(8 r).
             assert!((radius - line.rpm).abs() < 0.2 / line.rpm, "{radius}");
         }
     }
-    let hole = contours(&[vec![Some(1.0), None], vec![Some(2.0), Some(3.0)]]);
+    let hole = lines(&[vec![Some(1.0), None], vec![Some(2.0), Some(3.0)]]);
     assert!(hole.is_empty());
-    assert!(contours(&grid(3, |_, _| 7.0)).is_empty());
+    assert!(lines(&grid(3, |_, _| 7.0)).is_empty());
 }
 
 #[test]

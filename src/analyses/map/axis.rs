@@ -1,0 +1,73 @@
+//! The axes of a map.
+
+use super::{MapAxis, Range};
+use crate::scene::{Freed, Quantity, RefusedValue, Scene, is_logarithmic};
+use crate::study::{DistributionFile, ParameterFile, StudyError};
+use crate::text::shown;
+
+/// Path of the speed at which the saws are judged. It changes no band, and every saw is judged at the same one.
+const OPERATING_SPEED: &str = "operating_rpm";
+
+impl MapAxis {
+    /// `points` values of a range, whose ends are exact; `key` names the axis in errors.
+    pub(super) fn new(
+        scene: &Scene,
+        key: &str,
+        range: &Range,
+        points: usize,
+    ) -> Result<Self, StudyError> {
+        let refused = |source| StudyError::Scene {
+            key: key.to_owned(),
+            source,
+        };
+        let Range { path, from, to } = range;
+        let freed = Freed::new(scene.file(), path, *from, *to).map_err(refused)?;
+        if path == OPERATING_SPEED {
+            let allowed = "a number that changes critical speeds or bands";
+            let remedy =
+                "name another one; a map over one number has the speed as its vertical axis";
+            return Err(RefusedValue::new(key, OPERATING_SPEED, allowed, remedy).into());
+        }
+        let value = |k: usize| match k {
+            0 => *from,
+            _ if k + 1 == points => *to,
+            _ => rounded(freed.value(k as f64 / (points - 1) as f64)),
+        };
+        let quantity = Quantity::of(path);
+        Ok(MapAxis {
+            name: quantity
+                .map_or(path.as_str(), |quantity| quantity.name)
+                .to_owned(),
+            unit: quantity.map_or("", |quantity| quantity.unit).to_owned(),
+            path: path.clone(),
+            values: (0..points).map(value).collect(),
+            of_scene: freed.parameter.get(scene.file()).map_err(refused)?,
+        })
+    }
+
+    /// The value at a place of the grid, counted in points from 0, between two points on the scale of the axis.
+    pub(super) fn at(&self, place: f64) -> f64 {
+        let last = self.values.len() - 1;
+        let below = (place.max(0.0) as usize).min(last.saturating_sub(1));
+        let (from, to) = (self.values[below], self.values[(below + 1).min(last)]);
+        let share = place - below as f64;
+        match is_logarithmic(self.values[0], self.values[last]) {
+            true => from * (to / from).powf(share),
+            false => from + share * (to - from),
+        }
+    }
+
+    pub(super) fn grid(&self) -> ParameterFile {
+        ParameterFile {
+            path: self.path.clone(),
+            distribution: DistributionFile::Grid {
+                values: self.values.clone(),
+            },
+        }
+    }
+}
+
+/// Rounds a number to the digits of a message, so that 0.66 is not 0.6599999999999999.
+fn rounded(value: f64) -> f64 {
+    shown(value).parse().unwrap_or(value)
+}
