@@ -13,6 +13,7 @@ use serde_json::Value;
 use crate::analyses::fit::FitReport;
 use crate::analyses::map::MapReport;
 use crate::analyses::place::PlaceReport;
+use crate::analyses::tradeoff::Setting;
 use crate::document::{self, Document};
 use crate::figure::{
     CampbellView, ChartData, Drawing, Figure, FigureError, campbell, check, compare, cut, cut_map,
@@ -24,7 +25,6 @@ use crate::report::{
     ResponseReport, RunUpReport, WashboardReport,
 };
 use crate::scene::SceneFile;
-use crate::stability::Setting;
 use crate::study::StudyReport;
 use crate::summary;
 

@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
+use sawflutter::analyses::tradeoff::tradeoff;
 use sawflutter::check::{Check, Limits, LimitsFile};
 use sawflutter::deflect::{Deflecting, Options as DeflectOptions};
 use sawflutter::gap::{Friction, GuideGaps, Options as GapOptions, OscillatingForce};
@@ -15,7 +16,7 @@ use sawflutter::report::{
 use sawflutter::response::{ForcedResponse, Options as ResponseOptions};
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
 use sawflutter::spectrum::{SpectralModel, Strategy};
-use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork, tradeoff};
+use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
 use sawflutter::transient::{Cutting, RunningUp};
 use sawflutter::washboarding::Washboard;
 use serde::Serialize;

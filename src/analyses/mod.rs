@@ -7,3 +7,4 @@
 pub mod fit;
 pub mod map;
 pub mod place;
+pub mod tradeoff;

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
+use crate::analyses::tradeoff::{Method, Setting, tradeoff};
 use crate::figure;
-use crate::stability::{Method, Setting, recommended, tradeoff};
 use clap::Args;
 
 use super::common::Common;
@@ -86,6 +86,14 @@ fn table(text: &mut String, saw: &str, settings: &[Setting]) -> std::fmt::Result
         }
     }
     Ok(())
+}
+
+/// Chart of shortest run time within an error.
+fn recommended(settings: &[Setting], error: f64) -> Option<&Setting> {
+    settings
+        .iter()
+        .filter(|s| s.is_chart() && s.error <= error)
+        .min_by(|x, y| x.seconds.total_cmp(&y.seconds))
 }
 
 fn name(method: Method) -> &'static str {

@@ -4,9 +4,9 @@ use super::campbell::{self, CampbellView};
 use super::canvas::Sheet;
 use super::chart_data::ChartData;
 use super::{FigureError, layout, raster, svg};
+use crate::analyses::tradeoff::Setting;
 use crate::commands::CommandReport;
 use crate::report::Report;
-use crate::stability::Setting;
 
 /// A chart, which the layout draws, or a drawing of its own.
 pub(crate) enum Drawing {
@@ -144,7 +144,7 @@ impl Report {
 }
 
 /// Draws the run time of settings over their true error, both on logarithmic scales, as measured by
-/// [`tradeoff`](crate::stability::tradeoff); `scene` is the name of the scene.
+/// [`tradeoff`](crate::analyses::tradeoff::tradeoff); `scene` is the name of the scene.
 pub fn tradeoff(scene: &str, settings: &[Setting]) -> Figure {
     Figure {
         names: ["tradeoff.png", "tradeoff.svg"],

@@ -8,7 +8,7 @@ use super::style::{
     AXIS_SIZE, BACKWARD, CURVE, Colour, DASH, DIVERGENCE, FORWARD, GRID, HAIRLINE, LABEL_SIZE,
     PAPER, QUIET, STRONG_CURVE, tint,
 };
-use crate::stability::{Method, Setting};
+use crate::analyses::tradeoff::{Method, Setting};
 
 const WIDTH: u32 = 900;
 const HEIGHT: u32 = 660;

@@ -4,7 +4,7 @@ use crate::plate::Resolution;
 
 /// Sizes (n_max, J), each with about 1.5 times as many functions as the previous one. The errors of smaller
 /// sizes cannot be estimated reliably by a larger basis.
-pub(super) const LADDER: [(usize, usize); 11] = [
+pub(crate) const LADDER: [(usize, usize); 11] = [
     (10, 6),
     (12, 7),
     (14, 9),
@@ -36,7 +36,7 @@ pub(super) fn sized(rung: usize, diameters: usize) -> Resolution {
 }
 
 /// Number of nodal diameters of a size from [`sized`] if it has more than the ladder; 0 otherwise.
-pub(super) fn diameters_beyond(size: Resolution) -> usize {
+pub(crate) fn diameters_beyond(size: Resolution) -> usize {
     match size.max_diameters > LADDER[rung_of(size)].0 {
         true => size.max_diameters,
         false => 0,
@@ -69,7 +69,7 @@ pub(super) fn rung_of(size: Resolution) -> usize {
 }
 
 /// Size of the ladder as a resolution.
-pub(super) const fn resolution((max_diameters, radial_functions): (usize, usize)) -> Resolution {
+pub(crate) const fn resolution((max_diameters, radial_functions): (usize, usize)) -> Resolution {
     Resolution {
         max_diameters,
         radial_functions,

@@ -48,7 +48,6 @@ mod root;
 mod seen;
 mod sensitivity;
 mod signature;
-mod tradeoff;
 mod undamped;
 mod verdict;
 
@@ -72,7 +71,7 @@ pub use excitation::crossings;
 pub use expected::ExpectedWork;
 pub(crate) use growing::GrowingModes;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
-pub(crate) use ladder::{DENSE_LADDER, ahead};
+pub(crate) use ladder::{DENSE_LADDER, LADDER, ahead, diameters_beyond, resolution};
 pub(crate) use mode_counts::Miscount;
 pub use onsets::Onsets;
 #[doc(hidden)]
@@ -83,12 +82,9 @@ pub use out_of_reach::OutOfReach;
 pub use partition::{Plane, Sample};
 #[doc(hidden)]
 pub use pieces::{Grouped, Piece, Search};
-pub(crate) use reach::{CHARTED, is_cut_short, usual_end};
+pub(crate) use reach::{CHARTED, PAST_THE_RANGE, is_cut_short, usual_end};
 pub(crate) use root::{Look, bracketed};
 pub use sensitivity::{Sensitivity, SensitivityError};
-#[cfg(feature = "cli")]
-pub(crate) use tradeoff::recommended;
-pub use tradeoff::{Method, Setting, tradeoff};
 #[doc(hidden)]
 pub use undamped::undamped_bands;
 pub(crate) use verdict::{CRITICAL_MARGIN, critical_at, flutter_onsets};

@@ -19,7 +19,7 @@ use crate::text::rounded_down;
 const LARGEST_STRETCH: f64 = 0.1;
 /// Critical speeds are found up to this multiple of the end of the range, because the search near the end
 /// must keep its distance from those just above it.
-pub(super) const PAST_THE_RANGE: f64 = 1.05;
+pub(crate) const PAST_THE_RANGE: f64 = 1.05;
 /// A sweep that the program chooses contains at most this number of critical speeds. Blades with a flange up to 0.7
 /// of their diameter have fewer below twice the lowest one; with larger flanges, waves of dozens of diameters stand
 /// still at nearly the same speed.

@@ -1,55 +1,19 @@
 //! Measured run time against true error, for several methods and sizes of the basis.
 
+mod setting;
+
 use std::time::Instant;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+pub use setting::{Method, Setting};
 
-use super::band::InstabilityKind;
-use super::basis::ChosenBasis;
-use super::chart::{StabilityChart, chart};
-use super::error::AnalysisError;
-use super::ladder::{LADDER, diameters_beyond, resolution};
-use super::reach::PAST_THE_RANGE;
 use crate::campbell::Progress;
 use crate::plate::{Plate, Resolution};
 use crate::scene::Scene;
 use crate::spectrum::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
-
-/// Method for critical speeds and bands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Method {
-    /// The whole chart on the reduced model, as in `analyze`.
-    Reduced,
-    /// The whole chart from all eigenvalues of the full model at every speed.
-    Dense,
-    /// Critical speeds alone.
-    CriticalSpeeds,
-}
-
-/// One method with one size of the basis: its run time and its error.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Setting {
-    /// Method of the computation.
-    pub method: Method,
-    /// Largest number n_max of nodal diameters.
-    pub max_diameters: usize,
-    /// Number J of radial functions.
-    pub radial_functions: usize,
-    /// Number of basis functions.
-    pub functions: usize,
-    /// Number of even speeds of the chart; 0 without a chart.
-    pub speeds: usize,
-    /// Shortest measured run time, in seconds.
-    pub seconds: f64,
-    /// Largest relative error of critical speeds and, in a chart, of flutter onsets, by comparison with the largest
-    /// basis.
-    pub error: f64,
-    /// Whether no other chart is faster and at least as accurate.
-    pub on_front: bool,
-}
+use crate::stability::{
+    AnalysisError, ChosenBasis, InstabilityKind, LADDER, PAST_THE_RANGE, chart, diameters_beyond,
+    resolution,
+};
 
 /// Sizes of the basis that are measured: all that a tolerance may choose, except the largest.
 const SIZES: &[(usize, usize)] = LADDER.split_at(LADDER.len() - 1).0;
@@ -128,22 +92,6 @@ pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, A
     Ok(settings)
 }
 
-/// Chart of shortest run time within an error.
-#[cfg(any(feature = "cli", test))]
-pub fn recommended(settings: &[Setting], error: f64) -> Option<&Setting> {
-    settings
-        .iter()
-        .filter(|s| s.is_chart() && s.error <= error)
-        .min_by(|x, y| x.seconds.total_cmp(&y.seconds))
-}
-
-impl Setting {
-    /// Whether the method finds bands.
-    pub fn is_chart(&self) -> bool {
-        matches!(self.method, Method::Reduced | Method::Dense)
-    }
-}
-
 fn mark_front(settings: &mut [Setting]) {
     for k in 0..settings.len() {
         let beaten = settings.iter().any(|other| {
@@ -180,8 +128,8 @@ fn events(
     let saw = Assembled::from(plate);
     let critical = saw.critical_speeds(Some(&|_| PAST_THE_RANGE * range.1))?;
     let model = SpectralModel::with_critical(saw, critical, range, strategy)?;
-    let StabilityChart { instabilities, .. } = chart(&model, range, speeds, &|_, _| ())?;
-    let flutter = instabilities
+    let bands = chart(&model, range, speeds, &|_, _| ())?.instabilities;
+    let flutter = bands
         .iter()
         .filter(|band| band.kind == InstabilityKind::Flutter);
     Ok(Events {
@@ -237,7 +185,5 @@ mod tests {
         mark_front(&mut settings);
         let front = [true, true, false, false, false];
         assert_eq!(settings.map(|s| s.on_front), front);
-        assert_eq!(recommended(&settings, 5e-3).unwrap().seconds, 2.0);
-        assert!(recommended(&settings, 1e-4).is_none());
     }
 }
