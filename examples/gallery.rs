@@ -6,6 +6,7 @@ use anyhow::Context;
 use sawflutter::analyses::fit::{self, FitReport, Measurement};
 use sawflutter::analyses::map::{self, Range};
 use sawflutter::analyses::place::{self, Demands, PlaceReport};
+use sawflutter::analyses::study::StudyReport;
 use sawflutter::check::{Check, Limits};
 use sawflutter::commands::CommandReport;
 use sawflutter::deflect::{Deflecting, Options};
@@ -17,7 +18,6 @@ use sawflutter::report::{
 use sawflutter::response::{self, ForcedResponse};
 use sawflutter::scene::{Accuracy, ContactLaw, Freed, Scene, SceneFile, rad_per_s};
 use sawflutter::stability::Analysis;
-use sawflutter::study::StudyReport;
 use sawflutter::transient::{Cutting, RunningUp};
 
 fn main() -> anyhow::Result<()> {

@@ -13,6 +13,7 @@ use serde_json::Value;
 use crate::analyses::fit::FitReport;
 use crate::analyses::map::MapReport;
 use crate::analyses::place::PlaceReport;
+use crate::analyses::study::StudyReport;
 use crate::analyses::tradeoff::Setting;
 use crate::document::{self, Document};
 use crate::figure::{
@@ -25,7 +26,6 @@ use crate::report::{
     ResponseReport, RunUpReport, WashboardReport,
 };
 use crate::scene::SceneFile;
-use crate::study::StudyReport;
 use crate::summary;
 
 /// A command with a report.

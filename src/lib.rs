@@ -24,7 +24,7 @@
 //! The modules are listed in the order in which a scene passes through them, and each imports only from those
 //! before it; modules separated by commas are on one level: [`scene`] → [`plate`] → [`system`] → [`spectrum`] →
 //! [`campbell`] → [`stability`] → [`transient`] → [`washboarding`], [`response`], [`deflect`] →
-//! [`check`], [`gap`] → [`study`] → [`report`], [`analyses`] → [`figure`] → [`document`] → [`commands`]. [`spline`] is on
+//! [`check`], [`gap`] → [`report`], [`analyses`] → [`figure`] → [`document`] → [`commands`]. [`spline`] is on
 //! the level of [`system`] and imports [`scene`] and [`plate`] alone; [`stretched`] is on the level of
 //! [`campbell`]. [`analytical`] imports nothing; it contains closed forms with their sources, with which tests
 //! compare the other modules. `linalg` imports nothing either; the other modules call eigenvalue and singular value
@@ -68,7 +68,6 @@ pub mod spectrum;
 pub mod spline;
 pub mod stability;
 pub mod stretched;
-pub mod study;
 mod summary;
 pub mod system;
 #[doc(hidden)]

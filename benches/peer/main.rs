@@ -6,6 +6,7 @@
 use std::time::Instant;
 
 use sawflutter::analyses::place::{Demands, Options, place};
+use sawflutter::analyses::study::{Study, StudyFile};
 use sawflutter::campbell::even_speeds;
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Accuracy, Freed, Scene, SceneFile, SweepFile, rad_per_s};
@@ -13,7 +14,6 @@ use sawflutter::spectrum::{Assembled, SpectralModel, Strategy};
 use sawflutter::stability::{
     Analysis, AnalysisOptions, ChosenBasis, Detail, chart, search_bands, undamped_bands,
 };
-use sawflutter::study::{Study, StudyFile};
 use serde_json::json;
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;

@@ -93,7 +93,7 @@ fn read_text(path: std::path::PathBuf, table: bool) -> PyResult<String> {
 fn schema() -> String {
     serde_json::json!({
         "scene": sawflutter::scene::json_schema(),
-        "study": sawflutter::study::json_schema(),
+        "study": sawflutter::analyses::study::json_schema(),
         "reports": sawflutter::commands::json_schema(),
     })
     .to_string()

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use sawflutter::analyses::map::{self, Options, Range};
-use sawflutter::study::Rows;
+use sawflutter::analyses::study::Rows;
 
 use crate::arguments;
 use crate::commands::json;

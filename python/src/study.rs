@@ -7,10 +7,10 @@ use std::sync::{Arc, Mutex};
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use sawflutter::commands::CommandReport;
-use sawflutter::study::{
+use sawflutter::analyses::study::{
     self, CsvTable, Log, LogError, Outcome, ParquetTable, Rows, Saw, Shard, StudyFile, Table,
 };
+use sawflutter::commands::CommandReport;
 
 use crate::arguments;
 use crate::failure::Failure;

@@ -7,4 +7,5 @@
 pub mod fit;
 pub mod map;
 pub mod place;
+pub mod study;
 pub mod tradeoff;

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
+use crate::analyses::study;
 use crate::scene::{self, Quantity};
-use crate::study;
 use crate::summary::wrapped;
 use crate::text::shown;
 use clap::Args;

@@ -1,7 +1,7 @@
 //! `sawflutter map`.
 
 use crate::analyses::map::{Map, Options, Range};
-use crate::study::{Log, Rows, Shard, StudyError};
+use crate::analyses::study::{Log, Rows, Shard, StudyError};
 use anyhow::Context;
 use clap::Args;
 

@@ -5,7 +5,7 @@ use std::io::{ErrorKind, Read, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::study::{Inputs, Study};
+use crate::analyses::study::{Inputs, Study};
 use anyhow::{Context, bail};
 
 /// Environment variable that names the Python with the package; the program that pip installs sets it.

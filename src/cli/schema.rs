@@ -2,7 +2,8 @@
 
 use std::io::Write;
 
-use crate::{scene, study};
+use crate::analyses::study;
+use crate::scene;
 use clap::Args;
 
 #[derive(Args)]

@@ -4,10 +4,10 @@ use std::io::{BufWriter, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::scene::{SCENE_TEXT, Scene};
-use crate::study::{
+use crate::analyses::study::{
     self, CsvTable, Log, Rows, Shard, Study, StudyFile, StudyReport, Table, read_inputs, sum_up,
 };
+use crate::scene::{SCENE_TEXT, Scene};
 use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};

@@ -12,12 +12,12 @@ use super::tolerances::{Tolerance, Typed, study as study_of};
 use crate::analyses::fit::{self, FitReport, Measurement};
 use crate::analyses::map::{self, MapReport, Range};
 use crate::analyses::place::{self, Demands, PlaceReport};
+use crate::analyses::study::{Saw, Study, StudyReport};
 use crate::commands::CommandReport;
 use crate::gap::{self, GapError, GuideGaps};
 use crate::report::{CutReport, GapReport, ResponseReport, RunUpReport, WashboardReport};
 use crate::response::{self, ForcedResponse, ResponseError};
 use crate::scene::{Freed, Scene, SceneError, SceneFile};
-use crate::study::{Saw, Study, StudyReport};
 use crate::transient::{Cutting, RunningUp, TransientError};
 use crate::washboarding::{Washboard, WashboardError};
 
@@ -174,14 +174,14 @@ fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
     let file = study_of(scene.file(), &asked.tolerances)?;
     let study = Study::new(scene, file).map_err(|error| Refusal::of(&error))?;
     let so_far = |saws: &[Saw]| {
-        let so_far = StudyReport::new(&study, saws).ok()?;
+        let so_far = study.report(saws).ok()?;
         so_far.figures().into_iter().next()
     };
     let saws = study.saws(&|saws| {
         meter.show("saws", saws.len(), study.count());
         meter.draw(|| so_far(saws));
     });
-    let report = StudyReport::new(&study, &saws).map_err(|error| Refusal::of(&error))?;
+    let report = study.report(&saws).map_err(|error| Refusal::of(&error))?;
     answer(&report, Vec::new(), None)
 }
 

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::refusal::Refusal;
 use super::wording::which_number;
 use crate::analyses::place::Tolerances;
+use crate::analyses::study::StudyFile;
 use crate::scene::SceneFile;
-use crate::study::StudyFile;
 
 /// Usual tolerance of a number, to either side.
 #[derive(Debug, Clone, Copy, Serialize)]

@@ -8,7 +8,7 @@ use super::style::{
     ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, FINE_DASH, FLUTTER_STREAK, FORWARD, HAIRLINE, INK,
     LABEL_SIZE, QUIET, tint,
 };
-use crate::study::{Passing, SpeedEntry, StudyReport};
+use crate::analyses::study::{Passing, SpeedStatistics, StudyReport};
 
 const WIDTH: u32 = 1000;
 const HEIGHT: u32 = 700;
@@ -120,7 +120,7 @@ fn limits(report: &StudyReport, keys: &[(&str, &'static str)]) -> Vec<Limit> {
 
 /// The axis of speeds of a panel. It includes all bars, and limits that are no further from them than the bars are wide
 /// together.
-fn speed_axis(entry: &SpeedEntry, limits: &[Limit], panel: Frame) -> Axis {
+fn speed_axis(entry: &SpeedStatistics, limits: &[Limit], panel: Frame) -> Axis {
     let bars = entry.histogram.as_ref().map(|b| (b.from_rpm, b.to_rpm));
     let near =
         |rpm: &f64| bars.is_none_or(|(from, to)| (2.0 * from - to..=2.0 * to - from).contains(rpm));
@@ -136,7 +136,7 @@ fn speed_axis(entry: &SpeedEntry, limits: &[Limit], panel: Frame) -> Axis {
 /// Draws the histogram of a speed, and its quantiles and limits.
 fn draw_panel(
     sheet: &mut Sheet,
-    entry: &SpeedEntry,
+    entry: &SpeedStatistics,
     (panel, colour): (Frame, Colour),
     limits: &[Limit],
 ) {
@@ -168,7 +168,13 @@ fn draw_panel(
 }
 
 /// Draws lines at quantiles and limits, with labels above the panel.
-fn draw_marks(sheet: &mut Sheet, entry: &SpeedEntry, panel: Frame, speed: &Axis, limits: &[Limit]) {
+fn draw_marks(
+    sheet: &mut Sheet,
+    entry: &SpeedStatistics,
+    panel: Frame,
+    speed: &Axis,
+    limits: &[Limit],
+) {
     let limits = limits.iter().filter(|limit| speed.shows(limit.rpm));
     let limits = limits.map(|limit| {
         let label = format!("{} {:.0}", limit.word, limit.rpm);
@@ -202,8 +208,8 @@ fn draw_marks(sheet: &mut Sheet, entry: &SpeedEntry, panel: Frame, speed: &Axis,
 mod tests {
     use super::super::tidy::{assert_tidy, texts};
     use super::*;
+    use crate::analyses::study::{Found, Outcome, Saw, Study, StudyFile};
     use crate::scene::Scene;
-    use crate::study::{Found, Outcome, Saw, Study, StudyFile};
 
     /// Synthetic saws whose flutter speed follows from the critical speed, with the limits of the sample
     /// study.
@@ -233,7 +239,7 @@ mod tests {
             }
         };
         let saws: Vec<Saw> = (0..study.count()).map(saw).collect();
-        StudyReport::new(&study, &saws).unwrap()
+        study.report(&saws).unwrap()
     }
 
     #[test]

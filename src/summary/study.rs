@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::study::{GapStatistics, Group, NumberEntry, Passing, SpeedEntry, StudyReport};
+use crate::analyses::study::{
+    GapStatistics, Group, NumberStatistics, Passing, SpeedStatistics, StudyReport,
+};
 use crate::text::{shown, shown_to};
 
 use super::{WIDTH, decimals_or, each, named, shortened};
@@ -81,7 +83,7 @@ fn quantiles(text: &mut String, report: &StudyReport) -> std::fmt::Result {
 
 /// Writes the quantiles of deflection, pad force and critical speed of guides with a gap.
 fn numbers(text: &mut String, gap: &GapStatistics) -> std::fmt::Result {
-    let mut row = |name: &str, factor: f64, entry: &NumberEntry| -> std::fmt::Result {
+    let mut row = |name: &str, factor: f64, entry: &NumberStatistics| -> std::fmt::Result {
         write!(text, "\n  {name:<21}")?;
         for quantile in entry.quantiles.iter().take(COLUMNS) {
             let cell = quantile
@@ -169,7 +171,7 @@ fn worst(text: &mut String, report: &StudyReport) -> std::fmt::Result {
 fn groups(text: &mut String, report: &StudyReport) -> std::fmt::Result {
     writeln!(text, "\nIn each point of the grid: medians [rpm]")?;
     writeln!(text, "  critical  flutter   pass")?;
-    let median = |speed: &SpeedEntry| decimals_or("beyond", 1, speed.median_rpm);
+    let median = |speed: &SpeedStatistics| decimals_or("beyond", 1, speed.median_rpm);
     let pass = |group: &Group| {
         let passing = group.passing.as_ref();
         passing.map_or("–".into(), |p| format!("{:.1} %", 100.0 * p.probability))

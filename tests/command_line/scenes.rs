@@ -4,8 +4,8 @@
 
 use std::path::{Path, PathBuf};
 
+use sawflutter::analyses::study::{Study, StudyFile, StudyReport};
 use sawflutter::scene::{Scene, SceneFile};
-use sawflutter::study::{Study, StudyFile, StudyReport};
 
 /// Every file in `scenes/` and in its gallery, by name.
 fn scene_paths() -> Vec<PathBuf> {

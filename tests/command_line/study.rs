@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use sawflutter::analyses::study::StudyReport;
 use sawflutter::scene::Accuracy;
-use sawflutter::study::StudyReport;
 use tempfile::TempDir;
 
 use super::program::{PATIENCE, program, text};

@@ -5,11 +5,11 @@
 //! speed is proportional to the thickness h.
 
 use crate::common::{assert_close, scene};
+use sawflutter::analyses::study::{Outcome, Saw, Study, StudyError, StudyFile};
 use sawflutter::check::{Check, Limits};
 use sawflutter::gap::{GuideGaps, Options};
 use sawflutter::scene::{Accuracy, ContactLaw, Scene, rad_per_s, rpm};
 use sawflutter::stability::{Analysis, Onsets};
-use sawflutter::study::{Outcome, Saw, Study, StudyError, StudyFile, StudyReport};
 
 fn free_blade() -> Scene {
     let free = scene("free-blade");
@@ -21,7 +21,7 @@ fn study(scene: Scene, json: &str) -> Result<Study, StudyError> {
 }
 
 fn all(study: &Study) -> Vec<Saw> {
-    (0..study.count()).map(|index| study.saw(index)).collect()
+    study.saws(&|_| ())
 }
 
 const THICKNESS: f64 = 0.0028;
@@ -43,7 +43,7 @@ fn quantiles_of_critical_speed_are_those_of_thickness() {
                               "distribution": { "kind": "tolerance", "plus_minus": 1e-4 } }] }"#,
     )
     .unwrap();
-    let report = StudyReport::new(&study, &all(&study)).unwrap();
+    let report = study.report(&all(&study)).unwrap();
     let per_metre = nominal_critical_rpm() / THICKNESS;
     for quantile in &report.all.lowest_critical.quantiles {
         let exact = THICKNESS + 1e-4 * (2.0 * quantile.share - 1.0);
@@ -121,11 +121,7 @@ fn the_probability_of_passing_is_that_of_the_distribution() {
              "limits": {{ "operating_rpm": 100, "min_critical_rpm": {asked} }} }}"#
     );
     let study = study(free_blade(), &text).unwrap();
-    let passing = StudyReport::new(&study, &all(&study))
-        .unwrap()
-        .all
-        .passing
-        .unwrap();
+    let passing = study.report(&all(&study)).unwrap().all.passing.unwrap();
     let (three, one) = (0.998_650_101_968_369_9, 0.158_655_253_931_457_05);
     let exact = (three - one) / (2.0 * three - 1.0);
     assert!(
@@ -200,7 +196,7 @@ fn a_grid_has_every_combination_and_shares_its_deviations() {
         assert_eq!(saw[1], values[index % 4][1]);
         assert!((7700.0..7900.0).contains(&saw[1]));
     }
-    let report = StudyReport::new(&study, &all(&study)).unwrap();
+    let report = study.report(&all(&study)).unwrap();
     assert_eq!(report.groups.len(), 6);
     assert_eq!(report.groups[4].grid[0].value, 0.003);
     assert_eq!(report.groups[4].grid[1].value, 0.29);
@@ -228,7 +224,7 @@ fn impossible_saws_are_rows_with_a_reason() {
         };
         assert!(reason.contains(key), "{reason}");
     }
-    let report = StudyReport::new(&study, &saws).unwrap();
+    let report = study.report(&saws).unwrap();
     assert_eq!(
         (report.all.saws, report.all.refused, report.all.failed),
         (3, 2, 0)
@@ -333,7 +329,7 @@ fn a_study_says_what_the_gap_does() {
         );
         let study = study(saw.clone(), &json).unwrap();
         let saws = all(&study);
-        let report = StudyReport::new(&study, &saws).unwrap();
+        let report = study.report(&saws).unwrap();
         let rows = saws.iter().map(|saw| saw.found().unwrap().gap.clone());
         (rows.collect::<Vec<_>>(), report)
     };

@@ -1,8 +1,8 @@
 //! The axes of a map.
 
 use super::{MapAxis, Range};
+use crate::analyses::study::{DistributionFile, ParameterFile, StudyError};
 use crate::scene::{Freed, Quantity, RefusedValue, Scene, is_logarithmic};
-use crate::study::{DistributionFile, ParameterFile, StudyError};
 use crate::text::shown;
 
 /// Path of the speed at which the saws are judged. It changes no band, and every saw is judged at the same one.

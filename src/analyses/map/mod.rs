@@ -1,6 +1,6 @@
 //! Maps of a scene: over one number and the speed, or over two numbers.
 //!
-//! A [`Map`] is a grid of saws, which the engine of [`study`](crate::study) computes, logs and resumes; [`map()`]
+//! A [`Map`] is a grid of saws, which the engine of [`study`](crate::analyses::study) computes, logs and resumes; [`map()`]
 //! computes all of them at once. Every saw lists its
 //! bands, from which stable, divergence and flutter areas follow at any speed, and contours of its flutter speed and of its
 //! lowest critical speed.
@@ -29,10 +29,10 @@ mod saws;
 
 pub use report::{Contour, Contoured, MapAxis, MapReport, MappedSaw};
 
+use crate::analyses::study::{Study, StudyError, StudyFile};
 use crate::campbell::Progress;
 use crate::scene::{RefusedValue, Scene, rpm, speed_rad_per_s};
 use crate::stability::end_of_sweep;
-use crate::study::{Study, StudyError, StudyFile};
 
 /// Numbers of points along an axis, of a map over the speed and of a map over two numbers, if none is given.
 const USUAL_POINTS: [usize; 2] = [41, 17];

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::analyses::study::FoundBand;
 use crate::scene::SceneFile;
 use crate::stability::StabilityState;
-use crate::study::FoundBand;
 
 /// Report of a map (`map.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

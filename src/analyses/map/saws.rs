@@ -2,9 +2,9 @@
 
 use super::contour::contours;
 use super::{Contour, Contoured, Map, MapReport, MappedSaw};
+use crate::analyses::study::{Found, FoundBand, LogError, Rows, Saw};
 use crate::scene::rpm;
 use crate::stability::{StabilityState, critical_at};
-use crate::study::{Found, FoundBand, LogError, Rows, Saw};
 
 impl Map {
     /// Reports the saws from their logs.

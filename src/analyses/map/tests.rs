@@ -1,8 +1,8 @@
 use super::contour::contours;
 use super::saws::state_at;
 use super::{Contour, Contoured};
+use crate::analyses::study::FoundBand;
 use crate::stability::{InstabilityKind, StabilityState};
-use crate::study::FoundBand;
 
 fn grid(size: usize, value: impl Fn(f64, f64) -> f64) -> Vec<Vec<Option<f64>>> {
     let row = |y: usize| (0..size).map(|x| Some(value(x as f64, y as f64))).collect();

@@ -1,9 +1,9 @@
 use super::*;
 use crate::analyses::map::{Map, MappedSaw, Options, Range};
+use crate::analyses::study::{Found, FoundBand, Outcome, Saw};
 use crate::figure::tidy::{assert_tidy, texts};
 use crate::scene::Scene;
 use crate::stability::InstabilityKind;
-use crate::study::{Found, FoundBand, Outcome, Saw};
 
 /// Synthetic saws whose flutter speed rises with x and falls with y.
 fn report(with_y: bool) -> MapReport {

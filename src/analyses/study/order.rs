@@ -186,7 +186,7 @@ fn value(key: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::statistics::quantile;
+    use crate::analyses::study::statistics::quantile;
 
     /// Quantiles from disk and from memory equal those of a sorted list, for values with repetitions,
     /// negative ones and many of one magnitude.

@@ -5,7 +5,7 @@
 //!
 //! ```
 //! use sawflutter::scene::{Accuracy, Scene};
-//! use sawflutter::study::{Study, StudyFile, StudyReport};
+//! use sawflutter::analyses::study::{Study, StudyFile};
 //!
 //! let scene = Scene::paper().edited(|saw| {
 //!     saw.accuracy = Accuracy::Draft;
@@ -16,8 +16,7 @@
 //!          "distribution": { "kind": "tolerance", "plus_minus": 5e-5 } }] }"#,
 //! )?;
 //! let study = Study::new(scene, study)?;
-//! let saws: Vec<_> = (0..study.count()).map(|index| study.saw(index)).collect();
-//! let report = StudyReport::new(&study, &saws)?;
+//! let report = study.report(&study.saws(&|_| ()))?;
 //! let median = report.all.lowest_critical.quantiles[3].rpm.unwrap();
 //! assert!((median / 1476.6 - 1.0).abs() < 0.01, "{median}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -41,33 +40,28 @@ mod run;
 mod saw;
 mod sequence;
 mod statistics;
-mod sum;
 mod table;
 mod tally;
 
 #[doc(hidden)]
-pub use csv::CsvTable;
-pub use file::{DistributionFile, GapFile, ParameterFile, StudyError, StudyFile, json_schema};
-#[doc(hidden)]
-pub use inputs::Inputs;
-#[doc(hidden)]
-pub use log::{Log, LogError, read_inputs, rows_of};
-#[doc(hidden)]
-#[cfg(feature = "parquet")]
-pub use parquet::ParquetTable;
-#[doc(hidden)]
-pub use plan::Shard;
-pub use plan::Study;
-#[doc(hidden)]
-pub use processor::processor;
-pub use report::{
-    CriterionEntry, GapStatistics, GridEntry, Group, Histogram, NumberEntry, NumberQuantile,
-    Passing, Quantile, Refusal, Reliability, ReliabilityPoint, SpeedEntry, StudyReport, WorstSaw,
+pub use self::{
+    csv::CsvTable,
+    inputs::Inputs,
+    log::{Log, LogError, read_inputs, rows_of},
+    plan::Shard,
+    processor::processor,
+    rows::Rows,
+    table::Table,
+    tally::sum_up,
 };
+pub use file::{DistributionFile, GapFile, ParameterFile, StudyError, StudyFile, json_schema};
+#[cfg(feature = "parquet")]
 #[doc(hidden)]
-pub use rows::Rows;
+pub use parquet::ParquetTable;
+pub use plan::Study;
+pub use report::{
+    GapStatistics, GridNumber, Group, Histogram, LimitStatistics, NumberQuantile, NumberStatistics,
+    Passing, Quantile, Refusal, Reliability, ReliabilityPoint, SpeedStatistics, StudyReport,
+    WorstSaw,
+};
 pub use saw::{Found, FoundBand, Outcome, Saw};
-#[doc(hidden)]
-pub use sum::sum_up;
-#[doc(hidden)]
-pub use table::Table;

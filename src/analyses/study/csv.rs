@@ -176,13 +176,11 @@ fn numbers_of(text: &str) -> Option<Vec<f64>> {
 /// "divergence 1500 1560 0.4 1500 1560;flutter 2255.9 2266.1 0.1".
 pub(super) fn bands_in_words(bands: &[FoundBand]) -> String {
     let band = |band: &FoundBand| {
-        let kind = match band.kind {
-            InstabilityKind::Divergence => "divergence",
-            InstabilityKind::Flutter => "flutter",
-        };
         let numbers = [band.from_rpm, band.to_rpm, band.peak_growth_per_s];
         let numbers = numbers.iter().chain(band.counted_rpm.iter().flatten());
-        numbers.fold(kind.to_owned(), |text, number| format!("{text} {number}"))
+        numbers.fold(band.kind.to_string(), |text, number| {
+            format!("{text} {number}")
+        })
     };
     bands.iter().map(band).collect::<Vec<_>>().join(";")
 }
@@ -190,11 +188,8 @@ pub(super) fn bands_in_words(bands: &[FoundBand]) -> String {
 fn bands_of(text: &str) -> Option<Vec<FoundBand>> {
     let band = |text: &str| {
         let (kind, numbers) = text.split_once(' ')?;
-        let kind = match kind {
-            "divergence" => InstabilityKind::Divergence,
-            "flutter" => InstabilityKind::Flutter,
-            _ => return None,
-        };
+        let kinds = [InstabilityKind::Divergence, InstabilityKind::Flutter];
+        let kind = kinds.into_iter().find(|known| known.to_string() == kind)?;
         let numbers = numbers_of(numbers)?;
         let (&[from_rpm, to_rpm, peak_growth_per_s], counted) = numbers.split_first_chunk()?;
         Some(FoundBand {

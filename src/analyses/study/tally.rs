@@ -1,16 +1,19 @@
-//! Collects the statistics of a study for a [`StudyReport`], one saw after the other.
+//! Collects the statistics of a study for a [`StudyReport`], one saw after the other, in bounded memory.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use super::counts::Counts;
 use super::distribution::Distribution;
+use super::log::LogError;
 use super::order::Values;
 use super::plan::Study;
 use super::report::{
-    GridEntry, Group, Quantile, Refusal, Reliability, ReliabilityPoint, StudyReport, WorstSaw,
+    GridNumber, Group, Quantile, Refusal, Reliability, ReliabilityPoint, StudyReport, WorstSaw,
 };
+use super::rows::Rows;
 use super::saw::{Found, Saw};
+use super::table::Table;
 use crate::scene::rpm;
 use crate::stability::OPERATING_LIMIT;
 
@@ -232,26 +235,53 @@ impl Lowest {
 }
 
 /// The values of the grid for a saw.
-fn place(study: &Study, saw: &Saw) -> Vec<GridEntry> {
+fn place(study: &Study, saw: &Saw) -> Vec<GridNumber> {
     let numbers = study.varying.iter().zip(&saw.values);
     numbers
         .filter(|((_, distribution), _)| matches!(distribution, Distribution::Grid(_)))
-        .map(|((parameter, _), value)| GridEntry {
+        .map(|((parameter, _), value)| GridNumber {
             parameter: parameter.path().to_owned(),
             value: *value,
         })
         .collect()
 }
 
-impl StudyReport {
-    /// The report of saws given in the order of their numbers. [`super::sum_up`] reads saws from logs, a block at a
+impl Study {
+    /// Statistics of saws given in the order of their numbers. [`sum_up`] reads saws from logs, a block at a
     /// time.
     ///
     /// # Errors
     /// With more than a million saws, the error of writing temporary files.
-    pub fn new(study: &Study, saws: &[Saw]) -> std::io::Result<Self> {
-        let mut tally = Tally::new(study, &std::env::temp_dir());
+    pub fn report(&self, saws: &[Saw]) -> io::Result<StudyReport> {
+        let mut tally = Tally::new(self, &std::env::temp_dir());
         saws.iter().try_for_each(|saw| tally.add(saw))?;
         tally.report(Vec::new())
     }
+}
+
+/// Writes the tables of all saws and returns their statistics. Temporary files are in `folder` and are
+/// removed.
+///
+/// # Errors
+/// [`LogError`] where a log cannot be read or a table cannot be written.
+pub fn sum_up(
+    rows: &Rows<'_>,
+    folder: &Path,
+    mut tables: Vec<Box<dyn Table + '_>>,
+) -> Result<StudyReport, LogError> {
+    let mut tally = Tally::new(rows.study(), folder);
+    rows.each_block(&mut |saws| {
+        for saw in saws {
+            tally.add(saw).map_err(LogError::Tables)?;
+        }
+        let mut tables = tables.iter_mut();
+        tables
+            .try_for_each(|table| table.add(saws))
+            .map_err(LogError::Tables)
+    })?;
+    for table in tables {
+        table.finish().map_err(LogError::Tables)?;
+    }
+    let processors = rows.processors().cloned().collect();
+    tally.report(processors).map_err(LogError::Tables)
 }

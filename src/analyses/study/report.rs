@@ -93,7 +93,7 @@ pub struct WorstSaw {
 #[serde(deny_unknown_fields)]
 pub struct Group {
     /// Point of the grid; empty for all saws.
-    pub grid: Vec<GridEntry>,
+    pub grid: Vec<GridNumber>,
     /// Number of saws.
     pub saws: usize,
     /// Number of saws with impossible values.
@@ -101,9 +101,9 @@ pub struct Group {
     /// Number of saws that could not be analysed.
     pub failed: usize,
     /// Lowest critical speed of the analysed saws.
-    pub lowest_critical: SpeedEntry,
+    pub lowest_critical: SpeedStatistics,
     /// Flutter speed of the analysed saws.
-    pub flutter: SpeedEntry,
+    pub flutter: SpeedStatistics,
     /// Share of saws that keep the limits, if the study has any.
     pub passing: Option<Passing>,
     /// Numbers of guides with a gap, if the study has a block `gap`.
@@ -116,11 +116,11 @@ pub struct Group {
 #[serde(deny_unknown_fields)]
 pub struct GapStatistics {
     /// Deflection of the rim at the cut, in m, as an absolute value.
-    pub deflection_at_cut: NumberEntry,
+    pub deflection_at_cut: NumberStatistics,
     /// Largest force of a pad, in N, as an absolute value.
-    pub largest_pad_force: NumberEntry,
+    pub largest_pad_force: NumberStatistics,
     /// First critical speed at the amplitude of the study, in rpm; null without an amplitude.
-    pub critical_at_amplitude: Option<NumberEntry>,
+    pub critical_at_amplitude: Option<NumberStatistics>,
     /// Number of saws whose deflection keeps its limit; null without a limit.
     pub saws_within: Option<usize>,
 }
@@ -128,7 +128,8 @@ pub struct GapStatistics {
 /// Distribution of a number of the analysed saws, in SI units or rpm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct NumberEntry {
+#[schemars(rename = "NumberEntry")]
+pub struct NumberStatistics {
     /// Number of saws whose number is known. The number of the other analysed saws counts as larger than any: the
     /// deflection is not known where slopes of the blade exceed 0.1.
     pub saws: usize,
@@ -151,7 +152,8 @@ pub struct NumberQuantile {
 /// A number of a point of the grid.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct GridEntry {
+#[schemars(rename = "GridEntry")]
+pub struct GridNumber {
     /// JSON path in the scene.
     pub parameter: String,
     /// Value of the number.
@@ -161,7 +163,8 @@ pub struct GridEntry {
 /// Distribution of a speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct SpeedEntry {
+#[schemars(rename = "SpeedEntry")]
+pub struct SpeedStatistics {
     /// Number of saws with such a speed.
     pub saws: usize,
     /// Number of analysed saws without such a speed within the speeds of the study.
@@ -211,13 +214,14 @@ pub struct Passing {
     /// the same deviations.
     pub interval: Option<[f64; 2]>,
     /// Number of saws that keep each limit.
-    pub criteria: Vec<CriterionEntry>,
+    pub criteria: Vec<LimitStatistics>,
 }
 
 /// Number of saws that keep one limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct CriterionEntry {
+#[schemars(rename = "CriterionEntry")]
+pub struct LimitStatistics {
     /// Short name, as in the columns of the table.
     pub key: String,
     /// The limit in words.

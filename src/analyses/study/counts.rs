@@ -6,8 +6,8 @@ use std::path::Path;
 use super::order::Values;
 use super::plan::Study;
 use super::report::{
-    CriterionEntry, GapStatistics, GridEntry, Group, Histogram, NumberEntry, NumberQuantile,
-    Passing, Quantile, SpeedEntry,
+    GapStatistics, GridNumber, Group, Histogram, LimitStatistics, NumberQuantile, NumberStatistics,
+    Passing, Quantile, SpeedStatistics,
 };
 use super::saw::{Outcome, Saw};
 use super::statistics::interval;
@@ -19,7 +19,7 @@ const MOST_BARS: usize = 40;
 /// A group of saws.
 pub(super) struct Counts<'a> {
     study: &'a Study,
-    grid: Vec<GridEntry>,
+    grid: Vec<GridNumber>,
     /// Number of saws.
     pub saws: usize,
     refused: usize,
@@ -37,7 +37,7 @@ pub(super) struct Counts<'a> {
 impl<'a> Counts<'a> {
     /// An empty group for a point of the grid; without `grid`, for all saws. Values that do not fit into
     /// memory are written to `folder`.
-    pub fn new(study: &'a Study, grid: Vec<GridEntry>, folder: &Path) -> Self {
+    pub fn new(study: &'a Study, grid: Vec<GridNumber>, folder: &Path) -> Self {
         Counts {
             study,
             grid,
@@ -111,7 +111,7 @@ impl<'a> Counts<'a> {
         let passing = self.study.limits().map(|_| self.passing());
         let saws_within = self.limit_m().map(|_| self.within);
         let numbers = self.gap.iter_mut();
-        let numbers: Vec<NumberEntry> = numbers
+        let numbers: Vec<NumberStatistics> = numbers
             .map(|values| number(values, analysed, shares))
             .collect::<io::Result<_>>()?;
         let mut numbers = numbers.into_iter();
@@ -156,7 +156,7 @@ impl<'a> Counts<'a> {
             confidence,
             interval: is_drawn.then(|| interval(self.passed, saws, confidence)),
             criteria: criteria
-                .map(|(criterion, passed)| CriterionEntry {
+                .map(|(criterion, passed)| LimitStatistics {
                     key: criterion.key.to_owned(),
                     name: criterion.name.to_owned(),
                     asked_rpm: rpm(criterion.asked),
@@ -167,12 +167,12 @@ impl<'a> Counts<'a> {
     }
 }
 
-fn number(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<NumberEntry> {
+fn number(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<NumberStatistics> {
     let unknown = analysed - values.count();
     let median = values.quantiles(unknown, &[0.5])?;
     let found = values.quantiles(unknown, shares)?;
     let quantiles = shares.iter().zip(found);
-    Ok(NumberEntry {
+    Ok(NumberStatistics {
         saws: values.count(),
         median: median[0],
         quantiles: quantiles
@@ -181,12 +181,12 @@ fn number(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<Nu
     })
 }
 
-fn speed(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<SpeedEntry> {
+fn speed(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<SpeedStatistics> {
     let beyond = analysed - values.count();
     let median = values.quantiles(beyond, &[0.5])?;
     let found = values.quantiles(beyond, shares)?;
     let quantiles = shares.iter().zip(found);
-    Ok(SpeedEntry {
+    Ok(SpeedStatistics {
         saws: values.count(),
         beyond,
         median_rpm: median[0],
