@@ -7,13 +7,12 @@ use sawflutter::analyses::fit::{self, FitReport, Measurement};
 use sawflutter::analyses::map::{self, Range};
 use sawflutter::analyses::place::{self, Demands, PlaceReport};
 use sawflutter::analyses::study::StudyReport;
-use sawflutter::check::{Check, Limits};
+use sawflutter::analyses::check::{self, CheckReport, Limits};
 use sawflutter::commands::CommandReport;
 use sawflutter::deflect::{Deflecting, Options};
 use sawflutter::gap::{self, GuideGaps};
 use sawflutter::report::{
-    CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, GapReport, ResponseReport,
-    RunUpReport,
+CompareReport, ComparedEntry, CutReport, DeflectReport, GapReport, ResponseReport, RunUpReport,
 };
 use sawflutter::response::{self, ForcedResponse};
 use sawflutter::scene::{Accuracy, ContactLaw, Freed, Scene, SceneFile, rad_per_s};
@@ -197,8 +196,7 @@ fn check(scene: &Scene) -> anyhow::Result<CheckReport> {
         min_flutter_rad_per_s: Some(rad_per_s(2500.0)),
         ..Limits::at(rad_per_s(1250.0))
     };
-    let check = Check::new(scene, &limits)?;
-    Ok(CheckReport::new(scene, &limits, &check))
+    Ok(check::check(scene, &limits)?)
 }
 
 /// Computes the report of `sawflutter fit --to-rpm 1250` with radius and stiffness of the guide free.

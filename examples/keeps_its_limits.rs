@@ -1,7 +1,7 @@
 //! Compares a saw with limits, as in a test: `cargo run --release --example keeps_its_limits`.
 
-use sawflutter::check::{Check, Limits};
-use sawflutter::scene::{Scene, rad_per_s};
+use sawflutter::prelude::*;
+use sawflutter::scene::rad_per_s;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let saw = Scene::paper(); // Scene::from_path("saws/edger.json")?
@@ -9,7 +9,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         min_flutter_rad_per_s: Some(rad_per_s(2000.0)),
         ..Limits::at(rad_per_s(1250.0))
     };
-    let check = Check::new(&saw, &limits)?;
-    assert!(check.passed(), "{:?}", check.failures());
+    let report = check(&saw, &limits)?;
+    assert!(report.passed, "{:?}", report.failures());
     Ok(())
 }

@@ -15,6 +15,7 @@ use crate::analyses::map::MapReport;
 use crate::analyses::place::PlaceReport;
 use crate::analyses::study::StudyReport;
 use crate::analyses::tradeoff::Setting;
+use crate::analyses::check::CheckReport;
 use crate::document::{self, Document};
 use crate::figure::{
     CampbellView, ChartData, Drawing, Figure, FigureError, campbell, check, compare, cut, cut_map,
@@ -22,8 +23,7 @@ use crate::figure::{
     response, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
-    CheckReport, CompareReport, CutReport, DeflectReport, GapReport, ModeEntry, Report,
-    ResponseReport, RunUpReport, WashboardReport,
+CompareReport, CutReport, DeflectReport, GapReport, ModeEntry, Report, ResponseReport, RunUpReport, WashboardReport,
 };
 use crate::scene::SceneFile;
 use crate::summary;

@@ -47,7 +47,6 @@ extern crate self as sawflutter;
 pub mod analyses;
 pub mod analytical;
 pub mod campbell;
-pub mod check;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
@@ -78,7 +77,7 @@ pub mod washboarding;
 
 /// Items that most programs need.
 pub mod prelude {
-    pub use crate::check::{Check, Limits};
+    pub use crate::analyses::check::{CheckReport, Limits, check};
     pub use crate::report::Report;
     pub use crate::scene::{Accuracy, Scene, SceneError};
     pub use crate::stability::{

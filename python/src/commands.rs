@@ -6,12 +6,11 @@ use pyo3::types::PyDict;
 use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
-use sawflutter::check::{Check, Limits, LimitsFile};
+use sawflutter::analyses::check::{self, Limits, LimitsFile};
 use sawflutter::deflect::{Deflecting, Options as DeflectOptions};
 use sawflutter::gap::{Friction, GuideGaps, Options as GapOptions, OscillatingForce};
 use sawflutter::report::{
-    CheckReport, CompareReport, ComparedEntry, CutReport, DeflectReport, GapReport, ModeEntry,
-    ResponseReport, RunUpReport, SensitivityEntry, WashboardReport, over_common_speeds,
+CompareReport, ComparedEntry, CutReport, DeflectReport, GapReport, ModeEntry, ResponseReport, RunUpReport, SensitivityEntry, WashboardReport, over_common_speeds,
 };
 use sawflutter::response::{ForcedResponse, Options as ResponseOptions};
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
@@ -164,8 +163,7 @@ fn check(options: &Options<'_>) -> PyResult<Work> {
             accept_unusual,
             ..limits.with_amplitude(max_amplitude_mm)?
         };
-        let check = Check::new(scene, &limits)?;
-        json(&CheckReport::new(scene, &limits, &check))
+        json(&check::check(scene, &limits)?)
     }))
 }
 

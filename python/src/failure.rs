@@ -8,7 +8,7 @@ use pyo3::types::PyType;
 use sawflutter::analyses::fit::FitError;
 use sawflutter::analyses::place::PlaceError;
 use sawflutter::analyses::study::{LogError, StudyError};
-use sawflutter::check::CheckError;
+use sawflutter::analyses::check::CheckError;
 use sawflutter::deflect::DeflectError;
 use sawflutter::figure::FigureError;
 use sawflutter::gap::GapError;

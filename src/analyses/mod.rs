@@ -3,7 +3,7 @@
 //! A function named like the command returns the report: `deflect(&scene, &options)` gives a
 //! [`DeflectReport`](crate::report::DeflectReport), in the units of its JSON. States between (matrices, coordinates)
 //! are private to the folder.
-
+pub mod check;
 pub mod fit;
 pub mod map;
 pub mod place;

@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::check::{Check, Limits, LimitsFile, RIM_LIMIT_M_PER_S};
-use crate::report::CheckReport;
+use crate::analyses::check::{CheckReport, Limits, LimitsFile, RIM_LIMIT_M_PER_S, check};
 use crate::scene::Scene;
 use clap::Args;
 
@@ -76,8 +75,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
         .as_deref()
         .map(OutputFolder::open)
         .transpose()?;
-    let check = watched(|_| Check::new(&scene, &limits))??;
-    let report = CheckReport::new(&scene, &limits, &check);
+    let report = watched(|_| check(&scene, &limits))??;
     arguments.page.write(&report)?;
     let json = serde_json::to_string_pretty(&report)?;
     if let Some(folder) = folder {
@@ -89,7 +87,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
         true => say(&format!("{json}\n"))?,
         false => say(&report.summary())?,
     }
-    Ok(check.passed())
+    Ok(report.passed)
 }
 
 /// The limits of the options, with the operating speed of the scene by default.

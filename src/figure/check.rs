@@ -8,7 +8,7 @@ use super::style::{
     HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STRONG_CURVE, shorten_label, tint,
 };
 use super::{bands, heading};
-use crate::report::{CheckReport, CriterionEntry};
+use crate::analyses::check::{CheckReport, Criterion};
 
 const WIDTH: u32 = 1200;
 const LEFT: f64 = 372.0;
@@ -42,7 +42,7 @@ pub fn sheet(report: &CheckReport) -> Sheet {
 /// End of the axis in rpm. The axis includes the sweep, every limit and every result; the lowest critical speed may
 /// be beyond the sweep.
 fn last_shown_rpm(report: &CheckReport) -> f64 {
-    let of_criterion = |c: &CriterionEntry| c.asked_rpm.max(c.found_rpm.unwrap_or(0.0));
+    let of_criterion = |c: &Criterion| c.asked_rpm.max(c.found_rpm.unwrap_or(0.0));
     let criteria = report.criteria.iter().map(of_criterion);
     let marks = criteria.chain([report.operating_rpm]).fold(0.0, f64::max);
     report.to_rpm.max(1.03 * marks)
@@ -128,7 +128,7 @@ fn name(sheet: &mut Sheet, frame: Frame, above: &str, below: &str, colour: Colou
 }
 
 /// Draws the limit as a vertical line, the result as a disc, and the difference as a bar.
-fn draw_criterion(sheet: &mut Sheet, criterion: &CriterionEntry, speed: &Axis, frame: Frame) {
+fn draw_criterion(sheet: &mut Sheet, criterion: &Criterion, speed: &Axis, frame: Frame) {
     let (colour, word) = match criterion.passed {
         true => (PASS, "PASS"),
         false => (ALARM, "FAIL"),
@@ -201,7 +201,7 @@ fn draw_key(sheet: &mut Sheet, baseline: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::{Check, Limits};
+    use crate::analyses::check::{Limits, check};
     use crate::figure::canvas::Mark;
     use crate::figure::tidy::{assert_tidy, texts};
     use crate::scene::{Accuracy, Scene, SweepFile, rad_per_s};
@@ -215,8 +215,7 @@ mod tests {
             min_critical_rad_per_s: Some(rad_per_s(1500.0)),
             ..Limits::at(rad_per_s(1250.0))
         };
-        let check = Check::new(&scene, &limits).unwrap();
-        let sheet = sheet(&CheckReport::new(&scene, &limits, &check));
+        let sheet = sheet(&check(&scene, &limits).unwrap());
         assert_tidy(&sheet);
         let said: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
         let with = |start: &str| said.iter().filter(|text| text.starts_with(start)).count();
@@ -237,8 +236,7 @@ mod tests {
         });
         let scene = scene.unwrap();
         let limits = Limits::at(rad_per_s(1250.0));
-        let check = Check::new(&scene, &limits).unwrap();
-        let report = CheckReport::new(&scene, &limits, &check);
+        let report = check(&scene, &limits).unwrap();
         let found = report.criteria.iter().filter_map(|c| c.found_rpm);
         let highest = found.fold(0.0, f64::max);
         assert!(highest > report.to_rpm, "{highest}");

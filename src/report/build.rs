@@ -19,7 +19,7 @@ use super::operating::OperatingEntry;
 use super::remarks::{terms, warnings};
 use super::resting::{HarmonicEntry, RestMode, ShapeEntry};
 use super::sensitivity::SensitivityEntry;
-use crate::check::side_force_factor;
+use crate::analyses::check::side_force_factor;
 use crate::plate::Plate;
 use crate::scene::rpm;
 use crate::spectrum::{DescribedMode, EventName, EventWaves, WorkCounters};
@@ -320,7 +320,7 @@ impl InstabilityEntry {
     }
 
     /// A band with its waves and the numbers of its branches.
-    pub(super) fn in_chart(
+    pub(crate) fn in_chart(
         band: &Instability,
         branches: &Numbered<'_>,
         threshold_per_s: f64,

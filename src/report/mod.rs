@@ -1,7 +1,6 @@
 //! The report: the results for a saw, complete enough to draw every figure from it alone.
 //!
-//! Reports are made from an [`Analysis`](crate::stability::Analysis), a [`Check`](crate::check::Check), a
-//! fit, a placement or the history of a cut, and are written as JSON with speeds in rpm, frequencies in Hz
+//! Reports are made from an [`Analysis`](crate::stability::Analysis), a fit, a placement or the history of a cut, and are written as JSON with speeds in rpm, frequencies in Hz
 //! and growth rates in 1/s. The contents of a report are computed before it is made; only [`WhirlEntry`],
 //! [`EventShapeEntry`] and [`SensitivityEntry`] are computed on request and added.
 
@@ -11,7 +10,6 @@ mod branches;
 mod build;
 mod certificate;
 mod chart;
-mod check;
 mod compare;
 mod critical_speed;
 mod csv;
@@ -40,9 +38,9 @@ mod whirl;
 pub use self::accuracy::{AccuracyEntry, WorkEntry};
 pub use self::analysis::Report;
 pub(crate) use self::certificate::statement;
+pub(crate) use self::branches::Numbered;
 pub use self::certificate::{CertificateEntry, MiscountEntry, MismatchEntry};
 pub use self::chart::{BranchEntry, CampbellEntry, RootLociEntry, RootPathEntry};
-pub use self::check::{CheckReport, CriterionEntry, RimStiffnessEntry};
 pub use self::compare::{CompareReport, ComparedEntry, DifferenceEntry, over_common_speeds};
 pub use self::critical_speed::CriticalSpeedEntry;
 pub use self::cut::{
@@ -69,13 +67,14 @@ pub use self::membrane::{
 };
 pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
 pub use self::operating::OperatingEntry;
-pub(crate) use self::remarks::side_force_in_words;
+pub(crate) use self::remarks::{side_force_in_words, lifting_off};
 pub use self::response::{
     CauseEntry, FrequencyResponseEntry, OperatingResponseEntry, ResonanceEntry, ResponseLineEntry,
     ResponseReport,
 };
 pub use self::resting::{HarmonicEntry, RestMode, ShapeEntry};
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport, StretchingEntry};
+pub(crate) use self::saturated::add_amplitudes;
 pub use self::sensitivity::SensitivityEntry;
 pub use self::spline::SplineEntry;
 pub use self::vtu::VTK_NAMES;

@@ -255,7 +255,7 @@ fn left_free(analysis: &Analysis) -> Option<String> {
 }
 
 /// Remark on the linear treatment of pads that lift off.
-pub(super) fn lifting_off(scene: &Scene) -> Option<String> {
+pub(crate) fn lifting_off(scene: &Scene) -> Option<String> {
     let lifting = scene.guides().iter();
     let lifting = lifting.filter_map(|guide| Some((guide, guide.lifting?)));
     let each: Vec<String> = lifting

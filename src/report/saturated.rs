@@ -18,7 +18,7 @@ impl Report {
 }
 
 /// Adds one amplitude to each band, or the reason for which it was not computed.
-pub(super) fn add_amplitudes(bands: &mut [InstabilityEntry], found: &[Rise]) {
+pub(crate) fn add_amplitudes(bands: &mut [InstabilityEntry], found: &[Rise]) {
     for (entry, found) in bands.iter_mut().zip(found) {
         match found {
             Ok(found) => entry.saturated_amplitude_m = found.map(|found| found.amplitude_m),

@@ -1,7 +1,7 @@
 //! The summary of a check.
 
 use super::{each, heading, sentence};
-use crate::report::{CheckReport, CriterionEntry};
+use crate::analyses::check::{CheckReport, Criterion};
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &CheckReport) -> std::fmt::Result {
@@ -16,7 +16,7 @@ pub fn of_report(text: &mut String, report: &CheckReport) -> std::fmt::Result {
         };
         sentence(text, &line)?;
     }
-    for CriterionEntry {
+    for Criterion {
         name,
         finding,
         passed,

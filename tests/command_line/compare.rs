@@ -3,7 +3,8 @@
 //! Independent values: the report of each saw alone, of the same file with the numbers typed in; the stiffness at the rim that
 //! `check` reports.
 
-use sawflutter::report::{CheckReport, CompareReport, Report};
+use sawflutter::analyses::check::CheckReport;
+use sawflutter::report::{CompareReport, Report};
 use sawflutter::scene::{Accuracy, Scene, SceneFile, SweepFile};
 use tempfile::TempDir;
 

@@ -3,7 +3,8 @@
 //!
 //! Source: `--help`, docs/how-to/deflect.md.
 
-use sawflutter::report::{CheckReport, DeflectReport, InstabilityEntry, Report};
+use sawflutter::analyses::check::CheckReport;
+use sawflutter::report::{DeflectReport, InstabilityEntry, Report};
 use sawflutter::scene::{Accuracy, ContactLaw, Scene};
 use tempfile::TempDir;
 

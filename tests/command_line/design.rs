@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use sawflutter::analyses::fit::FitReport;
 use sawflutter::analyses::place::{Neighbour, PlaceReport};
-use sawflutter::report::CheckReport;
+use sawflutter::analyses::check::CheckReport;
 use sawflutter::scene::Scene;
 use tempfile::TempDir;
 

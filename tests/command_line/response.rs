@@ -2,7 +2,8 @@
 //!
 //! Independent value: the lateral stiffness at the rim that `check` reports.
 
-use sawflutter::report::{CheckReport, ResponseReport};
+use sawflutter::analyses::check::CheckReport;
+use sawflutter::report::ResponseReport;
 use sawflutter::scene::{Accuracy, ProbeFile, ResponseFile, Scene};
 use tempfile::TempDir;
 

@@ -2,8 +2,9 @@
 
 use std::sync::LazyLock;
 
+use sawflutter::analyses::check::CheckReport;
 use sawflutter::commands::COMMANDS;
-use sawflutter::report::{CheckReport, Report, StabilityState};
+use sawflutter::report::{Report, StabilityState};
 use sawflutter::scene::{Accuracy, Scene};
 use tempfile::TempDir;
 

@@ -240,9 +240,9 @@ fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
     );
 
     // `check` gives the same answer.
-    let limits = sawflutter::check::Limits {
+    let limits = sawflutter::analyses::check::Limits {
         margin: 1.0,
-        ..sawflutter::check::Limits::at(speed)
+        ..sawflutter::analyses::check::Limits::at(speed)
     };
     let criteria = limits.criteria(&sawflutter::stability::Evidence {
         bands,

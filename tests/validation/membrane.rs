@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use crate::common::{Worst, of_diameters, reference_model, relative_error};
 use proptest::prelude::*;
-use sawflutter::check::{Check, Limits};
+use sawflutter::analyses::check::{Limits, check};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{InPlane, Mount, Parameter, Scene, SceneFile, SpeedRange, rad_per_s, rpm};
 use sawflutter::spectrum::{SpectralModel, SpectrumError, Strategy};
@@ -124,7 +124,7 @@ fn a_buckled_blade_is_an_error_with_the_remedy() {
     let hot = heated(&collar(), 150.0);
     for message in [
         Analysis::new(&hot).map(drop).unwrap_err().to_string(),
-        Check::new(&hot, &Limits::at(100.0))
+        check(&hot, &Limits::at(100.0))
             .map(drop)
             .unwrap_err()
             .to_string(),

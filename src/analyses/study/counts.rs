@@ -11,7 +11,6 @@ use super::report::{
 };
 use super::saw::{Outcome, Saw};
 use super::statistics::interval;
-use crate::scene::rpm;
 
 /// Largest number of bars of a histogram; more cannot be distinguished.
 const MOST_BARS: usize = 40;
@@ -157,9 +156,9 @@ impl<'a> Counts<'a> {
             interval: is_drawn.then(|| interval(self.passed, saws, confidence)),
             criteria: criteria
                 .map(|(criterion, passed)| LimitStatistics {
-                    key: criterion.key.to_owned(),
-                    name: criterion.name.to_owned(),
-                    asked_rpm: rpm(criterion.asked),
+                    key: criterion.key,
+                    name: criterion.name,
+                    asked_rpm: criterion.asked_rpm,
                     passed: *passed,
                 })
                 .collect(),

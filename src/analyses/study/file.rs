@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::check::LimitsFile;
+use crate::analyses::check::LimitsFile;
 use crate::scene::{RefusedValue, SceneError};
 use crate::stability::AnalysisError;
 use crate::text::{KeyedError, from_keyed_json};

@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 use super::distribution::Distribution;
 use super::file::{GapFile, StudyError, StudyFile};
 use super::sequence::{DIMENSIONS, even};
-use crate::check::{Criterion, Limits, LimitsFile};
+use crate::analyses::check::{Criterion, Limits, LimitsFile};
 use crate::gap::{self, GapCase};
 use crate::plate::Resolution;
 use crate::scene::{Given, Parameter, RefusedValue, Scene, SceneError, SceneFile, speed_rad_per_s};

@@ -5,8 +5,9 @@ use std::convert::Infallible;
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale};
 
+use super::report::RimStiffness;
 use crate::plate::Plate;
-use crate::scene::Cut;
+use crate::scene::{Cut, rpm};
 use crate::spectrum::orthonormal;
 use crate::stability::{Look, bracketed};
 use crate::system::GyroscopicSystem;
@@ -87,13 +88,13 @@ impl StaticDeflection {
         (0..SPEEDS).map(move |k| self.to_rad_per_s * k as f64 / last)
     }
 
-    /// Speeds in rad/s and the stiffness in N/m of the point of the rim.
-    pub fn rim_stiffness_n_per_m(&self) -> Vec<(f64, f64)> {
-        let stiffness = |speed: f64| {
-            let deflection = self.rim.transpose() * self.answer(&self.rim, speed);
-            (speed, 1.0 / deflection)
-        };
-        self.speeds().map(stiffness).collect()
+    /// Stiffness of the point of the rim.
+    pub fn rim_stiffness(&self) -> RimStiffness {
+        let stiffness = |speed: f64| 1.0 / (self.rim.transpose() * self.answer(&self.rim, speed));
+        RimStiffness {
+            rpm: self.speeds().map(rpm).collect(),
+            n_per_m: self.speeds().map(stiffness).collect(),
+        }
     }
 
     /// Deflection at a point under the lateral forces of the cut, in m; `None` without such forces.

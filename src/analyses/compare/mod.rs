@@ -8,7 +8,7 @@ use super::chart::CampbellEntry;
 use super::critical_speed::CriticalSpeedEntry;
 use super::instability::InstabilityEntry;
 use super::operating::OperatingEntry;
-use crate::check::rim_stiffness_at_rest_n_per_m;
+use crate::analyses::check::rim_stiffness_at_rest_n_per_m;
 use crate::scene::{Scene, SceneError, SceneFile, SpeedRange, in_words};
 use crate::stability::{Analysis, AnalysisError, end_of_sweep};
 

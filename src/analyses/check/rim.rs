@@ -62,7 +62,7 @@ mod tests {
 
     /// A clamped blade at an operating speed, and at a share of its first critical speed.
     fn clamped(operating_rpm: f64) -> Scene {
-        let json = include_str!("../../scenes/collar-400mm.json");
+        let json = include_str!("../../../scenes/collar-400mm.json");
         let saw = Scene::from_json(json).unwrap();
         let saw = saw.edited(|saw| {
             (saw.accuracy, saw.operating_rpm) = (Accuracy::Draft, Some(operating_rpm));

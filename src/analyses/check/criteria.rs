@@ -1,7 +1,7 @@
 //! Compares each limit with the result, in numbers and in words.
 
-use super::Criterion;
 use super::limits::Limits;
+use super::report::Criterion;
 use super::static_deflection::StaticDeflection;
 use crate::deflect::Rise;
 use crate::plate::Plate;
@@ -59,11 +59,11 @@ impl Limits {
             }
         };
         Criterion {
-            key: "margin",
+            key: "margin".to_owned(),
             name: format!("{} % rule", shown(1e2 * margin)),
             finding,
-            found: lowest_critical,
-            asked,
+            found_rpm: lowest_critical.map(rpm),
+            asked_rpm: rpm(asked),
             passed: lowest_critical.is_none_or(|found| found >= asked),
         }
     }
@@ -78,7 +78,7 @@ impl Limits {
         });
         let operating_rpm = typed_rpm(operating);
         Criterion {
-            key: "operating",
+            key: "operating".to_owned(),
             name: "stability at the operating speed".to_owned(),
             finding: match (kind, verdict.stretch) {
                 (Some(kind), Some((from, to))) => format!(
@@ -88,8 +88,8 @@ impl Limits {
                 ),
                 _ => format!("no instability at {operating_rpm} rpm"),
             },
-            found: verdict.stretch.map(|(from, _)| from),
-            asked: operating,
+            found_rpm: verdict.stretch.map(|(from, _)| rpm(from)),
+            asked_rpm: rpm(operating),
             passed: verdict.stretch.is_none(),
         }
     }
@@ -100,11 +100,11 @@ impl Limits {
         let operating = self.operating_rad_per_s;
         let (now, most) = apart(operating * rim_radius_m, self.max_rim_m_per_s);
         Criterion {
-            key: "rim_speed",
+            key: "rim_speed".to_owned(),
             name: format!("rim speed of at most {most} m/s"),
             finding: format!("{now} m/s at {} rpm", typed_rpm(operating)),
-            found: Some(found),
-            asked: operating,
+            found_rpm: Some(rpm(found)),
+            asked_rpm: rpm(operating),
             passed: found >= operating,
         }
     }
@@ -156,11 +156,11 @@ impl Limits {
         let found = first.map(|(band, _)| band.from_rad_per_s);
         let asked = self.operating_rad_per_s;
         Some(Criterion {
-            key: "max_amplitude",
+            key: "max_amplitude".to_owned(),
             name: format!("flutter of at most {limit_mm} mm up to the operating speed"),
             finding,
-            found,
-            asked,
+            found_rpm: found.map(rpm),
+            asked_rpm: rpm(asked),
             passed: found.is_none_or(|found| found > asked),
         })
     }
@@ -172,20 +172,14 @@ fn typed_rpm(rad_per_s: f64) -> String {
 }
 
 /// Criterion of a lower limit of a speed. A speed that is not reached within the sweep exceeds every limit.
-fn at_least(
-    key: &'static str,
-    name: &str,
-    asked: f64,
-    found: Option<f64>,
-    nowhere: String,
-) -> Criterion {
+fn at_least(key: &str, name: &str, asked: f64, found: Option<f64>, nowhere: String) -> Criterion {
     let (found_rpm, asked_rpm) = apart(rpm(found.unwrap_or(asked)), rpm(asked));
     Criterion {
-        key,
+        key: key.to_owned(),
         name: format!("{name} of at least {asked_rpm} rpm"),
         finding: found.map_or(nowhere, |_| format!("{found_rpm} rpm")),
-        found,
-        asked,
+        found_rpm: found.map(rpm),
+        asked_rpm: rpm(asked),
         passed: found.is_none_or(|found| found >= asked),
     }
 }
@@ -210,11 +204,11 @@ const MOST_DECIMALS: usize = 3;
 /// A criterion that is not kept at any speed, because nothing restrains a rigid motion of the blade.
 pub(super) fn without_stiffness(operating: f64) -> Criterion {
     Criterion {
-        key: "held",
+        key: "held".to_owned(),
         name: "static stiffness".to_owned(),
         finding: "nothing holds the blade's rigid motions".to_owned(),
-        found: None,
-        asked: operating,
+        found_rpm: None,
+        asked_rpm: rpm(operating),
         passed: false,
     }
 }
@@ -237,14 +231,14 @@ pub(super) fn of_gaps(
             bending.in_cut_m(&place, 0.0)?;
             let found = bending.fills_gap_at(&place, gap_m);
             Some(Criterion {
-                key: "gap",
+                key: "gap".to_owned(),
                 name: format!("gap of guide {} ({:.0} µm)", index + 1, 1e6 * gap_m),
                 finding: match found {
                     Some(speed) => format!("closes in the cut from {:.0} rpm on", rpm(speed)),
                     None => "remains open in the cut below the first critical speed".to_owned(),
                 },
-                found,
-                asked: operating,
+                found_rpm: found.map(rpm),
+                asked_rpm: rpm(operating),
                 passed: found.is_none_or(|found| found > operating),
             })
         })

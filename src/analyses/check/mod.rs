@@ -1,0 +1,211 @@
+//! Compares a saw with limits that its designer sets.
+//!
+//! ```
+//! use sawflutter::prelude::*;
+//! use sawflutter::scene::rad_per_s;
+//!
+//! let scene = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft)?;
+//! let limits = Limits {
+//!     min_critical_rad_per_s: Some(rad_per_s(1500.0)),
+//!     ..Limits::at(rad_per_s(1250.0))
+//! };
+//! let report = check(&scene, &limits)?;
+//! assert!(report.passed, "{:?}", report.failures());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod criteria;
+mod limits;
+mod report;
+mod rim;
+mod static_deflection;
+
+use crate::deflect::{Rise, rim_compliance_m_per_n, saturations};
+use crate::report::{InstabilityEntry, Numbered, add_amplitudes, lifting_off, side_force_in_words};
+use crate::scene::{Scene, SceneError, SpeedRange, rpm};
+use crate::spectrum::SpectrumError;
+use crate::stability::{Analysis, AnalysisError};
+use crate::stretched::StretchedError;
+
+use criteria::{of_gaps, without_stiffness};
+#[cfg(feature = "cli")]
+pub(crate) use limits::RIM_LIMIT_M_PER_S;
+pub use limits::{Limits, LimitsFile};
+pub use report::{CheckReport, Criterion, RimStiffness};
+use rim::point_load_plate;
+pub(crate) use rim::{rim_stiffness_at_rest_n_per_m, side_force_factor};
+use static_deflection::StaticDeflection;
+
+/// Reason for which a check failed to run.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckError {
+    /// The scene refuses the sweep that the limits require.
+    #[error("the limits were refused: {0}")]
+    Scene(#[from] SceneError),
+    /// An eigenproblem failed.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
+    /// The saw could not be analysed.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
+    /// The amplitude of flutter could not be computed.
+    #[error(transparent)]
+    Stretched(#[from] StretchedError),
+}
+
+/// Analyses a saw from rest to the end of its sweep, or further if the limits require it, and compares the
+/// results with the limits. They equal those of an [`Analysis`] of the scene.
+///
+/// # Errors
+/// [`CheckError`] when the saw cannot be analysed that far.
+pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> {
+    let analysis = &analysed(scene, limits.reach_rad_per_s())?;
+    let angle = scene.cut_angle_rad();
+    let plate = &point_load_plate(analysis);
+    let critical = analysis.critical_rad_per_s();
+    let lowest_critical = critical.first().copied();
+    let operating = limits.operating_rad_per_s;
+    let is_stiff = lowest_critical.is_none_or(|lowest| operating < lowest);
+    let lateral = scene.cut().and_then(|cut| {
+        let run = cut.at_rpm(rpm(operating)).ok()?;
+        Some((cut, run.lateral_n))
+    });
+    let bending =
+        lowest_critical.and_then(|critical| StaticDeflection::new(plate, angle, lateral, critical));
+    let mut criteria = limits.criteria(&analysis.evidence(&critical));
+    criteria.push(limits.of_rim(plate.blade.outer_radius_m));
+    let of_gaps = of_gaps(scene, plate, bending.as_ref(), operating);
+    let warnings = warnings(analysis, limits, of_gaps.len());
+    criteria.extend(of_gaps);
+    let saturations = match limits.max_amplitude_m {
+        None => Vec::new(),
+        Some(_) => saturations(analysis)?,
+    };
+    criteria.extend(limits.of_amplitude(analysis, &saturations));
+    let mut components = analysis.model.components.iter();
+    let is_free = components.any(|component| !component.full.free_rigid.is_empty());
+    criteria.extend(is_free.then(|| without_stiffness(operating)));
+    // Nothing resists a side force where rigid motions are free, or where K(Ω) is singular.
+    let stiffness = |speed: f64| {
+        let compliance = rim_compliance_m_per_n(plate, angle, speed);
+        compliance.map_or(0.0, |m_per_n| 1.0 / m_per_n)
+    };
+    let to_rad_per_s = analysis.range_rad_per_s.1;
+    let mut report = CheckReport {
+        sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
+        scene: scene.file().clone(),
+        condition: scene.condition(),
+        unusual_numbers: limits.unusual_numbers(scene),
+        accept_unusual: limits.accept_unusual,
+        passed: false,
+        criteria,
+        operating_rpm: rpm(operating),
+        margin: limits.margin,
+        to_rpm: rpm(to_rad_per_s),
+        critical_speeds_rpm: critical
+            .into_iter()
+            .take_while(|speed| *speed <= to_rad_per_s)
+            .map(rpm)
+            .collect(),
+        instabilities: bands(analysis, &saturations),
+        flutter_threshold_per_s: scene.flutter_threshold_per_s(),
+        rim_stiffness_at_rest_n_per_m: stiffness(0.0),
+        rim_stiffness_n_per_m: is_stiff.then(|| stiffness(operating)),
+        rim_stiffness: bending
+            .map(|bending| bending.rim_stiffness())
+            .unwrap_or_default(),
+        rim_speed_m_per_s: operating * scene.blade().outer_radius_m,
+        max_rim_m_per_s: limits.max_rim_m_per_s,
+        max_amplitude_m: limits.max_amplitude_m,
+        estimated_relative_error: analysis.estimated_relative_error,
+        warnings,
+    };
+    report.passed = report.failures().is_empty();
+    Ok(report)
+}
+
+/// The analysis of a scene from rest to the end of its sweep, given or chosen by the program, or further if
+/// required.
+fn analysed(scene: &Scene, least_end_rad_per_s: f64) -> Result<Analysis, CheckError> {
+    let to = |end_rad_per_s: f64| {
+        let range = (0.0, end_rad_per_s.max(least_end_rad_per_s));
+        Ok(Analysis::new(&scene.swept(range.into())?)?)
+    };
+    if let Some(SpeedRange { to_rad_per_s, .. }) = scene.sweep() {
+        return to(to_rad_per_s);
+    }
+    let analysis = Analysis::new(scene)?;
+    match analysis.range_rad_per_s.1 >= least_end_rad_per_s {
+        true => Ok(analysis),
+        false => to(least_end_rad_per_s),
+    }
+}
+
+/// The bands of the chart, with their amplitudes if those were computed.
+fn bands(analysis: &Analysis, saturations: &[Rise]) -> Vec<InstabilityEntry> {
+    let branches = Numbered::new(analysis);
+    let threshold_per_s = analysis.scene.flutter_threshold_per_s();
+    let bands = analysis.chart.instabilities.iter();
+    let entry = |band| InstabilityEntry::in_chart(band, &branches, threshold_per_s);
+    let mut bands: Vec<InstabilityEntry> = bands.map(entry).collect();
+    add_amplitudes(&mut bands, saturations);
+    bands
+}
+
+/// Remarks on the validity of the result, of which so many criteria compare a gap.
+fn warnings(analysis: &Analysis, limits: &Limits, compared_gaps: usize) -> Vec<String> {
+    let scene = &analysis.scene;
+    let mut warnings: Vec<String> = lifting_off(scene).into_iter().collect();
+    let operating = limits.operating_rad_per_s;
+    if let Some(critical_rpm) = analysis.critical_rpm_at(operating) {
+        let factor = side_force_factor(analysis, operating);
+        let deflection = side_force_in_words(rpm(operating), factor);
+        let deflection = deflection.map_or(String::new(), |words| format!("; {words}"));
+        warnings.push(format!(
+            "the operating speed is within 5 % of the critical speed {critical_rpm:.1} rpm{deflection}"
+        ));
+    }
+    let gaps = scene.file().guides.iter().filter(|g| g.gap_m.is_some());
+    if gaps.count() > compared_gaps {
+        warnings.push(
+            "a guide has a gap_m, but the scene has no lateral force that could close it (cut.lateral_n_per_tooth), or nothing holds the blade"
+                .to_owned(),
+        );
+    }
+    let critical = analysis.model.critical.first();
+    let is_above = critical.is_some_and(|first| operating >= first.speed_rad_per_s);
+    if is_above && compared_gaps > 0 {
+        warnings.push(
+            "above the first critical speed a static deflection does not show whether the gaps of guides close".to_owned(),
+        );
+    }
+    warnings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Accuracy, rad_per_s};
+
+    /// The program ends the sweep of this saw; limits require much less, and more.
+    #[test]
+    #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
+    fn a_check_finds_what_an_analysis_finds() {
+        let scene = Scene::paper().edited(|saw| {
+            (saw.accuracy, saw.sweep) = (Accuracy::Draft, None);
+        });
+        let scene = scene.unwrap();
+        let analysis = Analysis::new(&scene).unwrap();
+        let limits = |asked_rpm: f64| Limits {
+            min_flutter_rad_per_s: Some(rad_per_s(asked_rpm)),
+            ..Limits::at(rad_per_s(300.0))
+        };
+        let near = check(&scene, &limits(400.0)).unwrap();
+        let end_rpm = rpm(analysis.range_rad_per_s.1);
+        assert_eq!(near.to_rpm, end_rpm);
+        let flutter = analysis.flutter_speed_rad_per_s.unwrap();
+        assert_eq!(near.criteria[2].found_rpm, Some(rpm(flutter)));
+        let asked_rpm = 1.1 * end_rpm;
+        assert!(check(&scene, &limits(asked_rpm)).unwrap().to_rpm > asked_rpm);
+    }
+}
