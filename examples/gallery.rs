@@ -3,19 +3,18 @@
 use std::path::Path;
 
 use anyhow::Context;
+use sawflutter::analyses::check::{self, CheckReport, Limits};
+use sawflutter::analyses::compare::{Saw, compare};
 use sawflutter::analyses::fit::{self, FitReport, Measurement};
 use sawflutter::analyses::map::{self, Range};
 use sawflutter::analyses::place::{self, Demands, PlaceReport};
 use sawflutter::analyses::study::StudyReport;
-use sawflutter::analyses::check::{self, CheckReport, Limits};
 use sawflutter::commands::CommandReport;
 use sawflutter::deflect::{Deflecting, Options};
 use sawflutter::gap::{self, GuideGaps};
-use sawflutter::report::{
-CompareReport, ComparedEntry, CutReport, DeflectReport, GapReport, ResponseReport, RunUpReport,
-};
+use sawflutter::report::{CutReport, DeflectReport, GapReport, ResponseReport, RunUpReport};
 use sawflutter::response::{self, ForcedResponse};
-use sawflutter::scene::{Accuracy, ContactLaw, Freed, Scene, SceneFile, rad_per_s};
+use sawflutter::scene::{Accuracy, ContactLaw, Freed, Scene, SceneError, SceneFile, rad_per_s};
 use sawflutter::stability::Analysis;
 use sawflutter::transient::{Cutting, RunningUp};
 
@@ -133,11 +132,11 @@ fn further(root: &Path) -> anyhow::Result<Vec<Figure>> {
     figures.retain(|(name, _)| *name == "modes.png");
 
     let saws = ["paper", "two-pads"].map(|name| {
-        let analysis = Analysis::new(&draft(name, &|_| ())?)?;
-        Ok::<_, anyhow::Error>(ComparedEntry::of_analysis(name.to_owned(), &analysis))
+        let scene = draft(name, &|_| ())?;
+        Ok::<_, SceneError>((name.to_owned(), Saw::Scene(Box::new(scene))))
     });
-    let saws = saws.into_iter().collect::<Result<Vec<_>, _>>()?;
-    figures.extend(svgs(&CompareReport::new(saws).context("two saws")?)?);
+    let saws = saws.into_iter().collect::<Result<_, _>>()?;
+    figures.extend(svgs(&compare(saws, &|_, _| ())?)?);
 
     let excited = draft("paper", &|saw| {
         let response = saw.response.get_or_insert_default();

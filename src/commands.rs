@@ -10,12 +10,13 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
 
+use crate::analyses::check::CheckReport;
+use crate::analyses::compare::CompareReport;
 use crate::analyses::fit::FitReport;
 use crate::analyses::map::MapReport;
 use crate::analyses::place::PlaceReport;
 use crate::analyses::study::StudyReport;
 use crate::analyses::tradeoff::Setting;
-use crate::analyses::check::CheckReport;
 use crate::document::{self, Document};
 use crate::figure::{
     CampbellView, ChartData, Drawing, Figure, FigureError, campbell, check, compare, cut, cut_map,
@@ -23,7 +24,8 @@ use crate::figure::{
     response, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
-CompareReport, CutReport, DeflectReport, GapReport, ModeEntry, Report, ResponseReport, RunUpReport, WashboardReport,
+    CutReport, DeflectReport, GapReport, ModeEntry, Report, ResponseReport, RunUpReport,
+    WashboardReport,
 };
 use crate::scene::SceneFile;
 use crate::summary;

@@ -3,14 +3,16 @@
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use sawflutter::analyses::check::{self, Limits, LimitsFile};
+use sawflutter::analyses::compare::{Saw, compare as compare_saws};
 use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
-use sawflutter::analyses::check::{self, Limits, LimitsFile};
 use sawflutter::deflect::{Deflecting, Options as DeflectOptions};
 use sawflutter::gap::{Friction, GuideGaps, Options as GapOptions, OscillatingForce};
 use sawflutter::report::{
-CompareReport, ComparedEntry, CutReport, DeflectReport, GapReport, ModeEntry, ResponseReport, RunUpReport, SensitivityEntry, WashboardReport, over_common_speeds,
+    CutReport, DeflectReport, GapReport, ModeEntry, ResponseReport, RunUpReport, SensitivityEntry,
+    WashboardReport,
 };
 use sawflutter::response::{ForcedResponse, Options as ResponseOptions};
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
@@ -107,20 +109,16 @@ pub fn compare(
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     compute(py, progress, move |meter| {
-        let scenes = saws.iter().filter(|(_, _, is_report)| !is_report);
-        let scenes = scenes.map(|(_, text, _)| arguments::scene(text));
-        let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
-        let mut scenes = over_common_speeds(scenes)?.into_iter();
-        let mut compared = Vec::new();
-        for (done, (label, text, is_report)) in saws.iter().enumerate() {
-            meter.show_of("saws", done, saws.len());
-            let scene = if *is_report { None } else { scenes.next() };
-            compared.push(match scene {
-                Some(scene) => ComparedEntry::of_analysis(label.clone(), &Analysis::new(&scene)?),
-                None => ComparedEntry::of_report(label.clone(), &serde_json::from_str(text)?),
-            });
-        }
-        json(&CompareReport::new(compared))
+        let saws = saws.into_iter().map(|(label, text, is_report)| {
+            let saw = match is_report {
+                true => Saw::Report(Box::new(serde_json::from_str(&text)?)),
+                false => Saw::Scene(Box::new(arguments::scene(&text)?)),
+            };
+            Ok((label, saw))
+        });
+        let saws = saws.collect::<Result<_, Failure>>()?;
+        let progress = |done, of| meter.show_of("saws", done, of);
+        json(&compare_saws(saws, &progress)?)
     })
 }
 

@@ -5,10 +5,11 @@ use std::fmt::Display;
 use pyo3::exceptions::{PyIsADirectoryError, PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
+use sawflutter::analyses::check::CheckError;
+use sawflutter::analyses::compare::CompareError;
 use sawflutter::analyses::fit::FitError;
 use sawflutter::analyses::place::PlaceError;
 use sawflutter::analyses::study::{LogError, StudyError};
-use sawflutter::analyses::check::CheckError;
 use sawflutter::deflect::DeflectError;
 use sawflutter::figure::FigureError;
 use sawflutter::gap::GapError;
@@ -213,6 +214,7 @@ macro_rules! failed {
     };
 }
 failed!(
+    CompareError,
     StretchedError,
     AnalysisError,
     SensitivityError,

@@ -4,6 +4,7 @@
 //! [`DeflectReport`](crate::report::DeflectReport), in the units of its JSON. States between (matrices, coordinates)
 //! are private to the folder.
 pub mod check;
+pub mod compare;
 pub mod fit;
 pub mod map;
 pub mod place;

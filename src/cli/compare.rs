@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::report::{CompareReport, ComparedEntry, Report, over_common_speeds};
+use crate::analyses::compare::{Saw, compare};
+use crate::report::Report;
 use crate::scene::Scene;
-use crate::stability::Analysis;
 use crate::text::{Kind, OtherEncodings};
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::Args;
 
 use super::common::{Changes, Output, is_standard_input, read_text, refused, with_settings};
@@ -47,37 +47,17 @@ const REPORT: Kind = Kind {
     other_encodings: OtherEncodings::Refused,
 };
 
-/// A saw to compare.
-enum Saw {
-    Scene(Box<Scene>),
-    Report(Box<Report>),
-}
-
 /// Compares saws, writes the files and prints the table.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let saws = saws(arguments)?;
     arguments.page.tried()?;
     let folder = arguments.output.folder()?;
-    let report = watched(|progress| {
-        let mut compared = Vec::new();
-        let of = saws.len();
-        for (done, (label, saw)) in saws.into_iter().enumerate() {
-            progress.show("saws", done, of);
-            compared.push(match saw {
-                Saw::Report(report) => ComparedEntry::of_report(label, &report),
-                Saw::Scene(scene) => {
-                    let analysis = Analysis::new(&scene).with_context(|| label.clone())?;
-                    ComparedEntry::of_analysis(label, &analysis)
-                }
-            });
-        }
-        CompareReport::new(compared).ok_or_else(|| anyhow!("there is no saw to compare"))
-    })??;
+    let report = watched(|progress| compare(saws, &|done, of| progress.show("saws", done, of)))??;
     let output = &arguments.output;
     output.report(&folder, &arguments.page, &report, Vec::new())
 }
 
-/// Reads the saws and labels them. Scenes without a sweep get a common one.
+/// Reads the saws and labels them.
 fn saws(arguments: &Arguments) -> anyhow::Result<Vec<(String, Saw)>> {
     let mut saws = Vec::new();
     for path in &arguments.files {
@@ -103,23 +83,7 @@ fn saws(arguments: &Arguments) -> anyhow::Result<Vec<(String, Saw)>> {
         saws.len() > 1,
         "there is one saw, but a comparison needs two; name another file, or a --variant like blade.thickness_m=2.6mm"
     );
-    with_common_speeds(saws)
-}
-
-fn with_common_speeds(saws: Vec<(String, Saw)>) -> anyhow::Result<Vec<(String, Saw)>> {
-    let scenes = saws.iter().filter_map(|(_, saw)| match saw {
-        Saw::Scene(scene) => Some(scene.as_ref().clone()),
-        Saw::Report(_) => None,
-    });
-    let mut swept = over_common_speeds(scenes.collect())?.into_iter();
-    let saws = saws.into_iter().map(|(label, saw)| match saw {
-        Saw::Scene(scene) => {
-            let scene = swept.next().map_or(scene, Box::new);
-            (label, Saw::Scene(scene))
-        }
-        report => (label, report),
-    });
-    Ok(saws.collect())
+    Ok(saws)
 }
 
 /// Reads a report, or a scene and applies the changes to it.

@@ -5,7 +5,8 @@ use super::campbell::NEGLIGIBLE_PER_S;
 use super::chart_data::{AxisData, ChartData, Item, Line, PanelData, Points, lines_by_look};
 use super::palette::Hue;
 use super::style::{CURVE, STRONG_CURVE};
-use crate::report::{BranchEntry, CompareReport, ComparedEntry};
+use crate::analyses::compare::{CompareReport, ComparedSaw};
+use crate::report::BranchEntry;
 
 /// Heights of the diagram and of the row of a saw, relative to a panel of usual height.
 const DIAGRAM: f64 = 1.2;
@@ -26,7 +27,7 @@ const CRITICAL_SIZE: f64 = 7.0;
 const BAND: f64 = 9.0;
 
 /// The saws that are drawn, with their numbers from 0 on and their colours.
-fn drawn(report: &CompareReport) -> impl DoubleEndedIterator<Item = (usize, &ComparedEntry, Hue)> {
+fn drawn(report: &CompareReport) -> impl DoubleEndedIterator<Item = (usize, &ComparedSaw, Hue)> {
     let saws = report.saws.iter().take(HUES.len()).enumerate();
     saws.map(|(place, saw)| (place, saw, HUES[place]))
 }
@@ -81,7 +82,7 @@ pub fn chart(report: &CompareReport) -> ChartData {
 }
 
 /// Upper end of the frequencies of a saw in Hz.
-fn shown_hz(saw: &ComparedEntry) -> f64 {
+fn shown_hz(saw: &ComparedSaw) -> f64 {
     let branches = saw.campbell.branches.iter();
     let first = branches.filter_map(|branch| branch.frequency_hz.first());
     let mut first: Vec<f64> = first.copied().collect();
@@ -92,7 +93,7 @@ fn shown_hz(saw: &ComparedEntry) -> f64 {
 }
 
 /// The branches of a saw in its colour: thick where they grow, dashed where they are reflected.
-fn curves(saw: &ComparedEntry, hue: Hue) -> Vec<Item> {
+fn curves(saw: &ComparedSaw, hue: Hue) -> Vec<Item> {
     let mut items = Vec::new();
     for branch in &saw.campbell.branches {
         let samples = branch.rpm.len().min(branch.frequency_hz.len());
@@ -126,7 +127,7 @@ fn look(branch: &BranchEntry, i: usize) -> (bool, bool) {
 }
 
 /// Bands of a saw as strips in the colour of their kind, its critical speeds as dots, and its operating speed as a ring.
-fn events(row: usize, saw: &ComparedEntry, hue: Hue) -> Vec<Item> {
+fn events(row: usize, saw: &ComparedSaw, hue: Hue) -> Vec<Item> {
     let y = 1.0 + row as f64;
     let strips = saw.instabilities.iter().map(|band| {
         let [_, _, streak] = Hue::of_kind(band.kind);
@@ -176,6 +177,7 @@ fn key() -> Vec<Item> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analyses::compare::{Saw, compare};
     use crate::figure::tidy::{assert_tidy, texts};
     use crate::figure::{layout, sample};
 
@@ -183,8 +185,8 @@ mod tests {
     fn every_saw_has_its_row_and_nothing_is_cut_off() {
         let report = sample::empty_report("A saw");
         for count in [1, 2, 6, 9] {
-            let saws = (1..=count).map(|k| ComparedEntry::of_report(format!("saw {k}"), &report));
-            let compared = CompareReport::new(saws.collect()).unwrap();
+            let saw = |k: usize| (format!("saw {k}"), Saw::Report(Box::new(report.clone())));
+            let compared = compare((1..=count).map(saw).collect(), &|_, _| ()).unwrap();
             let sheet = layout::sheet(&chart(&compared));
             assert_tidy(&sheet);
             let all: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();

@@ -10,7 +10,6 @@ mod branches;
 mod build;
 mod certificate;
 mod chart;
-mod compare;
 mod critical_speed;
 mod csv;
 mod cut;
@@ -37,11 +36,10 @@ mod whirl;
 
 pub use self::accuracy::{AccuracyEntry, WorkEntry};
 pub use self::analysis::Report;
-pub(crate) use self::certificate::statement;
 pub(crate) use self::branches::Numbered;
+pub(crate) use self::certificate::statement;
 pub use self::certificate::{CertificateEntry, MiscountEntry, MismatchEntry};
 pub use self::chart::{BranchEntry, CampbellEntry, RootLociEntry, RootPathEntry};
-pub use self::compare::{CompareReport, ComparedEntry, DifferenceEntry, over_common_speeds};
 pub use self::critical_speed::CriticalSpeedEntry;
 pub use self::cut::{
     ByPowerEntry, CutCertificateEntry, CutCriterion, CutCriterionEntry, CutReport, CutRunEntry,
@@ -67,7 +65,7 @@ pub use self::membrane::{
 };
 pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
 pub use self::operating::OperatingEntry;
-pub(crate) use self::remarks::{side_force_in_words, lifting_off};
+pub(crate) use self::remarks::{lifting_off, side_force_in_words};
 pub use self::response::{
     CauseEntry, FrequencyResponseEntry, OperatingResponseEntry, ResonanceEntry, ResponseLineEntry,
     ResponseReport,

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::answer::Answer;
 use super::{ROWS, decimals_or, heading, more, sentence, shortened, wrapped};
-use crate::report::{CompareReport, ComparedEntry};
+use crate::analyses::compare::{CompareReport, ComparedSaw};
 
 pub fn of_report(text: &mut String, report: &CompareReport) -> std::fmt::Result {
     heading(text, &report.scene.name, &report.condition(), &[])?;
@@ -28,7 +28,7 @@ pub fn of_report(text: &mut String, report: &CompareReport) -> std::fmt::Result 
     Ok(())
 }
 
-fn line(text: &mut String, number_of_saw: usize, saw: &ComparedEntry) -> std::fmt::Result {
+fn line(text: &mut String, number_of_saw: usize, saw: &ComparedSaw) -> std::fmt::Result {
     let stiffness = saw
         .rim_stiffness_at_rest_n_per_m
         .map(|n_per_m| 1e-3 * n_per_m);
@@ -51,14 +51,14 @@ fn line(text: &mut String, number_of_saw: usize, saw: &ComparedEntry) -> std::fm
     )
 }
 
-fn lowest(saw: &ComparedEntry) -> Option<f64> {
+fn lowest(saw: &ComparedSaw) -> Option<f64> {
     saw.critical_speeds.first().map(|critical| critical.rpm)
 }
 
 /// Writes the relative differences of the speeds and the stiffness of a saw from those of the first, and the
 /// difference of the numbers of bands.
-fn changes(text: &mut String, first: &ComparedEntry, saw: &ComparedEntry) -> std::fmt::Result {
-    let percent = |value: fn(&ComparedEntry) -> Option<f64>| {
+fn changes(text: &mut String, first: &ComparedSaw, saw: &ComparedSaw) -> std::fmt::Result {
+    let percent = |value: fn(&ComparedSaw) -> Option<f64>| {
         let change = value(first)
             .zip(value(saw))
             .map(|(from, to)| to / from - 1.0);

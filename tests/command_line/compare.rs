@@ -4,7 +4,8 @@
 //! `check` reports.
 
 use sawflutter::analyses::check::CheckReport;
-use sawflutter::report::{CompareReport, Report};
+use sawflutter::analyses::compare::CompareReport;
+use sawflutter::report::Report;
 use sawflutter::scene::{Accuracy, Scene, SceneFile, SweepFile};
 use tempfile::TempDir;
 

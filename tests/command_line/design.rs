@@ -4,9 +4,9 @@
 
 use std::path::PathBuf;
 
+use sawflutter::analyses::check::CheckReport;
 use sawflutter::analyses::fit::FitReport;
 use sawflutter::analyses::place::{Neighbour, PlaceReport};
-use sawflutter::analyses::check::CheckReport;
 use sawflutter::scene::Scene;
 use tempfile::TempDir;
 

@@ -5,8 +5,8 @@
 //! speed is proportional to the thickness h.
 
 use crate::common::{assert_close, scene};
-use sawflutter::analyses::study::{Outcome, Saw, Study, StudyError, StudyFile};
 use sawflutter::analyses::check::{Limits, check};
+use sawflutter::analyses::study::{Outcome, Saw, Study, StudyError, StudyFile};
 use sawflutter::gap::{GuideGaps, Options};
 use sawflutter::scene::{Accuracy, ContactLaw, Scene, rad_per_s, rpm};
 use sawflutter::stability::{Analysis, Onsets};
