@@ -6,13 +6,13 @@ use anyhow::Context;
 use sawflutter::analyses::check::{self, CheckReport, Limits};
 use sawflutter::analyses::compare::{Saw, compare};
 use sawflutter::analyses::fit::{self, FitReport, Measurement};
+use sawflutter::analyses::gap::{self, gap};
 use sawflutter::analyses::map::{self, Range};
 use sawflutter::analyses::place::{self, Demands, PlaceReport};
 use sawflutter::analyses::study::StudyReport;
 use sawflutter::commands::CommandReport;
 use sawflutter::deflect::{Deflecting, Options};
-use sawflutter::gap::{self, GuideGaps};
-use sawflutter::report::{CutReport, DeflectReport, GapReport, ResponseReport, RunUpReport};
+use sawflutter::report::{CutReport, DeflectReport, ResponseReport, RunUpReport};
 use sawflutter::response::{self, ForcedResponse};
 use sawflutter::scene::{Accuracy, ContactLaw, Freed, Scene, SceneError, SceneFile, rad_per_s};
 use sawflutter::stability::Analysis;
@@ -153,8 +153,7 @@ fn further(root: &Path) -> anyhow::Result<Vec<Figure>> {
         rpm: Some(1200.0),
         ..Default::default()
     };
-    let found = GuideGaps::new(&gapped, &options)?;
-    figures.extend(svgs(&GapReport::new(&found))?.into_iter().take(1));
+    figures.extend(svgs(&gap(&gapped, &options)?)?.into_iter().take(1));
 
     let thickness = Range {
         path: "blade.thickness_m".to_owned(),

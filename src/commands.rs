@@ -13,6 +13,7 @@ use serde_json::Value;
 use crate::analyses::check::CheckReport;
 use crate::analyses::compare::CompareReport;
 use crate::analyses::fit::FitReport;
+use crate::analyses::gap::GapReport;
 use crate::analyses::map::MapReport;
 use crate::analyses::place::PlaceReport;
 use crate::analyses::study::StudyReport;
@@ -24,8 +25,7 @@ use crate::figure::{
     response, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
-    CutReport, DeflectReport, GapReport, ModeEntry, Report, ResponseReport, RunUpReport,
-    WashboardReport,
+    CutReport, DeflectReport, ModeEntry, Report, ResponseReport, RunUpReport, WashboardReport,
 };
 use crate::scene::SceneFile;
 use crate::summary;

@@ -57,7 +57,7 @@ pub mod document;
 #[doc(hidden)]
 pub mod explore;
 pub mod figure;
-pub mod gap;
+
 mod linalg;
 pub mod plate;
 pub mod report;

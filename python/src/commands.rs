@@ -6,12 +6,13 @@ use pyo3::types::PyDict;
 use sawflutter::analyses::check::{self, Limits, LimitsFile};
 use sawflutter::analyses::compare::{Saw, compare as compare_saws};
 use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
+use sawflutter::analyses::gap::{self, Friction, Options as GapOptions, OscillatingForce};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
 use sawflutter::deflect::{Deflecting, Options as DeflectOptions};
-use sawflutter::gap::{Friction, GuideGaps, Options as GapOptions, OscillatingForce};
+
 use sawflutter::report::{
-    CutReport, DeflectReport, GapReport, ModeEntry, ResponseReport, RunUpReport, SensitivityEntry,
+    CutReport, DeflectReport, ModeEntry, ResponseReport, RunUpReport, SensitivityEntry,
     WashboardReport,
 };
 use sawflutter::response::{ForcedResponse, Options as ResponseOptions};
@@ -229,7 +230,7 @@ fn gap(options: &Options<'_>) -> PyResult<Work> {
     };
     Ok(Box::new(move |scene, _| {
         options.checked(scene)?;
-        json(&GapReport::new(&GuideGaps::new(scene, &options)?))
+        json(&gap::gap(scene, &options)?)
     }))
 }
 

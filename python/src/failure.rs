@@ -8,11 +8,12 @@ use pyo3::types::PyType;
 use sawflutter::analyses::check::CheckError;
 use sawflutter::analyses::compare::CompareError;
 use sawflutter::analyses::fit::FitError;
+use sawflutter::analyses::gap::GapError;
 use sawflutter::analyses::place::PlaceError;
 use sawflutter::analyses::study::{LogError, StudyError};
 use sawflutter::deflect::DeflectError;
 use sawflutter::figure::FigureError;
-use sawflutter::gap::GapError;
+
 use sawflutter::response::ResponseError;
 use sawflutter::scene::{RefusedValue, SceneError};
 use sawflutter::spectrum::SpectrumError;

@@ -6,6 +6,7 @@
 pub mod check;
 pub mod compare;
 pub mod fit;
+pub mod gap;
 pub mod map;
 pub mod place;
 pub mod study;

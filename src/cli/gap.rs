@@ -1,7 +1,6 @@
 //! `sawflutter gap`.
 
-use crate::gap::{Friction, GapError, GuideGaps, Options, OscillatingForce};
-use crate::report::GapReport;
+use crate::analyses::gap::{Friction, GapError, Options, OscillatingForce, gap};
 use clap::Args;
 
 use super::common::{Common, number, of_option};
@@ -91,12 +90,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     options.checked(&scene).map_err(refused)?;
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;
-    let found = watched(|_| GuideGaps::new(&scene, &options))?;
-    let found = found.map_err(|error| match error {
+    let found = watched(|_| gap(&scene, &options))?;
+    let report = found.map_err(|error| match error {
         GapError::Refused(error) => refused(error),
         other => other.into(),
     })?;
-    let report = GapReport::new(&found);
     let output = &arguments.common.output;
     output.report(&folder, &arguments.page, &report, Vec::new())
 }

@@ -3,11 +3,10 @@
 use serde::Serialize;
 
 use crate::analyses::fit::FitReport;
+use crate::analyses::gap::{AtAmplitude, GapReport};
 use crate::analyses::place::PlaceReport;
 use crate::figure::number_name;
-use crate::report::{
-    AtAmplitudeEntry, CutReport, GapReport, ResponseReport, RunUpReport, WashboardReport,
-};
+use crate::report::{CutReport, ResponseReport, RunUpReport, WashboardReport};
 use crate::scene::Quantity;
 
 /// A main number of the result of a task.
@@ -86,7 +85,7 @@ pub fn of_response(report: &ResponseReport) -> Vec<TaskAnswer> {
 /// Amplitude at which the first critical speed is half way between those without and with contact, and these two
 /// speeds.
 pub fn of_gap(report: &GapReport) -> Vec<TaskAnswer> {
-    let critical = |at: &AtAmplitudeEntry| at.critical_rpm.first().copied();
+    let critical = |at: &AtAmplitude| at.critical_rpm.first().copied();
     vec![
         answer(
             "Guides act half from an amplitude of",

@@ -10,12 +10,12 @@ use super::meter::Meter;
 use super::refusal::Refusal;
 use super::tolerances::{Tolerance, Typed, study as study_of};
 use crate::analyses::fit::{self, FitReport, Measurement};
+use crate::analyses::gap::{self, GapError, GapReport};
 use crate::analyses::map::{self, MapReport, Range};
 use crate::analyses::place::{self, Demands, PlaceReport};
 use crate::analyses::study::{Saw, Study, StudyReport};
 use crate::commands::CommandReport;
-use crate::gap::{self, GapError, GuideGaps};
-use crate::report::{CutReport, GapReport, ResponseReport, RunUpReport, WashboardReport};
+use crate::report::{CutReport, ResponseReport, RunUpReport, WashboardReport};
 use crate::response::{self, ForcedResponse, ResponseError};
 use crate::scene::{Freed, Scene, SceneError, SceneFile};
 use crate::transient::{Cutting, RunningUp, TransientError};
@@ -221,10 +221,10 @@ fn map(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal
 }
 
 fn gap(scene: Scene, _: &Asked, _: &Meter<'_>) -> Result<String, Refusal> {
-    let found = GuideGaps::new(&scene, &gap::Options::default());
-    let report = GapReport::new(&found.map_err(|error| match error {
+    let found = gap::gap(&scene, &gap::Options::default());
+    let report = found.map_err(|error| match error {
         GapError::Refused(refused) => refused.into(),
         other => Refusal::of(&other),
-    })?);
+    })?;
     answer(&report, of_gap(&report), None)
 }

@@ -9,7 +9,7 @@ use super::style::{
     ALARM, AXIS_SIZE, BETWEEN_FACTS, CURVE, DASH, DIVERGENCE_STREAK, FLUTTER_STREAK, FORWARD, GRID,
     HAIRLINE, LABEL_SIZE, QUIET, tint,
 };
-use crate::report::{AtAmplitudeEntry, GapReport};
+use crate::analyses::gap::{AtAmplitude, GapReport};
 use crate::text::shown_to;
 
 const WIDTH: u32 = 1000;
@@ -69,7 +69,7 @@ fn facts(report: &GapReport) -> Vec<String> {
 }
 
 /// Difference of the amplitude and the smallest gap in µm; `None` without an amplitude.
-fn beyond_um(report: &GapReport, at: &AtAmplitudeEntry) -> Option<f64> {
+fn beyond_um(report: &GapReport, at: &AtAmplitude) -> Option<f64> {
     Some(1e6 * (at.amplitude_m? - report.smallest_gap_m))
 }
 
@@ -99,11 +99,11 @@ fn draw_speeds(sheet: &mut Sheet, report: &GapReport) {
             .clamp(places[0], places[1]);
         sheet.vertical(x, panel, Stroke::dashed(QUIET, HAIRLINE, DASH));
     }
-    let place = |at: &AtAmplitudeEntry, fallback: f64| {
+    let place = |at: &AtAmplitude, fallback: f64| {
         beyond_um(report, at).map_or(fallback, |um| amplitude.at(um))
     };
     let columns = report.amplitudes.iter().map(|at| (place(at, free), at));
-    let columns: Vec<(f64, &AtAmplitudeEntry)> = [(free, &report.free)]
+    let columns: Vec<(f64, &AtAmplitude)> = [(free, &report.free)]
         .into_iter()
         .chain(columns)
         .chain([(linear, &report.linear)])

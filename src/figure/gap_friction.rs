@@ -7,7 +7,7 @@ use super::heading;
 use super::style::{
     BACKWARD, BETWEEN_FACTS, CURVE, FORWARD, INK, LABEL_SIZE, QUIET, shorten_label, tint,
 };
-use crate::report::{FrictionEntry, FrictionPadEntry, GapReport};
+use crate::analyses::gap::{FrictionHeat, FrictionPad, GapReport};
 use crate::text::shown_to;
 
 const WIDTH: u32 = 820;
@@ -58,7 +58,7 @@ pub fn sheet(report: &GapReport) -> Option<Sheet> {
     Some(sheet)
 }
 
-fn facts(report: &GapReport, heat: &FrictionEntry) -> Vec<String> {
+fn facts(report: &GapReport, heat: &FrictionHeat) -> Vec<String> {
     let map = &report.deviation;
     let settled = (!heat.settled).then(|| "not settled".to_owned());
     let all = [
@@ -78,7 +78,7 @@ struct Pads {
     guides: Vec<usize>,
 }
 
-fn by_radii(pads: &[FrictionPadEntry]) -> Vec<Pads> {
+fn by_radii(pads: &[FrictionPad]) -> Vec<Pads> {
     let mut all: Vec<Pads> = Vec::new();
     for pad in pads {
         let ends_m = [pad.from_radius_m, pad.to_radius_m];
@@ -94,7 +94,7 @@ fn by_radii(pads: &[FrictionPadEntry]) -> Vec<Pads> {
 }
 
 /// Shades the radii of the pads, and writes the numbers of their guides above.
-fn draw_pads(sheet: &mut Sheet, heat: &FrictionEntry, radius: &Axis) {
+fn draw_pads(sheet: &mut Sheet, heat: &FrictionHeat, radius: &Axis) {
     let labels = by_radii(&heat.pads).into_iter().map(|pads| {
         let [left, right] = pads.ends_m.map(|m| radius.at(1e3 * m));
         let half = (0.5 * (right - left)).max(0.5 * POINT);
@@ -132,7 +132,7 @@ fn label_peak(sheet: &mut Sheet, [x, y]: [f64; 2], rise_k: f64) {
 }
 
 /// Lists below the diagram, for each pad, its radii, the rest of its gap, and its force.
-fn list_pads(sheet: &mut Sheet, heat: &FrictionEntry) {
+fn list_pads(sheet: &mut Sheet, heat: &FrictionHeat) {
     let mut y = f64::from(HEIGHT) + 4.0;
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
     let columns = [0.0, 90.0, 230.0, 470.0].map(|x| PANEL.left + x);
@@ -168,9 +168,9 @@ fn list_pads(sheet: &mut Sheet, heat: &FrictionEntry) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analyses::gap::{Friction, Options, OscillatingForce, gap};
     use crate::figure::gap_oscillation;
     use crate::figure::tidy::{assert_tidy, texts};
-    use crate::gap::{Friction, GuideGaps, Options, OscillatingForce};
     use crate::scene::{Accuracy, ContactLaw, Scene, SweepFile};
 
     #[test]
@@ -200,8 +200,7 @@ mod tests {
             max_deviation_mm: Some(0.2),
             ..Options::default()
         };
-        let found = GuideGaps::new(&scene.unwrap(), &options).unwrap();
-        let mut report = GapReport::new(&found);
+        let mut report = gap(&scene.unwrap(), &options).unwrap();
         assert_tidy(&gap_oscillation::sheet(&report).unwrap());
         let drawn = sheet(&report).unwrap();
         assert_tidy(&drawn);

@@ -7,7 +7,7 @@ use super::heading;
 use super::heat::{draw_grid, draw_scale, ramp};
 use super::key::Key;
 use super::style::{BETWEEN_FACTS, BLANK, Colour, INK, PAPER, STRONG_CURVE, SUBTITLE_SIZE};
-use crate::report::{DeviationEntry, GapReport};
+use crate::analyses::gap::{DeviationMap, GapReport};
 use crate::text::shown_to;
 
 const WIDTH: u32 = 1200;
@@ -166,7 +166,7 @@ impl Panel<'_> {
     }
 }
 
-fn draw_key(sheet: &mut Sheet, map: &DeviationEntry) {
+fn draw_key(sheet: &mut Sheet, map: &DeviationMap) {
     let y = f64::from(HEIGHT) - 36.0;
     let mut key = Key::new(sheet, PANELS[0].left, y);
     key.shade(BLANK)

@@ -10,7 +10,7 @@ use super::style::{
     ALARM, BACKWARD, BETWEEN_FACTS, CURVE, Colour, DASH, DIVERGENCE, FINE_DASH, FLUTTER, FORWARD,
     HAIRLINE, INK, STANDING, tint,
 };
-use crate::report::{GapReport, OscillationEntry, OscillationLineEntry};
+use crate::analyses::gap::{GapReport, Oscillation, OscillationLine};
 use crate::text::shown_to;
 
 const WIDTH: u32 = 1100;
@@ -59,7 +59,7 @@ pub fn sheet(report: &GapReport) -> Option<Sheet> {
     Some(sheet)
 }
 
-fn facts(report: &GapReport, found: &OscillationEntry) -> Vec<String> {
+fn facts(report: &GapReport, found: &Oscillation) -> Vec<String> {
     let force = (found.oscillating_order > 0).then(|| {
         format!(
             "{} N oscillating with {}×",
@@ -82,7 +82,7 @@ fn facts(report: &GapReport, found: &OscillationEntry) -> Vec<String> {
 }
 
 /// Shades speeds without a motion, half way to their neighbours.
-fn shade_unknown(sheet: &mut Sheet, found: &OscillationEntry, speed: &Axis, panel: &Frame) {
+fn shade_unknown(sheet: &mut Sheet, found: &Oscillation, speed: &Axis, panel: &Frame) {
     let rpm = &found.rpm;
     for (k, own) in rpm.iter().enumerate() {
         let beside = |other: Option<&f64>| speed.at(other.map_or(*own, |rpm| 0.5 * (rpm + own)));
@@ -95,7 +95,7 @@ fn shade_unknown(sheet: &mut Sheet, found: &OscillationEntry, speed: &Axis, pane
 }
 
 /// Points of a series, divided at speeds without a value; `of` returns the point of a speed.
-fn pieces(found: &OscillationEntry, of: impl Fn(usize) -> Option<[f64; 2]>) -> Vec<Vec<[f64; 2]>> {
+fn pieces(found: &Oscillation, of: impl Fn(usize) -> Option<[f64; 2]>) -> Vec<Vec<[f64; 2]>> {
     let mut all = vec![Vec::new()];
     for k in 0..found.rpm.len() {
         match (of(k), all.last_mut()) {
@@ -116,7 +116,7 @@ fn draw(sheet: &mut Sheet, panel: &Frame, pieces: &[Vec<[f64; 2]>], stroke: Stro
     }
 }
 
-fn draw_parts(sheet: &mut Sheet, found: &OscillationEntry, speed: &Axis) {
+fn draw_parts(sheet: &mut Sheet, found: &Oscillation, speed: &Axis) {
     let all = found.lines.iter().flat_map(|line| &line.probe_m).flatten();
     let [low, high] = extremes(all.map(|m| 1e3 * m).filter(|mm| *mm > 0.0));
     let ends = match high > 0.0 {
@@ -136,14 +136,14 @@ fn draw_parts(sheet: &mut Sheet, found: &OscillationEntry, speed: &Axis) {
 }
 
 /// Style of a harmonic: dashed if it is caused by contact alone.
-fn stroke_of(line: &OscillationLineEntry, colour: Colour) -> Stroke {
+fn stroke_of(line: &OscillationLine, colour: Colour) -> Stroke {
     match line.name == "contact" {
         true => Stroke::dashed(colour, CURVE, DASH),
         false => Stroke::solid(colour, 1.4 * CURVE),
     }
 }
 
-fn draw_cut(sheet: &mut Sheet, report: &GapReport, found: &OscillationEntry, speed: &Axis) {
+fn draw_cut(sheet: &mut Sheet, report: &GapReport, found: &Oscillation, speed: &Axis) {
     let limit_mm = report.deviation.max_deflection_m.map(|m| 1e3 * m);
     let both = found.cut_mean_m.iter().zip(&found.cut_amplitude_m);
     let ends = both.filter_map(|(mean, amplitude)| {
@@ -181,9 +181,9 @@ fn draw_cut(sheet: &mut Sheet, report: &GapReport, found: &OscillationEntry, spe
     draw_named(sheet, speed, CUT.bottom, SPEED);
 }
 
-fn draw_key(sheet: &mut Sheet, report: &GapReport, found: &OscillationEntry) {
+fn draw_key(sheet: &mut Sheet, report: &GapReport, found: &Oscillation) {
     let y = f64::from(HEIGHT) - 66.0;
-    let lines: Vec<(&OscillationLineEntry, Colour)> = found.lines.iter().zip(COLOURS).collect();
+    let lines: Vec<(&OscillationLine, Colour)> = found.lines.iter().zip(COLOURS).collect();
     for (row, some) in lines.chunks(IN_A_ROW).enumerate() {
         let mut key = Key::new(sheet, PARTS.left, y + 20.0 * row as f64);
         for (line, colour) in some {

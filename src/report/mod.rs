@@ -16,8 +16,7 @@ mod cut;
 mod deflect;
 mod event_shape;
 mod excitation;
-mod gap;
-mod gap_oscillation;
+
 mod in_cut;
 mod instability;
 mod membrane;
@@ -50,13 +49,7 @@ pub use self::deflect::{
 };
 pub use self::event_shape::{EventShapeEntry, ShapeOccasion};
 pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
-pub use self::gap::{
-    AtAmplitudeEntry, BasisErrorEntry, DeviationEntry, FrictionEntry, FrictionPadEntry, GapReport,
-};
-pub use self::gap_oscillation::{
-    OscillationAtEntry, OscillationEntry, OscillationLineEntry, OscillationPadEntry,
-    OscillationPlaceEntry,
-};
+
 pub use self::in_cut::{IdlingEntry, InCutEntry};
 pub use self::instability::InstabilityEntry;
 pub use self::membrane::{

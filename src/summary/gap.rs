@@ -3,9 +3,7 @@
 use std::fmt::Write;
 
 use super::{WIDTH, decimals_or, each, heading, sentence, shortened};
-use crate::report::{
-    AtAmplitudeEntry, FrictionEntry, GapReport, OscillationAtEntry, OscillationEntry,
-};
+use crate::analyses::gap::{AtAmplitude, FrictionHeat, GapReport, Oscillation, OscillationAt};
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
@@ -61,11 +59,7 @@ pub fn of_report(text: &mut String, report: &GapReport) -> std::fmt::Result {
 const MEANING: &str = "The chart over the amplitude is the linear one with the mean stiffness of the guides over a sinusoidal oscillation \
      of the same amplitude at all of them; it is an approximation. Deflections are stationary ones, unless an oscillation is named.";
 
-fn oscillation(
-    text: &mut String,
-    report: &GapReport,
-    found: &OscillationEntry,
-) -> std::fmt::Result {
+fn oscillation(text: &mut String, report: &GapReport, found: &Oscillation) -> std::fmt::Result {
     let mm = |m: f64| format!("{:.4}", 1e3 * m);
     writeln!(
         text,
@@ -141,7 +135,7 @@ fn oscillation(
 }
 
 /// Stability of the oscillation: largest growth rate of small motions about it.
-fn decay(at: &OscillationAtEntry) -> String {
+fn decay(at: &OscillationAt) -> String {
     match at.growth_per_s {
         None => "unknown".to_owned(),
         Some(growth) if at.stable => format!("stable, growth {} 1/s at most", shown_to(2, growth)),
@@ -149,7 +143,7 @@ fn decay(at: &OscillationAtEntry) -> String {
     }
 }
 
-fn heat(text: &mut String, report: &GapReport, friction: &FrictionEntry) -> std::fmt::Result {
+fn heat(text: &mut String, report: &GapReport, friction: &FrictionHeat) -> std::fmt::Result {
     let map = &report.deviation;
     writeln!(
         text,
@@ -243,7 +237,7 @@ fn half_way(report: &GapReport) -> String {
     }
 }
 
-fn row(name: &str, at: &AtAmplitudeEntry) -> String {
+fn row(name: &str, at: &AtAmplitude) -> String {
     let share = at.stiffness_shares.iter().copied().fold(0.0, f64::max);
     format!(
         "{name:>11} {:>9} % {:>16} {:>15} {:>7}",

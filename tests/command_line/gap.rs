@@ -3,7 +3,7 @@
 //!
 //! Source: `--help`, docs/how-to/guide-gaps.md.
 
-use sawflutter::report::GapReport;
+use sawflutter::analyses::gap::GapReport;
 use sawflutter::scene::{Accuracy, ContactLaw, Scene};
 use tempfile::TempDir;
 

@@ -4,10 +4,10 @@
 
 use crate::common::{assert_close, scene};
 use rayon::prelude::*;
+use sawflutter::analyses::gap;
 use sawflutter::analyses::place::{
     self, Demands, GapDemands, Options, PlaceError, PlaceReport, Tolerances,
 };
-use sawflutter::gap::{self, GuideGaps};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{
     Accuracy, ContactLaw, Freed, Parameter, Scene, SpeedRange, rad_per_s, rpm,
@@ -306,15 +306,15 @@ fn the_gap_is_as_narrow_as_the_deflection_demands() {
         force_n: Some(2.0),
         ..gap::Options::default()
     };
-    let map = GuideGaps::new(&placed(&found), &options).unwrap().deviation;
+    let map = gap::gap(&placed(&found), &options).unwrap().deviation;
     let of = |own: &[f64], value: f64| {
         let place = own.iter().position(|own| (own / value - 1.0).abs() < 1e-9);
         place.unwrap()
     };
-    let row = &map.over_gap[of(&map.gap_factors, 1.0)];
-    let at = row[of(&map.forces_n, 2.0)].as_ref().unwrap();
+    let row = &map.deflection_m[of(&map.gap_factors, 1.0)];
+    let deflection_m = row[of(&map.forces_n, 2.0)].unwrap();
     // This test's basis is a small one.
-    assert!(at.deviation_m < 1.02 * 3e-4, "{}", at.deviation_m);
+    assert!(deflection_m < 1.02 * 3e-4, "{deflection_m}");
     let idle = place::place(&saw, &free, &Demands::default(), &quick(), &|_, _, _| ());
     assert!(matches!(idle, Err(PlaceError::NothingFree)));
     let alone = GapDemands::new(&saw, None, None, Some(2.0)).unwrap_err();

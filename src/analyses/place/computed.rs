@@ -1,6 +1,6 @@
 //! Result of a saw in a placement.
 
-use crate::gap::GapError;
+use crate::analyses::gap::GapError;
 use crate::plate::Resolution;
 use crate::scene::{Scene, rpm};
 use crate::stability::{

@@ -1,7 +1,7 @@
 //! The goal of a placement, its limits, and the extent of the search.
 
 use super::Goal;
-use crate::gap::{self, GapCase};
+use crate::analyses::gap::{self, GapCase};
 use crate::plate::Resolution;
 use crate::scene::{Kind, Parameter, Quantity, RefusedValue, Scene, rad_per_s, speed_rad_per_s};
 use crate::text::shown;

@@ -12,7 +12,7 @@ use super::distribution::Distribution;
 use super::file::{GapFile, StudyError, StudyFile};
 use super::sequence::{DIMENSIONS, even};
 use crate::analyses::check::{Criterion, Limits, LimitsFile};
-use crate::gap::{self, GapCase};
+use crate::analyses::gap::{self, GapCase};
 use crate::plate::Resolution;
 use crate::scene::{Given, Parameter, RefusedValue, Scene, SceneError, SceneFile, speed_rad_per_s};
 use crate::spectrum::SpectrumError;

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::plan::Study;
-use crate::gap::{GapError, GapNumbers};
+use crate::analyses::gap::{GapError, GapNumbers};
 use crate::scene::{Scene, rpm};
 use crate::stability::{CRITICAL_MARGIN, Evidence, Instability, InstabilityKind, Onsets};
 

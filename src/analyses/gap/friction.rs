@@ -5,7 +5,7 @@
 //! the deflection under the side force and the forces of the pads: the loop is repeated until the temperature no longer
 //! changes. The effect of the force of friction on the motion is neglected.
 
-use crate::scene::{RefusedValue, Scene, TemperatureFile, TemperatureRow, rad_per_s};
+use crate::scene::{self, Guide, RefusedValue, Scene, TemperatureFile, TemperatureRow, rad_per_s};
 use crate::spectrum::{SpectrumError, Work};
 use crate::stability::Analysis;
 use crate::stretched::StretchedError;
@@ -16,6 +16,7 @@ use super::deviation::MODES;
 use super::heated_disk::{Cooling, radii_m, rises_k};
 use super::numbers::first_critical_of_linear;
 use super::pressed::{Deviation, PressedBlade};
+use super::report::{FrictionHeat, FrictionPad};
 
 /// Friction of the pads, and the cooling of the blade.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,34 +84,6 @@ impl Friction {
     }
 }
 
-/// The heat of friction at one speed under one side force, with the gaps of the scene.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FrictionHeat {
-    /// Friction of the pads, and cooling of the blade.
-    pub friction: Friction,
-    /// Coefficient of linear thermal expansion: that of the scene's temperature, or that of steel.
-    pub expansion_per_k: f64,
-    /// Power of friction at all pads.
-    pub power_w: f64,
-    /// Radii of the temperatures.
-    pub radii_m: Vec<f64>,
-    /// Temperature rise at these radii by friction alone.
-    pub rise_k: Vec<f64>,
-    /// Deflection and pad forces without friction; `None` where the model is not valid.
-    pub cold: Option<Deviation>,
-    /// Deflection and pad forces with friction; `None` where the model is not valid.
-    pub hot: Option<Deviation>,
-    /// First critical speed of the linear chart without and with the heat of friction; `None` if there is none, or if the
-    /// blade buckles.
-    pub critical_rad_per_s: [Option<f64>; 2],
-    /// Last change of the temperature, relative to its largest value.
-    pub change: f64,
-    /// Number of repetitions of the loop.
-    pub repetitions: usize,
-    /// Whether the heat of friction buckles the blade at rest with its guides in contact.
-    pub buckles: bool,
-}
-
 /// Coefficient of linear thermal expansion of steel.
 const STEEL_EXPANSION_PER_K: f64 = 1.2e-5;
 /// Relative change of the temperature at which the loop ends.
@@ -120,17 +93,19 @@ const MOST: usize = 25;
 /// Temperature rise beyond which the loop ends, because no blade survives it.
 const RUNAWAY_K: f64 = 1000.0;
 
-impl FrictionHeat {
-    /// Whether the loop has converged.
-    pub fn has_settled(&self) -> bool {
-        self.change <= CONVERGED
-    }
+/// The heat of friction.
+pub(super) struct Heated {
+    pub heat: FrictionHeat,
+    /// Whether the heat of friction buckles the blade at rest with its guides in contact.
+    pub buckles: bool,
+}
 
+impl Heated {
     /// Repeats the loop of friction and deflection.
     ///
     /// # Errors
     /// [`GapError`].
-    pub(super) fn new(
+    pub fn new(
         analysis: &Analysis,
         friction: Friction,
         (force_n, rpm): (f64, f64),
@@ -147,31 +122,39 @@ impl FrictionHeat {
             conductivity_w_per_m_k: friction.conductivity_w_per_m_k,
             convection_w_per_m2_k: friction.convection_w_per_m2_k,
         };
-        let mut found = FrictionHeat {
-            friction,
+        let mut heat = FrictionHeat {
+            coefficient: friction.coefficient,
+            heat_share: friction.heat_share,
+            convection_w_per_m2_k: friction.convection_w_per_m2_k,
+            conductivity_w_per_m_k: friction.conductivity_w_per_m_k,
             expansion_per_k,
             power_w: 0.0,
             rise_k: vec![0.0; radii_m.len()],
-            cold: None,
-            hot: None,
-            critical_rad_per_s: [first_critical_of_linear(scene, resolution)?, None],
+            radii_m,
+            cold_deflection_m: None,
+            deflection_m: None,
+            pad_forces_n: Vec::new(),
+            pads: Vec::new(),
+            cold_critical_rpm: first_critical_of_linear(scene, resolution)?.map(scene::rpm),
+            critical_rpm: None,
+            settled: false,
             change: f64::INFINITY,
             repetitions: 0,
-            buckles: false,
-            radii_m,
         };
         let work = Work::of("friction", MOST);
         let mut warm = scene.clone();
-        while !found.has_settled() && found.repetitions < MOST {
+        let mut hot = None;
+        while !heat.settled && heat.repetitions < MOST {
             let pressed = PressedBlade::new(&warm, resolution, rpm, MODES);
             let Some(blade) = unless_buckled(pressed)? else {
                 break;
             };
             let (deviation, contacts) = blade.with_contacts(force_n, rpm)?;
-            if found.repetitions == 0 {
-                found.cold.clone_from(&deviation);
+            hot = deviation;
+            heat.deflection_m = hot.as_ref().map(|at| at.deviation_m);
+            if heat.repetitions == 0 {
+                heat.cold_deflection_m = heat.deflection_m;
             }
-            found.hot = deviation;
             let powers = contacts.into_iter().map(|(radius_m, force_n)| {
                 (
                     radius_m,
@@ -179,24 +162,25 @@ impl FrictionHeat {
                 )
             });
             let powers: Vec<(f64, f64)> = powers.collect();
-            found.power_w = powers.iter().map(|(_, power_w)| power_w).sum();
+            heat.power_w = powers.iter().map(|(_, power_w)| power_w).sum();
             let into_blade = powers
                 .iter()
                 .map(|(r, power_w)| (*r, friction.heat_share * power_w));
             let rise_k = rises_k(scene.blade(), &cooling, &into_blade.collect::<Vec<_>>());
-            let pairs = rise_k.iter().zip(&found.rise_k);
+            let pairs = rise_k.iter().zip(&heat.rise_k);
             let change_k = pairs
                 .map(|(new, old)| (new - old).abs())
                 .fold(0.0, f64::max);
             let peak_k = rise_k.iter().copied().fold(0.0, f64::max);
-            found.change = if peak_k > 0.0 { change_k / peak_k } else { 0.0 };
-            found.rise_k = rise_k;
-            found.repetitions += 1;
+            heat.change = if peak_k > 0.0 { change_k / peak_k } else { 0.0 };
+            heat.settled = heat.change <= CONVERGED;
+            heat.rise_k = rise_k;
+            heat.repetitions += 1;
             work.advance();
-            if found.hot.is_none() || peak_k > RUNAWAY_K {
+            if hot.is_none() || peak_k > RUNAWAY_K {
                 break;
             }
-            let rows = found.radii_m.iter().zip(&found.rise_k);
+            let rows = heat.radii_m.iter().zip(&heat.rise_k);
             let table = rows.map(|(radius_m, rise_k)| TemperatureRow {
                 radius_m: *radius_m,
                 rise_k: rise_k + own_k(*radius_m),
@@ -204,10 +188,42 @@ impl FrictionHeat {
             warm = heated(scene, expansion_per_k, table.collect())?;
         }
         let critical = unless_buckled(first_critical_of_linear(&warm, resolution))?;
-        found.buckles = critical.is_none();
-        found.critical_rad_per_s[1] = critical.flatten();
-        Ok(found)
+        heat.pads = pads(scene, hot.as_ref());
+        heat.pad_forces_n = hot.map_or_else(Vec::new, |at| at.pad_forces_n);
+        heat.critical_rpm = critical.flatten().map(scene::rpm);
+        Ok(Heated {
+            heat,
+            buckles: critical.is_none(),
+        })
     }
+
+    /// Remark on the validity of the numbers.
+    pub fn warning(&self) -> Option<&'static str> {
+        if self.buckles {
+            return Some(
+                "the heat of friction buckles the blade at rest: the deflection is that of the last repetition before, and there is no critical speed",
+            );
+        }
+        (!self.heat.settled).then_some(
+            "the temperature of friction does not settle: heat, deflection and pad forces raise each other, and the numbers of friction are those of the last repetition",
+        )
+    }
+}
+
+/// The one-sided pads beside the heated blade.
+fn pads(scene: &Scene, hot: Option<&Deviation>) -> Vec<FrictionPad> {
+    let blade = scene.blade();
+    let lifting = scene.guides().iter().filter(|pad| pad.lifting.is_some());
+    let entry = |(place, pad): (usize, &Guide)| {
+        let (from_m, to_m) = pad.reach_m();
+        FrictionPad {
+            guide: pad.index,
+            from_radius_m: from_m.max(blade.inner_radius_m),
+            to_radius_m: to_m.min(blade.outer_radius_m),
+            gap_left_m: hot.and_then(|at| at.distances_left_m.get(place).copied()),
+        }
+    };
+    lifting.enumerate().map(entry).collect()
 }
 
 /// Replaces the error that the blade is not stable at rest by `None`.

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::pressed::Deviation;
 use super::*;
 use crate::scene::{Accuracy, ContactLaw, Scene};
 
@@ -41,21 +42,20 @@ fn the_mean_stiffness_is_the_first_harmonic_of_the_force() {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
-    let found = GuideGaps::new(&lifting(4e-5), &Options::default()).unwrap();
-    let chart = &found.amplitude;
-    let first = |at: &AtAmplitude| at.critical_rad_per_s[0];
+    let chart = gap(&lifting(4e-5), &Options::default()).unwrap();
+    let first = |at: &AtAmplitude| at.critical_rpm[0];
     let free = Scene::paper().edited(|file| {
         file.accuracy = Accuracy::Draft;
         file.guides.clear();
     });
     let free = Analysis::new(&free.unwrap()).unwrap();
-    let expected = free.model.critical[0].speed_rad_per_s;
+    let expected = rpm(free.model.critical[0].speed_rad_per_s);
     assert!((first(&chart.free) / expected - 1.0).abs() < 2e-3);
     let lowest = &chart.amplitudes[0];
     assert!((first(lowest) / first(&chart.free) - 1.0).abs() < 0.02);
     let highest = chart.amplitudes.last().unwrap();
     assert!((first(highest) / first(&chart.linear) - 1.0).abs() < 2e-3);
-    let half = chart.half_way_m.unwrap();
+    let half = chart.half_way_amplitude_m.unwrap();
     let middle = 0.5 * (first(&chart.free) + first(&chart.linear));
     let rows = chart.amplitudes.iter();
     for at in rows {
@@ -66,27 +66,26 @@ fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
         );
     }
     // The force of the pad balances the side force for every gap.
-    let map = &found.deviation;
-    for (row, factor) in map.over_gap.iter().zip(&map.gap_factors) {
-        for (at, force) in row.iter().zip(&map.forces_n) {
-            let at = at.as_ref().unwrap();
+    let map = &chart.deviation;
+    for (row, factor) in map.pad_forces_n[0].iter().zip(&map.gap_factors) {
+        for (pad_n, force) in row.iter().zip(&map.forces_n) {
             match *factor == 0.0 {
-                true => assert!(at.pad_forces_n.is_empty()),
-                false => assert!((at.pad_forces_n[0] + force).abs() < 1e-5 * force),
+                true => assert_eq!(*pad_n, None),
+                false => assert!((pad_n.unwrap() + force).abs() < 1e-5 * force),
             }
         }
     }
     // The two maps have the speed and the force of the options in common.
-    let same = map.over_gap.iter().zip(&map.over_speed);
-    for (over_force, over_speed) in same {
-        let [one, other] = [&over_force[6], &over_speed[6]].map(|at| at.as_ref().unwrap());
-        assert!((one.deviation_m / other.deviation_m - 1.0).abs() < 1e-9);
+    let over_speeds = &map.deflection_over_gap_and_speed_m;
+    for (over_force, over_speed) in map.deflection_m.iter().zip(over_speeds) {
+        let [one, other] = [over_force, over_speed].map(|row| row[6].unwrap());
+        assert!((one / other - 1.0).abs() < 1e-9);
     }
     let error = map.basis_error.unwrap();
     assert!(error.share < 2e-3, "{error:?}");
     // A wider gap allows a larger deflection.
-    for gaps in map.over_gap[1..].windows(2) {
-        let [narrow, wide] = [&gaps[0], &gaps[1]].map(|row| row[2].as_ref().unwrap().deviation_m);
+    for gaps in map.deflection_m[1..].windows(2) {
+        let [narrow, wide] = [&gaps[0], &gaps[1]].map(|row| row[2].unwrap());
         assert!(wide > narrow, "{narrow} {wide}");
     }
 }
@@ -101,27 +100,18 @@ fn limits_are_interpolated_between_forces() {
             distances_left_m: Vec::new(),
         })
     };
-    let map = DeviationMap {
-        angle_rad: 0.0,
-        rpm: 1000.0,
-        gap_factors: vec![0.0, 1.0, 2.0],
-        forces_n: vec![1.0, 2.0, 4.0],
-        over_gap: vec![
-            vec![at(1e-5), at(2e-5), at(4e-5)],
-            vec![at(4e-5), at(8e-5), at(2.4e-4)],
-            vec![at(2e-4), None, None],
-        ],
-        force_n: 1.0,
-        speeds_rpm: vec![0.0, 500.0, 1000.0],
-        over_speed: vec![vec![at(1e-5), at(1e-4), None]; 3],
-        basis_error: None,
-    };
-    let found = map.force_within_n(1.2e-4);
-    assert_eq!((found[0], found[2]), (Some(4.0), None));
-    assert!((found[1].unwrap() - 2.5).abs() < 1e-12, "{found:?}");
+    let forces_n = [1.0, 2.0, 4.0];
+    let within = |row: [Option<Deviation>; 3]| deviation::within(&forces_n, &row, 1.2e-4);
+    assert_eq!(within([at(1e-5), at(2e-5), at(4e-5)]), Some(4.0));
+    let found = within([at(4e-5), at(8e-5), at(2.4e-4)]).unwrap();
+    assert!((found - 2.5).abs() < 1e-12, "{found}");
+    assert_eq!(within([at(2e-4), None, None]), None);
     // Beyond the last speed at which the deflection is known nothing is interpolated.
-    assert_eq!(map.speed_within_rpm(1.2e-4), vec![Some(500.0); 3]);
-    let found = map.speed_within_rpm(5.5e-5)[0].unwrap();
+    let speeds_rpm = [0.0, 500.0, 1000.0];
+    let row = [at(1e-5), at(1e-4), None];
+    let within = |limit_m: f64| deviation::within(&speeds_rpm, &row, limit_m);
+    assert_eq!(within(1.2e-4), Some(500.0));
+    let found = within(5.5e-5).unwrap();
     assert!((found - 250.0).abs() < 1e-9, "{found}");
 }
 
@@ -199,7 +189,7 @@ fn a_gap_that_the_blade_cannot_cross_is_refused_before_any_work() {
     // A cancelled computation ends before its first eigenproblem.
     let cancelled = crate::spectrum::Cancellation::default();
     cancelled.cancel();
-    let answer = cancelled.watched(|| GuideGaps::new(&clamped(0.02), &options));
+    let answer = cancelled.watched(|| gap(&clamped(0.02), &options));
     assert_eq!(answer.unwrap().unwrap_err().to_string(), message);
     assert!(options.checked(&lifting(0.02)).is_ok());
 }
@@ -209,7 +199,7 @@ fn a_gap_that_the_blade_cannot_cross_is_refused_before_any_work() {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn the_heat_of_a_point_pad_is_that_of_its_force() {
-    let json = include_str!("../../scenes/collar-400mm.json");
+    let json = include_str!("../../../scenes/collar-400mm.json");
     let scene = Scene::from_json(json).unwrap().edited(|file| {
         file.accuracy = Accuracy::Draft;
         file.guides = vec![crate::scene::GuideFile {
@@ -225,12 +215,13 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
     });
     let analysis = Analysis::new(&scene.unwrap()).unwrap();
     let friction = Friction::of(0.2);
-    let heat = FrictionHeat::new(&analysis, friction, (30.0, 2000.0)).unwrap();
-    assert!(heat.has_settled() && heat.repetitions > 1, "{heat:?}");
-    let hot = heat.hot.as_ref().unwrap();
-    let force_n = hot.largest_pad_force_n();
+    let heat = Heated::new(&analysis, friction, (30.0, 2000.0))
+        .unwrap()
+        .heat;
+    assert!(heat.settled && heat.repetitions > 1, "{heat:?}");
+    let force_n = heat.pad_forces_n[0].abs();
     // The spring of the pad is pressed in by its force.
-    let left_m = hot.distances_left_m[0];
+    let left_m = heat.pads[0].gap_left_m.unwrap();
     assert!((left_m / (-force_n / 1e6) - 1.0).abs() < 1e-9, "{left_m}");
     let power_w = 0.2 * force_n * rad_per_s(2000.0) * 0.17;
     assert!(
@@ -251,15 +242,13 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
         let exact = disk.rise_k(*r, power_w, 0.17);
         assert!((found - exact).abs() < 5e-3 * peak, "{r}: {found} {exact}");
     }
-    let [cold, hot] = heat.critical_rad_per_s.map(Option::unwrap);
+    let [cold, hot] = [heat.cold_critical_rpm, heat.critical_rpm].map(Option::unwrap);
     assert!((hot / cold - 1.0).abs() > 1e-3, "{hot} {cold}");
 
     // Ten times the friction buckles the blade: it has deflections, but no critical speed.
-    let heat = FrictionHeat::new(&analysis, Friction::of(2.0), (30.0, 2000.0)).unwrap();
-    assert!(
-        heat.buckles && heat.critical_rad_per_s[1].is_none(),
-        "{heat:?}"
-    );
+    let found = Heated::new(&analysis, Friction::of(2.0), (30.0, 2000.0)).unwrap();
+    let heat = &found.heat;
+    assert!(found.buckles && heat.critical_rpm.is_none(), "{heat:?}");
 }
 
 /// A blade on three pads heaves without force, so that pads with one common offset move it by this offset.

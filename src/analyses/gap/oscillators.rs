@@ -87,6 +87,18 @@ impl Oscillators {
         force.into_iter().chain(turning).collect()
     }
 
+    /// Name of the part of the motion with an order: the causes with this order, or the contact, which adds other multiples
+    /// of the base order.
+    pub(super) fn name_of(&self, order: u32) -> String {
+        let causes = self.causes();
+        let own = causes.iter().filter(|(_, other)| *other == order);
+        let names: Vec<&str> = own.map(|(name, _)| *name).collect();
+        match names.is_empty() {
+            true => "contact".to_owned(),
+            false => names.join(", "),
+        }
+    }
+
     /// The greatest common divisor of all orders, of which the orders of the motion are multiples.
     pub(super) fn base_order(&self) -> u32 {
         let divisor = |mut a: u32, mut b: u32| {

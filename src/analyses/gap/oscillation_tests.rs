@@ -4,9 +4,8 @@ use std::f64::consts::TAU;
 
 use faer::{Col, Mat, c64};
 
-use super::super::oscillators::OscillatingForce;
 use super::*;
-use crate::gap::{GuideGaps, Options};
+use crate::analyses::gap::{Options, OscillatingForce, OscillationPlace, gap};
 use crate::plate::Resolution;
 use crate::response::{ForcedResponse, Options as ResponseOptions};
 use crate::scene::{
@@ -35,6 +34,12 @@ fn saw(change: impl FnOnce(&mut GuideFile)) -> Scene {
     scene.unwrap()
 }
 
+/// Complex amplitude of a part of a motion.
+fn harmonic(place: &OscillationPlace, part: usize) -> c64 {
+    let phase = place.phase_deg[part].to_radians();
+    place.lines_m[part] * c64::new(phase.cos(), phase.sin())
+}
+
 const SMALL: Resolution = Resolution {
     max_diameters: 8,
     radial_functions: 4,
@@ -59,22 +64,31 @@ fn without_a_gap_the_motion_is_the_linear_response() {
     let analysis = Analysis::new(&lifting.unwrap()).unwrap();
     let oscillators = Oscillators::of(&analysis.scene, None).unwrap();
     let speed = rad_per_s(900.0);
-    let found = Oscillation::new(&analysis, oscillators, 0.01, speed).unwrap();
-    assert_eq!(found.base_order, 1);
-    assert_eq!(found.name_of(2), "flatness, imbalance");
+    assert_eq!(oscillators.base_order(), 1);
+    assert_eq!(oscillators.name_of(2), "flatness, imbalance");
+    let to = analysis.range_rad_per_s.1;
+    let resolution = analysis.model.plate.resolution;
+    let asked = (0.01, speed, to);
+    let scene = &analysis.scene;
+    let blade = OscillatingBlade::new(scene, resolution, &oscillators, asked, MODES).unwrap();
+    let speeds = (1..=SPEEDS).map(|k| to * k as f64 / SPEEDS as f64);
+    let motions = speeds.chain([speed]).filter_map(|speed| {
+        let (found, _) = blade.at(speed).unwrap();
+        Some((speed, blade.read(speed, &found?)))
+    });
     let largest = |order: u32| {
         let own = linear.lines.iter().filter(|line| line.order == order);
         let all = own.flat_map(|line| line.deflections.iter().flatten());
         all.map(|w| w.at_probe.norm()).fold(0.0, f64::max)
     };
     let mut compared = 0;
-    for at in found.over_speed.iter().flatten() {
-        let away = |k: &usize| (linear.speeds_rad_per_s[*k] / at.speed_rad_per_s - 1.0).abs();
+    for (own_speed, at) in motions.filter(|(_, at)| at.stable) {
+        let away = |k: &usize| (linear.speeds_rad_per_s[*k] / own_speed - 1.0).abs();
         let speeds = 0..linear.speeds_rad_per_s.len();
         let place = speeds.min_by(|a, b| away(a).total_cmp(&away(b))).unwrap();
         assert!(away(&place) < 1e-4);
         // The basis contains the linear response at the speed of the map, where the motion is more accurate.
-        let tolerance = match (at.speed_rad_per_s / speed - 1.0).abs() < 1e-9 {
+        let tolerance = match (own_speed / speed - 1.0).abs() < 1e-9 {
             true => 1e-3,
             false => 1e-2,
         };
@@ -84,13 +98,13 @@ fn without_a_gap_the_motion_is_the_linear_response() {
                 .map(|line| Some(line.deflections[place]?.at_probe))
                 .sum();
             let Some(expected) = sum else { continue };
-            let w = at.probe.harmonics_m[order as usize - 1];
+            let w = harmonic(&at.probe, order as usize - 1);
             // Between resonances the contributions of the modes cancel each other, which enlarges the relative error.
             let size = expected.norm().max(0.1 * largest(order));
             assert!(
                 (w - expected).norm() < tolerance * size,
                 "{} rpm, {order}: {w} {expected}",
-                at.rpm()
+                at.rpm
             );
             compared += 1;
         }
@@ -129,19 +143,19 @@ fn compare_with_time_history(turning: bool, force: Option<OscillatingForce>, bas
     assert_eq!(oscillators.base_order(), base);
     let asked = (1.0, speed, rad_per_s(1400.0));
     let blade = OscillatingBlade::new(&scene, SMALL, &oscillators, asked, 10).unwrap();
-    let (found, _) = blade.at(speed, base).unwrap();
-    let found = found.unwrap();
-    let at = blade.read(speed, &found);
-    assert!(at.is_stable(0.0), "{at:?}");
+    let (found, _) = blade.at(speed).unwrap();
+    let at = blade.read(speed, &found.unwrap());
+    let growth_per_s = at.growth_per_s.unwrap();
+    assert!(growth_per_s <= 0.0, "{at:?}");
     // Without lifting off there would be one harmonic only. The oscillating force is too small for a large second one.
-    let [first, second] = [0, 1].map(|k| at.cut.harmonics_m[k].norm());
+    let [first, second] = [0, 1].map(|k| at.cut.lines_m[k]);
     assert!(!turning || second > 0.02 * first, "{first} {second}");
 
     let terms = blade.terms();
     let forces: Vec<&dyn Force> = terms.iter().map(|term| term.force).collect();
     let order = blade.system.order();
     let zero = Mat::zeros(order, 1 + 2 * HARMONICS);
-    let load = blade.load(zero, speed, base);
+    let load = blade.load(zero, speed);
     let loads: Vec<Col<f64>> = (0..3).map(|k| load.col(k).to_owned()).collect();
     let steps = 200;
     let frequency = f64::from(base) * speed;
@@ -157,7 +171,7 @@ fn compare_with_time_history(turning: bool, force: Option<OscillatingForce>, bas
     let (mut mean, mut first) = (0.0, c64::new(0.0, 0.0));
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     // Until the last period, small motions decay to less than two hundredths.
-    let decay = -at.growth.unwrap().0;
+    let decay = -growth_per_s;
     let periods = (4.0 * frequency / TAU / decay).ceil() as u32;
     assert!((20..800).contains(&periods), "{periods}");
     let periods = 1 + periods;
@@ -182,7 +196,7 @@ fn compare_with_time_history(turning: bool, force: Option<OscillatingForce>, bas
         "{} {mean}",
         at.cut.mean_m
     );
-    let own = at.cut.harmonics_m[0];
+    let own = harmonic(&at.cut, 0);
     assert!((own - first).norm() < 1e-2 * amplitude, "{own} {first}");
 }
 
@@ -195,12 +209,12 @@ fn more_harmonics_and_modes_change_little() {
         force_n: Some(1.0),
         ..Options::default()
     };
-    let found = GuideGaps::new(&scene, &options).unwrap();
-    let found = found.oscillation.unwrap();
-    let [harmonics, basis] = [found.harmonics_error, found.basis_error].map(Option::unwrap);
+    let found = gap(&scene, &options).unwrap().oscillation.unwrap();
+    let errors = [found.harmonics_error_share, found.basis_error_share];
+    let [harmonics, basis] = errors.map(Option::unwrap);
     assert!(harmonics < 0.02 && basis < 0.05, "{harmonics} {basis}");
-    assert_eq!(found.base_order, 2);
-    assert_eq!(found.name_of(4), "contact");
+    let second = &found.lines[1];
+    assert_eq!((second.order, &*second.name), (4, "contact"));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use faer::mat;
 
 use super::*;
-use crate::gap::equivalent_share;
+use crate::analyses::gap::equivalent_share;
 
 /// A spring on the first coordinate beyond a gap on both sides, or on one side only.
 struct Stop {

@@ -14,51 +14,8 @@ use crate::transient::reduced_system;
 
 use super::GapError;
 use super::balance::{Balance, Growth, Periodic, Term};
+use super::oscillation_report::{OscillationAt, OscillationPad, OscillationPlace};
 use super::oscillators::Oscillators;
-
-/// Periodic deflection at a point.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Motion {
-    /// Mean over a period.
-    pub mean_m: f64,
-    /// Half of the difference between the largest and the smallest value.
-    pub amplitude_m: f64,
-    /// Largest absolute value.
-    pub largest_m: f64,
-    /// Complex amplitude W of each harmonic Re W e^{ikωt}, k = 1, 2, …
-    pub harmonics_m: Vec<c64>,
-}
-
-/// Force and contact of a pad over a period.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PadMotion {
-    /// Index among the guides of the scene.
-    pub guide: usize,
-    /// Mean of the force on the blade beyond the gap.
-    pub mean_n: f64,
-    /// Largest absolute value of the force beyond the gap.
-    pub largest_n: f64,
-    /// Share of the period in which the pad touches the blade.
-    pub contact_share: f64,
-}
-
-/// A periodic motion at one speed.
-#[derive(Debug, Clone, PartialEq)]
-pub struct AtSpeed {
-    /// Rotation speed.
-    pub speed_rad_per_s: f64,
-    /// Deflection at the probe.
-    pub probe: Motion,
-    /// Deflection of the rim at the cut.
-    pub cut: Motion,
-    /// Forces and contact of the one-sided pads.
-    pub pads: Vec<PadMotion>,
-    /// Largest deflection of the blade, as an absolute value.
-    pub largest_m: f64,
-    /// Fastest growth of small motions about the periodic one, in 1/s, and their smallest frequency, in rad/s; `None` if the
-    /// eigenvalues were not found.
-    pub growth: Option<(f64, f64)>,
-}
 
 /// Number of harmonics of the motion. With more of them the amplitude of the saw of the tests changes by less than 2 %.
 pub(super) const HARMONICS: usize = 6;
@@ -81,6 +38,10 @@ pub(super) struct OscillatingBlade {
     /// Indices of the guides that lift off.
     guides: Vec<usize>,
     size: f64,
+    /// Ratio of the frequency of the motion to that of rotation.
+    base_order: u32,
+    /// Growth rate above which a motion is unstable.
+    threshold_per_s: f64,
 }
 
 impl OscillatingBlade {
@@ -162,6 +123,8 @@ impl OscillatingBlade {
                 .collect(),
             size: 1e-3 * plate.blade.thickness_m * plate.blade.mass_kg().sqrt(),
             blade,
+            base_order: oscillators.base_order(),
+            threshold_per_s: scene.flutter_threshold_per_s(),
         })
     }
 
@@ -178,12 +141,12 @@ impl OscillatingBlade {
     }
 
     /// Coefficients of the steady and the alternating loads at a speed, added to zero coefficients.
-    pub(super) fn load(&self, zero: Mat<f64>, speed_rad_per_s: f64, base_order: u32) -> Mat<f64> {
+    pub(super) fn load(&self, zero: Mat<f64>, speed_rad_per_s: f64) -> Mat<f64> {
         let mut load = zero;
         load.col_mut(0).copy_from(self.blade.force());
         for (own, vector) in &self.loads {
             let factor = own.factor(speed_rad_per_s);
-            let k = (own.order / base_order) as usize;
+            let k = (own.order / self.base_order) as usize;
             for i in 0..vector.nrows() {
                 load[(i, 2 * k - 1)] += factor * vector[i].re;
                 load[(i, 2 * k)] -= factor * vector[i].im;
@@ -197,15 +160,11 @@ impl OscillatingBlade {
     ///
     /// # Errors
     /// [`GapError`] if the computation was cancelled or no equilibrium is found.
-    pub(super) fn at(
-        &self,
-        speed_rad_per_s: f64,
-        base_order: u32,
-    ) -> Result<(Option<Found>, f64), GapError> {
+    pub(super) fn at(&self, speed_rad_per_s: f64) -> Result<(Option<Found>, f64), GapError> {
         Cancellation::current().check()?;
         let rest = self.blade.settled(speed_rad_per_s, &self.blade.flat())?;
         let still_m = self.cut.transpose() * &rest.coordinates;
-        let found = self.balanced(speed_rad_per_s, (base_order, HARMONICS), |balance, load| {
+        let found = self.balanced(speed_rad_per_s, HARMONICS, |balance, load| {
             let motion = balance.motion(&rest.coordinates, load)?;
             Some(Found::new(balance, motion))
         });
@@ -213,30 +172,23 @@ impl OscillatingBlade {
     }
 
     /// Searches the motions that were not found, starting from those at neighbouring speeds, upwards and then downwards.
-    pub(super) fn follow(&self, motions: &mut [Option<Found>], speeds: &[f64], base_order: u32) {
+    pub(super) fn follow(&self, motions: &mut [Option<Found>], speeds: &[f64]) {
         let last = motions.len().saturating_sub(1);
         let upwards = (1..=last).map(|k| (k - 1, k));
         let downwards = (1..=last).rev().map(|k| (k, k - 1));
         for (from, to) in upwards.chain(downwards) {
             if let (Some(near), None) = (&motions[from], &motions[to]) {
-                motions[to] =
-                    self.balanced(speeds[to], (base_order, HARMONICS), |balance, load| {
-                        let motion = balance.refined(&near.motion, load)?;
-                        Some(Found::new(balance, motion))
-                    });
+                motions[to] = self.balanced(speeds[to], HARMONICS, |balance, load| {
+                    let motion = balance.refined(&near.motion, load)?;
+                    Some(Found::new(balance, motion))
+                });
             }
         }
     }
 
     /// The motion that is close to a given one and has more harmonics; `None` if it is not found.
-    pub(super) fn refined(
-        &self,
-        near: &Periodic,
-        speed_rad_per_s: f64,
-        base_order: u32,
-    ) -> Option<Periodic> {
-        let asked = (base_order, MORE_HARMONICS);
-        self.balanced(speed_rad_per_s, asked, |balance, load| {
+    pub(super) fn refined(&self, near: &Periodic, speed_rad_per_s: f64) -> Option<Periodic> {
+        self.balanced(speed_rad_per_s, MORE_HARMONICS, |balance, load| {
             balance.refined(near, load)
         })
     }
@@ -245,34 +197,37 @@ impl OscillatingBlade {
     fn balanced<T>(
         &self,
         speed_rad_per_s: f64,
-        (base_order, harmonics): (u32, usize),
+        harmonics: usize,
         solve: impl FnOnce(&Balance<'_>, &Mat<f64>) -> Option<T>,
     ) -> Option<T> {
         let terms = self.terms();
-        let frequency = f64::from(base_order) * speed_rad_per_s;
+        let frequency = f64::from(self.base_order) * speed_rad_per_s;
         let asked = (frequency, harmonics);
         let balance = Balance::new(&self.system, speed_rad_per_s, asked, &terms, self.size);
-        let load = self.load(balance.no_load(), speed_rad_per_s, base_order);
+        let load = self.load(balance.no_load(), speed_rad_per_s);
         solve(&balance, &load)
     }
 
-    pub(super) fn read(&self, speed_rad_per_s: f64, found: &Found) -> AtSpeed {
-        let phases = (0..PHASES).map(|k| TAU * k as f64 / PHASES as f64);
-        let states: Vec<Col<f64>> = phases.map(|phase| found.motion.at(phase)).collect();
+    /// A motion at a speed, which is stable if small motions about it grow by at most a threshold.
+    pub(super) fn read(&self, speed_rad_per_s: f64, found: &Found) -> OscillationAt {
+        let states = states(&found.motion);
         let seen = states.iter().step_by(EVERY);
-        AtSpeed {
-            speed_rad_per_s,
-            probe: motion_at(&found.motion, &states, &self.probe),
-            cut: motion_at(&found.motion, &states, &self.cut),
+        OscillationAt {
+            rpm: rpm(speed_rad_per_s),
+            frequency_hz: f64::from(self.base_order) * speed_rad_per_s / TAU,
+            probe: at_place(&found.motion, &states, &self.probe),
+            cut: at_place(&found.motion, &states, &self.cut),
             pads: self.pads(&states),
-            largest_m: seen.map(|q| self.sites.largest_m(q)).fold(0.0, f64::max),
-            growth: found
+            largest_deflection_m: seen.map(|q| self.sites.largest_m(q)).fold(0.0, f64::max),
+            growth_per_s: found.growth.map(|growth| growth.per_s),
+            growth_frequency_hz: found.growth.map(|growth| growth.frequency_rad_per_s / TAU),
+            stable: found
                 .growth
-                .map(|growth| (growth.per_s, growth.frequency_rad_per_s)),
+                .is_some_and(|growth| growth.per_s <= self.threshold_per_s),
         }
     }
 
-    fn pads(&self, states: &[Col<f64>]) -> Vec<PadMotion> {
+    fn pads(&self, states: &[Col<f64>]) -> Vec<OscillationPad> {
         let Some(gaps) = self.blade.gaps() else {
             return Vec::new();
         };
@@ -281,10 +236,10 @@ impl OscillatingBlade {
         let pads = forces.first().map_or(0, Vec::len);
         let pad = |pad: usize| {
             let own = || forces.iter().map(|all| all[pad]);
-            PadMotion {
+            OscillationPad {
                 guide: self.guides.get(pad).copied().unwrap_or(pad),
-                mean_n: own().sum::<f64>() / count,
-                largest_n: own().map(f64::abs).fold(0.0, f64::max),
+                mean_force_n: own().sum::<f64>() / count,
+                largest_force_n: own().map(f64::abs).fold(0.0, f64::max),
                 contact_share: own().filter(|force| *force != 0.0).count() as f64 / count,
             }
         };
@@ -307,36 +262,28 @@ impl Found {
     }
 }
 
-fn motion_at(motion: &Periodic, states: &[Col<f64>], place: &Col<f64>) -> Motion {
+/// The deflection at a place, with its harmonics.
+fn at_place(motion: &Periodic, states: &[Col<f64>], place: &Col<f64>) -> OscillationPlace {
     let values = || states.iter().map(|q| place.transpose() * q);
     let low = values().fold(f64::INFINITY, f64::min);
     let high = values().fold(f64::NEG_INFINITY, f64::max);
-    Motion {
+    let harmonics = || (1..=motion.harmonics()).map(|k| motion.harmonic(k, place));
+    OscillationPlace {
         mean_m: motion.mean(place),
         amplitude_m: 0.5 * (high - low),
         largest_m: low.abs().max(high.abs()),
-        harmonics_m: (1..=motion.harmonics())
-            .map(|k| motion.harmonic(k, place))
-            .collect(),
+        lines_m: harmonics().map(|w| w.norm()).collect(),
+        phase_deg: harmonics().map(|w| w.arg().to_degrees()).collect(),
     }
+}
+
+/// The deflections at many phases of a period.
+fn states(motion: &Periodic) -> Vec<Col<f64>> {
+    let phases = (0..PHASES).map(|k| TAU * k as f64 / PHASES as f64);
+    phases.map(|phase| motion.at(phase)).collect()
 }
 
 /// Amplitude in m of a motion at a place, for comparisons.
 pub(super) fn amplitude_m(motion: &Periodic, place: &Col<f64>) -> f64 {
-    let phases = (0..PHASES).map(|k| TAU * k as f64 / PHASES as f64);
-    let states: Vec<Col<f64>> = phases.map(|phase| motion.at(phase)).collect();
-    motion_at(motion, &states, place).amplitude_m
-}
-
-impl AtSpeed {
-    /// Whether small motions about the periodic one grow by at most a threshold; false if their growth is not known.
-    pub fn is_stable(&self, threshold_per_s: f64) -> bool {
-        self.growth
-            .is_some_and(|(per_s, _)| per_s <= threshold_per_s)
-    }
-
-    /// Rotation speed in rpm.
-    pub fn rpm(&self) -> f64 {
-        rpm(self.speed_rad_per_s)
-    }
+    at_place(motion, &states(motion), place).amplitude_m
 }

@@ -3,7 +3,7 @@
 //! A one-sided guide has no stiffness inside its gap, so that the linear chart of a scene is valid for large amplitudes only.
 //! These results describe smaller amplitudes and stationary deflections:
 //!
-//! * [`AmplitudeChart`]: critical speeds, bands and flutter speed with the stiffness that the guides have on average
+//! * [`AtAmplitude`]: critical speeds, bands and flutter speed with the stiffness that the guides have on average
 //!   over an oscillation of a given amplitude.
 //! * [`DeviationMap`]: the stationary deflection at the cut, and the forces of the pads, over gap, side force and speed,
 //!   from the equilibria of [`stretched`](crate::stretched).
@@ -18,17 +18,25 @@ mod heated_disk;
 mod numbers;
 mod oscillating_blade;
 mod oscillation;
+mod oscillation_report;
 mod oscillators;
 mod pressed;
+mod report;
 
-pub use amplitude::{AmplitudeChart, AtAmplitude, equivalent_share};
-pub use deviation::{BasisError, DeviationMap};
-pub use friction::{Friction, FrictionHeat};
+pub use amplitude::equivalent_share;
+pub use friction::Friction;
 pub(crate) use numbers::{GapCase, GapNumbers};
-pub use oscillating_blade::{AtSpeed, Motion, PadMotion};
-pub use oscillation::Oscillation;
-pub use oscillators::{OscillatingForce, Oscillators};
-pub use pressed::Deviation;
+pub use oscillation_report::{
+    Oscillation, OscillationAt, OscillationLine, OscillationPad, OscillationPlace,
+};
+pub use oscillators::OscillatingForce;
+pub use report::{AtAmplitude, BasisError, DeviationMap, FrictionHeat, FrictionPad, GapReport};
+
+use amplitude::AmplitudeChart;
+use deviation::deviation_map;
+use friction::Heated;
+use oscillation::oscillation;
+use oscillators::Oscillators;
 
 use crate::deflect;
 use crate::scene::{
@@ -59,7 +67,7 @@ pub enum GapError {
     Stretched(#[from] StretchedError),
 }
 
-/// Options of [`GuideGaps::new`].
+/// Options of [`gap`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Options {
     /// Side force at the rim at the cut; by default that of the scene's run-up, or 1 N.
@@ -73,25 +81,6 @@ pub struct Options {
     pub oscillating: Option<OscillatingForce>,
     /// Friction at the pads; without it no heat is computed.
     pub friction: Option<Friction>,
-}
-
-/// Results for a saw whose guides have a gap.
-#[derive(Debug)]
-pub struct GuideGaps {
-    /// Scene of the saw.
-    pub scene: Scene,
-    /// Its linear analysis, with guides of their full stiffness.
-    pub analysis: Analysis,
-    /// Charts over the amplitude at the guides.
-    pub amplitude: AmplitudeChart,
-    /// Stationary deflections at the cut.
-    pub deviation: DeviationMap,
-    /// Oscillations, if something causes them.
-    pub oscillation: Option<Oscillation>,
-    /// The heat of friction, if a coefficient was given.
-    pub friction: Option<FrictionHeat>,
-    /// Largest deflection at the cut that is allowed.
-    pub max_deviation_m: Option<f64>,
 }
 
 /// Largest limit of the deflection that is accepted; no blade deflects as far.
@@ -174,38 +163,55 @@ fn check_reached(blade: &Blade, guide: &Guide) -> Result<(), RefusedValue> {
     }
 }
 
-impl GuideGaps {
-    /// Computes the chart over the amplitude and the deflection over gap, force and speed.
-    ///
-    /// # Errors
-    /// [`GapError`].
-    pub fn new(scene: &Scene, options: &Options) -> Result<Self, GapError> {
-        options.checked(scene)?;
-        let analysis = Analysis::new(scene)?;
-        let amplitude = AmplitudeChart::new(&analysis)?;
-        let first = analysis.model.critical.first();
-        let speed = options.rpm.map(rad_per_s);
-        let speed = speed
-            .or(scene.operating_rad_per_s())
-            .or(first.map(|critical| 0.5 * critical.speed_rad_per_s))
-            .unwrap_or(analysis.range_rad_per_s.1);
-        let (force_n, speed_rpm) = (options.force(scene)?, rpm(speed));
-        let deviation = DeviationMap::new(&analysis, speed_rpm, force_n)?;
-        let oscillators = Oscillators::of(scene, options.oscillating);
-        let oscillation = oscillators.map(|all| Oscillation::new(&analysis, all, force_n, speed));
-        let friction = options.friction;
-        let friction =
-            friction.map(|friction| FrictionHeat::new(&analysis, friction, (force_n, speed_rpm)));
-        Ok(GuideGaps {
-            scene: scene.clone(),
-            analysis,
-            amplitude,
-            deviation,
-            oscillation: oscillation.transpose()?,
-            friction: friction.transpose()?,
-            max_deviation_m: options.max_deviation_mm.map(|mm| 1e-3 * mm),
-        })
-    }
+/// Computes the chart over the amplitude, the deflection over gap, force and speed, and, if they are asked for, oscillation
+/// and heat of friction.
+///
+/// # Errors
+/// [`GapError`].
+pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
+    options.checked(scene)?;
+    let analysis = Analysis::new(scene)?;
+    let amplitude = AmplitudeChart::new(&analysis)?;
+    let first = analysis.model.critical.first();
+    let speed = options.rpm.map(rad_per_s);
+    let speed = speed
+        .or(scene.operating_rad_per_s())
+        .or(first.map(|critical| 0.5 * critical.speed_rad_per_s))
+        .unwrap_or(analysis.range_rad_per_s.1);
+    let (force_n, speed_rpm) = (options.force(scene)?, rpm(speed));
+    let limit_m = options.max_deviation_mm.map(|mm| 1e-3 * mm);
+    let deviation = deviation_map(&analysis, speed_rpm, force_n, limit_m)?;
+    let oscillators = Oscillators::of(scene, options.oscillating);
+    let oscillation = oscillators
+        .map(|all| oscillation(&analysis, &all, force_n, speed))
+        .transpose()?;
+    let heated = options
+        .friction
+        .map(|friction| Heated::new(&analysis, friction, (force_n, speed_rpm)))
+        .transpose()?;
+    let chart = analysis.report();
+    let mut warnings = chart.warnings;
+    warnings.extend(heated.as_ref().and_then(Heated::warning).map(String::from));
+    warnings.extend(oscillation.iter().flat_map(Oscillation::warnings));
+    warnings.extend(deviation.basis_error.and_then(BasisError::warning));
+    Ok(GapReport {
+        sawflutter: chart.sawflutter,
+        scene: chart.scene,
+        condition: chart.condition,
+        unusual_numbers: chart.unusual_numbers,
+        degrees_of_freedom: chart.accuracy.degrees_of_freedom,
+        from_rpm: chart.campbell.from_rpm,
+        to_rpm: chart.campbell.to_rpm,
+        smallest_gap_m: amplitude.smallest_gap_m,
+        free: amplitude.free,
+        amplitudes: amplitude.amplitudes,
+        linear: amplitude.linear,
+        half_way_amplitude_m: amplitude.half_way_m,
+        deviation,
+        oscillation,
+        friction: heated.map(|heated| heated.heat),
+        warnings,
+    })
 }
 
 #[cfg(test)]

@@ -3,10 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::gap_oscillation::{self, OscillationEntry};
-use super::instability::InstabilityEntry;
-use crate::gap::{AtAmplitude, BasisError, Deviation, DeviationMap, FrictionHeat, GuideGaps};
-use crate::scene::{Guide, Scene, SceneFile, rpm};
+use super::oscillation_report::Oscillation;
+use crate::report::InstabilityEntry;
+use crate::scene::SceneFile;
 use crate::text::shown_to;
 
 /// Report of a saw whose guides have a gap (`gap.json`).
@@ -33,22 +32,22 @@ pub struct GapReport {
     /// Smallest gap of a one-sided guide.
     pub smallest_gap_m: f64,
     /// The chart of a blade that moves within all gaps, where only the films of the pads act.
-    pub free: AtAmplitudeEntry,
+    pub free: AtAmplitude,
     /// The charts at amplitudes beyond the smallest gap, ascending.
-    pub amplitudes: Vec<AtAmplitudeEntry>,
+    pub amplitudes: Vec<AtAmplitude>,
     /// The linear chart of the scene, with guides of their full stiffness.
-    pub linear: AtAmplitudeEntry,
+    pub linear: AtAmplitude,
     /// Amplitude at which the first critical speed lies half way between that of the free blade and that of the linear
     /// chart: at smaller amplitudes the chart is that of the free blade. Null if the two differ by less than 0.1 %.
     pub half_way_amplitude_m: Option<f64>,
     /// The deflection at the cut.
-    pub deviation: DeviationEntry,
+    pub deviation: DeviationMap,
     /// The oscillation of the blade; null without a cause of one.
     #[serde(default)]
-    pub oscillation: Option<OscillationEntry>,
+    pub oscillation: Option<Oscillation>,
     /// The heat of friction at the pads with the gaps of the scene; null without a coefficient of friction.
     #[serde(default)]
-    pub friction: Option<FrictionEntry>,
+    pub friction: Option<FrictionHeat>,
     /// Remarks on the validity of the result.
     pub warnings: Vec<String>,
 }
@@ -56,7 +55,8 @@ pub struct GapReport {
 /// The heat of friction at the pads, at the speed and under the side force of the map.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct FrictionEntry {
+#[schemars(rename = "FrictionEntry")]
+pub struct FrictionHeat {
     /// Coefficient of friction.
     pub coefficient: f64,
     /// Share of the power that enters the blade.
@@ -80,7 +80,7 @@ pub struct FrictionEntry {
     /// Force of each one-sided pad on the blade beyond its gap, without that of its film, with this heat.
     pub pad_forces_n: Vec<f64>,
     /// Each one-sided pad, in the order of the scene.
-    pub pads: Vec<FrictionPadEntry>,
+    pub pads: Vec<FrictionPad>,
     /// First critical speed of the linear chart without this heat.
     pub cold_critical_rpm: Option<f64>,
     /// First critical speed of the linear chart with this heat; null also if the heat buckles the blade.
@@ -96,7 +96,8 @@ pub struct FrictionEntry {
 /// A one-sided pad beside the heated blade.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct FrictionPadEntry {
+#[schemars(rename = "FrictionPadEntry")]
+pub struct FrictionPad {
     /// Index among the guides of the scene.
     pub guide: usize,
     /// Smallest distance from the axis at which the pad lies on the blade.
@@ -111,7 +112,8 @@ pub struct FrictionPadEntry {
 /// A saw whose blade oscillates at its guides with one amplitude.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct AtAmplitudeEntry {
+#[schemars(rename = "AtAmplitudeEntry")]
+pub struct AtAmplitude {
     /// Amplitude at the guides; null for the free blade and for the linear chart.
     pub amplitude_m: Option<f64>,
     /// Mean stiffness of each one-sided guide over the oscillation (describing function), relative to its full stiffness.
@@ -127,7 +129,8 @@ pub struct AtAmplitudeEntry {
 /// Stationary deflection of the rim at the cut under a side force there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct DeviationEntry {
+#[schemars(rename = "DeviationEntry")]
+pub struct DeviationMap {
     /// Angle of the force and of the deflection.
     pub angle_deg: f64,
     /// Speed of the map over gap and force.
@@ -163,13 +166,14 @@ pub struct DeviationEntry {
     /// Forces of the pads at these speeds, one row a pad; null where the blade deflects by more than its thickness.
     pub pad_forces_over_speed_n: Vec<Vec<Option<f64>>>,
     /// Estimated error of the deflections over gap and force; null if none could be compared.
-    pub basis_error: Option<BasisErrorEntry>,
+    pub basis_error: Option<BasisError>,
 }
 
 /// Largest relative change of the deflections at the cut over gap and force, every third of each, in a larger basis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct BasisErrorEntry {
+#[schemars(rename = "BasisErrorEntry")]
+pub struct BasisError {
     /// Relative change.
     pub share: f64,
     /// Factor of the gaps at which it occurs.
@@ -182,183 +186,21 @@ pub struct BasisErrorEntry {
     pub more_modes: usize,
 }
 
-impl GapReport {
-    /// The report of charts and deflections.
-    pub fn new(found: &GuideGaps) -> Self {
-        let chart = found.analysis.report();
-        let threshold = found.scene.flutter_threshold_per_s();
-        let entry = |at: &AtAmplitude| AtAmplitudeEntry {
-            amplitude_m: at.amplitude_m,
-            stiffness_shares: at.shares.clone(),
-            critical_rpm: at
-                .critical_rad_per_s
-                .iter()
-                .map(|speed| rpm(*speed))
-                .collect(),
-            instabilities: at
-                .instabilities
-                .iter()
-                .map(|band| InstabilityEntry::new(band, threshold))
-                .collect(),
-            flutter_speed_rpm: at.flutter_speed_rad_per_s.map(rpm),
-        };
-        let amplitude = &found.amplitude;
-        GapReport {
-            sawflutter: chart.sawflutter,
-            scene: found.scene.file().clone(),
-            condition: found.scene.condition(),
-            unusual_numbers: chart.unusual_numbers,
-            degrees_of_freedom: chart.accuracy.degrees_of_freedom,
-            from_rpm: chart.campbell.from_rpm,
-            to_rpm: chart.campbell.to_rpm,
-            smallest_gap_m: amplitude.smallest_gap_m,
-            free: entry(&amplitude.free),
-            amplitudes: amplitude.amplitudes.iter().map(entry).collect(),
-            linear: entry(&amplitude.linear),
-            half_way_amplitude_m: amplitude.half_way_m,
-            deviation: DeviationEntry::new(&found.deviation, found.max_deviation_m),
-            oscillation: found
-                .oscillation
-                .as_ref()
-                .map(|found_at| OscillationEntry::new(found_at, found.deviation.force_n)),
-            friction: found
-                .friction
-                .as_ref()
-                .map(|heat| FrictionEntry::new(heat, &found.scene)),
-            warnings: warnings(chart.warnings, found),
-        }
-    }
-}
-
-impl FrictionEntry {
-    fn new(found: &FrictionHeat, scene: &Scene) -> Self {
-        let friction = &found.friction;
-        let [cold_critical_rpm, critical_rpm] =
-            found.critical_rad_per_s.map(|speed| speed.map(rpm));
-        let hot = found.hot.as_ref();
-        FrictionEntry {
-            coefficient: friction.coefficient,
-            heat_share: friction.heat_share,
-            convection_w_per_m2_k: friction.convection_w_per_m2_k,
-            conductivity_w_per_m_k: friction.conductivity_w_per_m_k,
-            expansion_per_k: found.expansion_per_k,
-            power_w: found.power_w,
-            radii_m: found.radii_m.clone(),
-            rise_k: found.rise_k.clone(),
-            cold_deflection_m: found.cold.as_ref().map(|at| at.deviation_m),
-            deflection_m: hot.map(|at| at.deviation_m),
-            pad_forces_n: hot.map_or_else(Vec::new, |at| at.pad_forces_n.clone()),
-            pads: pads(scene, hot),
-            cold_critical_rpm,
-            critical_rpm,
-            settled: found.has_settled(),
-            change: found.change,
-            repetitions: found.repetitions,
-        }
-    }
-}
-
-fn pads(scene: &Scene, hot: Option<&Deviation>) -> Vec<FrictionPadEntry> {
-    let blade = scene.blade();
-    let lifting = scene.guides().iter().filter(|pad| pad.lifting.is_some());
-    let entry = |(place, pad): (usize, &Guide)| {
-        let (from_m, to_m) = pad.reach_m();
-        FrictionPadEntry {
-            guide: pad.index,
-            from_radius_m: from_m.max(blade.inner_radius_m),
-            to_radius_m: to_m.min(blade.outer_radius_m),
-            gap_left_m: hot.and_then(|at| at.distances_left_m.get(place).copied()),
-        }
-    };
-    lifting.enumerate().map(entry).collect()
-}
-
-impl DeviationEntry {
-    fn new(map: &DeviationMap, limit_m: Option<f64>) -> Self {
-        let all = map.over_gap.iter().flatten().flatten();
-        let pads = 0..all
-            .map(|at| at.pad_forces_n.len())
-            .max()
-            .unwrap_or_default();
-        let of_pad = |pad: usize, row: &[Option<Deviation>]| -> Vec<Option<f64>> {
-            let force = |at: &Deviation| at.pad_forces_n.get(pad).copied();
-            row.iter().map(|at| at.as_ref().and_then(force)).collect()
-        };
-        let over_gap = |pad: usize| map.over_gap.iter().map(|row| of_pad(pad, row)).collect();
-        let own = map
-            .gap_factors
-            .iter()
-            .position(|factor| (factor - 1.0).abs() < 1e-9);
-        let over_speed = own.map_or(&[][..], |own| &map.over_speed[own]);
-        DeviationEntry {
-            angle_deg: map.angle_rad.to_degrees(),
-            rpm: map.rpm,
-            gap_factors: map.gap_factors.clone(),
-            forces_n: map.forces_n.clone(),
-            deflection_m: table(&map.over_gap, |at| at.deviation_m),
-            largest_deflection_m: table(&map.over_gap, |at| at.largest_m),
-            pad_forces_n: pads.clone().map(over_gap).collect(),
-            max_deflection_m: limit_m,
-            force_within_n: limit_m.map_or_else(Vec::new, |limit| map.force_within_n(limit)),
-            force_n: map.force_n,
-            speeds_rpm: map.speeds_rpm.clone(),
-            deflection_over_gap_and_speed_m: table(&map.over_speed, |at| at.deviation_m),
-            speed_within_rpm: limit_m.map_or_else(Vec::new, |limit| map.speed_within_rpm(limit)),
-            deflection_over_speed_m: values(over_speed, |at| at.deviation_m),
-            pad_forces_over_speed_n: pads.map(|pad| of_pad(pad, over_speed)).collect(),
-            basis_error: map.basis_error.map(BasisErrorEntry::from),
-        }
-    }
-}
-
-impl From<BasisError> for BasisErrorEntry {
-    fn from(found: BasisError) -> Self {
-        BasisErrorEntry {
-            share: found.share,
-            gap_factor: found.gap_factor,
-            force_n: found.force_n,
-            modes: found.modes[0],
-            more_modes: found.modes[1],
-        }
-    }
-}
-
 /// Estimated relative error of the deflections above which the report contains a warning.
 const LARGE_ERROR: f64 = 0.02;
 
-fn warnings(mut warnings: Vec<String>, found: &GuideGaps) -> Vec<String> {
-    let heat = found.friction.as_ref();
-    if heat.is_some_and(|heat| heat.buckles) {
-        warnings.push(
-            "the heat of friction buckles the blade at rest: the deflection is that of the last repetition before, and there is no critical speed".to_owned(),
-        );
-    } else if heat.is_some_and(|heat| !heat.has_settled()) {
-        warnings.push(
-            "the temperature of friction does not settle: heat, deflection and pad forces raise each other, and the numbers of friction are those of the last repetition".to_owned(),
-        );
+impl BasisError {
+    /// Remark on deflections that are not converged.
+    pub(super) fn warning(self) -> Option<String> {
+        (self.share > LARGE_ERROR).then(|| {
+            format!(
+                "the deflections at the cut are not converged: with {} modes at rest in the place of {}, that at {} of the gap under {} N changes by {} %",
+                self.more_modes,
+                self.modes,
+                shown_to(3, self.gap_factor),
+                shown_to(3, self.force_n),
+                shown_to(2, 1e2 * self.share)
+            )
+        })
     }
-    if let Some(oscillation) = &found.oscillation {
-        warnings.extend(gap_oscillation::warnings(oscillation));
-    }
-    if let Some(error) = found.deviation.basis_error
-        && error.share > LARGE_ERROR
-    {
-        warnings.push(format!(
-            "the deflections at the cut are not converged: with {} modes at rest in the place of {}, that at {} of the gap under {} N changes by {} %",
-            error.modes[1],
-            error.modes[0],
-            shown_to(3, error.gap_factor),
-            shown_to(3, error.force_n),
-            shown_to(2, 1e2 * error.share)
-        ));
-    }
-    warnings
-}
-
-fn table(rows: &[Vec<Option<Deviation>>], of: fn(&Deviation) -> f64) -> Vec<Vec<Option<f64>>> {
-    rows.iter().map(|row| values(row, of)).collect()
-}
-
-fn values(found: &[Option<Deviation>], of: fn(&Deviation) -> f64) -> Vec<Option<f64>> {
-    found.iter().map(|at| at.as_ref().map(of)).collect()
 }

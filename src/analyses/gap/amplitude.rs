@@ -2,42 +2,22 @@
 
 use std::f64::consts::PI;
 
-use crate::scene::{ContactLaw, GuideFile, GuideSide, Scene};
+use crate::report::InstabilityEntry;
+use crate::scene::{ContactLaw, GuideFile, GuideSide, Scene, rpm};
 use crate::spectrum::Work;
-use crate::stability::{Analysis, Instability};
+use crate::stability::Analysis;
 
 use super::GapError;
 use super::numbers::first_critical;
+use super::report::AtAmplitude;
 
-/// Critical speeds, bands and flutter speed over the amplitude at the guides.
-#[derive(Debug, Clone, PartialEq)]
-pub struct AmplitudeChart {
-    /// Smallest gap of a one-sided guide.
+/// The part of the report over the amplitude at the guides.
+pub(super) struct AmplitudeChart {
     pub smallest_gap_m: f64,
-    /// The blade inside all gaps, where only films act.
     pub free: AtAmplitude,
-    /// Amplitudes beyond the smallest gap, ascending.
     pub amplitudes: Vec<AtAmplitude>,
-    /// The linear chart of the scene, with guides of their full stiffness.
     pub linear: AtAmplitude,
-    /// Amplitude at which the first critical speed is the mean of that of the free blade and that of the linear chart;
-    /// `None` if the two differ by less than 0.1 %, or one of the saws has none.
     pub half_way_m: Option<f64>,
-}
-
-/// A saw at one amplitude.
-#[derive(Debug, Clone, PartialEq)]
-pub struct AtAmplitude {
-    /// Amplitude at the guides; `None` for the free blade and for the linear chart.
-    pub amplitude_m: Option<f64>,
-    /// Mean stiffness of each one-sided guide over the oscillation, relative to its full stiffness.
-    pub shares: Vec<f64>,
-    /// Critical speeds within the sweep.
-    pub critical_rad_per_s: Vec<f64>,
-    /// Bands within the sweep.
-    pub instabilities: Vec<Instability>,
-    /// Flutter speed; `None` if no band within the sweep reaches the threshold.
-    pub flutter_speed_rad_per_s: Option<f64>,
 }
 
 /// Shares of the stiffness of the guide with the smallest gap at which the chart is computed: the critical speeds of
@@ -166,7 +146,7 @@ impl AmplitudeChart {
         Ok(AmplitudeChart {
             smallest_gap_m,
             amplitudes,
-            linear: read(linear, None, vec![1.0; free.shares.len()]),
+            linear: read(linear, None, vec![1.0; free.stiffness_shares.len()]),
             half_way_m: half_way(linear, smallest_gap_m)?,
             free,
         })
@@ -177,14 +157,19 @@ impl AmplitudeChart {
 fn read(analysis: &Analysis, amplitude_m: Option<f64>, shares: Vec<f64>) -> AtAmplitude {
     let (from, to) = analysis.range_rad_per_s;
     let critical = analysis.model.critical.iter().map(|c| c.speed_rad_per_s);
+    let threshold_per_s = analysis.scene.flutter_threshold_per_s();
+    let bands = analysis.chart.instabilities.iter();
     AtAmplitude {
         amplitude_m,
-        shares,
-        critical_rad_per_s: critical
+        stiffness_shares: shares,
+        critical_rpm: critical
             .filter(|speed| (from..=to).contains(speed))
+            .map(rpm)
             .collect(),
-        instabilities: analysis.chart.instabilities.clone(),
-        flutter_speed_rad_per_s: analysis.flutter_speed_rad_per_s,
+        instabilities: bands
+            .map(|band| InstabilityEntry::new(band, threshold_per_s))
+            .collect(),
+        flutter_speed_rpm: analysis.flutter_speed_rad_per_s.map(rpm),
     }
 }
 

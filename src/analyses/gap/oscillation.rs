@@ -1,0 +1,150 @@
+//! Oscillations of a blade between guides with a gap: under a side force that oscillates, and of a blade with a run-out, a
+//! lack of flatness or an imbalance that turns with it.
+//!
+//! The loads have the frequencies of some orders of the rotation speed; the motion has those of all multiples of their
+//! greatest common divisor, because the force of a pad that touches for a part of the period contains all of them. The mean
+//! of the motion is the mean deflection. Shape and imbalance are the loads of [`response`](crate::response).
+
+use rayon::prelude::*;
+
+use crate::scene::rpm;
+use crate::spectrum::Work;
+use crate::stability::Analysis;
+
+use super::GapError;
+use super::oscillating_blade::{HARMONICS, OscillatingBlade, amplitude_m};
+use super::oscillation_report::{Oscillation, OscillationAt, OscillationLine};
+use super::oscillators::Oscillators;
+
+/// Number of modes at rest in the basis, in addition to the responses to the loads.
+const MODES: usize = 16;
+/// Number of modes at rest in the larger basis, with which the amplitude is compared.
+const MORE_MODES: usize = 24;
+/// Number of evenly spaced speeds; the speed of the map is added to them.
+const SPEEDS: usize = 30;
+
+/// Relative change of the amplitude above which the report contains a warning.
+const LARGE_ERROR: f64 = 0.05;
+
+/// Computes the oscillations of the saw of an analysis under a steady side force, at a speed and over the sweep.
+///
+/// # Errors
+/// [`GapError`].
+pub(super) fn oscillation(
+    analysis: &Analysis,
+    oscillators: &Oscillators,
+    force_n: f64,
+    speed_rad_per_s: f64,
+) -> Result<Oscillation, GapError> {
+    let scene = &analysis.scene;
+    let to = analysis.range_rad_per_s.1.max(speed_rad_per_s);
+    let of_modes = |modes: usize| {
+        let asked = (force_n, speed_rad_per_s, to);
+        let resolution = analysis.model.plate.resolution;
+        OscillatingBlade::new(scene, resolution, oscillators, asked, modes)
+    };
+    let work = Work::of("oscillations", SPEEDS + 2);
+    let finer = of_modes(MORE_MODES)?;
+    let (fine, _) = finer.at(speed_rad_per_s)?;
+    work.advance();
+    let last = SPEEDS as f64;
+    let mut speeds: Vec<f64> = (1..=SPEEDS).map(|k| to * k as f64 / last).collect();
+    speeds.retain(|other| (*other - speed_rad_per_s).abs() > 1e-9 * to);
+    let place = speeds.partition_point(|other| *other < speed_rad_per_s);
+    speeds.insert(place, speed_rad_per_s);
+    let blade = of_modes(MODES)?;
+    let motions = speeds.par_iter().map(|speed| {
+        let found = blade.at(*speed)?;
+        work.advance();
+        Ok(found)
+    });
+    let motions = motions.collect::<Result<Vec<_>, GapError>>()?;
+    let still_deflection_m = motions[place].1;
+    let mut motions: Vec<_> = motions.into_iter().map(|(found, _)| found).collect();
+    blade.follow(&mut motions, &speeds);
+    let found = motions[place].as_ref();
+    let own_m = found.map(|at| amplitude_m(&at.motion, &blade.cut));
+    let change = |other: f64| own_m.map(|own| (other / own - 1.0).abs());
+    let more = found.and_then(|at| {
+        let more = blade.refined(&at.motion, speed_rad_per_s)?;
+        Some(amplitude_m(&more, &blade.cut))
+    });
+    let fine_m = fine.map(|at| amplitude_m(&at.motion, &finer.cut));
+    let thickness_m = scene.blade().thickness_m;
+    let pairs = motions.iter().zip(&speeds);
+    let over_speed: Vec<Option<OscillationAt>> = pairs
+        .map(|(found, speed)| {
+            let at = blade.read(*speed, found.as_ref()?);
+            (at.stable && at.largest_deflection_m <= thickness_m).then_some(at)
+        })
+        .collect();
+    let of = |of: fn(&OscillationAt) -> f64| -> Vec<Option<f64>> {
+        over_speed.iter().map(|at| at.as_ref().map(of)).collect()
+    };
+    let line = |k: usize| {
+        let order = (k as u32 + 1) * oscillators.base_order();
+        let size = |at: &Option<OscillationAt>| at.as_ref()?.probe.lines_m.get(k).copied();
+        OscillationLine {
+            order,
+            name: oscillators.name_of(order),
+            probe_m: over_speed.iter().map(size).collect(),
+        }
+    };
+    let force = oscillators.force;
+    Ok(Oscillation {
+        force_n,
+        oscillating_force_n: force.map_or(0.0, |force| force.amplitude_n),
+        oscillating_order: force.map_or(0, |force| force.order),
+        lines: (0..HARMONICS).map(line).collect(),
+        at: found.map(|at| blade.read(speed_rad_per_s, at)),
+        still_deflection_m,
+        harmonics_error_share: more.and_then(change),
+        basis_error_share: fine_m.and_then(change),
+        rpm: speeds.iter().map(|speed| rpm(*speed)).collect(),
+        probe_mean_m: of(|at| at.probe.mean_m),
+        probe_amplitude_m: of(|at| at.probe.amplitude_m),
+        cut_mean_m: of(|at| at.cut.mean_m),
+        cut_amplitude_m: of(|at| at.cut.amplitude_m),
+    })
+}
+
+impl Oscillation {
+    /// Remarks on the validity of the oscillation.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        match &self.at {
+            None => warnings.push(
+                "no periodic motion was found at the speed of the map: the blade may chatter between its guides without a period"
+                    .to_owned(),
+            ),
+            Some(at) if !at.stable => {
+                let of_motion = at.growth_frequency_hz.unwrap_or_default() / at.frequency_hz;
+                let what = match (2.0 * of_motion - 1.0).abs() < 1e-3 {
+                    true => "a motion of twice the period (a subharmonic, X/2) takes its place",
+                    false => "small motions about it grow",
+                };
+                warnings.push(format!(
+                    "the periodic motion at the speed of the map is unstable: {what}"
+                ));
+            }
+            Some(_) => (),
+        }
+        let errors = [
+            ("harmonics", self.harmonics_error_share),
+            ("modes at rest", self.basis_error_share),
+        ];
+        for (what, error) in errors {
+            if let Some(error) = error.filter(|error| *error > LARGE_ERROR) {
+                warnings.push(format!(
+                    "the oscillation at the cut is not converged: with more {what} its amplitude changes by {:.0} %",
+                    1e2 * error
+                ));
+            }
+        }
+        warnings
+    }
+}
+
+#[cfg(test)]
+#[path = "oscillation_tests.rs"]
+mod tests;
