@@ -5,6 +5,7 @@ use std::path::Path;
 use anyhow::Context;
 use sawflutter::analyses::check::{self, CheckReport, Limits};
 use sawflutter::analyses::compare::{Saw, compare};
+use sawflutter::analyses::cut::{self, CutReport};
 use sawflutter::analyses::fit::{self, FitReport, Measurement};
 use sawflutter::analyses::gap::{self, gap};
 use sawflutter::analyses::map::{self, Range};
@@ -12,11 +13,11 @@ use sawflutter::analyses::place::{self, Demands, PlaceReport};
 use sawflutter::analyses::study::StudyReport;
 use sawflutter::commands::CommandReport;
 use sawflutter::deflect::{Deflecting, Options};
-use sawflutter::report::{CutReport, DeflectReport, ResponseReport, RunUpReport};
+use sawflutter::report::{DeflectReport, ResponseReport, RunUpReport};
 use sawflutter::response::{self, ForcedResponse};
 use sawflutter::scene::{Accuracy, ContactLaw, Freed, Scene, SceneError, SceneFile, rad_per_s};
 use sawflutter::stability::Analysis;
-use sawflutter::transient::{Cutting, RunningUp};
+use sawflutter::transient::RunningUp;
 
 fn main() -> anyhow::Result<()> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -168,9 +169,8 @@ fn further(root: &Path) -> anyhow::Result<Vec<Figure>> {
 
 /// Computes the report of `sawflutter cut`.
 fn cut(scene: &Scene) -> anyhow::Result<CutReport> {
-    let cut = scene.cut().context("it has a cut")?;
-    let cutting = Cutting::new(scene, &cut.runs, &|_, _| ())?;
-    Ok(CutReport::new(&cutting))
+    let runs = &scene.cut().context("it has a cut")?.runs;
+    Ok(cut::cut(scene, runs, &|_, _| ())?)
 }
 
 fn pngs(report: &impl CommandReport) -> anyhow::Result<Vec<Figure>> {

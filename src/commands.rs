@@ -12,6 +12,7 @@ use serde_json::Value;
 
 use crate::analyses::check::CheckReport;
 use crate::analyses::compare::CompareReport;
+use crate::analyses::cut::CutReport;
 use crate::analyses::fit::FitReport;
 use crate::analyses::gap::GapReport;
 use crate::analyses::map::MapReport;
@@ -25,7 +26,7 @@ use crate::figure::{
     response, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
 use crate::report::{
-    CutReport, DeflectReport, ModeEntry, Report, ResponseReport, RunUpReport, WashboardReport,
+    DeflectReport, ModeEntry, Report, ResponseReport, RunUpReport, WashboardReport,
 };
 use crate::scene::SceneFile;
 use crate::summary;

@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sawflutter::analyses::check::{self, Limits, LimitsFile};
 use sawflutter::analyses::compare::{Saw, compare as compare_saws};
+use sawflutter::analyses::cut;
 use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
 use sawflutter::analyses::gap::{self, Friction, Options as GapOptions, OscillatingForce};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
@@ -12,14 +13,13 @@ use sawflutter::analyses::tradeoff::tradeoff;
 use sawflutter::deflect::{Deflecting, Options as DeflectOptions};
 
 use sawflutter::report::{
-    CutReport, DeflectReport, ModeEntry, ResponseReport, RunUpReport, SensitivityEntry,
-    WashboardReport,
+    DeflectReport, ModeEntry, ResponseReport, RunUpReport, SensitivityEntry, WashboardReport,
 };
 use sawflutter::response::{ForcedResponse, Options as ResponseOptions};
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
-use sawflutter::transient::{Cutting, RunningUp};
+use sawflutter::transient::RunningUp;
 use sawflutter::washboarding::Washboard;
 use serde::Serialize;
 
@@ -171,8 +171,8 @@ fn cut(options: &Options<'_>) -> PyResult<Work> {
     let rpm: Vec<f64> = options.get("rpm")?;
     Ok(Box::new(move |scene, meter| {
         let runs = scene.needed_cut()?.runs_at(&rpm)?;
-        let cutting = Cutting::new(scene, &runs, &|done, of| meter.show(done, of))?;
-        json(&CutReport::new(&cutting))
+        let progress = |done, of| meter.show(done, of);
+        json(&cut::cut(scene, &runs, &progress)?)
     }))
 }
 

@@ -5,6 +5,7 @@
 //! are private to the folder.
 pub mod check;
 pub mod compare;
+pub mod cut;
 pub mod fit;
 pub mod gap;
 pub mod map;

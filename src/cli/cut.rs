@@ -1,8 +1,7 @@
 //! `sawflutter cut`.
 
-use crate::report::CutReport;
+use crate::analyses::cut::cut;
 use crate::scene::{Scene, typical};
-use crate::transient::Cutting;
 use clap::Args;
 
 use super::assumed::{Block, Given};
@@ -107,11 +106,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let runs = pasted(&scene, scene.needed_cut())?.runs_at(&arguments.rpm)?;
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;
-    let cutting = watched(|progress| {
+    let report = watched(|progress| {
         let map = |done, of| progress.show("points of the map", done, of);
-        Cutting::new(&scene, &runs, &map)
+        cut(&scene, &runs, &map)
     })??;
-    let report = CutReport::new(&cutting);
     let output = &arguments.common.output;
     output.report(&folder, &arguments.page, &report, Vec::new())
 }

@@ -2,11 +2,12 @@
 
 use serde::Serialize;
 
+use crate::analyses::cut::CutReport;
 use crate::analyses::fit::FitReport;
 use crate::analyses::gap::{AtAmplitude, GapReport};
 use crate::analyses::place::PlaceReport;
 use crate::figure::number_name;
-use crate::report::{CutReport, ResponseReport, RunUpReport, WashboardReport};
+use crate::report::{ResponseReport, RunUpReport, WashboardReport};
 use crate::scene::Quantity;
 
 /// A main number of the result of a task.

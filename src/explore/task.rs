@@ -9,16 +9,17 @@ use super::answers::{
 use super::meter::Meter;
 use super::refusal::Refusal;
 use super::tolerances::{Tolerance, Typed, study as study_of};
+use crate::analyses::cut::{self, CutReport};
 use crate::analyses::fit::{self, FitReport, Measurement};
 use crate::analyses::gap::{self, GapError, GapReport};
 use crate::analyses::map::{self, MapReport, Range};
 use crate::analyses::place::{self, Demands, PlaceReport};
 use crate::analyses::study::{Saw, Study, StudyReport};
 use crate::commands::CommandReport;
-use crate::report::{CutReport, ResponseReport, RunUpReport, WashboardReport};
+use crate::report::{ResponseReport, RunUpReport, WashboardReport};
 use crate::response::{self, ForcedResponse, ResponseError};
 use crate::scene::{Freed, Scene, SceneError, SceneFile};
-use crate::transient::{Cutting, RunningUp, TransientError};
+use crate::transient::{RunningUp, TransientError};
 use crate::washboarding::{Washboard, WashboardError};
 
 /// Computes the answer to a request as JSON.
@@ -119,8 +120,7 @@ fn refused(error: TransientError) -> Refusal {
 fn cut(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     let runs = scene.needed_cut()?.runs_at(&[])?;
     let progress = |done, of| meter.show("points of the map", done, of);
-    let cutting = Cutting::new(&scene, &runs, &progress).map_err(refused)?;
-    let report = CutReport::new(&cutting);
+    let report = cut::cut(&scene, &runs, &progress).map_err(refused)?;
     answer(&report, of_cut(&report), None)
 }
 

@@ -10,7 +10,8 @@ use super::style::{
     ALARM, CURVE, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, HAIRLINE, LABEL_SIZE, QUIET,
     SUBTITLE_SIZE, broken, tint,
 };
-use crate::report::{CutCriterion, CutCriterionEntry, CutReport, CutRunEntry, CutVerdict, Verdict};
+use crate::analyses::cut::{CutAtSpeed, CutCriterion, CutFinding, CutReport, CutVerdict};
+use crate::report::Verdict;
 
 /// Distance of successive lines of facts.
 const LINE: f64 = 16.0;
@@ -55,7 +56,7 @@ struct Scale {
 }
 
 impl Scale {
-    fn of(runs: &[CutRunEntry]) -> Self {
+    fn of(runs: &[CutAtSpeed]) -> Self {
         let largest_m = runs.iter().map(largest_m).fold(0.0, f64::max);
         let (unit, per_metre) = unit_of(largest_m);
         let reach = match largest_m > 0.0 {
@@ -71,7 +72,7 @@ impl Scale {
     }
 }
 
-fn largest_m(run: &CutRunEntry) -> f64 {
+fn largest_m(run: &CutAtSpeed) -> f64 {
     let sizes = run.deflection_m.iter().map(|w| w.abs());
     sizes.fold(0.0, f64::max)
 }
@@ -85,7 +86,7 @@ fn unit_of(largest_m: f64) -> (&'static str, f64) {
     }
 }
 
-fn draw_run(sheet: &mut Sheet, (panel, name): (&Frame, &str), run: &CutRunEntry, scale: &Scale) {
+fn draw_run(sheet: &mut Sheet, (panel, name): (&Frame, &str), run: &CutAtSpeed, scale: &Scale) {
     let end_s = run.forces_to_s + run.forces_from_s;
     let time = Axis::linear([0.0, end_s], panel.across());
     let deflection = Axis::linear([-scale.reach, scale.reach], panel.upwards());
@@ -120,7 +121,7 @@ fn length(metres: f64) -> String {
 }
 
 /// Shades the time of the cut in the colour of the verdict.
-fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis) {
+fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutAtSpeed, time: &Axis) {
     let in_cut = panel.between([run.forces_from_s, run.forces_to_s].map(|s| time.at(s)));
     let shade = match run.verdict {
         CutVerdict::Unstable | CutVerdict::LeavesModel | CutVerdict::AtCritical => FLUTTER_SHADE,
@@ -145,10 +146,10 @@ fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry, time: &Axis)
 fn draw_envelope(
     sheet: &mut Sheet,
     panel: &Frame,
-    run: &CutRunEntry,
+    run: &CutAtSpeed,
     place: impl Fn(f64, f64) -> [f64; 2],
 ) {
-    let grows = |c: &&CutCriterionEntry| {
+    let grows = |c: &&CutFinding| {
         c.criterion == CutCriterion::Eigenvalues && c.verdict == Verdict::Unstable
     };
     let Some(eigenvalue) = run.criteria.iter().find(grows) else {
@@ -183,7 +184,7 @@ fn draw_envelope(
 }
 
 /// Writes verdict and facts above the panel.
-fn draw_verdict(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
+fn draw_verdict(sheet: &mut Sheet, panel: &Frame, run: &CutAtSpeed) {
     let verdict = format!("{} rpm: {}", run.rpm, run.verdict);
     let (text, colour) = match run.verdict {
         CutVerdict::Stable => (verdict, FORWARD),
@@ -202,7 +203,7 @@ fn draw_verdict(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
 }
 
 /// The largest deflection, and the growth rate of each criterion.
-fn facts(run: &CutRunEntry) -> String {
+fn facts(run: &CutAtSpeed) -> String {
     // A growth rate that is rounded to zero is written without a sign.
     let growth = |value: f64| if value.abs() < 5e-3 { 0.0 } else { value };
     let criteria = run.criteria.iter().map(|entry| {

@@ -10,7 +10,8 @@ use super::style::{
     CURVE, Colour, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, SUBTITLE_SIZE,
     Weight, shorten,
 };
-use crate::report::{CutReport, CutRunEntry, Verdict};
+use crate::analyses::cut::{CutAtSpeed, CutReport};
+use crate::report::Verdict;
 
 const PANELS: Columns = Columns {
     lefts: [92.0, 610.0],
@@ -84,7 +85,7 @@ fn slowest_growth(report: &CutReport) -> f64 {
 }
 
 /// Axes of a map: guide angle and load level.
-fn axes(panel: &Frame, run: &CutRunEntry) -> (Axis, Axis) {
+fn axes(panel: &Frame, run: &CutAtSpeed) -> (Axis, Axis) {
     (
         Axis::over(&run.map.guide_angle_deg, panel.across()),
         Axis::over(&run.map.load_level, panel.upwards()),
@@ -94,7 +95,7 @@ fn axes(panel: &Frame, run: &CutRunEntry) -> (Axis, Axis) {
 fn draw_map(
     sheet: &mut Sheet,
     (panel, load): (&Frame, &str),
-    run: &CutRunEntry,
+    run: &CutAtSpeed,
     shade: impl Fn(f64) -> Colour,
 ) {
     let (angle, level) = axes(panel, run);
@@ -120,7 +121,7 @@ fn draw_map(
 }
 
 /// Writes speed and forces of a panel as its title.
-fn draw_forces(sheet: &mut Sheet, panel: &Frame, run: &CutRunEntry) {
+fn draw_forces(sheet: &mut Sheet, panel: &Frame, run: &CutAtSpeed) {
     let title = Lettering::title(SUBTITLE_SIZE, INK);
     let text = format!(
         "{} rpm, {:.0} N against and {:.0} N inwards a tooth at load 1",
@@ -173,7 +174,7 @@ fn over_load(report: &CutReport) -> Sheet {
 }
 
 /// Marks angle and load of the scene, and the load that the power of the saw allows.
-fn draw_own_point(sheet: &mut Sheet, panel: &Frame, report: &CutReport, run: &CutRunEntry) {
+fn draw_own_point(sheet: &mut Sheet, panel: &Frame, report: &CutReport, run: &CutAtSpeed) {
     let (angle, level) = axes(panel, run);
     let own_deg = report
         .scene

@@ -6,9 +6,10 @@ use super::canvas::{Mark, Sheet};
 use super::style::BLANK;
 use super::tidy::{assert_tidy, texts};
 use super::{cut, cut_map, layout, response_map, runup, spline_orbit, washboard};
-use crate::report::{CutReport, RunUpReport, WashboardReport};
+use crate::analyses::cut::{CutReport, cut as compute_cut};
+use crate::report::{RunUpReport, WashboardReport};
 use crate::scene::{Accuracy, CutRun, Scene, SceneFile};
-use crate::transient::{Cutting, RunningUp};
+use crate::transient::RunningUp;
 use crate::washboarding::Washboard;
 
 /// A saw with a spline at three speeds, whose panels are in two rows.
@@ -16,8 +17,7 @@ static THREE_SPEEDS: LazyLock<CutReport> = LazyLock::new(|| {
     let scene = draft();
     let cut = scene.cut().unwrap();
     let runs = [1800.0, 2800.0, 2600.0].map(|rpm| cut.at_rpm(rpm).unwrap());
-    let cutting = Cutting::new(&scene, &runs, &|_, _| ()).unwrap();
-    CutReport::new(&cutting)
+    compute_cut(&scene, &runs, &|_, _| ()).unwrap()
 });
 
 fn draft() -> Scene {
@@ -67,8 +67,7 @@ fn five_speeds_of_any_size_keep_their_labels_apart() {
         run(2500.0, 4.5),
         run(2800.0, 1e4),
     ];
-    let cutting = Cutting::new(&scene, &runs, &|_, _| ()).unwrap();
-    let mut report = CutReport::new(&cutting);
+    let mut report = compute_cut(&scene, &runs, &|_, _| ()).unwrap();
     for run in &report.runs {
         let within = |w: &f64| w.abs() <= report.linear_limit_m;
         assert!(run.deflection_m.iter().all(within), "{} rpm", run.rpm);
@@ -91,8 +90,7 @@ fn without_a_lateral_force_the_figure_is_a_flat_line() {
         lateral_n: 0.0,
         ..cut.at_rpm(2800.0).unwrap()
     };
-    let cutting = Cutting::new(&scene, &[run], &|_, _| ()).unwrap();
-    let mut report = CutReport::new(&cutting);
+    let mut report = compute_cut(&scene, &[run], &|_, _| ()).unwrap();
     assert_eq!(report.runs[0].transient_verdict, None);
     assert!(
         report

@@ -8,7 +8,7 @@ use super::heading::of_saw;
 use super::style::{
     CURVE, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, QUIET, STANDING, SUBTITLE_SIZE, tint,
 };
-use crate::report::{CutReport, CutRunEntry, SplineEntry};
+use crate::analyses::cut::{CutAtSpeed, CutReport, SplineOrbit};
 
 /// Positions of the panels, which are square because both axes have the same scale.
 const PANELS: Columns = Columns {
@@ -22,7 +22,7 @@ const PANELS: Columns = Columns {
 
 /// Draws a panel for each speed; `None` for a saw without spline.
 pub fn sheet(report: &CutReport) -> Option<Sheet> {
-    let runs: Vec<(&CutRunEntry, &SplineEntry)> = report
+    let runs: Vec<(&CutAtSpeed, &SplineOrbit)> = report
         .runs
         .iter()
         .filter_map(|run| run.spline.as_ref().map(|spline| (run, spline)))
@@ -56,7 +56,7 @@ struct Scale {
 }
 
 impl Scale {
-    fn of<'a>(splines: impl Iterator<Item = &'a SplineEntry>) -> Self {
+    fn of<'a>(splines: impl Iterator<Item = &'a SplineOrbit>) -> Self {
         let all = splines.flat_map(|spline| spline.x_m.iter().chain(&spline.y_m));
         let largest_m = all.fold(1e-9_f64, |max, value| max.max(value.abs()));
         let (unit, per_metre) = match largest_m < 1e-4 {
@@ -74,7 +74,7 @@ impl Scale {
 fn draw_orbit(
     sheet: &mut Sheet,
     (panel, name): (&Frame, &str),
-    (run, spline): (&CutRunEntry, &SplineEntry),
+    (run, spline): (&CutAtSpeed, &SplineOrbit),
     scale: &Scale,
 ) {
     let reach = [-scale.reach, scale.reach];
@@ -148,8 +148,8 @@ fn draw_clearance(
 mod tests {
     use super::*;
 
-    fn spline(x_m: Vec<f64>) -> SplineEntry {
-        SplineEntry {
+    fn spline(x_m: Vec<f64>) -> SplineOrbit {
+        SplineOrbit {
             verdict: crate::report::Verdict::Stable,
             growth_per_s: 0.0,
             frequency_hz: None,

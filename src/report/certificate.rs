@@ -146,7 +146,7 @@ fn proven_share(certificate: &Certificate, (from, to): (f64, f64)) -> Option<f64
 
 impl MiscountEntry {
     /// Text such as "1 missing between 10.0 and 12.0 Hz".
-    pub(super) fn in_words(&self) -> String {
+    pub(crate) fn in_words(&self) -> String {
         let what = if self.missing > 0 {
             "missing"
         } else {

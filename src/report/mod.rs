@@ -1,6 +1,6 @@
 //! The report: the results for a saw, complete enough to draw every figure from it alone.
 //!
-//! Reports are made from an [`Analysis`](crate::stability::Analysis), a fit, a placement or the history of a cut, and are written as JSON with speeds in rpm, frequencies in Hz
+//! Reports are made from an [`Analysis`](crate::stability::Analysis), a fit or a placement, and are written as JSON with speeds in rpm, frequencies in Hz
 //! and growth rates in 1/s. The contents of a report are computed before it is made; only [`WhirlEntry`],
 //! [`EventShapeEntry`] and [`SensitivityEntry`] are computed on request and added.
 
@@ -12,7 +12,6 @@ mod certificate;
 mod chart;
 mod critical_speed;
 mod csv;
-mod cut;
 mod deflect;
 mod event_shape;
 mod excitation;
@@ -28,7 +27,7 @@ mod resting;
 mod runup;
 mod saturated;
 mod sensitivity;
-mod spline;
+mod verdict;
 mod vtu;
 mod washboard;
 mod whirl;
@@ -40,10 +39,6 @@ pub(crate) use self::certificate::statement;
 pub use self::certificate::{CertificateEntry, MiscountEntry, MismatchEntry};
 pub use self::chart::{BranchEntry, CampbellEntry, RootLociEntry, RootPathEntry};
 pub use self::critical_speed::CriticalSpeedEntry;
-pub use self::cut::{
-    ByPowerEntry, CutCertificateEntry, CutCriterion, CutCriterionEntry, CutReport, CutRunEntry,
-    CutVerdict, ToothPassingEntry, Verdict, VerdictMapEntry,
-};
 pub use self::deflect::{
     ArcEntry, DeflectReport, EquilibriumCurveEntry, JumpEntry, SlowSweepEntry, TurnEntry,
 };
@@ -67,7 +62,7 @@ pub use self::resting::{HarmonicEntry, RestMode, ShapeEntry};
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport, StretchingEntry};
 pub(crate) use self::saturated::add_amplitudes;
 pub use self::sensitivity::SensitivityEntry;
-pub use self::spline::SplineEntry;
+pub use self::verdict::Verdict;
 pub use self::vtu::VTK_NAMES;
 pub use self::washboard::{LobesEntry, WashboardModeEntry, WashboardReport};
 pub use self::whirl::{WhirlEntry, WhirlMode};

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::cut::Verdict;
+use super::verdict::Verdict;
 use crate::scene::{SceneFile, in_the_cut, rpm, unusual_number};
 use crate::spectrum::Direction;
 use crate::text::shown_to;

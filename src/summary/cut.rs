@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use super::{decimals_or, each, heading, sentence};
-use crate::report::{CutCriterion, CutReport, CutRunEntry, CutVerdict, Verdict};
+use crate::analyses::cut::{CutAtSpeed, CutCriterion, CutReport, CutVerdict};
+use crate::report::Verdict;
 use crate::stability::CRITICAL_MARGIN;
 use crate::stretched::LARGEST_SLOPE;
 use crate::text::{fixed, shown_to};
@@ -29,7 +30,7 @@ pub fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
 }
 
 /// The verdict at a speed; `linear_limit_m` is the largest deflection of the linear model.
-fn in_one_line(run: &CutRunEntry, linear_limit_m: f64) -> String {
+fn in_one_line(run: &CutAtSpeed, linear_limit_m: f64) -> String {
     let (rpm, critical) = (run.rpm, run.at_critical_rpm);
     match run.verdict {
         CutVerdict::Stable => format!("{rpm} rpm: stable"),
@@ -50,7 +51,7 @@ fn in_one_line(run: &CutRunEntry, linear_limit_m: f64) -> String {
 }
 
 /// The verdict on an unstable cut: growth rate, frequency, and the criterion that decides.
-fn unstable(run: &CutRunEntry) -> String {
+fn unstable(run: &CutAtSpeed) -> String {
     let decisive = run.criteria.iter().find(|c| c.criterion == run.decided_by);
     let Some(entry) = decisive else {
         return format!("{} rpm: UNSTABLE", run.rpm);
@@ -66,7 +67,7 @@ fn unstable(run: &CutRunEntry) -> String {
     )
 }
 
-fn of_run(text: &mut String, run: &CutRunEntry, teeth: f64) -> std::fmt::Result {
+fn of_run(text: &mut String, run: &CutAtSpeed, teeth: f64) -> std::fmt::Result {
     let forces = format!(
         "{} rpm, on each tooth {} N against the rotation, {} N inwards, {} N across ({} N in all)",
         run.rpm,
@@ -110,7 +111,7 @@ fn in_capitals(verdict: Verdict) -> &'static str {
 }
 
 /// Remark after the verdict of a criterion.
-fn remark(run: &CutRunEntry, criterion: CutCriterion) -> String {
+fn remark(run: &CutAtSpeed, criterion: CutCriterion) -> String {
     match criterion {
         CutCriterion::TimeHistory => match run.agree {
             Some(true) => ", agrees".into(),
@@ -128,7 +129,7 @@ fn remark(run: &CutRunEntry, criterion: CutCriterion) -> String {
 }
 
 /// Largest deflections at the probe in the cut and after it, in millimetres.
-fn deflections(run: &CutRunEntry) -> String {
+fn deflections(run: &CutAtSpeed) -> String {
     let millimetres = |metres: f64| format!("{:.2} mm", 1e3 * metres);
     let (in_cut, after) = (
         run.largest_deflection_in_cut_m.map(millimetres),

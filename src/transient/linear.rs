@@ -8,6 +8,7 @@ use faer::Col;
 use crate::plate::Plate;
 use crate::scene::{Blade, Probe};
 
+use super::TransientError;
 use super::reduced::{ReducedBlade, at_point};
 
 /// Deflections beyond this many thicknesses of the blade are not reported.
@@ -20,13 +21,13 @@ pub fn linear_limit_m(blade: &Blade) -> f64 {
 
 /// Deflection at the probe of a motion on a reduced basis, and the limit of the linear model.
 #[derive(Debug)]
-pub(super) struct Gauge {
+pub(crate) struct Gauge {
     probe: Col<f64>,
     limit_m: f64,
 }
 
 impl Gauge {
-    pub(super) fn new(plate: &Plate, blade: &ReducedBlade, probe: &Probe) -> Self {
+    pub fn new(plate: &Plate, blade: &ReducedBlade, probe: &Probe) -> Self {
         Gauge {
             probe: blade.vector(&at_point(plate, probe.radius_m, probe.angle_rad)),
             limit_m: linear_limit_m(&plate.blade),
@@ -34,13 +35,21 @@ impl Gauge {
     }
 
     /// Deflection at the probe in m, from the coordinates on the basis.
-    pub(super) fn at_probe(&self, displacement: &Col<f64>) -> f64 {
+    pub fn at_probe(&self, displacement: &Col<f64>) -> f64 {
         let pairs = self.probe.iter().zip(displacement.iter());
         pairs.map(|(c, q)| c * q).sum()
     }
 
     /// Whether a deflection is outside the linear model.
-    pub(super) fn beyond(&self, deflection_m: f64) -> bool {
+    pub fn beyond(&self, deflection_m: f64) -> bool {
         deflection_m.abs() > self.limit_m
+    }
+}
+
+/// Refuses a deflection that has overflowed at a time.
+pub(crate) fn finite(value: f64, rpm: f64, time_s: f64) -> Result<f64, TransientError> {
+    match value.is_finite() {
+        true => Ok(value),
+        false => Err(TransientError::Overflow { rpm, time_s }),
     }
 }

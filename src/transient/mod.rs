@@ -5,43 +5,33 @@
 //! acceleration is used (N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (1959), 67–94). Both work on the lowest
 //! modes of the blade and its static deflections under the loads.
 //!
-//! A scene with a block `cut` or `runup` gives a [`Cutting`] or a [`RunningUp`]: times in s, speeds in rad/s,
-//! deflections in m, growth rates in 1/s.
+//! A scene with a block `runup` gives a [`RunningUp`]: times in s, speeds in rad/s, deflections in m, growth rates in
+//! 1/s. [`cut`](crate::analyses::cut) follows the saw through a cut.
 
 mod band_growth;
-mod cut;
 mod linear;
 mod motion;
 mod newmark;
-mod on_spline;
 mod propagator;
 mod reduced;
 mod response;
 mod runup;
-mod saw_in_cut;
 mod scenario;
 mod sinusoids;
-mod stretched_cut;
 mod stretched_probe;
 mod stretched_runup;
 mod stretching;
-mod teeth;
-mod verdict_map;
 
-pub(crate) use cut::{CutHistory, Growth};
-pub(crate) use linear::{LINEAR_THICKNESSES, linear_limit_m};
+pub(crate) use linear::{Gauge, LINEAR_THICKNESSES, finite, linear_limit_m};
 pub(crate) use motion::{Force, Integrator, State};
 pub(crate) use newmark::Newmark;
-pub(crate) use on_spline::OnSpline;
-pub(crate) use reduced::at_point;
-pub(crate) use saw_in_cut::lateral_load;
-pub(crate) use scenario::CuttingRun;
-pub use scenario::{Cutting, RunningUp};
+pub(crate) use propagator::Propagator;
+pub(crate) use reduced::{ReducedBlade, Snapshot, at_point, lateral_load};
+pub use scenario::RunningUp;
 pub use sinusoids::FitError;
-pub use stretched_cut::CutStretching;
-pub(crate) use stretching::system as reduced_system;
-pub(crate) use teeth::ToothPassing;
-pub(crate) use verdict_map::VerdictMap;
+pub(crate) use sinusoids::{SAMPLES, Sinusoid, damped_sinusoids, fitted_growth};
+pub(crate) use stretched_probe::StretchedProbe;
+pub(crate) use stretching::{forces, system as reduced_system};
 
 use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
@@ -118,7 +108,5 @@ pub enum TransientError {
     },
 }
 
-#[cfg(test)]
-mod moving_loads_tests;
 #[cfg(test)]
 mod tests;

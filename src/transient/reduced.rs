@@ -8,6 +8,7 @@ use faer::{Col, Mat, MatRef, Scale, Side};
 
 use crate::linalg::SymmetricEigen;
 use crate::plate::Plate;
+use crate::scene::Tooth;
 use crate::spectrum::{SpectrumError, frequency_scale, lowest_eigenpairs, orthonormal, split};
 use crate::system::GyroscopicSystem;
 
@@ -166,4 +167,13 @@ impl ReducedBlade {
 pub fn at_point(plate: &Plate, radius_m: f64, angle_rad: f64) -> Col<f64> {
     let values = plate.functions_at(radius_m, angle_rad);
     Col::from_fn(values.len(), |i| values[i])
+}
+
+/// Mean load of one newton across the blade on each tooth, Σ s_k φ(b, θ_k) with the shares s_k of the time.
+pub fn lateral_load(plate: &Plate, teeth: &[Tooth]) -> Col<f64> {
+    let mut load = Col::zeros(plate.degrees_of_freedom());
+    for Tooth { angle_rad, share } in teeth {
+        load += Scale(*share) * at_point(plate, plate.blade.outer_radius_m, *angle_rad);
+    }
+    load
 }

@@ -9,8 +9,7 @@ use crate::scene::{Probe, RunUp, rpm};
 use crate::spectrum::Cancellation;
 use crate::system::GyroscopicSystem;
 
-use super::cut::finite;
-use super::linear::Gauge;
+use super::linear::{Gauge, finite};
 use super::reduced::{ReducedBlade, Snapshot, at_point};
 use super::{Force, Integrator, Newmark, State, TransientError};
 

@@ -34,7 +34,7 @@ pub struct FitError {
 /// Share of the largest singular value below which others are rounding.
 const RANK_TOLERANCE: f64 = 1e-10;
 /// Largest number of samples used: the cost grows with its cube.
-pub(super) const SAMPLES: usize = 801;
+pub(crate) const SAMPLES: usize = 801;
 /// Share of the largest sample below which a sinusoid is rounding.
 const AUDIBLE: f64 = 1e-3;
 /// Largest |λ| times the duration of the record for which a sinusoid is the static response.

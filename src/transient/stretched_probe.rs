@@ -6,7 +6,7 @@ use crate::stretched::{Equilibrium, LARGEST_SLOPE, StretchedBlade};
 use super::State;
 
 /// The deflection at a probe, and the check that slopes are within the model.
-pub(super) struct StretchedProbe<'a> {
+pub(crate) struct StretchedProbe<'a> {
     blade: &'a StretchedBlade,
     probe: &'a Probe,
     /// Largest slope of the blade so far.

@@ -9,7 +9,7 @@ use crate::system::GyroscopicSystem;
 use super::Force;
 
 /// The forces of a blade that depend on its deflection.
-pub(super) fn forces(blade: &StretchedBlade) -> Vec<&dyn Force> {
+pub(crate) fn forces(blade: &StretchedBlade) -> Vec<&dyn Force> {
     let gaps = blade.gaps().map(|gaps| gaps as &dyn Force);
     std::iter::once(blade.stretching() as &dyn Force)
         .chain(gaps)

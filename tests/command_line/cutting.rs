@@ -2,7 +2,8 @@
 //!
 //! Source: `--help`, docs/explanation/paper.md, and the paper's verdicts (section 3.2).
 
-use sawflutter::report::{CutReport, CutVerdict, RunUpReport};
+use sawflutter::analyses::cut::{CutReport, CutVerdict};
+use sawflutter::report::RunUpReport;
 use sawflutter::scene::{Accuracy, RunUpFile, Scene, SceneFile};
 use tempfile::TempDir;
 

@@ -1,7 +1,7 @@
 //! Cuts under forces that no saw tolerates.
 #![allow(dead_code)]
 
-use sawflutter::report::{CutCriterion, CutReport, CutVerdict};
+use sawflutter::analyses::cut::{CutCriterion, CutReport, CutVerdict};
 use sawflutter::scene::{CutSpeedFile, Scene, SceneFile};
 use tempfile::TempDir;
 

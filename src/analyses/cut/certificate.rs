@@ -3,14 +3,14 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::certificate::MiscountEntry;
+use crate::report::MiscountEntry;
 use crate::stability::GrowingModes;
-use crate::transient::CutHistory;
 
 /// Number of growing modes in the cut and without its forces, compared with counts on the full model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct CutCertificateEntry {
+#[schemars(rename = "CutCertificateEntry")]
+pub struct CutCertificate {
     /// The result in a sentence.
     pub statement: String,
     /// Number of modes that grow in the cut; a pair of conjugate eigenvalues counts as one.
@@ -26,9 +26,9 @@ pub struct CutCertificateEntry {
     pub miscounted_modes: Vec<MiscountEntry>,
 }
 
-impl CutCertificateEntry {
-    pub(super) fn new(history: &CutHistory) -> Self {
-        let [idle, in_cut] = &history.growing;
+impl CutCertificate {
+    /// The comparison without the forces and in the cut.
+    pub(super) fn new([idle, in_cut]: &[GrowingModes; 2]) -> Self {
         let states = [
             State {
                 name: "in the cut",
@@ -41,7 +41,7 @@ impl CutCertificateEntry {
         ];
         let sentences: Vec<String> = states.iter().map(State::sentence).collect();
         let miscounts = states.iter().flat_map(|state| &state.found.miscounts);
-        CutCertificateEntry {
+        CutCertificate {
             statement: sentences.join("; "),
             growing_modes: in_cut.modes,
             idle_growing_modes: idle.modes,

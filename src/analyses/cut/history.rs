@@ -7,17 +7,17 @@ use crate::scene::{CutRun, Probe};
 use crate::spectrum::{Assembled, Growing, SpectrumError, companion_eigenpairs};
 use crate::stability::{CRITICAL_MARGIN, GrowingModes, critical_at};
 use crate::system::GyroscopicSystem;
+use crate::transient::{
+    Gauge, Integrator, Propagator, SAMPLES, Sinusoid, State, TransientError, damped_sinusoids,
+    finite, fitted_growth, lateral_load,
+};
 
-use super::linear::Gauge;
-use super::propagator::Propagator;
-use super::saw_in_cut::{MODES, SawInCut, lateral_load};
-use super::sinusoids::{SAMPLES, Sinusoid, damped_sinusoids, fitted_growth};
-use super::stretched_cut::stretched_cut;
-use super::{CutStretching, Integrator, State, TransientError};
+use super::saw::{MODES, SawInCut};
+use super::stretched::{CutStretching, stretched_cut};
 
 /// Growth rate and frequency of the fastest growing motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Growth {
+pub(super) struct Growth {
     /// Re λ; zero for a stable undamped saw, negative for a stable damped one.
     pub growth_per_s: f64,
     /// Im λ of this motion.
@@ -62,14 +62,8 @@ impl From<Sinusoid> for Growth {
 }
 
 /// One speed of a cut: eigenvalues and time history.
-#[derive(Debug, Clone)]
-pub(crate) struct CutHistory {
-    /// Speed and forces.
-    pub run: CutRun,
-    /// Eigenvalues without the forces.
-    pub idle: Growth,
-    /// Eigenvalues in the cut.
-    pub in_cut: Growth,
+#[derive(Debug)]
+pub(super) struct CutHistory {
     /// Growing modes compared with counts on the full model, without the forces and in the cut.
     pub growing: [GrowingModes; 2],
     /// Critical speed within 5 % of the speed, of the saw in the cut or without the forces; of several, the nearest.
@@ -80,16 +74,56 @@ pub(crate) struct CutHistory {
     pub fitted: Option<Growth>,
     /// Frequency of the largest oscillation in the cut.
     pub dominant_rad_per_s: Option<f64>,
-    /// Start and end of the forces.
-    pub forces_s: (f64, f64),
-    /// Time at which the deflection exceeds the linear model, and the record ends; `None` if it does not.
-    pub linear_until_s: Option<f64>,
+    /// Deflection at the probe.
+    pub record: Record,
     /// Results with stretching; `None` unless the scene has `cut.stretching`.
     pub stretched: Option<CutStretching>,
+}
+
+/// The record of the probe.
+#[derive(Debug)]
+pub(super) struct Record {
     /// Times of the record.
     pub time_s: Vec<f64>,
-    /// Deflection at the probe.
+    /// Deflection at these times.
     pub deflection_m: Vec<f64>,
+    /// Time at which the deflection exceeds the linear model, and the record ends; `None` if it does not.
+    pub linear_until_s: Option<f64>,
+}
+
+impl CutHistory {
+    /// Growth without the forces.
+    pub fn idle(&self) -> Growth {
+        self.growing[0].growing.into()
+    }
+
+    /// Growth in the cut.
+    pub fn in_cut(&self) -> Growth {
+        self.growing[1].growing.into()
+    }
+
+    /// Time at which the deflection exceeds the range of the model, linear or with stretching; the record
+    /// ends there. `None` if it does not.
+    pub fn valid_until_s(&self) -> Option<f64> {
+        let stretched = self.stretched.as_ref();
+        self.record
+            .linear_until_s
+            .or_else(|| stretched.and_then(|found| found.valid_until_s))
+    }
+
+    /// Largest deflections at the probe until the forces end and afterwards, while the model is valid.
+    pub fn largest_deflections_m(&self, end_s: f64) -> [Option<f64>; 2] {
+        let valid_until_s = self.valid_until_s().unwrap_or(f64::INFINITY);
+        let largest = |after: bool| {
+            let record = self.record.time_s.iter().zip(&self.record.deflection_m);
+            record
+                .filter(|(time, _)| (**time > end_s) == after)
+                .fold(0.0_f64, |max, (_, w)| max.max(w.abs()))
+        };
+        let in_cut = (valid_until_s > end_s).then(|| largest(false));
+        let after = self.valid_until_s().is_none().then(|| largest(true));
+        [in_cut, after]
+    }
 }
 
 /// Sampling interval of a record, which is short enough for a figure.
@@ -103,7 +137,7 @@ const GROWTH_A_SAMPLE: f64 = 0.1;
 ///
 /// # Errors
 /// [`TransientError`].
-pub fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, TransientError> {
+pub(super) fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, TransientError> {
     let SawInCut {
         plate, cut, run, ..
     } = saw;
@@ -136,19 +170,13 @@ pub fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, Tran
     ]
     .concat();
     Ok(CutHistory {
-        run: **run,
         critical_rad_per_s: critical_at(&critical, speed).map(|place| critical[place]),
-        idle,
-        in_cut,
         growing,
         in_cut_by_power: by_power.transpose()?,
         fitted: fitted_growth(&sinusoids).map(Growth::from),
         dominant_rad_per_s: sinusoids.iter().map(|s| s.lambda.im).find(|im| *im > 0.0),
-        forces_s: (cut.idle_s, cut.idle_s + run.duration_s),
-        linear_until_s: record.linear_until_s,
+        record,
         stretched,
-        time_s: record.time_s,
-        deflection_m: record.deflection_m,
     })
 }
 
@@ -159,23 +187,6 @@ fn critical_near(plate: &Plate, speed_rad_per_s: f64) -> Result<Vec<f64>, Spectr
         Ok(found) => Ok(found.iter().map(|c| c.speed_rad_per_s).collect()),
         Err(SpectrumError::UnstableAtRest { .. } | SpectrumError::Buckled { .. }) => Ok(Vec::new()),
         Err(other) => Err(other),
-    }
-}
-
-/// The record of the probe.
-pub(crate) struct Record {
-    pub(crate) time_s: Vec<f64>,
-    pub(crate) deflection_m: Vec<f64>,
-    pub(crate) linear_until_s: Option<f64>,
-}
-
-impl CutHistory {
-    /// Time at which the deflection exceeds the range of the model, linear or with stretching; the record
-    /// ends there. `None` if it does not.
-    pub fn valid_until_s(&self) -> Option<f64> {
-        let stretched = self.stretched.as_ref();
-        self.linear_until_s
-            .or_else(|| stretched.and_then(|found| found.valid_until_s))
     }
 }
 
@@ -303,12 +314,4 @@ pub(super) fn fastest_mode_rad_per_s(
     frequencies.sort_by(f64::total_cmp);
     let highest = frequencies.get(modes - 1).or(frequencies.last());
     Ok(highest.copied().unwrap_or_default())
-}
-
-/// Refuses a deflection that has overflowed at a time.
-pub(super) fn finite(value: f64, rpm: f64, time_s: f64) -> Result<f64, TransientError> {
-    match value.is_finite() {
-        true => Ok(value),
-        false => Err(TransientError::Overflow { rpm, time_s }),
-    }
 }

@@ -2,14 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use super::{CutCriterion, CutRunEntry, CutVerdict, Verdict};
+use super::{CutAtSpeed, CutCriterion, CutVerdict};
+use crate::report::Verdict;
 use crate::stretched::LARGEST_SLOPE;
 use crate::transient::LINEAR_THICKNESSES;
 
 /// Beyond this many thicknesses a plate stretches as it bends and is stiffer than the linear model.
 const SMALL_THICKNESSES: f64 = 1.0;
 
-pub(super) fn warnings(run: &CutRunEntry, teeth: f64, thickness_m: f64) -> Vec<String> {
+pub(super) fn warnings(run: &CutAtSpeed, teeth: f64, thickness_m: f64) -> Vec<String> {
     let all = [
         single_blows(run, teeth),
         against_power(run),
@@ -22,7 +23,7 @@ pub(super) fn warnings(run: &CutRunEntry, teeth: f64, thickness_m: f64) -> Vec<S
     all.into_iter().flatten().collect()
 }
 
-fn single_blows(run: &CutRunEntry, teeth: f64) -> Option<String> {
+fn single_blows(run: &CutAtSpeed, teeth: f64) -> Option<String> {
     (teeth < 1.0).then(|| {
         format!(
             "at {:.0} rpm a tooth is in the cut for {:.0} % of the time: the mean forces leave the blows of single teeth out, which only the criterion of moving tooth loads includes",
@@ -32,7 +33,7 @@ fn single_blows(run: &CutRunEntry, teeth: f64) -> Option<String> {
     })
 }
 
-fn contradicted(run: &CutRunEntry) -> Option<String> {
+fn contradicted(run: &CutAtSpeed) -> Option<String> {
     let certificate = &run.certificate;
     (!certificate.is_clean()).then(|| {
         format!(
@@ -42,7 +43,7 @@ fn contradicted(run: &CutRunEntry) -> Option<String> {
     })
 }
 
-fn against_power(run: &CutRunEntry) -> Option<String> {
+fn against_power(run: &CutAtSpeed) -> Option<String> {
     let by_power = run.by_power.as_ref()?;
     let ratio = run.tangential_n_per_tooth / by_power.tangential_n_per_tooth;
     ((ratio - 1.0).abs() > 0.05).then(|| {
@@ -59,7 +60,7 @@ fn against_power(run: &CutRunEntry) -> Option<String> {
     })
 }
 
-fn without_lateral_force(run: &CutRunEntry) -> Option<String> {
+fn without_lateral_force(run: &CutAtSpeed) -> Option<String> {
     (run.lateral_n_per_tooth == 0.0).then(|| {
         format!(
             "at {:.0} rpm no lateral force excites the blade, so the time history contains no motion; give cut.lateral_n_per_tooth",
@@ -69,7 +70,7 @@ fn without_lateral_force(run: &CutRunEntry) -> Option<String> {
 }
 
 /// Remark if moving teeth excite a resonance that stationary and mean loads do not.
-fn moving_loads_alone(run: &CutRunEntry) -> Option<String> {
+fn moving_loads_alone(run: &CutAtSpeed) -> Option<String> {
     let passing = &run.tooth_passing;
     let others = passing
         .standing_growth_per_s
@@ -104,7 +105,7 @@ fn one_digit(value: f64) -> String {
 }
 
 /// Remark if the moving loads alone cause this deflection.
-fn moving_loads_deflect(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
+fn moving_loads_deflect(run: &CutAtSpeed, thickness_m: f64) -> Option<String> {
     if run.stretching.is_some() {
         return run.tooth_passing.passing_deflection_m.is_none().then(|| format!(
             "at {:.0} rpm the moving tooth loads, which are computed without stretching, deflect the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses of the blade ({:.1} mm); the record with stretching has stationary loads",
@@ -123,14 +124,14 @@ fn moving_loads_deflect(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
 }
 
 /// Time after the start or the end of the forces, as text.
-fn moment(run: &CutRunEntry, until_s: f64) -> String {
+fn moment(run: &CutAtSpeed, until_s: f64) -> String {
     match until_s > run.forces_to_s {
         true => format!("{} after the cut", seconds(until_s - run.forces_to_s)),
         false => format!("{} into the cut", seconds(until_s - run.forces_from_s)),
     }
 }
 
-fn large_deflection(run: &CutRunEntry, thickness_m: f64) -> Option<String> {
+fn large_deflection(run: &CutAtSpeed, thickness_m: f64) -> Option<String> {
     if let Some(found) = &run.stretching {
         return found.valid_until_s.map(|until_s| {
             format!(

@@ -4,18 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::hertz;
+use super::history::{CutHistory, Growth};
+use super::spline::SplineOrbit;
+use crate::report::Verdict;
 use crate::scene::Scene;
-use crate::transient::{CuttingRun, Growth};
-
-/// Whether a motion grows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Verdict {
-    /// No motion grows as fast as the threshold.
-    Stable,
-    /// Some motion grows as fast.
-    Unstable,
-}
 
 /// Verdict of a cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -51,7 +43,8 @@ pub enum CutCriterion {
 /// A criterion and its result.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct CutCriterionEntry {
+#[schemars(rename = "CutCriterionEntry")]
+pub struct CutFinding {
     /// The criterion.
     pub criterion: CutCriterion,
     /// Its verdict.
@@ -65,43 +58,42 @@ pub struct CutCriterionEntry {
 /// Relative difference that is allowed between the growth rates of two methods.
 const AGREEMENT: f64 = 0.02;
 
-/// The result of each criterion at one speed.
-pub(super) fn criteria(scene: &Scene, computed: &CuttingRun) -> Vec<CutCriterionEntry> {
-    let CuttingRun {
-        history,
-        passing,
-        spline,
-        ..
-    } = computed;
-    let entry = |criterion: CutCriterion, growth: Growth| CutCriterionEntry {
+/// The result of each criterion at one speed, of which `moving` is the growth under moving tooth loads.
+pub(super) fn criteria(
+    scene: &Scene,
+    history: &CutHistory,
+    moving: Growth,
+    spline: Option<&SplineOrbit>,
+) -> Vec<CutFinding> {
+    let entry = |criterion: CutCriterion, growth: Growth| CutFinding {
         criterion,
         verdict: Verdict::of(scene, growth),
         growth_per_s: growth.growth_per_s,
         frequency_hz: growing_hz(growth),
     };
-    let fitted = history.fitted.map(|fitted| CutCriterionEntry {
+    let fitted = history.fitted.map(|fitted| CutFinding {
         // The frequency is given only if the growth rate reaches the threshold, because a smaller one may be
         // rounding.
         frequency_hz: growing_hz(fitted)
             .filter(|_| Verdict::of(scene, fitted) == Verdict::Unstable),
         ..entry(CutCriterion::TimeHistory, fitted)
     });
-    let moving = Growth {
-        growth_per_s: passing.passing_growth_per_s,
-        frequency_rad_per_s: 0.0,
-        diverges: passing.diverges,
-    };
-    let moving = CutCriterionEntry {
+    let moving = CutFinding {
         frequency_hz: None,
         ..entry(CutCriterion::MovingToothLoads, moving)
     };
-    let spline = spline.as_ref();
+    let on_spline = spline.map(|found| CutFinding {
+        criterion: CutCriterion::SplineReaction,
+        verdict: found.verdict,
+        growth_per_s: found.growth_per_s,
+        frequency_hz: found.frequency_hz,
+    });
     [
-        Some(entry(CutCriterion::Eigenvalues, history.in_cut)),
+        Some(entry(CutCriterion::Eigenvalues, history.in_cut())),
         fitted,
         Some(moving),
-        spline.map(|found| entry(CutCriterion::SplineReaction, found.in_cut)),
-        Some(entry(CutCriterion::OutOfCut, history.idle)),
+        on_spline,
+        Some(entry(CutCriterion::OutOfCut, history.idle())),
     ]
     .into_iter()
     .flatten()
@@ -109,15 +101,15 @@ pub(super) fn criteria(scene: &Scene, computed: &CuttingRun) -> Vec<CutCriterion
 }
 
 /// The worst verdict, and the criterion of fastest growth that gives it (the first of equals).
-pub(super) fn worst(criteria: &[CutCriterionEntry]) -> (Verdict, CutCriterion) {
-    let unstable = |entry: &CutCriterionEntry| entry.verdict == Verdict::Unstable;
+pub(super) fn worst(criteria: &[CutFinding]) -> (Verdict, CutCriterion) {
+    let unstable = |entry: &CutFinding| entry.verdict == Verdict::Unstable;
     let verdict = match criteria.iter().any(unstable) {
         true => Verdict::Unstable,
         false => Verdict::Stable,
     };
-    let mut fastest: Option<&CutCriterionEntry> = None;
+    let mut fastest: Option<&CutFinding> = None;
     for entry in criteria.iter().filter(|entry| entry.verdict == verdict) {
-        let faster = |than: &CutCriterionEntry| {
+        let faster = |than: &CutFinding| {
             let apart = AGREEMENT * than.growth_per_s.abs();
             entry.growth_per_s > than.growth_per_s + apart
         };
@@ -137,28 +129,19 @@ pub(super) fn agree(scene: &Scene, fitted: Growth, eigenvalue: Growth) -> bool {
 }
 
 /// Frequency of a motion, in Hz; `None` if it does not grow.
-pub(in crate::report) fn growing_hz(growth: Growth) -> Option<f64> {
+pub(super) fn growing_hz(growth: Growth) -> Option<f64> {
     (growth.growth_per_s > 0.0).then(|| hertz(growth.frequency_rad_per_s))
 }
 
 impl Verdict {
     /// The threshold is one of flutter: divergence always counts, as in a band.
-    pub(in crate::report) fn of(scene: &Scene, growth: Growth) -> Self {
+    pub(super) fn of(scene: &Scene, growth: Growth) -> Self {
         let rate = growth.growth_per_s;
         let is_slow = rate < scene.flutter_threshold_per_s() || rate <= 0.0;
         match is_slow && !growth.diverges {
             true => Verdict::Stable,
             false => Verdict::Unstable,
         }
-    }
-}
-
-impl std::fmt::Display for Verdict {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(match self {
-            Verdict::Stable => "stable",
-            Verdict::Unstable => "unstable",
-        })
     }
 }
 
@@ -209,9 +192,9 @@ mod tests {
         }
     }
 
-    fn entries(growths: &[(CutCriterion, f64)]) -> Vec<CutCriterionEntry> {
+    fn entries(growths: &[(CutCriterion, f64)]) -> Vec<CutFinding> {
         let scene = Scene::paper();
-        let entry = |(criterion, growth_per_s): &(CutCriterion, f64)| CutCriterionEntry {
+        let entry = |(criterion, growth_per_s): &(CutCriterion, f64)| CutFinding {
             criterion: *criterion,
             verdict: Verdict::of(&scene, flutter(*growth_per_s)),
             growth_per_s: *growth_per_s,

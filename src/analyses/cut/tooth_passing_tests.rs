@@ -2,12 +2,9 @@
 
 use std::f64::consts::PI;
 
-use crate::plate::{Plate, Resolution, RimForce};
-use crate::scene::{Cut, CutRun, Scene, TeethInCut, Tooth};
-use crate::system::GyroscopicSystem;
-use crate::transient::saw_in_cut::SawInCut;
-use crate::transient::teeth::{ToothPassing, tooth_passing};
-use faer::{Mat, Scale};
+use super::*;
+use crate::plate::{Plate, Resolution};
+use crate::scene::{Cut, CutRun, Scene, TeethInCut};
 
 const SMALL: Resolution = Resolution {
     max_diameters: 6,
@@ -122,7 +119,7 @@ fn compared(scene: &Scene, rpm: f64) -> ToothPassing {
     let cut = scene.cut().unwrap();
     let run = cut.at_rpm(rpm).unwrap();
     let saw = SawInCut::new(&plate, cut, &run).unwrap();
-    let found = tooth_passing(&saw, scene.probe(), 32).unwrap();
+    let (found, _) = tooth_passing(&saw, scene.probe(), 32).unwrap();
     let exact = by_runge_kutta(&plate, cut, &run, 32, 16);
     let growth = found.passing_growth_per_s;
     assert!(

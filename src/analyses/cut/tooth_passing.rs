@@ -8,38 +8,39 @@
 
 use faer::{Mat, Scale};
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::linalg::real_eigenvalues;
 use crate::plate::RimForce;
 use crate::scene::{Probe, Tooth, rad_per_s};
 use crate::spectrum::{Growing, SpectrumError};
 use crate::system::GyroscopicSystem;
+use crate::transient::{
+    Gauge, Integrator, Propagator, ReducedBlade, State, TransientError, finite, lateral_load,
+};
 
-use super::cut::finite;
-use super::linear::Gauge;
-use super::propagator::Propagator;
-use super::reduced::ReducedBlade;
-use super::saw_in_cut::{SawInCut, lateral_load};
-use super::{Growth, Integrator, State, TransientError};
+use super::hertz;
+use super::history::Growth;
+use super::saw::SawInCut;
 
-/// Growth rates and deflections under stationary and under moving tooth loads.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The effect of loads that move with the teeth, compared with stationary loads.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "ToothPassingEntry")]
 pub struct ToothPassing {
-    /// Tooth passing frequency.
-    pub tooth_frequency_rad_per_s: f64,
-    /// Growth under stationary loads one pitch apart.
+    /// Number of teeth that pass per second.
+    pub tooth_frequency_hz: f64,
+    /// Growth under stationary loads at the mean places of the teeth.
     pub standing_growth_per_s: f64,
     /// Growth under the mean of the moving loads.
     pub mean_growth_per_s: f64,
     /// Growth under the moving loads, from Floquet multipliers.
     pub passing_growth_per_s: f64,
-    /// Whether a motion grows without oscillation under the mean of the moving loads. A multiplier does not show
-    /// this, because it leaves multiples of the tooth frequency open.
-    pub diverges: bool,
-    /// Largest deflection at the probe in the cut under stationary loads; `None` if the linear model ends
-    /// before the cut does.
+    /// Largest deflection at the probe in the cut under stationary loads; null if the linear model ends
+    /// before the cut.
     pub standing_deflection_m: Option<f64>,
-    /// Largest deflection at the probe in the cut under moving loads; `None` as above.
+    /// Largest deflection at the probe in the cut under moving loads.
     pub passing_deflection_m: Option<f64>,
 }
 
@@ -49,15 +50,17 @@ pub struct ToothPassing {
 /// growth is 0.25 1/s for multiples of 1.5, 2, 3 and 4.
 const SHAPES_UP_TO: f64 = 2.0;
 
-/// Compares stationary, mean and moving loads, with `stages` steps within a tooth period and constant forces in each.
+/// Compares stationary, mean and moving loads, with `stages` steps within a tooth period and constant forces in each. Beside
+/// the result it returns the growth under moving loads, which diverges if a motion does under their mean: a multiplier does
+/// not show this, because it leaves multiples of the tooth frequency open.
 ///
 /// # Errors
 /// [`TransientError`].
-pub fn tooth_passing(
+pub(super) fn tooth_passing(
     saw: &SawInCut<'_>,
     probe: &Probe,
     stages: usize,
-) -> Result<ToothPassing, TransientError> {
+) -> Result<(ToothPassing, Growth), TransientError> {
     let speed = saw.run.speed_rad_per_s;
     let period_s = saw.cut.teeth.pitch_rad / speed;
     let tooth_frequency_rad_per_s = std::f64::consts::TAU / period_s;
@@ -71,15 +74,20 @@ pub fn tooth_passing(
     let mean = growth(&loads.mean())?;
     let few = MovingLoads::new(saw, &saw.blade, stages);
     let gauge = Gauge::new(saw.plate, &saw.blade, probe);
-    Ok(ToothPassing {
-        tooth_frequency_rad_per_s,
+    let found = ToothPassing {
+        tooth_frequency_hz: hertz(tooth_frequency_rad_per_s),
         standing_growth_per_s: growth(&standing)?.growth_per_s,
         mean_growth_per_s: mean.growth_per_s,
-        diverges: mean.diverges,
         passing_growth_per_s: loads.floquet_growth()?,
         standing_deflection_m: few.largest_deflection(&[few.propagator(&standing)?], &gauge)?,
         passing_deflection_m: few.largest_deflection(&few.propagators()?, &gauge)?,
-    })
+    };
+    let moving = Growth {
+        growth_per_s: found.passing_growth_per_s,
+        frequency_rad_per_s: 0.0,
+        diverges: mean.diverges,
+    };
+    Ok((found, moving))
 }
 
 /// The loads in the steps within a tooth period, in a reduced basis.
@@ -223,3 +231,7 @@ fn rescaled(propagator: &Propagator, scale_per_s: f64) -> Mat<f64> {
     }
     transition
 }
+
+#[cfg(test)]
+#[path = "tooth_passing_tests.rs"]
+mod tests;

@@ -4,24 +4,32 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::{Mat, Scale};
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::campbell::Progress;
+use crate::report::Verdict;
+use crate::scene::Scene;
 use crate::spectrum::{Growing, SpectrumError};
 use crate::system::GyroscopicSystem;
+use crate::transient::{ReducedBlade, Snapshot, TransientError, lateral_load};
 
-use super::reduced::{ReducedBlade, Snapshot};
-use super::saw_in_cut::{SawInCut, lateral_load};
-use super::{Growth, TransientError};
+use super::history::Growth;
+use super::saw::SawInCut;
 
-/// Growth rates at one speed on a grid.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct VerdictMap {
-    /// Angles by which all guides are moved around the axis.
-    pub turns_rad: Vec<f64>,
+/// Growth rates over guide angle and load.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "VerdictMapEntry")]
+pub struct VerdictMap {
+    /// Angles of the first guide, with which all guides move; empty without guides.
+    pub guide_angle_deg: Vec<f64>,
     /// Factors of the radial and tangential forces.
-    pub load_levels: Vec<f64>,
-    /// Growth, with one row for each load level and one column for each angle.
-    pub growth: Vec<Vec<Growth>>,
+    pub load_level: Vec<f64>,
+    /// Growth rates, one row for each load level, one column for each angle; one column without guides.
+    pub growth_per_s: Vec<Vec<f64>>,
+    /// Verdicts by these growth rates, in the same rows and columns.
+    pub verdict: Vec<Vec<Verdict>>,
 }
 
 /// Number of angles at which the modes in the cut are added to the basis.
@@ -29,15 +37,16 @@ const SNAPSHOTS: usize = 3;
 /// Number of modes at each of these angles; flutter in the cut has low frequencies.
 const MODES: usize = 8;
 
-/// Computes the map at one speed.
+/// Computes the map at one speed, over angles by which all guides are moved around the axis, and load levels.
 ///
 /// Rotating the guides by α is equivalent, except for a rotation of the whole, to rotating the cut by −α, so
 /// that one basis serves the whole map.
 ///
 /// # Errors
 /// [`TransientError::Spectrum`].
-pub fn verdict_map(
+pub(super) fn verdict_map(
     saw: &SawInCut<'_>,
+    scene: &Scene,
     (turns_rad, load_levels): (&[f64], &[f64]),
     progress: Progress<'_>,
 ) -> Result<VerdictMap, TransientError> {
@@ -65,10 +74,20 @@ pub fn verdict_map(
                 .collect::<Result<Vec<Growth>, TransientError>>()
         })
         .collect::<Result<Vec<_>, _>>()?;
+    let angle_deg = |turn: &f64| {
+        let guide = scene.guides().first()?;
+        Some((guide.angle_rad + turn).to_degrees())
+    };
+    let verdict = |growth: &Growth| Verdict::of(scene, *growth);
+    let rows = growth.iter();
     Ok(VerdictMap {
-        turns_rad: turns_rad.to_vec(),
-        load_levels: load_levels.to_vec(),
-        growth,
+        guide_angle_deg: turns_rad.iter().filter_map(angle_deg).collect(),
+        load_level: load_levels.to_vec(),
+        verdict: rows.map(|row| row.iter().map(verdict).collect()).collect(),
+        growth_per_s: growth
+            .into_iter()
+            .map(|row| row.into_iter().map(|growth| growth.growth_per_s).collect())
+            .collect(),
     })
 }
 

@@ -1,17 +1,16 @@
 //! A saw at one speed of a cut, with data common to time history, tooth passing and map.
 
-use faer::{Col, Mat, Scale};
+use faer::Mat;
 
 use crate::plate::Plate;
-use crate::scene::{Cut, CutRun, Tooth};
+use crate::scene::{Cut, CutRun};
 use crate::spectrum::SpectrumError;
 use crate::system::GyroscopicSystem;
-
-use super::reduced::{ReducedBlade, Snapshot, at_point};
+use crate::transient::{ReducedBlade, Snapshot, lateral_load};
 
 /// The saw with and without the forces at one speed, and its reduced basis.
 #[derive(Debug)]
-pub struct SawInCut<'a> {
+pub(super) struct SawInCut<'a> {
     /// The plate without the forces of the cut.
     pub plate: &'a Plate,
     /// Positions of the teeth.
@@ -32,15 +31,6 @@ pub struct SawInCut<'a> {
 
 /// Number of modes of the idle and of the cutting saw in the basis.
 pub(super) const MODES: usize = 14;
-
-/// Mean load of one newton across the blade on each tooth, Σ s_k φ(b, θ_k) with the shares s_k of the time.
-pub fn lateral_load(plate: &Plate, teeth: &[Tooth]) -> Col<f64> {
-    let mut load = Col::zeros(plate.degrees_of_freedom());
-    for Tooth { angle_rad, share } in teeth {
-        load += Scale(*share) * at_point(plate, plate.blade.outer_radius_m, *angle_rad);
-    }
-    load
-}
 
 impl<'a> SawInCut<'a> {
     /// Applies the forces to the saw and computes its lowest modes with and without them.

@@ -10,13 +10,15 @@ use crate::scene::Probe;
 use crate::spectrum::Cancellation;
 use crate::stretched::StretchedBlade;
 use crate::system::GyroscopicSystem;
+use crate::transient::{
+    Integrator, Newmark, ReducedBlade, Snapshot, State, StretchedProbe, TransientError, forces,
+    lateral_load, reduced_system,
+};
 
-use super::cut::{MAX_SAMPLES, Record, SAMPLE_S, fastest_mode_rad_per_s, longest_step_s};
-use super::reduced::{ReducedBlade, Snapshot};
-use super::saw_in_cut::{SawInCut, lateral_load};
-use super::stretched_probe::StretchedProbe;
-use super::stretching::{forces, system};
-use super::{Growth, Integrator, Newmark, State, TransientError};
+use super::history::{
+    Growth, MAX_SAMPLES, Record, SAMPLE_S, fastest_mode_rad_per_s, longest_step_s,
+};
+use super::saw::SawInCut;
 
 /// Numbers of a time history in the cut with stretching.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -45,7 +47,7 @@ const LOOK_S: f64 = 0.01;
 /// # Errors
 /// [`TransientError::Stretched`] if nothing holds the blade, [`TransientError::NotBalanced`] if a step has no
 /// solution.
-pub fn stretched_cut(
+pub(super) fn stretched_cut(
     saw: &SawInCut<'_>,
     probe: &Probe,
     growths: [Growth; 2],
@@ -66,7 +68,7 @@ fn with_modes(
     let load = Scale(run.lateral_n)
         * (shapes.transpose() * lateral_load(saw.plate, &cut.teeth.standing()));
     let none = Col::zeros(load.nrows());
-    let [idle, cutting] = [saw.plate, &saw.cutting].map(|plate| system(plate, &blade));
+    let [idle, cutting] = [saw.plate, &saw.cutting].map(|plate| reduced_system(plate, &blade));
     let mut samples = Samples::new(&blade, probe, run.speed_rad_per_s);
     let sample_s = SAMPLE_S.max((2.0 * cut.idle_s + run.duration_s) / MAX_SAMPLES);
     let mut state = State::rest(load.nrows());
@@ -208,9 +210,9 @@ impl<'a> Samples<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analyses::cut::history::cut_history;
     use crate::plate::{Plate, Resolution};
     use crate::scene::{Cut, CutRun, Scene, rad_per_s};
-    use crate::transient::cut::cut_history;
 
     fn plate() -> Plate {
         let resolution = Resolution {
@@ -251,7 +253,7 @@ mod tests {
                 let saw = SawInCut::new(&plate, &cut, &run).unwrap();
                 cut_history(&saw, Scene::paper().probe()).unwrap()
             });
-            let [linear, stretched] = records.each_ref().map(|r| largest(&r.deflection_m));
+            let [linear, stretched] = records.each_ref().map(|r| largest(&r.record.deflection_m));
             assert!(linear > 1e-10);
             let error = stretched / linear - 1.0;
             println!("{rpm}: {linear:e} {error:e}");

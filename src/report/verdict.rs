@@ -1,0 +1,23 @@
+//! Whether a motion grows.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Whether a motion grows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// No motion grows as fast as the threshold.
+    Stable,
+    /// Some motion grows as fast.
+    Unstable,
+}
+
+impl std::fmt::Display for Verdict {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(match self {
+            Verdict::Stable => "stable",
+            Verdict::Unstable => "unstable",
+        })
+    }
+}
