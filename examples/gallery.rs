@@ -6,14 +6,14 @@ use anyhow::Context;
 use sawflutter::analyses::check::{self, CheckReport, Limits};
 use sawflutter::analyses::compare::{Saw, compare};
 use sawflutter::analyses::cut::{self, CutReport};
+use sawflutter::analyses::deflect::{Options, deflect};
 use sawflutter::analyses::fit::{self, FitReport, Measurement};
 use sawflutter::analyses::gap::{self, gap};
 use sawflutter::analyses::map::{self, Range};
 use sawflutter::analyses::place::{self, Demands, PlaceReport};
 use sawflutter::analyses::study::StudyReport;
 use sawflutter::commands::CommandReport;
-use sawflutter::deflect::{Deflecting, Options};
-use sawflutter::report::{DeflectReport, ResponseReport, RunUpReport};
+use sawflutter::report::{ResponseReport, RunUpReport};
 use sawflutter::response::{self, ForcedResponse};
 use sawflutter::scene::{Accuracy, ContactLaw, Freed, Scene, SceneError, SceneFile, rad_per_s};
 use sawflutter::stability::Analysis;
@@ -100,11 +100,10 @@ fn stretched(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
         "runup-map.png" | "deflect.png" => Some(name),
         _ => None,
     };
-    let deflected = Deflecting::new(scene, &Options::default())?;
     let all = [
         pngs(&cut(&draft)?)?,
         pngs(&RunUpReport::new(&found))?,
-        pngs(&DeflectReport::new(&deflected))?,
+        pngs(&deflect(scene, &Options::default())?)?,
     ];
     let all = all.into_iter().flatten();
     Ok(all

@@ -13,6 +13,7 @@ use serde_json::Value;
 use crate::analyses::check::CheckReport;
 use crate::analyses::compare::CompareReport;
 use crate::analyses::cut::CutReport;
+use crate::analyses::deflect::DeflectReport;
 use crate::analyses::fit::FitReport;
 use crate::analyses::gap::GapReport;
 use crate::analyses::map::MapReport;
@@ -25,9 +26,7 @@ use crate::figure::{
     deflect, fit, gap, gap_friction, gap_map, gap_oscillation, in_cut, map, membrane, modes, place,
     response, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
-use crate::report::{
-    DeflectReport, ModeEntry, Report, ResponseReport, RunUpReport, WashboardReport,
-};
+use crate::report::{ModeEntry, Report, ResponseReport, RunUpReport, WashboardReport};
 use crate::scene::SceneFile;
 use crate::summary;
 

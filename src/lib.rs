@@ -51,7 +51,6 @@ pub mod campbell;
 #[doc(hidden)]
 pub mod cli;
 pub mod commands;
-pub mod deflect;
 pub mod document;
 #[cfg(feature = "page")]
 #[doc(hidden)]

@@ -6,14 +6,13 @@ use pyo3::types::PyDict;
 use sawflutter::analyses::check::{self, Limits, LimitsFile};
 use sawflutter::analyses::compare::{Saw, compare as compare_saws};
 use sawflutter::analyses::cut;
+use sawflutter::analyses::deflect::{Options as DeflectOptions, deflect as deflected};
 use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
 use sawflutter::analyses::gap::{self, Friction, Options as GapOptions, OscillatingForce};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
-use sawflutter::deflect::{Deflecting, Options as DeflectOptions};
-
 use sawflutter::report::{
-    DeflectReport, ModeEntry, ResponseReport, RunUpReport, SensitivityEntry, WashboardReport,
+    ModeEntry, ResponseReport, RunUpReport, SensitivityEntry, WashboardReport,
 };
 use sawflutter::response::{ForcedResponse, Options as ResponseOptions};
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
@@ -192,7 +191,7 @@ fn deflect(options: &Options<'_>) -> PyResult<Work> {
     };
     Ok(Box::new(move |scene, _| {
         options.checked(scene)?;
-        json(&DeflectReport::new(&Deflecting::new(scene, &options)?))
+        json(&deflected(scene, &options)?)
     }))
 }
 

@@ -7,11 +7,11 @@ use pyo3::prelude::*;
 use pyo3::types::PyType;
 use sawflutter::analyses::check::CheckError;
 use sawflutter::analyses::compare::CompareError;
+use sawflutter::analyses::deflect::DeflectError;
 use sawflutter::analyses::fit::FitError;
 use sawflutter::analyses::gap::GapError;
 use sawflutter::analyses::place::PlaceError;
 use sawflutter::analyses::study::{LogError, StudyError};
-use sawflutter::deflect::DeflectError;
 use sawflutter::figure::FigureError;
 
 use sawflutter::response::ResponseError;

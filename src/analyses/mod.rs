@@ -1,11 +1,12 @@
 //! One folder for each command: what it is asked, what it computes, and its report, which is the result.
 //!
 //! A function named like the command returns the report: `deflect(&scene, &options)` gives a
-//! [`DeflectReport`](crate::report::DeflectReport), in the units of its JSON. States between (matrices, coordinates)
+//! [`DeflectReport`](deflect::DeflectReport), in the units of its JSON. States between (matrices, coordinates)
 //! are private to the folder.
 pub mod check;
 pub mod compare;
 pub mod cut;
+pub mod deflect;
 pub mod fit;
 pub mod gap;
 pub mod map;

@@ -1,7 +1,6 @@
 //! `sawflutter deflect`.
 
-use crate::deflect::{DeflectError, Deflecting, Options};
-use crate::report::DeflectReport;
+use crate::analyses::deflect::{DeflectError, Options, deflect};
 use clap::Args;
 
 use super::common::{Common, number, of_option};
@@ -48,13 +47,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     options.checked(&scene).map_err(of_option)?;
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;
-    let found = watched(|_| Deflecting::new(&scene, &options))?;
-    let found = found.map_err(|error| match error {
+    let report = watched(|_| deflect(&scene, &options))?;
+    let report = report.map_err(|error| match error {
         DeflectError::Refused(refused) if refused.key.contains('.') => refused.into(),
         DeflectError::Refused(refused) => of_option(refused),
         other => other.into(),
     })?;
-    let report = DeflectReport::new(&found);
     let output = &arguments.common.output;
     output.report(&folder, &arguments.page, &report, Vec::new())
 }

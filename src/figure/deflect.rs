@@ -6,7 +6,7 @@ use super::chart_data::{
 };
 use super::palette::Hue;
 use super::style::{HAIRLINE, STRONG_CURVE};
-use crate::report::{DeflectReport, EquilibriumCurveEntry, JumpEntry, SlowSweepEntry};
+use crate::analyses::deflect::{DeflectReport, EquilibriumCurve, Jump, SlowSweep};
 use crate::text::shown_to;
 
 const UP: Hue = Hue::Forward;
@@ -52,7 +52,7 @@ pub fn chart(report: &DeflectReport) -> ChartData {
 }
 
 /// Each sweep with its colour, the width of its curve, the size of its dots, and its name.
-fn sweeps(report: &DeflectReport) -> [(&SlowSweepEntry, Hue, f64, f64, &'static str); 2] {
+fn sweeps(report: &DeflectReport) -> [(&SlowSweep, Hue, f64, f64, &'static str); 2] {
     [
         (&report.up, UP, WIDER, 4.4, "stable, while the speed rises"),
         (&report.down, DOWN, NARROWER, 2.2, "while it falls"),
@@ -62,8 +62,8 @@ fn sweeps(report: &DeflectReport) -> [(&SlowSweepEntry, Hue, f64, f64, &'static 
 /// The considerable jumps of a sweep.
 fn shown_jumps<'a>(
     report: &'a DeflectReport,
-    sweep: &'a SlowSweepEntry,
-) -> impl Iterator<Item = &'a JumpEntry> {
+    sweep: &'a SlowSweep,
+) -> impl Iterator<Item = &'a Jump> {
     let thickness_m = report.scene.blade.thickness_m;
     sweep
         .jumps
@@ -142,7 +142,7 @@ fn leans(report: &DeflectReport) -> Vec<Item> {
 }
 
 /// Lines of a curve of equilibria: solid where stable, dashed where unstable.
-fn curve_lines(curve: &EquilibriumCurveEntry) -> Vec<Item> {
+fn curve_lines(curve: &EquilibriumCurve) -> Vec<Item> {
     let is_stable = |k: usize| curve.negative_eigenvalues[k] == 0;
     let found = lines_by_look(curve.rpm.len(), |k| Some(is_stable(k)));
     let lines = found.into_iter().map(|(stable, samples)| {

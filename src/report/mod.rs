@@ -12,7 +12,7 @@ mod certificate;
 mod chart;
 mod critical_speed;
 mod csv;
-mod deflect;
+
 mod event_shape;
 mod excitation;
 
@@ -39,9 +39,7 @@ pub(crate) use self::certificate::statement;
 pub use self::certificate::{CertificateEntry, MiscountEntry, MismatchEntry};
 pub use self::chart::{BranchEntry, CampbellEntry, RootLociEntry, RootPathEntry};
 pub use self::critical_speed::CriticalSpeedEntry;
-pub use self::deflect::{
-    ArcEntry, DeflectReport, EquilibriumCurveEntry, JumpEntry, SlowSweepEntry, TurnEntry,
-};
+
 pub use self::event_shape::{EventShapeEntry, ShapeOccasion};
 pub use self::excitation::{CrossingEntry, ExcitationEntry, ExcitationLineEntry};
 

@@ -2,8 +2,7 @@
 
 use super::analysis::Report;
 use super::instability::InstabilityEntry;
-use crate::deflect::{Rise, saturations};
-use crate::stability::Analysis;
+use crate::stability::{Analysis, Rise, saturations};
 use crate::stretched::StretchedError;
 
 impl Report {

@@ -43,6 +43,7 @@ mod pieces;
 mod proof;
 mod quadruples;
 mod reach;
+mod rise;
 mod room;
 mod root;
 mod seen;
@@ -83,6 +84,7 @@ pub use partition::{Plane, Sample};
 #[doc(hidden)]
 pub use pieces::{Grouped, Piece, Search};
 pub(crate) use reach::{CHARTED, PAST_THE_RANGE, is_cut_short, usual_end};
+pub use rise::{Rise, saturations};
 pub(crate) use root::{Look, bracketed};
 pub use sensitivity::{Sensitivity, SensitivityError};
 #[doc(hidden)]

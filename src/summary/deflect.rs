@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::{ROWS, each, heading, more, sentence};
-use crate::report::{ArcEntry, DeflectReport, JumpEntry, SlowSweepEntry};
+use crate::analyses::deflect::{Arc, DeflectReport, Jump, SlowSweep};
 use crate::scene::ContactLaw;
 use crate::stretched::{LARGEST_SLOPE, TurnKind};
 use crate::text::{fixed, shown_to};
@@ -91,11 +91,11 @@ fn critical(report: &DeflectReport) -> String {
 /// Writes the considerable jumps of a sweep; `word` states whether its speed rises or falls.
 fn jumps(
     text: &mut String,
-    sweep: &SlowSweepEntry,
+    sweep: &SlowSweep,
     (word, thickness_m): (&str, f64),
 ) -> std::fmt::Result {
     let all = sweep.jumps.iter();
-    let listed: Vec<&JumpEntry> = all
+    let listed: Vec<&Jump> = all
         .filter(|jump| jump.is_considerable(thickness_m))
         .collect();
     if listed.is_empty() {
@@ -122,7 +122,7 @@ fn jumps(
     more(text, listed.len(), ROWS, "deflect.json")
 }
 
-impl JumpEntry {
+impl Jump {
     /// Whether the deflection at the probe, or the largest deflection, changes by more than 2 % of the
     /// thickness. Smaller jumps would not be noticed.
     pub(crate) fn is_considerable(&self, thickness_m: f64) -> bool {
@@ -144,14 +144,14 @@ fn table(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
     for k in 0..ROWS {
         let share = k as f64 / (ROWS - 1) as f64;
         let rpm = report.from_rpm + share * (report.to_rpm - report.from_rpm);
-        let of = |sweep: &SlowSweepEntry| {
+        let of = |sweep: &SlowSweep| {
             let at = sweep.at(rpm, |arc, k| {
                 [arc.deflection_m[k], arc.largest_deflection_m[k]]
             });
             at.map_or(["-".into(), "-".into()], |at| at.map(in_mm))
         };
         let ([up_probe, up_most], [down_probe, down_most]) = (of(&report.up), of(&report.down));
-        let lowest = |arc: &ArcEntry, k: usize| {
+        let lowest = |arc: &Arc, k: usize| {
             std::array::from_fn(|i| arc.frequencies_hz[k].get(i).copied().unwrap_or(f64::NAN))
         };
         let frequencies: Option<[f64; FREQUENCIES]> = report.up.at(rpm, lowest);
@@ -171,15 +171,15 @@ fn table(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
 /// Number of frequencies in a row of the table.
 const FREQUENCIES: usize = 4;
 
-impl SlowSweepEntry {
+impl SlowSweep {
     /// Values at a speed, by linear interpolation between two equilibria of one arc; `None` if no arc contains
     /// the speed.
     fn at<const N: usize>(
         &self,
         rpm: f64,
-        values: impl Fn(&ArcEntry, usize) -> [f64; N],
+        values: impl Fn(&Arc, usize) -> [f64; N],
     ) -> Option<[f64; N]> {
-        let within = |arc: &&ArcEntry, k: usize| {
+        let within = |arc: &&Arc, k: usize| {
             let share = (rpm - arc.rpm[k]) / (arc.rpm[k + 1] - arc.rpm[k]);
             (-1e-9..=1.0 + 1e-9).contains(&share).then_some(share)
         };
@@ -201,7 +201,7 @@ fn pads(report: &DeflectReport) -> Option<String> {
         .enumerate()
         .filter_map(|(row, (index, _))| {
             let arcs = report.up.arcs.iter();
-            let of_arc = |arc: &ArcEntry| {
+            let of_arc = |arc: &Arc| {
                 let forces = arc.pad_forces_n.get(row).cloned().unwrap_or_default();
                 arc.rpm.clone().into_iter().zip(forces)
             };

@@ -4,7 +4,8 @@
 //! Source: `--help`, docs/how-to/deflect.md.
 
 use sawflutter::analyses::check::CheckReport;
-use sawflutter::report::{DeflectReport, InstabilityEntry, Report};
+use sawflutter::analyses::deflect::DeflectReport;
+use sawflutter::report::{InstabilityEntry, Report};
 use sawflutter::scene::{Accuracy, ContactLaw, Scene};
 use tempfile::TempDir;
 

@@ -3,10 +3,9 @@
 use super::limits::Limits;
 use super::report::Criterion;
 use super::static_deflection::StaticDeflection;
-use crate::deflect::Rise;
 use crate::plate::Plate;
 use crate::scene::{Scene, rpm};
-use crate::stability::{Analysis, Evidence, Instability, InstabilityKind, flutter_onsets};
+use crate::stability::{Analysis, Evidence, Instability, InstabilityKind, Rise, flutter_onsets};
 use crate::text::{shown, shown_to};
 use crate::transient::at_point;
 

@@ -1,7 +1,7 @@
 //! Lateral stiffness of a point of the rim at the middle of the cut, while the saw turns below a force fixed in
 //! space.
 
-use crate::deflect::rim_compliance_m_per_n;
+use crate::analyses::deflect::rim_compliance_m_per_n;
 use crate::plate::{Plate, Resolution};
 use crate::stability::{Analysis, StabilityState};
 

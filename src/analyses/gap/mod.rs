@@ -38,7 +38,7 @@ use friction::Heated;
 use oscillation::oscillation;
 use oscillators::Oscillators;
 
-use crate::deflect;
+use crate::analyses::deflect;
 use crate::scene::{
     Blade, Bore, Guide, RefusedValue, Scene, SceneError, rad_per_s, rpm, speed_rad_per_s,
 };

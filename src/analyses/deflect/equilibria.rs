@@ -1,68 +1,19 @@
-//! Equilibria of a blade that stretches while its speed slowly rises and falls, under a side force.
-//!
-//! The linear model gives the speeds at which the flat blade is unstable, but not the deflection that
-//! results. With the potential of [`stretched`](crate::stretched) the blade deflects to one side and has an
-//! equilibrium there. This module follows the stable equilibria for rising and falling speed, including jumps
-//! from one to another, and computes the unstable ones between them and the frequencies of small motions
-//! about each.
-//!
-//! ```
-//! use sawflutter::deflect::{Deflecting, Options};
-//! use sawflutter::scene::{Accuracy, Scene};
-//!
-//! let scene = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft)?;
-//! let options = Options { to_rpm: Some(1800.0), ..Options::default() };
-//! let found = Deflecting::new(&scene, &options)?;
-//! let largest = found.up.readings().map(|at| at.largest_m).fold(0.0, f64::max);
-//! assert!(largest > scene.file().blade.thickness_m);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
-
-mod options;
-mod point_load;
-mod reading;
-mod saturated;
-#[cfg(test)]
-mod tests;
-
-pub use options::{Options, SideForce};
-pub(crate) use point_load::rim_compliance_m_per_n;
-pub use reading::{Curve, Jump, Reading, SlowSweep};
-pub use saturated::{Rise, saturations};
+//! The equilibria themselves: a blade with as many shapes as needed, its sweeps and its curves.
 
 use faer::Col;
 
+use super::{DeflectError, Options, SideForce};
 use crate::plate::{Plate, Resolution};
-use crate::scene::{RefusedValue, Scene, SceneError, rad_per_s};
+use crate::scene::{Scene, rad_per_s};
 use crate::spectrum::{Cancellation, Work};
-use crate::stability::{Analysis, AnalysisError};
+use crate::stability::Analysis;
 use crate::stretched::{
     Branch, Equilibrium, Extent, LARGEST_SLOPE, StretchedBlade, StretchedError, Sweep,
 };
 
-use point_load::basis_error;
-use reading::Reader;
-
-/// Reason for which the equilibria of a blade could not be computed.
-#[derive(Debug, thiserror::Error)]
-pub enum DeflectError {
-    /// The force or the speed is out of range.
-    #[error(transparent)]
-    Refused(#[from] RefusedValue),
-    /// The scene refuses the requested range of speeds.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// The saw could not be analysed.
-    #[error(transparent)]
-    Analysis(#[from] AnalysisError),
-    /// No equilibrium was found, or equilibria are not isolated.
-    #[error(transparent)]
-    Stretched(#[from] StretchedError),
-}
-
 /// Initial number of modes at rest, in addition to the shapes that diverge and the response to the force.
 /// With 24 the deflection of the paper's saw changes by less than 1 % if more are added.
-const MODES: usize = 24;
+pub(super) const MODES: usize = 24;
 /// Largest number of modes; a check uses half as many more.
 const MOST_MODES: usize = 54;
 /// Relative change of the deflection, with half as many modes more, that is small enough.
@@ -71,37 +22,30 @@ const CLOSE: f64 = 1e-2;
 const COMPARED: usize = 9;
 
 /// A blade that stretches, and its equilibria over speed.
-#[derive(Debug)]
-pub struct Deflecting {
-    /// The scene, as given.
-    pub scene: Scene,
-    /// The side force.
-    pub force: SideForce,
+pub(super) struct Equilibria {
     /// The linear analysis over the same speeds.
     pub analysis: Analysis,
-    /// Number of shapes of the reduced basis.
-    pub shapes: usize,
+    /// The blade under the side force, on its reduced basis.
+    pub blade: StretchedBlade,
     /// Largest relative change of the deflection with half as many modes more; `None` if the blade remains
     /// flat.
-    pub estimated_relative_error: Option<f64>,
-    /// Estimated relative error of a small deflection at the force, at rest, on the basis from which the shapes are
-    /// made; `None` without a force, and for a blade that is buckled at rest.
-    pub basis_error: Option<f64>,
-    /// Equilibria for rising speed.
-    pub up: SlowSweep,
-    /// Equilibria for falling speed, starting from the last one of `up`.
-    pub down: SlowSweep,
+    pub relative_error: Option<f64>,
+    /// Stable equilibria for rising speed.
+    pub up: Sweep,
+    /// Stable equilibria for falling speed, starting from the last one of `up`.
+    pub down: Sweep,
     /// All curves of equilibria that were found, including unstable ones.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<Branch>,
+    /// Counts the parts; the last one, the evaluation, ends with this value.
+    _parts: Work,
 }
 
-impl Deflecting {
+impl Equilibria {
     /// Follows the equilibria over the scene's sweep, or up to the requested speed.
     ///
     /// # Errors
-    /// [`DeflectError`] if an option is refused, the saw cannot be analysed, or no equilibrium is found.
-    pub fn new(scene: &Scene, options: &Options) -> Result<Self, DeflectError> {
-        let force = options.side_force(scene)?;
+    /// As for [`deflect`](super::deflect).
+    pub fn new(scene: &Scene, options: &Options, force: &SideForce) -> Result<Self, DeflectError> {
         let swept = match options.to_rpm {
             None => scene.clone(),
             Some(to_rpm) => scene.swept((0.0, rad_per_s(to_rpm)).into())?,
@@ -115,37 +59,37 @@ impl Deflecting {
         let plate = &analysis.model.plate;
         let parts = Work::of("parts of the deflection", PARTS);
         let blade = force.on(plate, range.1, MODES.min(plate.degrees_of_freedom()))?;
-        if let Some(gentle_n) = gentler(&force, &blade, range.0)? {
-            return Err(options.steep(scene, &force, gentle_n).into());
+        if let Some(gentle_n) = gentler(force, &blade, range.0)? {
+            return Err(options.steep(scene, force, gentle_n).into());
         }
-        let (blade, up, error) = resolved(&force, plate, blade, range)?;
+        let (blade, up, relative_error) = resolved(force, plate, blade, range)?;
         parts.advance();
         let top = up.arcs.last().and_then(|arc| arc.last());
-        let down = blade.sweep(
-            &top.map_or_else(|| blade.flat(), |e| e.coordinates.clone()),
-            false,
-            range,
-        )?;
+        let top = top.map_or_else(|| blade.flat(), |e| e.coordinates.clone());
+        let down = blade.sweep(&top, false, range)?;
         parts.advance();
         let curves = curves(&blade, range, [(&up, true), (&down, false)])?;
         parts.advance();
-        let reader = Reader::new(&blade, scene.probe());
-        let read = Deflecting {
-            up: reader.sweep(&up)?,
-            down: reader.sweep(&down)?,
-            curves: curves.iter().map(|curve| reader.curve(curve)).collect(),
-            shapes: blade.shapes().ncols(),
-            estimated_relative_error: error,
-            basis_error: match force.force_n {
-                0.0 => None,
-                _ => basis_error(&swept, plate, force.angle_rad),
-            },
-            scene: scene.clone(),
-            force,
+        Ok(Equilibria {
             analysis,
-        };
-        parts.advance();
-        Ok(read)
+            blade,
+            relative_error,
+            up,
+            down,
+            curves,
+            _parts: parts,
+        })
+    }
+
+    /// Remark on curves that end at the largest number of equilibria of a figure.
+    pub fn cut_off(&self) -> Option<String> {
+        let count = self.curves.iter().filter(|curve| !curve.is_whole).count();
+        (count > 0).then(|| {
+            format!(
+                "{count} of {} curves of equilibria end at the largest number of equilibria of a figure, within the range of speeds",
+                self.curves.len()
+            )
+        })
     }
 }
 

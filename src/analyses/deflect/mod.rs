@@ -1,0 +1,103 @@
+//! Equilibria of a blade that stretches while its speed slowly rises and falls, under a side force.
+//!
+//! The linear model gives the speeds at which the flat blade is unstable, but not the deflection that
+//! results. With the potential of [`stretched`](crate::stretched) the blade deflects to one side and has an
+//! equilibrium there. [`deflect`] follows the stable equilibria for rising and falling speed, including jumps
+//! from one to another, and computes the unstable ones between them and the frequencies of small motions
+//! about each.
+//!
+//! ```
+//! use sawflutter::analyses::deflect::{Options, deflect};
+//! use sawflutter::scene::{Accuracy, Scene};
+//!
+//! let scene = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft)?;
+//! let options = Options { to_rpm: Some(1800.0), ..Options::default() };
+//! let report = deflect(&scene, &options)?;
+//! let deflections = report.up.arcs.iter().flat_map(|arc| &arc.largest_deflection_m);
+//! assert!(deflections.fold(0.0, |most: f64, m| most.max(*m)) > scene.file().blade.thickness_m);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod equilibria;
+mod options;
+mod point_load;
+mod reading;
+mod report;
+#[cfg(test)]
+mod tests;
+
+pub use options::{Options, SideForce};
+pub(crate) use point_load::rim_compliance_m_per_n;
+pub use report::{Arc, DeflectReport, EquilibriumCurve, Jump, SlowSweep, Turn};
+
+use crate::scene::{RefusedValue, Scene, SceneError};
+use crate::stability::AnalysisError;
+use crate::stretched::StretchedError;
+
+use equilibria::Equilibria;
+use point_load::basis_error;
+use reading::Reader;
+
+/// Reason for which the equilibria of a blade could not be computed.
+#[derive(Debug, thiserror::Error)]
+pub enum DeflectError {
+    /// The force or the speed is out of range.
+    #[error(transparent)]
+    Refused(#[from] RefusedValue),
+    /// The scene refuses the requested range of speeds.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The saw could not be analysed.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
+    /// No equilibrium was found, or equilibria are not isolated.
+    #[error(transparent)]
+    Stretched(#[from] StretchedError),
+}
+
+/// Follows the equilibria over the scene's sweep, or up to the requested speed.
+///
+/// # Errors
+/// [`DeflectError`] if an option is refused, the saw cannot be analysed, or no equilibrium is found.
+pub fn deflect(scene: &Scene, options: &Options) -> Result<DeflectReport, DeflectError> {
+    let force = options.side_force(scene)?;
+    let found = Equilibria::new(scene, options, &force)?;
+    let chart = found.analysis.report();
+    let probe = scene.probe();
+    let reader = Reader::new(&found.blade, probe, chart.campbell.complete_to_hz);
+    Ok(DeflectReport {
+        sawflutter: chart.sawflutter,
+        scene: scene.file().clone(),
+        condition: chart.condition,
+        unusual_numbers: chart.unusual_numbers,
+        degrees_of_freedom: chart.accuracy.degrees_of_freedom,
+        shapes: found.blade.shapes().ncols(),
+        estimated_relative_error: found.relative_error,
+        basis_error: match force.force_n {
+            0.0 => None,
+            _ => basis_error(
+                &found.analysis.scene,
+                &found.analysis.model.plate,
+                force.angle_rad,
+            ),
+        },
+        from_rpm: chart.campbell.from_rpm,
+        to_rpm: chart.campbell.to_rpm,
+        force_n: force.force_n,
+        force_angle_deg: force.angle_rad.to_degrees(),
+        probe_radius_m: probe.radius_m,
+        probe_angle_deg: probe.angle_rad.to_degrees(),
+        beyond_thickness_rpm: reader.beyond_rpm(&found.up, scene.blade().thickness_range_m().0),
+        up: reader.sweep(&found.up)?,
+        down: reader.sweep(&found.down)?,
+        curves: found
+            .curves
+            .iter()
+            .map(|curve| reader.curve(curve))
+            .collect(),
+        critical_speeds: chart.critical_speeds,
+        instabilities: chart.instabilities,
+        campbell: chart.campbell,
+        warnings: chart.warnings.into_iter().chain(found.cut_off()).collect(),
+    })
+}
