@@ -20,13 +20,14 @@ use crate::analyses::map::MapReport;
 use crate::analyses::place::PlaceReport;
 use crate::analyses::study::StudyReport;
 use crate::analyses::tradeoff::Setting;
+use crate::analyses::washboard::WashboardReport;
 use crate::document::{self, Document};
 use crate::figure::{
     CampbellView, ChartData, Drawing, Figure, FigureError, campbell, check, compare, cut, cut_map,
     deflect, fit, gap, gap_friction, gap_map, gap_oscillation, in_cut, map, membrane, modes, place,
     response, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
-use crate::report::{ModeEntry, Report, ResponseReport, RunUpReport, WashboardReport};
+use crate::report::{ModeEntry, Report, ResponseReport, RunUpReport};
 use crate::scene::SceneFile;
 use crate::summary;
 

@@ -72,7 +72,6 @@ pub mod system;
 pub mod text;
 pub mod transient;
 mod tuned;
-pub mod washboarding;
 
 /// Items that most programs need.
 pub mod prelude {

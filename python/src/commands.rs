@@ -5,21 +5,17 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sawflutter::analyses::check::{self, Limits, LimitsFile};
 use sawflutter::analyses::compare::{Saw, compare as compare_saws};
-use sawflutter::analyses::cut;
-use sawflutter::analyses::deflect::{Options as DeflectOptions, deflect as deflected};
 use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
 use sawflutter::analyses::gap::{self, Friction, Options as GapOptions, OscillatingForce};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
-use sawflutter::report::{
-    ModeEntry, ResponseReport, RunUpReport, SensitivityEntry, WashboardReport,
-};
+use sawflutter::analyses::{cut, deflect, washboard};
+use sawflutter::report::{ModeEntry, ResponseReport, RunUpReport, SensitivityEntry};
 use sawflutter::response::{ForcedResponse, Options as ResponseOptions};
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
 use sawflutter::transient::RunningUp;
-use sawflutter::washboarding::Washboard;
 use serde::Serialize;
 
 use crate::arguments::{self, Options};
@@ -184,14 +180,14 @@ fn runup(scene: &Scene, meter: &Meter) -> Result<String, Failure> {
 
 /// `deflect.json` under a force, up to a speed.
 fn deflect(options: &Options<'_>) -> PyResult<Work> {
-    let options = DeflectOptions {
+    let options = deflect::Options {
         force_n: options.get("force_n")?,
         angle_deg: options.get("angle_deg")?,
         to_rpm: options.get("to_rpm")?,
     };
     Ok(Box::new(move |scene, _| {
         options.checked(scene)?;
-        json(&deflected(scene, &options)?)
+        json(&deflect::deflect(scene, &options)?)
     }))
 }
 
@@ -239,8 +235,9 @@ fn washboard(options: &Options<'_>) -> PyResult<Work> {
     Ok(Box::new(move |scene, meter| {
         let cut = scene.needed_washboarding()?;
         let run = cut.at_rpm(scene.needed_operating_rpm(rpm)?)?;
-        let found = Washboard::new(scene, &run, &|done, of| meter.show(done, of))?;
-        json(&WashboardReport::new(&found))
+        json(&washboard::washboard(scene, &run, &|done, of| {
+            meter.show(done, of)
+        })?)
     }))
 }
 

@@ -12,6 +12,7 @@ use sawflutter::analyses::fit::FitError;
 use sawflutter::analyses::gap::GapError;
 use sawflutter::analyses::place::PlaceError;
 use sawflutter::analyses::study::{LogError, StudyError};
+use sawflutter::analyses::washboard::WashboardError;
 use sawflutter::figure::FigureError;
 
 use sawflutter::response::ResponseError;
@@ -21,7 +22,6 @@ use sawflutter::stability::{AnalysisError, SensitivityError};
 use sawflutter::stretched::StretchedError;
 use sawflutter::text::FileError;
 use sawflutter::transient::TransientError;
-use sawflutter::washboarding::WashboardError;
 
 /// Reason of a failed computation.
 #[derive(Debug)]

@@ -13,3 +13,4 @@ pub mod map;
 pub mod place;
 pub mod study;
 pub mod tradeoff;
+pub mod washboard;

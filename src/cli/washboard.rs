@@ -1,7 +1,6 @@
 //! `sawflutter washboard`.
 
-use crate::report::WashboardReport;
-use crate::washboarding::Washboard;
+use crate::analyses::washboard::washboard;
 use clap::Args;
 
 use super::common::{Common, number};
@@ -36,11 +35,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let run = cut.at_rpm(scene.needed_operating_rpm(arguments.rpm)?)?;
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;
-    let found = watched(|progress| {
+    let report = watched(|progress| {
         let speeds = |done, of| progress.show("speeds", done, of);
-        Washboard::new(&scene, &run, &speeds)
+        washboard(&scene, &run, &speeds)
     })??;
-    let report = WashboardReport::new(&found);
     let output = &arguments.common.output;
     output.report(&folder, &arguments.page, &report, Vec::new())
 }

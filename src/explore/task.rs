@@ -15,12 +15,12 @@ use crate::analyses::gap::{self, GapError, GapReport};
 use crate::analyses::map::{self, MapReport, Range};
 use crate::analyses::place::{self, Demands, PlaceReport};
 use crate::analyses::study::{Saw, Study, StudyReport};
+use crate::analyses::washboard::{self, WashboardError, WashboardReport};
 use crate::commands::CommandReport;
-use crate::report::{ResponseReport, RunUpReport, WashboardReport};
+use crate::report::{ResponseReport, RunUpReport};
 use crate::response::{self, ForcedResponse, ResponseError};
 use crate::scene::{Freed, Scene, SceneError, SceneFile};
 use crate::transient::{RunningUp, TransientError};
-use crate::washboarding::{Washboard, WashboardError};
 
 /// Computes the answer to a request as JSON.
 type Work = fn(Scene, &Asked, &Meter<'_>) -> Result<String, Refusal>;
@@ -136,9 +136,8 @@ fn washboard(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refus
     let cut = scene.needed_washboarding()?;
     let run = cut.at_rpm(scene.needed_operating_rpm(None)?)?;
     let progress = |done, of| meter.show("speeds", done, of);
-    let found = Washboard::new(&scene, &run, &progress);
-    let found = found.map_err(|error: WashboardError| Refusal::of(&error))?;
-    let report = WashboardReport::new(&found);
+    let report = washboard::washboard(&scene, &run, &progress);
+    let report = report.map_err(|error: WashboardError| Refusal::of(&error))?;
     answer(&report, of_washboard(&report), None)
 }
 

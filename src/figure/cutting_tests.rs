@@ -7,10 +7,10 @@ use super::style::BLANK;
 use super::tidy::{assert_tidy, texts};
 use super::{cut, cut_map, layout, response_map, runup, spline_orbit, washboard};
 use crate::analyses::cut::{CutReport, cut as compute_cut};
-use crate::report::{RunUpReport, WashboardReport};
+use crate::analyses::washboard::washboard;
+use crate::report::RunUpReport;
 use crate::scene::{Accuracy, CutRun, Scene, SceneFile};
 use crate::transient::RunningUp;
-use crate::washboarding::Washboard;
 
 /// A saw with a spline at three speeds, whose panels are in two rows.
 static THREE_SPEEDS: LazyLock<CutReport> = LazyLock::new(|| {
@@ -189,7 +189,7 @@ fn stiffnesses_that_were_not_searched_look_unknown() {
         });
         let scene = scene.unwrap();
         let run = scene.cut().unwrap().at_rpm(2400.0).unwrap();
-        WashboardReport::new(&Washboard::new(&scene, &run, &|_, _| ()).unwrap())
+        washboard(&scene, &run, &|_, _| ()).unwrap()
     };
     let (searched, report) = (report(3e4), report(10.0));
     let known = |k: usize| report.lobes.stable_to_n_per_m[k];
@@ -241,8 +241,8 @@ fn the_lobe_diagram_is_tidy_and_says_the_verdict() {
         });
         let scene = scene.unwrap();
         let run = scene.cut().unwrap().at_rpm(2400.0).unwrap();
-        let found = Washboard::new(&scene, &run, &|_, _| ()).unwrap();
-        let sheet = layout::sheet(&washboard::chart(&WashboardReport::new(&found)));
+        let report = washboard(&scene, &run, &|_, _| ()).unwrap();
+        let sheet = layout::sheet(&washboard::chart(&report));
         assert_tidy(&sheet);
         let mut all = texts(&sheet).into_iter();
         assert!(all.any(|(_, text)| text.contains(said)), "{said}");

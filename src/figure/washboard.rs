@@ -4,7 +4,8 @@ use super::axis::{Spread, proper_range};
 use super::chart_data::{Area, AxisData, ChartData, Item, Line, PanelData, Points};
 use super::palette::Hue;
 use super::style::HAIRLINE;
-use crate::report::{Verdict, WashboardReport};
+use crate::analyses::washboard::WashboardReport;
+use crate::report::Verdict;
 use crate::text::shown_to;
 
 /// Diameter of the ring at the cut's own stiffness, and of the dots at frequencies.

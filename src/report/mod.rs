@@ -29,7 +29,6 @@ mod saturated;
 mod sensitivity;
 mod verdict;
 mod vtu;
-mod washboard;
 mod whirl;
 
 pub use self::accuracy::{AccuracyEntry, WorkEntry};
@@ -62,7 +61,6 @@ pub(crate) use self::saturated::add_amplitudes;
 pub use self::sensitivity::SensitivityEntry;
 pub use self::verdict::Verdict;
 pub use self::vtu::VTK_NAMES;
-pub use self::washboard::{LobesEntry, WashboardModeEntry, WashboardReport};
 pub use self::whirl::{WhirlEntry, WhirlMode};
 pub use crate::spectrum::Direction;
 pub use crate::stability::{InstabilityKind, StabilityState};

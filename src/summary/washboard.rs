@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use super::{decimals_or, each, heading, sentence, shortened};
-use crate::report::{Verdict, WashboardModeEntry, WashboardReport};
+use crate::analyses::washboard::{WashboardMode, WashboardReport};
+use crate::report::Verdict;
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &WashboardReport) -> std::fmt::Result {
@@ -82,7 +83,7 @@ fn modes(text: &mut String, report: &WashboardReport) -> std::fmt::Result {
     Ok(())
 }
 
-fn row(mode: &WashboardModeEntry) -> String {
+fn row(mode: &WashboardMode) -> String {
     let name = shortened(&mode.name, 16);
     let beside = mode.beside_tooth_passing_hz.map(|hz| {
         let multiple = mode.tooth_passing_multiple.unwrap_or_default();

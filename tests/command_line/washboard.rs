@@ -2,7 +2,8 @@
 //!
 //! Source: `--help` and docs/how-to/washboarding.md.
 
-use sawflutter::report::{Verdict, WashboardReport};
+use sawflutter::analyses::washboard::WashboardReport;
+use sawflutter::report::Verdict;
 use sawflutter::scene::{Accuracy, DampingFile, Mount, Scene, SceneFile, WashboardingFile};
 use tempfile::TempDir;
 

@@ -1,14 +1,14 @@
 //! Valid and absurd scenes from bytes, for the fuzzers: the tests pass random bytes, and `fuzz/` those of libFuzzer.
 
+use sawflutter::analyses::washboard::{WashboardReport, washboard};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::report::{Report, WashboardReport};
+use sawflutter::report::Report;
 use sawflutter::scene::{
     Accuracy, CutFile, DampingFile, ExcitationFile, GuideFile, InPlane, Mount, RimFile, Scene,
     SceneFile, SweepFile, ThicknessRow, WashboardingFile, WoodFile, rad_per_s,
 };
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, chart};
-use sawflutter::washboarding::Washboard;
 
 /// Reads numbers from bytes, and zeros after the last byte.
 pub struct Bytes<'a>(pub &'a [u8]);
@@ -295,10 +295,9 @@ pub fn survives_washboard(scene: &Scene) -> bool {
     let Some(Ok(run)) = run else {
         return false;
     };
-    let Ok(found) = Washboard::new(scene, &run, &|_, _| ()) else {
+    let Ok(report) = washboard(scene, &run, &|_, _| ()) else {
         return false;
     };
-    let report = WashboardReport::new(&found);
     let json = serde_json::to_string(&report).expect("a report is JSON");
     let read: WashboardReport =
         serde_json::from_str(&json).unwrap_or_else(|error| panic!("{error}: {json}"));

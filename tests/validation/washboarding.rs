@@ -9,14 +9,14 @@
 use std::f64::consts::{PI, TAU};
 
 use faer::{Mat, c64};
+use sawflutter::analyses::washboard::{WashboardError, WashboardReport, washboard};
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::report::{Verdict, WashboardReport};
+use sawflutter::report::Verdict;
 use sawflutter::scene::{
     Accuracy, DampingFile, Scene, SceneFile, WashboardingFile, WoodFile, rad_per_s,
 };
 use sawflutter::spectrum::companion_eigenpairs;
 use sawflutter::system::GyroscopicSystem;
-use sawflutter::washboarding::{Washboard, WashboardError};
 
 use crate::common::relative_error;
 
@@ -39,14 +39,13 @@ fn washboarding(saw: &mut SceneFile) -> &mut WashboardingFile {
 }
 
 fn report(scene: &Scene) -> WashboardReport {
-    let found = look(scene).unwrap_or_else(|error| panic!("{error}"));
-    WashboardReport::new(&found)
+    look(scene).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn look(scene: &Scene) -> Result<Washboard, WashboardError> {
+fn look(scene: &Scene) -> Result<WashboardReport, WashboardError> {
     let cut = scene.cut().expect("a cut");
     let run = cut.at_rpm(scene.file().operating_rpm.expect("a speed"));
-    Washboard::new(scene, &run.unwrap(), &|_, _| ())
+    washboard(scene, &run.unwrap(), &|_, _| ())
 }
 
 /// Nodes and weights of Gauss's rule on [−1, 1], by Newton's method on the Legendre polynomial.

@@ -7,26 +7,14 @@ use faer::{Col, Mat, c64};
 
 use super::basis::Motions;
 use super::delayed::DelayedSaw;
+use super::report::WashboardMode;
 use super::roots::{Root, roots_with_all_growing};
 use crate::scene::{CutRun, Washboarding};
 use crate::spectrum::{ModeName, classify, split};
 
-/// A mode with the delayed force.
-#[derive(Debug, Clone)]
-pub(crate) struct WashboardMode {
-    /// λ, Im λ ≥ 0.
-    pub lambda: c64,
-    /// λ without the delayed force; `None` for a mode that exists only because of the delay.
-    pub without: Option<c64>,
-    /// Name of the mode.
-    pub name: ModeName,
-    /// Pattern left on the board; `None` for unevenly spaced teeth.
-    pub pattern: Option<Pattern>,
-}
-
 /// Waves that a motion leaves on the board.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Pattern {
+pub(super) struct Pattern {
     /// Multiple of the tooth passing frequency that is nearest to the frequency of the motion.
     pub multiple: u32,
     /// Difference between the frequency and this multiple, in rad/s.
@@ -97,11 +85,18 @@ fn mode(
     let lifted = Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i]));
     let passing = washboarding.tooth_passing_rad_per_s(speed);
     let pattern = || Pattern::new(root.lambda.im, passing, run.feed_m_per_s);
+    let pattern = washboarding.is_even().then(pattern);
+    let name = ModeName::new(&motions.plate, &mode, &lifted, speed);
     Some(WashboardMode {
-        lambda: root.lambda,
-        without: root.without,
-        name: ModeName::new(&motions.plate, &mode, &lifted, speed),
-        pattern: washboarding.is_even().then(pattern),
+        name: name.in_shares(),
+        direction: name.direction,
+        frequency_hz: root.lambda.im / TAU,
+        growth_per_s: root.lambda.re,
+        growth_without_per_s: root.without.map(|lambda| lambda.re),
+        frequency_without_hz: root.without.map(|lambda| lambda.im / TAU),
+        tooth_passing_multiple: pattern.map(|pattern| pattern.multiple),
+        beside_tooth_passing_hz: pattern.map(|pattern| pattern.beside_rad_per_s / TAU),
+        pattern_pitch_m: pattern.and_then(|pattern| pattern.pitch_m),
     })
 }
 

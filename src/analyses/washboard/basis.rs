@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use faer::{Mat, Scale};
 use nalgebra::DMatrix;
 
+use super::WashboardError;
 use super::delayed::DelayedSaw;
-use super::{WashboardError, columns};
 use crate::linalg::{SymmetricEigen, symmetric_eigenvalues};
 use crate::plate::{Contact, ContactTerms, Plate, Resolution};
 use crate::scene::{Cut, CutRun, Scene, SpeedRange, Washboarding, rpm};
@@ -235,6 +235,20 @@ fn arc(plate: &Plate, washboarding: &Washboarding) -> Mat<f64> {
     let order = plate.degrees_of_freedom();
     let stiffness = terms.stiffness().cloned();
     stiffness.unwrap_or_else(|| Mat::zeros(order, order))
+}
+
+/// B with BBᵀ = P, without the columns that are rounding compared with the largest one.
+fn columns(arc: &Mat<f64>) -> Result<Mat<f64>, SpectrumError> {
+    const LEAST: f64 = 1e-8;
+    let order = arc.nrows();
+    let eigen = SymmetricEigen::new(arc.as_ref()).map_err(SpectrumError::at(0.0))?;
+    let largest = eigen.values[order - 1];
+    let kept: Vec<usize> = (0..order)
+        .filter(|&k| eigen.values[k] > LEAST * largest)
+        .collect();
+    Ok(Mat::from_fn(order, kept.len(), |i, k| {
+        eigen.vectors[(i, kept[k])] * eigen.values[kept[k]].sqrt()
+    }))
 }
 
 /// The plate, or the first larger one that represents all modes up to a frequency.

@@ -16,7 +16,7 @@ use super::transfer::Transfer;
 
 /// The smallest cutting stiffness at which a motion grows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Boundary {
+pub struct Boundary {
     /// Cutting stiffness; zero if a motion grows without the delayed force.
     pub stiffness_n_per_m: f64,
     /// Frequency of the motion in space.
