@@ -11,10 +11,10 @@ use sawflutter::analyses::fit::{self, FitReport, Measurement};
 use sawflutter::analyses::gap::{self, gap};
 use sawflutter::analyses::map::{self, Range};
 use sawflutter::analyses::place::{self, Demands, PlaceReport};
+use sawflutter::analyses::response::{self, response};
 use sawflutter::analyses::study::StudyReport;
 use sawflutter::commands::CommandReport;
-use sawflutter::report::{ResponseReport, RunUpReport};
-use sawflutter::response::{self, ForcedResponse};
+use sawflutter::report::RunUpReport;
 use sawflutter::scene::{Accuracy, ContactLaw, Freed, Scene, SceneError, SceneFile, rad_per_s};
 use sawflutter::stability::Analysis;
 use sawflutter::transient::RunningUp;
@@ -142,8 +142,8 @@ fn further(root: &Path) -> anyhow::Result<Vec<Figure>> {
         let response = saw.response.get_or_insert_default();
         (response.force_n, response.flatness_m) = (5.0, 5e-5);
     })?;
-    let found = ForcedResponse::new(&excited, &response::Options::default())?;
-    figures.extend(svgs(&ResponseReport::new(&found))?.into_iter().take(1));
+    let report = response(&excited, &response::Options::default())?;
+    figures.extend(svgs(&report)?.into_iter().take(1));
 
     let gapped = draft("paper", &|saw| {
         saw.guides[0].contact = ContactLaw::OneSided;

@@ -18,6 +18,7 @@ use crate::analyses::fit::FitReport;
 use crate::analyses::gap::GapReport;
 use crate::analyses::map::MapReport;
 use crate::analyses::place::PlaceReport;
+use crate::analyses::response::ResponseReport;
 use crate::analyses::study::StudyReport;
 use crate::analyses::tradeoff::Setting;
 use crate::analyses::washboard::WashboardReport;
@@ -27,7 +28,7 @@ use crate::figure::{
     deflect, fit, gap, gap_friction, gap_map, gap_oscillation, in_cut, map, membrane, modes, place,
     response, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
-use crate::report::{ModeEntry, Report, ResponseReport, RunUpReport};
+use crate::report::{ModeEntry, Report, RunUpReport};
 use crate::scene::SceneFile;
 use crate::summary;
 

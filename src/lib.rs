@@ -60,7 +60,6 @@ pub mod figure;
 mod linalg;
 pub mod plate;
 pub mod report;
-pub mod response;
 pub mod scene;
 pub mod spectrum;
 pub mod spline;

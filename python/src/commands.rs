@@ -9,9 +9,8 @@ use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
 use sawflutter::analyses::gap::{self, Friction, Options as GapOptions, OscillatingForce};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
-use sawflutter::analyses::{cut, deflect, washboard};
-use sawflutter::report::{ModeEntry, ResponseReport, RunUpReport, SensitivityEntry};
-use sawflutter::response::{ForcedResponse, Options as ResponseOptions};
+use sawflutter::analyses::{cut, deflect, response, washboard};
+use sawflutter::report::{ModeEntry, RunUpReport, SensitivityEntry};
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
@@ -193,13 +192,13 @@ fn deflect(options: &Options<'_>) -> PyResult<Work> {
 
 /// `response.json`, with the frequency response at a speed.
 fn response(options: &Options<'_>) -> PyResult<Work> {
-    let options = ResponseOptions {
+    let options = response::Options {
         rpm: options.get("rpm")?,
         to_hz: options.get("to_hz")?,
     };
     Ok(Box::new(move |scene, _| {
         options.checked()?;
-        json(&ResponseReport::new(&ForcedResponse::new(scene, &options)?))
+        json(&response::response(scene, &options)?)
     }))
 }
 

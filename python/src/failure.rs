@@ -11,11 +11,11 @@ use sawflutter::analyses::deflect::DeflectError;
 use sawflutter::analyses::fit::FitError;
 use sawflutter::analyses::gap::GapError;
 use sawflutter::analyses::place::PlaceError;
+use sawflutter::analyses::response::ResponseError;
 use sawflutter::analyses::study::{LogError, StudyError};
 use sawflutter::analyses::washboard::WashboardError;
 use sawflutter::figure::FigureError;
 
-use sawflutter::response::ResponseError;
 use sawflutter::scene::{RefusedValue, SceneError};
 use sawflutter::spectrum::SpectrumError;
 use sawflutter::stability::{AnalysisError, SensitivityError};

@@ -11,6 +11,7 @@ pub mod fit;
 pub mod gap;
 pub mod map;
 pub mod place;
+pub mod response;
 pub mod study;
 pub mod tradeoff;
 pub mod washboard;

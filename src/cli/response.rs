@@ -1,7 +1,6 @@
 //! `sawflutter response`.
 
-use crate::report::ResponseReport;
-use crate::response::{ForcedResponse, Options, ResponseError};
+use crate::analyses::response::{Options, ResponseError, response};
 use clap::Args;
 
 use super::common::{Common, number, of_option};
@@ -45,10 +44,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     options.checked().map_err(of_option)?;
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;
-    let report = watched(|_| {
-        let found = ForcedResponse::new(&scene, &options)?;
-        Ok::<_, ResponseError>(ResponseReport::new(&found))
-    })?;
+    let report = watched(|_| response(&scene, &options))?;
     let report = report.map_err(|error| match error {
         // The key of a value of the scene contains a dot behind the name of its block; the name of an option
         // contains no dot.

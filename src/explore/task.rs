@@ -14,11 +14,11 @@ use crate::analyses::fit::{self, FitReport, Measurement};
 use crate::analyses::gap::{self, GapError, GapReport};
 use crate::analyses::map::{self, MapReport, Range};
 use crate::analyses::place::{self, Demands, PlaceReport};
+use crate::analyses::response::{self, ResponseError, ResponseReport};
 use crate::analyses::study::{Saw, Study, StudyReport};
 use crate::analyses::washboard::{self, WashboardError, WashboardReport};
 use crate::commands::CommandReport;
-use crate::report::{ResponseReport, RunUpReport};
-use crate::response::{self, ForcedResponse, ResponseError};
+use crate::report::RunUpReport;
 use crate::scene::{Freed, Scene, SceneError, SceneFile};
 use crate::transient::{RunningUp, TransientError};
 
@@ -185,11 +185,11 @@ fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
 }
 
 fn response(scene: Scene, _: &Asked, _: &Meter<'_>) -> Result<String, Refusal> {
-    let found = ForcedResponse::new(&scene, &response::Options::default());
-    let report = ResponseReport::new(&found.map_err(|error| match error {
+    let report = response::response(&scene, &response::Options::default());
+    let report = report.map_err(|error| match error {
         ResponseError::Refused(refused) => refused.into(),
         other => Refusal::of(&other),
-    })?);
+    })?;
     answer(&report, of_response(&report), None)
 }
 

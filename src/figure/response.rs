@@ -6,7 +6,8 @@ use super::chart_data::{
 };
 use super::palette::Hue;
 use super::style::CURVE;
-use crate::report::{FrequencyResponseEntry, InstabilityKind, ResponseLineEntry, ResponseReport};
+use crate::analyses::response::{FrequencyResponse, ResponseLine, ResponseReport};
+use crate::report::InstabilityKind;
 use crate::text::shown_to;
 
 /// Colours of the excitations.
@@ -128,7 +129,7 @@ fn unwound(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
 }
 
 /// Dots at the upper edge, at resonances whose amplitude is not known.
-fn unknown_resonances(line: &ResponseLineEntry, hue: Hue, top: f64) -> Item {
+fn unknown_resonances(line: &ResponseLine, hue: Hue, top: f64) -> Item {
     let unknown = line.resonances.iter().filter(|r| r.amplitude_m.is_none());
     let name = format!("{}: resonance without an amplitude", line.name);
     Item::Points(Points::new(
@@ -212,7 +213,7 @@ pub fn points_chart(report: &ResponseReport) -> Option<ChartData> {
     })
 }
 
-fn points_facts(report: &ResponseReport, points: &FrequencyResponseEntry) -> Vec<String> {
+fn points_facts(report: &ResponseReport, points: &FrequencyResponse) -> Vec<String> {
     let place = |radius_m: f64, angle_deg: f64| {
         format!(
             "{} mm, {}°",

@@ -22,7 +22,6 @@ mod membrane;
 mod mode;
 mod operating;
 mod remarks;
-mod response;
 mod resting;
 mod runup;
 mod saturated;
@@ -51,10 +50,6 @@ pub use self::membrane::{
 pub use self::mode::{ComplexEntry, ModeEntry, WaveEntry};
 pub use self::operating::OperatingEntry;
 pub(crate) use self::remarks::{lifting_off, side_force_in_words};
-pub use self::response::{
-    CauseEntry, FrequencyResponseEntry, OperatingResponseEntry, ResonanceEntry, ResponseLineEntry,
-    ResponseReport,
-};
 pub use self::resting::{HarmonicEntry, RestMode, ShapeEntry};
 pub use self::runup::{ResponseEntry, RunUpBand, RunUpReport, StretchingEntry};
 pub(crate) use self::saturated::add_amplitudes;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::{ROWS, each, heading, more, sentence};
-use crate::report::{ResponseLineEntry, ResponseReport};
+use crate::analyses::response::{ResponseLine, ResponseReport};
 use crate::text::shown_to;
 
 pub fn of_report(text: &mut String, report: &ResponseReport) -> std::fmt::Result {
@@ -93,7 +93,7 @@ fn millimetres(metres: Option<f64>) -> String {
     metres.map_or("–".to_owned(), |m| shown_to(4, 1e3 * m))
 }
 
-fn resonances(text: &mut String, line: &ResponseLineEntry) -> std::fmt::Result {
+fn resonances(text: &mut String, line: &ResponseLine) -> std::fmt::Result {
     if line.resonances.is_empty() {
         return Ok(());
     }

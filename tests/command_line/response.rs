@@ -3,7 +3,7 @@
 //! Independent value: the lateral stiffness at the rim that `check` reports.
 
 use sawflutter::analyses::check::CheckReport;
-use sawflutter::report::ResponseReport;
+use sawflutter::analyses::response::ResponseReport;
 use sawflutter::scene::{Accuracy, ProbeFile, ResponseFile, Scene};
 use tempfile::TempDir;
 

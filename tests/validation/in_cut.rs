@@ -6,11 +6,11 @@ use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, c64};
 use nalgebra::DMatrix;
 use sawflutter::analyses::deflect::{self, deflect};
+use sawflutter::analyses::response::{self, response};
 use sawflutter::analytical::free_wave::on_a_bed_rad_per_s;
 use sawflutter::commands::CommandReport;
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::report::{ResponseReport, RunUpReport};
-use sawflutter::response::{self, ForcedResponse};
+use sawflutter::report::RunUpReport;
 use sawflutter::scene::{Accuracy, Scene, SceneFile, WoodFile, rad_per_s, rpm};
 use sawflutter::stability::{Analysis, ChosenBasis, InstabilityKind, Onsets, StabilityState};
 use sawflutter::system::GyroscopicSystem;
@@ -257,15 +257,22 @@ fn the_response_in_the_cut_is_that_of_the_whole_matrices() {
         to_hz: Some(60.0),
         ..response::Options::default()
     };
-    let found = ForcedResponse::new(&scene, &options).unwrap();
-    let plate = &found.analysis.model.plate;
+    let report = response(&scene, &options).unwrap();
+    let chosen = ChosenBasis::new(&scene, scene.tolerance()).unwrap();
+    let plate = &chosen.saw.plate;
     let system = added_to_the_idling_saw(&scene, plate);
-    let places = [found.force_place(), found.probe_place()].map(|at| functions(plate, at));
-    let points = found.points.as_ref().unwrap();
-    for place in (0..points.frequency_rad_per_s.len()).step_by(97) {
-        let at = (points.speed_rad_per_s, points.frequency_rad_per_s[place]);
+    let points = report.points.as_ref().unwrap();
+    let places = [
+        (points.force_radius_m, points.force_angle_deg),
+        (report.probe_radius_m, report.probe_angle_deg),
+    ];
+    let places = places.map(|(radius_m, deg)| functions(plate, (radius_m, deg.to_radians())));
+    for place in (0..points.frequency_hz.len()).step_by(97) {
+        let at = (rad_per_s(points.rpm), TAU * points.frequency_hz[place]);
         let expected = receptance(&system, places.each_ref(), at);
-        let error = (points.receptance_m_per_n[place].unwrap() - expected).norm();
+        let phase = points.phase_deg[place].unwrap().to_radians();
+        let found = c64::from_polar(points.receptance_m_per_n[place].unwrap(), phase);
+        let error = (found - expected).norm();
         assert!(
             error < 1e-6 * expected.norm(),
             "{at:?}: {error:e} {expected}"
@@ -299,8 +306,7 @@ fn every_command_has_the_same_saw_in_the_cut() {
     let expected = rpm(1.0 / whole.symmetric_eigenvalues().max().sqrt());
 
     let report = analysis.report();
-    let response = ForcedResponse::new(&scene, &response::Options::default()).unwrap();
-    let response = ResponseReport::new(&response);
+    let response = response(&scene, &response::Options::default()).unwrap();
     let runup = RunUpReport::new(&RunningUp::new(&scene, &|_, _| ()).unwrap());
     let options = deflect::Options {
         to_rpm: Some(1300.0),

@@ -55,8 +55,8 @@ pub(crate) fn side_force_factor(analysis: &Analysis, speed_rad_per_s: f64) -> Op
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::response::{ForcedResponse, Options};
-    use crate::scene::{Accuracy, ResponseFile, Scene};
+    use crate::analyses::response::{Options, response};
+    use crate::scene::{Accuracy, ProbeFile, ResponseFile, Scene, rpm};
     use crate::system::GyroscopicSystem;
     use crate::transient::at_point;
 
@@ -110,19 +110,26 @@ mod tests {
         let analysis = Analysis::new(&clamped(3800.0)).unwrap();
         let critical = analysis.model.critical[0].speed_rad_per_s;
         for ratio in [0.96, 1.045] {
-            let saw = clamped(crate::scene::rpm(ratio * critical)).edited(|saw| {
+            let saw = clamped(rpm(ratio * critical)).edited(|saw| {
+                let angle_deg = clamped(3800.0).cut_angle_rad().to_degrees();
                 saw.response = Some(ResponseFile {
                     force_n: 1e-3,
-                    angle_deg: clamped(3800.0).cut_angle_rad().to_degrees(),
+                    angle_deg,
                     ..ResponseFile::default()
+                });
+                saw.probe = Some(ProbeFile {
+                    radius_m: None,
+                    angle_deg,
                 });
             });
             let saw = saw.unwrap();
-            let found = ForcedResponse::new(&saw, &Options::default()).unwrap();
+            let report = response(&saw, &Options::default()).unwrap();
             let at = |speed: f64| {
-                let speeds = &found.speeds_rad_per_s;
-                let place = speeds.partition_point(|s| *s < speed * (1.0 - 1e-12));
-                found.lines[0].deflections[place].unwrap().at_cut.re
+                let limit = rpm(speed) * (1.0 - 1e-12);
+                let place = report.rpm.partition_point(|rpm| *rpm < limit);
+                let line = &report.lines[0];
+                let phase = line.phase_deg[place].unwrap().to_radians();
+                line.amplitude_m[place].unwrap() * phase.cos()
             };
             let expected = at(ratio * critical) / at(0.0);
             let own = Analysis::new(&saw).unwrap();

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use faer::{Col, Mat, c64};
 
+use crate::analyses::response::{Cause, Load, State, loads, rigid, solution};
 use crate::plate::{Plate, Resolution};
-use crate::response::{Cause, Load, State, loads, rigid, solution};
 use crate::scene::{Scene, rpm};
 use crate::spectrum::Cancellation;
 use crate::stretched::{Sites, StretchedBlade};

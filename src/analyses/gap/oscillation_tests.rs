@@ -6,8 +6,8 @@ use faer::{Col, Mat, c64};
 
 use super::*;
 use crate::analyses::gap::{Options, OscillatingForce, OscillationPlace, gap};
+use crate::analyses::response::{Options as ResponseOptions, response};
 use crate::plate::Resolution;
-use crate::response::{ForcedResponse, Options as ResponseOptions};
 use crate::scene::{
     Accuracy, ContactLaw, DampingFile, GuideFile, ResponseFile, Scene, SweepFile, rad_per_s,
 };
@@ -56,7 +56,7 @@ fn without_a_gap_the_motion_is_the_linear_response() {
         }
     });
     let typed = typed.unwrap();
-    let linear = ForcedResponse::new(&typed, &ResponseOptions::default()).unwrap();
+    let linear = response(&typed, &ResponseOptions::default()).unwrap();
     let lifting = typed.edited(|file| {
         let pad = &mut file.guides[0];
         (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(1e-12));
@@ -78,13 +78,13 @@ fn without_a_gap_the_motion_is_the_linear_response() {
     });
     let largest = |order: u32| {
         let own = linear.lines.iter().filter(|line| line.order == order);
-        let all = own.flat_map(|line| line.deflections.iter().flatten());
-        all.map(|w| w.at_probe.norm()).fold(0.0, f64::max)
+        let all = own.flat_map(|line| line.amplitude_m.iter().flatten());
+        all.copied().fold(0.0, f64::max)
     };
     let mut compared = 0;
     for (own_speed, at) in motions.filter(|(_, at)| at.stable) {
-        let away = |k: &usize| (linear.speeds_rad_per_s[*k] / own_speed - 1.0).abs();
-        let speeds = 0..linear.speeds_rad_per_s.len();
+        let away = |k: &usize| (rad_per_s(linear.rpm[*k]) / own_speed - 1.0).abs();
+        let speeds = 0..linear.rpm.len();
         let place = speeds.min_by(|a, b| away(a).total_cmp(&away(b))).unwrap();
         assert!(away(&place) < 1e-4);
         // The basis contains the linear response at the speed of the map, where the motion is more accurate.
@@ -95,7 +95,10 @@ fn without_a_gap_the_motion_is_the_linear_response() {
         for order in [1, 2] {
             let own = linear.lines.iter().filter(|line| line.order == order);
             let sum: Option<c64> = own
-                .map(|line| Some(line.deflections[place]?.at_probe))
+                .map(|line| {
+                    let phase = line.phase_deg[place]?.to_radians();
+                    Some(c64::from_polar(line.amplitude_m[place]?, phase))
+                })
                 .sum();
             let Some(expected) = sum else { continue };
             let w = harmonic(&at.probe, order as usize - 1);

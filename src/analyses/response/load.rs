@@ -10,24 +10,10 @@
 
 use faer::{Col, c64};
 
+use super::report::Cause;
 use crate::linalg::SymmetricEigen;
 use crate::plate::Plate;
 use crate::scene::{ResponseFile, Scene};
-
-/// Cause of an excitation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Cause {
-    /// Lateral force at a place fixed in space: constant, or oscillating if its order is not zero.
-    SideForce,
-    /// One wave around the rim.
-    RunOut,
-    /// Two waves around the rim.
-    Flatness,
-    /// Imbalance beside the middle plane.
-    Imbalance,
-    /// Lateral force at the cut with the tooth passing frequency.
-    ToothPassing,
-}
 
 /// A load f e^{ikΩt}.
 #[derive(Debug, Clone)]

@@ -1,23 +1,16 @@
 //! Frequency response between two points at one speed.
 
+use std::f64::consts::TAU;
+
 use faer::{Col, c64};
 
-use super::Solver;
 use super::family::{State, readings};
+use super::report::FrequencyResponse;
+use super::solver::Solver;
 use crate::campbell::even_speeds;
+use crate::scene::rpm;
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, StabilityState};
-
-/// Deflection at the probe for a harmonic force of one newton at a point, over its frequency.
-#[derive(Debug, Clone)]
-pub struct FrequencyResponse {
-    /// Rotation speed.
-    pub speed_rad_per_s: f64,
-    /// Frequencies, ascending.
-    pub frequency_rad_per_s: Vec<f64>,
-    /// Complex deflection per newton; `None` where it grows without bound, and everywhere if the saw is unstable at the speed.
-    pub receptance_m_per_n: Vec<Option<c64>>,
-}
 
 /// Number of evenly spaced frequencies.
 const FREQUENCIES: usize = 401;
@@ -39,7 +32,7 @@ impl FrequencyResponse {
         (radius_m, angle_rad): (f64, f64),
     ) -> Result<Self, SpectrumError> {
         let model = &analysis.model;
-        let end = to_hz.map_or(model.complete_to_rad_per_s, |hz| std::f64::consts::TAU * hz);
+        let end = to_hz.map_or(model.complete_to_rad_per_s, |hz| TAU * hz);
         let mut frequencies = even_speeds((0.0, end), FREQUENCIES);
         for mode in model.modes(speed)? {
             let natural = mode.frequency_rad_per_s();
@@ -60,17 +53,21 @@ impl FrequencyResponse {
             })
             .collect();
         let beyond = solver.limit_m / UNBOUNDED_N;
-        let receptance = match is_stable {
+        let receptance: Vec<Option<c64>> = match is_stable {
             true => readings(&solver.system, &load, &states, &solver.probes[..1], beyond)?
                 .into_iter()
                 .map(|read| Some(*read?.first()?).filter(|w| w.norm() <= beyond))
                 .collect(),
             false => vec![None; states.len()],
         };
+        let of = |value: fn(&c64) -> f64| receptance.iter().map(move |w| w.as_ref().map(value));
         Ok(FrequencyResponse {
-            speed_rad_per_s: speed,
-            frequency_rad_per_s: frequencies,
-            receptance_m_per_n: receptance,
+            rpm: rpm(speed),
+            force_radius_m: radius_m,
+            force_angle_deg: angle_rad.to_degrees(),
+            frequency_hz: frequencies.iter().map(|omega| omega / TAU).collect(),
+            receptance_m_per_n: of(|w| w.norm()).collect(),
+            phase_deg: of(|w| w.arg().to_degrees()).collect(),
         })
     }
 }

@@ -1,0 +1,60 @@
+//! The speed and the range of the frequency response.
+
+use crate::scene::{RefusedValue, rad_per_s, rpm, speed_rad_per_s};
+use crate::text::shown;
+
+/// Options of [`response`](super::response()).
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Options {
+    /// Speed of the frequency response; by default the operating speed. Without a speed within the sweep there is no
+    /// frequency response.
+    pub rpm: Option<f64>,
+    /// Largest frequency of the frequency response; by default the frequency up to which the chart is complete.
+    pub to_hz: Option<f64>,
+}
+
+impl Options {
+    /// Refuses invalid numbers.
+    ///
+    /// # Errors
+    /// [`RefusedValue`].
+    pub fn checked(&self) -> Result<(), RefusedValue> {
+        // A speed of zero is allowed, because at rest the response is that of a tap test.
+        if let Some(rpm) = self.rpm.filter(|rpm| *rpm != 0.0) {
+            speed_rad_per_s("rpm", rpm)?;
+        }
+        match self.to_hz {
+            Some(hz) if !(hz > 0.0 && hz <= 1e6) => {
+                let remedy = "give the largest frequency in Hz, such as 500";
+                Err(RefusedValue::new(
+                    "to_hz",
+                    hz,
+                    "above 0 and at most 1e6",
+                    remedy,
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The speed of the frequency response, which must be one of the sweep: beyond it the saw was not analysed.
+    pub(super) fn speed_rad_per_s(
+        &self,
+        (from, to): (f64, f64),
+    ) -> Result<Option<f64>, RefusedValue> {
+        let Some(asked) = self.rpm else {
+            return Ok(None);
+        };
+        let speed = rad_per_s(asked);
+        if !(from..=to).contains(&speed) {
+            let allowed = format!(
+                "a speed of the sweep, {} to {} rpm",
+                shown(rpm(from)),
+                shown(rpm(to))
+            );
+            let remedy = "change sweep.from_rpm or sweep.to_rpm";
+            return Err(RefusedValue::new("rpm", asked, allowed, remedy));
+        }
+        Ok(Some(speed))
+    }
+}
