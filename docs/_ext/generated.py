@@ -58,13 +58,14 @@ def rust_example() -> str:
 
 def generate() -> list[str]:
     """Writes the tables that are out of date, and returns their names."""
+    scene = json.loads(said("schema"))
     pages = {
         "reports.md": report_tables(),
         "rust-example.md": rust_example(),
         "command-line.md": command_line(),
-        "scene.md": tables(json.loads(said("schema")), ranges=True),
-        "study.md": tables(json.loads(said("schema", "--study")), ranges=False),
-        "typical-values.md": typical(),
+        "scene.md": tables(scene),
+        "study.md": tables(json.loads(said("schema", "--study"))),
+        "typical-values.md": typical(scene),
     }
     OUT.mkdir(exist_ok=True)
     stale = []

@@ -1,20 +1,11 @@
-"""Tables of the keys of a scene or a study: units, defaults, ranges, meanings.
-
-Keys, defaults and meanings come from the JSON schema, ranges from the error messages of the program
-for refused values, and usual ranges from the library's table of quantities.
-"""
+"""Tables of the keys of a scene or a study: units, defaults, ranges, meanings, all from the JSON schema."""
 
 from __future__ import annotations
 
 import json
-import os
-import re
-import subprocess
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).parents[2]
 UNITS = {
     "_n_s_3_2_per_m_3_2": "N·s^(3/2)/m^(3/2)", "_n_per_m_3_2": "N/m^(3/2)", "_n_s_per_m3": "N·s/m³",
     "_n_s_per_m": "N·s/m", "_n_per_m": "N/m", "_n_per_tooth": "N", "_kg_per_m3": "kg/m³",
@@ -25,31 +16,6 @@ UNITS = {
 
 def unit(key: str) -> str:
     return next((unit for end, unit in UNITS.items() if key.endswith(end)), "")
-
-
-def usual() -> dict[str, tuple[str, float, float]]:
-    """Unit and usual range of each number, from the table of the library."""
-    line = re.compile(r'q\("([^"]+)", "[^"]+", "([^"]*)", ([^,]+), ([^)]+)\)')
-    sources = (path.read_text(encoding="utf-8") for path in (ROOT / "src").rglob("*.rs"))
-    rows = [row for source in sources for row in line.findall(source)]
-    assert len(rows) > 60, "the table of quantities has moved"
-    return {path: (unit, float(low), float(high)) for path, unit, low, high in rows}
-
-
-def typical() -> str:
-    """The library's table of typical values, with their ranges and sources."""
-    line = re.compile(r't\("([^"]+)", ([^,]+), "([^"]*)", ([^,]+), ([^,]+), "([^"]+)"\)')
-    source = (ROOT / "src/scene/typical.rs").read_text(encoding="utf-8")
-    rows = line.findall(source)
-    assert len(rows) == source.count(": Typical = t("), "the table of typical values has moved"
-    units = usual()
-    lines = []
-    for path, value, of, low, high, basis in rows:
-        measure = of or units[path][0]
-        number, least, largest = (f"{float(text):g}" for text in (value, low, high))
-        lines.append(f"| `{path}` | {number} {measure} | {least} to {largest} | {basis} |".replace("  ", " "))
-    head = "| key | typical value | common range | source |\n|---|---|---|---|\n"
-    return head + "\n".join(lines) + "\n"
 
 
 Schema = dict[str, Any]
@@ -88,68 +54,35 @@ def default(value: Schema, required: bool) -> str:
     return "none" if given is None else f"`{json.dumps(given)}`"
 
 
-def scene_of(name: str) -> dict[str, Any]:
-    scene: dict[str, Any] = json.loads((ROOT / f"scenes/{name}.json").read_text(encoding="utf-8"))
-    return scene
+def typical(schema: Schema) -> str:
+    """The numbers that have a typical value, with common range and source."""
+    lines = []
+    for path, value, _ in properties(schema, schema["$defs"]):
+        if (known := value.get("x-typical")) is None:
+            continue
+        measure = known["of"] or value.get("x-unit", "")
+        least, largest = known["common"]
+        number = f"{known['value']:g} {measure}".rstrip()
+        lines.append(f"| `{path}` | {number} | {least:g} to {largest:g} | {known['basis']} |")
+    head = "| key | typical value | common range | source |\n|---|---|---|---|\n"
+    return head + "\n".join(lines) + "\n"
 
 
-def refusal(scene: dict[str, Any]) -> tuple[str, str] | None:
-    """The key that the program refuses, and its allowed values. A cut at rest is always refused, so
-    that nothing is computed."""
-    done = subprocess.run(
-        [os.environ["SAWFLUTTER_PROGRAM"], "cut", "-", "--rpm", "0"],
-        input=json.dumps(scene), capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    found = re.search(r"was refused: (\S+) is .+?, but must be (.+); [^;]+$", done.stderr.strip())
-    return (found[1], found[2]) if found else None
+FAR = 1e9  # ends farther apart only prevent overflow
 
 
-def full_scene() -> dict[str, Any]:
-    """A scene with every block, in which one value at a time is made invalid."""
-    data: dict[str, Any] = scene_of("paper")
-    data["spline"] = scene_of("paper-spline")["spline"]
-    data["membrane"] = {
-        "temperature": {"expansion_per_k": 1.2e-5, "rim_rise_k": 5.0},
-        "roll_tension": [{"radius_m": 0.2, "width_m": 0.02, "eigenstrain": 1e-4}],
-    }
-    data["damping"] = {"air_n_s_per_m3": 1.0}
-    data["blade"]["profile"] = [{"radius_m": 0.3, "thickness_m": 2e-3}]
-    data["blade"]["rim"] = {"mass_per_tooth_kg": 1e-3}
-    data["cut"]["washboarding"] = {"stiffness_n_per_m": 1e4, "pitches_deg": [360 / 42]}
-    return data
-
-
-def allowed(path: str, kind: str | None) -> str:
-    """The allowed values of a key, from the error message for an impossible value."""
-    data = full_scene()
-    if kind == "collar":
-        data["mount"] = {"kind": "collar", "diameter_m": 0.25, "in_plane": "free"}
-        data.pop("spline")
-    if "residual_stress" in path:
-        data["membrane"] = {"residual_stress": [{"radius_m": 0.2, "hoop_pa": 0.0}]}
-    if "groove_depth_m" in path:
-        del data["membrane"]["roll_tension"][0]["eigenstrain"]
-    if "temperature.table" in path:
-        data["membrane"]["temperature"] = {
-            "expansion_per_k": 1e-5, "table": [{"radius_m": 0.2, "rise_k": 1.0}],
-        }  # fmt: skip
-    target: Any = data
-    steps = re.findall(r"\w+|\[\]", path)
-    try:
-        for step in steps[:-1]:
-            target = target[0] if step == "[]" else target.setdefault(step, {})
-        target[0 if steps[-1] == "[]" else steps[-1]] = -1e30
-    except (KeyError, IndexError, TypeError):
+def allowed(number: Schema) -> str:
+    """The range of a number. Of a range without practical ends only the lower end is told, if it is zero."""
+    low, high = (number.get(key, number.get(open_key)) for key, open_key in
+                 [("minimum", "exclusiveMinimum"), ("maximum", "exclusiveMaximum")])  # fmt: skip
+    if low is None or high is None:
         return ""
-    refused = refusal(data)
-    return tidy(refused[1]) if refused and refused[0] == path.replace("[]", "[0]") else ""
-
-
-def tidy(text: str) -> str:
-    """The allowed values with short numbers, without the usual range, which has its own column."""
-    text = text.partition("; saws have")[0]
-    text = re.sub(r"-?\d[\d.]*(e-?\d+)?", lambda found: f"{float(found[0]):g}", text)
-    return text.replace("greater than", "above").replace("less than", "below")
+    if high / low >= FAR if low > 0 else high - low >= FAR:
+        return "above 0" if low > 0 or "exclusiveMinimum" in number else "0 or more" if low == 0 else ""
+    below, above = "exclusiveMinimum" in number, "exclusiveMaximum" in number
+    if not (below or above):
+        return f"{low:g} to {high:g}"
+    return f"{'above' if below else 'from'} {low:g}, {'below' if above else 'at most'} {high:g}"
 
 
 def choices(value: Schema, defs: Schema) -> str:
@@ -159,15 +92,15 @@ def choices(value: Schema, defs: Schema) -> str:
     return ", ".join(f'`"{name}"`' for name in names if name)
 
 
-def tables(schema: Schema, ranges: bool) -> str:
+def tables(schema: Schema) -> str:
     """One table for the keys of the file, and one for each of its blocks."""
     own = schema["properties"]
-    parts = [table(schema, ranges, own, deep=False)]
+    parts = [table(schema, own, deep=False)]
     for key in (key for key, value in own.items() if holds_keys(value, schema["$defs"])):
         text = " ".join(
             resolved(own[key], schema["$defs"])[0].get("description", "").split("\n\n")[0].split()
         )
-        parts.append(f"## `{key}`\n\n{text}\n\n{table(schema, ranges, {key: own[key]}, deep=True)}")
+        parts.append(f"## `{key}`\n\n{text}\n\n{table(schema, {key: own[key]}, deep=True)}")
     return "\n".join(parts)
 
 
@@ -176,21 +109,20 @@ def holds_keys(value: Schema, defs: Schema) -> bool:
     return any("properties" in kind for kind in inner.get("oneOf", [inner]))
 
 
-def table(schema: Schema, ranges: bool, keys: Schema, deep: bool) -> str:
-    defs, known = schema["$defs"], usual()
+def table(schema: Schema, keys: Schema, deep: bool) -> str:
+    defs = schema["$defs"]
     lines = []
     for path, value, required in properties({**schema, "properties": keys}, defs):
         if deep == (path in keys):
             continue
         inner, list_of = resolved(value, defs)
         is_block = "properties" in inner or "oneOf" in inner
-        low_high = known.get(path)
-        measure = low_high[0] if ranges and low_high else unit(path.removesuffix("[]"))
+        number = value.get("items", value)
+        measure = number.get("x-unit", "") if "x-name" in number else unit(path)
         span = choices(value, defs)
-        if ranges and not is_block:
-            span = allowed(path, value.get("of_kind"))
-        if ranges and low_high and not is_block:
-            span += f"{'; ' if span else ''}saws have {low_high[1]:g} to {low_high[2]:g}"
+        if "x-usual" in number:
+            least, largest = number["x-usual"]
+            span = "; ".join(filter(None, [allowed(number), f"saws have {least:g} to {largest:g}"]))
         if is_block and not span:
             span = "list of blocks" if list_of else "block"
         text = " ".join(value.get("description", "").split())

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{QUANTITIES, Quantity};
+use crate::scene::{Kind, QUANTITIES, Quantity};
 
 /// Units of the form. Only lengths differ.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
@@ -73,14 +73,6 @@ const NAMED: [(&str, &str, &str, f64); 2] = [
     ("rpm", "speed", "rpm", 1.0),
 ];
 const INCH_M: f64 = 0.0254;
-/// Keys of whole numbers.
-const COUNTS: [&str; 5] = [
-    "teeth",
-    "orders",
-    "tooth_passing",
-    "teeth_in_cut",
-    "diameters",
-];
 /// With this many digits, a typed number is shown as typed after its unit was converted.
 const DIGITS: u32 = 12;
 /// A round length in millimetres is not a round number of inches.
@@ -128,7 +120,7 @@ impl Field {
             path: quantity.path,
             name: quantity.name,
             label: label.replace('_', " "),
-            whole: COUNTS.contains(&key),
+            whole: quantity.kind == Kind::Count,
             usual: quantity.usual,
             metric,
             inches,
@@ -146,12 +138,7 @@ impl Field {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeSet;
-
-    use serde_json::Value;
-
     use super::*;
-    use crate::scene::json_schema;
 
     /// No label contains the unit of its key, and the units convert by the factors of the SI.
     #[test]
@@ -175,28 +162,5 @@ mod tests {
             (force.label.as_str(), force.metric.unit),
             ("radial", "N per tooth")
         );
-    }
-
-    #[test]
-    fn counts_are_the_integers_of_the_schema() {
-        fn integers(schema: &Value, found: &mut BTreeSet<String>) {
-            let of_type = |value: &Value| match &value["type"] {
-                Value::String(kind) => kind == "integer",
-                Value::Array(kinds) => kinds.iter().any(|kind| kind == "integer"),
-                _ => false,
-            };
-            if let Some(properties) = schema["properties"].as_object() {
-                let counts = properties.iter().filter(|(_, value)| of_type(value));
-                found.extend(counts.map(|(key, _)| key.clone()));
-            }
-            match schema {
-                Value::Object(parts) => parts.values().for_each(|part| integers(part, found)),
-                Value::Array(parts) => parts.iter().for_each(|part| integers(part, found)),
-                _ => (),
-            }
-        }
-        let mut found = BTreeSet::new();
-        integers(&json_schema(), &mut found);
-        assert_eq!(found, COUNTS.map(str::to_owned).into());
     }
 }

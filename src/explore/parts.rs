@@ -8,7 +8,7 @@ use crate::scene::typical::rounded;
 use crate::scene::{
     CutFile, CutSpeedFile, DampingFile, ExcitationFile, ModeRatioRow, ProbeFile, ResidualStressRow,
     ResponseFile, RimFile, RollBandFile, Scene, SceneFile, StraightEdgeFile, SweepFile,
-    TemperatureFile, TemperatureRow, ThicknessRow, WoodFile, typical,
+    TemperatureFile, TemperatureRow, ThicknessRow, WoodFile, typical, typical_value,
 };
 
 /// A request for a part.
@@ -62,7 +62,7 @@ fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
         "runup" => scene.runup = Some(runup(scene)?),
         "response" => {
             scene.response = Some(ResponseFile {
-                force_n: typical::RESPONSE_FORCE.value,
+                force_n: const { typical_value("response.force_n") },
                 ..ResponseFile::default()
             });
         }
@@ -71,7 +71,7 @@ fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
             let next = rows.iter().map(|row| row.diameters + 1).max();
             rows.push(ModeRatioRow {
                 diameters: next.unwrap_or(0),
-                damping_ratio: typical::MODE_DAMPING.value,
+                damping_ratio: const { typical_value("damping.mode_ratios[].damping_ratio") },
             });
         }
         _ => match path.split_once('.').unwrap_or((path, "")) {
@@ -135,7 +135,9 @@ fn add_to_cut(scene: &mut SceneFile, part: &str) -> Option<()> {
             scene.operating_rpm = Some(typical::operating_rpm(scene));
             // Without damping even the smallest delayed force makes some mode grow.
             scene.damping.get_or_insert(DampingFile {
-                material_retardation_time_s: typical::RETARDATION.value,
+                material_retardation_time_s: const {
+                    typical_value("damping.material_retardation_time_s")
+                },
                 ..DampingFile::default()
             });
         }
@@ -147,7 +149,7 @@ fn add_to_cut(scene: &mut SceneFile, part: &str) -> Option<()> {
 fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
     let mut membrane = scene.membrane.clone().unwrap_or_default();
     let heat = || TemperatureFile {
-        expansion_per_k: typical::EXPANSION.value,
+        expansion_per_k: const { typical_value("membrane.temperature.expansion_per_k") },
         rim_rise_k: Some(0.0),
         from_radius_m: None,
         exponent: None,
@@ -172,7 +174,7 @@ fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
         "roll_tension[]" => membrane.roll_tension.push(RollBandFile {
             radius_m: between(scene, 0.5),
             width_m: rounded(0.1 * (rim(scene) - inner(scene)), 2),
-            eigenstrain: Some(typical::EIGENSTRAIN.value),
+            eigenstrain: Some(const { typical_value("membrane.roll_tension[].eigenstrain") }),
             groove_depth_m: None,
         }),
         "straight_edge" => membrane.straight_edge = Some(StraightEdgeFile::default()),

@@ -1,7 +1,9 @@
 //! Initial values of parts for a blade of any size.
 
 use crate::scene::typical::rounded;
-use crate::scene::{GuideFile, InPlane, Mount, RunUpFile, SceneFile, SplineFile, typical};
+use crate::scene::{
+    GuideFile, InPlane, Mount, RunUpFile, SceneFile, SplineFile, typical, typical_value,
+};
 
 const LEAST_TEETH: f64 = 12.0;
 /// Spline of the saw in the paper, with assumed values for the numbers that the paper does not give.
@@ -33,7 +35,8 @@ pub fn between(scene: &SceneFile, share: f64) -> f64 {
 }
 
 pub fn usual_teeth(scene: &SceneFile) -> u32 {
-    let count = (std::f64::consts::TAU * rim(scene) / typical::TOOTH_PITCH.value).round();
+    let count =
+        (std::f64::consts::TAU * rim(scene) / const { typical_value("blade.teeth") }).round();
     count.max(LEAST_TEETH) as u32
 }
 
@@ -68,7 +71,7 @@ pub fn guide(scene: &SceneFile) -> GuideFile {
         radius_m: between(scene, 0.6),
         radial_length_m: length,
         tangential_length_m: length,
-        stiffness_n_per_m: typical::GUIDE_STIFFNESS.value,
+        stiffness_n_per_m: const { typical_value("guides[].stiffness_n_per_m") },
         ..GuideFile::default()
     };
     GuideFile {
@@ -134,11 +137,12 @@ pub fn runup(scene: &SceneFile) -> Option<RunUpFile> {
 /// most, because the model is linear.
 fn side_force(scene: &SceneFile) -> f64 {
     if matches!(scene.mount, Mount::Collar { .. }) {
-        return typical::RUNUP_FORCE.value;
+        return const { typical_value("runup.force_n") };
     }
     let stiffness: f64 = scene.guides.iter().map(|pad| pad.stiffness_n_per_m).sum();
     rounded(
-        (0.01 * scene.blade.thickness_m * stiffness).clamp(1e-3, typical::RUNUP_FORCE.value),
+        (0.01 * scene.blade.thickness_m * stiffness)
+            .clamp(1e-3, const { typical_value("runup.force_n") }),
         1,
     )
 }

@@ -1,21 +1,33 @@
-//! Checks that the numbers of a scene are within their ranges, and the errors of those that are not.
+//! The check of every number of a scene by the table of quantities, and rules that several keys share.
+
+use serde_json::Value;
 
 use super::quantity::Quantity;
-use super::{Blade, RefusedValue, SceneError, SpeedRange, rad_per_s};
+use super::{Blade, RefusedValue, SceneError, SceneFile, SpeedRange, rad_per_s};
 use crate::text::shown;
 
-/// Widest range of a positive quantity. It exceeds that of any saw, and products of such numbers do not
-/// overflow.
-pub const SPAN: (f64, f64) = (1e-12, 1e15);
-/// Bounds only prevent overflow if their ratio, or their difference if the lower one is not positive, exceeds this.
-const FAR: f64 = 1e9;
-/// Largest stiffness and damping of a contact. In double precision a stiffer pad is rigid.
-pub const MAX_GUIDE: f64 = 1e18;
 /// Largest number of pads, and of rows of a table. Each pad requires an integral over every basis function; no saw
 /// has a hundredth of this number.
 pub const MAX_GUIDES: usize = 256;
-/// Largest speed, in rpm. A rim bursts long before it.
-pub const MAX_RPM: f64 = 1e9;
+
+/// Checks that every number of a scene is in its allowed range. Rules that join several keys remain to be checked.
+pub fn numbers(file: &SceneFile) -> Result<(), RefusedValue> {
+    for (path, value) in file.values() {
+        let Some(quantity) = Quantity::of(&path) else {
+            continue;
+        };
+        match value {
+            // An entry of a list may be null, a key is left out.
+            Value::Null if path.ends_with(']') => (),
+            Value::Null => return Err(quantity.refused(&path, f64::NAN, "no finite number")),
+            value => {
+                let number = value.as_f64().unwrap_or(f64::NAN);
+                quantity.checked(&path, number)?;
+            }
+        }
+    }
+    Ok(())
+}
 
 /// Returns the error of a number outside its range.
 pub fn refuse(
@@ -27,82 +39,18 @@ pub fn refuse(
     RefusedValue::new(key, value, allowed, remedy).into()
 }
 
-/// Checks that a quantity is positive and returns it.
-pub fn positive(key: &str, value: f64) -> Result<f64, SceneError> {
-    ranged(
-        key,
-        value,
-        SPAN,
-        "give it in the SI unit that ends the key's name",
-    )
-}
-
-/// Checks that a number lies in a range, ends included, and returns it.
-pub fn within(key: &str, value: f64, range: (f64, f64)) -> Result<f64, SceneError> {
-    ranged(
-        key,
-        value,
-        range,
-        "give it in the unit that ends the key's name",
-    )
-}
-
-fn ranged(
-    key: &str,
-    value: f64,
-    (low, high): (f64, f64),
-    remedy: &'static str,
-) -> Result<f64, SceneError> {
-    if (low..=high).contains(&value) {
-        return Ok(value);
-    }
-    let is_far = match low > 0.0 {
-        true => high / low >= FAR,
-        false => high - low >= FAR,
-    };
-    let allowed = match is_far {
-        true => beside_usual(key, value, (low, high)),
-        false => format!("between {} and {}", shown(low), shown(high)),
-    };
-    Err(refuse(key, value, allowed, remedy))
-}
-
-/// Describes the bound, far beyond any saw, that a value exceeds, with the usual range.
-fn beside_usual(key: &str, value: f64, (low, high): (f64, f64)) -> String {
-    let bound = if value > high {
-        format!("at most {}", shown(high))
-    } else if low > 0.0 && value <= 0.0 {
-        "above 0".to_owned()
-    } else {
-        format!("at least {}", shown(low))
-    };
-    bound + &usual(key)
-}
-
-/// Describes the usual range, to be appended to the allowed range.
-fn usual(key: &str) -> String {
-    Quantity::of(key).map_or(String::new(), |quantity| {
-        let ((from, to), unit) = (quantity.usual, quantity.unit);
-        let text = format!("; saws have {} to {} {unit}", shown(from), shown(to));
-        text.trim_end().to_owned()
-    })
-}
-
-/// Returns the validated range between two speeds `from_rpm` and `to_rpm` of a block of the scene.
+/// Returns the range between two speeds `from_rpm` and `to_rpm` of a block of the scene.
 pub fn speeds(
     block: &str,
     from_rpm: f64,
     to_rpm: f64,
     remedy: &'static str,
 ) -> Result<SpeedRange, SceneError> {
-    let from = within(&format!("{block}.from_rpm"), from_rpm, (0.0, MAX_RPM))?;
-    let key = format!("{block}.to_rpm");
-    let to = within(&key, to_rpm, (0.0, MAX_RPM))?;
-    if to <= from {
-        let allowed = format!("more than {block}.from_rpm ({})", shown(from));
-        return Err(refuse(&key, to, allowed, remedy));
+    if to_rpm <= from_rpm {
+        let allowed = format!("more than {block}.from_rpm ({})", shown(from_rpm));
+        return Err(refuse(&format!("{block}.to_rpm"), to_rpm, allowed, remedy));
     }
-    Ok((rad_per_s(from), rad_per_s(to)).into())
+    Ok((rad_per_s(from_rpm), rad_per_s(to_rpm)).into())
 }
 
 /// Returns the number of teeth of the blade, which is at least 1; `reason` completes the error message.

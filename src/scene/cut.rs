@@ -2,8 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::check::{MAX_RPM, SPAN, needed_teeth, positive, refuse, within};
+use super::check::{needed_teeth, refuse};
 use super::cut_file::{CutFile, CutSpeedFile};
+use super::quantity::{Quantity, quantity};
 use super::teeth_in_cut::TeethInCut;
 use super::washboarding::Washboarding;
 use super::wood::Wood;
@@ -56,9 +57,9 @@ pub struct CutRun {
 }
 
 /// Longest duration of a transient; the record of a longer one would not fit into memory.
-const MAX_DURATION_S: f64 = 600.0;
-/// Largest force on a tooth, many times the force that shears a tooth off.
-const MAX_FORCE_N: f64 = 1e9;
+const MAX_DURATION_S: f64 = quantity("cut.idle_s").allowed.to;
+const MAX_FORCE_N: f64 = quantity("cut.tangential_n_per_tooth").allowed.to;
+const RPM: Quantity = quantity("cut.chart_rpm");
 
 impl Cut {
     pub(super) fn new(
@@ -69,7 +70,7 @@ impl Cut {
         let teeth = teeth_in_cut(typed, file.blade.teeth, blade)?;
         let mut cut = Cut {
             teeth,
-            idle_s: within("cut.idle_s", typed.idle_s, (0.0, MAX_DURATION_S))?,
+            idle_s: typed.idle_s,
             runs: Vec::new(),
             wood: None,
             washboarding: None,
@@ -110,19 +111,10 @@ impl Cut {
     fn run_at(&self, rpm: f64, key: &str) -> Result<CutRun, SceneError> {
         let index = self.file.speeds.iter().position(|speed| speed.rpm == rpm);
         let own = index.map_or_else(CutSpeedFile::default, |i| self.file.speeds[i].clone());
-        let number = |name: &str, own: Option<f64>, of_cut: Option<f64>, range: (f64, f64)| {
-            let key = match (own, index) {
-                (Some(_), Some(i)) => format!("cut.speeds[{i}].{name}"),
-                _ => format!("cut.{name}"),
-            };
-            let given = own.or(of_cut);
-            given.map(|value| within(&key, value, range)).transpose()
-        };
         let key = index.map_or(key.into(), |i| format!("cut.speeds[{i}].rpm"));
-        let speed_rad_per_s = rad_per_s(within(&key, rpm, (1e-3, MAX_RPM))?);
-        let force = (-MAX_FORCE_N, MAX_FORCE_N);
+        let speed_rad_per_s = rad_per_s(RPM.checked(&key, rpm)?);
         let typed = &self.file;
-        let power_w = number("power_w", own.power_w, typed.power_w, (0.0, SPAN.1))?;
+        let power_w = own.power_w.or(typed.power_w);
         let tangential_of_power_n =
             power_w.map(|p| p / (speed_rad_per_s * self.rim_radius_m) / self.teeth.mean);
         if let (Some(force_n), Some(power_w)) = (tangential_of_power_n, power_w)
@@ -132,43 +124,31 @@ impl Cut {
             let remedy = "give a smaller power, a higher speed or a larger cut.depth_m";
             return Err(refuse("cut.power_w", power_w, allowed, remedy));
         }
-        let given = number(
-            "tangential_n_per_tooth",
-            own.tangential_n_per_tooth,
-            typed.tangential_n_per_tooth,
-            force,
-        )?;
+        let given = own.tangential_n_per_tooth.or(typed.tangential_n_per_tooth);
         let Some(tangential_n) = given.or(tangential_of_power_n) else {
             let allowed = "given, or cut.power_w in its place";
             let remedy = "a cut needs the force against the rotation, or the power";
             let key = "cut.tangential_n_per_tooth";
             return Err(RefusedValue::missing(key, allowed, remedy).into());
         };
-        let or_none = |name: &str, own: Option<f64>, of_cut: Option<f64>| {
-            number(name, own, of_cut, force).map(|found| found.unwrap_or(0.0))
-        };
-        let (radial, lateral) = (own.radial_n_per_tooth, own.lateral_n_per_tooth);
-        let feeds = (own.feed_m_per_s, typed.feed_m_per_s);
-        let feed = number("feed_m_per_s", feeds.0, feeds.1, (1e-6, 1e3))?;
+        let radial_n = own.radial_n_per_tooth.or(typed.radial_n_per_tooth);
+        let lateral_n = own.lateral_n_per_tooth.or(typed.lateral_n_per_tooth);
+        let feed_m_per_s = own.feed_m_per_s.or(typed.feed_m_per_s);
         Ok(CutRun {
             rpm,
             speed_rad_per_s,
             teeth: self.teeth.mean,
             tangential_n,
-            radial_n: or_none("radial_n_per_tooth", radial, typed.radial_n_per_tooth)?,
-            lateral_n: or_none("lateral_n_per_tooth", lateral, typed.lateral_n_per_tooth)?,
+            radial_n: radial_n.unwrap_or(0.0),
+            lateral_n: lateral_n.unwrap_or(0.0),
             tangential_of_power_n,
-            feed_m_per_s: feed,
-            duration_s: self.duration_s(feed)?,
+            feed_m_per_s,
+            duration_s: self.duration_s(feed_m_per_s)?,
         })
     }
 
     fn duration_s(&self, feed_m_per_s: Option<f64>) -> Result<f64, SceneError> {
-        let board = self.file.board_length_m;
-        let board = board
-            .map(|length| positive("cut.board_length_m", length))
-            .transpose()?;
-        let Some((length, feed)) = board.zip(feed_m_per_s) else {
+        let Some((length, feed)) = self.file.board_length_m.zip(feed_m_per_s) else {
             return Ok(1.0);
         };
         let seconds = length / feed;
@@ -200,7 +180,7 @@ fn teeth_in_cut(
     let remedy = "the pitch of the teeth determines where the forces act; give their number";
     let all_teeth = needed_teeth(teeth, "where the scene has a cut", remedy)?;
     Ok(TeethInCut {
-        angle_rad: within("cut.angle_deg", typed.angle_deg, (-3600.0, 3600.0))?.to_radians(),
+        angle_rad: typed.angle_deg.to_radians(),
         mean: mean(typed, all_teeth, blade)?,
         pitch_rad: TAU / f64::from(all_teeth),
     })
@@ -210,10 +190,10 @@ fn teeth_in_cut(
 fn mean(typed: &CutFile, all_teeth: u32, blade: &Blade) -> Result<f64, SceneError> {
     let key = "cut.teeth_in_cut";
     if let Some(teeth) = typed.teeth_in_cut {
-        if (1..=all_teeth).contains(&teeth) {
+        if teeth <= all_teeth {
             return Ok(f64::from(teeth));
         }
-        let allowed = format!("between 1 and blade.teeth ({all_teeth})");
+        let allowed = format!("at most blade.teeth ({all_teeth})");
         let remedy = "count the teeth that touch the wood at a time";
         return Err(refuse(key, f64::from(teeth), allowed, remedy));
     }
@@ -223,11 +203,8 @@ fn mean(typed: &CutFile, all_teeth: u32, blade: &Blade) -> Result<f64, SceneErro
         return Err(RefusedValue::missing(key, allowed, remedy).into());
     };
     let diameter_m = 2.0 * blade.outer_radius_m;
-    if !(depth_m > 0.0 && depth_m <= diameter_m) {
-        let allowed = format!(
-            "above 0 and at most the blade's diameter ({})",
-            shown(diameter_m)
-        );
+    if depth_m > diameter_m {
+        let allowed = format!("at most the blade's diameter ({})", shown(diameter_m));
         let remedy = "give the depth of cut in metres";
         return Err(refuse("cut.depth_m", depth_m, allowed, remedy));
     }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::file::is_default;
-use super::typical::IDLE;
+use super::quantity::typical_value;
 use super::washboarding::WashboardingFile;
 use super::wood::WoodFile;
 
@@ -67,7 +67,7 @@ pub struct CutFile {
 }
 
 fn default_idle_s() -> f64 {
-    IDLE.value
+    const { typical_value("cut.idle_s") }
 }
 
 /// A speed of the cut. Missing values are those of the cut.

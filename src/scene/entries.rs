@@ -16,15 +16,21 @@ impl SceneFile {
         }
         let mut found = Vec::new();
         below(json, "", &mut found);
+        found.retain(|(_, value)| !value.is_null());
+        found
+    }
+
+    /// Every value with its JSON path, in the order of the file. A number that is not finite is null.
+    pub(super) fn values(&self) -> Vec<(String, Value)> {
+        let mut found = Vec::new();
+        below(super::parameter::value(self), "", &mut found);
         found
     }
 
     /// Every number, with its JSON path, in the order of the file.
     pub(super) fn numbers(&self) -> Vec<(String, f64)> {
-        let mut found = Vec::new();
-        below(super::parameter::value(self), "", &mut found);
         let number = |(path, value): (String, Value)| Some((path, value.as_f64()?));
-        found.into_iter().filter_map(number).collect()
+        self.values().into_iter().filter_map(number).collect()
     }
 }
 
@@ -36,7 +42,7 @@ pub(crate) fn in_words(value: &Value) -> String {
     }
 }
 
-/// Appends every text, number and truth value below a JSON value, with its path.
+/// Appends every text, number, truth value and null below a JSON value, with its path.
 fn below(value: Value, path: &str, found: &mut Vec<(String, Value)>) {
     match value {
         Value::Object(json) => {
@@ -50,7 +56,6 @@ fn below(value: Value, path: &str, found: &mut Vec<(String, Value)>) {
                 below(inner, &format!("{path}[{k}]"), found);
             }
         }
-        Value::Null => (),
         single => found.push((path.to_owned(), single)),
     }
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{needed_teeth, refuse};
+use super::check::needed_teeth;
 use super::file::is_default;
 use super::{SceneError, SceneFile};
 
@@ -22,11 +22,6 @@ pub struct ExcitationFile {
     pub tooth_passing: u32,
 }
 
-/// Largest multiple of the rotation speed; more lines would hide the branches.
-const MAX_ORDERS: u32 = 60;
-/// Largest multiple of the tooth passing frequency.
-const MAX_TOOTH_PASSING: u32 = 10;
-
 /// A validated line: a frequency that is a multiple of the rotation speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ExcitationLine {
@@ -42,12 +37,6 @@ impl ExcitationLine {
         let Some(typed) = file.excitation else {
             return Ok(Vec::new());
         };
-        few("excitation.orders", typed.orders, MAX_ORDERS)?;
-        few(
-            "excitation.tooth_passing",
-            typed.tooth_passing,
-            MAX_TOOTH_PASSING,
-        )?;
         let mut lines: Vec<Self> = (1..=typed.orders)
             .map(|order| ExcitationLine {
                 order,
@@ -69,19 +58,6 @@ impl ExcitationLine {
         lines.sort_by_key(|line| line.order);
         Ok(lines)
     }
-}
-
-fn few(key: &str, count: u32, most: u32) -> Result<(), SceneError> {
-    if count <= most {
-        return Ok(());
-    }
-    let remedy = "list only multiples that are excited";
-    Err(refuse(
-        key,
-        f64::from(count),
-        format!("at most {most}"),
-        remedy,
-    ))
 }
 
 #[cfg(test)]

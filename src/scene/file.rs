@@ -9,11 +9,11 @@ use serde::{Deserialize, Serialize};
 use super::cut_file::CutFile;
 use super::excitation::ExcitationFile;
 use super::membrane::MembraneFile;
+use super::quantity::typical_value;
 use super::response::ResponseFile;
 use super::runup::{ProbeFile, RunUpFile};
 use super::spline::SplineFile;
 use super::thickness::{RimFile, ThicknessRow};
-use super::typical::FLUTTER_THRESHOLD;
 
 /// A saw and the analysis, as written in a scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -77,7 +77,7 @@ pub struct SceneFile {
 
 /// The damping of a real saw, which a scene may omit, suppresses slower growth.
 fn default_flutter_threshold_per_s() -> f64 {
-    FLUTTER_THRESHOLD.value
+    const { typical_value("flutter_threshold_per_s") }
 }
 
 /// An annular blade.
@@ -122,7 +122,7 @@ pub struct Material {
 pub enum Mount {
     /// Loose on a splined arbor: the bore is free in bending and in plane.
     Spline {},
-    /// Clamped between collars: no deflection and no slope at the collar's edge.
+    /// Clamped between collars or flanges: no deflection and no slope at their edge.
     Collar {
         /// Diameter of the collar; the blade inside it does not move.
         diameter_m: f64,

@@ -62,7 +62,8 @@ impl Freed {
     }
 
     /// Frees a number between usual bounds: the radius of a guide anywhere on the blade, a stiffness or damping
-    /// within a factor of thirty, a gap within a factor of four, an angle within 60°, other numbers within 20 %.
+    /// within a factor of thirty, a gap within a factor of four, an angle within 60°, other numbers within 20 %,
+    /// and no number outside of its allowed range.
     ///
     /// # Errors
     /// [`SceneError`] as for [`Freed::new`].
@@ -73,8 +74,13 @@ impl Freed {
             Kind::Stiffness | Kind::Damping => (value / 30.0, value * 30.0),
             Kind::Angle => (value - 60.0, value + 60.0),
             Kind::Gap => (0.25 * value, 4.0 * value),
-            Kind::Radius | Kind::Other => (value - 0.2 * value.abs(), value + 0.2 * value.abs()),
+            Kind::Radius | Kind::Count | Kind::Other => {
+                (value - 0.2 * value.abs(), value + 0.2 * value.abs())
+            }
         };
+        let [from, to] = [from, to].map(|bound| {
+            Quantity::of(path).map_or(bound, |quantity| quantity.allowed.nearest(bound))
+        });
         Freed::new(&scene.file, path, from, to)
     }
 
@@ -291,6 +297,20 @@ mod tests {
             let error = Freed::new(&scene, path, from, to).unwrap_err().to_string();
             assert!(error.contains(expected), "{error}");
         }
+    }
+
+    /// A fifth above 0.9 and 0.45 are not allowed.
+    #[test]
+    fn usual_bounds_are_allowed() {
+        let scene = Scene::paper().edited(|file| {
+            file.blade.material.poisson_ratio = 0.45;
+            file.damping.get_or_insert_default().loss_factor = 0.9;
+        });
+        let scene = scene.unwrap();
+        let bound = |path| Freed::with_usual_bounds(&scene, path).unwrap().to;
+        assert_eq!(bound("damping.loss_factor"), 1.0);
+        let poisson = bound("blade.material.poisson_ratio");
+        assert!(poisson > 0.499 && poisson < 0.5, "{poisson}");
     }
 
     #[test]

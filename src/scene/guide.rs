@@ -1,6 +1,6 @@
 //! Validated guide pads, angles in radians.
 
-use super::check::{MAX_GUIDE, SPAN, positive, refuse, within};
+use super::check::refuse;
 use super::{Blade, ContactLaw, GuideFile, GuideShape, GuideSide, RefusedValue, SceneError};
 use crate::text::shown;
 use std::f64::consts::{PI, TAU};
@@ -118,29 +118,17 @@ impl Guide {
 /// Validates a pad; `index` is its position in the list of the scene.
 pub fn guide(index: usize, typed: &GuideFile, blade: &Blade) -> Result<Guide, SceneError> {
     let of = |name: &str| format!("guides[{index}].{name}");
-    let size = (0.0, SPAN.1);
     let pad = Guide {
         index,
         lifting: lifting(&of, typed)?,
-        radius_m: within(&of("radius_m"), typed.radius_m, size)?,
-        angle_rad: within(&of("angle_deg"), typed.angle_deg, (-3600.0, 3600.0))?.to_radians(),
-        radial_length_m: within(&of("radial_length_m"), typed.radial_length_m, size)?,
-        tangential_length_m: within(&of("tangential_length_m"), typed.tangential_length_m, size)?,
+        radius_m: typed.radius_m,
+        angle_rad: typed.angle_deg.to_radians(),
+        radial_length_m: typed.radial_length_m,
+        tangential_length_m: typed.tangential_length_m,
         shape: typed.shape,
-        stiffness_n_per_m: within(
-            &of("stiffness_n_per_m"),
-            typed.stiffness_n_per_m,
-            (0.0, MAX_GUIDE),
-        )?,
-        damping_n_s_per_m: within(
-            &of("damping_n_s_per_m"),
-            typed.damping_n_s_per_m,
-            (0.0, MAX_GUIDE),
-        )?,
+        stiffness_n_per_m: typed.stiffness_n_per_m,
+        damping_n_s_per_m: typed.damping_n_s_per_m,
     };
-    if let Some(gap_m) = typed.gap_m {
-        positive(&of("gap_m"), gap_m)?;
-    }
     if (pad.radial_length_m == 0.0) != (pad.tangential_length_m == 0.0) {
         return Err(refuse(
             &of("tangential_length_m"),
@@ -166,9 +154,6 @@ pub fn guide(index: usize, typed: &GuideFile, blade: &Blade) -> Result<Guide, Sc
     }
     Ok(pad)
 }
-
-/// Range of offsets; no pad of a saw has a larger one.
-const OFFSET_M: (f64, f64) = (-0.1, 0.1);
 
 /// Validates the gap of a pad that lifts off; `None` for a linear pad.
 fn lifting(of: &impl Fn(&str) -> String, typed: &GuideFile) -> Result<Option<Lifting>, SceneError> {
@@ -206,9 +191,14 @@ fn lifting(of: &impl Fn(&str) -> String, typed: &GuideFile) -> Result<Option<Lif
         let remedy = "a pad that lifts off touches the blade beyond a gap; give it, such as 4e-5";
         return Err(RefusedValue::missing(&of("gap_m"), allowed, remedy).into());
     };
-    let stiffness = positive(&of("stiffness_n_per_m"), typed.stiffness_n_per_m)?;
+    let stiffness = typed.stiffness_n_per_m;
+    if stiffness == 0.0 {
+        let allowed = "above 0 where the contact is one_sided";
+        let remedy = "give the stiffness of the pad, or leave the pad out";
+        return Err(refuse(&of("stiffness_n_per_m"), stiffness, allowed, remedy));
+    }
     let film = typed.film_stiffness_n_per_m;
-    if !(0.0..=stiffness).contains(&film) {
+    if film > stiffness {
         return Err(refuse(
             &of("film_stiffness_n_per_m"),
             film,
@@ -217,7 +207,7 @@ fn lifting(of: &impl Fn(&str) -> String, typed: &GuideFile) -> Result<Option<Lif
         ));
     }
     Ok(Some(Lifting {
-        offset_m: within(&of("offset_m"), typed.offset_m, OFFSET_M)?,
+        offset_m: typed.offset_m,
         gap_m,
         film_stiffness_n_per_m: film,
         side: typed.side,

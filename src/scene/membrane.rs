@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{ascending, few, refuse, within};
+use super::check::{ascending, few, refuse};
 use super::profile::Profile;
 use super::residual::{ResidualStress, ResidualStressRow};
 use super::roll_band::{RollBand, RollBandFile};
@@ -98,14 +98,8 @@ pub(crate) enum TemperatureShape {
     Table(Profile),
 }
 
-/// Range of temperature rises. No blade survives a larger one.
-const RISE_K: (f64, f64) = (-2e3, 2e3);
 /// Smallest peak of a table other than zero. No thermometer resolves a smaller rise.
 const MIN_RISE_K: f64 = 1e-9;
-/// Range of coefficients of thermal expansion; polymers have 2e-4.
-const EXPANSION_PER_K: (f64, f64) = (0.0, 1e-2);
-/// Range of exponents. A steeper rise is nearly a step, which a table describes as well.
-const EXPONENT: (f64, f64) = (0.0, 20.0);
 
 impl Membrane {
     /// The stress of rolled bands alone.
@@ -148,12 +142,6 @@ impl Membrane {
 
 impl Temperature {
     fn new(typed: &TemperatureFile, blade: &Blade) -> Result<Self, SceneError> {
-        let key = |name: &str| format!("membrane.temperature.{name}");
-        let expansion_per_k = within(
-            &key("expansion_per_k"),
-            typed.expansion_per_k,
-            EXPANSION_PER_K,
-        )?;
         let has_table = !typed.table.is_empty();
         if typed.rim_rise_k.is_some() == has_table {
             let given = match has_table {
@@ -165,14 +153,11 @@ impl Temperature {
             return Err(RefusedValue::new("membrane.temperature", given, allowed, remedy).into());
         }
         let (peak_rise_k, shape) = match typed.rim_rise_k {
-            Some(rise) => (
-                within(&key("rim_rise_k"), rise, RISE_K)?,
-                rim_shape(typed, blade)?,
-            ),
+            Some(rise) => (rise, rim_shape(typed, blade)?),
             None => table(typed, blade)?,
         };
         Ok(Temperature {
-            expansion_per_k,
+            expansion_per_k: typed.expansion_per_k,
             peak_rise_k,
             shape,
         })
@@ -201,7 +186,7 @@ fn rim_shape(typed: &TemperatureFile, blade: &Blade) -> Result<TemperatureShape,
     let from_radius_m = typed.from_radius_m.unwrap_or(blade.inner_radius_m);
     let outer = blade.outer_radius_m;
     // A rise that begins beyond 0.999 of the radius of the rim would be nearly a jump.
-    if !(0.0..=0.999 * outer).contains(&from_radius_m) {
+    if from_radius_m > 0.999 * outer {
         let allowed = format!(
             "from 0 to 0.999 of the radius of the rim ({})",
             shown(outer)
@@ -210,10 +195,9 @@ fn rim_shape(typed: &TemperatureFile, blade: &Blade) -> Result<TemperatureShape,
         let key = "membrane.temperature.from_radius_m";
         return Err(refuse(key, from_radius_m, allowed, remedy));
     }
-    let exponent = typed.exponent.unwrap_or(1.0);
     Ok(TemperatureShape::Rim {
         from_radius_m,
-        exponent: within("membrane.temperature.exponent", exponent, EXPONENT)?,
+        exponent: typed.exponent.unwrap_or(1.0),
     })
 }
 
@@ -232,11 +216,8 @@ fn table(typed: &TemperatureFile, blade: &Blade) -> Result<(f64, TemperatureShap
     few(key, typed.table.len())?;
     let radii: Vec<f64> = typed.table.iter().map(|row| row.radius_m).collect();
     ascending(key, &radii, blade)?;
-    let mut rows = Vec::new();
-    for (index, row) in typed.table.iter().enumerate() {
-        let rise = within(&format!("{key}[{index}].rise_k"), row.rise_k, RISE_K)?;
-        rows.push((row.radius_m, rise));
-    }
+    let rows = typed.table.iter().map(|row| (row.radius_m, row.rise_k));
+    let mut rows: Vec<(f64, f64)> = rows.collect();
     let peak = Profile::new(&rows).map_or(0.0, |profile| {
         profile.peak(blade.inner_radius_m, blade.outer_radius_m)
     });

@@ -17,6 +17,7 @@ mod membrane;
 mod needed;
 mod parameter;
 mod profile;
+mod quantities;
 mod quantity;
 mod read;
 #[cfg(test)]
@@ -26,11 +27,14 @@ mod residual;
 mod response;
 mod roll_band;
 mod runup;
+mod schema;
 mod setting;
+mod span;
 mod spline;
 mod straight_edge;
 mod teeth_in_cut;
 mod thickness;
+#[cfg(any(feature = "cli", feature = "page"))]
 pub(crate) mod typical;
 mod unit;
 mod unusual;
@@ -40,7 +44,6 @@ mod washboarding;
 mod wood;
 
 pub use crate::text::FileError;
-pub(crate) use check::MAX_RPM;
 pub(crate) use cut::in_words as in_the_cut;
 pub use cut::{Cut, CutRun};
 pub use cut_file::{CutFile, CutSpeedFile};
@@ -61,11 +64,12 @@ pub(crate) use needed::speed_rad_per_s;
 pub use parameter::Parameter;
 pub(crate) use profile::Profile;
 #[cfg(any(test, feature = "page"))]
-pub(crate) use quantity::QUANTITIES;
-pub use quantity::{Kind, Quantity};
+pub(crate) use quantities::QUANTITIES;
+pub use quantity::{Kind, Quantity, Typical};
+pub(crate) use quantity::{quantity, typical_value};
 #[cfg(feature = "cli")]
 pub(crate) use read::SCENE_TEXT;
-pub use read::{MAX_SCENE_BYTES, SceneError, json_schema};
+pub use read::{MAX_SCENE_BYTES, SceneError};
 pub(crate) use refused::Given;
 pub use refused::RefusedValue;
 pub(crate) use residual::ResidualStress;
@@ -75,7 +79,11 @@ pub use roll_band::RollBandFile;
 pub(crate) use roll_band::{Groove, RollBand};
 pub(crate) use runup::Probe;
 pub use runup::{ProbeFile, RunUp, RunUpFile};
+pub use schema::json_schema;
+#[cfg(feature = "cli")]
+pub(crate) use schema::{Key, keys};
 pub use setting::{Setting, number_of};
+pub use span::Span;
 pub(crate) use spline::Spline;
 pub use spline::SplineFile;
 pub(crate) use straight_edge::StraightEdge;

@@ -1,6 +1,6 @@
 //! Blocks of a scene that are optional in general but required by some commands.
 
-use super::check::MAX_RPM;
+use super::quantity::quantity;
 use super::{
     Cut, CutRun, Measured, RefusedValue, RunUp, Scene, SceneError, SpeedRange, Washboarding,
     rad_per_s, rpm,
@@ -130,6 +130,7 @@ impl SpeedRange {
 
 /// Converts an argument in rpm, which must be positive, to rad/s; `key` names it in the error.
 pub(crate) fn speed_rad_per_s(key: &str, rpm: f64) -> Result<f64, RefusedValue> {
+    const MAX_RPM: f64 = quantity("operating_rpm").allowed.to;
     if rpm > 0.0 && rpm <= MAX_RPM {
         return Ok(rad_per_s(rpm));
     }

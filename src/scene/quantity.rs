@@ -1,8 +1,13 @@
-//! Names, units and usual ranges of the numbers of a scene.
+//! A number of a scene: name, unit, allowed and usual range, typical value.
 
 use serde::Serialize;
 
-/// Name, unit and usual range of a number of a scene.
+use super::RefusedValue;
+use super::quantities::QUANTITIES;
+use super::span::Span;
+use crate::text::shown;
+
+/// Name, unit and ranges of a number of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Quantity {
     /// JSON path, with `[]` for any index of a list.
@@ -11,11 +16,14 @@ pub struct Quantity {
     pub name: &'static str,
     /// Unit; empty for a dimensionless number.
     pub unit: &'static str,
-    /// Range that includes all saws in use. Zero is always accepted, because it means that the feature is
-    /// absent.
+    /// Range outside of which a number is refused. Other keys may narrow it.
+    pub allowed: Span,
+    /// Range that includes all saws in use. Zero is always usual, because it means that the feature is absent.
     pub usual: (f64, f64),
     /// Kind, which determines how the number varies in production and in searches.
     pub kind: Kind,
+    /// Value for a user who does not know the number.
+    pub typical: Option<Typical>,
 }
 
 /// Kind of a number. Each kind has its own tolerances of production and its own usual bounds of a search.
@@ -34,14 +42,32 @@ pub enum Kind {
     Damping,
     /// Gap of a guide.
     Gap,
+    /// Whole number.
+    Count,
     /// Any other number.
     Other,
 }
 
-const fn q(
+/// A typical value of a number. The schema and the form offer it; a command that assumes it reports it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Typical {
+    /// The value, in the unit of the key, or with the unit or reference in `of`.
+    pub value: f64,
+    /// Unit or reference of the value, if the number of the key is computed from it; empty if the value is this
+    /// number.
+    pub of: &'static str,
+    /// Smallest and largest value of common saws.
+    pub common: (f64, f64),
+    /// Source of value and range.
+    pub basis: &'static str,
+}
+
+/// A quantity of the table, of kind [`Kind::Other`] and without a typical value.
+pub(super) const fn q(
     path: &'static str,
     name: &'static str,
     unit: &'static str,
+    allowed: Span,
     from: f64,
     to: f64,
 ) -> Quantity {
@@ -49,121 +75,66 @@ const fn q(
         path,
         name,
         unit,
+        allowed,
         usual: (from, to),
         kind: Kind::Other,
+        typical: None,
     }
 }
 
 impl Quantity {
-    const fn of_kind(self, kind: Kind) -> Self {
+    pub(super) const fn of_kind(self, kind: Kind) -> Self {
         Quantity { kind, ..self }
+    }
+
+    pub(super) const fn typically(
+        self,
+        value: f64,
+        of: &'static str,
+        low: f64,
+        high: f64,
+        basis: &'static str,
+    ) -> Self {
+        let typical = Typical {
+            value,
+            of,
+            common: (low, high),
+            basis,
+        };
+        Quantity {
+            typical: Some(typical),
+            ..self
+        }
     }
 }
 
-/// All numbers that a scene may contain, in the order of the schema. The ranges include all machines that are
-/// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten
-/// carbide, guides from felt to steel.
-#[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 98] = [
-    q("blade.outer_diameter_m", "outer diameter", "m", 0.04, 5.0),
-    q("blade.inner_diameter_m", "bore diameter", "m", 0.003, 2.0),
-    q("blade.thickness_m", "thickness of the blade", "m", 1e-4, 0.04),
-    q("blade.profile[].radius_m", "radius", "m", 1e-3, 2.5).of_kind(Kind::Radius),
-    q("blade.profile[].thickness_m", "thickness", "m", 1e-4, 0.04),
-    q("blade.teeth", "number of teeth", "", 1.0, 1000.0),
-    q("blade.rim.mass_per_tooth_kg", "mass of a tooth", "kg", 1e-6, 10.0),
-    q("blade.rim.radius_m", "radius of the mass of teeth", "m", 0.02, 2.5).of_kind(Kind::Radius),
-    q("blade.material.youngs_modulus_pa", "Young's modulus", "Pa", 4e10, 7.5e11),
-    q("blade.material.poisson_ratio", "Poisson's ratio", "", 0.15, 0.45),
-    q("blade.material.density_kg_per_m3", "density", "kg/m³", 2e3, 2e4),
-    q("mount.diameter_m", "collar diameter", "m", 0.01, 3.0),
-    q("guides[].radius_m", "radius of the guide", "m", 0.005, 2.5).of_kind(Kind::GuideRadius),
-    q("guides[].angle_deg", "angle of the guide", "°", -360.0, 360.0).of_kind(Kind::Angle),
-    q("guides[].radial_length_m", "radial length of the guide", "m", 1e-4, 1.0),
-    q("guides[].tangential_length_m", "tangential length of the guide", "m", 1e-4, 1.0),
-    q("guides[].stiffness_n_per_m", "stiffness of the guide", "N/m", 2.5e4, 1e10).of_kind(Kind::Stiffness),
-    q("guides[].damping_n_s_per_m", "damping of the guide", "N·s/m", 1e-2, 1e6).of_kind(Kind::Damping),
-    q("guides[].gap_m", "gap of the guide", "m", 1e-6, 5e-3).of_kind(Kind::Gap),
-    q("guides[].film_stiffness_n_per_m", "stiffness within the gap of the guide", "N/m", 10.0, 1e10),
-    q("guides[].offset_m", "offset of the guide", "m", -5e-3, 5e-3),
-    q("damping.material_retardation_time_s", "retardation time of the material", "s", 1e-10, 1e-2),
-    q("damping.loss_factor", "loss factor of the blade", "", 1e-6, 0.3),
-    q("damping.mode_ratios[].diameters", "number of nodal diameters", "", 0.0, 60.0),
-    q("damping.mode_ratios[].damping_ratio", "damping ratio", "", 1e-6, 0.15),
-    q("damping.air_n_s_per_m3", "air damping", "N·s/m³", 1e-3, 1e5),
-    q("damping.air_rotation_share", "speed of the air over that of the blade", "", 0.0, 1.0),
-    q("membrane.temperature.expansion_per_k", "thermal expansion", "1/K", 3e-6, 3e-5),
-    q("membrane.temperature.rim_rise_k", "temperature rise of the rim", "K", -200.0, 600.0),
-    q("membrane.temperature.from_radius_m", "radius where the rise begins", "m", 1e-3, 2.5),
-    q("membrane.temperature.exponent", "exponent of the rise", "", 0.1, 20.0),
-    q("membrane.temperature.table[].radius_m", "radius", "m", 1e-3, 2.5).of_kind(Kind::Radius),
-    q("membrane.temperature.table[].rise_k", "temperature rise", "K", -200.0, 600.0),
-    q("membrane.roll_tension[].radius_m", "radius of the rolled band", "m", 1e-3, 2.5).of_kind(Kind::Radius),
-    q("membrane.roll_tension[].width_m", "width of the rolled band", "m", 1e-4, 1.0),
-    q("membrane.roll_tension[].eigenstrain", "rolling strain", "", -0.02, 0.02),
-    q("membrane.roll_tension[].groove_depth_m", "depth of the rolled groove", "m", 1e-7, 5e-4),
-    q("membrane.residual_stress[].radius_m", "radius", "m", 1e-3, 2.5).of_kind(Kind::Radius),
-    q("membrane.residual_stress[].hoop_pa", "hoop stress", "Pa", -3e9, 3e9),
-    q("membrane.residual_stress[].radial_pa", "radial stress", "Pa", -3e9, 3e9),
-    q("membrane.straight_edge.length_m", "length of the straight edge", "m", 0.02, 5.0),
-    q("membrane.straight_edge.support_radius_m", "radius of the supports", "m", 0.01, 2.5).of_kind(Kind::Radius),
-    q("membrane.straight_edge.measured_gap_m", "light gap", "m", -0.02, 0.02),
-    q("spline.teeth", "number of spline teeth", "", 1.0, 200.0),
-    q("spline.pressure_angle_deg", "pressure angle", "°", 5.0, 60.0),
-    q("spline.contact_stiffness_n_per_m_3_2", "contact stiffness", "N/m^(3/2)", 1e3, 1e14),
-    q("spline.contact_damping_n_s_3_2_per_m_3_2", "contact damping", "N·(s/m)^(3/2)", 1e-3, 1e9),
-    q("spline.clearance_m", "clearance of the spline", "m", 1e-7, 0.02),
-    q("spline.pitch_radius_m", "pitch radius of the spline", "m", 1e-3, 1.0),
-    q("spline.weight_angle_deg", "direction of the weight", "°", -360.0, 360.0),
-    q("operating_rpm", "operating speed", "rpm", 30.0, 6e4),
-    q("excitation.orders", "largest multiple of the speed", "", 0.0, 60.0),
-    q("excitation.tooth_passing", "largest multiple of tooth passing", "", 0.0, 10.0),
-    q("sweep.from_rpm", "first speed of the sweep", "rpm", 0.0, 1e5),
-    q("sweep.to_rpm", "last speed of the sweep", "rpm", 30.0, 2e5),
-    q("flutter_threshold_per_s", "growth rate that counts as flutter", "1/s", 1e-6, 1e3),
-    q("tolerance", "tolerance", "", 0.0, 1.0),
-    q("cut.angle_deg", "angle of the cut", "°", -360.0, 360.0).of_kind(Kind::Angle),
-    q("cut.depth_m", "depth of cut", "m", 1e-4, 3.0),
-    q("cut.teeth_in_cut", "teeth in the cut", "", 1.0, 1000.0),
-    q("cut.tangential_n_per_tooth", "tangential force on a tooth", "N", -1e5, 1e5),
-    q("cut.radial_n_per_tooth", "radial force on a tooth", "N", -1e5, 1e5),
-    q("cut.lateral_n_per_tooth", "lateral force on a tooth", "N", -1e5, 1e5),
-    q("cut.power_w", "power of the cut", "W", 100.0, 2e6),
-    q("cut.feed_m_per_s", "feed", "m/s", 1e-5, 10.0),
-    q("cut.board_length_m", "length of the board", "m", 0.01, 50.0),
-    q("cut.idle_s", "time before and after the cut", "s", 0.0, 600.0),
-    q("cut.chart_rpm", "speed of the cut in the diagram", "rpm", 30.0, 6e4),
-    q("cut.wood.stiffness_n_per_m", "stiffness of the wood", "N/m", 1.0, 1e9).of_kind(Kind::Stiffness),
-    q("cut.wood.damping_n_s_per_m", "damping of the wood", "N·s/m", 1e-3, 1e6).of_kind(Kind::Damping),
-    q("cut.wood.depth_m", "depth of the contact with the wood", "m", 1e-4, 2.0),
-    q("cut.wood.arc_deg", "arc of the contact with the wood", "°", 1.0, 360.0),
-    q("cut.washboarding.stiffness_n_per_m", "lateral cutting stiffness", "N/m", 10.0, 1e8).of_kind(Kind::Stiffness),
-    q("cut.washboarding.overlap", "overlap with the preceding tooth", "", 0.0, 1.0),
-    q("cut.washboarding.arc_deg", "arc of the teeth in the cut", "°", 1.0, 360.0),
-    q("cut.washboarding.pitches_deg[]", "pitch of a tooth", "°", 0.3, 360.0),
-    q("cut.speeds[].rpm", "speed of the cut", "rpm", 30.0, 6e4),
-    q("cut.speeds[].tangential_n_per_tooth", "tangential force on a tooth", "N", -1e5, 1e5),
-    q("cut.speeds[].radial_n_per_tooth", "radial force on a tooth", "N", -1e5, 1e5),
-    q("cut.speeds[].lateral_n_per_tooth", "lateral force on a tooth", "N", -1e5, 1e5),
-    q("cut.speeds[].power_w", "power of the cut", "W", 100.0, 2e6),
-    q("cut.speeds[].feed_m_per_s", "feed", "m/s", 1e-5, 10.0),
-    q("runup.from_rpm", "first speed of the run-up", "rpm", 0.0, 1e5),
-    q("runup.to_rpm", "last speed of the run-up", "rpm", 30.0, 2e5),
-    q("runup.duration_s", "duration of the run-up", "s", 0.0, 3600.0),
-    q("runup.force_n", "lateral force", "N", -1e5, 1e5),
-    q("runup.angle_deg", "angle of the force", "°", -360.0, 360.0).of_kind(Kind::Angle),
-    q("response.force_n", "lateral force", "N", -1e5, 1e5),
-    q("response.radius_m", "radius of the force", "m", 0.005, 2.5).of_kind(Kind::Radius),
-    q("response.angle_deg", "angle of the force", "°", -360.0, 360.0).of_kind(Kind::Angle),
-    q("response.runout_m", "run-out of the rim", "m", 1e-6, 5e-3),
-    q("response.flatness_m", "lack of flatness at the rim", "m", 1e-6, 5e-3),
-    q("response.imbalance_kg_m2", "imbalance beside the middle plane", "kg·m²", 1e-9, 1.0),
-    q("response.tooth_force_n", "lateral force with tooth passing", "N", -1e4, 1e4),
-    q("probe.radius_m", "radius of the probe", "m", 0.005, 2.5).of_kind(Kind::Radius),
-    q("probe.angle_deg", "angle of the probe", "°", -360.0, 360.0).of_kind(Kind::Angle),
-    q("measured.rows[].rpm", "rotation speed", "rpm", 0.0, 1e5),
-    q("measured.rows[].frequencies_hz[]", "frequency", "Hz", 0.0, 1e5),
-];
+/// The quantity with this path, with `[]` for indices. Use it in constants: then a path that is not in the table does not
+/// compile.
+pub(crate) const fn quantity(path: &str) -> Quantity {
+    let mut k = 0;
+    while k < QUANTITIES.len() {
+        let own = QUANTITIES[k].path.as_bytes();
+        let mut same = own.len() == path.len();
+        let mut at = 0;
+        while same && at < own.len() {
+            same = own[at] == path.as_bytes()[at];
+            at += 1;
+        }
+        if same {
+            return QUANTITIES[k];
+        }
+        k += 1;
+    }
+    panic!("the table of quantities has no such path")
+}
+
+/// The typical value of the quantity with this path, for constants.
+pub(crate) const fn typical_value(path: &str) -> f64 {
+    match quantity(path).typical {
+        Some(typical) => typical.value,
+        None => panic!("the quantity has no typical value"),
+    }
+}
 
 impl Quantity {
     /// The quantity of a path such as `guides[0].radius_m`; `None` if scenes have no such number.
@@ -175,6 +146,42 @@ impl Quantity {
     /// The kind of the number at a path.
     pub fn kind_of(path: &str) -> Kind {
         Self::of(path).map_or(Kind::Other, |quantity| quantity.kind)
+    }
+
+    /// Returns a number if it is in the allowed range; `key` names it in the error.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] if it is not.
+    pub(crate) fn checked(&self, key: &str, value: f64) -> Result<f64, RefusedValue> {
+        match self.allowed.contains(value) {
+            true => Ok(value),
+            false => Err(self.refused(key, value, value)),
+        }
+    }
+
+    /// The error of a number outside the allowed range, given as `words`.
+    pub(super) fn refused(&self, key: &str, value: f64, words: impl super::Given) -> RefusedValue {
+        let allowed = match self.allowed.is_far() {
+            true => format!(
+                "{}; {}",
+                self.allowed.end_in_words(value),
+                self.usual_in_words()
+            ),
+            false => self.allowed.in_words(),
+        };
+        let remedy = match (self.unit, self.kind) {
+            ("", Kind::Count) => "give a whole number in this range",
+            ("", _) => "it has no unit; 1 % is 0.01",
+            _ => "give it in the unit that ends the key's name",
+        };
+        RefusedValue::new(key, words, allowed, remedy)
+    }
+
+    /// The usual range for a reader: "saws have 0.04 to 5 m".
+    pub(crate) fn usual_in_words(&self) -> String {
+        let (from, to) = self.usual;
+        let words = format!("saws have {} to {} {}", shown(from), shown(to), self.unit);
+        words.trim_end().to_owned()
     }
 
     /// Whether a value is zero or in the usual range.
@@ -197,40 +204,26 @@ pub(super) fn general(path: &str) -> String {
     general
 }
 
+impl Typical {
+    /// Whether the value is the number of the key.
+    pub fn is_number(&self) -> bool {
+        self.of.is_empty()
+    }
+
+    /// Describes value and range: "Typically 20, from 0 to 90 (source)."
+    pub(super) fn sentence(&self) -> String {
+        let [value, low, high] = [self.value, self.common.0, self.common.1].map(shown);
+        let space = if self.is_number() { "" } else { " " };
+        let (of, basis) = (self.of, self.basis);
+        format!("Typically {value}{space}{of}, from {low} to {high} ({basis}).")
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use serde_json::Value;
-
     use super::*;
     use crate::scene::json_schema;
-
-    /// Paths of every number that a schema allows.
-    fn numbers(schema: &Value, node: &Value, path: &str, found: &mut Vec<String>) {
-        if let Some(name) = node["$ref"].as_str() {
-            let target = schema.pointer(name.trim_start_matches('#'));
-            numbers(schema, target.expect("a definition"), path, found);
-        }
-        let kind = &node["type"];
-        let kinds = kind.as_array().cloned().unwrap_or(vec![kind.clone()]);
-        if kinds
-            .iter()
-            .any(|kind| kind == "number" || kind == "integer")
-        {
-            found.push(path.to_owned());
-        }
-        for word in ["anyOf", "oneOf", "allOf"] {
-            for one in node[word].as_array().into_iter().flatten() {
-                numbers(schema, one, path, found);
-            }
-        }
-        if !node["items"].is_null() {
-            numbers(schema, &node["items"], &format!("{path}[]"), found);
-        }
-        for (key, below) in node["properties"].as_object().into_iter().flatten() {
-            let dot = if path.is_empty() { "" } else { "." };
-            numbers(schema, below, &format!("{path}{dot}{key}"), found);
-        }
-    }
+    use crate::scene::schema::keys;
 
     #[test]
     fn kinds_follow_from_the_last_key_and_from_guides() {
@@ -261,12 +254,50 @@ mod tests {
     #[test]
     fn the_table_has_the_numbers_of_the_schema_and_no_others() {
         let schema = json_schema();
-        let mut of_schema = Vec::new();
-        numbers(&schema, &schema, "", &mut of_schema);
+        let is_of = |path: &str, kind: &str| {
+            let key = keys(&schema).into_iter().find(|key| key.path == path);
+            let node = key.and_then(|key| schema.pointer(&key.pointer).cloned());
+            node.is_some_and(|node| node["type"] == kind || node["type"][0] == kind)
+        };
+        let mut of_schema: Vec<String> = keys(&schema).into_iter().map(|key| key.path).collect();
+        of_schema.retain(|path| is_of(path, "number") || is_of(path, "integer"));
         let mut of_table: Vec<String> = QUANTITIES.iter().map(|q| q.path.to_owned()).collect();
         of_schema.sort();
         of_table.sort();
         assert_eq!(of_table, of_schema);
+        for quantity in QUANTITIES {
+            let is_count = quantity.kind == Kind::Count;
+            assert_eq!(
+                is_of(quantity.path, "integer"),
+                is_count,
+                "{}",
+                quantity.path
+            );
+        }
+    }
+
+    #[test]
+    fn usual_and_typical_values_are_allowed_and_usual() {
+        for quantity in QUANTITIES {
+            let path = quantity.path;
+            for end in [quantity.usual.0, quantity.usual.1] {
+                assert!(
+                    end == 0.0 || quantity.allowed.contains(end),
+                    "{path}: {end}"
+                );
+            }
+            let Some(typical) = quantity.typical else {
+                continue;
+            };
+            let (low, high) = typical.common;
+            assert!((low..=high).contains(&typical.value), "{path}");
+            for value in [typical.value, low, high] {
+                assert!(
+                    !typical.is_number() || quantity.is_usual(value),
+                    "{path}: {value}"
+                );
+            }
+        }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{RefusedValue, Scene, SceneFile, typical};
+use super::{RefusedValue, Scene, SceneFile};
 use crate::text::{FileError, KeyedError, Kind, OtherEncodings, from_keyed_json, read_path};
 
 /// Largest size of a scene file; a larger file is not a scene.
@@ -79,11 +79,4 @@ fn syntax(error: KeyedError) -> SceneError {
         message += "; `sawflutter schema` prints the keys and types of a scene";
     }
     SceneError::Syntax { key, message }
-}
-
-/// JSON schema of a scene file, derived from [`SceneFile`], with typical values as examples of their keys.
-pub fn json_schema() -> serde_json::Value {
-    let mut schema = schemars::schema_for!(SceneFile).to_value();
-    typical::add_to_schema(&mut schema);
-    schema
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{refuse, within};
+use super::check::refuse;
 use super::file::is_default;
 use super::{Blade, SceneError};
 use crate::text::shown;
@@ -51,15 +51,8 @@ impl ResponseFile {
         causes.iter().any(|cause| *cause != 0.0)
     }
 
-    /// Checks the numbers of the block.
+    /// Checks the place of the force, and that the blade has teeth if they excite it.
     pub(super) fn checked(&self, blade: &Blade, teeth: Option<u32>) -> Result<(), SceneError> {
-        const FORCE_N: (f64, f64) = (-1e6, 1e6);
-        within("response.force_n", self.force_n, FORCE_N)?;
-        within("response.tooth_force_n", self.tooth_force_n, FORCE_N)?;
-        within("response.angle_deg", self.angle_deg, (-3600.0, 3600.0))?;
-        within("response.runout_m", self.runout_m, (0.0, 1.0))?;
-        within("response.flatness_m", self.flatness_m, (0.0, 1.0))?;
-        within("response.imbalance_kg_m2", self.imbalance_kg_m2, (0.0, 1e3))?;
         let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
         if let Some(radius_m) = self.radius_m
             && !(inner..=outer).contains(&radius_m)

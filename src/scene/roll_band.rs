@@ -9,7 +9,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{positive, refuse, within};
+use super::check::refuse;
+use super::quantity::quantity;
 use super::{Blade, RefusedValue, SceneError};
 use crate::text::shown;
 
@@ -43,8 +44,7 @@ pub(crate) struct RollBand {
     pub eigenstrain: f64,
 }
 
-/// Range of eigenstrains; rolling produces 1e-4 to 1e-3.
-const EIGENSTRAIN: (f64, f64) = (-0.05, 0.05);
+const MAX_EIGENSTRAIN: f64 = quantity("membrane.roll_tension[].eigenstrain").allowed.to;
 /// Share of the displaced volume in each of the two directions in the plane. Rolls that are wide in comparison with the
 /// length of their contact lengthen the metal along the groove (0 across), and the blade, which resists this lengthening on
 /// both sides, directs the flow across (0 along); equal parts are between the two.
@@ -81,8 +81,7 @@ impl RollBand {
         blade: &Blade,
     ) -> Result<Self, SceneError> {
         let key = |name: &str| format!("membrane.roll_tension[{index}].{name}");
-        let radius = positive(&key("radius_m"), typed.radius_m)?;
-        let width = positive(&key("width_m"), typed.width_m)?;
+        let (radius, width) = (typed.radius_m, typed.width_m);
         let (from_radius_m, to_radius_m) = (radius - 0.5 * width, radius + 0.5 * width);
         let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
         if from_radius_m < inner || to_radius_m > outer {
@@ -96,10 +95,10 @@ impl RollBand {
         }
         let groove = Groove::at(blade, radius);
         let eigenstrain = match (typed.eigenstrain, typed.groove_depth_m) {
-            (Some(eigenstrain), None) => within(&key("eigenstrain"), eigenstrain, EIGENSTRAIN)?,
+            (Some(eigenstrain), None) => eigenstrain,
             (None, Some(depth)) => {
-                let deepest = groove.depth_m(EIGENSTRAIN.1);
-                if !(0.0..=deepest).contains(&depth) {
+                let deepest = groove.depth_m(MAX_EIGENSTRAIN);
+                if depth > deepest {
                     let allowed = format!(
                         "between 0 and {}, a twentieth of the thickness of the blade",
                         shown(deepest)

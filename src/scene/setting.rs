@@ -4,7 +4,8 @@ use std::str::FromStr;
 
 use serde_json::{Map, Number, Value};
 
-use super::quantity::{QUANTITIES, Quantity, general};
+use super::quantities::QUANTITIES;
+use super::quantity::{Quantity, general};
 use super::unit::Unit;
 use super::{RefusedValue, Scene, SceneError, SceneFile};
 

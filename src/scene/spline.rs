@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{positive, within};
+use super::check::refuse;
 use super::{Blade, Mount, RefusedValue, SceneError, SceneFile};
+use crate::text::shown;
 
 /// Contact between the splined bore and the arbor; with it the in-plane motion of the blade is simulated.
 ///
@@ -62,13 +63,6 @@ pub(crate) struct Spline {
     pub weight_angle_rad: Option<f64>,
 }
 
-/// Largest number of teeth, which are simulated individually; no spline has more.
-const MAX_TEETH: u32 = 200;
-/// Largest pressure angle. A flank with a larger one acts as a radial stop and does not drive.
-const MAX_PRESSURE_ANGLE_DEG: f64 = 60.0;
-/// Largest coefficient of the damping of a contact. In double precision a contact with a larger one is rigid.
-const MAX_CONTACT: f64 = 1e18;
-
 impl Spline {
     pub(super) fn of(file: &SceneFile, blade: &Blade) -> Result<Option<Self>, SceneError> {
         let Some(typed) = &file.spline else {
@@ -79,46 +73,41 @@ impl Spline {
             let remedy = "a collar holds the blade in its plane; leave one of the two out";
             return Err(RefusedValue::new("mount.kind", "collar", allowed, remedy).into());
         }
-        if !(1..=MAX_TEETH).contains(&typed.teeth) {
-            let allowed = format!("between 1 and {MAX_TEETH}");
-            let remedy = "count the teeth of the spline, not those that cut";
-            return Err(RefusedValue::new("spline.teeth", typed.teeth, allowed, remedy).into());
-        }
         Self::measured(typed, blade).map(Some)
     }
 
     fn measured(typed: &SplineFile, blade: &Blade) -> Result<Self, SceneError> {
         let bore = blade.inner_radius_m;
-        let typed_radius = typed.pitch_radius_m.unwrap_or(bore);
+        if typed.clearance_m > bore {
+            let allowed = format!("at most the radius of the bore ({})", shown(bore));
+            let remedy = "with a larger one the blade would fall off the arbor";
+            return Err(refuse(
+                "spline.clearance_m",
+                typed.clearance_m,
+                allowed,
+                remedy,
+            ));
+        }
+        let pitch_radius_m = typed.pitch_radius_m.unwrap_or(bore);
+        let (least, most) = (0.5 * bore, blade.outer_radius_m);
+        if !(least..=most).contains(&pitch_radius_m) {
+            let allowed = format!("between {} and {}", shown(least), shown(most));
+            let remedy = "give the radius at which the flanks touch, near that of the bore";
+            return Err(refuse(
+                "spline.pitch_radius_m",
+                pitch_radius_m,
+                allowed,
+                remedy,
+            ));
+        }
         Ok(Spline {
             teeth: typed.teeth as usize,
-            pressure_angle_rad: within(
-                "spline.pressure_angle_deg",
-                typed.pressure_angle_deg,
-                (0.0, MAX_PRESSURE_ANGLE_DEG),
-            )?
-            .to_radians(),
-            contact_stiffness_n_per_m_3_2: positive(
-                "spline.contact_stiffness_n_per_m_3_2",
-                typed.contact_stiffness_n_per_m_3_2,
-            )?,
-            contact_damping_n_s_3_2_per_m_3_2: within(
-                "spline.contact_damping_n_s_3_2_per_m_3_2",
-                typed.contact_damping_n_s_3_2_per_m_3_2,
-                (0.0, MAX_CONTACT),
-            )?,
-            // With a clearance above the radius of the bore the blade would fall off the arbor.
-            clearance_m: within("spline.clearance_m", typed.clearance_m, (0.0, bore))?,
-            pitch_radius_m: within(
-                "spline.pitch_radius_m",
-                typed_radius,
-                (0.5 * bore, blade.outer_radius_m),
-            )?,
-            weight_angle_rad: typed
-                .weight_angle_deg
-                .map(|angle| within("spline.weight_angle_deg", angle, (-3600.0, 3600.0)))
-                .transpose()?
-                .map(f64::to_radians),
+            pressure_angle_rad: typed.pressure_angle_deg.to_radians(),
+            contact_stiffness_n_per_m_3_2: typed.contact_stiffness_n_per_m_3_2,
+            contact_damping_n_s_3_2_per_m_3_2: typed.contact_damping_n_s_3_2_per_m_3_2,
+            clearance_m: typed.clearance_m,
+            pitch_radius_m,
+            weight_angle_rad: typed.weight_angle_deg.map(f64::to_radians),
         })
     }
 }

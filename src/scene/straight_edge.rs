@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{refuse, within};
+use super::check::refuse;
 use super::roll_band::RollBand;
 use super::{Blade, Bore, SceneError};
 use crate::text::shown;
@@ -39,9 +39,6 @@ pub(crate) struct StraightEdge {
     pub measured_gap_m: Option<f64>,
 }
 
-/// Range of measured gaps; no straight edge shows a larger one.
-const GAP_M: (f64, f64) = (-1.0, 1.0);
-
 impl StraightEdge {
     pub(super) fn new(
         typed: &StraightEdgeFile,
@@ -63,16 +60,11 @@ impl StraightEdge {
         let whole = "give the length that lies on the blade";
         let points = "give the distance of each point from the axis";
         let is_rolled = bands.iter().any(|band| band.eigenstrain != 0.0);
-        let measured_gap_m = match typed.measured_gap_m {
-            Some(gap) if !is_rolled => {
-                let allowed = "given beside a rolled band, with an eigenstrain other than zero";
-                let remedy = "add the band to roll_tension, with any eigenstrain such as 1e-4";
-                return Err(refuse(&key("measured_gap_m"), gap, allowed, remedy));
-            }
-            gap => gap
-                .map(|gap| within(&key("measured_gap_m"), gap, GAP_M))
-                .transpose()?,
-        };
+        if let Some(gap) = typed.measured_gap_m.filter(|_| !is_rolled) {
+            let allowed = "given beside a rolled band, with an eigenstrain other than zero";
+            let remedy = "add the band to roll_tension, with any eigenstrain such as 1e-4";
+            return Err(refuse(&key("measured_gap_m"), gap, allowed, remedy));
+        }
         Ok(StraightEdge {
             blade: Blade {
                 inner_radius_m: bore,
@@ -81,7 +73,7 @@ impl StraightEdge {
             },
             end_radius_m: on_blade("length_m", typed.length_m, 2.0, whole)?,
             support_radius_m: on_blade("support_radius_m", typed.support_radius_m, 1.0, points)?,
-            measured_gap_m,
+            measured_gap_m: typed.measured_gap_m,
         })
     }
 }

@@ -4,9 +4,6 @@
 //! f < 1. During the share f of the time z + 1 teeth cut, and during the rest z; in the mean over either of these times they are
 //! symmetric about the middle of the arc.
 
-use super::SceneError;
-use super::check::within;
-
 /// The teeth that pass the arc of the cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TeethInCut {
@@ -61,11 +58,8 @@ impl TeethInCut {
     }
 
     /// Arc of a contact around the middle of the cut: the given one, or else that of the teeth.
-    pub fn arc_rad(&self, key: &str, given_deg: Option<f64>) -> Result<f64, SceneError> {
-        match given_deg {
-            Some(arc) => Ok(within(key, arc, (1e-3, 360.0))?.to_radians()),
-            None => Ok(self.mean * self.pitch_rad),
-        }
+    pub fn arc_rad(&self, given_deg: Option<f64>) -> f64 {
+        given_deg.map_or(self.mean * self.pitch_rad, f64::to_radians)
     }
 }
 

@@ -199,7 +199,7 @@ fn exponent(rest: &mut &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::quantity::QUANTITIES;
+    use super::super::quantities::QUANTITIES;
     use super::*;
 
     /// Factors of the SI brochure and of NIST's guide SP 811, appendix B.

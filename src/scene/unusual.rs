@@ -6,8 +6,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::SceneFile;
-use super::quantity::Quantity;
-use super::typical::Typical;
+use super::quantity::{Quantity, Typical};
 use crate::text::{shown, shown_to};
 
 /// Units that are used by mistake, each with its value in the unit of the quantity.
@@ -131,12 +130,12 @@ impl Usual {
                 from,
                 to,
                 typical: (from * to).abs().sqrt(),
-                words: match Typical::of(quantity.path) {
-                    Some(value) => format!(
+                words: match quantity.typical.filter(Typical::is_number) {
+                    Some(typical) => format!(
                         "saws have {} to {}, typically {}",
                         shown(from),
                         shown(to),
-                        shown(value)
+                        shown(typical.value)
                     ),
                     None => format!("saws have {} to {}", shown(from), shown(to)),
                 },

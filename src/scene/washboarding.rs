@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{MAX_GUIDES, refuse, within};
+use super::check::{MAX_GUIDES, refuse};
+use super::quantity::{quantity, typical_value};
 use super::teeth_in_cut::TeethInCut;
-use super::typical::OVERLAP;
 use super::wood::Wood;
 use super::{RefusedValue, SceneError};
 use crate::text::shown;
@@ -32,7 +32,7 @@ pub struct WashboardingFile {
 }
 
 fn full_overlap() -> f64 {
-    OVERLAP.value
+    const { typical_value("cut.washboarding.overlap") }
 }
 
 /// Validated washboarding.
@@ -52,8 +52,9 @@ pub(crate) struct Washboarding {
     pub arc_rad: f64,
 }
 
-/// Largest lateral cutting stiffness, in N/m; no wood and no blade is laterally stiffer.
-pub(crate) const MAX_CUTTING_STIFFNESS: f64 = 1e9;
+/// Largest lateral cutting stiffness, in N/m.
+pub(crate) const MAX_CUTTING_STIFFNESS: f64 =
+    quantity("cut.washboarding.stiffness_n_per_m").allowed.to;
 /// Allowed error of a pitch by rounding: the sum of the pitches of all teeth may differ from a whole turn by this angle
 /// times the number of teeth.
 const ROUNDED_DEG: f64 = 0.05;
@@ -62,27 +63,18 @@ const MIN_PITCH: f64 = 0.05;
 
 impl Washboarding {
     pub(super) fn new(typed: &WashboardingFile, teeth: &TeethInCut) -> Result<Self, SceneError> {
-        let key = |name: &str| format!("cut.washboarding.{name}");
-        let stiffness = typed.stiffness_n_per_m;
-        if !(stiffness > 0.0 && stiffness <= MAX_CUTTING_STIFFNESS) {
-            let allowed = format!("above 0 and at most {}", shown(MAX_CUTTING_STIFFNESS));
-            let remedy = "give it in N/m, or remove washboarding";
-            return Err(refuse(
-                &key("stiffness_n_per_m"),
-                stiffness,
-                allowed,
-                remedy,
-            ));
-        }
-        let arc_rad = teeth.arc_rad(&key("arc_deg"), typed.arc_deg)?;
         let all_teeth = (TAU / teeth.pitch_rad).round() as u32;
         Ok(Washboarding {
-            stiffness_n_per_m: stiffness,
-            overlap: within(&key("overlap"), typed.overlap, (0.0, 1.0))?,
-            pitches_rad: pitches_rad(&key("pitches_deg"), &typed.pitches_deg, all_teeth)?,
+            stiffness_n_per_m: typed.stiffness_n_per_m,
+            overlap: typed.overlap,
+            pitches_rad: pitches_rad(
+                "cut.washboarding.pitches_deg",
+                &typed.pitches_deg,
+                all_teeth,
+            )?,
             teeth: all_teeth,
             angle_rad: teeth.angle_rad,
-            arc_rad,
+            arc_rad: teeth.arc_rad(typed.arc_deg),
         })
     }
 
@@ -129,8 +121,13 @@ fn pitches_rad(key: &str, typed: &[f64], teeth: u32) -> Result<Vec<f64>, SceneEr
         return Err(refuse(key, count as f64, allowed, remedy));
     }
     for (index, pitch) in typed.iter().enumerate() {
-        let range = (MIN_PITCH * mean_deg, 360.0);
-        within(&format!("{key}[{index}]"), *pitch, range)?;
+        let least = MIN_PITCH * mean_deg;
+        if !(*pitch >= least) {
+            let key = format!("{key}[{index}]");
+            let allowed = format!("at least {}", shown(least));
+            let remedy = "teeth closer to each other act as one";
+            return Err(refuse(&key, *pitch, allowed, remedy));
+        }
     }
     let turn = typed.iter().sum::<f64>() * f64::from(teeth) / count as f64;
     if (turn - 360.0).abs() > ROUNDED_DEG * f64::from(teeth) {

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{MAX_GUIDE, refuse, within};
+use super::check::refuse;
 use super::teeth_in_cut::TeethInCut;
 use super::{Blade, SceneError};
 use crate::text::shown;
@@ -48,21 +48,18 @@ impl Wood {
         teeth: &TeethInCut,
         blade: &Blade,
     ) -> Result<Option<Self>, SceneError> {
-        let key = |name: &str| format!("cut.wood.{name}");
         let width = blade.outer_radius_m - blade.inner_radius_m;
-        let arc_rad = teeth.arc_rad(&key("arc_deg"), typed.arc_deg)?;
-        if !(0.0..=width).contains(&typed.depth_m) {
-            let allowed = format!("from 0 to the width of the moving ring ({})", shown(width));
+        if typed.depth_m > width {
+            let allowed = format!("at most the width of the moving ring ({})", shown(width));
             let remedy = "give the distance from the rim to which the wood touches the blade";
-            return Err(refuse(&key("depth_m"), typed.depth_m, allowed, remedy));
+            return Err(refuse("cut.wood.depth_m", typed.depth_m, allowed, remedy));
         }
-        let range = (0.0, MAX_GUIDE);
         let wood = Wood {
             angle_rad: teeth.angle_rad,
-            arc_rad,
+            arc_rad: teeth.arc_rad(typed.arc_deg),
             depth_m: typed.depth_m,
-            stiffness_n_per_m: within(&key("stiffness_n_per_m"), typed.stiffness_n_per_m, range)?,
-            damping_n_s_per_m: within(&key("damping_n_s_per_m"), typed.damping_n_s_per_m, range)?,
+            stiffness_n_per_m: typed.stiffness_n_per_m,
+            damping_n_s_per_m: typed.damping_n_s_per_m,
         };
         let any = wood.stiffness_n_per_m > 0.0 || wood.damping_n_s_per_m > 0.0;
         Ok(any.then_some(wood))

@@ -1,6 +1,6 @@
 //! Measured frequencies, and their assignment to computed ones.
 
-use crate::scene::{MAX_RPM, Measured, MeasuredRow};
+use crate::scene::{Measured, MeasuredRow, quantity};
 
 use super::FitError;
 use super::table::{TableRow, read, wrong};
@@ -166,6 +166,7 @@ fn row(typed: &TableRow) -> Result<Row, FitError> {
         );
         return Err(wrong(typed.line, problem));
     }
+    const MAX_RPM: f64 = quantity("measured.rows[].rpm").allowed.to;
     let rpm = number(speed, MAX_RPM, "revolutions per minute")?;
     let columns = frequencies
         .iter()

@@ -169,7 +169,7 @@ impl Tolerances {
             Kind::GuideRadius | Kind::Radius => self.radius_m,
             Kind::Angle => self.angle_deg,
             Kind::Stiffness | Kind::Damping | Kind::Gap => self.guide_share * value,
-            Kind::Other => self.other_share * value.abs(),
+            Kind::Count | Kind::Other => self.other_share * value.abs(),
         }
     }
 }
