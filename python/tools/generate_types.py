@@ -77,6 +77,7 @@ def ordered(schema: Schema) -> list[tuple[str, Schema, bool]]:
     """Properties in the order of the library, those that are always present first; and whether the
     order was changed."""
     properties: dict[str, Schema] = schema.get("properties", {})
+    properties = {name: own for name, own in properties.items() if name.isidentifier()}  # no $schema
     required = [name for name in schema.get("required", []) if name in properties]
     optional = [name for name in properties if name not in required]
     return [(name, properties[name], name in required) for name in required + optional]

@@ -17,6 +17,7 @@ pub fn empty_report(name: &str) -> Report {
         density_kg_per_m3: 7850.0,
     };
     let scene = SceneFile {
+        schema: None,
         name: name.to_owned(),
         notes: Vec::new(),
         blade: BladeFile {

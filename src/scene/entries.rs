@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::SceneFile;
 
 /// Keys that do not influence a computation.
-const NO_INPUTS: [&str; 3] = ["name", "notes", "measured"];
+const NO_INPUTS: [&str; 4] = ["$schema", "name", "notes", "measured"];
 
 impl SceneFile {
     /// Every value that may influence a computation, with its JSON path, in the order of the file.

@@ -19,6 +19,9 @@ use super::thickness::{RimFile, ThicknessRow};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
+    /// Address of a JSON schema, by which editors check and complete the file. It has no influence here.
+    #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
+    pub schema: Option<String>,
     /// Title of reports and figures.
     pub name: String,
     /// Origin of the numbers: measured, assumed, calibrated.

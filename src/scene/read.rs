@@ -80,3 +80,37 @@ fn syntax(error: KeyedError) -> SceneError {
     }
     SceneError::Syntax { key, message }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The paper's scene with keys before its own; it has 42 teeth.
+    fn with(first: &str, teeth: &str) -> Result<Scene, String> {
+        let paper = include_str!("../../scenes/paper.json");
+        let text = paper.replacen('{', &format!("{{ {first}"), 1);
+        assert!(text.contains("\"teeth\": 42"));
+        let text = text.replace("\"teeth\": 42", &format!("\"teeth\": {teeth}"));
+        Scene::from_json(&text).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_whole_number_may_have_a_decimal_point() {
+        for teeth in ["42.0", "4.2e1", "\"42\"", "\"42.0\""] {
+            assert_eq!(with("", teeth), Ok(Scene::paper()), "{teeth}");
+        }
+        let refused = with("", "42.5").unwrap_err();
+        assert!(refused.starts_with("blade.teeth: must be a whole number, 0 or more, but is 42.5"));
+    }
+
+    #[test]
+    fn a_schema_may_be_named_and_remarks_have_a_place() {
+        let address = "https://example.org/scene.json";
+        let scene = with(&format!("\"$schema\": \"{address}\","), "42").unwrap();
+        assert_eq!(scene.file().schema.as_deref(), Some(address));
+        assert_eq!(scene.file().inputs(), Scene::paper().file().inputs());
+        let refused = with("\"_comment\": \"mine\",", "42").unwrap_err();
+        assert!(refused.starts_with("_comment: there is no such key; write remarks"));
+        assert!(refused.contains("list notes"), "{refused}");
+    }
+}

@@ -4,10 +4,10 @@ use serde::de::DeserializeOwned;
 
 use super::fault::{Fault, KeyedError, offset};
 use super::problem;
-use super::token::{Part, tokens, without_comments};
+use super::token::{Part, Token, tokens, without_comments};
 
-/// Reads JSON. Comments, commas before a closing bracket, and quoted numbers where only a number is allowed are
-/// accepted; text after the last bracket is refused. `whole` is the name of the text in errors without a key.
+/// Reads JSON. Comments, commas before a closing bracket, quoted numbers where only a number is allowed, and whole numbers
+/// with a decimal point are accepted; text after the last bracket is refused. `whole` is the name of the text in errors without a key.
 ///
 /// # Errors
 /// [`KeyedError`] if the text is not JSON, or not that of a `T`.
@@ -19,7 +19,7 @@ pub(crate) fn from_keyed_json<T: DeserializeOwned>(
     loop {
         match strict(&text) {
             Ok(value) => return Ok(value),
-            Err(fault) => match unquoted(&text, &fault.error) {
+            Err(fault) => match meant(&text, &fault.error) {
                 Some(next) => text = next,
                 None => return Err(problem::explain(&text, &fault, whole)),
             },
@@ -46,31 +46,40 @@ fn known_path(path: &str) -> String {
     path.trim_end_matches("[?]").to_owned()
 }
 
-/// The text without the quotation marks around the number to which an error refers.
-fn unquoted(text: &str, error: &serde_json::Error) -> Option<String> {
+/// The text with the number to which an error refers as it was meant: without quotation marks, and without a decimal
+/// point where it is whole and a whole number is expected.
+fn meant(text: &str, error: &serde_json::Error) -> Option<String> {
     let message = error.to_string();
     let (found, expected) = message
-        .strip_prefix("invalid type: string ")?
-        .split_once(", ")?;
-    let number = found.trim_matches('"');
-    let wanted = ["f64", "u32", "u64", "usize"];
-    let wanted = wanted
+        .strip_prefix("invalid type: ")?
+        .split_once(", expected ")?;
+    let is_count = ["u32", "u64", "usize"]
         .iter()
-        .any(|t| expected.starts_with(&format!("expected {t}")));
-    if !wanted || !serde_json::from_str::<f64>(number).is_ok_and(f64::is_finite) {
-        return None;
-    }
-    let end = offset(text, error);
-    let mut same: Vec<_> = tokens(text)
-        .into_iter()
-        .filter(|token| token.part == Part::Quoted && token.text == found)
-        .collect();
+        .any(|kind| expected.starts_with(kind));
+    let is_number = is_count || expected.starts_with("f64");
+    let is_refused = |token: &Token| match token.part {
+        Part::Quoted => is_number && found.strip_prefix("string ") == Some(token.text),
+        Part::Word => is_count && found.starts_with("floating point"),
+        _ => false,
+    };
+    let mut refused = tokens(text);
+    refused.retain(is_refused);
     // The parser stops at the end of the token that it refuses, except in an enum with data, which it reads
     // completely first. There the token is known only if no other token has the same text.
-    if let Some(place) = same.iter().position(|token| token.end() == end) {
-        same = vec![same[place]];
-    }
-    let [token] = same[..] else { return None };
+    let end = offset(text, error);
+    let place = refused.iter().position(|token| token.end() == end);
+    let token = match (place, &refused[..]) {
+        (Some(place), all) => all[place],
+        (None, [only]) if only.part == Part::Quoted => *only,
+        _ => return None,
+    };
+    let number = token.text.trim_matches('"');
+    let value: f64 = serde_json::from_str(number).ok()?;
+    let number = match token.part {
+        Part::Word if value.fract() != 0.0 => return None,
+        Part::Word => format!("{value:.0}"),
+        _ => number.to_owned(),
+    };
     let mut next = text.to_owned();
     next.replace_range(token.start..token.end(), &format!(" {number} "));
     Some(next)

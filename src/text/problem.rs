@@ -157,6 +157,9 @@ const UNITS: [(&str, &str, &str); 13] = [
     ("m_per_min", "m_per_s", "1/60"),
 ];
 
+/// Keys that users write for remarks; so are all that begin with an underscore.
+const REMARKS: [&str; 5] = ["comment", "comments", "description", "remark", "//"];
+
 /// Smallest similarity, from 0 to 1, at which a known name is suggested for a misspelt one.
 const LIKENESS: f64 = 0.75;
 
@@ -172,6 +175,9 @@ fn meant(subject: &str, known: &[&str]) -> String {
         }
     }
     let small = subject.to_lowercase();
+    if small.starts_with('_') || REMARKS.contains(&small.as_str()) {
+        return "write remarks as texts of the list notes at the top, or as comments: // …".into();
+    }
     let likeness = |name: &str| {
         let whole =
             name.starts_with(&format!("{small}_")) || small.starts_with(&format!("{name}_"));

@@ -146,7 +146,7 @@ export class Form {
   }
 
   #part(schema, path, key, value, required) {
-    if (key === "measured" || key === "kind") return [];
+    if (["measured", "kind", "$schema"].includes(key)) return [];
     if (schema.oneOf && schema.oneOf.every((choice) => choice.properties?.kind)) return [this.#variants(schema, path, value)];
     if (schema.enum || schema.oneOf) return [this.#choice(schema, path, key)];
     if (schema.type === "object" || schema.properties) return [this.#group(schema, path, key, value, required)];
