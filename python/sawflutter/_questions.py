@@ -377,9 +377,6 @@ class Questions(Searches):
         oscillating_force_n: Number = None,
         oscillating_order: int = 1,
         friction: Number = None,
-        heat_share: SupportsFloat = 1.0,
-        convection_w_per_m2_k: SupportsFloat = 60.0,
-        conductivity_w_per_m_k: SupportsFloat = 45.0,
         accuracy: Accuracy | None = None,
         tolerance: Number = None,
         progress: Progress = None,
@@ -403,11 +400,8 @@ class Questions(Searches):
         oscillating_order : int
             Ratio of the frequency of this force to that of rotation.
         friction : float, optional
-            Coefficient of friction of the pads. With it the heat of the pads is computed, and the
-            deflection of the blade that it heats.
-        heat_share, convection_w_per_m2_k, conductivity_w_per_m_k : float
-            Share of this heat that enters the blade, heat transfer coefficient of each face, and
-            conductivity of the blade.
+            Coefficient of friction of the pads in place of the scene's ``friction.coefficient``. With
+            friction the heat of the pads is computed, and the deflection of the blade that it heats.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
@@ -431,7 +425,8 @@ class Questions(Searches):
         >>> bool(r.free.critical_rpm[0] < r.linear.critical_rpm[0])
         True
         """
-        return self._asked(
+        scene = self if friction is None else self.replace({"friction.coefficient": friction})
+        return scene._asked(
             GapResults,
             accuracy,
             tolerance,
@@ -441,10 +436,6 @@ class Questions(Searches):
             max_deviation_mm=max_deviation_mm,
             oscillating_force_n=oscillating_force_n,
             oscillating_order=oscillating_order,
-            friction=friction,
-            heat_share=heat_share,
-            convection_w_per_m2_k=convection_w_per_m2_k,
-            conductivity_w_per_m_k=conductivity_w_per_m_k,
         )
 
     def run_washboard(

@@ -206,21 +206,11 @@ fn response(options: &Options<'_>) -> PyResult<Work> {
 fn gap(options: &Options<'_>) -> PyResult<Work> {
     let amplitude_n: Option<f64> = options.get("oscillating_force_n")?;
     let order = options.get("oscillating_order")?;
-    let coefficient: Option<f64> = options.get("friction")?;
-    let heat_share = options.get("heat_share")?;
-    let convection_w_per_m2_k = options.get("convection_w_per_m2_k")?;
-    let conductivity_w_per_m_k = options.get("conductivity_w_per_m_k")?;
     let options = GapOptions {
         force_n: options.get("force_n")?,
         rpm: options.get("rpm")?,
         max_deviation_mm: options.get("max_deviation_mm")?,
         oscillating: amplitude_n.map(|amplitude_n| OscillatingForce { amplitude_n, order }),
-        friction: coefficient.map(|coefficient| Friction {
-            coefficient,
-            heat_share,
-            convection_w_per_m2_k,
-            conductivity_w_per_m_k,
-        }),
     };
     Ok(Box::new(move |scene, _| {
         options.checked(scene)?;

@@ -3,6 +3,7 @@
 use crate::analyses::gap::{Friction, GapError, Options, OscillatingForce, gap};
 use clap::Args;
 
+use super::assumed::{Block, Given};
 use super::common::{Common, number, of_option};
 use super::page::Page;
 use super::progress::watched;
@@ -44,28 +45,27 @@ pub struct Arguments {
         requires = "oscillating_force_n"
     )]
     oscillating_order: u32,
-    /// Coefficient of friction of the pads: their heat, and the deflection with it
-    #[arg(long, value_name = "MU", allow_negative_numbers = true, value_parser = number)]
-    friction: Option<f64>,
-    /// Share of the heat of friction that enters the blade
-    #[arg(long, value_name = "SHARE", default_value_t = FRICTION.heat_share, requires = "friction", allow_negative_numbers = true, value_parser = number)]
-    heat_share: f64,
-    /// Heat transfer coefficient of each face of the blade
-    #[arg(long, value_name = "VALUE", default_value_t = FRICTION.convection_w_per_m2_k, requires = "friction", allow_negative_numbers = true, value_parser = number)]
-    convection_w_per_m2_k: f64,
-    /// Heat conductivity of the blade
-    #[arg(long, value_name = "VALUE", default_value_t = FRICTION.conductivity_w_per_m_k, requires = "friction", allow_negative_numbers = true, value_parser = number)]
-    conductivity_w_per_m_k: f64,
+    /// Coefficient of friction of the pads, for their heat and the deflection with it, as `--set friction.coefficient=MU`
+    #[arg(long, value_name = "MU", allow_negative_numbers = true)]
+    friction: Option<String>,
     #[command(flatten)]
     page: Page,
 }
 
-/// Default values of the options of friction.
-const FRICTION: Friction = Friction::of(0.0);
-
 /// Evaluates the gaps, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let scene = arguments.common.scene()?;
+    let friction = Block {
+        name: "friction",
+        is_missing: false,
+        usual: |_| serde_json::Value::Null,
+        given: &[Given {
+            option: "friction",
+            key: "coefficient",
+            text: arguments.friction.as_ref(),
+        }],
+        wins: &[],
+    };
+    let scene = friction.applied(arguments.common.scene()?)?;
     let options = Options {
         force_n: arguments.force_n,
         rpm: arguments.rpm,
@@ -76,12 +76,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
                 amplitude_n,
                 order: arguments.oscillating_order,
             }),
-        friction: arguments.friction.map(|coefficient| Friction {
-            coefficient,
-            heat_share: arguments.heat_share,
-            convection_w_per_m2_k: arguments.convection_w_per_m2_k,
-            conductivity_w_per_m_k: arguments.conductivity_w_per_m_k,
-        }),
     };
     let refused = |refused: crate::scene::RefusedValue| match refused.key.contains('.') {
         true => refused.into(),

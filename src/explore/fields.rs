@@ -44,7 +44,7 @@ pub struct Field {
 }
 
 /// Unit of a quantity, ending of its key, unit of the field, and the factor to it.
-const UNITS: [(&str, &str, &str, f64); 21] = [
+const UNITS: [(&str, &str, &str, f64); 23] = [
     ("m", "_m", "mm", 1e3),
     ("kg", "_kg", "kg", 1.0),
     ("Pa", "_pa", "MPa", 1e-6),
@@ -64,6 +64,8 @@ const UNITS: [(&str, &str, &str, f64); 21] = [
     ("N", "_n_per_tooth", "N per tooth", 1.0),
     ("N", "_n", "N", 1.0),
     ("W", "_w", "W", 1.0),
+    ("W/(m²·K)", "_w_per_m2_k", "W/(m²·K)", 1.0),
+    ("W/(m·K)", "_w_per_m_k", "W/(m·K)", 1.0),
     ("m/s", "_m_per_s", "m/s", 1.0),
     ("Hz", "_hz", "Hz", 1.0),
 ];

@@ -6,9 +6,9 @@ use super::refusal::Refusal;
 use super::usual::{SPLINE, between, guide, inner, mount, next_row, rim, runup, usual_teeth};
 use crate::scene::typical::rounded;
 use crate::scene::{
-    CutFile, CutSpeedFile, DampingFile, ExcitationFile, ModeRatioRow, ProbeFile, ResidualStressRow,
-    ResponseFile, RimFile, RollBandFile, Scene, SceneFile, StraightEdgeFile, SweepFile,
-    TemperatureFile, TemperatureRow, ThicknessRow, WoodFile, typical, typical_value,
+    CutFile, CutSpeedFile, DampingFile, ExcitationFile, FrictionFile, ModeRatioRow, ProbeFile,
+    ResidualStressRow, ResponseFile, RimFile, RollBandFile, Scene, SceneFile, StraightEdgeFile,
+    SweepFile, TemperatureFile, TemperatureRow, ThicknessRow, WoodFile, typical, typical_value,
 };
 
 /// A request for a part.
@@ -45,6 +45,10 @@ fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
         "mount" => scene.mount = mount(scene, kind)?,
         "guides[]" => scene.guides.push(guide(scene)),
         "damping" => scene.damping = Some(DampingFile::default()),
+        "friction" => {
+            let coefficient = const { typical_value("friction.coefficient") };
+            scene.friction = Some(FrictionFile::of(coefficient));
+        }
         "excitation" => scene.excitation = Some(ExcitationFile::default()),
         "spline" => scene.spline = Some(SPLINE),
         "probe" => {
@@ -202,12 +206,13 @@ mod tests {
     use crate::explore::examples::examples;
     use crate::explore::needs::NEEDS;
 
-    const PARTS: [&str; 23] = [
+    const PARTS: [&str; 24] = [
         "response",
         "damping.mode_ratios[]",
         "guides[]",
         "damping",
         "excitation",
+        "friction",
         "spline",
         "probe",
         "sweep",

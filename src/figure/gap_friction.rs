@@ -171,7 +171,7 @@ mod tests {
     use crate::analyses::gap::{Friction, Options, OscillatingForce, gap};
     use crate::figure::gap_oscillation;
     use crate::figure::tidy::{assert_tidy, texts};
-    use crate::scene::{Accuracy, ContactLaw, Scene, SweepFile};
+    use crate::scene::{Accuracy, ContactLaw, FrictionFile, Scene, SweepFile};
 
     #[test]
     #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
@@ -182,6 +182,7 @@ mod tests {
                 from_rpm: 0.0,
                 to_rpm: 1500.0,
             });
+            file.friction = Some(FrictionFile::of(0.1));
             let pad = &mut file.guides[0];
             (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5));
             let mut others = [*pad; 2];
@@ -192,7 +193,6 @@ mod tests {
         });
         let options = Options {
             force_n: Some(4.0),
-            friction: Some(Friction::of(0.1)),
             oscillating: Some(OscillatingForce {
                 amplitude_n: 0.5,
                 order: 1,

@@ -18,6 +18,7 @@ pub fn empty_report(name: &str) -> Report {
     };
     let scene = SceneFile {
         schema: None,
+        friction: None,
         name: name.to_owned(),
         notes: Vec::new(),
         blade: BladeFile {

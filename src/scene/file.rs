@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::cut_file::CutFile;
 use super::excitation::ExcitationFile;
+use super::friction::FrictionFile;
 use super::membrane::MembraneFile;
 use super::quantity::typical_value;
 use super::response::ResponseFile;
@@ -34,6 +35,9 @@ pub struct SceneFile {
     /// Guide pads, fixed in space. None by default.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub guides: Vec<GuideFile>,
+    /// Friction of the guides with a gap, for `sawflutter gap`. None by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<FrictionFile>,
     /// Damping. None by default, as in the classical analysis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping: Option<DampingFile>,

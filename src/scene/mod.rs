@@ -12,6 +12,7 @@ mod entries;
 mod excitation;
 mod file;
 mod freed;
+mod friction;
 mod guide;
 mod membrane;
 mod needed;
@@ -57,6 +58,7 @@ pub use file::{
 pub use freed::spread;
 pub use freed::{Freed, NamedBounds};
 pub(crate) use freed::{effective, is_logarithmic, scene_at};
+pub use friction::FrictionFile;
 pub(crate) use guide::{Guide, Lifting};
 pub(crate) use membrane::{Membrane, Temperature, TemperatureShape};
 pub use membrane::{MembraneFile, TemperatureFile, TemperatureRow};

@@ -31,7 +31,7 @@ const STRESS: Span = Span::closed(-1e11, 1e11);
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten carbide, guides from
 /// felt to steel.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 98] = [
+pub const QUANTITIES: [Quantity; 102] = [
     q("blade.outer_diameter_m", "outer diameter", "m", POSITIVE, 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", POSITIVE, 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", POSITIVE, 1e-4, 0.04),
@@ -59,6 +59,14 @@ pub const QUANTITIES: [Quantity; 98] = [
     q("guides[].film_stiffness_n_per_m", "stiffness within the gap of the guide", "N/m", CONTACT, 10.0, 1e10),
     // No pad of a saw has a larger offset.
     q("guides[].offset_m", "offset of the guide", "m", Span::closed(-0.1, 0.1), -5e-3, 5e-3),
+    q("friction.coefficient", "coefficient of friction", "", Span::closed(0.0, 2.0), 0.01, 1.0)
+        .typically(0.2, "", 0.1, 0.4, "assumption of this program, for dry steel on a pad"),
+    q("friction.heat_share", "share of the heat that enters the blade", "", SHARE, 0.01, 1.0)
+        .typically(1.0, "", 0.5, 1.0, "assumption of this program, on the safe side"),
+    q("friction.convection_w_per_m2_k", "heat transfer coefficient", "W/(m²·K)", Span::closed(1.0, 1e5), 5.0, 2e4)
+        .typically(60.0, "", 30.0, 150.0, "assumption of this program, for air along a fast blade; water has some 1000"),
+    q("friction.conductivity_w_per_m_k", "thermal conductivity", "W/(m·K)", Span::closed(0.1, 1e3), 5.0, 450.0)
+        .typically(45.0, "", 15.0, 60.0, "steel; property tables of materials"),
     q("damping.material_retardation_time_s", "retardation time of the material", "s", NOT_NEGATIVE, 1e-10, 1e-2)
         .typically(1e-6, "", 1e-7, 1e-5, "assumption of this program; computed from damping ratios of 3e-5 to 3e-3 at 100 Hz"),
     q("damping.loss_factor", "loss factor of the blade", "", SHARE, 1e-6, 0.3),
@@ -110,7 +118,7 @@ pub const QUANTITIES: [Quantity; 98] = [
     q("flutter_threshold_per_s", "growth rate that counts as flutter", "1/s", NOT_NEGATIVE, 1e-6, 1e3)
         .typically(0.25, "", 0.1, 1.0, "assumption of this program; computed as the decay rate of 40 Hz at a damping ratio of 1e-3"),
     // A diagram with errors above a tenth is of no use, and no basis reaches 1e-8.
-    q("tolerance", "tolerance", "", Span::closed(1e-7, 0.1), 0.0, 1.0),
+    q("tolerance", "tolerance", "", Span::closed(1e-7, 0.1), 1e-7, 0.1),
     q("cut.angle_deg", "angle of the cut", "°", ANGLE, -360.0, 360.0).of_kind(Kind::Angle),
     q("cut.depth_m", "depth of cut", "m", POSITIVE, 1e-4, 3.0)
         .typically(0.25, "of the outer diameter", 0.05, 0.35, "the paper's saw cuts 0.28 of its diameter"),

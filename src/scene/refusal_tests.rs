@@ -55,6 +55,8 @@ fn scenes() -> Vec<Value> {
         "pitches_deg": [8.07, 9.07] });
     let response = json!({ "force_n": 1.0, "radius_m": 0.3, "angle_deg": 0.0, "runout_m": 0.0,
         "flatness_m": 1e-5, "imbalance_kg_m2": 1e-6, "tooth_force_n": 1.0 });
+    let friction = json!({ "coefficient": 0.2, "heat_share": 0.9, "convection_w_per_m2_k": 80.0,
+        "conductivity_w_per_m_k": 40.0 });
     let rim = json!({ "mass_per_tooth_kg": 0.002, "radius_m": 0.35 });
     [
         ("name", json!("the paper's saw")),
@@ -68,6 +70,7 @@ fn scenes() -> Vec<Value> {
             json!({ "kind": "collar", "diameter_m": 0.3, "in_plane": "free" }),
         ),
         ("guides.0", lifting),
+        ("friction", friction),
         ("damping", damping),
         ("damping", json!({ "loss_factor": 1e-3 })),
         (

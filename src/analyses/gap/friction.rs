@@ -5,11 +5,10 @@
 //! the deflection under the side force and the forces of the pads: the loop is repeated until the temperature no longer
 //! changes. The effect of the force of friction on the motion is neglected.
 
-use crate::scene::{self, Guide, RefusedValue, Scene, TemperatureFile, TemperatureRow, rad_per_s};
+use crate::scene::{self, FrictionFile, Guide, Scene, TemperatureFile, TemperatureRow, rad_per_s};
 use crate::spectrum::{SpectrumError, Work};
 use crate::stability::Analysis;
 use crate::stretched::StretchedError;
-use crate::text::shown;
 
 use super::GapError;
 use super::deviation::MODES;
@@ -17,72 +16,6 @@ use super::heated_disk::{Cooling, radii_m, rises_k};
 use super::numbers::first_critical_of_linear;
 use super::pressed::{Deviation, PressedBlade};
 use super::report::{FrictionHeat, FrictionPad};
-
-/// Friction of the pads, and the cooling of the blade.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Friction {
-    /// Coefficient of friction of dry contact.
-    pub coefficient: f64,
-    /// Share of the power of friction that enters the blade.
-    pub heat_share: f64,
-    /// Heat transfer coefficient of each face of the blade.
-    pub convection_w_per_m2_k: f64,
-    /// Thermal conductivity of the blade.
-    pub conductivity_w_per_m_k: f64,
-}
-
-impl Friction {
-    /// Friction with a coefficient, where all heat enters a blade of steel, whose faces have a heat transfer coefficient of
-    /// 60 W/(m²·K).
-    pub const fn of(coefficient: f64) -> Self {
-        Friction {
-            coefficient,
-            heat_share: 1.0,
-            convection_w_per_m2_k: 60.0,
-            conductivity_w_per_m_k: 45.0,
-        }
-    }
-
-    /// Refuses invalid numbers.
-    ///
-    /// # Errors
-    /// [`RefusedValue`].
-    pub fn checked(self) -> Result<(), RefusedValue> {
-        let all = [
-            (
-                "friction",
-                self.coefficient,
-                (0.0, 2.0),
-                "dry steel on a pad has 0.1 to 0.4",
-            ),
-            (
-                "heat_share",
-                self.heat_share,
-                (0.0, 1.0),
-                "1 is on the safe side",
-            ),
-            (
-                "convection_w_per_m2_k",
-                self.convection_w_per_m2_k,
-                (1.0, 1e5),
-                "air along a saw has 30 to 150, water some 1000",
-            ),
-            (
-                "conductivity_w_per_m_k",
-                self.conductivity_w_per_m_k,
-                (0.1, 1e3),
-                "steel has 45",
-            ),
-        ];
-        for (key, value, (least, most), remedy) in all {
-            if !(least..=most).contains(&value) {
-                let allowed = format!("from {} to {}", shown(least), shown(most));
-                return Err(RefusedValue::new(key, value, allowed, remedy));
-            }
-        }
-        Ok(())
-    }
-}
 
 /// Coefficient of linear thermal expansion of steel.
 const STEEL_EXPANSION_PER_K: f64 = 1.2e-5;
@@ -107,7 +40,7 @@ impl Heated {
     /// [`GapError`].
     pub fn new(
         analysis: &Analysis,
-        friction: Friction,
+        friction: FrictionFile,
         (force_n, rpm): (f64, f64),
     ) -> Result<Self, GapError> {
         let scene = &analysis.scene;

@@ -8,7 +8,7 @@
 //! * [`DeviationMap`]: the stationary deflection at the cut, and the forces of the pads, over gap, side force and speed,
 //!   from the equilibria of [`stretched`](crate::stretched).
 //! * [`Oscillation`], only if something makes the blade oscillate: its periodic motion, at a speed and over the speed.
-//! * [`FrictionHeat`], only with a coefficient of friction: the heat of the pads, and the blade that it deforms.
+//! * [`FrictionHeat`], only for a scene with `friction`: the heat of the pads, and the blade that it deforms.
 
 mod amplitude;
 mod balance;
@@ -24,7 +24,6 @@ mod pressed;
 mod report;
 
 pub use amplitude::equivalent_share;
-pub use friction::Friction;
 pub(crate) use numbers::{GapCase, GapNumbers};
 pub use oscillation_report::{
     Oscillation, OscillationAt, OscillationLine, OscillationPad, OscillationPlace,
@@ -79,8 +78,6 @@ pub struct Options {
     /// Side force at the rim at the cut that oscillates. Shape and imbalance of the scene's `response` are added to it;
     /// without any of them no oscillation is computed.
     pub oscillating: Option<OscillatingForce>,
-    /// Friction at the pads; without it no heat is computed.
-    pub friction: Option<Friction>,
 }
 
 /// Largest limit of the deflection that is accepted; no blade deflects as far.
@@ -107,9 +104,6 @@ impl Options {
                 allowed,
                 remedy,
             ));
-        }
-        if let Some(friction) = self.friction {
-            friction.checked()?;
         }
         if let Some(oscillators) = Oscillators::of(scene, self.oscillating) {
             oscillators.checked()?;
@@ -185,7 +179,8 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
     let oscillation = oscillators
         .map(|all| oscillation(&analysis, &all, force_n, speed))
         .transpose()?;
-    let heated = options
+    let heated = scene
+        .file()
         .friction
         .map(|friction| Heated::new(&analysis, friction, (force_n, speed_rpm)))
         .transpose()?;

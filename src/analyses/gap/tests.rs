@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::pressed::Deviation;
 use super::*;
-use crate::scene::{Accuracy, ContactLaw, Scene};
+use crate::scene::{Accuracy, ContactLaw, FrictionFile, Scene};
 
 fn lifting(gap_m: f64) -> Scene {
     let scene = Scene::paper().edited(|file| {
@@ -143,13 +143,6 @@ fn what_cannot_be_answered_is_refused() {
             },
             "max_deviation_mm",
         ),
-        (
-            Options {
-                friction: Some(Friction::of(-0.1)),
-                ..options
-            },
-            "friction",
-        ),
     ] {
         assert_eq!(options.checked(&scene).unwrap_err().key, key);
     }
@@ -214,7 +207,7 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
         }];
     });
     let analysis = Analysis::new(&scene.unwrap()).unwrap();
-    let friction = Friction::of(0.2);
+    let friction = FrictionFile::of(0.2);
     let heat = Heated::new(&analysis, friction, (30.0, 2000.0))
         .unwrap()
         .heat;
@@ -246,7 +239,7 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
     assert!((hot / cold - 1.0).abs() > 1e-3, "{hot} {cold}");
 
     // Ten times the friction buckles the blade: it has deflections, but no critical speed.
-    let found = Heated::new(&analysis, Friction::of(2.0), (30.0, 2000.0)).unwrap();
+    let found = Heated::new(&analysis, FrictionFile::of(2.0), (30.0, 2000.0)).unwrap();
     let heat = &found.heat;
     assert!(found.buckles && heat.critical_rpm.is_none(), "{heat:?}");
 }
