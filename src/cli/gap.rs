@@ -1,6 +1,6 @@
 //! `sawflutter gap`.
 
-use crate::analyses::gap::{Friction, GapError, Options, OscillatingForce, gap};
+use crate::analyses::gap::{GapError, Options, OscillatingForce, gap};
 use clap::Args;
 
 use super::assumed::{Block, Given};

@@ -168,7 +168,7 @@ fn list_pads(sheet: &mut Sheet, heat: &FrictionHeat) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analyses::gap::{Friction, Options, OscillatingForce, gap};
+    use crate::analyses::gap::{Options, OscillatingForce, gap};
     use crate::figure::gap_oscillation;
     use crate::figure::tidy::{assert_tidy, texts};
     use crate::scene::{Accuracy, ContactLaw, FrictionFile, Scene, SweepFile};

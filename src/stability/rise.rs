@@ -70,11 +70,11 @@ mod tests {
         assert!(entry.amplitude_not_computed.is_some());
         let summary = report.summary();
         assert!(summary.contains("not computed"), "{summary}");
-        let limits = crate::check::Limits {
+        let limits = crate::analyses::check::Limits {
             max_amplitude_m: Some(1.0),
-            ..crate::check::Limits::at(rad_per_s(1000.0))
+            ..crate::analyses::check::Limits::at(rad_per_s(1000.0))
         };
         let criterion = limits.of_amplitude(&analysis, &found).unwrap();
-        assert!(criterion.finding.contains("not computed"), "{criterion}");
+        assert!(criterion.finding.contains("not computed"), "{criterion:?}");
     }
 }

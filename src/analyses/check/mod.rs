@@ -20,11 +20,12 @@ mod report;
 mod rim;
 mod static_deflection;
 
-use crate::deflect::{Rise, rim_compliance_m_per_n, saturations};
+use crate::analyses::deflect::rim_compliance_m_per_n;
 use crate::report::{InstabilityEntry, Numbered, add_amplitudes, lifting_off, side_force_in_words};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError};
+use crate::stability::{Rise, saturations};
 use crate::stretched::StretchedError;
 
 use criteria::{of_gaps, without_stiffness};

@@ -1,6 +1,6 @@
 //! Errors of a placement.
 
-use crate::gap::GapError;
+use crate::analyses::gap::GapError;
 use crate::scene::SceneError;
 use crate::spectrum::SpectrumError;
 use crate::stability::AnalysisError;

@@ -26,7 +26,7 @@ pub use report::{
     Cause, FrequencyResponse, OperatingResponse, Resonance, ResponseLine, ResponseReport,
 };
 
-use crate::scene::typical::RESPONSE_FORCE;
+use crate::scene::typical_value;
 use crate::scene::{RefusedValue, ResponseFile, Scene, SceneError, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError};
@@ -86,7 +86,7 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
     let deviation_m = |k: usize| lines.iter().map(|line| line.at_cut_m[k]).sum();
     let board_deviation_m: Vec<Option<f64>> = (0..rpm.len()).map(deviation_m).collect();
     let (probe, chart) = (scene.probe(), analysis.report());
-    let assumed = is_assumed.then_some(RESPONSE_FORCE.value);
+    let assumed = is_assumed.then_some(const { typical_value("response.force_n") });
     Ok(ResponseReport {
         sawflutter: chart.sawflutter,
         scene: scene.file().clone(),
@@ -138,7 +138,7 @@ fn excitation(scene: &Scene) -> (ResponseFile, bool) {
     match typed.excites() {
         true => (typed, false),
         false => {
-            let force_n = RESPONSE_FORCE.value;
+            let force_n = const { typical_value("response.force_n") };
             (ResponseFile { force_n, ..typed }, true)
         }
     }
