@@ -239,7 +239,7 @@ mod tests {
             (
                 "blade.material.poisson_ratio",
                 json!(0.7),
-                "Poisson ratio must be greater than -1 and less than 0.5",
+                "Poisson ratio must be above -1 and below 0.5",
             ),
             (
                 "guides[0].radius_m",
@@ -258,8 +258,8 @@ mod tests {
             ),
             (
                 "cut.depth_m",
-                json!(0.0),
-                "Depth must be above 0 and at most the blade's diameter (710 mm)",
+                json!(0.8),
+                "Depth must be at most the blade's diameter (710 mm)",
             ),
             (
                 "cut.idle_s",
