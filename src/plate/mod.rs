@@ -43,7 +43,7 @@ use faer::Mat;
 
 use stress::CentrifugalStress;
 
-use crate::scene::{Accuracy, Blade, Cut, CutRun, Damping, RefusedValue, Scene};
+use crate::scene::{Accuracy, Blade, Cut, CutRun, DampingFile, RefusedValue, Scene};
 
 /// Size of the basis of the deflection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -142,7 +142,7 @@ pub struct Plate {
     /// K_e, in 1/s², N × N, symmetric, if [`Plate::with_edge_loads`] has applied forces to the rim.
     pub edge_stiffness: Option<Mat<f64>>,
     /// Material and air damping, if the scene has any.
-    pub(crate) damping: Option<Damping>,
+    pub(crate) damping: Option<DampingFile>,
     /// Stress of heat, roll tension or manufacture, if the scene has any.
     pub membrane: Option<MembraneStress>,
     /// Radial functions of n ≠ 1 and of n = 1 at the sampled radii.
@@ -187,7 +187,7 @@ impl Plate {
         let all = 0..=resolution.max_diameters;
         let mut harmonics = harmonics(scene.blade(), &basis, &spinning, membrane.as_ref(), all);
         let damping = scene.damping();
-        if let Some(damping) = damping.as_ref().filter(|damping| damping.is_material()) {
+        if let Some(damping) = damping.filter(|damping| damping.is_material()) {
             for (n, block) in harmonics.iter_mut().enumerate() {
                 block
                     .set_material_damping(damping.material_retardation_time_s, damping.ratio_of(n));
@@ -207,7 +207,7 @@ impl Plate {
             contact: ContactTerms::default(),
             lifting: None,
             edge_stiffness: None,
-            damping,
+            damping: damping.cloned(),
             membrane,
             samples,
         };

@@ -4,11 +4,12 @@ use std::f64::consts::{PI, TAU};
 
 use super::check::{needed_teeth, refuse};
 use super::cut_file::{CutFile, CutSpeedFile};
-use super::quantity::{Quantity, quantity};
+use super::quantities::quantity;
+use super::quantity::Quantity;
 use super::teeth_in_cut::TeethInCut;
 use super::washboarding::Washboarding;
 use super::wood::Wood;
-use super::{Blade, RefusedValue, SceneError, SceneFile, rad_per_s};
+use super::{Blade, RefusedValue, SceneError, rad_per_s};
 use crate::text::{shown, shown_to};
 
 /// A validated cut.
@@ -64,10 +65,11 @@ const RPM: Quantity = quantity("cut.chart_rpm");
 impl Cut {
     pub(super) fn new(
         typed: &CutFile,
-        file: &SceneFile,
+        operating_rpm: Option<f64>,
+        teeth: Option<u32>,
         blade: &Blade,
     ) -> Result<Self, SceneError> {
-        let teeth = teeth_in_cut(typed, file.blade.teeth, blade)?;
+        let teeth = teeth_in_cut(typed, teeth, blade)?;
         let mut cut = Cut {
             teeth,
             idle_s: typed.idle_s,
@@ -79,7 +81,7 @@ impl Cut {
             file: typed.clone(),
             rim_radius_m: blade.outer_radius_m,
         };
-        let speeds: Vec<f64> = match (&typed.speeds[..], file.operating_rpm) {
+        let speeds: Vec<f64> = match (&typed.speeds[..], operating_rpm) {
             ([], Some(rpm)) => vec![rpm],
             (speeds, _) => speeds.iter().map(|speed| speed.rpm).collect(),
         };
@@ -215,7 +217,7 @@ fn mean(typed: &CutFile, all_teeth: u32, blade: &Blade) -> Result<f64, SceneErro
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
+    use crate::scene::{Scene, SceneFile};
 
     fn with(change: impl FnOnce(&mut SceneFile, &mut CutFile)) -> Result<Cut, SceneError> {
         let mut file = Scene::paper().file().clone();

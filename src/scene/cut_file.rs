@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::file::is_default;
-use super::quantity::typical_value;
+use super::check::is_default;
+use super::quantities::typical_value;
 use super::washboarding::WashboardingFile;
 use super::wood::WoodFile;
 

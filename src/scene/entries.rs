@@ -2,7 +2,8 @@
 
 use serde_json::Value;
 
-use super::SceneFile;
+use super::quantity::Quantity;
+use super::{RefusedValue, SceneFile};
 
 /// Keys that do not influence a computation.
 const NO_INPUTS: [&str; 4] = ["$schema", "name", "notes", "measured"];
@@ -10,7 +11,7 @@ const NO_INPUTS: [&str; 4] = ["$schema", "name", "notes", "measured"];
 impl SceneFile {
     /// Every value that may influence a computation, with its JSON path, in the order of the file.
     pub(crate) fn inputs(&self) -> Vec<(String, Value)> {
-        let mut json = super::parameter::value(self);
+        let mut json = value(self);
         if let Some(keys) = json.as_object_mut() {
             keys.retain(|key, _| !NO_INPUTS.contains(&key.as_str()));
         }
@@ -23,7 +24,7 @@ impl SceneFile {
     /// Every value with its JSON path, in the order of the file. A number that is not finite is null.
     pub(super) fn values(&self) -> Vec<(String, Value)> {
         let mut found = Vec::new();
-        below(super::parameter::value(self), "", &mut found);
+        below(value(self), "", &mut found);
         found
     }
 
@@ -32,6 +33,30 @@ impl SceneFile {
         let number = |(path, value): (String, Value)| Some((path, value.as_f64()?));
         self.values().into_iter().filter_map(number).collect()
     }
+
+    /// Checks that every number of a scene is in its allowed range. Rules that join several keys remain to be checked.
+    pub(super) fn check_numbers(&self) -> Result<(), RefusedValue> {
+        for (path, value) in self.values() {
+            let Some(quantity) = Quantity::of(&path) else {
+                continue;
+            };
+            match value {
+                // An entry of a list may be null, a key is left out.
+                Value::Null if path.ends_with(']') => (),
+                Value::Null => return Err(quantity.refused(&path, f64::NAN, "no finite number")),
+                value => {
+                    let number = value.as_f64().unwrap_or(f64::NAN);
+                    quantity.checked(&path, number)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The scene as a JSON value.
+pub(super) fn value(scene: &SceneFile) -> Value {
+    serde_json::to_value(scene).expect("keys are strings and numbers of a scene finite")
 }
 
 /// Formats a value for a reader: a text without quotation marks.

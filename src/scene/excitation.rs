@@ -3,9 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::needed_teeth;
-use super::file::is_default;
-use super::{SceneError, SceneFile};
+use super::SceneError;
+use super::check::{is_default, needed_teeth};
 
 /// Lines of the Campbell diagram at multiples of the rotation speed, and their crossings with the natural
 /// frequencies.
@@ -33,8 +32,11 @@ pub struct ExcitationLine {
 
 impl ExcitationLine {
     /// The lines of a scene, ascending and without duplicates.
-    pub(super) fn of(file: &SceneFile) -> Result<Vec<Self>, SceneError> {
-        let Some(typed) = file.excitation else {
+    pub(super) fn of(
+        typed: Option<ExcitationFile>,
+        teeth: Option<u32>,
+    ) -> Result<Vec<Self>, SceneError> {
+        let Some(typed) = typed else {
             return Ok(Vec::new());
         };
         let mut lines: Vec<Self> = (1..=typed.orders)
@@ -45,7 +47,7 @@ impl ExcitationLine {
             .collect();
         if typed.tooth_passing > 0 {
             let reason = "where excitation.tooth_passing is given";
-            let teeth = needed_teeth(file.blade.teeth, reason, "give the number of teeth")?;
+            let teeth = needed_teeth(teeth, reason, "give the number of teeth")?;
             let multiples = (1..=typed.tooth_passing).map(|multiple| ExcitationLine {
                 order: multiple.saturating_mul(teeth),
                 tooth_passing: Some(multiple),

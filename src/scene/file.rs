@@ -6,15 +6,17 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::blade::{BladeFile, Mount};
+use super::check::is_default;
 use super::cut_file::CutFile;
+use super::damping::DampingFile;
 use super::excitation::ExcitationFile;
 use super::friction::FrictionFile;
 use super::membrane::MembraneFile;
-use super::quantity::typical_value;
+use super::quantities::typical_value;
 use super::response::ResponseFile;
 use super::runup::{ProbeFile, RunUpFile};
 use super::spline::SplineFile;
-use super::thickness::{RimFile, ThicknessRow};
 
 /// A saw and the analysis, as written in a scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -85,68 +87,6 @@ pub struct SceneFile {
 /// The damping of a real saw, which a scene may omit, suppresses slower growth.
 fn default_flutter_threshold_per_s() -> f64 {
     const { typical_value("flutter_threshold_per_s") }
-}
-
-/// An annular blade.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct BladeFile {
-    /// Diameter of the rim.
-    pub outer_diameter_m: f64,
-    /// Diameter of the bore.
-    pub inner_diameter_m: f64,
-    /// Thickness of the plate; with a profile, from the bore to its first row.
-    pub thickness_m: f64,
-    /// Thickness at ascending radii, linear between the rows and constant beyond the last. Two rows at one
-    /// radius are a step, and so is a first row of another thickness. By default the thickness is uniform.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub profile: Vec<ThicknessRow>,
-    /// Number of teeth. They have no stiffness in the model, and no mass unless `rim` gives it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub teeth: Option<u32>,
-    /// Mass of teeth or carbide tips. None by default.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub rim: Option<RimFile>,
-    /// Linear elastic, isotropic material.
-    pub material: Material,
-}
-
-/// Isotropic elastic material.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Material {
-    /// Young's modulus E.
-    pub youngs_modulus_pa: f64,
-    /// Poisson's ratio ν, −1 < ν < 0.5.
-    pub poisson_ratio: f64,
-    /// Density ρ.
-    pub density_kg_per_m3: f64,
-}
-
-/// Support of the bore.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
-pub enum Mount {
-    /// Loose on a splined arbor: the bore is free in bending and in plane.
-    Spline {},
-    /// Clamped between collars or flanges: no deflection and no slope at their edge.
-    Collar {
-        /// Diameter of the collar; the blade inside it does not move.
-        diameter_m: f64,
-        /// Condition in the plane of the blade at the edge of the collar.
-        in_plane: InPlane,
-    },
-}
-
-/// In-plane condition at the edge of a collar. It changes critical speeds by 15 % for a blade of 400 mm, so
-/// there is no default.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum InPlane {
-    /// No radial displacement at the collar.
-    Fixed,
-    /// No radial stress at the collar.
-    Free,
 }
 
 /// A guide pad with one length along and one across the radius at its centre. With zero size it is a point
@@ -226,45 +166,6 @@ pub enum GuideSide {
     Left,
     /// The side of negative deflections.
     Right,
-}
-
-/// Whether a written scene omits a value, because it is the default of its type.
-pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
-    *value == T::default()
-}
-
-/// Damping of the blade: the contributions of the material, which turns with the blade, and of the air add up.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct DampingFile {
-    /// Kelvin–Voigt retardation time η of the material, which turns with the blade.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub material_retardation_time_s: f64,
-    /// Loss factor of the blade, twice the damping ratio of every mode of the blade at rest without guides. It acts in the
-    /// frame of the blade, as viscous damping with this ratio at the frequency of each of these modes.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub loss_factor: f64,
-    /// Measured damping ratios of modes of the blade at rest without guides, by their number of nodal diameters, in place of half
-    /// the loss factor.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub mode_ratios: Vec<ModeRatioRow>,
-    /// Viscous resistance per area of the surrounding air.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub air_n_s_per_m3: f64,
-    /// Ratio of the rotation speed of the air to that of the blade: 0, by default, for air at rest in space; 1 for
-    /// air that turns with the blade.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub air_rotation_share: f64,
-}
-
-/// Damping ratio of the modes with a number of nodal diameters.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ModeRatioRow {
-    /// Number of nodal diameters.
-    pub diameters: u32,
-    /// Damping ratio, the share of critical damping: the logarithmic decrement over 2π.
-    pub damping_ratio: f64,
 }
 
 /// Range of rotation speeds.

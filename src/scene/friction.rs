@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::quantity::typical_value;
+use super::quantities::typical_value;
 
 /// Friction of the guide pads and cooling of the blade that it heats, for `sawflutter gap`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

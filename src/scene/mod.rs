@@ -5,9 +5,11 @@
 //! remedy. The name of a key contains its unit. [`Scene::edited`] is the only way to change a scene, and it
 //! validates again, so that every scene is valid.
 
+mod blade;
 mod check;
 mod cut;
 mod cut_file;
+mod damping;
 mod entries;
 mod excitation;
 mod file;
@@ -31,6 +33,7 @@ mod runup;
 mod schema;
 mod setting;
 mod span;
+mod speed_range;
 mod spline;
 mod straight_edge;
 mod teeth_in_cut;
@@ -45,14 +48,17 @@ mod washboarding;
 mod wood;
 
 pub use crate::text::FileError;
+pub(crate) use blade::RimMass;
+pub use blade::{Blade, BladeFile, Bore, InPlane, Material, Mount, RimFile};
 pub(crate) use cut::in_words as in_the_cut;
 pub use cut::{Cut, CutRun};
 pub use cut_file::{CutFile, CutSpeedFile};
+pub use damping::{DampingFile, ModeRatioRow};
 pub(crate) use entries::in_words;
 pub use excitation::{ExcitationFile, ExcitationLine};
 pub use file::{
-    Accuracy, BladeFile, ContactLaw, DampingFile, GuideFile, GuideShape, GuideSide, InPlane,
-    Material, Measured, MeasuredRow, ModeRatioRow, Mount, SceneFile, SweepFile,
+    Accuracy, ContactLaw, GuideFile, GuideShape, GuideSide, Measured, MeasuredRow, SceneFile,
+    SweepFile,
 };
 #[doc(hidden)]
 pub use freed::spread;
@@ -62,18 +68,17 @@ pub use friction::FrictionFile;
 pub(crate) use guide::{Guide, Lifting};
 pub(crate) use membrane::{Membrane, Temperature, TemperatureShape};
 pub use membrane::{MembraneFile, TemperatureFile, TemperatureRow};
-pub(crate) use needed::speed_rad_per_s;
 pub use parameter::Parameter;
 pub(crate) use profile::Profile;
 #[cfg(any(test, feature = "page"))]
 pub(crate) use quantities::QUANTITIES;
+pub(crate) use quantities::{quantity, typical_value};
 pub use quantity::{Kind, Quantity, Typical};
-pub(crate) use quantity::{quantity, typical_value};
+pub use read::MAX_SCENE_BYTES;
 #[cfg(feature = "cli")]
 pub(crate) use read::SCENE_TEXT;
-pub use read::{MAX_SCENE_BYTES, SceneError};
 pub(crate) use refused::Given;
-pub use refused::RefusedValue;
+pub use refused::{RefusedValue, SceneError};
 pub(crate) use residual::ResidualStress;
 pub use residual::ResidualStressRow;
 pub use response::ResponseFile;
@@ -86,16 +91,15 @@ pub use schema::json_schema;
 pub(crate) use schema::{Key, keys};
 pub use setting::{Setting, number_of};
 pub use span::Span;
-pub(crate) use spline::Spline;
+pub use speed_range::SpeedRange;
+pub(crate) use speed_range::speed_rad_per_s;
 pub use spline::SplineFile;
 pub(crate) use straight_edge::StraightEdge;
 pub use straight_edge::StraightEdgeFile;
 pub use teeth_in_cut::{TeethInCut, Tooth};
-pub use thickness::{RimFile, ThicknessRow};
-pub(crate) use thickness::{RimMass, ThicknessProfile};
+pub use thickness::ThicknessRow;
 pub(crate) use unusual::unusual_number;
-pub(crate) use validated::Damping;
-pub use validated::{Blade, Bore, Scene, SpeedRange};
+pub use validated::Scene;
 pub use washboarding::WashboardingFile;
 pub(crate) use washboarding::{MAX_CUTTING_STIFFNESS, Washboarding};
 pub(crate) use wood::Wood;

@@ -1,11 +1,6 @@
 //! Blocks of a scene that are optional in general but required by some commands.
 
-use super::quantity::quantity;
-use super::{
-    Cut, CutRun, Measured, RefusedValue, RunUp, Scene, SceneError, SpeedRange, Washboarding,
-    rad_per_s, rpm,
-};
-use crate::text::shown;
+use super::{Cut, CutRun, Measured, RefusedValue, RunUp, Scene, SceneError, Washboarding};
 
 impl Scene {
     /// The cut, for commands that require it.
@@ -89,52 +84,4 @@ impl Cut {
         }
         Ok(self.runs.clone())
     }
-}
-
-impl From<(f64, f64)> for SpeedRange {
-    /// The range between two speeds, in rad/s.
-    fn from((from_rad_per_s, to_rad_per_s): (f64, f64)) -> Self {
-        SpeedRange {
-            from_rad_per_s,
-            to_rad_per_s,
-        }
-    }
-}
-
-/// Converts a speed to rpm and removes the rounding error of the conversion.
-fn rounded_rpm(rad_per_s: f64) -> f64 {
-    (1e3 * rpm(rad_per_s)).round() / 1e3
-}
-
-impl SpeedRange {
-    /// Converts an argument in rpm to rad/s.
-    ///
-    /// # Errors
-    /// [`RefusedValue`] if the speed is outside the range; `key` names the argument.
-    pub fn speed_at(&self, key: &str, rpm: f64) -> Result<f64, RefusedValue> {
-        let speed = rad_per_s(rpm);
-        let (from, to) = (self.from_rad_per_s, self.to_rad_per_s);
-        // Rounding in the conversion from rpm must not exclude the ends of the sweep.
-        if from <= speed * (1.0 + 1e-12) && speed * (1.0 - 1e-12) <= to {
-            return Ok(speed);
-        }
-        let allowed = format!(
-            "from {} to {}, the speeds of the sweep",
-            shown(rounded_rpm(from)),
-            shown(rounded_rpm(to))
-        );
-        let remedy = "name one of these, or widen `sweep` in the scene";
-        Err(RefusedValue::new(key, rpm, allowed, remedy))
-    }
-}
-
-/// Converts an argument in rpm, which must be positive, to rad/s; `key` names it in the error.
-pub(crate) fn speed_rad_per_s(key: &str, rpm: f64) -> Result<f64, RefusedValue> {
-    const MAX_RPM: f64 = quantity("operating_rpm").allowed.to;
-    if rpm > 0.0 && rpm <= MAX_RPM {
-        return Ok(rad_per_s(rpm));
-    }
-    let allowed = format!("above 0 and at most {}", shown(MAX_RPM));
-    let remedy = "give it in revolutions per minute";
-    Err(RefusedValue::new(key, rpm, allowed, remedy))
 }

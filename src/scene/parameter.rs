@@ -2,6 +2,7 @@
 
 use serde_json::{Number, Value};
 
+use super::entries::value;
 use super::{RefusedValue, Scene, SceneError, SceneFile};
 
 /// Path of a number of a scene, as in error messages: `guides[0].radius_m`.
@@ -69,11 +70,6 @@ impl SceneFile {
         }
         Scene::from_json(&json.to_string())
     }
-}
-
-/// The scene as a JSON value.
-pub(super) fn value(scene: &SceneFile) -> Value {
-    serde_json::to_value(scene).expect("keys are strings and numbers of a scene finite")
 }
 
 #[cfg(test)]

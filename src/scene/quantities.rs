@@ -107,7 +107,7 @@ pub const QUANTITIES: [Quantity; 102] = [
     q("spline.contact_damping_n_s_3_2_per_m_3_2", "contact damping", "N·(s/m)^(3/2)", CONTACT, 1e-3, 1e9),
     q("spline.clearance_m", "clearance of the spline", "m", NOT_NEGATIVE, 1e-7, 0.02),
     q("spline.pitch_radius_m", "pitch radius of the spline", "m", POSITIVE, 1e-3, 1.0),
-    q("spline.weight_angle_deg", "direction of the weight", "°", ANGLE, -360.0, 360.0),
+    q("spline.weight_angle_deg", "direction of the weight", "°", ANGLE, -360.0, 360.0).of_kind(Kind::Angle),
     q("operating_rpm", "operating speed", "rpm", SPEED, 30.0, 6e4)
         .typically(60.0, "m/s at the rim", 40.0, 100.0, "the paper's saw runs at 67 m/s; makers of carbide-tipped blades allow 100"),
     // More lines would hide the branches.
@@ -177,3 +177,148 @@ pub const QUANTITIES: [Quantity; 102] = [
     q("measured.rows[].rpm", "rotation speed", "rpm", SPEED, 0.0, 1e5),
     q("measured.rows[].frequencies_hz[]", "frequency", "Hz", NOT_NEGATIVE, 0.0, 1e5),
 ];
+
+impl Quantity {
+    /// The quantity of a path such as `guides[0].radius_m`; `None` if scenes have no such number.
+    pub fn of(path: &str) -> Option<&'static Self> {
+        let general = general(path);
+        QUANTITIES.iter().find(|quantity| quantity.path == general)
+    }
+
+    /// The kind of the number at a path.
+    pub fn kind_of(path: &str) -> Kind {
+        Self::of(path).map_or(Kind::Other, |quantity| quantity.kind)
+    }
+}
+
+/// The quantity with this path, with `[]` for indices. Use it in constants: then a path that is not in the table does not
+/// compile.
+pub(crate) const fn quantity(path: &str) -> Quantity {
+    let mut k = 0;
+    while k < QUANTITIES.len() {
+        let own = QUANTITIES[k].path.as_bytes();
+        let mut same = own.len() == path.len();
+        let mut at = 0;
+        while same && at < own.len() {
+            same = own[at] == path.as_bytes()[at];
+            at += 1;
+        }
+        if same {
+            return QUANTITIES[k];
+        }
+        k += 1;
+    }
+    panic!("the table of quantities has no such path")
+}
+
+/// The typical value of the quantity with this path, for constants.
+pub(crate) const fn typical_value(path: &str) -> f64 {
+    match quantity(path).typical {
+        Some(typical) => typical.value,
+        None => panic!("the quantity has no typical value"),
+    }
+}
+
+/// A path with `[]` for the index of a list.
+pub(super) fn general(path: &str) -> String {
+    let mut general = String::new();
+    let mut inside = false;
+    for character in path.chars() {
+        inside &= character != ']';
+        if !inside {
+            general.push(character);
+        }
+        inside |= character == '[';
+    }
+    general
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::json_schema;
+    use crate::scene::schema::keys;
+
+    #[test]
+    fn kinds_follow_from_the_last_key_and_from_guides() {
+        let kinds = [
+            ("guides[2].radius_m", Kind::GuideRadius),
+            ("probe.radius_m", Kind::Radius),
+            ("cut.angle_deg", Kind::Angle),
+            ("cut.wood.stiffness_n_per_m", Kind::Stiffness),
+            ("guides[0].damping_n_s_per_m", Kind::Damping),
+            ("blade.thickness_m", Kind::Other),
+        ];
+        for (path, kind) in kinds {
+            assert_eq!(Quantity::kind_of(path), kind, "{path}");
+        }
+        // A number that is added to the table has the kind of those with the same last key.
+        for (k, one) in QUANTITIES.iter().enumerate() {
+            let last = |quantity: &Quantity| quantity.path.rsplit('.').next();
+            let is_guide = |quantity: &Quantity| quantity.kind == Kind::GuideRadius;
+            let alike = QUANTITIES[..k]
+                .iter()
+                .filter(|other| last(other) == last(one));
+            for other in alike.filter(|other| !is_guide(other) && !is_guide(one)) {
+                assert_eq!(one.kind, other.kind, "{} {}", one.path, other.path);
+            }
+        }
+    }
+
+    #[test]
+    fn the_table_has_the_numbers_of_the_schema_and_no_others() {
+        let schema = json_schema();
+        let is_of = |path: &str, kind: &str| {
+            let key = keys(&schema).into_iter().find(|key| key.path == path);
+            let node = key.and_then(|key| schema.pointer(&key.pointer).cloned());
+            node.is_some_and(|node| node["type"] == kind || node["type"][0] == kind)
+        };
+        let mut of_schema: Vec<String> = keys(&schema).into_iter().map(|key| key.path).collect();
+        of_schema.retain(|path| is_of(path, "number") || is_of(path, "integer"));
+        let mut of_table: Vec<String> = QUANTITIES.iter().map(|q| q.path.to_owned()).collect();
+        of_schema.sort();
+        of_table.sort();
+        assert_eq!(of_table, of_schema);
+        for quantity in QUANTITIES {
+            let is_count = quantity.kind == Kind::Count;
+            assert_eq!(
+                is_of(quantity.path, "integer"),
+                is_count,
+                "{}",
+                quantity.path
+            );
+        }
+    }
+
+    #[test]
+    fn usual_and_typical_values_are_allowed_and_usual() {
+        for quantity in QUANTITIES {
+            let path = quantity.path;
+            for end in [quantity.usual.0, quantity.usual.1] {
+                assert!(
+                    end == 0.0 || quantity.allowed.contains(end),
+                    "{path}: {end}"
+                );
+            }
+            let Some(typical) = quantity.typical else {
+                continue;
+            };
+            let (low, high) = typical.common;
+            assert!((low..=high).contains(&typical.value), "{path}");
+            for value in [typical.value, low, high] {
+                assert!(
+                    !typical.is_number() || quantity.is_usual(value),
+                    "{path}: {value}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_quantity_is_found_by_the_path_of_an_error() {
+        let radius = Quantity::of("guides[12].radius_m").unwrap();
+        assert_eq!((radius.name, radius.unit), ("radius of the guide", "m"));
+        assert!(Quantity::of("measured.rows[0].frequencies_hz[3]").is_some());
+        assert!(Quantity::of("guides[0]").is_none());
+    }
+}

@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use super::RefusedValue;
-use super::quantities::QUANTITIES;
 use super::span::Span;
 use crate::text::shown;
 
@@ -108,46 +107,7 @@ impl Quantity {
     }
 }
 
-/// The quantity with this path, with `[]` for indices. Use it in constants: then a path that is not in the table does not
-/// compile.
-pub(crate) const fn quantity(path: &str) -> Quantity {
-    let mut k = 0;
-    while k < QUANTITIES.len() {
-        let own = QUANTITIES[k].path.as_bytes();
-        let mut same = own.len() == path.len();
-        let mut at = 0;
-        while same && at < own.len() {
-            same = own[at] == path.as_bytes()[at];
-            at += 1;
-        }
-        if same {
-            return QUANTITIES[k];
-        }
-        k += 1;
-    }
-    panic!("the table of quantities has no such path")
-}
-
-/// The typical value of the quantity with this path, for constants.
-pub(crate) const fn typical_value(path: &str) -> f64 {
-    match quantity(path).typical {
-        Some(typical) => typical.value,
-        None => panic!("the quantity has no typical value"),
-    }
-}
-
 impl Quantity {
-    /// The quantity of a path such as `guides[0].radius_m`; `None` if scenes have no such number.
-    pub fn of(path: &str) -> Option<&'static Self> {
-        let general = general(path);
-        QUANTITIES.iter().find(|quantity| quantity.path == general)
-    }
-
-    /// The kind of the number at a path.
-    pub fn kind_of(path: &str) -> Kind {
-        Self::of(path).map_or(Kind::Other, |quantity| quantity.kind)
-    }
-
     /// Returns a number if it is in the allowed range; `key` names it in the error.
     ///
     /// # Errors
@@ -190,20 +150,6 @@ impl Quantity {
     }
 }
 
-/// A path with `[]` for the index of a list.
-pub(super) fn general(path: &str) -> String {
-    let mut general = String::new();
-    let mut inside = false;
-    for character in path.chars() {
-        inside &= character != ']';
-        if !inside {
-            general.push(character);
-        }
-        inside |= character == '[';
-    }
-    general
-}
-
 impl Typical {
     /// Whether the value is the number of the key.
     pub fn is_number(&self) -> bool {
@@ -216,95 +162,5 @@ impl Typical {
         let space = if self.is_number() { "" } else { " " };
         let (of, basis) = (self.of, self.basis);
         format!("Typically {value}{space}{of}, from {low} to {high} ({basis}).")
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::json_schema;
-    use crate::scene::schema::keys;
-
-    #[test]
-    fn kinds_follow_from_the_last_key_and_from_guides() {
-        let kinds = [
-            ("guides[2].radius_m", Kind::GuideRadius),
-            ("probe.radius_m", Kind::Radius),
-            ("cut.angle_deg", Kind::Angle),
-            ("cut.wood.stiffness_n_per_m", Kind::Stiffness),
-            ("guides[0].damping_n_s_per_m", Kind::Damping),
-            ("blade.thickness_m", Kind::Other),
-        ];
-        for (path, kind) in kinds {
-            assert_eq!(Quantity::kind_of(path), kind, "{path}");
-        }
-        // A number that is added to the table has the kind of those with the same last key.
-        for (k, one) in QUANTITIES.iter().enumerate() {
-            let last = |quantity: &Quantity| quantity.path.rsplit('.').next();
-            let is_guide = |quantity: &Quantity| quantity.kind == Kind::GuideRadius;
-            let alike = QUANTITIES[..k]
-                .iter()
-                .filter(|other| last(other) == last(one));
-            for other in alike.filter(|other| !is_guide(other) && !is_guide(one)) {
-                assert_eq!(one.kind, other.kind, "{} {}", one.path, other.path);
-            }
-        }
-    }
-
-    #[test]
-    fn the_table_has_the_numbers_of_the_schema_and_no_others() {
-        let schema = json_schema();
-        let is_of = |path: &str, kind: &str| {
-            let key = keys(&schema).into_iter().find(|key| key.path == path);
-            let node = key.and_then(|key| schema.pointer(&key.pointer).cloned());
-            node.is_some_and(|node| node["type"] == kind || node["type"][0] == kind)
-        };
-        let mut of_schema: Vec<String> = keys(&schema).into_iter().map(|key| key.path).collect();
-        of_schema.retain(|path| is_of(path, "number") || is_of(path, "integer"));
-        let mut of_table: Vec<String> = QUANTITIES.iter().map(|q| q.path.to_owned()).collect();
-        of_schema.sort();
-        of_table.sort();
-        assert_eq!(of_table, of_schema);
-        for quantity in QUANTITIES {
-            let is_count = quantity.kind == Kind::Count;
-            assert_eq!(
-                is_of(quantity.path, "integer"),
-                is_count,
-                "{}",
-                quantity.path
-            );
-        }
-    }
-
-    #[test]
-    fn usual_and_typical_values_are_allowed_and_usual() {
-        for quantity in QUANTITIES {
-            let path = quantity.path;
-            for end in [quantity.usual.0, quantity.usual.1] {
-                assert!(
-                    end == 0.0 || quantity.allowed.contains(end),
-                    "{path}: {end}"
-                );
-            }
-            let Some(typical) = quantity.typical else {
-                continue;
-            };
-            let (low, high) = typical.common;
-            assert!((low..=high).contains(&typical.value), "{path}");
-            for value in [typical.value, low, high] {
-                assert!(
-                    !typical.is_number() || quantity.is_usual(value),
-                    "{path}: {value}"
-                );
-            }
-        }
-    }
-
-    #[test]
-    fn a_quantity_is_found_by_the_path_of_an_error() {
-        let radius = Quantity::of("guides[12].radius_m").unwrap();
-        assert_eq!((radius.name, radius.unit), ("radius of the guide", "m"));
-        assert!(Quantity::of("measured.rows[0].frequencies_hz[3]").is_some());
-        assert!(Quantity::of("guides[0]").is_none());
     }
 }

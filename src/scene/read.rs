@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::{RefusedValue, Scene, SceneFile};
-use crate::text::{FileError, KeyedError, Kind, OtherEncodings, from_keyed_json, read_path};
+use super::{Scene, SceneError, SceneFile};
+use crate::text::{KeyedError, Kind, OtherEncodings, from_keyed_json, read_path};
 
 /// Largest size of a scene file; a larger file is not a scene.
 #[doc(hidden)]
@@ -14,30 +14,6 @@ pub(crate) const SCENE_TEXT: Kind = Kind {
     limit: MAX_SCENE_BYTES,
     other_encodings: OtherEncodings::Refused,
 };
-
-/// Reason for which a scene was refused.
-#[derive(Debug, thiserror::Error)]
-pub enum SceneError {
-    /// The file could not be read as text.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// The file is empty or contains only white space.
-    #[error(
-        "the scene is empty; `sawflutter schema` prints what it may contain, and scenes/ has examples"
-    )]
-    Empty,
-    /// The text is not JSON or not a scene: wrong type, unknown or missing key.
-    #[error("{key}: {message}")]
-    Syntax {
-        /// JSON path of the key.
-        key: String,
-        /// Description of the error, with remedy and line.
-        message: String,
-    },
-    /// A value is outside its range.
-    #[error(transparent)]
-    Value(#[from] RefusedValue),
-}
 
 impl Scene {
     /// The paper's guided spline saw, as in `scenes/paper.json`.

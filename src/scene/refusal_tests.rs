@@ -151,7 +151,7 @@ fn every_number_out_of_its_range_is_refused_by_its_key() {
         };
         for (inside, outside) in ends(quantity) {
             let file = Scene::file_from_json(&with(inside).to_string()).unwrap();
-            if let Err(error) = super::check::numbers(&file) {
+            if let Err(error) = file.check_numbers() {
                 wrong.push(format!("{inside}: {error}"));
             }
             let bound = if outside > inside {
@@ -175,31 +175,23 @@ fn every_number_out_of_its_range_is_refused_by_its_key() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Numbers at the ends of their ranges, and numbers that contradict others: the changes of the scene, and the key that is
-/// refused.
+/// Numbers that contradict others: the changes of the scene, and the key that is refused.
 const CONTRADICTIONS: &str = r#"[
     [{ "blade.teeth": null }, "blade.teeth"],
     [{ "blade.inner_diameter_m": 0.8 }, "blade.inner_diameter_m"],
-    [{ "blade.material.poisson_ratio": 0.5 }, "blade.material.poisson_ratio"],
     [{ "guides.0.radius_m": 3.0 }, "guides[0].radius_m"],
     [{ "guides.0.tangential_length_m": 0 }, "guides[0].tangential_length_m"],
     [{ "guides.0.offset_m": 1e-5 }, "guides[0].offset_m"],
     [{ "guides.0.film_stiffness_n_per_m": 1e5 }, "guides[0].film_stiffness_n_per_m"],
     [{ "guides.0.side": "right" }, "guides[0].side"],
     [{ "guides.0.contact": "one_sided" }, "guides[0].gap_m"],
-    [{ "guides.0.contact": "one_sided", "guides.0.gap_m": 0 }, "guides[0].gap_m"],
     [{ "guides.0.contact": "one_sided", "guides.0.gap_m": 4e-5, "guides.0.stiffness_n_per_m": 0 },
         "guides[0].stiffness_n_per_m"],
     [{ "guides.0.contact": "one_sided", "guides.0.gap_m": 4e-5, "guides.0.film_stiffness_n_per_m": 3e7 },
         "guides[0].film_stiffness_n_per_m"],
     [{ "sweep": { "from_rpm": 9, "to_rpm": 9 } }, "sweep.to_rpm"],
     [{ "cut.teeth_in_cut": 43 }, "cut.teeth_in_cut"],
-    [{ "cut.speeds.1.rpm": 0 }, "cut.speeds[1].rpm"],
     [{ "cut": { "teeth_in_cut": 1, "speeds": [{ "rpm": 1000 }] } }, "cut.tangential_n_per_tooth"],
-    [{ "cut.washboarding": { "stiffness_n_per_m": 0 } }, "cut.washboarding.stiffness_n_per_m"],
-    [{ "cut.washboarding": { "stiffness_n_per_m": 1e12 } }, "cut.washboarding.stiffness_n_per_m"],
-    [{ "cut.washboarding": { "stiffness_n_per_m": 1e4, "overlap": 1.1 } }, "cut.washboarding.overlap"],
-    [{ "cut.washboarding": { "stiffness_n_per_m": 1e4, "arc_deg": 400 } }, "cut.washboarding.arc_deg"],
     [{ "cut.washboarding": { "stiffness_n_per_m": 1e4, "pitches_deg": [8, 8, 8, 8, 8] } },
         "cut.washboarding.pitches_deg"],
     [{ "cut.washboarding": { "stiffness_n_per_m": 1e4, "pitches_deg": [8, 9.9] } }, "cut.washboarding.pitches_deg"],
@@ -208,29 +200,15 @@ const CONTRADICTIONS: &str = r#"[
     [{ "mount": { "kind": "collar", "diameter_m": 0.3, "in_plane": "free" },
         "spline": { "teeth": 20, "pressure_angle_deg": 30, "contact_stiffness_n_per_m_3_2": 7e9,
             "contact_damping_n_s_3_2_per_m_3_2": 0 } }, "mount.kind"],
-    [{ "spline": { "teeth": 0, "pressure_angle_deg": 30, "contact_stiffness_n_per_m_3_2": 7e9,
-        "contact_damping_n_s_3_2_per_m_3_2": 0 } }, "spline.teeth"],
-    [{ "spline": { "teeth": 20, "pressure_angle_deg": 90, "contact_stiffness_n_per_m_3_2": 7e9,
-        "contact_damping_n_s_3_2_per_m_3_2": 0 } }, "spline.pressure_angle_deg"],
-    [{ "spline": { "teeth": 20, "pressure_angle_deg": 30, "contact_stiffness_n_per_m_3_2": 0,
-        "contact_damping_n_s_3_2_per_m_3_2": 0 } }, "spline.contact_stiffness_n_per_m_3_2"],
     [{ "spline": { "teeth": 20, "pressure_angle_deg": 30, "contact_stiffness_n_per_m_3_2": 7e9,
         "contact_damping_n_s_3_2_per_m_3_2": 0, "clearance_m": 0.25 } }, "spline.clearance_m"],
     [{ "membrane": { "temperature": { "expansion_per_k": 1e-5, "table": [
         { "radius_m": 0.2, "rise_k": 1 }, { "radius_m": 0.4, "rise_k": 1 }] } } },
         "membrane.temperature.table[1].radius_m"],
-    [{ "membrane": { "temperature": { "expansion_per_k": 1e-5, "rim_rise_k": 1, "exponent": 21 } } },
-        "membrane.temperature.exponent"],
-    [{ "membrane": { "roll_tension": [{ "radius_m": 0.2, "width_m": 0.01, "eigenstrain": 1 }] } },
-        "membrane.roll_tension[0].eigenstrain"],
-    [{ "membrane": { "roll_tension": [{ "radius_m": 0.2, "width_m": 0.01, "groove_depth_m": -1e-6 }] } },
-        "membrane.roll_tension[0].groove_depth_m"],
     [{ "membrane": { "roll_tension": [{ "radius_m": 0.2, "width_m": 0.01 }] } }, "membrane.roll_tension[0]"],
     [{ "membrane": { "roll_tension": [
         { "radius_m": 0.2, "width_m": 0.01, "eigenstrain": 1e-4, "groove_depth_m": 1e-6 }] } },
-        "membrane.roll_tension[0]"],
-    [{ "membrane": { "roll_tension": [{ "radius_m": 0.2, "width_m": 0, "eigenstrain": 1e-4 }] } },
-        "membrane.roll_tension[0].width_m"]
+        "membrane.roll_tension[0]"]
 ]"#;
 
 #[test]

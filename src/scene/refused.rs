@@ -1,6 +1,6 @@
-//! The four parts of a message about a value that cannot be used.
+//! Errors of a scene, and the four parts of a message about a value that cannot be used.
 
-use crate::text::shown;
+use crate::text::{FileError, shown};
 
 /// A value of a scene, a study or an argument that cannot be used. Program, live page and Python package show
 /// this message and add only the name of their option.
@@ -84,4 +84,28 @@ impl<T: Given + ?Sized> Given for &T {
     fn in_words(&self) -> String {
         (*self).in_words()
     }
+}
+
+/// Reason for which a scene was refused.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// The file could not be read as text.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The file is empty or contains only white space.
+    #[error(
+        "the scene is empty; `sawflutter schema` prints what it may contain, and scenes/ has examples"
+    )]
+    Empty,
+    /// The text is not JSON or not a scene: wrong type, unknown or missing key.
+    #[error("{key}: {message}")]
+    Syntax {
+        /// JSON path of the key.
+        key: String,
+        /// Description of the error, with remedy and line.
+        message: String,
+    },
+    /// A value is outside its range.
+    #[error(transparent)]
+    Value(#[from] RefusedValue),
 }

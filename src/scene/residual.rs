@@ -47,7 +47,7 @@ impl ResidualStress {
         let key = "membrane.residual_stress";
         few(key, rows.len())?;
         let radii: Vec<f64> = rows.iter().map(|row| row.radius_m).collect();
-        ascending(key, &radii, blade)?;
+        ascending(key, &radii, blade.outer_radius_m)?;
         let sizes = rows
             .iter()
             .flat_map(|row| [Some(row.hoop_pa), row.radial_pa])

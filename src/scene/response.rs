@@ -3,8 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::refuse;
-use super::file::is_default;
+use super::check::{is_default, refuse};
 use super::{Blade, SceneError};
 use crate::text::shown;
 

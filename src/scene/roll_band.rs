@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::check::refuse;
-use super::quantity::quantity;
+use super::quantities::quantity;
 use super::{Blade, RefusedValue, SceneError};
 use crate::text::shown;
 

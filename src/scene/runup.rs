@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{refuse, speeds};
-use super::file::is_default;
+use super::check::{is_default, refuse};
+use super::speed_range::speeds;
 use super::{Blade, SceneError, SpeedRange};
 use crate::text::shown;
 

@@ -4,8 +4,8 @@ use std::str::FromStr;
 
 use serde_json::{Map, Number, Value};
 
-use super::quantities::QUANTITIES;
-use super::quantity::{Quantity, general};
+use super::quantities::{QUANTITIES, general};
+use super::quantity::Quantity;
 use super::unit::Unit;
 use super::{RefusedValue, Scene, SceneError, SceneFile};
 
@@ -150,7 +150,7 @@ impl SceneFile {
     /// # Errors
     /// [`SceneError`] if the scene has no place for a number, or a value is refused.
     pub fn set(&self, settings: &[Setting]) -> Result<Scene, SceneError> {
-        let mut json = super::parameter::value(self);
+        let mut json = super::entries::value(self);
         for setting in settings {
             put(&mut json, setting)?;
         }

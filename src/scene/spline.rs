@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::check::refuse;
-use super::{Blade, Mount, RefusedValue, SceneError, SceneFile};
+use super::{Blade, Mount, RefusedValue, SceneError};
 use crate::text::shown;
 
 /// Contact between the splined bore and the arbor; with it the in-plane motion of the blade is simulated.
@@ -44,71 +44,37 @@ fn papers_clearance_m() -> f64 {
     0.25e-3
 }
 
-/// Validated contact between bore and arbor.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Spline {
-    /// Number of spline teeth.
-    pub teeth: usize,
-    /// Angle between a flank and the radius through it.
-    pub pressure_angle_rad: f64,
-    /// K of the contact force K x^{3/2}.
-    pub contact_stiffness_n_per_m_3_2: f64,
-    /// C of the contact force C ẋ^{3/2}.
-    pub contact_damping_n_s_3_2_per_m_3_2: f64,
-    /// Gap at every flank while the blade is centred.
-    pub clearance_m: f64,
-    /// Radius of the contact.
-    pub pitch_radius_m: f64,
-    /// Direction of the weight, if it acts in the plane of the blade.
-    pub weight_angle_rad: Option<f64>,
-}
-
-impl Spline {
-    pub(super) fn of(file: &SceneFile, blade: &Blade) -> Result<Option<Self>, SceneError> {
-        let Some(typed) = &file.spline else {
-            return Ok(None);
-        };
-        if let Mount::Collar { .. } = file.mount {
+impl SplineFile {
+    /// Checks that the bore of a blade with a mount has room for the contact.
+    pub(super) fn checked(&self, mount: &Mount, blade: &Blade) -> Result<(), SceneError> {
+        if let Mount::Collar { .. } = mount {
             let allowed = "spline when the scene has a spline block";
             let remedy = "a collar holds the blade in its plane; leave one of the two out";
             return Err(RefusedValue::new("mount.kind", "collar", allowed, remedy).into());
         }
-        Self::measured(typed, blade).map(Some)
-    }
-
-    fn measured(typed: &SplineFile, blade: &Blade) -> Result<Self, SceneError> {
         let bore = blade.inner_radius_m;
-        if typed.clearance_m > bore {
+        if self.clearance_m > bore {
             let allowed = format!("at most the radius of the bore ({})", shown(bore));
             let remedy = "with a larger one the blade would fall off the arbor";
             return Err(refuse(
                 "spline.clearance_m",
-                typed.clearance_m,
+                self.clearance_m,
                 allowed,
                 remedy,
             ));
         }
-        let pitch_radius_m = typed.pitch_radius_m.unwrap_or(bore);
         let (least, most) = (0.5 * bore, blade.outer_radius_m);
-        if !(least..=most).contains(&pitch_radius_m) {
+        if let Some(radius) = self.pitch_radius_m.filter(|r| !(least..=most).contains(r)) {
             let allowed = format!("between {} and {}", shown(least), shown(most));
             let remedy = "give the radius at which the flanks touch, near that of the bore";
-            return Err(refuse(
-                "spline.pitch_radius_m",
-                pitch_radius_m,
-                allowed,
-                remedy,
-            ));
+            return Err(refuse("spline.pitch_radius_m", radius, allowed, remedy));
         }
-        Ok(Spline {
-            teeth: typed.teeth as usize,
-            pressure_angle_rad: typed.pressure_angle_deg.to_radians(),
-            contact_stiffness_n_per_m_3_2: typed.contact_stiffness_n_per_m_3_2,
-            contact_damping_n_s_3_2_per_m_3_2: typed.contact_damping_n_s_3_2_per_m_3_2,
-            clearance_m: typed.clearance_m,
-            pitch_radius_m,
-            weight_angle_rad: typed.weight_angle_deg.map(f64::to_radians),
-        })
+        Ok(())
+    }
+
+    /// Radius of the contact with a blade.
+    pub(crate) fn pitch_radius_on_m(&self, blade: &Blade) -> f64 {
+        self.pitch_radius_m.unwrap_or(blade.inner_radius_m)
     }
 }
 
@@ -123,10 +89,9 @@ mod tests {
             "contact_stiffness_n_per_m_3_2": 7e9, "contact_damping_n_s_3_2_per_m_3_2": 0 }"#;
         let typed: SplineFile = serde_json::from_str(typed).unwrap();
         let blade = Scene::paper().blade;
-        let spline = Spline::measured(&typed, &blade).unwrap();
-        assert_eq!(spline.clearance_m, 0.25e-3);
-        assert_eq!(spline.pitch_radius_m, blade.inner_radius_m);
-        assert_eq!(spline.weight_angle_rad, None);
+        assert_eq!(typed.clearance_m, 0.25e-3);
+        assert_eq!(typed.pitch_radius_on_m(&blade), blade.inner_radius_m);
+        assert_eq!(typed.weight_angle_deg, None);
         assert!(serde_json::from_str::<SplineFile>(r#"{ "teeth": 20 }"#).is_err());
     }
 }

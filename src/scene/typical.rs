@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::SceneFile;
-use super::quantity::typical_value;
+use super::quantities::typical_value;
 use crate::text::shown_to;
 
 /// Operating speed of a scene, in rpm; if it has none, the typical one.

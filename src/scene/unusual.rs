@@ -6,7 +6,8 @@
 use std::f64::consts::{PI, TAU};
 
 use super::SceneFile;
-use super::quantity::{Quantity, Typical};
+use super::quantities::QUANTITIES;
+use super::quantity::{Kind, Quantity, Typical};
 use crate::text::{shown, shown_to};
 
 /// Units that are used by mistake, each with its value in the unit of the quantity.
@@ -39,15 +40,6 @@ const RUNS: [&str; 3] = ["operating_rpm", "cut.chart_rpm", "cut.speeds[].rpm"];
 /// Paths of the largest speeds of an analysis and of a measurement.
 const ENDS: [&str; 3] = ["sweep.to_rpm", "runup.to_rpm", "measured.rows[].rpm"];
 
-/// Paths of angles whose usual range includes every value, so that it does not reveal radians.
-const ANGLES: [&str; 6] = [
-    "guides[].angle_deg",
-    "cut.angle_deg",
-    "probe.angle_deg",
-    "runup.angle_deg",
-    "response.angle_deg",
-    "spline.weight_angle_deg",
-];
 /// Usual step between angles.
 const ANGLE_STEP_DEG: f64 = 5.0;
 /// Smallest number of decimals: a number with fewer may be a round angle in radians by chance.
@@ -242,7 +234,9 @@ fn in_radians(scene: &SceneFile) -> Vec<Unusual> {
         });
         own.cloned().collect()
     };
-    let groups = ANGLES.iter().map(|general| of_path(general));
+    // Their usual range includes every value, so that it does not reveal radians.
+    let angles = QUANTITIES.iter().filter(|q| q.kind == Kind::Angle);
+    let groups = angles.map(|quantity| of_path(quantity.path));
     let suspect = groups.filter(|group| seem_radians(group));
     let unusual = |(path, value): (String, f64)| Unusual {
         path,

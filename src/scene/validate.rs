@@ -1,15 +1,16 @@
 //! Validates a [`SceneFile`]: the [`Scene`] that results is in SI units and radians.
 
-use super::check::{MAX_GUIDES, numbers, refuse, speeds};
+use super::blade::RimMass;
+use super::check::{MAX_GUIDES, refuse};
 use super::cut::Cut;
 use super::guide::guide;
 use super::membrane::Membrane;
 use super::runup::{Probe, RunUp};
-use super::thickness::{RimMass, ThicknessProfile};
-use super::validated::{Blade, Bore, Damping, Scene, SpeedRange};
+use super::speed_range::speeds;
+use super::thickness::ThicknessProfile;
 use super::{
-    DampingFile, ExcitationLine, Mount, RefusedValue, SceneError, SceneFile, Spline, SweepFile,
-    rad_per_s,
+    Blade, Bore, ExcitationLine, Mount, RefusedValue, Scene, SceneError, SceneFile, SpeedRange,
+    SweepFile,
 };
 use crate::text::shown;
 
@@ -17,7 +18,7 @@ impl TryFrom<SceneFile> for Scene {
     type Error = SceneError;
 
     fn try_from(file: SceneFile) -> Result<Self, SceneError> {
-        numbers(&file)?;
+        file.check_numbers()?;
         let blade = blade(&file)?;
         if file.guides.len() > MAX_GUIDES {
             let remedy = "join pads that lie side by side";
@@ -31,6 +32,12 @@ impl TryFrom<SceneFile> for Scene {
             .map(|(index, pad)| guide(index, pad, &blade))
             .collect::<Result<Vec<_>, _>>()?;
         check_measured(&file)?;
+        if let Some(damping) = &file.damping {
+            damping.checked()?;
+        }
+        if let Some(spline) = &file.spline {
+            spline.checked(&file.mount, &blade)?;
+        }
         if let Some(response) = &file.response {
             response.checked(&blade, file.blade.teeth)?;
         }
@@ -38,7 +45,7 @@ impl TryFrom<SceneFile> for Scene {
             cut: file
                 .cut
                 .as_ref()
-                .map(|cut| Cut::new(cut, &file, &blade))
+                .map(|cut| Cut::new(cut, file.operating_rpm, file.blade.teeth, &blade))
                 .transpose()?,
             runup: file.runup.as_ref().map(RunUp::new).transpose()?,
             probe: Probe::new(file.probe.as_ref(), &blade)?,
@@ -52,13 +59,8 @@ impl TryFrom<SceneFile> for Scene {
                 .into_iter()
                 .filter(|pad| pad.stiffness_n_per_m > 0.0 || pad.damping_n_s_per_m > 0.0)
                 .collect(),
-            damping: file.damping.as_ref().map(damping).transpose()?.flatten(),
-            spline: Spline::of(&file, &blade)?,
-            excitation: ExcitationLine::of(&file)?,
+            excitation: ExcitationLine::of(file.excitation, file.blade.teeth)?,
             sweep: file.sweep.as_ref().map(sweep).transpose()?,
-            operating_rad_per_s: file.operating_rpm.map(rad_per_s),
-            tolerance: file.tolerance.unwrap_or(file.accuracy.tolerance()),
-            flutter_threshold_per_s: file.flutter_threshold_per_s,
             file,
         })
     }
@@ -116,36 +118,15 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
         bore,
     };
     Ok(Blade {
-        profile: ThicknessProfile::new(&typed.profile, &plain)?,
-        rim: RimMass::new(file, &plain)?,
+        profile: ThicknessProfile::new(
+            &typed.profile,
+            thickness_m,
+            plain.inner_radius_m,
+            plain.outer_radius_m,
+        )?,
+        rim: RimMass::new(typed, &plain)?,
         ..plain
     })
-}
-
-fn damping(typed: &DampingFile) -> Result<Option<Damping>, SceneError> {
-    let damping = Damping {
-        material_retardation_time_s: typed.material_retardation_time_s,
-        ratio: 0.5 * typed.loss_factor,
-        ratios: ratios(typed)?,
-        air_n_s_per_m3: typed.air_n_s_per_m3,
-        air_rotation_share: typed.air_rotation_share,
-    };
-    let any = damping.is_material() || damping.air_n_s_per_m3 > 0.0;
-    Ok(any.then_some(damping))
-}
-
-fn ratios(typed: &DampingFile) -> Result<Vec<(usize, f64)>, SceneError> {
-    let mut ratios: Vec<(usize, f64)> = Vec::new();
-    for (k, row) in typed.mode_ratios.iter().enumerate() {
-        let n = row.diameters as usize;
-        if ratios.iter().any(|(other, _)| *other == n) {
-            let key = format!("damping.mode_ratios[{k}].diameters");
-            let remedy = "give one ratio for each number of nodal diameters";
-            return Err(refuse(&key, f64::from(row.diameters), "named once", remedy));
-        }
-        ratios.push((n, row.damping_ratio));
-    }
-    Ok(ratios)
 }
 
 fn sweep(typed: &SweepFile) -> Result<SpeedRange, SceneError> {

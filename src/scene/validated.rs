@@ -1,8 +1,8 @@
 //! A [`Scene`]: a validated saw, in SI units and radians.
 
 use super::{
-    Accuracy, Cut, ExcitationLine, Guide, InPlane, Material, Membrane, Probe, RimMass, RunUp,
-    SceneError, SceneFile, Spline, SweepFile, ThicknessProfile, in_the_cut, rpm,
+    Accuracy, Blade, Cut, DampingFile, ExcitationLine, Guide, Membrane, Probe, RunUp, SceneError,
+    SceneFile, SpeedRange, SplineFile, SweepFile, in_the_cut, rad_per_s, rpm,
 };
 
 /// A validated saw. It contains the scene as typed and the numbers derived from it, so that it cannot be
@@ -17,89 +17,12 @@ pub struct Scene {
     pub(super) file: SceneFile,
     pub(super) blade: Blade,
     pub(super) guides: Vec<Guide>,
-    pub(super) damping: Option<Damping>,
     pub(super) membrane: Option<Membrane>,
-    pub(super) spline: Option<Spline>,
     pub(super) excitation: Vec<ExcitationLine>,
     pub(super) sweep: Option<SpeedRange>,
-    pub(super) operating_rad_per_s: Option<f64>,
-    pub(super) tolerance: f64,
-    pub(super) flutter_threshold_per_s: f64,
     pub(super) cut: Option<Cut>,
     pub(super) runup: Option<RunUp>,
     pub(super) probe: Probe,
-}
-
-/// The annulus a < r < b of the blade that deflects.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Blade {
-    /// Inner radius a: the bore of a spline blade, the edge of a collar.
-    pub inner_radius_m: f64,
-    /// Outer radius b.
-    pub outer_radius_m: f64,
-    /// Thickness h; for a profile, the hub's thickness, to which mass and stiffness are referred.
-    pub thickness_m: f64,
-    /// Thickness over the radius if it is not uniform.
-    pub(crate) profile: Option<ThicknessProfile>,
-    /// Mass of teeth and tips.
-    pub(crate) rim: Option<RimMass>,
-    /// Material of the blade.
-    pub material: Material,
-    /// Boundary condition at r = a.
-    pub bore: Bore,
-}
-
-/// Condition at the inner radius, in bending and in plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Bore {
-    /// Spline: free in bending and in plane.
-    Free,
-    /// Collar: clamped in bending; the condition in plane is that of the scene.
-    Clamped(InPlane),
-}
-
-/// Damping of the blade.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Damping {
-    /// Kelvin–Voigt retardation time η, in the body frame.
-    pub material_retardation_time_s: f64,
-    /// Damping ratio of the modes at rest without guides whose number of nodal diameters is not listed.
-    pub ratio: f64,
-    /// Damping ratios by numbers of nodal diameters.
-    pub ratios: Vec<(usize, f64)>,
-    /// Air resistance per area, in the frame of the air.
-    pub air_n_s_per_m3: f64,
-    /// Ratio of the rotation speed of the air to that of the blade.
-    pub air_rotation_share: f64,
-}
-
-impl Damping {
-    /// Damping ratio of the modes at rest with n nodal diameters, as listed or by the loss factor.
-    pub fn ratio_of(&self, n: usize) -> f64 {
-        let listed = self.ratios.iter().find(|(diameters, _)| *diameters == n);
-        listed.map_or(self.ratio, |(_, ratio)| *ratio)
-    }
-
-    /// The smallest damping ratio of any number of nodal diameters.
-    pub fn smallest_ratio(&self) -> f64 {
-        let listed = self.ratios.iter().map(|(_, ratio)| *ratio);
-        listed.fold(self.ratio, f64::min)
-    }
-
-    /// Whether the material of the blade dissipates energy.
-    pub fn is_material(&self) -> bool {
-        let ratios = self.ratios.iter().any(|(_, ratio)| *ratio > 0.0);
-        self.material_retardation_time_s > 0.0 || self.ratio > 0.0 || ratios
-    }
-}
-
-/// Range of rotation speeds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SpeedRange {
-    /// First speed.
-    pub from_rad_per_s: f64,
-    /// Last speed.
-    pub to_rad_per_s: f64,
 }
 
 impl Scene {
@@ -168,8 +91,8 @@ impl Scene {
     }
 
     /// Damping, if any coefficient is not zero.
-    pub(crate) fn damping(&self) -> Option<Damping> {
-        self.damping.clone()
+    pub(crate) fn damping(&self) -> Option<&DampingFile> {
+        self.file.damping.as_ref().filter(|damping| damping.acts())
     }
 
     /// Membrane stress from heat, roll tension or measurement.
@@ -178,8 +101,8 @@ impl Scene {
     }
 
     /// Contact between bore and arbor, if its motion is to be simulated.
-    pub(crate) fn spline(&self) -> Option<&Spline> {
-        self.spline.as_ref()
+    pub(crate) fn spline(&self) -> Option<&SplineFile> {
+        self.file.spline.as_ref()
     }
 
     /// Lines of the Campbell diagram, by order.
@@ -194,7 +117,7 @@ impl Scene {
 
     /// Operating speed.
     pub fn operating_rad_per_s(&self) -> Option<f64> {
-        self.operating_rad_per_s
+        self.file.operating_rpm.map(rad_per_s)
     }
 
     /// Name of the accuracy.
@@ -205,12 +128,13 @@ impl Scene {
     /// Tolerance, the relative error allowed for critical speeds and onsets: as given, or that of the
     /// accuracy.
     pub fn tolerance(&self) -> f64 {
-        self.tolerance
+        let of_name = self.file.accuracy.tolerance();
+        self.file.tolerance.unwrap_or(of_name)
     }
 
     /// Growth rate from which on a band counts as flutter.
     pub fn flutter_threshold_per_s(&self) -> f64 {
-        self.flutter_threshold_per_s
+        self.file.flutter_threshold_per_s
     }
 
     /// Cut, with the forces of the wood on the teeth.
@@ -231,22 +155,5 @@ impl Scene {
     /// Position at which the deflection is read.
     pub(crate) fn probe(&self) -> &Probe {
         &self.probe
-    }
-}
-
-impl Blade {
-    /// Bending stiffness D = E h³ / 12(1 − ν²) of the thickness `thickness_m`, in N·m.
-    pub fn flexural_rigidity_n_m(&self) -> f64 {
-        let Material {
-            youngs_modulus_pa: e,
-            poisson_ratio: nu,
-            ..
-        } = self.material;
-        e * self.thickness_m.powi(3) / (12.0 * (1.0 - nu * nu))
-    }
-
-    /// Mass per area ρh of the thickness `thickness_m`, in kg/m².
-    pub fn mass_per_area_kg_per_m2(&self) -> f64 {
-        self.material.density_kg_per_m3 * self.thickness_m
     }
 }

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::check::{MAX_GUIDES, refuse};
-use super::quantity::{quantity, typical_value};
+use super::quantities::{quantity, typical_value};
 use super::teeth_in_cut::TeethInCut;
 use super::wood::Wood;
 use super::{RefusedValue, SceneError};

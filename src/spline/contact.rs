@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::scene::Spline;
+use crate::scene::{Blade, SplineFile};
 
 /// The flanks in the frame that turns with the arbor, in which they are fixed.
 ///
@@ -50,12 +50,12 @@ fn three_halves(x: f64) -> f64 {
 }
 
 impl Contact {
-    /// The flanks of a spline; the first tooth is at angle 0.
-    pub(crate) fn new(spline: &Spline) -> Self {
-        let (sin, cos) = spline.pressure_angle_rad.sin_cos();
+    /// The flanks of a spline on a blade; the first tooth is at angle 0.
+    pub(crate) fn new(spline: &SplineFile, blade: &Blade) -> Self {
+        let (sin, cos) = spline.pressure_angle_deg.to_radians().sin_cos();
         let normals = (0..spline.teeth)
             .flat_map(|tooth| {
-                let angle = std::f64::consts::TAU * tooth as f64 / spline.teeth as f64;
+                let angle = std::f64::consts::TAU * f64::from(tooth) / f64::from(spline.teeth);
                 let (s, c) = angle.sin_cos();
                 [1.0, -1.0].map(|side: f64| {
                     let along = side * cos;
@@ -69,7 +69,7 @@ impl Contact {
             stiffness_n_per_m_3_2: spline.contact_stiffness_n_per_m_3_2,
             damping_n_s_3_2_per_m_3_2: spline.contact_damping_n_s_3_2_per_m_3_2,
             clearance_m: spline.clearance_m,
-            pitch_radius_m: spline.pitch_radius_m,
+            pitch_radius_m: spline.pitch_radius_on_m(blade),
         }
     }
 

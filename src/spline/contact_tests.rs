@@ -16,7 +16,7 @@ fn one_tooth_is_pressed_in_by_the_closed_form() {
         spline.teeth = 1;
         spline.pressure_angle_deg = 0.0;
     });
-    let contact = Contact::new(scene.spline().unwrap());
+    let contact = Contact::new(scene.spline().unwrap(), scene.blade());
     for force in [1e-3, 78.0, 4000.0] {
         // The force at θ = 0 points along −y, with a torque that moves its line of action to the tooth.
         let seat = contact.seat(Vector3::new(0.0, -force, -force)).unwrap();
@@ -45,7 +45,7 @@ fn many_teeth_share_a_push_as_the_static_balance_says() {
                 spline.pressure_angle_deg = degrees;
                 spline.clearance_m = clearance_m;
             });
-            let contact = Contact::new(scene.spline().unwrap());
+            let contact = Contact::new(scene.spline().unwrap(), scene.blade());
             let (sin, cos) = f64::to_radians(degrees).sin_cos();
             let resistance = |x: f64| {
                 let mut sum = 0.0;
@@ -88,7 +88,7 @@ proptest! {
             spline.contact_stiffness_n_per_m_3_2 = stiffness;
             spline.contact_damping_n_s_3_2_per_m_3_2 = damping;
         });
-        let contact = Contact::new(scene.spline().unwrap());
+        let contact = Contact::new(scene.spline().unwrap(), scene.blade());
         let [force, elastic] = contact.force(approach, speed);
         prop_assert!(force >= 0.0 && elastic >= 0.0);
         prop_assert!(approach > 0.0 || force == 0.0);
@@ -101,7 +101,7 @@ proptest! {
         speed in prop::array::uniform3(-5.0..5.0_f64),
     ) {
         let scene = scene_with(|_| ());
-        let contact = Contact::new(scene.spline().unwrap());
+        let contact = Contact::new(scene.spline().unwrap(), scene.blade());
         for touch in contact.touches(q.into(), speed.into()) {
             let [radial, _] = touch.radial_and_tangential_n();
             prop_assert!(touch.force_n >= 0.0 && radial >= 0.0);
@@ -113,7 +113,7 @@ proptest! {
     #[test]
     fn forces_follow_from_the_energy(q in prop::array::uniform3(-2e-3..2e-3_f64)) {
         let scene = scene_with(|_| ());
-        let contact = Contact::new(scene.spline().unwrap());
+        let contact = Contact::new(scene.spline().unwrap(), scene.blade());
         let q = Vector3::from(q);
         let force: Vector3<f64> = contact
             .touches(q, Vector3::zeros())

@@ -149,7 +149,8 @@ pub fn simulate(
     run: &Run,
 ) -> Result<SplineRun, SplineError> {
     let spline = scene.spline().ok_or(SplineError::NoSpline)?;
-    let load = PlaneLoad::new(scene.blade(), loads, spline.weight_angle_rad);
+    let weight_angle_rad = spline.weight_angle_deg.map(f64::to_radians);
+    let load = PlaneLoad::new(scene.blade(), loads, weight_angle_rad);
     let motion = InPlaneMotion::new(scene.blade(), spline, load, speed_rad_per_s)?;
     motion.run(run)
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use differential_equations::prelude::{Error, ExplicitRungeKutta, IVP, ODE};
 use nalgebra::{Vector2, Vector3};
 
-use crate::scene::{Blade, Spline};
+use crate::scene::{Blade, SplineFile};
 
 use super::contact::{Contact, Touch};
 use super::load::PlaneLoad;
@@ -62,7 +62,7 @@ impl InPlaneMotion {
     /// [`SplineError::Speed`] unless the speed is positive.
     pub fn new(
         blade: &Blade,
-        spline: &Spline,
+        spline: &SplineFile,
         load: PlaneLoad,
         speed_rad_per_s: f64,
     ) -> Result<Self, SplineError> {
@@ -71,10 +71,10 @@ impl InPlaneMotion {
                 rad_per_s: speed_rad_per_s,
             });
         }
-        let r = spline.pitch_radius_m;
+        let r = spline.pitch_radius_on_m(blade);
         let mass = blade.mass_kg();
         let rotary = blade.polar_inertia_kg_m2() / (r * r);
-        let contact = Contact::new(spline);
+        let contact = Contact::new(spline, blade);
         let load_n = Vector3::new(load.force_n[0], load.force_n[1], load.torque_n_m / r);
         let length_m = contact.length_m(load_n.norm());
         let lightest = mass.min(rotary);
@@ -88,7 +88,7 @@ impl InPlaneMotion {
             load_n,
             speed_rad_per_s,
             pitch_radius_m: r,
-            teeth: spline.teeth,
+            teeth: spline.teeth as usize,
             scale: Scale {
                 length_m,
                 rate_per_s,

@@ -46,7 +46,11 @@ fn radial_push(angle_rad: f64, force_n: f64) -> [RimForce; 1] {
 
 fn motion_under(scene: &Scene, loads: &[RimForce], rpm: f64) -> InPlaneMotion {
     let spline = scene.spline().unwrap();
-    let load = PlaneLoad::new(scene.blade(), loads, spline.weight_angle_rad);
+    let load = PlaneLoad::new(
+        scene.blade(),
+        loads,
+        spline.weight_angle_deg.map(f64::to_radians),
+    );
     InPlaneMotion::new(scene.blade(), spline, load, rad_per_s(rpm)).unwrap()
 }
 

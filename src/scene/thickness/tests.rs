@@ -1,5 +1,5 @@
 use super::*;
-use crate::scene::Scene;
+use crate::scene::{Blade, RimFile, Scene};
 
 fn rows(list: &[(f64, f64)]) -> Vec<ThicknessRow> {
     let row = |&(radius_m, thickness_m): &(f64, f64)| ThicknessRow {
