@@ -21,14 +21,42 @@
 //! # }
 //! ```
 //!
-//! The modules are listed in the order in which a scene passes through them, and each imports only from those
-//! before it; modules separated by commas are on one level: [`scene`] → [`plate`] → [`system`] → [`spectrum`] →
-//! [`campbell`] → [`stability`] → [`transient`] → [`washboarding`], [`response`], [`deflect`] →
-//! [`check`], [`gap`] → [`report`], [`analyses`] → [`figure`] → [`document`] → [`commands`]. [`spline`] is on
-//! the level of [`system`] and imports [`scene`] and [`plate`] alone; [`stretched`] is on the level of
-//! [`campbell`]. [`analytical`] imports nothing; it contains closed forms with their sources, with which tests
-//! compare the other modules. `linalg` imports nothing either; the other modules call eigenvalue and singular value
-//! solvers through it alone.
+//! [`Analysis`](stability::Analysis) charts a saw: critical speeds, bands of instability, branches. Each other question is one
+//! function, named like the command of the program; its result is the report that the program writes, with text, figures
+//! and page as methods of [`CommandReport`](commands::CommandReport):
+//!
+//! ```
+//! use sawflutter::analyses::deflect::Options;
+//! use sawflutter::prelude::*;
+//!
+//! let saw = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft)?;
+//! let options = Options { to_rpm: Some(1600.0), ..Options::default() };
+//! let found = sawflutter::deflect(&saw, &options)?;
+//! println!("{}", found.summary());
+//! assert!(found.up.jumps.is_empty());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | question | function |
+//! |---|---|
+//! | does the saw keep its limits | [`check()`] |
+//! | is it stable before, during and after a cut | [`cut()`] |
+//! | how far does it vibrate in steady state | [`response()`] |
+//! | how far does it lean, and where does it jump | [`deflect()`] |
+//! | how tight may its guides be | [`gap()`] |
+//! | does the wave of a tooth grow with the next | [`washboard()`] |
+//! | what happens in a run-up | [`run_up()`] |
+//! | which stiffness, density … has a measured saw | [`fit()`] |
+//! | where do guides belong | [`place()`] |
+//! | how does stability change over one or two numbers | [`map()`] |
+//! | how do saws differ | [`compare()`] |
+//! | what does accuracy cost | [`tradeoff()`] |
+//!
+//! Below, from the ground upwards: [`scene`] is the input, [`plate`] the blade and its contacts, [`system`] the equation of
+//! motion, [`spectrum`] its eigenvalues at one speed, [`campbell`] branches over the speed, [`stability`] critical speeds, bands
+//! and verdict, [`transient`] time histories, [`stretched`] the blade at large deflections, [`spline`] its motion on the
+//! arbor. [`analyses`] asks them the questions above, [`figure`] draws and [`document`] writes what they find. [`analytical`]
+//! contains closed forms with their sources, with which tests compare all of it.
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
@@ -56,7 +84,6 @@ pub mod document;
 #[doc(hidden)]
 pub mod explore;
 pub mod figure;
-
 mod linalg;
 pub mod plate;
 pub mod report;
@@ -72,9 +99,22 @@ pub mod text;
 pub mod transient;
 mod tuned;
 
+pub use analyses::check::check;
+pub use analyses::compare::compare;
+pub use analyses::cut::cut;
+pub use analyses::deflect::deflect;
+pub use analyses::fit::fit;
+pub use analyses::gap::gap;
+pub use analyses::map::map;
+pub use analyses::place::place;
+pub use analyses::response::response;
+pub use analyses::tradeoff::tradeoff;
+pub use analyses::washboard::washboard;
+
 /// Items that most programs need.
 pub mod prelude {
-    pub use crate::analyses::check::{CheckReport, Limits, check};
+    pub use crate::analyses::check::Limits;
+    pub use crate::commands::CommandReport;
     pub use crate::report::Report;
     pub use crate::scene::{Accuracy, Scene, SceneError};
     pub use crate::stability::{

@@ -3,6 +3,7 @@
 //! A function named like the command returns the report: `deflect(&scene, &options)` gives a
 //! [`DeflectReport`](deflect::DeflectReport), in the units of its JSON. States between (matrices, coordinates)
 //! are private to the folder.
+
 pub mod check;
 pub mod compare;
 pub mod cut;
