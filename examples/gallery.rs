@@ -12,12 +12,11 @@ use sawflutter::analyses::gap::{self, gap};
 use sawflutter::analyses::map::{self, Range};
 use sawflutter::analyses::place::{self, Demands, PlaceReport};
 use sawflutter::analyses::response::{self, response};
+use sawflutter::analyses::runup::runup;
 use sawflutter::analyses::study::StudyReport;
 use sawflutter::commands::CommandReport;
-use sawflutter::report::RunUpReport;
 use sawflutter::scene::{Accuracy, ContactLaw, Freed, Scene, SceneError, SceneFile, rad_per_s};
 use sawflutter::stability::Analysis;
-use sawflutter::transient::RunningUp;
 
 fn main() -> anyhow::Result<()> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -70,8 +69,7 @@ fn figures(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
         figures.extend(pngs(&cut(scene)?)?);
     }
     if scene.file().runup.is_some() {
-        let found = RunningUp::new(scene, &|_, _| ())?;
-        figures.extend(pngs(&RunUpReport::new(&found))?);
+        figures.extend(pngs(&runup(scene, &|_, _| ())?)?);
         figures.extend(stretched(scene)?);
     }
     if scene.operating_rad_per_s().is_some() && scene.file().guides.len() == 1 {
@@ -93,7 +91,6 @@ fn stretched(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
         saw.cut.iter_mut().for_each(|cut| cut.stretching = true);
         saw.runup.iter_mut().for_each(|up| up.stretching = true);
     })?;
-    let found = RunningUp::new(&draft, &|_, _| ())?;
     let named = |name: &'static str| match name {
         "cut.png" => Some("cut-stretching.png"),
         "runup.png" => Some("runup-stretching.png"),
@@ -102,7 +99,7 @@ fn stretched(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
     };
     let all = [
         pngs(&cut(&draft)?)?,
-        pngs(&RunUpReport::new(&found))?,
+        pngs(&runup(&draft, &|_, _| ())?)?,
         pngs(&deflect(scene, &Options::default())?)?,
     ];
     let all = all.into_iter().flatten();

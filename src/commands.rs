@@ -19,6 +19,7 @@ use crate::analyses::gap::GapReport;
 use crate::analyses::map::MapReport;
 use crate::analyses::place::PlaceReport;
 use crate::analyses::response::ResponseReport;
+use crate::analyses::runup::RunUpReport;
 use crate::analyses::study::StudyReport;
 use crate::analyses::tradeoff::Setting;
 use crate::analyses::washboard::WashboardReport;
@@ -28,7 +29,7 @@ use crate::figure::{
     deflect, fit, gap, gap_friction, gap_map, gap_oscillation, in_cut, map, membrane, modes, place,
     response, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
-use crate::report::{ModeEntry, Report, RunUpReport};
+use crate::report::{ModeEntry, Report};
 use crate::scene::SceneFile;
 use crate::summary;
 

@@ -45,7 +45,7 @@
 //! | how far does it lean, and where does it jump | [`deflect()`] |
 //! | how tight may its guides be | [`gap()`] |
 //! | does the wave of a tooth grow with the next | [`washboard()`] |
-//! | what happens in a run-up | [`run_up()`] |
+//! | what happens in a run-up | [`runup()`] |
 //! | which stiffness, density … has a measured saw | [`fit()`] |
 //! | where do guides belong | [`place()`] |
 //! | how does stability change over one or two numbers | [`map()`] |
@@ -108,6 +108,7 @@ pub use analyses::gap::gap;
 pub use analyses::map::map;
 pub use analyses::place::place;
 pub use analyses::response::response;
+pub use analyses::runup::runup;
 pub use analyses::tradeoff::tradeoff;
 pub use analyses::washboard::washboard;
 

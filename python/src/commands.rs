@@ -9,12 +9,11 @@ use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
 use sawflutter::analyses::gap::{self, Options as GapOptions, OscillatingForce};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
-use sawflutter::analyses::{cut, deflect, response, washboard};
-use sawflutter::report::{ModeEntry, RunUpReport, SensitivityEntry};
+use sawflutter::analyses::{cut, deflect, response, runup, washboard};
+use sawflutter::report::{ModeEntry, SensitivityEntry};
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
-use sawflutter::transient::RunningUp;
 use serde::Serialize;
 
 use crate::arguments::{self, Options};
@@ -173,8 +172,7 @@ fn cut(options: &Options<'_>) -> PyResult<Work> {
 /// `runup.json`.
 fn runup(scene: &Scene, meter: &Meter) -> Result<String, Failure> {
     scene.needed_runup()?;
-    let found = RunningUp::new(scene, &|done, of| meter.show(done, of))?;
-    json(&RunUpReport::new(&found))
+    json(&runup::runup(scene, &|done, of| meter.show(done, of))?)
 }
 
 /// `deflect.json` under a force, up to a speed.

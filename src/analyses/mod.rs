@@ -13,6 +13,7 @@ pub mod gap;
 pub mod map;
 pub mod place;
 pub mod response;
+pub mod runup;
 pub mod study;
 pub mod tradeoff;
 pub mod washboard;

@@ -1,8 +1,7 @@
 //! `sawflutter runup`.
 
-use crate::report::RunUpReport;
+use crate::analyses::runup::runup;
 use crate::scene::{Scene, typical};
-use crate::transient::RunningUp;
 use clap::Args;
 
 use super::assumed::{Block, Given};
@@ -90,11 +89,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     pasted(&scene, scene.needed_runup())?;
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;
-    let found = watched(|progress| {
+    let report = watched(|progress| {
         let steps = |done, of| progress.show("steps", done, of);
-        RunningUp::new(&scene, &steps)
+        runup(&scene, &steps)
     })??;
-    let report = RunUpReport::new(&found);
     let output = &arguments.common.output;
     output.report(&folder, &arguments.page, &report, Vec::new())
 }

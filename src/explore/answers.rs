@@ -7,9 +7,10 @@ use crate::analyses::fit::FitReport;
 use crate::analyses::gap::{AtAmplitude, GapReport};
 use crate::analyses::place::PlaceReport;
 use crate::analyses::response::ResponseReport;
+use crate::analyses::runup::RunUpReport;
 use crate::analyses::washboard::WashboardReport;
 use crate::figure::number_name;
-use crate::report::RunUpReport;
+
 use crate::scene::Quantity;
 
 /// A main number of the result of a task.

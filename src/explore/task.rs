@@ -15,12 +15,13 @@ use crate::analyses::gap::{self, GapError, GapReport};
 use crate::analyses::map::{self, MapReport, Range};
 use crate::analyses::place::{self, Demands, PlaceReport};
 use crate::analyses::response::{self, ResponseError, ResponseReport};
+use crate::analyses::runup::{self, RunUpReport};
 use crate::analyses::study::{Saw, Study, StudyReport};
 use crate::analyses::washboard::{self, WashboardError, WashboardReport};
 use crate::commands::CommandReport;
-use crate::report::RunUpReport;
+
 use crate::scene::{Freed, Scene, SceneError, SceneFile};
-use crate::transient::{RunningUp, TransientError};
+use crate::transient::TransientError;
 
 /// Computes the answer to a request as JSON.
 type Work = fn(Scene, &Asked, &Meter<'_>) -> Result<String, Refusal>;
@@ -127,8 +128,7 @@ fn cut(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
 fn runup(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     scene.needed_runup()?;
     let progress = |done, of| meter.show("steps", done, of);
-    let found = RunningUp::new(&scene, &progress).map_err(refused)?;
-    let report = RunUpReport::new(&found);
+    let report = runup::runup(&scene, &progress).map_err(refused)?;
     answer(&report, of_runup(&report), None)
 }
 

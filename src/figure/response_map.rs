@@ -7,7 +7,7 @@ use super::clip::draw_inside;
 use super::heading;
 use super::heat::{draw_grid, draw_scale, ramp};
 use super::style::{Colour, HAIRLINE, LABEL_SIZE, PAPER, QUIET, shorten_label};
-use crate::report::RunUpReport;
+use crate::analyses::runup::RunUpReport;
 
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 760;

@@ -4,7 +4,7 @@ use super::chart_data::{AxisData, Band, ChartData, Item, Line, PanelData, Role, 
 use super::heading;
 use super::palette::Hue;
 use super::style::CURVE;
-use crate::report::RunUpReport;
+use crate::analyses::runup::RunUpReport;
 use crate::transient::LINEAR_THICKNESSES;
 
 /// The deflection, critical speeds and bands.

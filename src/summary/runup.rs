@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::{each, heading, sentence};
-use crate::report::RunUpReport;
+use crate::analyses::runup::RunUpReport;
 use crate::stretched::LARGEST_SLOPE;
 use crate::transient::LINEAR_THICKNESSES;
 

@@ -5,8 +5,8 @@
 //! acceleration is used (N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (1959), 67–94). Both work on the lowest
 //! modes of the blade and its static deflections under the loads.
 //!
-//! A scene with a block `runup` gives a [`RunningUp`]: times in s, speeds in rad/s, deflections in m, growth rates in
-//! 1/s. [`cut`](crate::analyses::cut) follows the saw through a cut.
+//! [`cut`](crate::analyses::cut::cut()) follows the saw through a cut, [`runup`](crate::analyses::runup::runup()) while its
+//! speed rises.
 
 mod band_growth;
 mod linear;
@@ -16,21 +16,23 @@ mod propagator;
 mod reduced;
 mod response;
 mod runup;
-mod scenario;
 mod sinusoids;
 mod stretched_probe;
 mod stretched_runup;
 mod stretching;
 
+pub(crate) use band_growth::band_exponents;
 pub(crate) use linear::{Gauge, LINEAR_THICKNESSES, finite, linear_limit_m};
 pub(crate) use motion::{Force, Integrator, State};
 pub(crate) use newmark::Newmark;
 pub(crate) use propagator::Propagator;
 pub(crate) use reduced::{ReducedBlade, Snapshot, at_point, lateral_load};
-pub use scenario::RunningUp;
+pub(crate) use response::response_map;
+pub(crate) use runup::run_up;
 pub use sinusoids::FitError;
 pub(crate) use sinusoids::{SAMPLES, Sinusoid, damped_sinusoids, fitted_growth};
 pub(crate) use stretched_probe::StretchedProbe;
+pub(crate) use stretched_runup::{StretchedRunUp, stretched_run_up};
 pub(crate) use stretching::{forces, system as reduced_system};
 
 use crate::scene::SceneError;

@@ -11,18 +11,7 @@ use crate::system::GyroscopicSystem;
 use super::reduced::at_point;
 use super::runup::reduced_blade;
 
-/// Receptance |w/F| at the probe over speed and frequency.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct ResponseMap {
-    /// Rotation speeds.
-    pub speed_rad_per_s: Vec<f64>,
-    /// Frequencies of the force.
-    pub frequency_rad_per_s: Vec<f64>,
-    /// Deflection per newton, one row for each speed.
-    pub receptance_m_per_n: Vec<Vec<f64>>,
-}
-
-/// Computes |cᵀ L(s)⁻¹ b| on s = iω + Δω/2.
+/// Computes the receptance |w/F| = |cᵀ L(s)⁻¹ b| at the probe, in m/N, on s = iω + Δω/2: a row for each speed.
 ///
 /// The response of an undamped saw at its natural frequencies is unbounded. At a distance of Δω/2 from the
 /// imaginary axis, which corresponds to a window of 2/Δω seconds, every mode has a finite peak that is at least
@@ -32,7 +21,7 @@ pub fn response_map(
     runup: &RunUp,
     probe: &Probe,
     (speeds, frequencies): (&[f64], &[f64]),
-) -> ResponseMap {
+) -> Vec<Vec<f64>> {
     let blade = reduced_blade(plate, runup);
     let system = blade.system(&GyroscopicSystem::of_plate(plate));
     let force = blade.vector(&at_point(
@@ -46,7 +35,7 @@ pub fn response_map(
         _ => 1.0,
     };
     let right: Col<c64> = Col::from_fn(force.nrows(), |i| c64::new(force[i], 0.0));
-    let receptance_m_per_n = speeds
+    speeds
         .par_iter()
         .map(|&speed| {
             let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
@@ -64,10 +53,5 @@ pub fn response_map(
                 })
                 .collect()
         })
-        .collect();
-    ResponseMap {
-        speed_rad_per_s: speeds.to_vec(),
-        frequency_rad_per_s: frequencies.to_vec(),
-        receptance_m_per_n,
-    }
+        .collect()
 }

@@ -3,7 +3,7 @@
 //! Source: `--help`, docs/explanation/paper.md, and the paper's verdicts (section 3.2).
 
 use sawflutter::analyses::cut::{CutReport, CutVerdict};
-use sawflutter::report::RunUpReport;
+use sawflutter::analyses::runup::RunUpReport;
 use sawflutter::scene::{Accuracy, RunUpFile, Scene, SceneFile};
 use tempfile::TempDir;
 

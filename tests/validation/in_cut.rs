@@ -7,14 +7,13 @@ use faer::{Col, Mat, c64};
 use nalgebra::DMatrix;
 use sawflutter::analyses::deflect::{self, deflect};
 use sawflutter::analyses::response::{self, response};
+use sawflutter::analyses::runup::runup;
 use sawflutter::analytical::free_wave::on_a_bed_rad_per_s;
 use sawflutter::commands::CommandReport;
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::report::RunUpReport;
 use sawflutter::scene::{Accuracy, Scene, SceneFile, WoodFile, rad_per_s, rpm};
 use sawflutter::stability::{Analysis, ChosenBasis, InstabilityKind, Onsets, StabilityState};
 use sawflutter::system::GyroscopicSystem;
-use sawflutter::transient::RunningUp;
 
 use crate::common::relative_error;
 
@@ -307,7 +306,7 @@ fn every_command_has_the_same_saw_in_the_cut() {
 
     let report = analysis.report();
     let response = response(&scene, &response::Options::default()).unwrap();
-    let runup = RunUpReport::new(&RunningUp::new(&scene, &|_, _| ()).unwrap());
+    let runup = runup(&scene, &|_, _| ()).unwrap();
     let options = deflect::Options {
         to_rpm: Some(1300.0),
         ..deflect::Options::default()
