@@ -9,7 +9,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         min_flutter_rad_per_s: Some(rad_per_s(2000.0)),
         ..Limits::at(rad_per_s(1250.0))
     };
-    let report = check(&saw, &limits)?;
+    let report = sawflutter::check(&saw, &limits)?;
     assert!(report.passed, "{:?}", report.failures());
     Ok(())
 }
