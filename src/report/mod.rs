@@ -1,8 +1,8 @@
 //! The report: the results for a saw, complete enough to draw every figure from it alone.
 //!
-//! Reports are made from an [`Analysis`](crate::stability::Analysis), a fit or a placement, and are written as JSON with speeds in rpm, frequencies in Hz
-//! and growth rates in 1/s. The contents of a report are computed before it is made; only [`WhirlEntry`],
-//! [`EventShapeEntry`] and [`SensitivityEntry`] are computed on request and added.
+//! Reports are made from an [`Analysis`](crate::stability::Analysis), a fit or a placement, and are written as JSON with
+//! speeds in rpm, frequencies in Hz and growth rates in 1/s. The contents of a report are computed before it is made;
+//! only [`WhirlEntry`], [`EventShapeEntry`] and [`SensitivityEntry`] are computed on request and added.
 
 mod accuracy;
 mod analysis;

@@ -8,7 +8,22 @@
 //! * [`DeviationMap`]: the stationary deflection at the cut, and the forces of the pads, over gap, side force and speed,
 //!   from the equilibria of [`stretched`](crate::stretched).
 //! * [`Oscillation`], only if something makes the blade oscillate: its periodic motion, at a speed and over the speed.
+<<<<<<< ours
 //! * [`FrictionHeat`], only for a scene with `friction`: the heat of the pads, and the blade that it deforms.
+||||||| base
+//! * [`FrictionHeat`], only with a coefficient of friction: the heat of the pads, and the blade that it deforms.
+=======
+//! * [`FrictionHeat`], only with a coefficient of friction: the heat of the pads, and the blade that it deforms.
+//!
+//! ```no_run
+//! use sawflutter::analyses::gap::{Options, gap};
+//! use sawflutter::scene::Scene;
+//!
+//! let report = gap(&Scene::from_path("saw.json")?, &Options::default())?;
+//! println!("{:?}", report.half_way_amplitude_m);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+>>>>>>> theirs
 
 mod amplitude;
 mod balance;
