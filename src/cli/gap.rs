@@ -3,8 +3,7 @@
 use crate::analyses::gap::{GapError, Options, OscillatingForce, gap};
 use clap::Args;
 
-use super::assumed::{Block, Given};
-use super::common::{Common, number, of_option};
+use super::common::{Common, number, of_option, with_settings};
 use super::page::Page;
 use super::progress::watched;
 
@@ -54,18 +53,12 @@ pub struct Arguments {
 
 /// Evaluates the gaps, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let friction = Block {
-        name: "friction",
-        is_missing: false,
-        usual: |_| serde_json::Value::Null,
-        given: &[Given {
-            option: "friction",
-            key: "coefficient",
-            text: arguments.friction.as_ref(),
-        }],
-        wins: &[],
-    };
-    let scene = friction.applied(arguments.common.scene()?)?;
+    let scene = arguments.common.scene()?;
+    let friction = arguments.friction.iter();
+    let friction: Vec<String> = friction
+        .map(|mu| format!("friction.coefficient={mu}"))
+        .collect();
+    let scene = with_settings(&scene, friction.iter().map(String::as_str), "--friction")?;
     let options = Options {
         force_n: arguments.force_n,
         rpm: arguments.rpm,

@@ -90,10 +90,5 @@ mod tests {
                 .unwrap_err()
                 .contains("blade.teeth is missing")
         );
-        assert!(
-            lines(61, 0, None)
-                .unwrap_err()
-                .contains("excitation.orders is 61")
-        );
     }
 }

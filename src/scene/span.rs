@@ -55,16 +55,12 @@ impl Span {
 
     /// The number of the range that is nearest to a number.
     pub(super) fn nearest(&self, value: f64) -> f64 {
-        let [from, to] = [
-            (
-                self.from,
-                self.is_open_below,
-                f64::next_up as fn(f64) -> f64,
-            ),
-            (self.to, self.is_open_above, f64::next_down),
-        ]
-        .map(|(end, is_open, inside)| if is_open { inside(end) } else { end });
-        value.clamp(from, to)
+        let near = value.clamp(self.from, self.to);
+        match self.contains(near) {
+            true => near,
+            false if near == self.from => near.next_up(),
+            false => near.next_down(),
+        }
     }
 
     /// Whether the ends are so far from each other that they only prevent overflow.
@@ -78,11 +74,19 @@ impl Span {
     /// The range for a reader: "between 0 and 1", "above -1 and below 0.5".
     pub fn in_words(&self) -> String {
         let (from, to) = (shown(self.from), shown(self.to));
-        match (self.is_open_below, self.is_open_above) {
-            (false, false) => format!("between {from} and {to}"),
-            (true, false) => format!("above {from} and at most {to}"),
-            (false, true) => format!("at least {from} and below {to}"),
-            (true, true) => format!("above {from} and below {to}"),
+        let below = if self.is_open_below {
+            "above"
+        } else {
+            "at least"
+        };
+        let above = if self.is_open_above {
+            "below"
+        } else {
+            "at most"
+        };
+        match self.is_open_below || self.is_open_above {
+            true => format!("{below} {from} and {above} {to}"),
+            false => format!("between {from} and {to}"),
         }
     }
 

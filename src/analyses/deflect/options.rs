@@ -1,7 +1,7 @@
 //! The side force, and the range of speeds.
 
 use crate::plate::Plate;
-use crate::scene::{RefusedValue, Scene, speed_rad_per_s};
+use crate::scene::{RefusedValue, Scene, quantity, speed_rad_per_s, typical_value};
 use crate::stretched::{LARGEST_SLOPE, StretchedBlade, StretchedError};
 use crate::text::{rounded_down, shown_to};
 
@@ -26,11 +26,7 @@ pub struct SideForce {
 }
 
 /// Side force for a scene without a run-up.
-const USUAL_FORCE_N: f64 = 1.0;
-/// Largest side force: a larger one deflects any saw beyond the range of the model.
-const MAX_FORCE_N: f64 = 1e6;
-/// Largest angle of the force, ten turns.
-const MAX_ANGLE_DEG: f64 = 3600.0;
+const USUAL_FORCE_N: f64 = typical_value("response.force_n");
 
 impl Options {
     /// Checks the options.
@@ -49,18 +45,10 @@ impl Options {
         let runup = scene.file().runup.as_ref();
         let force_n = self.force_n.or(runup.map(|runup| runup.force_n));
         let force_n = force_n.unwrap_or(USUAL_FORCE_N);
-        if !(-MAX_FORCE_N..=MAX_FORCE_N).contains(&force_n) {
-            let allowed = "between -1e6 and 1e6";
-            let remedy = "give the force across the blade at the rim in newtons, such as 5";
-            return Err(RefusedValue::new("force_n", force_n, allowed, remedy));
-        }
+        const { quantity("response.force_n") }.checked("force_n", force_n)?;
         let angle_deg = self.angle_deg.or(runup.map(|runup| runup.angle_deg));
         let angle_deg = angle_deg.unwrap_or(0.0);
-        if !(-MAX_ANGLE_DEG..=MAX_ANGLE_DEG).contains(&angle_deg) {
-            let allowed = "between -3600 and 3600";
-            let remedy = "give the angle of the force in degrees, positive with the rotation";
-            return Err(RefusedValue::new("angle_deg", angle_deg, allowed, remedy));
-        }
+        const { quantity("response.angle_deg") }.checked("angle_deg", angle_deg)?;
         Ok(SideForce {
             force_n,
             angle_rad: angle_deg.to_radians(),
