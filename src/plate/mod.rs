@@ -213,7 +213,7 @@ impl Plate {
         };
         let mut contact = ContactTerms::default();
         for guide in scene.guides() {
-            guide.add_to(&plate, &mut contact);
+            guide.typed.add_to(&plate, &mut contact);
         }
         plate.contact = contact;
         plate.lifting = LiftingPads::of(&plate, scene.guides());

@@ -61,9 +61,13 @@ pub fn terms(scene: &Scene, plate: &Plate) -> Vec<String> {
     add(plate.edge_stiffness.is_some(), "forces of the cut K_e");
     let contact = &plate.contact;
     let guides = scene.guides().iter();
-    let stiff = guides.clone().any(|guide| guide.stiffness_n_per_m > 0.0);
+    let stiff = guides
+        .clone()
+        .any(|guide| guide.typed.stiffness_n_per_m > 0.0);
     add(stiff, "guide stiffness K_g");
-    let damped = guides.clone().any(|guide| guide.damping_n_s_per_m > 0.0);
+    let damped = guides
+        .clone()
+        .any(|guide| guide.typed.damping_n_s_per_m > 0.0);
     add(damped, "guide damping C");
     let in_cut = scene.cut().filter(|cut| cut.chart.is_some());
     let wood = in_cut.and_then(|cut| cut.wood);
@@ -166,7 +170,7 @@ fn ended_early(scene: &Scene, analysis: &Analysis) -> Option<String> {
 
 fn uncalibrated(scene: &Scene) -> Option<String> {
     let mut guides = scene.guides().iter();
-    let stiff = guides.any(|guide| guide.stiffness_n_per_m > CALIBRATED_N_PER_M);
+    let stiff = guides.any(|guide| guide.typed.stiffness_n_per_m > CALIBRATED_N_PER_M);
     stiff.then(|| {
         format!(
             "a guide is stiffer than {CALIBRATED_N_PER_M:e} N/m: the estimated error is \

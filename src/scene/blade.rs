@@ -203,6 +203,21 @@ impl Blade {
         })
     }
 
+    /// Checks that a radius, which `key` names, is on the moving part.
+    pub(super) fn check_on(
+        &self,
+        key: &str,
+        radius_m: f64,
+        remedy: &'static str,
+    ) -> Result<(), SceneError> {
+        let (inner, outer) = (self.inner_radius_m, self.outer_radius_m);
+        if (inner..=outer).contains(&radius_m) {
+            return Ok(());
+        }
+        let allowed = format!("on the blade, from {} to {}", shown(inner), shown(outer));
+        Err(refuse(key, radius_m, allowed, remedy))
+    }
+
     /// Whether the blade has uniform thickness and no mass of teeth.
     pub fn is_plain(&self) -> bool {
         self.profile.is_none() && self.rim.is_none()

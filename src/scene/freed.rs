@@ -196,7 +196,7 @@ pub fn common_turn(scene: &Scene, freed: &[Freed]) -> Option<usize> {
         freed.iter().position(|f| f.parameter.path() == path)
     };
     let pads = scene.file.guides.iter().enumerate();
-    let acting = pads.filter(|(_, pad)| pad.stiffness_n_per_m > 0.0 || pad.damping_n_s_per_m > 0.0);
+    let acting = pads.filter(|(_, pad)| pad.acts());
     let angles: Option<Vec<usize>> = acting.map(|(index, _)| place(index)).collect();
     angles.and_then(|angles| angles.first().copied())
 }

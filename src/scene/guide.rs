@@ -10,20 +10,8 @@ use std::f64::consts::{PI, TAU};
 pub(crate) struct Guide {
     /// Index in the list of the scene.
     pub index: usize,
-    /// Distance of the centre from the axis.
-    pub radius_m: f64,
-    /// Angle of the centre.
-    pub angle_rad: f64,
-    /// Length along the radius; zero for a point spring.
-    pub radial_length_m: f64,
-    /// Length across the radius; zero for a point spring.
-    pub tangential_length_m: f64,
-    /// Shape of the pad, if it is not a point spring.
-    pub shape: GuideShape,
-    /// Stiffness of the whole pad.
-    pub stiffness_n_per_m: f64,
-    /// Damping of the whole pad.
-    pub damping_n_s_per_m: f64,
+    /// The pad as typed.
+    pub typed: GuideFile,
     /// Gap of a pad that lifts off; `None` for a linear pad.
     pub lifting: Option<Lifting>,
 }
@@ -62,21 +50,29 @@ impl GuideFile {
         });
         corners.collect()
     }
-}
 
-impl Guide {
+    /// Whether the pad has stiffness or damping.
+    pub(super) fn acts(&self) -> bool {
+        self.stiffness_n_per_m > 0.0 || self.damping_n_s_per_m > 0.0
+    }
+
+    /// Angle of the centre.
+    pub(crate) fn angle_rad(&self) -> f64 {
+        self.angle_deg.to_radians()
+    }
+
     /// Whether the pad has no extent and acts at a point.
-    pub fn is_point(&self) -> bool {
+    pub(crate) fn is_point(&self) -> bool {
         self.radial_length_m == 0.0
     }
 
     /// Half the lengths along and across the radius.
-    pub fn half_lengths_m(&self) -> (f64, f64) {
+    pub(crate) fn half_lengths_m(&self) -> (f64, f64) {
         (0.5 * self.radial_length_m, 0.5 * self.tangential_length_m)
     }
 
     /// Area of the pad.
-    pub fn area_m2(&self) -> f64 {
+    pub(crate) fn area_m2(&self) -> f64 {
         let rectangle = self.radial_length_m * self.tangential_length_m;
         match self.shape {
             GuideShape::Rectangle => rectangle,
@@ -86,7 +82,7 @@ impl Guide {
 
     /// Radii of the circles about the axis that touch a side of the pad or pass through a corner. At these radii the
     /// arcs inside the pad are not smooth functions of the radius.
-    pub fn touching_radii_m(&self) -> Vec<f64> {
+    pub(crate) fn touching_radii_m(&self) -> Vec<f64> {
         let (a, b) = self.half_lengths_m();
         let c = self.radius_m;
         let (near, far) = (c - a, c + a);
@@ -106,7 +102,7 @@ impl Guide {
     }
 
     /// Smallest and largest distance of the pad from the axis, including the part of the pad beside the blade.
-    pub fn reach_m(&self) -> (f64, f64) {
+    pub(crate) fn reach_m(&self) -> (f64, f64) {
         let nearest = (self.radius_m - self.half_lengths_m().0).max(0.0);
         (
             nearest,
@@ -116,19 +112,9 @@ impl Guide {
 }
 
 /// Validates a pad; `index` is its position in the list of the scene.
-pub fn guide(index: usize, typed: &GuideFile, blade: &Blade) -> Result<Guide, SceneError> {
+pub fn guide(index: usize, pad: &GuideFile, blade: &Blade) -> Result<Guide, SceneError> {
     let of = |name: &str| format!("guides[{index}].{name}");
-    let pad = Guide {
-        index,
-        lifting: lifting(&of, typed)?,
-        radius_m: typed.radius_m,
-        angle_rad: typed.angle_deg.to_radians(),
-        radial_length_m: typed.radial_length_m,
-        tangential_length_m: typed.tangential_length_m,
-        shape: typed.shape,
-        stiffness_n_per_m: typed.stiffness_n_per_m,
-        damping_n_s_per_m: typed.damping_n_s_per_m,
-    };
+    let lifting = lifting(&of, pad)?;
     if (pad.radial_length_m == 0.0) != (pad.tangential_length_m == 0.0) {
         return Err(refuse(
             &of("tangential_length_m"),
@@ -152,37 +138,33 @@ pub fn guide(index: usize, typed: &GuideFile, blade: &Blade) -> Result<Guide, Sc
         let remedy = "this pad is wholly off the blade; move it, or leave it out";
         return Err(refuse(&of("radius_m"), pad.radius_m, allowed, remedy));
     }
-    Ok(pad)
+    Ok(Guide {
+        index,
+        typed: *pad,
+        lifting,
+    })
 }
 
 /// Validates the gap of a pad that lifts off; `None` for a linear pad.
 fn lifting(of: &impl Fn(&str) -> String, typed: &GuideFile) -> Result<Option<Lifting>, SceneError> {
     if typed.contact == ContactLaw::Linear {
         if typed.side != GuideSide::Both {
-            let side = if typed.side == GuideSide::Left {
-                "left"
-            } else {
-                "right"
-            };
+            let is_left = typed.side == GuideSide::Left;
+            let side = if is_left { "left" } else { "right" };
             let allowed = "\"both\" where the contact is linear";
             let remedy = "a spring acts in both directions; give contact as \"one_sided\"";
             return Err(RefusedValue::new(of("side"), side, allowed, remedy).into());
         }
-        if typed.film_stiffness_n_per_m != 0.0 {
-            return Err(refuse(
-                &of("film_stiffness_n_per_m"),
-                typed.film_stiffness_n_per_m,
-                "0 where the contact is linear",
-                "a linear pad has one stiffness; give contact as \"one_sided\"",
-            ));
-        }
-        if typed.offset_m != 0.0 {
-            return Err(refuse(
-                &of("offset_m"),
-                typed.offset_m,
-                "0 where the contact is linear",
-                "a linear pad is at rest on the flat blade; give contact as \"one_sided\"",
-            ));
+        let film = "a linear pad has one stiffness; give contact as \"one_sided\"";
+        let offset = "a linear pad is at rest on the flat blade; give contact as \"one_sided\"";
+        for (name, value, remedy) in [
+            ("film_stiffness_n_per_m", typed.film_stiffness_n_per_m, film),
+            ("offset_m", typed.offset_m, offset),
+        ] {
+            if value != 0.0 {
+                let allowed = "0 where the contact is linear";
+                return Err(refuse(&of(name), value, allowed, remedy));
+            }
         }
         return Ok(None);
     }

@@ -85,7 +85,7 @@ pub use response::ResponseFile;
 pub use roll_band::RollBandFile;
 pub(crate) use roll_band::{Groove, RollBand};
 pub(crate) use runup::Probe;
-pub use runup::{ProbeFile, RunUp, RunUpFile};
+pub use runup::{ProbeFile, RunUpFile};
 pub use schema::json_schema;
 #[cfg(feature = "cli")]
 pub(crate) use schema::{Key, keys};

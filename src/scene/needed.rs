@@ -1,6 +1,6 @@
 //! Blocks of a scene that are optional in general but required by some commands.
 
-use super::{Cut, CutRun, Measured, RefusedValue, RunUp, Scene, SceneError, Washboarding};
+use super::{Cut, CutRun, Measured, RefusedValue, RunUpFile, Scene, SceneError, Washboarding};
 
 impl Scene {
     /// The cut, for commands that require it.
@@ -27,7 +27,7 @@ impl Scene {
     ///
     /// # Errors
     /// [`RefusedValue`] if the scene has no run-up.
-    pub fn needed_runup(&self) -> Result<&RunUp, RefusedValue> {
+    pub fn needed_runup(&self) -> Result<&RunUpFile, RefusedValue> {
         let allowed = "given, with its speeds, duration and force";
         let remedy = "add it to the scene";
         self.runup()

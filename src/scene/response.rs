@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use super::check::{is_default, refuse};
 use super::{Blade, SceneError};
-use crate::text::shown;
 
 /// Excitation of the steady-state response, for `sawflutter response`. Causes that are 0 are absent.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -52,13 +51,9 @@ impl ResponseFile {
 
     /// Checks the place of the force, and that the blade has teeth if they excite it.
     pub(super) fn checked(&self, blade: &Blade, teeth: Option<u32>) -> Result<(), SceneError> {
-        let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
-        if let Some(radius_m) = self.radius_m
-            && !(inner..=outer).contains(&radius_m)
-        {
-            let allowed = format!("on the blade, from {} to {}", shown(inner), shown(outer));
+        if let Some(radius_m) = self.radius_m {
             let remedy = "put the force on the moving part of the blade";
-            return Err(refuse("response.radius_m", radius_m, allowed, remedy));
+            blade.check_on("response.radius_m", radius_m, remedy)?;
         }
         if self.tooth_force_n != 0.0 && teeth.is_none_or(|teeth| teeth == 0) {
             let allowed = "0 in a scene without blade.teeth";

@@ -3,13 +3,12 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{is_default, refuse};
-use super::speed_range::speeds;
+use super::check::is_default;
+use super::speed_range::check_rise;
 use super::{Blade, SceneError, SpeedRange};
-use crate::text::shown;
 
 /// Run-up at a constant rate, under a constant lateral force fixed in space.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunUpFile {
     /// First speed.
@@ -41,21 +40,6 @@ pub struct ProbeFile {
     pub angle_deg: f64,
 }
 
-/// A validated run-up.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RunUp {
-    /// Range of speeds.
-    pub speeds: SpeedRange,
-    /// Duration of the run-up.
-    pub duration_s: f64,
-    /// Lateral force at the rim.
-    pub force_n: f64,
-    /// Angle of the force.
-    pub angle_rad: f64,
-    /// Whether the model includes stretching of the middle surface.
-    pub stretching: bool,
-}
-
 /// A validated probe.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Probe {
@@ -68,34 +52,36 @@ pub(crate) struct Probe {
 /// The paper's position of the displacement probe, section 3.1.
 const DEFAULT_PROBE_DEG: f64 = 90.0;
 
-impl RunUp {
-    pub(super) fn new(typed: &RunUpFile) -> Result<Self, SceneError> {
+impl RunUpFile {
+    /// Checks that the speed rises.
+    pub(super) fn checked(&self) -> Result<(), SceneError> {
         let remedy = "a run-up goes from a lower to a higher speed";
-        let speeds = speeds("runup", typed.from_rpm, typed.to_rpm, remedy)?;
-        Ok(RunUp {
-            speeds,
-            duration_s: typed.duration_s,
-            force_n: typed.force_n,
-            angle_rad: typed.angle_deg.to_radians(),
-            stretching: typed.stretching,
-        })
+        check_rise("runup", self.from_rpm, self.to_rpm, remedy)
+    }
+
+    /// Range of speeds.
+    pub fn speeds(&self) -> SpeedRange {
+        SpeedRange::between_rpm(self.from_rpm, self.to_rpm)
+    }
+
+    /// Angle of the force.
+    pub fn angle_rad(&self) -> f64 {
+        self.angle_deg.to_radians()
     }
 
     /// Rate Ω̇ at which the rotation speed rises, in rad/s².
     pub fn acceleration_rad_per_s2(&self) -> f64 {
-        (self.speeds.to_rad_per_s - self.speeds.from_rad_per_s) / self.duration_s
+        let speeds = self.speeds();
+        (speeds.to_rad_per_s - speeds.from_rad_per_s) / self.duration_s
     }
 }
 
 impl Probe {
     pub(super) fn new(typed: Option<&ProbeFile>, blade: &Blade) -> Result<Self, SceneError> {
-        let (inner, outer) = (blade.inner_radius_m, blade.outer_radius_m);
-        let radius_m = typed.and_then(|probe| probe.radius_m).unwrap_or(outer);
-        if !(inner..=outer).contains(&radius_m) {
-            let allowed = format!("on the blade, from {} to {}", shown(inner), shown(outer));
-            let remedy = "put the probe over the moving part of the blade";
-            return Err(refuse("probe.radius_m", radius_m, allowed, remedy));
-        }
+        let radius_m = typed.and_then(|probe| probe.radius_m);
+        let radius_m = radius_m.unwrap_or(blade.outer_radius_m);
+        let remedy = "put the probe over the moving part of the blade";
+        blade.check_on("probe.radius_m", radius_m, remedy)?;
         let degrees = typed.map_or(DEFAULT_PROBE_DEG, |probe| probe.angle_deg);
         Ok(Probe {
             radius_m,

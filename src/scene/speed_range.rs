@@ -14,18 +14,18 @@ pub struct SpeedRange {
     pub to_rad_per_s: f64,
 }
 
-/// Returns the range between two speeds `from_rpm` and `to_rpm` of a block of the scene.
-pub fn speeds(
+/// Checks that the speed rises from `from_rpm` to `to_rpm` of a block of the scene.
+pub fn check_rise(
     block: &str,
     from_rpm: f64,
     to_rpm: f64,
     remedy: &'static str,
-) -> Result<SpeedRange, SceneError> {
-    if to_rpm <= from_rpm {
-        let allowed = format!("more than {block}.from_rpm ({})", shown(from_rpm));
-        return Err(refuse(&format!("{block}.to_rpm"), to_rpm, allowed, remedy));
+) -> Result<(), SceneError> {
+    if to_rpm > from_rpm {
+        return Ok(());
     }
-    Ok((rad_per_s(from_rpm), rad_per_s(to_rpm)).into())
+    let allowed = format!("more than {block}.from_rpm ({})", shown(from_rpm));
+    Err(refuse(&format!("{block}.to_rpm"), to_rpm, allowed, remedy))
 }
 
 impl From<(f64, f64)> for SpeedRange {
@@ -44,6 +44,11 @@ fn rounded_rpm(rad_per_s: f64) -> f64 {
 }
 
 impl SpeedRange {
+    /// The range between two speeds in rpm.
+    pub(super) fn between_rpm(from_rpm: f64, to_rpm: f64) -> Self {
+        (rad_per_s(from_rpm), rad_per_s(to_rpm)).into()
+    }
+
     /// Converts an argument in rpm to rad/s.
     ///
     /// # Errors

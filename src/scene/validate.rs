@@ -5,13 +5,10 @@ use super::check::{MAX_GUIDES, refuse};
 use super::cut::Cut;
 use super::guide::guide;
 use super::membrane::Membrane;
-use super::runup::{Probe, RunUp};
-use super::speed_range::speeds;
+use super::runup::Probe;
+use super::speed_range::check_rise;
 use super::thickness::ThicknessProfile;
-use super::{
-    Blade, Bore, ExcitationLine, Mount, RefusedValue, Scene, SceneError, SceneFile, SpeedRange,
-    SweepFile,
-};
+use super::{Blade, Bore, ExcitationLine, Mount, RefusedValue, Scene, SceneError, SceneFile};
 use crate::text::shown;
 
 impl TryFrom<SceneFile> for Scene {
@@ -35,6 +32,13 @@ impl TryFrom<SceneFile> for Scene {
         if let Some(damping) = &file.damping {
             damping.checked()?;
         }
+        if let Some(sweep) = &file.sweep {
+            let remedy = "a sweep runs from a lower to a higher speed";
+            check_rise("sweep", sweep.from_rpm, sweep.to_rpm, remedy)?;
+        }
+        if let Some(runup) = &file.runup {
+            runup.checked()?;
+        }
         if let Some(spline) = &file.spline {
             spline.checked(&file.mount, &blade)?;
         }
@@ -47,7 +51,6 @@ impl TryFrom<SceneFile> for Scene {
                 .as_ref()
                 .map(|cut| Cut::new(cut, file.operating_rpm, file.blade.teeth, &blade))
                 .transpose()?,
-            runup: file.runup.as_ref().map(RunUp::new).transpose()?,
             probe: Probe::new(file.probe.as_ref(), &blade)?,
             membrane: file
                 .membrane
@@ -55,12 +58,8 @@ impl TryFrom<SceneFile> for Scene {
                 .map(|membrane| Membrane::new(membrane, &blade, 0.5 * file.blade.inner_diameter_m))
                 .transpose()?,
             blade,
-            guides: guides
-                .into_iter()
-                .filter(|pad| pad.stiffness_n_per_m > 0.0 || pad.damping_n_s_per_m > 0.0)
-                .collect(),
+            guides: guides.into_iter().filter(|pad| pad.typed.acts()).collect(),
             excitation: ExcitationLine::of(file.excitation, file.blade.teeth)?,
-            sweep: file.sweep.as_ref().map(sweep).transpose()?,
             file,
         })
     }
@@ -127,11 +126,6 @@ fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
         rim: RimMass::new(typed, &plain)?,
         ..plain
     })
-}
-
-fn sweep(typed: &SweepFile) -> Result<SpeedRange, SceneError> {
-    let remedy = "a sweep runs from a lower to a higher speed";
-    speeds("sweep", typed.from_rpm, typed.to_rpm, remedy)
 }
 
 /// Refuses a measured frequency that is not finite. JSON has null in its place, which means that it was not measured.

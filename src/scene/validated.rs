@@ -1,8 +1,8 @@
 //! A [`Scene`]: a validated saw, in SI units and radians.
 
 use super::{
-    Accuracy, Blade, Cut, DampingFile, ExcitationLine, Guide, Membrane, Probe, RunUp, SceneError,
-    SceneFile, SpeedRange, SplineFile, SweepFile, in_the_cut, rad_per_s, rpm,
+    Accuracy, Blade, Cut, DampingFile, ExcitationLine, Guide, Membrane, Probe, RunUpFile,
+    SceneError, SceneFile, SpeedRange, SplineFile, SweepFile, in_the_cut, rad_per_s, rpm,
 };
 
 /// A validated saw. It contains the scene as typed and the numbers derived from it, so that it cannot be
@@ -19,9 +19,7 @@ pub struct Scene {
     pub(super) guides: Vec<Guide>,
     pub(super) membrane: Option<Membrane>,
     pub(super) excitation: Vec<ExcitationLine>,
-    pub(super) sweep: Option<SpeedRange>,
     pub(super) cut: Option<Cut>,
-    pub(super) runup: Option<RunUp>,
     pub(super) probe: Probe,
 }
 
@@ -112,7 +110,8 @@ impl Scene {
 
     /// Range of speeds as given; `None` if the program chooses it.
     pub fn sweep(&self) -> Option<SpeedRange> {
-        self.sweep
+        let sweep = self.file.sweep.as_ref();
+        sweep.map(|sweep| SpeedRange::between_rpm(sweep.from_rpm, sweep.to_rpm))
     }
 
     /// Operating speed.
@@ -148,8 +147,8 @@ impl Scene {
     }
 
     /// Run-up under a lateral force.
-    pub fn runup(&self) -> Option<&RunUp> {
-        self.runup.as_ref()
+    pub fn runup(&self) -> Option<&RunUpFile> {
+        self.file.runup.as_ref()
     }
 
     /// Position at which the deflection is read.

@@ -115,7 +115,7 @@ impl Smaller {
         let shape = Mat::from_fn(self.shape.nrows(), 1, |i, _| self.shape[i]);
         let share = |guide: &Guide| {
             let mut terms = ContactTerms::default();
-            guide.add_to(&self.finer, &mut terms);
+            guide.typed.add_to(&self.finer, &mut terms);
             let stiffness = terms.stiffness()?;
             self.larger.softening_by(self.component, stiffness, &shape)
         };

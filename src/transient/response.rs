@@ -5,7 +5,7 @@ use faer::{Col, Mat, c64};
 use rayon::prelude::*;
 
 use crate::plate::Plate;
-use crate::scene::{Probe, RunUp};
+use crate::scene::{Probe, RunUpFile};
 use crate::system::GyroscopicSystem;
 
 use super::reduced::at_point;
@@ -18,7 +18,7 @@ use super::runup::reduced_blade;
 /// one frequency step Δω wide.
 pub fn response_map(
     plate: &Plate,
-    runup: &RunUp,
+    runup: &RunUpFile,
     probe: &Probe,
     (speeds, frequencies): (&[f64], &[f64]),
 ) -> Vec<Vec<f64>> {
@@ -27,7 +27,7 @@ pub fn response_map(
     let force = blade.vector(&at_point(
         plate,
         plate.blade.outer_radius_m,
-        runup.angle_rad,
+        runup.angle_rad(),
     ));
     let read = blade.vector(&at_point(plate, probe.radius_m, probe.angle_rad));
     let apart = match frequencies {

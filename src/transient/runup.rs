@@ -5,7 +5,7 @@ use faer::linalg::solvers::Solve;
 
 use crate::campbell::{Progress, even_speeds};
 use crate::plate::Plate;
-use crate::scene::{Probe, RunUp, rpm};
+use crate::scene::{Probe, RunUpFile, rpm};
 use crate::spectrum::Cancellation;
 use crate::system::GyroscopicSystem;
 
@@ -38,9 +38,9 @@ const HELD_STEPS: usize = 8;
 pub(super) const MAX_SAMPLES: usize = 30_000;
 
 /// The basis of a run-up: modes at a few speeds, and static responses to the force.
-pub(super) fn reduced_blade(plate: &Plate, runup: &RunUp) -> ReducedBlade {
+pub(super) fn reduced_blade(plate: &Plate, runup: &RunUpFile) -> ReducedBlade {
     let system = GyroscopicSystem::of_plate(plate);
-    let range = (runup.speeds.from_rad_per_s, runup.speeds.to_rad_per_s);
+    let range = (runup.speeds().from_rad_per_s, runup.speeds().to_rad_per_s);
     let snapshots: Vec<Snapshot<'_>> = even_speeds(range, SNAPSHOTS)
         .into_iter()
         .map(|speed_rad_per_s| Snapshot {
@@ -48,7 +48,7 @@ pub(super) fn reduced_blade(plate: &Plate, runup: &RunUp) -> ReducedBlade {
             speed_rad_per_s,
         })
         .collect();
-    let force = at_point(plate, plate.blade.outer_radius_m, runup.angle_rad);
+    let force = at_point(plate, plate.blade.outer_radius_m, runup.angle_rad());
     ReducedBlade::new(plate, &snapshots, MODES, &[force])
 }
 
@@ -59,18 +59,18 @@ pub(super) fn reduced_blade(plate: &Plate, runup: &RunUp) -> ReducedBlade {
 /// [`TransientError::Overflow`] if a growing motion overflows.
 pub fn run_up(
     plate: &Plate,
-    runup: &RunUp,
+    runup: &RunUpFile,
     probe: &Probe,
     highest_rad_per_s: f64,
     progress: Progress<'_>,
 ) -> Result<RunUpHistory, TransientError> {
     let blade = reduced_blade(plate, runup);
     let system = blade.system(&GyroscopicSystem::of_plate(plate));
-    let force = at_point(plate, plate.blade.outer_radius_m, runup.angle_rad);
+    let force = at_point(plate, plate.blade.outer_radius_m, runup.angle_rad());
     let load = faer::Scale(runup.force_n) * blade.vector(&force);
     let gauge = Gauge::new(plate, &blade, probe);
     // The force acts from the beginning, so that the blade starts in its static deflection, if it has one.
-    let from = runup.speeds.from_rad_per_s;
+    let from = runup.speeds().from_rad_per_s;
     let begun = State::still(static_deflection(&system, from, &load));
     let steps = Steps::new(runup, highest_rad_per_s);
     let stride = steps.count.div_ceil(MAX_SAMPLES);
@@ -119,13 +119,13 @@ pub(super) struct Steps {
 
 impl Steps {
     /// Steps that resolve a frequency, at least 100 and at most 10⁷.
-    pub(super) fn new(runup: &RunUp, highest_rad_per_s: f64) -> Self {
+    pub(super) fn new(runup: &RunUpFile, highest_rad_per_s: f64) -> Self {
         let longest_s = std::f64::consts::TAU / (STEPS_A_PERIOD * highest_rad_per_s);
         let count = (runup.duration_s / longest_s).ceil().clamp(100.0, 1e7) as usize;
         Steps {
             count,
             step_s: runup.duration_s / count as f64,
-            from_rad_per_s: runup.speeds.from_rad_per_s,
+            from_rad_per_s: runup.speeds().from_rad_per_s,
             rate_rad_per_s2: runup.acceleration_rad_per_s2(),
         }
     }

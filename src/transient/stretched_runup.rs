@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::campbell::Progress;
 use crate::plate::Plate;
-use crate::scene::{Probe, RunUp};
+use crate::scene::{Probe, RunUpFile};
 use crate::stretched::StretchedBlade;
 
 use super::runup::{MAX_SAMPLES, Moving, RunUpHistory, Steps};
@@ -59,13 +59,13 @@ const WINDOW_S: (f64, f64) = (1.5, 6.0);
 /// deflection is too steep, [`TransientError::NotBalanced`] if a step has no solution.
 pub fn stretched_run_up(
     plate: &Plate,
-    runup: &RunUp,
+    runup: &RunUpFile,
     probe: &Probe,
     highest_rad_per_s: f64,
     progress: Progress<'_>,
 ) -> Result<StretchedRunUp, TransientError> {
-    let place = (plate.blade.outer_radius_m, runup.angle_rad);
-    let (from, to) = (runup.speeds.from_rad_per_s, runup.speeds.to_rad_per_s);
+    let place = (plate.blade.outer_radius_m, runup.angle_rad());
+    let (from, to) = (runup.speeds().from_rad_per_s, runup.speeds().to_rad_per_s);
     let blade = StretchedBlade::up_to(plate, to, place, MODES)?.pressed(runup.force_n, place)?;
     // The system includes the damping of the saw, which is not part of the potential.
     let system = system(plate, &blade);

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::plate::{Plate, Resolution};
-use crate::scene::{RunUp, Scene, SpeedRange, rad_per_s, rpm};
+use crate::scene::{RunUpFile, Scene, rad_per_s, rpm};
 use crate::spectrum::{lowest_eigenpairs, orthonormal, split};
 use crate::system::GyroscopicSystem;
 use crate::transient::propagator::Propagator;
@@ -113,18 +113,16 @@ fn newmark_tends_to_the_exact_answer_in_second_order() {
 fn a_run_up_converges_and_is_static_when_slow() {
     let plate = paper_plate(SMALL);
     let probe = *Scene::paper().probe();
-    let runup = RunUp {
-        speeds: SpeedRange {
-            from_rad_per_s: 0.0,
-            to_rad_per_s: rad_per_s(1300.0),
-        },
+    let runup = RunUpFile {
+        from_rpm: 0.0,
+        to_rpm: 1300.0,
         duration_s: 20.0,
         force_n: 5.0,
-        angle_rad: 0.0,
+        angle_deg: 0.0,
         stretching: false,
     };
     let record = |highest_hz: f64, duration_s: f64| {
-        let runup = RunUp {
+        let runup = RunUpFile {
             duration_s,
             ..runup
         };

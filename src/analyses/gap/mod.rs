@@ -8,12 +8,7 @@
 //! * [`DeviationMap`]: the stationary deflection at the cut, and the forces of the pads, over gap, side force and speed,
 //!   from the equilibria of [`stretched`](crate::stretched).
 //! * [`Oscillation`], only if something makes the blade oscillate: its periodic motion, at a speed and over the speed.
-<<<<<<< ours
 //! * [`FrictionHeat`], only for a scene with `friction`: the heat of the pads, and the blade that it deforms.
-||||||| base
-//! * [`FrictionHeat`], only with a coefficient of friction: the heat of the pads, and the blade that it deforms.
-=======
-//! * [`FrictionHeat`], only with a coefficient of friction: the heat of the pads, and the blade that it deforms.
 //!
 //! ```no_run
 //! use sawflutter::analyses::gap::{Options, gap};
@@ -23,7 +18,6 @@
 //! println!("{:?}", report.half_way_amplitude_m);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
->>>>>>> theirs
 
 mod amplitude;
 mod balance;
@@ -158,7 +152,7 @@ fn check_reached(blade: &Blade, guide: &Guide) -> Result<(), RefusedValue> {
     let (Some(lifting), Bore::Clamped(_)) = (guide.lifting, blade.bore) else {
         return Ok(());
     };
-    let (_, farthest_m) = guide.reach_m();
+    let (_, farthest_m) = guide.typed.reach_m();
     let free_m = farthest_m.min(blade.outer_radius_m) - blade.inner_radius_m;
     let most_m = LARGEST_SLOPE * free_m + lifting.offset_m.abs();
     match lifting.gap_m <= most_m {

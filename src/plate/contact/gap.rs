@@ -12,7 +12,7 @@
 
 use faer::{Col, Mat, MatRef, Scale};
 
-use crate::scene::{Guide, GuideSide, Lifting};
+use crate::scene::{Guide, GuideFile, GuideSide, Lifting};
 
 use super::super::{Plate, quadrature};
 use super::guide::circles;
@@ -21,7 +21,7 @@ use super::{Contact, ContactTerms};
 /// Pads that lift off, and the linear terms of their plate while no pad is in contact.
 #[derive(Debug, Clone)]
 pub struct LiftingPads {
-    pads: Vec<(Guide, Lifting)>,
+    pads: Vec<(GuideFile, Lifting)>,
     /// Terms of all contacts of the plate, in which each of these pads has only the stiffness of its film.
     pub released: ContactTerms,
 }
@@ -29,7 +29,7 @@ pub struct LiftingPads {
 impl LiftingPads {
     /// The pads among the guides that lift off; `None` if there are none.
     pub fn of(plate: &Plate, guides: &[Guide]) -> Option<Self> {
-        let lifting = |guide: &Guide| guide.lifting.map(|lifting| (*guide, lifting));
+        let lifting = |guide: &Guide| guide.lifting.map(|lifting| (guide.typed, lifting));
         let pads: Vec<_> = guides.iter().filter_map(lifting).collect();
         if pads.is_empty() {
             return None;
@@ -37,9 +37,9 @@ impl LiftingPads {
         let mut released = ContactTerms::default();
         for guide in guides {
             let film = guide.lifting.map(|lifting| lifting.film_stiffness_n_per_m);
-            let guide = Guide {
-                stiffness_n_per_m: film.unwrap_or(guide.stiffness_n_per_m),
-                ..*guide
+            let guide = GuideFile {
+                stiffness_n_per_m: film.unwrap_or(guide.typed.stiffness_n_per_m),
+                ..guide.typed
             };
             guide.add_to(plate, &mut released);
         }
@@ -234,11 +234,11 @@ impl GapPotential {
 }
 
 /// Radius and angle of the Gauss points of a pad, each with its share of the area of the whole pad.
-fn places(plate: &Plate, pad: &Guide, radial: usize, angular: usize) -> Vec<((f64, f64), f64)> {
+fn places(plate: &Plate, pad: &GuideFile, radial: usize, angular: usize) -> Vec<((f64, f64), f64)> {
     let mut places = Vec::new();
     for circle in circles(plate, pad, radial) {
         let Some(arcs) = circle.arcs else {
-            places.push(((circle.radius_m, pad.angle_rad), circle.weight));
+            places.push(((circle.radius_m, pad.angle_rad()), circle.weight));
             continue;
         };
         for (low, high) in arcs {
@@ -249,7 +249,7 @@ fn places(plate: &Plate, pad: &Guide, radial: usize, angular: usize) -> Vec<((f6
             };
             for (low, high) in whole {
                 for (angle, weight) in quadrature::smooth(low, high, angular).iter() {
-                    let place = (circle.radius_m, pad.angle_rad + angle);
+                    let place = (circle.radius_m, pad.angle_rad() + angle);
                     places.push((place, circle.weight * weight));
                 }
             }

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use faer::Scale;
 
-use crate::scene::{Blade, Guide, GuideShape};
+use crate::scene::{Blade, GuideFile, GuideShape};
 
 use super::super::Plate;
 use super::super::quadrature;
@@ -14,10 +14,10 @@ use super::patch::{Circle, coupling, sufficient_points};
 use super::{Contact, ContactTerms};
 
 /// The terms are the mean of φᵢφⱼ over the pad, times the stiffness of the pad in K_g and times its damping in C.
-impl Contact for Guide {
+impl Contact for GuideFile {
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
         let circles = circles(plate, self, sufficient_points(plate));
-        let mut coupling = coupling(plate, self.angle_rad, circles.into_iter());
+        let mut coupling = coupling(plate, self.angle_rad(), circles.into_iter());
         if self.damping_n_s_per_m > 0.0 {
             terms.add_damping(&(Scale(self.damping_n_s_per_m) * &coupling));
         }
@@ -31,7 +31,7 @@ impl Contact for Guide {
 }
 
 /// Circles of a radial quadrature rule with `points` points on each smooth interval, with the arcs of the pad.
-pub(super) fn circles(plate: &Plate, pad: &Guide, points: usize) -> Vec<Circle> {
+pub(super) fn circles(plate: &Plate, pad: &GuideFile, points: usize) -> Vec<Circle> {
     if pad.is_point() {
         return vec![Circle {
             radius_m: pad.radius_m,
@@ -53,7 +53,7 @@ pub(super) fn circles(plate: &Plate, pad: &Guide, points: usize) -> Vec<Circle> 
 
 /// Intervals of r, clipped to the blade, in whose interior the arcs are smooth. An interval ends where a circle
 /// touches a side of the pad or passes through a corner, and at the edges of the blade.
-fn smooth_radii(blade: &Blade, pad: &Guide) -> Vec<(f64, f64)> {
+fn smooth_radii(blade: &Blade, pad: &GuideFile) -> Vec<(f64, f64)> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let mut cuts = pad.touching_radii_m();
     cuts.extend(blade.edges_m());
@@ -67,14 +67,14 @@ fn smooth_radii(blade: &Blade, pad: &Guide) -> Vec<(f64, f64)> {
 }
 
 /// Arcs with 0 ≤ ψ ≤ π of the circle of radius r inside the pad, see [`Circle`].
-fn arcs(pad: &Guide, r: f64) -> Vec<(f64, f64)> {
+fn arcs(pad: &GuideFile, r: f64) -> Vec<(f64, f64)> {
     match pad.shape {
         GuideShape::Rectangle => arcs_in_rectangle(pad, r),
         GuideShape::Round => arcs_in_ellipse(pad, r),
     }
 }
 
-fn arcs_in_rectangle(pad: &Guide, r: f64) -> Vec<(f64, f64)> {
+fn arcs_in_rectangle(pad: &GuideFile, r: f64) -> Vec<(f64, f64)> {
     let (along, half) = pad.half_lengths_m();
     let (near, far) = (pad.radius_m - along, pad.radius_m + along);
     if near >= r || far <= -r {
@@ -92,7 +92,7 @@ fn arcs_in_rectangle(pad: &Guide, r: f64) -> Vec<(f64, f64)> {
 
 /// Arcs in the ellipse with half-axes a and b about the radius c: with u = cos ψ, the point at ψ is inside where
 /// (r u − c)²/a² + r² (1 − u²)/b² ≤ 1, a quadratic inequality for u.
-fn arcs_in_ellipse(pad: &Guide, r: f64) -> Vec<(f64, f64)> {
+fn arcs_in_ellipse(pad: &GuideFile, r: f64) -> Vec<(f64, f64)> {
     let (a, b) = pad.half_lengths_m();
     let c = pad.radius_m;
     let square = (r / a).powi(2) - (r / b).powi(2);
