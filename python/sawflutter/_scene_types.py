@@ -96,7 +96,7 @@ class MountSplineDict(TypedDict):
 
 
 class MountCollarDict(TypedDict):
-    """Clamped between collars: no deflection and no slope at the collar's edge."""
+    """Clamped between collars or flanges: no deflection and no slope at their edge."""
 
     kind: Literal["collar"]
     """Which kind it is."""
@@ -162,6 +162,32 @@ class GuideDict(_GuideDict, total=False):
     offset_m: float
     """Lateral offset of the middle between the faces of a one-sided pad from the plane of the
     flat blade, positive in the direction of positive deflection. Zero by default."""
+
+
+class _FrictionDict(TypedDict):
+    """Friction of the guide pads and cooling of the blade that it heats, for `sawflutter
+    gap`."""
+
+    coefficient: float
+    """Coefficient of friction of dry contact. Pads with `contact` linear have no friction.
+    Typically 0.2, from 0.1 to 0.4 (assumption of this program, for dry steel on a pad)."""
+
+
+class FrictionDict(_FrictionDict, total=False):
+    """Friction of the guide pads and cooling of the blade that it heats, for `sawflutter
+    gap`."""
+
+    heat_share: float
+    """Share of the power of friction that enters the blade. Typically 1, from 0.5 to 1
+    (assumption of this program, on the safe side)."""
+
+    convection_w_per_m2_k: float
+    """Heat transfer coefficient of each face of the blade. Typically 60, from 30 to 150
+    (assumption of this program, for air along a fast blade; water has some 1000)."""
+
+    conductivity_w_per_m_k: float
+    """Thermal conductivity of the blade. Typically 45, from 15 to 60 (steel; property tables of
+    materials)."""
 
 
 class ModeRatioRowDict(TypedDict):
@@ -643,6 +669,9 @@ class SceneDict(_SceneDict, total=False):
 
     guides: list[GuideDict]
     """Guide pads, fixed in space. None by default."""
+
+    friction: FrictionDict | None
+    """Friction of the guides with a gap, for `sawflutter gap`. None by default."""
 
     damping: DampingDict | None
     """Damping. None by default, as in the classical analysis."""
