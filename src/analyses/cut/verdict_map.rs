@@ -76,7 +76,7 @@ pub(super) fn verdict_map(
         .collect::<Result<Vec<_>, _>>()?;
     let angle_deg = |turn: &f64| {
         let guide = scene.guides().first()?;
-        Some((guide.angle_rad + turn).to_degrees())
+        Some((guide.typed.angle_rad() + turn).to_degrees())
     };
     let verdict = |growth: &Growth| Verdict::of(scene, *growth);
     let rows = growth.iter();

@@ -13,7 +13,7 @@ use std::f64::consts::{LN_2, TAU};
 use crate::campbell::Progress;
 use crate::plate::Plate;
 use crate::report::InstabilityEntry;
-use crate::scene::{Probe, RunUp, Scene, SceneError, rpm};
+use crate::scene::{Probe, RunUpFile, Scene, SceneError, rpm};
 use crate::spectrum::Mode;
 use crate::stability::Analysis;
 use crate::transient::{
@@ -35,9 +35,9 @@ const DOUBLING: f64 = LN_2;
 pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, TransientError> {
     let runup = scene.needed_runup().map_err(SceneError::from)?;
     let probe = scene.probe();
-    let analysis = Analysis::new(&scene.swept(runup.speeds)?)?;
+    let analysis = Analysis::new(&scene.swept(runup.speeds())?)?;
     let (model, plate) = (&analysis.model, &analysis.model.plate);
-    let modes = model.modes(runup.speeds.from_rad_per_s)?;
+    let modes = model.modes(runup.speeds().from_rad_per_s)?;
     let shown = modes.iter().take(SHOWN_MODES);
     let highest = shown.map(Mode::frequency_rad_per_s).fold(0.0, f64::max);
     let (history, stretching) = match runup.stretching {
@@ -73,8 +73,8 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
         condition: chart.condition,
         unusual_numbers: chart.unusual_numbers,
         degrees_of_freedom: chart.accuracy.degrees_of_freedom,
-        from_rpm: rpm(runup.speeds.from_rad_per_s),
-        to_rpm: rpm(runup.speeds.to_rad_per_s),
+        from_rpm: rpm(runup.speeds().from_rad_per_s),
+        to_rpm: rpm(runup.speeds().to_rad_per_s),
         rate_rpm_per_s: rpm(rate),
         step_s: history.step_s,
         linear_limit_m: linear_limit_m(scene.blade()),
@@ -93,8 +93,8 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
 
 impl ResponseMap {
     /// The response over the speeds of a run-up, up to a frequency.
-    fn new(plate: &Plate, runup: &RunUp, probe: &Probe, highest_rad_per_s: f64) -> Self {
-        let (from, to) = (runup.speeds.from_rad_per_s, runup.speeds.to_rad_per_s);
+    fn new(plate: &Plate, runup: &RunUpFile, probe: &Probe, highest_rad_per_s: f64) -> Self {
+        let (from, to) = (runup.speeds().from_rad_per_s, runup.speeds().to_rad_per_s);
         let speeds = even(from, to, MAP_SIZE.0);
         let frequencies = even(0.0, highest_rad_per_s, MAP_SIZE.1);
         ResponseMap {
