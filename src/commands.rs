@@ -29,7 +29,7 @@ use crate::figure::{
     deflect, fit, gap, gap_friction, gap_map, gap_oscillation, in_cut, map, membrane, modes, place,
     response, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
-use crate::report::{ModeEntry, Report};
+use crate::report::{ModeShape, Report};
 use crate::scene::SceneFile;
 use crate::summary;
 
@@ -111,7 +111,7 @@ pub fn json_schema() -> Value {
         .iter()
         .map(|command| (command.name.to_owned(), command.schema()));
     let lists = [
-        ("modes".to_owned(), schema::<Vec<ModeEntry>>()),
+        ("modes".to_owned(), schema::<Vec<ModeShape>>()),
         ("tradeoff".to_owned(), schema::<Vec<Setting>>()),
     ];
     reports.chain(lists).collect()

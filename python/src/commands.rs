@@ -10,7 +10,7 @@ use sawflutter::analyses::gap::{self, Options as GapOptions, OscillatingForce};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
 use sawflutter::analyses::{cut, deflect, response, runup, washboard};
-use sawflutter::report::{ModeEntry, SensitivityEntry};
+use sawflutter::report::{ModeShape, NumberSensitivity};
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
@@ -88,7 +88,7 @@ fn analyze(options: &Options<'_>) -> PyResult<Work> {
             report.add_shapes(&analysis, &asked)?;
         }
         if sensitivity {
-            report.sensitivities = SensitivityEntry::all(&analysis)?;
+            report.sensitivities = NumberSensitivity::all(&analysis)?;
         }
         json(&report)
     }))
@@ -131,7 +131,7 @@ fn modes(options: &Options<'_>) -> PyResult<Work> {
         for (done, speed) in speeds.iter().enumerate() {
             meter.show(done, speeds.len());
             let found = model.describe(*speed, model.modes(*speed)?);
-            let entry = |mode| ModeEntry::new(&model.plate, *speed, mode);
+            let entry = |mode| ModeShape::new(&model.plate, *speed, mode);
             entries.push(found.iter().map(entry).collect::<Vec<_>>());
         }
         json(&entries)

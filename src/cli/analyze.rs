@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::figure::CampbellView;
-use crate::report::{Report, SensitivityEntry, VTK_NAMES, WhirlEntry};
+use crate::report::{NumberSensitivity, Report, VTK_NAMES, Whirl};
 use crate::scene::{Scene, SpeedRange};
 use crate::stability::{Analysis, AnalysisOptions, ExpectedWork};
 use anyhow::Context;
@@ -212,7 +212,7 @@ fn watched_report(
     let asked = arguments.at_rpm.map(|rpm| range.speed_at("--at-rpm", rpm));
     let asked = asked.transpose()?;
     if let Some(speed) = asked {
-        report.whirl = Some(WhirlEntry::new(&analysis, speed)?);
+        report.whirl = Some(Whirl::new(&analysis, speed)?);
     }
     if arguments.shapes || arguments.vtk {
         report.add_shapes(&analysis, asked.as_slice())?;
@@ -221,7 +221,7 @@ fn watched_report(
         report.add_amplitudes(&analysis)?;
     }
     if arguments.sensitivity {
-        report.sensitivities = SensitivityEntry::all(&analysis)?;
+        report.sensitivities = NumberSensitivity::all(&analysis)?;
     }
     Ok(report)
 }

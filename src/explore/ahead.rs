@@ -6,7 +6,7 @@ use super::charts::{Charts, Fidelity, drafted};
 use super::refusal::Refusal;
 use super::told::{Fact, of_bands, of_critical};
 use crate::figure::{Band, Item, Upright};
-use crate::report::{InstabilityEntry, OperatingEntry};
+use crate::report::{InstabilityBand, OperatingPoint};
 use crate::scene::{Scene, rpm};
 use crate::stability::{ChosenBasis, Evidence, Instability, Interim, flutter_onsets};
 use crate::summary::{Answer, headline};
@@ -65,7 +65,7 @@ impl Ahead {
     fn add_bands(&mut self, evidence: &Evidence<'_>, operating_rad_per_s: Option<f64>) {
         let (threshold, (from, to)) = (evidence.threshold_per_s, evidence.range_rad_per_s);
         let shaded = |band: &Instability| {
-            let entry = InstabilityEntry::new(band, threshold);
+            let entry = InstabilityBand::new(band, threshold);
             Item::Band(Band::new(&entry, [from, to].map(rpm)))
         };
         self.bands = Some(evidence.bands.iter().map(shaded).collect());
@@ -74,7 +74,7 @@ impl Ahead {
         let onsets = onsets.map(|onset| onset.map(rpm));
         self.facts.extend(of_bands(onsets, growths));
         self.verdict = operating_rad_per_s.map(|speed| {
-            let operating = OperatingEntry::from_evidence(evidence, speed);
+            let operating = OperatingPoint::from_evidence(evidence, speed);
             Verdict {
                 answer: Answer::new(&operating),
                 lines: [headline(&operating)],

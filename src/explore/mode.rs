@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::charts::Charts;
 use super::refusal::Refusal;
-use crate::report::ModeEntry;
+use crate::report::ModeShape;
 use crate::scene::rpm;
 use crate::spectrum::DescribedMode;
 use crate::stability::Analysis;
@@ -27,14 +27,14 @@ struct Asked {
 ///
 /// # Errors
 /// [`Refusal`] if the request cannot be read, or the diagram is no longer kept.
-pub fn answer(charts: &Charts, asked: &str) -> Result<ModeEntry, Refusal> {
+pub fn answer(charts: &Charts, asked: &str) -> Result<ModeShape, Refusal> {
     let asked: Asked = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
     let found = charts.named(asked.chart);
     let found = found
         .as_deref()
         .and_then(|analysis| Some((analysis, nearest(analysis, &asked)?)));
     let (analysis, (speed, mode)) = found.ok_or_else(|| Refusal::gone(asked.chart))?;
-    Ok(ModeEntry::new(&analysis.model.plate, speed, mode))
+    Ok(ModeShape::new(&analysis.model.plate, speed, mode))
 }
 
 /// Finds the mode nearest to the requested frequency at the sampled speed nearest to the requested one; returns this

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::report::{InstabilityEntry, InstabilityKind, Report};
+use crate::report::{InstabilityBand, InstabilityKind, Report};
 use crate::summary::{is_damped, numbered};
 use crate::text::shown_to;
 
@@ -45,7 +45,7 @@ fn critical_speeds(report: &Report) -> Table {
 }
 
 fn bands(report: &Report) -> Table {
-    let row = |band: &InstabilityEntry| {
+    let row = |band: &InstabilityBand| {
         let kind = match band.kind {
             InstabilityKind::Divergence => "divergence",
             InstabilityKind::Flutter => "flutter",

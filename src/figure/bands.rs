@@ -4,7 +4,7 @@ use super::axis::{Axis, two_digits};
 use super::canvas::{Frame, Sheet};
 use super::chart_data::Band;
 use super::palette::Hue;
-use crate::report::InstabilityEntry;
+use crate::report::InstabilityBand;
 
 /// Bands narrower than this, in figure units, are drawn in a stronger colour.
 pub const NARROW: f64 = 4.0;
@@ -29,7 +29,7 @@ pub fn places(speed: &Axis, range: [f64; 2]) -> Option<[f64; 2]> {
 const WIDEST_WEAK: f64 = 0.03;
 
 /// Whether any part of a band is shaded on an axis between two speeds in rpm.
-pub fn is_shaded([first, last]: [f64; 2], band: &InstabilityEntry) -> bool {
+pub fn is_shaded([first, last]: [f64; 2], band: &InstabilityBand) -> bool {
     let is_wide = band.to_rpm - band.from_rpm > WIDEST_WEAK * (last - first);
     !(is_wide && band.counted_rpm.is_empty())
 }
@@ -37,7 +37,7 @@ pub fn is_shaded([first, last]: [f64; 2], band: &InstabilityEntry) -> bool {
 impl Band {
     /// A band on an axis between two speeds in rpm. The parts where the growth exceeds the threshold are shaded; a
     /// band without such parts is shaded as a whole, unless it is wide, see [`is_shaded`].
-    pub(crate) fn new(band: &InstabilityEntry, speeds: [f64; 2]) -> Self {
+    pub(crate) fn new(band: &InstabilityBand, speeds: [f64; 2]) -> Self {
         let whole = [band.from_rpm, band.to_rpm];
         let shaded = match band.counted_rpm.is_empty() {
             _ if !is_shaded(speeds, band) => Vec::new(),
@@ -65,7 +65,7 @@ impl Band {
 
 impl Band {
     /// A band of which only speeds whose growth exceeds the threshold are shaded.
-    pub(crate) fn grown(band: &InstabilityEntry, speeds: [f64; 2]) -> Self {
+    pub(crate) fn grown(band: &InstabilityBand, speeds: [f64; 2]) -> Self {
         Self {
             shaded: band.counted_rpm.clone(),
             ..Self::new(band, speeds)
@@ -74,7 +74,7 @@ impl Band {
 }
 
 /// Kind and range of a band in rpm, and the amplitude of its flutter if the report contains it.
-fn label(band: &InstabilityEntry, [first, last]: [f64; 2]) -> String {
+fn label(band: &InstabilityBand, [first, last]: [f64; 2]) -> String {
     let kind = band.kind;
     let [from, to] = [band.from_rpm, band.to_rpm].map(|rpm| format!("{rpm:.0}"));
     let label = if !band.closed && band.to_rpm >= last && band.from_rpm > first {
@@ -97,7 +97,7 @@ fn label(band: &InstabilityEntry, [first, last]: [f64; 2]) -> String {
 pub fn shade<'a>(
     sheet: &mut Sheet,
     speed: &Axis,
-    bands: impl Iterator<Item = &'a InstabilityEntry>,
+    bands: impl Iterator<Item = &'a InstabilityBand>,
     panels: &[Frame],
 ) {
     let bands: Vec<Band> = bands.map(|band| Band::new(band, speed.values())).collect();

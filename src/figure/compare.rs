@@ -6,7 +6,7 @@ use super::chart_data::{AxisData, ChartData, Item, Line, PanelData, Points, line
 use super::palette::Hue;
 use super::style::{CURVE, STRONG_CURVE};
 use crate::analyses::compare::{CompareReport, ComparedSaw};
-use crate::report::BranchEntry;
+use crate::report::BranchCurve;
 
 /// Heights of the diagram and of the row of a saw, relative to a panel of usual height.
 const DIAGRAM: f64 = 1.2;
@@ -113,7 +113,7 @@ fn curves(saw: &ComparedSaw, hue: Hue) -> Vec<Item> {
 }
 
 /// Whether a branch grows between one of its samples and the next, and whether it is reflected without growing.
-fn look(branch: &BranchEntry, i: usize) -> (bool, bool) {
+fn look(branch: &BranchCurve, i: usize) -> (bool, bool) {
     let ends = [i, i + 1];
     let grows = ends.map(|k| {
         branch

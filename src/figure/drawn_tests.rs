@@ -11,7 +11,7 @@ use super::campbell::{self, curve};
 use super::draws::{any_saw, lowest_critical, scene};
 use super::root_loci;
 use super::tidy::assert_tidy;
-use crate::report::{BranchEntry, Report, RootLociEntry};
+use crate::report::{BranchCurve, Report, RootLoci};
 use crate::scene::{Accuracy, SceneFile, SweepFile, rpm};
 use crate::stability::Analysis;
 
@@ -32,7 +32,7 @@ fn report(file: &SceneFile, reach: f64) -> Report {
 
 /// Speeds inside the sweep at which a branch begins or ends below the frequency up to which the diagram is
 /// complete.
-fn loose_ends(report: &Report, branch: &BranchEntry) -> Vec<f64> {
+fn loose_ends(report: &Report, branch: &BranchCurve) -> Vec<f64> {
     let chart = &report.campbell;
     let sweep = [chart.from_rpm, chart.to_rpm];
     let last = branch.rpm.len() - 1;
@@ -45,7 +45,7 @@ fn loose_ends(report: &Report, branch: &BranchEntry) -> Vec<f64> {
 }
 
 /// Largest step of a path between neighbouring speeds, relative to the length of the path.
-fn largest_step(loci: &RootLociEntry) -> f64 {
+fn largest_step(loci: &RootLoci) -> f64 {
     let share = |values: &Vec<f64>| {
         let ends = values.iter().fold([f64::INFINITY, 0.0], |[low, high], v| {
             [f64::min(low, *v), f64::max(high, *v)]

@@ -8,7 +8,7 @@ use super::style::{
     MARGIN, QUIET, STRONG_CURVE,
 };
 use super::{bands, heading};
-use crate::report::{InCutEntry, InstabilityEntry, Report};
+use crate::report::{InCut, InstabilityBand, Report};
 
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 420;
@@ -23,7 +23,7 @@ const GAP: f64 = 14.0;
 struct Row<'a> {
     name: String,
     critical_rpm: Vec<f64>,
-    bands: &'a [InstabilityEntry],
+    bands: &'a [InstabilityBand],
     flutter_rpm: Option<f64>,
 }
 
@@ -72,7 +72,7 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     Some(sheet)
 }
 
-fn facts(report: &Report, in_cut: &InCutEntry) -> String {
+fn facts(report: &Report, in_cut: &InCut) -> String {
     [
         report.condition.clone(),
         format!(

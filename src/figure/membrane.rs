@@ -9,7 +9,7 @@ use super::style::{
     ALARM, BACKWARD, CURVE, Colour, DASH, FINE_DASH, FLUTTER, FORWARD, HAIRLINE, INK, LABEL_SIZE,
     QUIET,
 };
-use crate::report::{HeatEntry, MembraneEntry, Report};
+use crate::report::{BladeStress, Report, ToleratedHeat};
 
 const HEIGHT: u32 = 560;
 /// Width of the sheet with and without the panel of critical speeds.
@@ -56,7 +56,7 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
     Some(sheet)
 }
 
-fn draw_stress(sheet: &mut Sheet, membrane: &MembraneEntry) {
+fn draw_stress(sheet: &mut Sheet, membrane: &BladeStress) {
     let mm: Vec<f64> = membrane.radius_m.iter().map(|r| 1e3 * r).collect();
     let ends = [mm.first(), mm.last()].map(|end| end.copied().unwrap_or(0.0));
     let radius = Axis::linear(ends, STRESS.across());
@@ -95,7 +95,7 @@ fn draw_stress(sheet: &mut Sheet, membrane: &MembraneEntry) {
     }
 }
 
-fn draw_speeds(sheet: &mut Sheet, heat: &HeatEntry, operating_rpm: Option<f64>) {
+fn draw_speeds(sheet: &mut Sheet, heat: &ToleratedHeat, operating_rpm: Option<f64>) {
     let curves = || heat.critical_speeds.iter();
     let rises = curves().flat_map(|curve| curve.rise_k.iter().copied());
     let rise = Axis::linear(extremes(rises.chain([0.0])), SPEEDS.across());
@@ -111,7 +111,7 @@ fn draw_speeds(sheet: &mut Sheet, heat: &HeatEntry, operating_rpm: Option<f64>) 
     draw_limits(sheet, heat, (&rise, &speed), operating_rpm);
 }
 
-fn draw_curves(sheet: &mut Sheet, heat: &HeatEntry, (rise, speed): (&Axis, &Axis)) {
+fn draw_curves(sheet: &mut Sheet, heat: &ToleratedHeat, (rise, speed): (&Axis, &Axis)) {
     let labels = heat.critical_speeds.iter().map(|curve| Extent {
         centre: speed.at(curve.rpm.last().copied().unwrap_or(0.0)),
         length: LINE,
@@ -144,7 +144,7 @@ fn draw_curves(sheet: &mut Sheet, heat: &HeatEntry, (rise, speed): (&Axis, &Axis
 
 fn draw_limits(
     sheet: &mut Sheet,
-    heat: &HeatEntry,
+    heat: &ToleratedHeat,
     (rise, speed): (&Axis, &Axis),
     operating_rpm: Option<f64>,
 ) {
@@ -204,13 +204,13 @@ mod tests {
     use super::*;
     use crate::figure::sample::empty_report;
     use crate::figure::tidy::{assert_tidy, texts};
-    use crate::report::{HeatCurveEntry, HeatLimitEntry, OperatingEntry};
+    use crate::report::{CriticalCurve, OperatingPoint, ToleratedRise};
 
     /// The critical speeds of this blade fall linearly up to 40 K, and it buckles at 52 K.
     fn report(rise_k: f64) -> Report {
         let radius_m: Vec<f64> = (0..=30).map(|k| 0.08 + 0.01 * f64::from(k)).collect();
         let peaks: Vec<f64> = (0..=20).map(|k| 2.6 * f64::from(k) - 1e-3).collect();
-        let curve = |diameters: usize| HeatCurveEntry {
+        let curve = |diameters: usize| CriticalCurve {
             name: format!("{diameters} diameters"),
             nodal_diameters: diameters,
             nodal_circles: 0,
@@ -221,7 +221,7 @@ mod tests {
                 .collect(),
         };
         let limit = |rise_k| {
-            Some(HeatLimitEntry {
+            Some(ToleratedRise {
                 rise_k,
                 name: "3 diameters".to_owned(),
                 nodal_diameters: 3,
@@ -229,7 +229,7 @@ mod tests {
             })
         };
         let mut report = empty_report("A hot saw");
-        report.operating = Some(OperatingEntry {
+        report.operating = Some(OperatingPoint {
             rpm: 3000.0,
             lowest_critical_rpm: Some(3000.0 / 0.7),
             of_lowest_critical: Some(0.7),
@@ -243,12 +243,12 @@ mod tests {
             growth_per_s: None,
             frequency_hz: None,
         });
-        report.membrane = Some(MembraneEntry {
+        report.membrane = Some(BladeStress {
             roll_bands: Vec::new(),
             straight_edge: None,
             radial_pa: radius_m.iter().map(|r| -3e8 * (0.38 - r).abs()).collect(),
             hoop_pa: radius_m.iter().map(|r| 3e8 * (0.2 - r)).collect(),
-            heat: Some(HeatEntry {
+            heat: Some(ToleratedHeat {
                 rise_k,
                 profile_k: radius_m.clone(),
                 operating_limit: limit(25.0),

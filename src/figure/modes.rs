@@ -6,7 +6,7 @@ use super::canvas::{Anchor, Lettering, Sheet, Stroke};
 use super::heading;
 use super::key::Key;
 use super::style::{BETWEEN_FACTS, INK, LABEL_SIZE, MARGIN, QUIET, Weight, shorten};
-use crate::report::{EventShapeEntry, Report, ShapeOccasion};
+use crate::report::{EventShape, Report, ShapeOccasion};
 use blade::{GUIDE_WIDTH, NODAL_WIDTH, colour};
 
 /// Number of panels in a row.
@@ -44,8 +44,8 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
 
 /// The shapes that fit into the figure. If not all of them fit, critical speeds and bands are omitted before the
 /// operating speed and requested speeds.
-fn shown(shapes: &[EventShapeEntry]) -> Vec<&EventShapeEntry> {
-    let is_event = |shape: &&EventShapeEntry| {
+fn shown(shapes: &[EventShape]) -> Vec<&EventShape> {
+    let is_event = |shape: &&EventShape| {
         !matches!(
             shape.occasion,
             ShapeOccasion::OperatingSpeed | ShapeOccasion::AskedSpeed
@@ -71,7 +71,7 @@ fn facts(report: &Report, shown: usize) -> String {
     facts.join(BETWEEN_FACTS)
 }
 
-fn panel(sheet: &mut Sheet, [left, top]: [f64; 2], report: &Report, shape: &EventShapeEntry) {
+fn panel(sheet: &mut Sheet, [left, top]: [f64; 2], report: &Report, shape: &EventShape) {
     let centre = [left + 0.5 * PANEL[0], top + 54.0 + blade::RADIUS];
     blade::draw(sheet, centre, report, shape);
     let room = PANEL[0] - 14.0;
@@ -92,7 +92,7 @@ fn panel(sheet: &mut Sheet, [left, top]: [f64; 2], report: &Report, shape: &Even
 }
 
 /// Speed and kind of a shape: "1531 rpm, critical", "2261 rpm, flutter".
-fn heading_of(shape: &EventShapeEntry) -> String {
+fn heading_of(shape: &EventShape) -> String {
     let what = match shape.occasion {
         ShapeOccasion::CriticalSpeed => "critical",
         ShapeOccasion::Divergence => "divergence",
@@ -104,7 +104,7 @@ fn heading_of(shape: &EventShapeEntry) -> String {
 }
 
 /// Frequency and growth: "6.01 Hz, +0.487 1/s"; empty for a wave that stands still.
-fn motion(shape: &EventShapeEntry) -> String {
+fn motion(shape: &EventShape) -> String {
     let mut parts = Vec::new();
     if shape.frequency_hz > 0.0 {
         parts.push(format!("{:.2} Hz", shape.frequency_hz));
@@ -117,7 +117,7 @@ fn motion(shape: &EventShapeEntry) -> String {
 }
 
 /// Largest shares of harmonics in the name: "n = 2: 78 %, 3: 15 %".
-fn shares(shape: &EventShapeEntry) -> String {
+fn shares(shape: &EventShape) -> String {
     let all = shape.harmonics.iter();
     let shares = all
         .filter(|h| h.share >= LEAST_NAMED)

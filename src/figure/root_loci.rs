@@ -14,7 +14,7 @@ use super::style::{
     BETWEEN_FACTS, CURVE, Colour, FLUTTER, FLUTTER_SHADE, GRID, HAIRLINE, LABEL_SIZE, MARGIN,
     QUIET, label_width, shorten_label, tint,
 };
-use crate::report::{Report, RootLociEntry, RootPathEntry};
+use crate::report::{Report, RootLoci, RootPath};
 use crate::text::shown_to;
 
 const WIDTH: u32 = 1200;
@@ -168,7 +168,7 @@ fn items(path: &[Sample], name: &str, place: impl Fn(&Sample) -> [f64; 2]) -> Ve
 }
 
 /// The eigenvalues of a path without values that are not finite or larger than [`LARGEST`].
-fn samples(entry: &RootLociEntry, path: &RootPathEntry) -> Vec<Sample> {
+fn samples(entry: &RootLoci, path: &RootPath) -> Vec<Sample> {
     let numbers = path.growth_per_s.iter().zip(&path.frequency_hz);
     let all = entry.rpm.iter().zip(numbers).zip(&path.krein_sign);
     let all = all.map(|((rpm, (growth, hz)), sign)| Sample {
@@ -182,7 +182,7 @@ fn samples(entry: &RootLociEntry, path: &RootPathEntry) -> Vec<Sample> {
 }
 
 impl Chart {
-    fn new(entry: &RootLociEntry) -> Option<Self> {
+    fn new(entry: &RootLoci) -> Option<Self> {
         let [first, second] = entry.paths.first_chunk()?;
         let paths = [first, second].map(|path| samples(entry, path));
         let ends_are_sound = [entry.onset_rpm, entry.end_rpm].map(|rpm| rpm.abs() < LARGEST);
@@ -256,7 +256,7 @@ fn draw_axes(sheet: &mut Sheet, chart: &Chart) {
 }
 
 /// Shades the band over the speeds, and writes its ends in rpm above.
-fn draw_band(sheet: &mut Sheet, chart: &Chart, entry: &RootLociEntry) {
+fn draw_band(sheet: &mut Sheet, chart: &Chart, entry: &RootLoci) {
     let [first, last] = chart.speed.values();
     let ends = [entry.onset_rpm, entry.end_rpm].map(|rpm| rpm.clamp(first, last));
     let [left, right] = ends.map(|rpm| chart.speed.at(rpm));
@@ -293,7 +293,7 @@ struct Label {
 
 /// Writes names and speeds at the ends of the paths, to the left of the imaginary axis for Krein sign +1 and to the right
 /// for −1, the largest growth to the right, and a note on its mirror image to the left.
-fn draw_labels(sheet: &mut Sheet, chart: &Chart, entry: &RootLociEntry) {
+fn draw_labels(sheet: &mut Sheet, chart: &Chart, entry: &RootLoci) {
     for (text, x, anchor) in [
         ("← decaying", PLANE.left, Anchor::Start),
         ("growing →", PLANE.right, Anchor::End),

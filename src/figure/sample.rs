@@ -2,8 +2,8 @@
 //! rotation speed Ω.
 
 use crate::report::{
-    AccuracyEntry, BranchEntry, CampbellEntry, CertificateEntry, CriticalSpeedEntry, Direction,
-    InstabilityEntry, InstabilityKind, Report, RootLociEntry, RootPathEntry, WorkEntry,
+    BandCertificate, BasisAccuracy, BranchCurve, CampbellDiagram, CriticalSpeed, Direction,
+    InstabilityBand, InstabilityKind, Report, RootLoci, RootPath, SolveCounts,
 };
 use crate::scene::{
     Accuracy, BladeFile, GuideFile, Material, Measured, MeasuredRow, Mount, SceneFile,
@@ -63,7 +63,7 @@ pub fn empty_report(name: &str) -> Report {
         operating: None,
         whirl: None,
         shapes: Vec::new(),
-        accuracy: AccuracyEntry {
+        accuracy: BasisAccuracy {
             name: Accuracy::Draft,
             max_diameters: 8,
             complete_to_rpm: 5000.0,
@@ -75,8 +75,8 @@ pub fn empty_report(name: &str) -> Report {
             estimated_resting_error: None,
             estimated_drawn_error: None,
         },
-        work: WorkEntry::default(),
-        certificate: CertificateEntry {
+        work: SolveCounts::default(),
+        certificate: BandCertificate {
             statement: "no speed was checked".to_owned(),
             speeds_checked: 0,
             gave_up: false,
@@ -94,7 +94,7 @@ pub fn empty_report(name: &str) -> Report {
             max_backward_error: 0.0,
             max_listed_backward_error: None,
         },
-        campbell: CampbellEntry {
+        campbell: CampbellDiagram {
             from_rpm: 0.0,
             to_rpm: 0.0,
             complete_to_hz: 0.0,
@@ -118,7 +118,7 @@ fn branch(
     rest_hz: f64,
     critical_rpm: f64,
     rpm: &[f64],
-) -> BranchEntry {
+) -> BranchCurve {
     let n = diameters as f64;
     let turns = critical_rpm / 60.0;
     let stiffening = n * n - (rest_hz / turns).powi(2);
@@ -129,7 +129,7 @@ fn branch(
         _ => -1.0,
     };
     let seen: Vec<f64> = rpm.iter().map(|r| body(r) + sign * n * r / 60.0).collect();
-    BranchEntry {
+    BranchCurve {
         branch: 0,
         name: String::new(),
         label: format!("{diameters} {direction:?}").to_lowercase(),
@@ -149,8 +149,8 @@ fn branch(
 }
 
 /// A band between two speeds in rpm, with its largest growth in 1/s and its frequency in Hz.
-pub fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64, hz: f64) -> InstabilityEntry {
-    InstabilityEntry {
+pub fn band(kind: InstabilityKind, from: f64, to: f64, growth: f64, hz: f64) -> InstabilityBand {
+    InstabilityBand {
         kind,
         from_rpm: from,
         to_rpm: to,
@@ -175,7 +175,7 @@ pub fn busy_report() -> Report {
     report.instabilities = bands();
     let bands = report.instabilities.iter();
     let standing = bands.filter(|band| band.frequency_hz == 0.0);
-    let critical = |(i, rpm)| CriticalSpeedEntry {
+    let critical = |(i, rpm)| CriticalSpeed {
         rpm,
         branch: None,
         name: String::new(),
@@ -186,7 +186,7 @@ pub fn busy_report() -> Report {
     let ends = standing.flat_map(|band| [band.from_rpm, band.to_rpm]);
     report.critical_speeds = ends.enumerate().map(critical).collect();
     report.flutter_speed_rpm = Some(2392.0);
-    report.campbell = CampbellEntry {
+    report.campbell = CampbellDiagram {
         from_rpm: 0.0,
         to_rpm: 3000.0,
         complete_to_hz: 160.0,
@@ -202,7 +202,7 @@ pub fn busy_report() -> Report {
     report
 }
 
-fn bands() -> Vec<InstabilityEntry> {
+fn bands() -> Vec<InstabilityBand> {
     use InstabilityKind::{Divergence, Flutter};
     vec![
         band(Divergence, 1530.7, 1551.5, 15.0, 0.0),
@@ -217,7 +217,7 @@ fn bands() -> Vec<InstabilityEntry> {
     ]
 }
 
-fn branches(bands: &[InstabilityEntry]) -> Vec<BranchEntry> {
+fn branches(bands: &[InstabilityBand]) -> Vec<BranchCurve> {
     use Direction::{Backward, Forward, Standing};
     let rpm: Vec<f64> = (0..=1000).map(|i| 3.0 * f64::from(i)).collect();
     let mut branches = vec![
@@ -242,7 +242,7 @@ fn branches(bands: &[InstabilityEntry]) -> Vec<BranchEntry> {
 }
 
 /// Makes a branch diverge within a band.
-fn let_diverge(branch: &mut BranchEntry, band: &InstabilityEntry) {
+fn let_diverge(branch: &mut BranchCurve, band: &InstabilityBand) {
     let half = (band.to_rpm - band.from_rpm) / 2.0;
     for i in 0..branch.rpm.len() {
         let off = (branch.rpm[i] - band.peak_rpm) / half;
@@ -285,7 +285,7 @@ fn measured() -> Measured {
 
 /// Two modes of opposite Krein sign that coalesce at about 6 Hz; `drift` is the slope of their mean frequency over the
 /// speed, in Hz/rpm.
-pub fn root_loci(drift: f64) -> RootLociEntry {
+pub fn root_loci(drift: f64) -> RootLoci {
     let (onset, end, peak) = (2255.6, 2266.52, 0.53);
     let (middle, half) = ((onset + end) / 2.0, (end - onset) / 2.0);
     let inside = |rpm: f64| ((rpm - middle) / half).abs() < 1.0;
@@ -306,7 +306,7 @@ pub fn root_loci(drift: f64) -> RootLociEntry {
         };
         let growth = |&rpm: &f64| if inside(rpm) { side * apart(rpm) } else { 0.0 };
         let sign = |&rpm: &f64| if inside(rpm) { 0 } else { side as i8 };
-        RootPathEntry {
+        RootPath {
             name: name.to_owned(),
             growth_per_s: rpm.iter().map(growth).collect(),
             frequency_hz: rpm.iter().map(hz).collect(),
@@ -317,7 +317,7 @@ pub fn root_loci(drift: f64) -> RootLociEntry {
         path("4 diameters, backward", 1.0),
         path("4 diameters, reflected", -1.0),
     ];
-    RootLociEntry {
+    RootLoci {
         onset_rpm: onset,
         end_rpm: end,
         rpm,

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use faer::{Col, c64};
 
-use super::chart::BranchEntry;
+use super::chart::BranchCurve;
 use crate::campbell::{Branch, Campbell, SpeedSample};
 use crate::scene::rpm;
 use crate::spectrum::{
@@ -64,9 +64,9 @@ impl<'a> Numbered<'a> {
     }
 
     /// Branches as entries of the report, in the order of their numbers.
-    pub fn entries(&self) -> Vec<BranchEntry> {
+    pub fn entries(&self) -> Vec<BranchCurve> {
         let branches = self.campbell().branches.iter().zip(&self.place);
-        let mut entries: Vec<BranchEntry> = branches
+        let mut entries: Vec<BranchCurve> = branches
             .map(|(branch, place)| self.entry(branch, *place))
             .collect();
         entries.sort_by_key(|entry| entry.branch);
@@ -177,7 +177,7 @@ impl<'a> Numbered<'a> {
         (0..samples.len()).min_by(|x, y| off(&samples[*x]).total_cmp(&off(&samples[*y])))
     }
 
-    fn entry(&self, branch: &Branch, place: usize) -> BranchEntry {
+    fn entry(&self, branch: &Branch, place: usize) -> BranchCurve {
         let campbell = self.campbell();
         let modes: Vec<&DescribedMode> = branch.points.iter().map(|&p| campbell.mode(p)).collect();
         let list = |value: fn(&DescribedMode) -> f64| modes.iter().map(|m| value(m)).collect();
@@ -188,7 +188,7 @@ impl<'a> Numbered<'a> {
         };
         let named = &modes[naming_point(self.analysis, branch)].name;
         let name = &self.names[place];
-        BranchEntry {
+        BranchCurve {
             branch: place + 1,
             name: name.words.clone(),
             label: format!("{}: {}", place + 1, name.short),

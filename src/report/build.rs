@@ -5,20 +5,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
-use super::accuracy::{AccuracyEntry, WorkEntry};
-use super::analysis::Report;
+use super::analysis::{BasisAccuracy, NumberSensitivity, Report, SolveCounts};
 use super::branches::Numbered;
-use super::certificate::CertificateEntry;
-use super::chart::{CampbellEntry, RootLociEntry, RootPathEntry};
-use super::critical_speed::CriticalSpeedEntry;
-use super::excitation::ExcitationEntry;
-use super::in_cut::InCutEntry;
-use super::instability::InstabilityEntry;
-use super::membrane::MembraneEntry;
-use super::operating::OperatingEntry;
+use super::certificate::BandCertificate;
+use super::chart::{CampbellDiagram, RootLoci, RootPath};
+use super::excitation::ExcitationLines;
+use super::in_cut::InCut;
+use super::membrane::BladeStress;
+use super::modes::{HarmonicShape, HarmonicShare, RestMode};
 use super::remarks::{terms, warnings};
-use super::resting::{HarmonicEntry, RestMode, ShapeEntry};
-use super::sensitivity::SensitivityEntry;
+use super::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
 use crate::analyses::check::side_force_factor;
 use crate::plate::Plate;
 use crate::scene::rpm;
@@ -41,7 +37,7 @@ impl Analysis {
         let errors = samples
             .iter()
             .flat_map(|s| s.modes.iter().map(|m| m.backward_error));
-        let certificate = CertificateEntry::new(
+        let certificate = BandCertificate::new(
             &analysis.chart,
             model.is_conservative(),
             analysis.range_rad_per_s,
@@ -68,11 +64,11 @@ impl Analysis {
             operating: scene
                 .operating_rad_per_s()
                 .map(|speed| operating(analysis, speed)),
-            in_cut: InCutEntry::new(analysis),
-            excitation: ExcitationEntry::new(scene, &self.crossings, &branches),
+            in_cut: InCut::new(analysis),
+            excitation: ExcitationLines::new(scene, &self.crossings, &branches),
             whirl: None,
             shapes: Vec::new(),
-            accuracy: AccuracyEntry {
+            accuracy: BasisAccuracy {
                 name: scene.accuracy(),
                 max_diameters: resolution.max_diameters,
                 complete_to_rpm: rpm(analysis.complete_to_rad_per_s),
@@ -87,20 +83,20 @@ impl Analysis {
             work: work(&model.counters),
             warnings: warnings(scene, analysis, &certificate, &analysis.modes_at_rest),
             certificate,
-            campbell: CampbellEntry {
+            campbell: CampbellDiagram {
                 from_rpm: rpm(analysis.range_rad_per_s.0),
                 to_rpm: rpm(analysis.range_rad_per_s.1),
                 complete_to_hz: model.complete_to_rad_per_s / TAU,
                 branches: branches.entries(),
             },
             root_loci: root_loci(analysis, &branches),
-            membrane: MembraneEntry::new(scene, analysis),
+            membrane: BladeStress::new(scene, analysis),
             sensitivities: Vec::new(),
         }
     }
 }
 
-fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLociEntry> {
+fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLoci> {
     let loci = analysis.root_loci.as_ref()?;
     let onset = analysis
         .flutter_speed_rad_per_s
@@ -119,13 +115,13 @@ fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLociEnt
     let mut names: Vec<String> = waves.map(|waves| waves.in_words()).collect();
     names.reverse();
     let names = names.into_iter().chain(std::iter::repeat(String::new()));
-    let paths = names.zip(&loci.paths).map(|(name, path)| RootPathEntry {
+    let paths = names.zip(&loci.paths).map(|(name, path)| RootPath {
         name,
         growth_per_s: path.iter().map(|(lambda, _)| lambda.re).collect(),
         frequency_hz: path.iter().map(|(lambda, _)| lambda.im / TAU).collect(),
         krein_sign: path.iter().map(|(_, sign)| *sign).collect(),
     });
-    Some(RootLociEntry {
+    Some(RootLoci {
         onset_rpm: rpm(onset),
         end_rpm: rpm(band.to_rad_per_s),
         rpm: loci.speeds.iter().map(|s| rpm(*s)).collect(),
@@ -133,7 +129,7 @@ fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLociEnt
     })
 }
 
-impl SensitivityEntry {
+impl NumberSensitivity {
     /// Sensitivities of an analysis, with eigenvalues at the operating speed, or at the start of the sweep if
     /// there is none; sorted by their influence on the lowest critical speed.
     ///
@@ -147,9 +143,9 @@ impl SensitivityEntry {
     }
 }
 
-impl From<&Sensitivity> for SensitivityEntry {
+impl From<&Sensitivity> for NumberSensitivity {
     fn from(s: &Sensitivity) -> Self {
-        SensitivityEntry {
+        NumberSensitivity {
             parameter: s.parameter.clone(),
             change: s.change.to_owned(),
             critical_speeds_percent: s.critical_speeds.iter().map(|c| 100.0 * c).collect(),
@@ -186,7 +182,7 @@ fn rest_modes(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<RestMode> {
                 estimated_relative_error: truncation.map(|error| error + rounding),
                 backward_error: described.backward_error,
                 harmonics: harmonics
-                    .map(|h| HarmonicEntry {
+                    .map(|h| HarmonicShare {
                         nodal_diameters: h.diameters,
                         share: h.share,
                     })
@@ -202,23 +198,23 @@ fn instabilities(
     analysis: &Analysis,
     branches: &Numbered<'_>,
     threshold_per_s: f64,
-) -> Vec<InstabilityEntry> {
+) -> Vec<InstabilityBand> {
     let bands = analysis.chart.instabilities.iter().enumerate();
     let errors = |k: usize| analysis.estimates.as_ref()?.bands.get(k).copied();
     bands
         .map(|(k, band)| {
             let error = errors(k).unwrap_or_default();
-            InstabilityEntry {
+            InstabilityBand {
                 estimated_relative_error: error.speed,
                 estimated_relative_growth_error: error.growth,
-                ..InstabilityEntry::in_chart(band, branches, threshold_per_s)
+                ..InstabilityBand::in_chart(band, branches, threshold_per_s)
             }
         })
         .collect()
 }
 
 /// The harmonics of a mode at the moment of its largest deflection, scaled to a largest value of one.
-fn shape(plate: &Plate, described: &DescribedMode) -> Vec<ShapeEntry> {
+fn shape(plate: &Plate, described: &DescribedMode) -> Vec<HarmonicShape> {
     let q = &described.shape;
     let turn: c64 = q.iter().map(|c| c * c).sum::<c64>().sqrt();
     let phase = if turn.norm() > 0.0 {
@@ -237,7 +233,7 @@ fn shape(plate: &Plate, described: &DescribedMode) -> Vec<ShapeEntry> {
             })
             .collect()
     };
-    let mut shape: Vec<ShapeEntry> = described
+    let mut shape: Vec<HarmonicShape> = described
         .name
         .harmonics
         .iter()
@@ -250,7 +246,7 @@ fn shape(plate: &Plate, described: &DescribedMode) -> Vec<ShapeEntry> {
             } else {
                 vec![0.0; radius_m.len()]
             };
-            ShapeEntry {
+            HarmonicShape {
                 nodal_diameters: n,
                 radius_m: radius_m.clone(),
                 cosine: profile(n, offset),
@@ -268,22 +264,22 @@ fn shape(plate: &Plate, described: &DescribedMode) -> Vec<ShapeEntry> {
 }
 
 /// Critical speeds up to the end of the sweep; a double one of a free blade is listed once.
-fn critical_speeds(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<CriticalSpeedEntry> {
+fn critical_speeds(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<CriticalSpeed> {
     let estimates = analysis.estimates.as_ref();
-    let mut entries: Vec<CriticalSpeedEntry> = Vec::new();
+    let mut entries: Vec<CriticalSpeed> = Vec::new();
     for (index, critical) in analysis.model.critical.iter().enumerate() {
         if critical.speed_rad_per_s > analysis.range_rad_per_s.1 {
             break;
         }
         let speed = rpm(critical.speed_rad_per_s);
         let (diameters, circles) = (critical.name.diameters(), critical.name.circles());
-        let double = |e: &CriticalSpeedEntry| {
+        let double = |e: &CriticalSpeed| {
             analysis.model.plate.is_axisymmetric()
                 && (e.nodal_diameters, e.nodal_circles) == (diameters, circles)
                 && (speed / e.rpm - 1.0).abs() < DOUBLE
         };
         if !entries.iter().any(double) {
-            entries.push(CriticalSpeedEntry {
+            entries.push(CriticalSpeed {
                 rpm: speed,
                 branch: branches.of_critical(critical),
                 name: critical.name.in_words(),
@@ -296,11 +292,11 @@ fn critical_speeds(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<Critical
     entries
 }
 
-impl InstabilityEntry {
+impl InstabilityBand {
     /// A band, with the range in which its growth exceeds the threshold.
     pub(crate) fn new(band: &Instability, threshold_per_s: f64) -> Self {
         let counted = band.counted(threshold_per_s).into_iter();
-        InstabilityEntry {
+        InstabilityBand {
             kind: band.kind,
             from_rpm: rpm(band.from_rad_per_s),
             to_rpm: rpm(band.to_rad_per_s),
@@ -327,7 +323,7 @@ impl InstabilityEntry {
     ) -> Self {
         let event = branches.event(band);
         let waves = event.iter().flat_map(|event| &event.waves);
-        InstabilityEntry {
+        InstabilityBand {
             modes: waves.map(EventWaves::in_words).collect(),
             name: event.as_ref().map(EventName::in_words),
             branches: branches.of_band(band),
@@ -336,14 +332,14 @@ impl InstabilityEntry {
     }
 }
 
-impl OperatingEntry {
+impl OperatingPoint {
     /// Verdict at a speed, without the modes there.
     pub(crate) fn from_evidence(evidence: &Evidence<'_>, speed_rad_per_s: f64) -> Self {
         let critical = evidence.critical_rad_per_s;
         let of_lowest_critical = critical.first().map(|lowest| speed_rad_per_s / lowest);
         let verdict = evidence.verdict(speed_rad_per_s);
         let window = evidence.window_without_instability(speed_rad_per_s);
-        OperatingEntry {
+        OperatingPoint {
             rpm: rpm(speed_rad_per_s),
             lowest_critical_rpm: critical.first().copied().map(rpm),
             of_lowest_critical,
@@ -360,20 +356,20 @@ impl OperatingEntry {
     }
 }
 
-fn operating(analysis: &Analysis, speed_rad_per_s: f64) -> OperatingEntry {
+fn operating(analysis: &Analysis, speed_rad_per_s: f64) -> OperatingPoint {
     let critical = analysis.critical_rad_per_s();
     let fastest = analysis.fastest_operating;
-    OperatingEntry {
+    OperatingPoint {
         growth_per_s: fastest.map(|lambda| lambda.re),
         frequency_hz: fastest.map(|lambda| lambda.im.abs() / TAU),
         side_force_factor: side_force_factor(analysis, speed_rad_per_s),
-        ..OperatingEntry::from_evidence(&analysis.evidence(&critical), speed_rad_per_s)
+        ..OperatingPoint::from_evidence(&analysis.evidence(&critical), speed_rad_per_s)
     }
 }
 
-fn work(counters: &WorkCounters) -> WorkEntry {
+fn work(counters: &WorkCounters) -> SolveCounts {
     let count = |counter: &AtomicUsize| counter.load(Ordering::Relaxed);
-    WorkEntry {
+    SolveCounts {
         full_solves: count(&counters.full_solves),
         structured_solves: count(&counters.structured_solves),
         reduced_solves: count(&counters.reduced_solves),

@@ -13,7 +13,8 @@ use crate::stability::{Certificate, InstabilityKind, Miscount, Mismatch, Stabili
 /// band. See [`crate::stability`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct CertificateEntry {
+#[schemars(rename = "CertificateEntry")]
+pub struct BandCertificate {
     /// The result in a sentence.
     pub statement: String,
     /// Number of speeds at which the Krein index was compared; for damped scenes, which have none, of speeds
@@ -29,12 +30,12 @@ pub struct CertificateEntry {
     /// Number of further counts that were uncertain, because an eigenvalue lies on their path.
     pub uncertain_counts: usize,
     /// Modes that, according to these counts, are missing or superfluous; none are expected.
-    pub miscounted_modes: Vec<MiscountEntry>,
+    pub miscounted_modes: Vec<MiscountedModes>,
     /// Whether modes were missing at first, so that the bands were searched again on the full model.
     pub searched_again: bool,
     /// Speeds at which the list of bands contradicts the eigenvalues of the search or of the diagram; none
     /// are expected.
-    pub mismatches: Vec<MismatchEntry>,
+    pub mismatches: Vec<ContradictedBands>,
     /// Whether the search for bands ended at its limit of work, so that bands may be missing.
     pub gave_up: bool,
     /// Share of the sweep that is proven to have no unlisted instability, rounded down to four digits; absent
@@ -62,7 +63,8 @@ pub struct CertificateEntry {
 /// Modes at a speed that are missing or superfluous according to a count on the full model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct MiscountEntry {
+#[schemars(rename = "MiscountEntry")]
+pub struct MiscountedModes {
     /// The speed.
     pub rpm: f64,
     /// Lower end of the range of frequencies.
@@ -77,7 +79,8 @@ pub struct MiscountEntry {
 /// A speed at which the list of bands contradicts the eigenvalues found there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct MismatchEntry {
+#[schemars(rename = "MismatchEntry")]
+pub struct ContradictedBands {
     /// The speed.
     pub rpm: f64,
     /// Kind of the modes and bands compared.
@@ -92,7 +95,7 @@ pub struct MismatchEntry {
     pub peak_per_s: f64,
 }
 
-impl CertificateEntry {
+impl BandCertificate {
     /// The certificate of a sweep over `range`, in rad/s.
     pub(super) fn new(
         chart: &StabilityChart,
@@ -107,7 +110,7 @@ impl CertificateEntry {
         let unproven = certificate.unproven_rad_per_s.iter().flatten();
         let proven_share = proven_share(certificate, range);
         let counting = chart.unproven_counting_rad_per_s(threshold_per_s);
-        CertificateEntry {
+        BandCertificate {
             statement: statement(certificate, is_undamped, proven_share),
             speeds_checked: certificate.speeds_checked,
             krein_violations: certificate.violations_rad_per_s.len(),
@@ -144,7 +147,7 @@ fn proven_share(certificate: &Certificate, (from, to): (f64, f64)) -> Option<f64
     (to > from).then(|| (1e4 * share.clamp(0.0, 1.0)).floor() / 1e4)
 }
 
-impl MiscountEntry {
+impl MiscountedModes {
     /// Text such as "1 missing between 10.0 and 12.0 Hz".
     pub(crate) fn in_words(&self) -> String {
         let what = if self.missing > 0 {
@@ -157,9 +160,9 @@ impl MiscountEntry {
     }
 }
 
-impl From<&Miscount> for MiscountEntry {
+impl From<&Miscount> for MiscountedModes {
     fn from(miscount: &Miscount) -> Self {
-        MiscountEntry {
+        MiscountedModes {
             rpm: rpm(miscount.speed_rad_per_s),
             from_hz: miscount.from_rad_per_s / TAU,
             to_hz: miscount.to_rad_per_s / TAU,
@@ -168,9 +171,9 @@ impl From<&Miscount> for MiscountEntry {
     }
 }
 
-impl From<&Mismatch> for MismatchEntry {
+impl From<&Mismatch> for ContradictedBands {
     fn from(mismatch: &Mismatch) -> Self {
-        MismatchEntry {
+        ContradictedBands {
             rpm: rpm(mismatch.speed_rad_per_s),
             kind: mismatch.kind,
             unstable_modes: mismatch.unstable_modes,
@@ -259,7 +262,7 @@ fn contradictions(certificate: &Certificate, is_undamped: bool) -> Vec<String> {
             .iter()
             .map(|m| m.speed_rad_per_s)
             .collect();
-        let first = MiscountEntry::from(first);
+        let first = MiscountedModes::from(first);
         wrong.push(format!(
             "modes are miscounted on the full model at {}: {} at {:.1} rpm",
             span(&speeds),

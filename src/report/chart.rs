@@ -8,7 +8,8 @@ use crate::spectrum::Direction;
 /// The Campbell diagram.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct CampbellEntry {
+#[schemars(rename = "CampbellEntry")]
+pub struct CampbellDiagram {
     /// First speed.
     pub from_rpm: f64,
     /// Last speed.
@@ -16,13 +17,14 @@ pub struct CampbellEntry {
     /// Frequency up to which the branches are complete.
     pub complete_to_hz: f64,
     /// Branches, by frequency at their lowest speed.
-    pub branches: Vec<BranchEntry>,
+    pub branches: Vec<BranchCurve>,
 }
 
 /// One mode followed over speed. All lists have one entry for each speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct BranchEntry {
+#[schemars(rename = "BranchEntry")]
+pub struct BranchCurve {
     /// Number: 1, 2, 3 … in the order of the list.
     pub branch: usize,
     /// Name of the branch in every output, by its mode at its first speed: for a blade without guides "2
@@ -54,7 +56,8 @@ pub struct BranchEntry {
 /// Eigenvalues around a flutter onset, in the complex plane.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RootLociEntry {
+#[schemars(rename = "RootLociEntry")]
+pub struct RootLoci {
     /// Onset of the band.
     pub onset_rpm: f64,
     /// End of the band.
@@ -63,13 +66,17 @@ pub struct RootLociEntry {
     pub rpm: Vec<f64>,
     /// The eigenvalues of both modes, which are the growing and the decaying one
     /// inside the band.
-    pub paths: Vec<RootPathEntry>,
+    pub paths: Vec<RootPath>,
 }
 
-/// One eigenvalue over the speeds of a [`RootLociEntry`].
+/// One eigenvalue over the speeds of [`RootLoci`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RootPathEntry {
+#[schemars(
+    rename = "RootPathEntry",
+    description = "One eigenvalue over the speeds of a [`RootLoci`]."
+)]
+pub struct RootPath {
     /// Waves of this mode.
     pub name: String,
     /// Re λ.

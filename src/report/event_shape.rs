@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::analysis::Report;
-use super::mode::{WaveEntry, profile};
+use super::modes::{ModeHarmonic, profile};
 use crate::plate::Plate;
 use crate::scene::rpm;
 use crate::spectrum::{Direction, EventName, Mode, ModeKind, SpectrumError};
@@ -33,7 +33,8 @@ pub enum ShapeOccasion {
 /// deflection of all points is 1, at t = 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct EventShapeEntry {
+#[schemars(rename = "EventShapeEntry")]
+pub struct EventShape {
     /// Reason for which the shape is drawn.
     pub occasion: ShapeOccasion,
     /// Waves of the shape, named as the event is.
@@ -50,7 +51,7 @@ pub struct EventShapeEntry {
     pub radius_m: Vec<f64>,
     /// Harmonics that are visible in the deflection, by descending share in the name. The guided blade also tilts
     /// (n = 1) and heaves (n = 0), which rotation does not soften: in the name of an event their share is zero.
-    pub harmonics: Vec<WaveEntry>,
+    pub harmonics: Vec<ModeHarmonic>,
 }
 
 /// Smallest part of the squared deflection of a listed harmonic; its amplitude is of the order of 1e-4 of the
@@ -94,11 +95,11 @@ impl Report {
 
 /// The waves that stand still at the critical speeds of the sweep. Each speed of a free blade is listed once,
 /// because its two waves differ by a rotation.
-fn standing(analysis: &Analysis) -> Vec<EventShapeEntry> {
+fn standing(analysis: &Analysis) -> Vec<EventShape> {
     let model = &analysis.model;
     let end = analysis.range_rad_per_s.1;
     let within = model.critical.iter().filter(|c| c.speed_rad_per_s <= end);
-    let mut shapes: Vec<EventShapeEntry> = Vec::new();
+    let mut shapes: Vec<EventShape> = Vec::new();
     for critical in within {
         let speed = critical.speed_rad_per_s;
         let first = model.components[critical.component].first;
@@ -117,7 +118,7 @@ fn standing(analysis: &Analysis) -> Vec<EventShapeEntry> {
             shape: &shape,
         };
         let entry = found.entry(&model.plate);
-        let double = |other: &EventShapeEntry| {
+        let double = |other: &EventShape| {
             let nearness = (other.rpm / entry.rpm - 1.0).abs();
             model.plate.is_axisymmetric() && other.name == entry.name && nearness < 1e-9
         };
@@ -129,10 +130,7 @@ fn standing(analysis: &Analysis) -> Vec<EventShapeEntry> {
 }
 
 /// The motion of largest growth of a band; `None` if no mode of its kind grows at the peak.
-fn of_band(
-    analysis: &Analysis,
-    band: &Instability,
-) -> Result<Option<EventShapeEntry>, SpectrumError> {
+fn of_band(analysis: &Analysis, band: &Instability) -> Result<Option<EventShape>, SpectrumError> {
     let (model, speed) = (&analysis.model, band.peak_rad_per_s);
     // In a band of divergence λ is real, but a complex pair with larger growth may exist at the same speed.
     let is_of_band = |mode: &Mode| match band.kind {
@@ -170,7 +168,7 @@ fn at_speed(
     analysis: &Analysis,
     speed_rad_per_s: f64,
     occasion: ShapeOccasion,
-) -> Result<Vec<EventShapeEntry>, SpectrumError> {
+) -> Result<Vec<EventShape>, SpectrumError> {
     let model = &analysis.model;
     let modes = model.describe(speed_rad_per_s, model.modes(speed_rad_per_s)?);
     // The mirror image λ = −σ + iω of a flutter mode λ = σ + iω is not shown separately.
@@ -211,8 +209,8 @@ struct Found<'a> {
 
 impl Found<'_> {
     /// The entry of this shape, normalized.
-    fn entry(self, plate: &Plate) -> EventShapeEntry {
-        let mut entry = EventShapeEntry {
+    fn entry(self, plate: &Plate) -> EventShape {
+        let mut entry = EventShape {
             occasion: self.occasion,
             name: self.name,
             direction: self.direction,
@@ -229,7 +227,7 @@ impl Found<'_> {
 
 /// Visible harmonics of a shape, by descending share. The basis functions are orthonormal with respect to mass, so
 /// that the squares of their coordinates are shares of the squared deflection, which decide what is visible.
-fn harmonics(plate: &Plate, shape: &Col<c64>, share: &dyn Fn(usize) -> f64) -> Vec<WaveEntry> {
+fn harmonics(plate: &Plate, shape: &Col<c64>, share: &dyn Fn(usize) -> f64) -> Vec<ModeHarmonic> {
     let size = plate.basis.count();
     let square = |n: usize| {
         let own = plate.offset(n)..plate.offset(n) + if n == 0 { size } else { 2 * size };
@@ -239,14 +237,14 @@ fn harmonics(plate: &Plate, shape: &Col<c64>, share: &dyn Fn(usize) -> f64) -> V
     let least = VISIBLE * squares.iter().sum::<f64>();
     let seen =
         (squares.iter().enumerate()).filter(|(_, square)| **square > 0.0 && **square >= least);
-    let mut seen: Vec<WaveEntry> = seen
+    let mut seen: Vec<ModeHarmonic> = seen
         .map(|(n, _)| profile(plate, shape, n, share(n)))
         .collect();
     seen.sort_by(|x, y| y.share.total_cmp(&x.share));
     seen
 }
 
-impl EventShapeEntry {
+impl EventShape {
     /// Complex deflections at angles, one row for each radius.
     pub(crate) fn at(&self, angles_rad: &[f64]) -> Vec<Vec<[f64; 2]>> {
         let mut rows = vec![vec![[0.0; 2]; angles_rad.len()]; self.radius_m.len()];

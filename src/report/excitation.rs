@@ -10,18 +10,20 @@ use crate::stability::Crossing;
 /// Excitation at multiples of the rotation speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct ExcitationEntry {
+#[schemars(rename = "ExcitationEntry")]
+pub struct ExcitationLines {
     /// The lines, ascending.
-    pub lines: Vec<ExcitationLineEntry>,
+    pub lines: Vec<NamedLine>,
     /// Crossings with branches of the diagram, by line and speed, for frequencies up to
     /// `campbell.complete_to_hz`.
-    pub crossings: Vec<CrossingEntry>,
+    pub crossings: Vec<LineCrossing>,
 }
 
 /// A frequency that is a multiple of the rotation speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct ExcitationLineEntry {
+#[schemars(rename = "ExcitationLineEntry")]
+pub struct NamedLine {
     /// Ratio of the frequency to the rotation speed.
     pub order: u32,
     /// Name: "1×", "tooth passing, 42×".
@@ -31,7 +33,8 @@ pub struct ExcitationLineEntry {
 /// A speed at which a natural frequency equals a multiple of the rotation speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct CrossingEntry {
+#[schemars(rename = "CrossingEntry")]
+pub struct LineCrossing {
     /// Ratio of the frequency to the rotation speed.
     pub order: u32,
     /// Rotation speed.
@@ -44,7 +47,7 @@ pub struct CrossingEntry {
     pub mode: String,
 }
 
-impl ExcitationEntry {
+impl ExcitationLines {
     /// The lines of a scene; `None` if it has none.
     pub(super) fn new(
         scene: &Scene,
@@ -52,14 +55,14 @@ impl ExcitationEntry {
         branches: &Numbered<'_>,
     ) -> Option<Self> {
         let lines = scene.excitation();
-        (!lines.is_empty()).then(|| ExcitationEntry {
-            lines: lines.iter().map(ExcitationLineEntry::from).collect(),
+        (!lines.is_empty()).then(|| ExcitationLines {
+            lines: lines.iter().map(NamedLine::from).collect(),
             crossings: crossings
                 .iter()
                 .map(|crossing| {
                     let branch = branches.at(crossing.point);
                     let speed_rpm = rpm(crossing.speed_rad_per_s);
-                    CrossingEntry {
+                    LineCrossing {
                         order: crossing.line.order,
                         rpm: speed_rpm,
                         frequency_hz: f64::from(crossing.line.order) * speed_rpm / 60.0,
@@ -72,10 +75,10 @@ impl ExcitationEntry {
     }
 }
 
-impl From<&ExcitationLine> for ExcitationLineEntry {
+impl From<&ExcitationLine> for NamedLine {
     fn from(line: &ExcitationLine) -> Self {
         let order = line.order;
-        ExcitationLineEntry {
+        NamedLine {
             order,
             name: match line.tooth_passing {
                 None => format!("{order}×"),

@@ -10,7 +10,8 @@ use crate::stability::{Analysis, HeatLimit, HeatLimits};
 /// Stress of heat, roll tension and manufacture over the radius.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct MembraneEntry {
+#[schemars(rename = "MembraneEntry")]
+pub struct BladeStress {
     /// Radii, ascending; twice where the hoop stress jumps.
     pub radius_m: Vec<f64>,
     /// σ_rr at these radii.
@@ -18,17 +19,18 @@ pub struct MembraneEntry {
     /// σ_θθ at these radii.
     pub hoop_pa: Vec<f64>,
     /// Rolled bands of the scene.
-    pub roll_bands: Vec<RollBandEntry>,
+    pub roll_bands: Vec<RolledBand>,
     /// Light gap under the straight edge, if the scene has one.
-    pub straight_edge: Option<StraightEdgeEntry>,
+    pub straight_edge: Option<StraightEdge>,
     /// Limits of temperature, if the scene has a temperature.
-    pub heat: Option<HeatEntry>,
+    pub heat: Option<ToleratedHeat>,
 }
 
 /// A rolled band, by its strain and by its groove.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RollBandEntry {
+#[schemars(rename = "RollBandEntry")]
+pub struct RolledBand {
     /// Radius of its middle.
     pub radius_m: f64,
     /// Width along the radius.
@@ -39,10 +41,10 @@ pub struct RollBandEntry {
     pub groove_depth_m: f64,
 }
 
-impl RollBandEntry {
+impl RolledBand {
     fn new(blade: &Blade, band: &RollBand) -> Self {
         let radius_m = band.middle_m();
-        RollBandEntry {
+        RolledBand {
             radius_m,
             width_m: band.to_radius_m - band.from_radius_m,
             eigenstrain: band.eigenstrain,
@@ -54,7 +56,8 @@ impl RollBandEntry {
 /// Light gap under a straight edge across the blade off its machine, which lies level on two points under its own weight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct StraightEdgeEntry {
+#[schemars(rename = "StraightEdgeEntry")]
+pub struct StraightEdge {
     /// Distance of the ends of the straight edge, which touch the blade.
     pub length_m: f64,
     /// Distance of the two points from the axis.
@@ -73,13 +76,14 @@ pub struct StraightEdgeEntry {
     /// Factor of the roll tension at which the blade buckles off its machine; null without roll tension.
     pub buckling_factor: Option<f64>,
     /// Roll tension that causes the measured gap; null if none was measured.
-    pub measured: Option<MeasuredGapEntry>,
+    pub measured: Option<MeasuredGap>,
 }
 
 /// Roll tension that follows from a measured light gap.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct MeasuredGapEntry {
+#[schemars(rename = "MeasuredGapEntry")]
+pub struct MeasuredGap {
     /// Light gap with this roll tension.
     pub gap_m: f64,
     /// Ratio of its roll tension to that of the scene.
@@ -87,37 +91,39 @@ pub struct MeasuredGapEntry {
     /// Depth of the middle below the points.
     pub sag_m: f64,
     /// The bands with this roll tension.
-    pub roll_bands: Vec<RollBandEntry>,
+    pub roll_bands: Vec<RolledBand>,
 }
 
 /// The temperature profile of the scene, scaled to other peaks.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct HeatEntry {
+#[schemars(rename = "HeatEntry")]
+pub struct ToleratedHeat {
     /// Peak of the profile in the scene: the rise of largest magnitude, at the rim for a shape.
     pub rise_k: f64,
     /// Temperature rises at the radii of the stress.
     pub profile_k: Vec<f64>,
     /// Peak at which the lowest critical speed equals the operating speed; null without an operating speed,
     /// or if the blade buckles at a smaller one.
-    pub operating_limit: Option<HeatLimitEntry>,
+    pub operating_limit: Option<ToleratedRise>,
     /// Whether the operating speed exceeds a critical speed of the cold blade.
     pub past_critical_when_cold: bool,
     /// Peak at which the blade buckles at rest; null if no peak of this profile causes buckling.
-    pub buckling: Option<HeatLimitEntry>,
+    pub buckling: Option<ToleratedRise>,
     /// Peak from which on the blade is flat, if roll tension buckles it when cold.
-    pub flat_from: Option<HeatLimitEntry>,
+    pub flat_from: Option<ToleratedRise>,
     /// Whether the blade buckles at rest at a smaller peak than that at which its critical speed equals the
     /// operating speed.
     pub buckles_first: bool,
     /// Lowest critical speeds over the peak, while the blade is flat at rest.
-    pub critical_speeds: Vec<HeatCurveEntry>,
+    pub critical_speeds: Vec<CriticalCurve>,
 }
 
 /// A temperature rise at which the blade buckles, or its lowest critical speed equals the operating speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct HeatLimitEntry {
+#[schemars(rename = "HeatLimitEntry")]
+pub struct ToleratedRise {
     /// Peak of the profile.
     pub rise_k: f64,
     /// The shape that buckles, or the wave that stands still: "3 diameters", or the shares of waves if none
@@ -133,7 +139,8 @@ pub struct HeatLimitEntry {
 /// A critical speed over the peak of the temperature profile.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct HeatCurveEntry {
+#[schemars(rename = "HeatCurveEntry")]
+pub struct CriticalCurve {
     /// The wave that stands still; for a guided blade, that at the last peak.
     #[serde(default)]
     pub name: String,
@@ -152,7 +159,7 @@ const SHOWN: usize = 40;
 /// Relative distance of the radii at which the two sides of a jump are shown.
 const ASIDE: f64 = 1e-9;
 
-impl MembraneEntry {
+impl BladeStress {
     /// Stress and limits of an analysis; `None` for a scene without membrane stress, temperature and straight edge.
     pub(super) fn new(scene: &Scene, analysis: &Analysis) -> Option<Self> {
         let plate = &analysis.model.plate;
@@ -171,24 +178,24 @@ impl MembraneEntry {
         let temperature = scene.membrane().and_then(|m| m.temperature.as_ref());
         let heat = heat
             .zip(temperature)
-            .map(|(limits, temperature)| HeatEntry {
+            .map(|(limits, temperature)| ToleratedHeat {
                 rise_k: temperature.peak_rise_k,
                 profile_k: radius_m
                     .iter()
                     .map(|r| temperature.rise_k(&plate.blade, *r))
                     .collect(),
-                operating_limit: limits.operating.as_ref().map(HeatLimitEntry::from),
+                operating_limit: limits.operating.as_ref().map(ToleratedRise::from),
                 past_critical_when_cold: limits.past_critical,
-                buckling: limits.buckling.as_ref().map(HeatLimitEntry::from),
-                flat_from: limits.flat_from.as_ref().map(HeatLimitEntry::from),
+                buckling: limits.buckling.as_ref().map(ToleratedRise::from),
+                flat_from: limits.flat_from.as_ref().map(ToleratedRise::from),
                 buckles_first: limits.buckles_first,
                 critical_speeds: curves(limits),
             });
         let bands = scene.membrane().into_iter().flat_map(|m| &m.roll_tension);
-        Some(MembraneEntry {
-            straight_edge: straight_edge.and_then(|reading| StraightEdgeEntry::new(scene, reading)),
+        Some(BladeStress {
+            straight_edge: straight_edge.and_then(|reading| StraightEdge::new(scene, reading)),
             roll_bands: bands
-                .map(|band| RollBandEntry::new(&plate.blade, band))
+                .map(|band| RolledBand::new(&plate.blade, band))
                 .collect(),
             radial_pa: radius_m.iter().map(|r| at(r).radial_pa).collect(),
             hoop_pa: radius_m.iter().map(|r| at(r).hoop_pa).collect(),
@@ -198,7 +205,7 @@ impl MembraneEntry {
     }
 }
 
-impl StraightEdgeEntry {
+impl StraightEdge {
     fn new(scene: &Scene, reading: &StraightEdgeReading) -> Option<Self> {
         let membrane = scene.membrane()?;
         let edge = membrane.straight_edge.as_ref()?;
@@ -209,10 +216,10 @@ impl StraightEdgeEntry {
             };
             let bands = membrane.roll_tension.iter().map(scaled);
             bands
-                .map(|band| RollBandEntry::new(&edge.blade, &band))
+                .map(|band| RolledBand::new(&edge.blade, &band))
                 .collect()
         };
-        Some(StraightEdgeEntry {
+        Some(StraightEdge {
             length_m: 2.0 * edge.end_radius_m,
             support_radius_m: edge.support_radius_m,
             read_radius_m: edge.blade.inner_radius_m,
@@ -221,7 +228,7 @@ impl StraightEdgeEntry {
             gap_without_rolling_m: reading.plain.gap_m,
             sag_without_rolling_m: reading.plain.sag_m,
             buckling_factor: reading.buckling_factor,
-            measured: reading.measured.map(|(factor, found)| MeasuredGapEntry {
+            measured: reading.measured.map(|(factor, found)| MeasuredGap {
                 gap_m: found.gap_m,
                 factor,
                 sag_m: found.sag_m,
@@ -231,9 +238,9 @@ impl StraightEdgeEntry {
     }
 }
 
-impl From<&HeatLimit> for HeatLimitEntry {
+impl From<&HeatLimit> for ToleratedRise {
     fn from(limit: &HeatLimit) -> Self {
-        HeatLimitEntry {
+        ToleratedRise {
             rise_k: limit.rise_k,
             name: limit.name.in_words(),
             nodal_diameters: limit.name.diameters(),
@@ -242,10 +249,10 @@ impl From<&HeatLimit> for HeatLimitEntry {
     }
 }
 
-fn curves(limits: &HeatLimits) -> Vec<HeatCurveEntry> {
+fn curves(limits: &HeatLimits) -> Vec<CriticalCurve> {
     let curves = limits.curves.iter();
     curves
-        .map(|curve| HeatCurveEntry {
+        .map(|curve| CriticalCurve {
             name: curve.name.in_words(),
             nodal_diameters: curve.name.diameters(),
             nodal_circles: curve.name.circles(),

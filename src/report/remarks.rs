@@ -8,7 +8,7 @@ use crate::spectrum::DescribedMode;
 use crate::stability::{Analysis, CHARTED, is_cut_short, usual_end};
 use crate::text::{shown, shown_to};
 
-use super::certificate::CertificateEntry;
+use super::certificate::BandCertificate;
 
 /// Relative rounding error above which a frequency has fewer than six valid digits.
 const LEAST_DIGITS: f64 = 1e-6;
@@ -17,7 +17,7 @@ const LEAST_DIGITS: f64 = 1e-6;
 const CALIBRATED_N_PER_M: f64 = 1e9;
 
 /// How far a side force at the cut deflects the blade at a speed, from the factor of
-/// [`OperatingEntry::side_force_factor`](super::OperatingEntry::side_force_factor); `None` without a factor.
+/// [`OperatingPoint::side_force_factor`](super::OperatingPoint::side_force_factor); `None` without a factor.
 pub fn side_force_in_words(rpm: f64, factor: Option<f64>) -> Option<String> {
     let factor = factor?;
     let direction = match factor < 0.0 {
@@ -99,7 +99,7 @@ pub fn terms(scene: &Scene, plate: &Plate) -> Vec<String> {
 pub fn warnings(
     scene: &Scene,
     analysis: &Analysis,
-    certificate: &CertificateEntry,
+    certificate: &BandCertificate,
     at_rest: &[DescribedMode],
 ) -> Vec<String> {
     let found = [
@@ -242,7 +242,7 @@ fn rolled_alone(scene: &Scene) -> Option<String> {
     })
 }
 
-fn contradicted(certificate: &CertificateEntry) -> Option<String> {
+fn contradicted(certificate: &BandCertificate) -> Option<String> {
     let statement = &certificate.statement;
     (!certificate.is_clean())
         .then(|| format!("{statement}: a mode or a band may be missing or wrong there"))

@@ -1,7 +1,7 @@
 //! Amplitude to which the flutter of each band rises, computed on request.
 
 use super::analysis::Report;
-use super::instability::InstabilityEntry;
+use super::speeds::InstabilityBand;
 use crate::stability::{Analysis, Rise, saturations};
 use crate::stretched::StretchedError;
 
@@ -17,7 +17,7 @@ impl Report {
 }
 
 /// Adds one amplitude to each band, or the reason for which it was not computed.
-pub(crate) fn add_amplitudes(bands: &mut [InstabilityEntry], found: &[Rise]) {
+pub(crate) fn add_amplitudes(bands: &mut [InstabilityBand], found: &[Rise]) {
     for (entry, found) in bands.iter_mut().zip(found) {
         match found {
             Ok(found) => entry.saturated_amplitude_m = found.map(|found| found.amplitude_m),

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use super::analysis::Report;
-use super::event_shape::EventShapeEntry;
+use super::event_shape::EventShape;
 use crate::text::escaped;
 
 /// File names of the list and of the grids.
@@ -136,7 +136,7 @@ fn short(value: f64) -> String {
 }
 
 /// Title of a shape: the name of its array, which ParaView lists.
-fn title(number: usize, shape: &EventShapeEntry) -> String {
+fn title(number: usize, shape: &EventShape) -> String {
     escaped(&format!("{number:02} {:.0} rpm {}", shape.rpm, shape.name))
 }
 

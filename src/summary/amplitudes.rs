@@ -3,14 +3,14 @@
 use std::fmt::{Result, Write};
 
 use super::{ROWS, decimals_or, more, sentence};
-use crate::report::{InstabilityEntry, InstabilityKind, Report};
+use crate::report::{InstabilityBand, InstabilityKind, Report};
 
 /// Writes a table of the flutter bands, in millimetres, if the report contains an amplitude.
 pub fn amplitudes(text: &mut String, report: &Report) -> Result {
     let bands = report.instabilities.iter();
     let flutter = bands.filter(|band| band.kind == InstabilityKind::Flutter);
     let flutter: Vec<_> = flutter.collect();
-    let is_known = |band: &&InstabilityEntry| {
+    let is_known = |band: &&InstabilityBand| {
         band.saturated_amplitude_m.is_some() || band.amplitude_not_computed.is_some()
     };
     if !flutter.iter().any(is_known) {

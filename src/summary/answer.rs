@@ -4,7 +4,7 @@ use std::fmt::{Result, Write};
 
 use super::{each, is_damped, sentence, wrapped};
 use crate::report::{
-    InstabilityEntry, InstabilityKind, OperatingEntry, Report, StabilityState, side_force_in_words,
+    InstabilityBand, InstabilityKind, OperatingPoint, Report, StabilityState, side_force_in_words,
 };
 use crate::stability::CRITICAL_MARGIN;
 use crate::text::shown_to;
@@ -30,7 +30,7 @@ pub enum Answer {
 
 impl Answer {
     /// Derives the answer from the verdict at the operating speed.
-    pub fn new(operating: &OperatingEntry) -> Self {
+    pub fn new(operating: &OperatingPoint) -> Self {
         match operating.verdict {
             StabilityState::Divergence => Answer::Divergence,
             StabilityState::Flutter => Answer::Flutter,
@@ -77,12 +77,12 @@ pub fn answer(report: &Report) -> Vec<String> {
 }
 
 /// The answer for an operating speed, with its question.
-pub fn headline(operating: &OperatingEntry) -> String {
+pub fn headline(operating: &OperatingPoint) -> String {
     let answer = Answer::new(operating).in_words();
     format!("Can it run at {:.0} rpm? {answer}", operating.rpm)
 }
 
-fn at_operating_speed(report: &Report, operating: &OperatingEntry) -> Vec<String> {
+fn at_operating_speed(report: &Report, operating: &OperatingPoint) -> Vec<String> {
     let answer = Answer::new(operating);
     let mut lines = vec![headline(operating)];
     let around = operating.inside_instability;
@@ -106,7 +106,7 @@ fn at_operating_speed(report: &Report, operating: &OperatingEntry) -> Vec<String
 }
 
 /// Describes the band that makes the saw unstable at its operating speed.
-fn inside(band: &InstabilityEntry) -> String {
+fn inside(band: &InstabilityBand) -> String {
     let waves = band.name.as_ref();
     let waves = waves.map_or(String::new(), |name| format!(",\n    {name}"));
     format!(
@@ -144,7 +144,7 @@ fn fastest(report: &Report, growth: f64, hz: f64, is_inside: bool) -> String {
 }
 
 /// Warns of the critical speed close to the operating speed, if there is one.
-fn at_critical_speed(report: &Report, operating: &OperatingEntry) -> Option<String> {
+fn at_critical_speed(report: &Report, operating: &OperatingPoint) -> Option<String> {
     let rpm = operating.at_critical_rpm?;
     let critical = report.critical_speeds.iter().find(|c| c.rpm == rpm);
     let name = critical.map_or(String::new(), |c| format!(" ({})", c.name));
@@ -158,7 +158,7 @@ fn at_critical_speed(report: &Report, operating: &OperatingEntry) -> Option<Stri
 }
 
 /// Compares the operating speed with the 85 % rule; `None` without a critical speed.
-fn rule(operating: &OperatingEntry) -> Option<String> {
+fn rule(operating: &OperatingPoint) -> Option<String> {
     let (ratio, lowest_rpm) = operating
         .of_lowest_critical
         .zip(operating.lowest_critical_rpm)?;
@@ -205,7 +205,7 @@ fn flutter(report: &Report) -> Vec<String> {
     let threshold = report.flutter_threshold_per_s;
     let speed = match report.flutter_speed_rpm {
         Some(rpm) => {
-            let is_its = |band: &&InstabilityEntry| {
+            let is_its = |band: &&InstabilityBand| {
                 band.kind == InstabilityKind::Flutter
                     && band.counted_rpm.iter().any(|counted| counted[0] == rpm)
             };
@@ -227,7 +227,7 @@ fn flutter(report: &Report) -> Vec<String> {
 
 /// States why the window without instability ends at a speed; empty if a band begins there.
 fn end_of_window(report: &Report, rpm: f64) -> &'static str {
-    let counted = |band: &InstabilityEntry| band.counted_rpm.iter().any(|[from, _]| *from == rpm);
+    let counted = |band: &InstabilityBand| band.counted_rpm.iter().any(|[from, _]| *from == rpm);
     match report.instabilities.iter().any(counted) {
         _ if rpm >= report.campbell.to_rpm => ", where the sweep ends",
         true => "",

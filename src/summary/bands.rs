@@ -3,7 +3,7 @@
 use std::fmt::{Result, Write};
 
 use super::{ROWS, more, shortened};
-use crate::report::{InstabilityEntry, Report};
+use crate::report::{InstabilityBand, Report};
 
 /// Longest name, in characters, that has room at the end of a row; a longer one is on a line of its own.
 const WAVES: usize = 29;
@@ -41,7 +41,7 @@ pub fn bands(text: &mut String, report: &Report) -> Result {
     Ok(())
 }
 
-fn row(text: &mut String, report: &Report, band: &InstabilityEntry) -> Result {
+fn row(text: &mut String, report: &Report, band: &InstabilityBand) -> Result {
     let kind = match band.counted_rpm.is_empty() {
         true => format!("({})", band.kind),
         false => band.kind.to_string(),
@@ -75,7 +75,7 @@ fn row(text: &mut String, report: &Report, band: &InstabilityEntry) -> Result {
 }
 
 /// Writes the ranges of speed in which the growth exceeds the threshold, unless they are the whole band.
-fn partly(text: &mut String, band: &InstabilityEntry) -> Result {
+fn partly(text: &mut String, band: &InstabilityBand) -> Result {
     let [stretches @ .., last] = band.counted_rpm.as_slice() else {
         return Ok(());
     };

@@ -50,7 +50,7 @@ pub fn in_cut(text: &mut String, report: &Report) -> Result {
             decimals_or("none", 1, in_cut)
         )?;
     }
-    let growth = |bands: &[crate::report::InstabilityEntry]| {
+    let growth = |bands: &[crate::report::InstabilityBand]| {
         let all = bands.iter().map(|band| band.peak_growth_per_s);
         all.fold(0.0, f64::max)
     };

@@ -2,7 +2,7 @@
 
 use std::fmt::{Result, Write};
 
-use crate::report::{HeatLimitEntry, InstabilityEntry, Report};
+use crate::report::{InstabilityBand, Report, ToleratedRise};
 use crate::text::shown_to;
 
 /// Writes position and width of the rolled bands, their eigenstrain, and the equivalent depth of a groove.
@@ -92,7 +92,7 @@ pub fn heat(text: &mut String, report: &Report) -> Result {
         )?;
     }
     if let Some(limit) = &heat.flat_from {
-        let HeatLimitEntry { rise_k, name, .. } = limit;
+        let ToleratedRise { rise_k, name, .. } = limit;
         writeln!(
             text,
             "  below {rise_k:+.1} K it is buckled at rest ({name})"
@@ -119,7 +119,7 @@ pub fn sensitivity(text: &mut String, report: &Report) -> Result {
     if report.sensitivities.is_empty() {
         return Ok(());
     }
-    let begins = |b: &InstabilityEntry| Some(b.from_rpm) == report.flutter_speed_rpm;
+    let begins = |b: &InstabilityBand| Some(b.from_rpm) == report.flutter_speed_rpm;
     let flutter = report.instabilities.iter().position(begins);
     writeln!(
         text,

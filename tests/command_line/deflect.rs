@@ -5,7 +5,7 @@
 
 use sawflutter::analyses::check::CheckReport;
 use sawflutter::analyses::deflect::DeflectReport;
-use sawflutter::report::{InstabilityEntry, Report};
+use sawflutter::report::{InstabilityBand, Report};
 use sawflutter::scene::{Accuracy, ContactLaw, Scene};
 use tempfile::TempDir;
 
@@ -100,7 +100,7 @@ fn a_limit_of_the_amplitude_of_flutter_applies_to_every_band() {
         &folder,
     );
     let report: Report = serde_json::from_slice(&output.stdout).unwrap();
-    let amplitude = |band: &InstabilityEntry| band.saturated_amplitude_m;
+    let amplitude = |band: &InstabilityBand| band.saturated_amplitude_m;
     let flutter = report
         .instabilities
         .iter()

@@ -5,7 +5,7 @@
 
 use std::sync::LazyLock;
 
-use sawflutter::report::{Report, WorkEntry};
+use sawflutter::report::{Report, SolveCounts};
 use sawflutter::scene::{Accuracy, Scene, SweepFile};
 use sawflutter::stability::Analysis;
 
@@ -26,7 +26,7 @@ fn report(accuracy: Accuracy) -> Report {
 }
 
 /// Work of the chart of the paper's saw at `design`.
-static DESIGN: LazyLock<WorkEntry> = LazyLock::new(|| report(Accuracy::Design).work);
+static DESIGN: LazyLock<SolveCounts> = LazyLock::new(|| report(Accuracy::Design).work);
 
 #[test]
 fn a_chart_takes_no_more_work_than_it_took() {

@@ -2,7 +2,7 @@
 //! of the blade without guides cross, and they have the names of these waves.
 
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::report::{BranchEntry, InstabilityKind, Report};
+use sawflutter::report::{BranchCurve, InstabilityKind, Report};
 use sawflutter::scene::{Accuracy, Scene};
 use sawflutter::spectrum::{Direction, SpectralModel};
 use sawflutter::stability::Analysis;
@@ -19,7 +19,7 @@ fn with_pad(stiffness_n_per_m: Option<f64>) -> Report {
 }
 
 /// Frequency and Krein sign of a branch at a speed between two of its own.
-fn at(branch: &BranchEntry, rpm: f64) -> Option<(f64, i8)> {
+fn at(branch: &BranchCurve, rpm: f64) -> Option<(f64, i8)> {
     let after = branch.rpm.partition_point(|r| *r < rpm);
     let before = after.checked_sub(1)?;
     let end = *branch.rpm.get(after)?;
@@ -29,7 +29,7 @@ fn at(branch: &BranchEntry, rpm: f64) -> Option<(f64, i8)> {
     (sign == branch.krein_sign[after]).then(|| (hz[0] + share * (hz[1] - hz[0]), sign))
 }
 
-fn named(branch: &BranchEntry, sign: i8) -> String {
+fn named(branch: &BranchCurve, sign: i8) -> String {
     let direction = match branch.direction[branch.direction.len() / 2] {
         _ if sign < 0 => "reflected",
         Direction::Forward => "forward",
@@ -54,7 +54,7 @@ fn events_of_a_weak_pad_have_the_names_of_free_waves() {
     for band in &weak.instabilities {
         let crossing: Vec<(f64, String)> = match band.kind {
             InstabilityKind::Divergence => {
-                let of = |c: &sawflutter::report::CriticalSpeedEntry| (c.rpm - band.peak_rpm).abs();
+                let of = |c: &sawflutter::report::CriticalSpeed| (c.rpm - band.peak_rpm).abs();
                 let near = free
                     .critical_speeds
                     .iter()
@@ -89,7 +89,7 @@ fn events_of_a_weak_pad_have_the_names_of_free_waves() {
     }
     assert!(checked >= 6, "{checked}");
     for critical in &weak.critical_speeds {
-        let of = |c: &sawflutter::report::CriticalSpeedEntry| (c.rpm - critical.rpm).abs();
+        let of = |c: &sawflutter::report::CriticalSpeed| (c.rpm - critical.rpm).abs();
         let near = free
             .critical_speeds
             .iter()

@@ -47,7 +47,7 @@ fn overlapping_bands_divide_the_growth_of_all_modes() {
         let overlap = bands
             .windows(2)
             .any(|pair| pair[1].band.from_rpm < pair[0].band.to_rpm);
-        let swept = scene.swept(scene.runup().unwrap().speeds).unwrap();
+        let swept = scene.swept(scene.runup().unwrap().speeds()).unwrap();
         let chosen = ChosenBasis::new(&swept, scene.tolerance()).unwrap();
         let all = growth_of_all_modes(&chosen.saw.plate);
         let sum: f64 = bands.iter().map(|band| band.growth_exponent).sum();

@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 
 use faer::c64;
-use sawflutter::report::{EventShapeEntry, Report, ShapeOccasion, WaveEntry};
+use sawflutter::report::{EventShape, ModeHarmonic, Report, ShapeOccasion};
 use sawflutter::scene::{Accuracy, Scene, rad_per_s};
 use sawflutter::stability::Analysis;
 
@@ -20,7 +20,7 @@ fn charted(scene: &Scene, asked_rpm: &[f64]) -> (Analysis, Report) {
 }
 
 /// Complex deflection at the k-th radius of the shape.
-fn at(shape: &EventShapeEntry, k: usize, angle_rad: f64) -> [f64; 2] {
+fn at(shape: &EventShape, k: usize, angle_rad: f64) -> [f64; 2] {
     let mut sum = [0.0; 2];
     for wave in &shape.harmonics {
         let (sin, cos) = (wave.nodal_diameters as f64 * angle_rad).sin_cos();
@@ -137,9 +137,9 @@ fn every_event_is_shown_and_scaled() {
 
 /// Kinetic energy ∫|(λ + Ω∂θ)w|² of each harmonic of a shape on a blade of one thickness, by the trapezoidal rule over
 /// the radii of the report, as shares.
-fn energy_shares(shape: &EventShapeEntry) -> Vec<f64> {
+fn energy_shares(shape: &EventShape) -> Vec<f64> {
     let lambda = c64::new(shape.growth_per_s, TAU * shape.frequency_hz);
-    let energy = |wave: &WaveEntry| {
+    let energy = |wave: &ModeHarmonic| {
         let carried = rad_per_s(shape.rpm) * wave.nodal_diameters as f64;
         let density = |k: usize| {
             let [c, s] = [&wave.cosine, &wave.sine].map(|part| c64::new(part.re[k], part.im[k]));

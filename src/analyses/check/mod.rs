@@ -21,7 +21,7 @@ mod rim;
 mod static_deflection;
 
 use crate::analyses::deflect::rim_compliance_m_per_n;
-use crate::report::{InstabilityEntry, Numbered, add_amplitudes, lifting_off, side_force_in_words};
+use crate::report::{InstabilityBand, Numbered, add_amplitudes, lifting_off, side_force_in_words};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError};
@@ -143,12 +143,12 @@ fn analysed(scene: &Scene, least_end_rad_per_s: f64) -> Result<Analysis, CheckEr
 }
 
 /// The bands of the chart, with their amplitudes if those were computed.
-fn bands(analysis: &Analysis, saturations: &[Rise]) -> Vec<InstabilityEntry> {
+fn bands(analysis: &Analysis, saturations: &[Rise]) -> Vec<InstabilityBand> {
     let branches = Numbered::new(analysis);
     let threshold_per_s = analysis.scene.flutter_threshold_per_s();
     let bands = analysis.chart.instabilities.iter();
-    let entry = |band| InstabilityEntry::in_chart(band, &branches, threshold_per_s);
-    let mut bands: Vec<InstabilityEntry> = bands.map(entry).collect();
+    let entry = |band| InstabilityBand::in_chart(band, &branches, threshold_per_s);
+    let mut bands: Vec<InstabilityBand> = bands.map(entry).collect();
     add_amplitudes(&mut bands, saturations);
     bands
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::InstabilityEntry;
+use crate::report::InstabilityBand;
 use crate::scene::SceneFile;
 
 /// A comparison of a saw with limits.
@@ -37,7 +37,7 @@ pub struct CheckReport {
     /// Critical speeds within the sweep, ascending.
     pub critical_speeds_rpm: Vec<f64>,
     /// Every band of instability within the sweep.
-    pub instabilities: Vec<InstabilityEntry>,
+    pub instabilities: Vec<InstabilityBand>,
     /// Growth rate from which on a band counts.
     pub flutter_threshold_per_s: f64,
     /// Lateral stiffness of a point of the rim at the middle of the cut, at rest.

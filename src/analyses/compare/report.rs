@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry, OperatingEntry};
+use crate::report::{CampbellDiagram, CriticalSpeed, InstabilityBand, OperatingPoint};
 use crate::scene::SceneFile;
 
 /// Report of a comparison (`compare.json`).
@@ -33,20 +33,20 @@ pub struct ComparedSaw {
     #[serde(default)]
     pub condition: String,
     /// Critical speeds up to the end of its sweep, ascending.
-    pub critical_speeds: Vec<CriticalSpeedEntry>,
+    pub critical_speeds: Vec<CriticalSpeed>,
     /// The bands of instability within its sweep.
-    pub instabilities: Vec<InstabilityEntry>,
+    pub instabilities: Vec<InstabilityBand>,
     /// Lowest speed at which flutter counts.
     pub flutter_speed_rpm: Option<f64>,
     /// Operating speed, and whether the saw is stable there.
-    pub operating: Option<OperatingEntry>,
+    pub operating: Option<OperatingPoint>,
     /// Lateral stiffness of a point of the rim at the middle of the cut, at rest; null if the blade has free rigid
     /// motions, and for a saw whose report was given instead of its scene.
     pub rim_stiffness_at_rest_n_per_m: Option<f64>,
     /// Estimated relative error of its critical speeds.
     pub estimated_relative_error: Option<f64>,
     /// Branches of the saw over speed.
-    pub campbell: CampbellEntry,
+    pub campbell: CampbellDiagram,
     /// Numbers that no saw has, and remarks on the validity of its result.
     pub warnings: Vec<String>,
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::MiscountEntry;
+use crate::report::MiscountedModes;
 use crate::stability::GrowingModes;
 
 /// Number of growing modes in the cut and without its forces, compared with counts on the full model.
@@ -23,7 +23,7 @@ pub struct CutCertificate {
     /// For how many of the two the Krein index of an undamped saw fails; 0 is expected.
     pub krein_violations: usize,
     /// Modes that, according to the counts, are missing or superfluous; none are expected.
-    pub miscounted_modes: Vec<MiscountEntry>,
+    pub miscounted_modes: Vec<MiscountedModes>,
 }
 
 impl CutCertificate {
@@ -81,7 +81,7 @@ impl State<'_> {
                 false => format!("Krein index {modes} does not match {stiffness} of the stiffness"),
             });
         }
-        for miscount in self.found.miscounts.iter().map(MiscountEntry::from) {
+        for miscount in self.found.miscounts.iter().map(MiscountedModes::from) {
             checks.push(format!(
                 "miscounted on the full model: {}",
                 miscount.in_words()

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry};
+use crate::report::{CampbellDiagram, CriticalSpeed, InstabilityBand};
 use crate::scene::SceneFile;
 use crate::stretched::TurnKind;
 
@@ -55,11 +55,11 @@ pub struct DeflectReport {
     /// Curves of equilibria, including unstable ones. It is not proven that there are no others.
     pub curves: Vec<EquilibriumCurve>,
     /// Critical speeds of the flat blade, up to the last speed.
-    pub critical_speeds: Vec<CriticalSpeedEntry>,
+    pub critical_speeds: Vec<CriticalSpeed>,
     /// Bands in which the flat blade is unstable, by the linear model.
-    pub instabilities: Vec<InstabilityEntry>,
+    pub instabilities: Vec<InstabilityBand>,
     /// Branches of the flat blade over the same speeds.
-    pub campbell: CampbellEntry,
+    pub campbell: CampbellDiagram,
     /// Remarks on the validity of the result.
     pub warnings: Vec<String>,
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::report::InstabilityEntry;
+use crate::report::InstabilityBand;
 use crate::scene::{ContactLaw, GuideFile, GuideSide, Scene, rpm};
 use crate::spectrum::Work;
 use crate::stability::Analysis;
@@ -167,7 +167,7 @@ fn read(analysis: &Analysis, amplitude_m: Option<f64>, shares: Vec<f64>) -> AtAm
             .map(rpm)
             .collect(),
         instabilities: bands
-            .map(|band| InstabilityEntry::new(band, threshold_per_s))
+            .map(|band| InstabilityBand::new(band, threshold_per_s))
             .collect(),
         flutter_speed_rpm: analysis.flutter_speed_rad_per_s.map(rpm),
     }

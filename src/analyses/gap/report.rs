@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::oscillation_report::Oscillation;
-use crate::report::InstabilityEntry;
+
+use crate::report::InstabilityBand;
 use crate::scene::SceneFile;
 use crate::text::shown_to;
 
@@ -121,7 +122,7 @@ pub struct AtAmplitude {
     /// Critical speeds within the sweep.
     pub critical_rpm: Vec<f64>,
     /// Bands of instability within the sweep.
-    pub instabilities: Vec<InstabilityEntry>,
+    pub instabilities: Vec<InstabilityBand>,
     /// Flutter speed; null if no flutter counts within the sweep.
     pub flutter_speed_rpm: Option<f64>,
 }

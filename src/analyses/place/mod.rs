@@ -38,7 +38,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use crate::report::{InstabilityEntry, statement};
+use crate::report::{InstabilityBand, statement};
 use crate::scene::{Freed, Scene, SceneError, effective, rpm};
 use crate::spectrum::Cancellation;
 use crate::stability::ChosenBasis;
@@ -122,7 +122,7 @@ pub fn place(
     Cancellation::current().check()?;
     let tally = all.tally().and(coarse.tally()).and(fine.tally());
     let threshold_per_s = placed.flutter_threshold_per_s();
-    let listed = |band| InstabilityEntry::new(band, threshold_per_s);
+    let listed = |band| InstabilityBand::new(band, threshold_per_s);
     let certificate = &best.computed.certificate;
     let mut report = PlaceReport {
         sawflutter: env!("CARGO_PKG_VERSION").to_owned(),

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::InstabilityEntry;
+use crate::report::InstabilityBand;
 use crate::scene::{Kind, Quantity, SceneFile};
 use crate::text::shown_to;
 
@@ -58,7 +58,7 @@ pub struct PlaceReport {
     /// Result of the best saw, which has the best goal in the worst case of its tolerances.
     pub best: Outcome,
     /// Bands of the best saw.
-    pub bands: Vec<InstabilityEntry>,
+    pub bands: Vec<InstabilityBand>,
     /// Certificate of these bands.
     pub certificate: PlaceCertificate,
     /// Whether the best saw loses more than 5 % of the goal within its tolerances.
@@ -71,7 +71,7 @@ pub struct PlaceReport {
     /// null otherwise.
     pub fragile_optimum: Option<FragileOptimum>,
     /// Bands that nearly reach the threshold and begin below the flutter speed.
-    pub almost: Vec<InstabilityEntry>,
+    pub almost: Vec<InstabilityBand>,
     /// The goal over two numbers, on the coarse basis of the search.
     pub map: Option<GoalMap>,
     /// Number of saws analysed.

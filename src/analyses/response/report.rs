@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::InstabilityEntry;
+use crate::report::InstabilityBand;
 use crate::scene::SceneFile;
 
 /// Report of steady-state responses (`response.json`).
@@ -50,7 +50,7 @@ pub struct ResponseReport {
     /// Frequency response between two points at one speed; null if neither the scene nor the options have a speed.
     pub points: Option<FrequencyResponse>,
     /// Bands of instability, in which no steady state exists.
-    pub instabilities: Vec<InstabilityEntry>,
+    pub instabilities: Vec<InstabilityBand>,
     /// Remarks on the validity of the result.
     pub warnings: Vec<String>,
 }

@@ -12,7 +12,7 @@ use std::f64::consts::{LN_2, TAU};
 
 use crate::campbell::Progress;
 use crate::plate::Plate;
-use crate::report::InstabilityEntry;
+use crate::report::InstabilityBand;
 use crate::scene::{Probe, RunUpFile, Scene, SceneError, rpm};
 use crate::spectrum::Mode;
 use crate::stability::Analysis;
@@ -140,7 +140,7 @@ fn first_doubling_rpm(bands: &[RunUpBand]) -> Option<f64> {
 }
 
 /// Ratio of the largest deflection in the band to that in an interval of equal length before it.
-fn seen_amplification(rpm: &[f64], deflection_m: &[f64], band: &InstabilityEntry) -> Option<f64> {
+fn seen_amplification(rpm: &[f64], deflection_m: &[f64], band: &InstabilityBand) -> Option<f64> {
     let largest = |from: f64, to: f64| {
         let record = rpm.iter().zip(deflection_m);
         let within = record.filter(|(speed, _)| (from..=to).contains(*speed));

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::{CampbellEntry, CriticalSpeedEntry, InstabilityEntry};
+use crate::report::{CampbellDiagram, CriticalSpeed, InstabilityBand};
 use crate::scene::SceneFile;
 
 /// Report of a run-up (`runup.json`).
@@ -40,7 +40,7 @@ pub struct RunUpReport {
     /// Deflection at the probe.
     pub deflection_m: Vec<f64>,
     /// Critical speeds up to the end of the run-up.
-    pub critical_speeds: Vec<CriticalSpeedEntry>,
+    pub critical_speeds: Vec<CriticalSpeed>,
     /// Bands of instability and their effect on the run-up.
     pub bands: Vec<RunUpBand>,
     /// Onset of the first band that more than doubles a motion at this rate; null if none does.
@@ -49,7 +49,7 @@ pub struct RunUpReport {
     #[serde(default)]
     pub stretching: Option<RunUpStretching>,
     /// Branches over the speeds of the run-up.
-    pub campbell: CampbellEntry,
+    pub campbell: CampbellDiagram,
     /// Response over speed and frequency.
     pub response: ResponseMap,
     /// Remarks on the validity of the result.
@@ -61,7 +61,7 @@ pub struct RunUpReport {
 #[serde(deny_unknown_fields)]
 pub struct RunUpBand {
     /// The band.
-    pub band: InstabilityEntry,
+    pub band: InstabilityBand,
     /// Time that the run-up spends in the band.
     pub time_s: f64,
     /// Re λ of the band's eigenvalue integrated over that time: a motion in its mode grows by e to this

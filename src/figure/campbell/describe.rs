@@ -8,7 +8,7 @@ use super::super::style::{CURVE, HAIRLINE, STRONG_CURVE};
 use super::view::Shown;
 use super::waves::{Stretch, direction_at, look_of_segment};
 use super::{facts, growth};
-use crate::report::{BranchEntry, Direction, Report};
+use crate::report::{BranchCurve, Direction, Report};
 use crate::text::shown_to;
 
 /// Name of the line along the axis of speeds between the ends of the window around the operating speed.
@@ -91,7 +91,7 @@ fn safe_window(report: &Report) -> Option<Item> {
 
 /// A curve of a branch through the samples with given numbers; `values` are the ordinates of all its samples.
 pub fn line_through(
-    branch: &BranchEntry,
+    branch: &BranchCurve,
     values: &[f64],
     samples: &[Option<usize>],
     colour: Hue,
@@ -112,7 +112,7 @@ pub fn line_through(
 }
 
 /// Description of a branch at one of its samples.
-fn say(branch: &BranchEntry, i: usize) -> String {
+fn say(branch: &BranchCurve, i: usize) -> String {
     let hz = branch.frequency_hz.get(i).copied().unwrap_or(f64::NAN);
     let growth = branch.growth_per_s.get(i).copied().unwrap_or(f64::NAN);
     let sign = match branch.krein_sign.get(i) {

@@ -10,7 +10,7 @@ use super::super::style::{CURVE, HAIRLINE, INK, LABEL_SIZE, QUIET};
 use super::describe::line_through;
 use super::waves::direction_at;
 use super::{Chart, NEGLIGIBLE_PER_S};
-use crate::report::{BranchEntry, InstabilityEntry, Report};
+use crate::report::{BranchCurve, InstabilityBand, Report};
 use crate::text::shown_to;
 
 /// Width of curves of growing motions.
@@ -68,7 +68,7 @@ fn greatest_decay(report: &Report) -> f64 {
     if !is_damped(report) {
         return 0.0;
     }
-    let decay = |branch: &BranchEntry| {
+    let decay = |branch: &BranchCurve| {
         let values = branch.growth_per_s.iter().filter(|g| g.is_finite());
         values.fold(0.0f64, |most, g| most.max(-g))
     };
@@ -116,7 +116,7 @@ pub fn axis(chart: &Chart, labels_height: f64) -> Option<Axis> {
 /// Divergence often grows thirty times as fast as flutter.
 fn spread(report: &Report, greatest: f64) -> Spread {
     const VISIBLE: f64 = 0.12;
-    let invisible = |band: &InstabilityEntry| band.peak_growth_per_s < VISIBLE * greatest;
+    let invisible = |band: &InstabilityBand| band.peak_growth_per_s < VISIBLE * greatest;
     match report.instabilities.iter().any(invisible) {
         true => Spread::SignedRoot,
         false => Spread::Linear,
@@ -161,7 +161,7 @@ fn write_note(sheet: &mut Sheet, chart: &Chart, baseline: f64) {
 /// without a sample near its largest growth.
 pub fn describe(report: &Report, shown: [f64; 2], speed: AxisData, said: bool) -> PanelData {
     let mut items = Vec::new();
-    let mut bands: Vec<&InstabilityEntry> = report.instabilities.iter().collect();
+    let mut bands: Vec<&InstabilityBand> = report.instabilities.iter().collect();
     if is_damped(report) {
         for growing in [false, true] {
             let branches = report.campbell.branches.iter().rev();
@@ -185,7 +185,7 @@ pub fn describe(report: &Report, shown: [f64; 2], speed: AxisData, said: bool) -
 
 /// Curves of the growing or of the decaying parts of a branch. Parts that neither grow nor decay lie on the zero
 /// line and are omitted.
-fn lines(report: &Report, branch: &BranchEntry, growing: bool, said: bool) -> Vec<Item> {
+fn lines(report: &Report, branch: &BranchCurve, growing: bool, said: bool) -> Vec<Item> {
     let growth = &branch.growth_per_s;
     let look = |i: usize| {
         let highest = if growth[i] > growth[i + 1] { i } else { i + 1 };
@@ -209,7 +209,7 @@ fn lines(report: &Report, branch: &BranchEntry, growing: bool, said: bool) -> Ve
 }
 
 /// Colour of the band that contains a sample of its branch; that of flutter if there is none.
-fn growth_hue(report: &Report, branch: &BranchEntry, sample: usize) -> Hue {
+fn growth_hue(report: &Report, branch: &BranchCurve, sample: usize) -> Hue {
     let rpm = branch.rpm.get(sample).copied().unwrap_or(f64::NAN);
     let mut bands = report.instabilities.iter();
     let own = bands.find(|band| {
@@ -219,7 +219,7 @@ fn growth_hue(report: &Report, branch: &BranchEntry, sample: usize) -> Hue {
     own.map_or(Hue::Flutter, |band| Hue::of_kind(band.kind)[0])
 }
 
-fn band_line(report: &Report, band: &InstabilityEntry, said: bool) -> Item {
+fn band_line(report: &Report, band: &InstabilityBand, said: bool) -> Item {
     let curve = curve(report, band);
     let name = band.kind.to_string();
     let words =
@@ -232,7 +232,7 @@ fn band_line(report: &Report, band: &InstabilityEntry, said: bool) -> Item {
 }
 
 /// A dot at the largest growth of a band.
-fn peak(band: &InstabilityEntry, said: bool) -> Points {
+fn peak(band: &InstabilityBand, said: bool) -> Points {
     let name = band.kind.to_string();
     let waves = band
         .name
@@ -255,7 +255,7 @@ fn peak(band: &InstabilityEntry, said: bool) -> Points {
 }
 
 /// Speeds in rpm and growth rates in 1/s of a band from its onset to its end, along its first branch.
-pub fn curve(report: &Report, band: &InstabilityEntry) -> Vec<[f64; 2]> {
+pub fn curve(report: &Report, band: &InstabilityBand) -> Vec<[f64; 2]> {
     let [first, last] = [report.campbell.from_rpm, report.campbell.to_rpm];
     let ends = [band.from_rpm.max(first), band.to_rpm.min(last)];
     let own = band.branches.first().and_then(|number| {
@@ -285,7 +285,7 @@ pub fn curve(report: &Report, band: &InstabilityEntry) -> Vec<[f64; 2]> {
 }
 
 /// Whether a branch has a sample within a band with more than half of its largest growth.
-fn is_sampled(report: &Report, band: &InstabilityEntry) -> bool {
+fn is_sampled(report: &Report, band: &InstabilityBand) -> bool {
     report.campbell.branches.iter().any(|branch| {
         let mut samples = branch.rpm.iter().zip(&branch.growth_per_s);
         samples.any(|(&rpm, &growth)| {

@@ -8,7 +8,7 @@ use super::super::style::{
     FINE_DASH, HAIRLINE, INK, LABEL_SIZE, MARGIN, PAPER, QUIET, label_width,
 };
 use super::{Chart, WIDTH, waves};
-use crate::report::CriticalSpeedEntry;
+use crate::report::CriticalSpeed;
 
 /// Baseline of the critical speeds above the diagram.
 const CRITICAL_BASELINE: f64 = 83.0;
@@ -90,7 +90,7 @@ fn waves_at(chart: &Chart, speeds: &[f64]) -> String {
 }
 
 /// Nodal diameters of a wave: "2", with nodal circles "2/1", or, if no wave dominates, "4+3".
-fn wave(entry: &CriticalSpeedEntry) -> String {
+fn wave(entry: &CriticalSpeed) -> String {
     let shares = entry.name.split(" + ");
     let first = |share: &str| share.split(' ').next().unwrap_or_default().to_owned();
     match entry.nodal_circles {

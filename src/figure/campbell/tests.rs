@@ -3,7 +3,7 @@ use super::super::sample::{band, busy_report, empty_report};
 use super::super::tidy::{assert_tidy, assert_unstruck, texts};
 use super::*;
 use crate::figure::Hue;
-use crate::report::{CriticalSpeedEntry, InstabilityEntry};
+use crate::report::{CriticalSpeed, InstabilityBand};
 
 #[test]
 fn every_critical_speed_is_labelled() {
@@ -21,7 +21,7 @@ fn labels_neither_overlap_nor_leave_the_sheet() {
     assert_tidy(&sheet(&busy_report(), CampbellView::default()));
     let mut crowded = busy_report();
     let extra = (0..60).map(|i| 1200.0 + 23.0 * f64::from(i));
-    let entry = |rpm| CriticalSpeedEntry {
+    let entry = |rpm| CriticalSpeed {
         rpm,
         branch: None,
         name: String::new(),
@@ -226,7 +226,7 @@ fn growth_is_drawn_in_the_band_of_its_branch_where_bands_overlap() {
         (InstabilityKind::Flutter, 10.0, 30.0, 1),
         (InstabilityKind::Divergence, 20.0, 40.0, 2),
     ];
-    let new = |(kind, from, to, branch)| InstabilityEntry {
+    let new = |(kind, from, to, branch)| InstabilityBand {
         branches: vec![branch],
         ..band(kind, from, to, 1.0, 1.0)
     };

@@ -3,7 +3,7 @@
 use super::super::axis::proper_range;
 use super::super::bands::is_shaded;
 use super::waves;
-use crate::report::{InstabilityEntry, Report};
+use crate::report::{InstabilityBand, Report};
 
 /// The part of a Campbell diagram that its figure shows. With the default values the figure shows the whole sweep, or,
 /// if it has more than 40 bands, the speeds up to the 41st, the operating speed and the flutter speed.
@@ -72,7 +72,7 @@ pub fn left_out(report: &Report, [from, to]: [f64; 2], labelled: usize) -> Vec<S
             "shown: {from:.0} to {to:.0} of {first:.0} to {last:.0} rpm (--draw-to-rpm)"
         ));
     }
-    let is_shown = |b: &&InstabilityEntry| b.from_rpm <= to && from <= b.to_rpm;
+    let is_shown = |b: &&InstabilityBand| b.from_rpm <= to && from <= b.to_rpm;
     let shown = report.instabilities.iter().filter(is_shown);
     let weak = shown.clone().filter(|band| !is_shaded([from, to], band));
     let (shown, weak) = (shown.count(), weak.count());

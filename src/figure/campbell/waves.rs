@@ -6,7 +6,7 @@ use super::super::declutter::{Extent, push_apart};
 use super::super::palette::Hue;
 use super::super::style::{Colour, HAIRLINE, INK, LABEL_SIZE, label_width, shorten_label, tint};
 use super::{Chart, NEGLIGIBLE_PER_S};
-use crate::report::{BranchEntry, Direction, Report};
+use crate::report::{BranchCurve, Direction, Report};
 use crate::scene::MeasuredRow;
 
 /// Distance of a label from the end of its branch.
@@ -20,18 +20,18 @@ const FARTHEST_LABEL: f64 = 72.0;
 const FARTHEST_EXIT_LABEL: f64 = 36.0;
 
 /// Direction of a branch at one of its samples; standing if the report does not contain it.
-pub fn direction_at(branch: &BranchEntry, sample: usize) -> Direction {
+pub fn direction_at(branch: &BranchCurve, sample: usize) -> Direction {
     let direction = branch.direction.get(sample);
     direction.copied().unwrap_or(Direction::Standing)
 }
 
 /// Colour of a branch at the last of its speeds shown.
-fn last_colour(branch: &BranchEntry, chart: &Chart) -> Colour {
+fn last_colour(branch: &BranchCurve, chart: &Chart) -> Colour {
     let shown = branch.rpm.iter().rposition(|rpm| chart.speed.shows(*rpm));
     Hue::of_direction(direction_at(branch, shown.unwrap_or(0))).colour()
 }
 
-fn short_label(branch: &BranchEntry) -> String {
+fn short_label(branch: &BranchCurve) -> String {
     shorten_label(&branch.label, LONGEST_LABEL)
 }
 
@@ -103,7 +103,7 @@ pub enum Stretch {
 }
 
 /// Kind of the segment between the sample `i` of a branch and the next.
-pub fn look_of_segment(report: &Report, branch: &BranchEntry, i: usize) -> Stretch {
+pub fn look_of_segment(report: &Report, branch: &BranchCurve, i: usize) -> Stretch {
     let at_an_end = |holds: &dyn Fn(usize) -> bool| holds(i) || holds(i + 1);
     let grows = |i: usize| {
         branch
@@ -139,7 +139,7 @@ pub fn is_crossed(chart: &Chart, frame: &Frame) -> bool {
         || measured.any(|at| Frame::around(at, 4.0).overlaps(&around))
 }
 
-fn places(branch: &BranchEntry, chart: &Chart) -> Vec<[f64; 2]> {
+fn places(branch: &BranchCurve, chart: &Chart) -> Vec<[f64; 2]> {
     let points = branch.rpm.iter().zip(&branch.frequency_hz);
     points
         .map(|(&rpm, &hz)| [chart.speed.at(rpm), chart.frequency.at(hz)])
@@ -166,7 +166,7 @@ pub fn label_branches(sheet: &mut Sheet, chart: &Chart) {
 }
 
 /// Labels, to the right of the panel, of branches that end there at given heights.
-fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[(&BranchEntry, f64)]) {
+fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[(&BranchCurve, f64)]) {
     let labels = ends.iter().map(|&(_, centre)| Extent {
         centre,
         length: LINE_HEIGHT,
@@ -190,7 +190,7 @@ fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[(&BranchEntry, f64)]) {
 }
 
 /// Labels, above the panel, of branches that leave it through its upper edge at given abscissae.
-fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchEntry, f64)]) {
+fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchCurve, f64)]) {
     let extent = |&(branch, x): &(_, f64)| Extent::of_label(x, &short_label(branch), 8.0);
     let centres = push_apart(exits.iter().map(extent), chart.upper.across());
     for ((branch, exit), centre) in exits.iter().zip(centres) {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::figure::canvas::{Sheet, Stroke};
 use crate::figure::style::{BACKWARD, Colour, FORWARD, HAIRLINE, INK, QUIET, tint};
-use crate::report::{EventShapeEntry, Report};
+use crate::report::{EventShape, Report};
 use crate::scene::GuideFile;
 
 /// Outer radius of the blade on the sheet.
@@ -23,7 +23,7 @@ const SMALL: f64 = 5.0;
 /// A corner of a tile on the sheet, and the deflection there relative to its largest absolute value.
 type Corner = ([f64; 2], f64);
 
-pub fn draw(sheet: &mut Sheet, centre: [f64; 2], report: &Report, shape: &EventShapeEntry) {
+pub fn draw(sheet: &mut Sheet, centre: [f64; 2], report: &Report, shape: &EventShape) {
     let outer = shape.radius_m.last().copied().unwrap_or(1.0);
     let on_sheet = |r: f64, angle: f64| {
         let (sin, cos) = angle.sin_cos();

@@ -3,14 +3,14 @@ use super::super::sample::{busy_report, root_loci as sample_loci};
 use super::super::tidy::{assert_tidy, texts};
 use super::*;
 
-fn report(loci: RootLociEntry) -> Report {
+fn report(loci: RootLoci) -> Report {
     let mut report = busy_report();
     report.root_loci = Some(loci);
     report
 }
 
 /// A band that extends to the end of the sweep, where the growth is far from zero.
-fn cut_short() -> RootLociEntry {
+fn cut_short() -> RootLoci {
     let mut entry = sample_loci(0.01);
     let kept = entry.rpm.iter().filter(|rpm| **rpm < 2264.0).count();
     entry.rpm.truncate(kept);
@@ -83,7 +83,7 @@ fn numbers_that_are_not_finite_or_huge_are_not_drawn() {
     odd.paths[1].growth_per_s[9] = f64::INFINITY;
     odd.rpm[5] = 1e200;
     assert_tidy(&sheet(&report(odd.clone())).unwrap());
-    let without_end = RootLociEntry {
+    let without_end = RootLoci {
         end_rpm: f64::NAN,
         ..odd.clone()
     };
