@@ -80,9 +80,10 @@ class BladeDict(_BladeDict, total=False):
     thickness is uniform."""
 
     teeth: int | None
-    """Number of teeth. They have no stiffness in the model, and no mass unless `rim` gives it.
-    Typically 0.03 m of pitch, from 0.01 to 0.06 (assumption of this program; the paper's saw
-    has 0.053 m)."""
+    """Number of teeth, required for `cut`, `rim`, `excitation.tooth_passing` and
+    `response.tooth_force_n`. They have no stiffness in the model, and no mass unless `rim`
+    gives it. Typically 0.03 m of pitch, from 0.01 to 0.06 (assumption of this program; the
+    paper's saw has 0.053 m)."""
 
     rim: RimDict | None
     """Mass of teeth or carbide tips. None by default."""
@@ -147,7 +148,7 @@ class GuideDict(_GuideDict, total=False):
     gap_m: float | None
     """Gap between the pad and a face of the blade, such as the thickness of a film of water;
     `check` compares it with the static deflection in the cut. A linear pad acts as if it had no
-    gap. Not checked by default."""
+    gap. Required where `contact` is one_sided, otherwise not checked by default."""
 
     contact: ContactLaw
     """Whether the pad acts at any deflection, which is the default, or only beyond the gap."""
@@ -252,7 +253,8 @@ class TemperatureDict(_TemperatureDict, total=False):
     collar, that of the collar): either a rise at the rim with its shape, or a table."""
 
     rim_rise_k: float | None
-    """Rise at the rim, T(r) = rise · ((r − r₀)/(b − r₀))^p for r > r₀, zero inside."""
+    """Rise at the rim, required unless `table` is given: T(r) = rise · ((r − r₀)/(b − r₀))^p
+    for r > r₀, zero inside."""
 
     from_radius_m: float | None
     """Radius r₀ at which the rise begins; by default the bore, or the edge of the collar."""
@@ -497,16 +499,17 @@ class CutDict(TypedDict, total=False):
     """Angle of the middle of the cut, positive in the direction of rotation."""
 
     depth_m: float | None
-    """Depth of cut; divided by the pitch of the teeth it gives the mean number of teeth in the
-    cut, which need not be whole. Typically 0.25 of the outer diameter, from 0.05 to 0.35 (the
-    paper's saw cuts 0.28 of its diameter)."""
+    """Depth of cut, required unless `teeth_in_cut` is given; divided by the pitch of the teeth
+    it gives the mean number of teeth in the cut, which need not be whole. Typically 0.25 of the
+    outer diameter, from 0.05 to 0.35 (the paper's saw cuts 0.28 of its diameter)."""
 
     teeth_in_cut: int | None
     """Number of teeth that cut at the same time, in place of the mean number that follows from
     the depth; it has precedence."""
 
     tangential_n_per_tooth: float | None
-    """Force on each tooth against the rotation; it has precedence over the power."""
+    """Force on each tooth against the rotation, required unless `power_w` is given; it has
+    precedence over the power."""
 
     radial_n_per_tooth: float | None
     """Force towards the axis on each tooth. Typically 20, from 0 to 90 (assumption of this
@@ -680,7 +683,8 @@ class SceneDict(_SceneDict, total=False):
     """Membrane stress from heat, roll tension or measurement. None by default."""
 
     spline: SplineDict | None
-    """Contact between bore and splined arbor. Not simulated by default."""
+    """Contact between bore and splined arbor, where `mount.kind` is spline. Not simulated by
+    default."""
 
     operating_rpm: float | None
     """Operating speed, to which the 85 % rule applies. Typically 60 m/s at the rim, from 40 to
@@ -717,7 +721,8 @@ class SceneDict(_SceneDict, total=False):
     """Point at which the deflection is read; by default at the rim at θ = 90°."""
 
     measured: MeasuredDict | None
-    """Measured or published frequencies to show beside the computed ones."""
+    """Measured or published frequencies to show beside the computed ones, and for `sawflutter
+    fit`."""
 
 
 class DistributionToleranceDict(TypedDict):

@@ -16,15 +16,15 @@ pub struct CutFile {
     /// Angle of the middle of the cut, positive in the direction of rotation.
     #[serde(default)]
     pub angle_deg: f64,
-    /// Depth of cut; divided by the pitch of the teeth it gives the mean number of teeth in the cut, which need not be
-    /// whole.
+    /// Depth of cut, required unless `teeth_in_cut` is given; divided by the pitch of the teeth it gives the mean number of
+    /// teeth in the cut, which need not be whole.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth_m: Option<f64>,
     /// Number of teeth that cut at the same time, in place of the mean number that follows from the depth; it has
     /// precedence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub teeth_in_cut: Option<u32>,
-    /// Force on each tooth against the rotation; it has precedence over the power.
+    /// Force on each tooth against the rotation, required unless `power_w` is given; it has precedence over the power.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential_n_per_tooth: Option<f64>,
     /// Force towards the axis on each tooth.

@@ -46,7 +46,7 @@ pub struct SceneFile {
     /// Membrane stress from heat, roll tension or measurement. None by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub membrane: Option<MembraneFile>,
-    /// Contact between bore and splined arbor. Not simulated by default.
+    /// Contact between bore and splined arbor, where `mount.kind` is spline. Not simulated by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spline: Option<SplineFile>,
     /// Operating speed, to which the 85 % rule applies.
@@ -79,7 +79,7 @@ pub struct SceneFile {
     /// Point at which the deflection is read; by default at the rim at θ = 90°.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub probe: Option<ProbeFile>,
-    /// Measured or published frequencies to show beside the computed ones.
+    /// Measured or published frequencies to show beside the computed ones, and for `sawflutter fit`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<Measured>,
 }
@@ -111,7 +111,8 @@ pub struct GuideFile {
     #[serde(default, skip_serializing_if = "is_default")]
     pub damping_n_s_per_m: f64,
     /// Gap between the pad and a face of the blade, such as the thickness of a film of water; `check` compares it
-    /// with the static deflection in the cut. A linear pad acts as if it had no gap. Not checked by default.
+    /// with the static deflection in the cut. A linear pad acts as if it had no gap. Required where `contact` is one_sided,
+    /// otherwise not checked by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gap_m: Option<f64>,
     /// Whether the pad acts at any deflection, which is the default, or only beyond the gap.

@@ -36,7 +36,7 @@ pub struct MembraneFile {
 pub struct TemperatureFile {
     /// Coefficient of linear thermal expansion; steel: 1.2e-5.
     pub expansion_per_k: f64,
-    /// Rise at the rim, T(r) = rise · ((r − r₀)/(b − r₀))^p for r > r₀, zero inside.
+    /// Rise at the rim, required unless `table` is given: T(r) = rise · ((r − r₀)/(b − r₀))^p for r > r₀, zero inside.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rim_rise_k: Option<f64>,
     /// Radius r₀ at which the rise begins; by default the bore, or the edge of the collar.

@@ -195,7 +195,7 @@ fn refusals_are_in_the_unit_of_the_field_and_name_what_a_designer_can_use() {
             (
                 "blade.material.poisson_ratio",
                 "0.7",
-                "Poisson ratio must be greater than -1 and less than 0.5",
+                "Poisson ratio must be above -1 and below 0.5",
             ),
             (
                 "guides[0].radius_m",
@@ -215,7 +215,7 @@ fn refusals_are_in_the_unit_of_the_field_and_name_what_a_designer_can_use() {
             (
                 "cut.depth_m",
                 "0",
-                "Depth must be above 0 and at most the blade's diameter (710 mm)",
+                "Depth must be above 0 mm; usual: 0.1 to 3000 mm",
             ),
             (
                 "cut.chart_rpm",
