@@ -10,9 +10,7 @@ use crate::transient::LINEAR_THICKNESSES;
 /// The deflection, critical speeds and bands.
 pub fn chart(report: &RunUpReport) -> ChartData {
     let speeds = [report.from_rpm, report.to_rpm];
-    let sizes = report.deflection_m.iter().map(|w| w.abs());
-    let largest_mm = 1e3 * sizes.fold(0.0, f64::max);
-    let reach = 1.1 * largest_mm.max(1e-6);
+    let reach = 1.1e3 * report.largest_deflection_m.max(1e-9);
     let bands = report.bands.iter().map(|entry| &entry.band);
     let bands = bands.map(|band| Item::Band(Band::new(band, speeds)));
     let critical = report.critical_speeds.iter();

@@ -48,15 +48,13 @@ fn verdict(report: &RunUpReport) -> String {
             1e3 * report.linear_limit_m
         ),
     };
-    let largest = report.deflection_m.iter().map(|w| w.abs());
-    let largest = largest.zip(&report.rpm).max_by(|x, y| x.0.total_cmp(&y.0));
-    let (w, at) = largest.unwrap_or((0.0, &report.from_rpm));
     format!(
-        "Run-up from {:.0} to {:.0} rpm at {:.1} rpm/s: {end}; largest deflection {:.2} mm, at {at:.0} rpm",
+        "Run-up from {:.0} to {:.0} rpm at {:.1} rpm/s: {end}; largest deflection {:.2} mm, at {:.0} rpm",
         report.from_rpm,
         report.to_rpm,
         report.rate_rpm_per_s,
-        1e3 * w
+        1e3 * report.largest_deflection_m,
+        report.largest_deflection_rpm
     )
 }
 

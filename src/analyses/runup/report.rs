@@ -39,6 +39,12 @@ pub struct RunUpReport {
     pub rpm: Vec<f64>,
     /// Deflection at the probe.
     pub deflection_m: Vec<f64>,
+    /// Largest magnitude of the deflection at the probe.
+    #[serde(default)]
+    pub largest_deflection_m: f64,
+    /// Speed of the largest deflection.
+    #[serde(default)]
+    pub largest_deflection_rpm: f64,
     /// Critical speeds up to the end of the run-up.
     pub critical_speeds: Vec<CriticalSpeed>,
     /// Bands of instability and their effect on the run-up.
