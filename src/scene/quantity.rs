@@ -131,7 +131,7 @@ impl Quantity {
         };
         let remedy = match (self.unit, self.kind) {
             ("", Kind::Count) => "give a whole number in this range",
-            ("", _) => "it has no unit; 1 % is 0.01",
+            ("", _) => "give a number in this range; 1 % is 0.01",
             _ => "give it in the unit that ends the key's name",
         };
         RefusedValue::new(key, words, allowed, remedy)

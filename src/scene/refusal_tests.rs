@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::quantities::QUANTITIES;
-use super::{Kind, Quantity, Scene, SceneFile};
+use super::{Kind, Quantity, Scene};
 use crate::text::shown;
 
 /// Puts a value at a path like `guides.0.gap_m`.
@@ -135,16 +135,10 @@ fn numbers_that_contradict_others_are_refused_by_their_keys() {
 /// Numbers that JSON does not have, from the library.
 #[test]
 fn what_is_no_number_is_refused_by_its_key() {
-    let edits: [(&str, fn(&mut SceneFile)); 2] = [
-        ("blade.thickness_m", |file| {
-            file.blade.thickness_m = f64::NAN
-        }),
-        ("guides[0].offset_m", |file| {
-            file.guides[0].offset_m = f64::INFINITY
-        }),
-    ];
-    for (key, edit) in edits {
-        let refused = Scene::paper().edited(edit).unwrap_err().to_string();
+    let thick = Scene::paper().edited(|file| file.blade.thickness_m = f64::NAN);
+    let off = Scene::paper().edited(|file| file.guides[0].offset_m = f64::INFINITY);
+    for (key, edited) in [("blade.thickness_m", thick), ("guides[0].offset_m", off)] {
+        let refused = edited.unwrap_err().to_string();
         let words = format!("{key} is no finite number, but must be ");
         assert!(refused.starts_with(&words), "{refused}");
     }

@@ -122,12 +122,12 @@ fn pitches_rad(key: &str, typed: &[f64], teeth: u32) -> Result<Vec<f64>, SceneEr
     }
     for (index, pitch) in typed.iter().enumerate() {
         let least = MIN_PITCH * mean_deg;
-        if !(*pitch >= least) {
-            let key = format!("{key}[{index}]");
-            let allowed = format!("at least {}", shown(least));
-            let remedy = "teeth closer to each other act as one";
-            return Err(refuse(&key, *pitch, allowed, remedy));
+        if *pitch >= least {
+            continue;
         }
+        let allowed = format!("at least {}", shown(least));
+        let remedy = "teeth closer to each other act as one";
+        return Err(refuse(&format!("{key}[{index}]"), *pitch, allowed, remedy));
     }
     let turn = typed.iter().sum::<f64>() * f64::from(teeth) / count as f64;
     if (turn - 360.0).abs() > ROUNDED_DEG * f64::from(teeth) {
