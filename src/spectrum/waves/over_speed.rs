@@ -10,7 +10,7 @@ use crate::spectrum::error::SpectrumError;
 use crate::spectrum::work::Cancellation;
 
 /// Number of nodes of the series: its error is 2e-8 of the window on the paper's saw up to 3000 rpm.
-const NODES: usize = 10;
+const NODES: usize = 12;
 /// Entries below this in every term do not couple two parts, in units of the window.
 const UNCOUPLED: f64 = 1e-9;
 

@@ -14,7 +14,7 @@ use crate::stability::pieces::Piece;
 const NOISE: f64 = 1e-10;
 /// Largest number of spectra in one chart, a hundred times as many as usual saws need.
 const MOST_SPECTRA: usize = 12_000;
-/// An eigenvalue at more than this share of its size, or of a tenth of the highest accurate frequency, from the expected one
+/// An eigenvalue at more than this share of its size, or of a hundredth of the highest accurate frequency, from the expected one
 /// may be another eigenvalue.
 const SAME: f64 = 1e-5;
 /// Frequency of an eigenvalue above all others of every sample, in multiples of the reach: a part of a saw may have none
@@ -115,7 +115,7 @@ impl<'a> Solver<'a> {
             _ => self.parts[part].diameters().unwrap_or(0),
         };
         let found = self.model.eigenvalue_next_to(component, speed, expected);
-        let away = SAME * expected.norm().max(0.1 * self.highest());
+        let away = SAME * expected.norm().max(0.01 * self.highest());
         if let Some(found) = found.filter(|found| distance(found) <= away) {
             return Ok(Some(found));
         }
