@@ -27,7 +27,7 @@ const LEAST_STEP: f64 = 1e-10;
 const CURVE_TOLERANCE: f64 = 1e-3;
 /// Frequencies below this share of the highest belong to real eigenvalues: a double real eigenvalue is
 /// accurate only to the square root of rounding.
-const REAL: f64 = 1e-7;
+const REAL: f64 = 1e-10;
 
 /// An eigenvalue at the last speed up to which it was followed, with its curve.
 type Tip = (Sloped, Curve);

@@ -9,11 +9,12 @@
 //! with κ(λ)u = f.
 
 use faer::{Mat, MatRef, Scale};
+use sawflutter::system::GyroscopicSystem;
 
-use super::blade::Saw;
 use super::near::Near;
-use super::series::{Eliminated, QUADRATIC, Series, TERMS, eliminate};
-use crate::system::GyroscopicSystem;
+use super::series::{Eliminated, MODEL, Series, eliminate};
+use super::stages::{Unknown, split};
+use super::waves::Saw;
 
 /// A block in the waves of the middle of an interval.
 struct Turned {
@@ -38,8 +39,8 @@ pub struct Frame {
     blocks: Vec<Turned>,
     /// Strong dampers first.
     forces: Vec<Force>,
-    /// Number of near waves, and of strong dampers.
-    waves: usize,
+    /// The near waves.
+    waves: Vec<Unknown>,
     strong: usize,
     /// Top of the window, in 1/s: the unit of λ.
     window: f64,
@@ -49,6 +50,7 @@ impl Frame {
     /// The frame of a saw for what is near.
     pub fn new(saw: &Saw, near: &Near, window: f64) -> Self {
         let (columns, forces) = gathered(saw, near, window);
+        let mut waves = Vec::new();
         let mut first = 0;
         let mut blocks = Vec::new();
         for (block, part) in saw.blocks.iter().zip(&near.blocks) {
@@ -63,6 +65,10 @@ impl Frame {
             });
             let own = columns.subrows(block.first, copies * radial);
             let count = copies * part.near;
+            for _ in 0..copies {
+                let own = part.squares[..part.near].iter();
+                waves.extend(own.map(|squares| Unknown::Wave(*squares, block.diameters as f64)));
+            }
             blocks.push(Turned {
                 system: block.system.project(turn.as_ref()),
                 columns: turn.transpose() * own,
@@ -74,7 +80,7 @@ impl Frame {
         Frame {
             blocks,
             forces,
-            waves: first,
+            waves,
             strong: near.strong(),
             window,
         }
@@ -82,22 +88,29 @@ impl Frame {
 
     /// Number of unknowns of the reduced model.
     pub fn size(&self) -> usize {
-        self.waves + self.strong
+        self.waves.len() + self.strong
     }
 
-    /// K̃, C̃, M̃ and further terms at a speed, in units of the window, in the displacements of strong dampers and the near
-    /// waves.
-    pub fn reduced(&self, speed: f64) -> Series {
-        self.equations(speed).onto_first(self.size())
+    /// K̃, C̃, M̃ and further terms at a speed, in units of the window; `terms` of them.
+    pub fn reduced(&self, speed: f64, terms: usize) -> Series {
+        let kept: Vec<usize> = (0..self.size()).collect();
+        split(&self.equations(speed, terms), &kept, terms)
+    }
+
+    /// Unknowns of [`Frame::reduced`]: strong dampers, then waves.
+    pub fn unknowns(&self) -> Vec<Unknown> {
+        let mut unknowns = vec![Unknown::Strong; self.strong];
+        unknowns.extend(&self.waves);
+        unknowns
     }
 
     /// The equations of strong dampers z, near waves x and forces f, those of strong dampers first, after the
     /// elimination of the far waves.
-    fn equations(&self, speed: f64) -> Series {
-        let mut all = self.without_far_waves(speed);
+    fn equations(&self, speed: f64, terms: usize) -> Series {
+        let mut all = self.without_far_waves(speed, terms);
         let (first, strong) = (self.size(), self.strong);
         // Rows of weak columns times κ(λ), from the last power down.
-        for power in (0..TERMS).rev() {
+        for power in (0..terms).rev() {
             let earlier = match power {
                 0 => None,
                 _ => all.0[power - 1].clone(),
@@ -129,10 +142,10 @@ impl Frame {
     }
 
     /// The same before the forces are connected with displacements: P^T q in the rows of forces.
-    fn without_far_waves(&self, speed: f64) -> Series {
+    fn without_far_waves(&self, speed: f64, terms: usize) -> Series {
         let size = self.size() + self.forces.len();
         let mut total = Series::default();
-        for power in 0..TERMS {
+        for power in 0..terms {
             total.term_mut(power, size, size);
         }
         for block in &self.blocks {
@@ -142,7 +155,7 @@ impl Frame {
                 Scale(self.window.recip()) * block.system.velocity_at(speed),
                 inertia,
             ];
-            let own = block.eliminated(&dynamic);
+            let own = block.eliminated(&dynamic, terms);
             let place = |i: usize| match i < block.near {
                 true => self.strong + block.first + i,
                 false => self.size() + i - block.near,
@@ -161,7 +174,7 @@ impl Frame {
 
 impl Turned {
     /// Series of the near unknowns and of all forces, with the far unknowns of this block eliminated.
-    fn eliminated(&self, dynamic: &[Mat<f64>; QUADRATIC]) -> Series {
+    fn eliminated(&self, dynamic: &[Mat<f64>; 3], terms: usize) -> Series {
         let (near, rank) = (self.near, self.columns.ncols());
         let size = near + rank;
         let near_columns = self.columns.subrows(0, near);
@@ -197,7 +210,7 @@ impl Turned {
         copy(&mut kept, (near, 0), near_columns.transpose());
         copy(&mut by_far, (near, 0), far_columns.transpose());
         copy(&mut by_kept, (0, near), far_columns);
-        for power in QUADRATIC..TERMS {
+        for power in MODEL..terms {
             kept.term_mut(power, size, size);
         }
         let parts = Eliminated {
@@ -205,7 +218,7 @@ impl Turned {
             far_by_kept: &by_kept,
             far: &far,
         };
-        eliminate(&mut kept, &parts);
+        eliminate(&mut kept, &parts, terms);
         kept
     }
 }
