@@ -3,7 +3,7 @@
 use serde_json::{Number, Value};
 
 use super::entries::value;
-use super::{RefusedValue, Scene, SceneError, SceneFile};
+use super::{Kind, Quantity, RefusedValue, Scene, SceneError, SceneFile};
 
 /// Path of a number of a scene, as in error messages: `guides[0].radius_m`.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -40,6 +40,19 @@ impl Parameter {
         found.and_then(Value::as_f64).ok_or_else(|| self.missing())
     }
 
+    /// Refuses a count, such as a number of teeth: it does not vary.
+    fn check_varies(&self) -> Result<(), RefusedValue> {
+        match Quantity::kind_of(&self.path) {
+            Kind::Count => {
+                let allowed = "the path of a number that is no count, like guides[0].radius_m";
+                let remedy = "compare scenes with other counts";
+                let given = format!("{:?}", self.path);
+                Err(RefusedValue::new("the parameter", given, allowed, remedy))
+            }
+            _ => Ok(()),
+        }
+    }
+
     fn missing(&self) -> SceneError {
         let allowed = "the path of a number that the scene has, like guides[0].radius_m";
         let remedy = "write this number into the scene, or correct its name";
@@ -52,10 +65,11 @@ impl SceneFile {
     /// The scene with other values of some numbers.
     ///
     /// # Errors
-    /// [`SceneError`] if the scene has no number at a path, or a value is refused.
+    /// [`SceneError`] if the scene has no number at a path or a count there, or a value is refused.
     pub fn with(&self, numbers: &[(&Parameter, f64)]) -> Result<Scene, SceneError> {
         let mut json = value(self);
         for (parameter, number) in numbers {
+            parameter.check_varies()?;
             let place = json.pointer_mut(&parameter.pointer);
             let place = place.filter(|v| v.is_number());
             let number = Number::from_f64(*number).ok_or_else(|| {
@@ -97,6 +111,9 @@ mod tests {
             assert!(error.contains(&format!("{path:?}")), "{error}");
             assert!(paper.with(&[(&parameter, 1.0)]).is_err(), "{path}");
         }
+        let teeth = Parameter::new("blade.teeth");
+        let error = paper.with(&[(&teeth, 42.0)]).unwrap_err().to_string();
+        assert!(error.contains("no count"), "{error}");
         let thickness = Parameter::new("blade.thickness_m");
         for value in [-1.0, f64::NAN, f64::INFINITY] {
             let error = paper.with(&[(&thickness, value)]).unwrap_err().to_string();

@@ -46,6 +46,10 @@ fn known_path(path: &str) -> String {
     path.trim_end_matches("[?]").to_owned()
 }
 
+/// Largest whole number that is accepted with a decimal point. Beyond it not all whole numbers are exact, and from 2⁶⁴ on the
+/// parser reads them as floating point numbers again.
+const MOST_WHOLE: f64 = 9e15;
+
 /// The text with the number to which an error refers as it was meant: without quotation marks, and without a decimal
 /// point where it is whole and a whole number is expected.
 fn meant(text: &str, error: &serde_json::Error) -> Option<String> {
@@ -76,8 +80,9 @@ fn meant(text: &str, error: &serde_json::Error) -> Option<String> {
     let number = token.text.trim_matches('"');
     let value: f64 = serde_json::from_str(number).ok()?;
     let number = match token.part {
-        Part::Word if value.fract() != 0.0 => return None,
-        Part::Word => format!("{value:.0}"),
+        Part::Word if value.fract() != 0.0 || value.abs() > MOST_WHOLE => return None,
+        // The sum has no negative zero, which the parser would read as a floating point number again.
+        Part::Word => format!("{:.0}", value + 0.0),
         _ => number.to_owned(),
     };
     let mut next = text.to_owned();

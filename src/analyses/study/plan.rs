@@ -235,7 +235,7 @@ fn varying(
             source,
         };
         let nominal = parameter.get(scene).map_err(unusable)?;
-        // This step refuses integers, such as a number of teeth, because they cannot vary.
+        // This step refuses counts, which do not vary.
         scene.with(&[(&parameter, nominal)]).map_err(unusable)?;
         let key = format!("parameters[{k}].distribution");
         let distribution = Distribution::new(&entry.distribution, nominal, &key)?;
