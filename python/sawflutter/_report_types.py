@@ -667,7 +667,7 @@ class Campbell(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RootPath(Entry):
-    """One eigenvalue over the speeds of a [RootLociEntry]."""
+    """One eigenvalue over the speeds of a [RootLoci]."""
 
     name: str
     """Waves of this mode."""
@@ -2833,6 +2833,12 @@ class RunUpReport(Entry):
 
     deflection_m: FloatArray
     """Deflection at the probe."""
+
+    largest_deflection_m: float
+    """Largest magnitude of the deflection at the probe."""
+
+    largest_deflection_rpm: float
+    """Speed of the largest deflection."""
 
     critical_speeds: tuple[CriticalSpeed, ...]
     """Critical speeds up to the end of the run-up."""
