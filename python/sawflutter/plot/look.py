@@ -10,7 +10,7 @@ from typing import Any, SupportsFloat, get_args
 import numpy as np
 
 from .._drawn import Units
-from .chart import Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
+from .chart import Area, Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
 
 # One rotation per second in each of the units.
 TURN: dict[str, float] = {"rpm": 60.0, "Hz": 1.0, "rad/s": tau}
@@ -78,6 +78,7 @@ def _in_units(panel: Panel, units: dict[str, str]) -> Panel:
         items=[_scaled(item, x, y, units) for item in panel.items],
         x_range=_times(panel.x_range, x),
         y_range=_times(panel.y_range, y),
+        y_ticks=[y * tick for tick in panel.y_ticks],
     )
 
 
@@ -102,6 +103,8 @@ def _scaled(item: Item, x: float, y: float, units: dict[str, str]) -> Item:
         name, z = _axis(item.name, units)
         shown = _times(item.range, z)
         return replace(item, x=x * item.x, y=y * item.y, z=z * item.z, name=name, range=shown)
+    if isinstance(item, Area):
+        return replace(item, x=x * item.x, low=y * item.low, high=y * item.high)
     return replace(item, x=x * item.x, y=y * item.y)
 
 
