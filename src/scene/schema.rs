@@ -6,6 +6,10 @@ use super::SceneFile;
 use super::quantity::Quantity;
 
 /// A key of a schema.
+#[cfg_attr(
+    not(feature = "cli"),
+    allow(dead_code, reason = "the command `keys` prints them")
+)]
 pub(crate) struct Key {
     /// JSON path, with `[]` for any index of a list. The entries of a list of numbers are keys of their own.
     pub path: String,
