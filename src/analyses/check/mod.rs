@@ -9,7 +9,7 @@
 //!     min_critical_rad_per_s: Some(rad_per_s(1500.0)),
 //!     ..Limits::at(rad_per_s(1250.0))
 //! };
-//! let report = check(&scene, &limits)?;
+//! let report = sawflutter::check(&scene, &limits)?;
 //! assert!(report.passed, "{:?}", report.failures());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
