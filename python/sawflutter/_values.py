@@ -54,8 +54,8 @@ def plain(value: Any, key: str) -> Any:
 def unit(key: str) -> tuple[str, str]:
     """The name of a number and its unit, from the end of its key.
 
-    >>> unit("stiffness_n_per_m"), unit("poisson_ratio"), unit("air_n_s_per_m3")
-    (('stiffness', 'N/m'), ('poisson_ratio', ''), ('air', 'N*s/m**3'))
+    >>> unit("stiffness_n_per_m"), unit("poisson_ratio"), unit("convection_w_per_m2_k")
+    (('stiffness', 'N/m'), ('poisson_ratio', ''), ('convection', 'W/m**2/K'))
     """
     words, found = key.replace("_3_2", "^(3/2)").split("_"), list[str]()
     while words and (words[-1] == "per" or _unit(words[-1]) is not None):
@@ -63,10 +63,9 @@ def unit(key: str) -> tuple[str, str]:
             break
         found.insert(0, words.pop())
     cut = found.index("per") if "per" in found else len(found)
-    above, below = (
-        "*".join(filter(None, map(_unit, part))) for part in (found[:cut], found[cut + 1 :])
-    )
-    named = f"{above or 1}/{below}" if below else above
+    above, below = (list(filter(None, map(_unit, part))) for part in (found[:cut], found[cut + 1 :]))
+    # Each unit below is divided by: "/a*b" would multiply by b.
+    named = "/".join(["*".join(above) or "1", *below]) if below else "*".join(above)
     return "_".join(words) or key, named
 
 

@@ -233,5 +233,5 @@ def test_the_end_of_every_key_is_a_unit_or_none() -> None:
     assert units <= {
         "", "m", "N/m", "N*s/m", "N*s/m**3", "deg", "Pa", "kg/m**3", "kg", "rpm", "s", "N", "W",
         "m/s", "K", "1/K", "1/s", "rpm/s", "N/m**(3/2)", "N*s**(3/2)/m**(3/2)", "N/m**2",
-        "kg*m**2",
+        "kg*m**2", "W/m**2/K", "W/m/K",
     }, units  # fmt: skip
