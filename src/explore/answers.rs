@@ -10,7 +10,6 @@ use crate::analyses::response::ResponseReport;
 use crate::analyses::runup::RunUpReport;
 use crate::analyses::washboard::WashboardReport;
 use crate::figure::number_name;
-
 use crate::scene::Quantity;
 
 /// A main number of the result of a task.

@@ -19,7 +19,6 @@ use crate::analyses::runup::{self, RunUpReport};
 use crate::analyses::study::{Saw, Study, StudyReport};
 use crate::analyses::washboard::{self, WashboardError, WashboardReport};
 use crate::commands::CommandReport;
-
 use crate::scene::{Freed, Scene, SceneError, SceneFile};
 use crate::transient::TransientError;
 

@@ -9,7 +9,6 @@ use super::{cut, cut_map, layout, response_map, runup, spline_orbit, washboard};
 use crate::analyses::cut::{CutReport, cut as compute_cut};
 use crate::analyses::runup::runup;
 use crate::analyses::washboard::washboard;
-
 use crate::scene::{Accuracy, CutRun, Scene, SceneFile};
 
 /// A saw with a spline at three speeds, whose panels are in two rows.

@@ -164,11 +164,15 @@ mod tests {
     use crate::figure::canvas::Mark;
     use crate::figure::style::{INK, PAPER};
 
-    /// Whether any pixel within a frame is not of the paper's colour, on a picture of the marks.
-    fn is_marked(marks: &[Mark], frame: Frame) -> bool {
+    fn drawn(marks: &[Mark]) -> Pixmap {
         let mut picture = Pixmap::new(100, 100).unwrap();
         picture.fill(Color::WHITE);
         marks.iter().for_each(|mark| draw(&mut picture, mark));
+        picture
+    }
+
+    /// Whether any pixel within a frame is dark.
+    fn is_marked(picture: &Pixmap, frame: Frame) -> bool {
         let within = |x: u32, y: u32| {
             let (x, y) = (f64::from(x), f64::from(y));
             frame.left <= x && x < frame.right && frame.top <= y && y < frame.bottom
@@ -188,20 +192,20 @@ mod tests {
             };
             let text = Mark::Text([40.0, 50.0], lettering, "a b".to_owned());
             let frame = crate::figure::canvas::text_frame([40.0, 50.0], &lettering, "a b");
-            let marks = std::slice::from_ref(&text);
+            let picture = drawn(&[text]);
             let [x, y] = frame.centre();
             let (first, second) = match upright {
                 false => (Frame { right: x, ..frame }, Frame { left: x, ..frame }),
                 true => (Frame { top: y, ..frame }, Frame { bottom: y, ..frame }),
             };
-            assert!(is_marked(marks, first) && is_marked(marks, second));
+            assert!(is_marked(&picture, first) && is_marked(&picture, second));
             let beside = Frame {
                 left: 80.0,
                 top: 80.0,
                 right: 100.0,
                 bottom: 100.0,
             };
-            assert!(!is_marked(marks, beside));
+            assert!(!is_marked(&picture, beside));
         }
     }
 
@@ -213,10 +217,7 @@ mod tests {
             let last = corner(x, 1.0);
             Mark::Polygon([&corners[..], &[last]].concat(), INK)
         };
-        let marks = [tile(0.0), tile(1.0)];
-        let mut picture = Pixmap::new(100, 100).unwrap();
-        picture.fill(Color::WHITE);
-        marks.iter().for_each(|mark| draw(&mut picture, mark));
+        let picture = drawn(&[tile(0.0), tile(1.0)]);
         for x in 36..46 {
             let red = picture.pixel(x, 28).unwrap().red();
             assert!(red < INK.0 + (PAPER.0 - INK.0) / 16, "{x}: {red}");

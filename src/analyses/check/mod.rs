@@ -24,8 +24,7 @@ use crate::analyses::deflect::rim_compliance_m_per_n;
 use crate::report::{InstabilityBand, Numbered, add_amplitudes, lifting_off, side_force_in_words};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
-use crate::stability::{Analysis, AnalysisError};
-use crate::stability::{Rise, saturations};
+use crate::stability::{Analysis, AnalysisError, Rise, saturations};
 use crate::stretched::StretchedError;
 
 use criteria::{of_gaps, without_stiffness};

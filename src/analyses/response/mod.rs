@@ -52,6 +52,9 @@ pub enum ResponseError {
     Spectrum(#[from] SpectrumError),
 }
 
+/// Side force in N of a scene without an excitation.
+const ASSUMED_N: f64 = typical_value("response.force_n");
+
 /// Computes the response of a saw.
 ///
 /// # Errors
@@ -86,7 +89,7 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
     let deviation_m = |k: usize| lines.iter().map(|line| line.at_cut_m[k]).sum();
     let board_deviation_m: Vec<Option<f64>> = (0..rpm.len()).map(deviation_m).collect();
     let (probe, chart) = (scene.probe(), analysis.report());
-    let assumed = is_assumed.then_some(const { typical_value("response.force_n") });
+    let assumed = is_assumed.then_some(ASSUMED_N);
     Ok(ResponseReport {
         sawflutter: chart.sawflutter,
         scene: scene.file().clone(),
@@ -138,8 +141,11 @@ fn excitation(scene: &Scene) -> (ResponseFile, bool) {
     match typed.excites() {
         true => (typed, false),
         false => {
-            let force_n = const { typical_value("response.force_n") };
-            (ResponseFile { force_n, ..typed }, true)
+            let assumed = ResponseFile {
+                force_n: ASSUMED_N,
+                ..typed
+            };
+            (assumed, true)
         }
     }
 }

@@ -35,9 +35,10 @@ const DOUBLING: f64 = LN_2;
 pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, TransientError> {
     let runup = scene.needed_runup().map_err(SceneError::from)?;
     let probe = scene.probe();
-    let analysis = Analysis::new(&scene.swept(runup.speeds())?)?;
+    let speeds = runup.speeds();
+    let analysis = Analysis::new(&scene.swept(speeds)?)?;
     let (model, plate) = (&analysis.model, &analysis.model.plate);
-    let modes = model.modes(runup.speeds().from_rad_per_s)?;
+    let modes = model.modes(speeds.from_rad_per_s)?;
     let shown = modes.iter().take(SHOWN_MODES);
     let highest = shown.map(Mode::frequency_rad_per_s).fold(0.0, f64::max);
     let (history, stretching) = match runup.stretching {
@@ -76,8 +77,8 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
         condition: chart.condition,
         unusual_numbers: chart.unusual_numbers,
         degrees_of_freedom: chart.accuracy.degrees_of_freedom,
-        from_rpm: rpm(runup.speeds().from_rad_per_s),
-        to_rpm: rpm(runup.speeds().to_rad_per_s),
+        from_rpm: rpm(speeds.from_rad_per_s),
+        to_rpm: rpm(speeds.to_rad_per_s),
         rate_rpm_per_s: rpm(rate),
         step_s: history.step_s,
         linear_limit_m: linear_limit_m(scene.blade()),
