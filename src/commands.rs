@@ -10,6 +10,7 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value;
 
+use crate::analyses;
 use crate::analyses::check::CheckReport;
 use crate::analyses::compare::CompareReport;
 use crate::analyses::cut::CutReport;
@@ -23,15 +24,15 @@ use crate::analyses::runup::RunUpReport;
 use crate::analyses::study::StudyReport;
 use crate::analyses::tradeoff::Setting;
 use crate::analyses::washboard::WashboardReport;
-use crate::document::{self, Document};
+use crate::document;
 use crate::figure::{
     CampbellView, ChartData, Drawing, Figure, FigureError, campbell, check, compare, cut, cut_map,
     deflect, fit, gap, gap_friction, gap_map, gap_oscillation, in_cut, map, membrane, modes, place,
     response, response_map, root_loci, runup, spline_orbit, study, washboard,
 };
-use crate::report::{ModeShape, Report};
+use crate::outline::Outline;
+use crate::report::{self, ModeShape, Report};
 use crate::scene::SceneFile;
-use crate::summary;
 
 /// A command with a report.
 #[derive(Debug, Clone, Copy)]
@@ -77,11 +78,19 @@ pub trait CommandReport {
     /// Scene of the report; of a comparison, the first scene.
     fn scene(&self) -> &SceneFile;
 
-    /// Unusual numbers of the scene, and remarks on the validity of the result, one sentence each.
-    fn warnings(&self) -> Vec<String>;
+    /// Returns the text as an outline.
+    fn outline(&self) -> Outline;
 
-    /// Returns the report as text of at most 80 columns, with the answer in the first lines.
-    fn summary(&self) -> String;
+    /// Returns the report as text of at most 80 columns, with the answer in the first lines; `with_details` adds
+    /// certificates, backward errors and the basis.
+    fn text(&self, with_details: bool) -> String {
+        self.outline().in_columns(with_details)
+    }
+
+    /// Returns the text as a part of a page of HTML, with its details.
+    fn html(&self) -> String {
+        self.outline().in_html()
+    }
 
     /// Draws the figures for which this report has data.
     fn figures(&self) -> Vec<Figure>;
@@ -90,17 +99,12 @@ pub trait CommandReport {
     /// extension. `None` if the figure has no such description or the report has no data for it.
     fn chart(&self, name: &str) -> Option<ChartData>;
 
-    /// Returns the content of the page.
-    fn document(&self) -> Document<'_> {
-        Document::of_summary(self)
-    }
-
     /// Returns the report as one page of HTML.
     ///
     /// # Errors
     /// [`FigureError`] if a figure cannot be drawn.
     fn page(&self) -> Result<String, FigureError> {
-        document::page(&self.document(), &self.figures())
+        document::page(self)
     }
 }
 
@@ -127,15 +131,13 @@ fn schema<T: JsonSchema>() -> Value {
 }
 
 /// Defines [`COMMANDS`], and implements [`CommandReport`] for the reports: name of the command, name of the file, type of
-/// the report; module of its summary; names of its figures, with the functions that describe them as numbers, or draw
+/// the report; its module, with its outline; names of its figures, with the functions that describe them as numbers, or draw
 /// them; for some that are drawn, the functions that also describe them.
 macro_rules! commands {
     ($($command:literal, $file:literal, $report:ident {
-        summary: $summary:ident,
+        outline: $outline:expr,
         figures: [$($name:literal => $sheet:expr),* $(,)?],
         $(charts: [$($described:literal => $chart:expr),*],)?
-        $(warnings: $warnings:expr,)?
-        $(document: $document:expr,)?
     })*) => {
         /// Every command with a report.
         pub const COMMANDS: &[Command] = &[$($report::COMMAND),*];
@@ -152,10 +154,7 @@ macro_rules! commands {
 
             /// Returns the report as text of at most 80 columns, with the answer in the first lines.
             pub fn summary(&self) -> String {
-                let mut text = String::new();
-                // Writing to a string cannot fail.
-                let _ = summary::$summary::of_report(&mut text, self);
-                text
+                self.text(false)
             }
         }
 
@@ -172,12 +171,8 @@ macro_rules! commands {
                 &self.scene
             }
 
-            fn warnings(&self) -> Vec<String> {
-                commands!(@warnings self $($warnings)?)
-            }
-
-            fn summary(&self) -> String {
-                self.summary()
+            fn outline(&self) -> Outline {
+                ($outline)(self)
             }
 
             fn figures(&self) -> Vec<Figure> {
@@ -194,20 +189,13 @@ macro_rules! commands {
                 }
             }
 
-            $(fn document(&self) -> Document<'_> {
-                ($document)(self)
-            })?
         })*
     };
-    (@warnings $self:ident) => {
-        $self.unusual_numbers.iter().chain(&$self.warnings).cloned().collect()
-    };
-    (@warnings $self:ident $warnings:expr) => { ($warnings)($self) };
 }
 
 commands! {
     "analyze", "report.json", Report {
-        summary: report,
+        outline: report::outline,
         figures: [
             "campbell" => |report| campbell::sheet(report, CampbellView::default()),
             "root-loci" => root_loci::sheet,
@@ -219,19 +207,17 @@ commands! {
             "campbell" => |report| campbell::chart(report, true),
             "root-loci" => root_loci::chart
         ],
-        document: document::of_report,
     }
     "check", "check.json", CheckReport {
-        summary: check,
+        outline: analyses::check::outline,
         figures: ["check" => check::sheet],
     }
     "compare", "compare.json", CompareReport {
-        summary: compare,
+        outline: analyses::compare::outline,
         figures: ["compare" => compare::chart],
-        warnings: CompareReport::warnings_of_saws,
     }
     "cut", "cut.json", CutReport {
-        summary: cut,
+        outline: analyses::cut::outline,
         figures: [
             "cut" => cut::sheet,
             "cut-map" => cut_map::sheet,
@@ -239,15 +225,15 @@ commands! {
         ],
     }
     "deflect", "deflect.json", DeflectReport {
-        summary: deflect,
+        outline: analyses::deflect::outline,
         figures: ["deflect" => deflect::chart],
     }
     "fit", "fit.json", FitReport {
-        summary: fit,
+        outline: analyses::fit::outline,
         figures: ["fit" => fit::sheet],
     }
     "gap", "gap.json", GapReport {
-        summary: gap,
+        outline: analyses::gap::outline,
         figures: [
             "gap" => gap::sheet,
             "gap-map" => gap_map::sheet,
@@ -256,22 +242,22 @@ commands! {
         ],
     }
     "map", "map.json", MapReport {
-        summary: map,
+        outline: analyses::map::outline,
         figures: ["map" => map::sheet],
     }
     "place", "place.json", PlaceReport {
-        summary: place,
+        outline: analyses::place::outline,
         figures: ["place" => place::sheet],
     }
     "response", "response.json", ResponseReport {
-        summary: response,
+        outline: analyses::response::outline,
         figures: [
             "response" => response::chart,
             "frequency-response" => response::points_chart,
         ],
     }
     "runup", "runup.json", RunUpReport {
-        summary: runup,
+        outline: analyses::runup::outline,
         figures: [
             "runup" => runup::chart,
             "response-map" => response_map::sheet,
@@ -279,12 +265,11 @@ commands! {
         ],
     }
     "study", "study.json", StudyReport {
-        summary: study,
+        outline: analyses::study::outline,
         figures: ["study" => study::sheet],
-        warnings: |report: &StudyReport| report.unusual_numbers.clone(),
     }
     "washboard", "washboard.json", WashboardReport {
-        summary: washboard,
+        outline: analyses::washboard::outline,
         figures: ["washboard" => washboard::chart],
     }
 }

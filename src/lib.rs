@@ -85,6 +85,7 @@ pub mod document;
 pub mod explore;
 pub mod figure;
 mod linalg;
+mod outline;
 pub mod plate;
 pub mod report;
 pub mod scene;
@@ -92,7 +93,6 @@ pub mod spectrum;
 pub mod spline;
 pub mod stability;
 pub mod stretched;
-mod summary;
 pub mod system;
 #[doc(hidden)]
 pub mod text;

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import json
 import os
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
@@ -248,8 +247,13 @@ class Result(Report, Entry):
 
         return Scene.from_json(json.dumps(self.raw["scene"]))
 
-    def summary(self) -> str:
+    def summary(self, *, details: bool = False) -> str:
         """The report as text, as printed by the program.
+
+        Parameters
+        ----------
+        details : bool
+            With certificates, backward errors and the basis, as printed with --details.
 
         Returns
         -------
@@ -262,7 +266,7 @@ class Result(Report, Entry):
         >>> 'critical' in r.summary()
         True
         """
-        return _native.summary(self.command, self._text)
+        return _native.summary(self.command, self._text, details)
 
     def figure(self, name: str) -> bytes | None:
         """A figure with the same bytes as that of the program; None if this report has no such
@@ -354,7 +358,7 @@ class Result(Report, Entry):
         """The answer and the program's figure, for a notebook."""
         name = next((name for name in self.figure_names if name.endswith(".svg")), None)
         picture = None if name is None else self.figure(name)
-        text = f"<pre style='line-height:1.25;margin:0'>{escape(self.summary())}</pre>"
+        text = f"<div>{_native.html(self.command, self._text)}</div>"
         if picture is not None:
             # An image, so that its styles and scripts and those of the page do not affect each other.
             source = f"data:image/svg+xml;base64,{base64.b64encode(picture).decode()}"

@@ -51,10 +51,16 @@ fn drawn(report: &dyn CommandReport, name: &str) -> Result<Option<Vec<u8>>, Fail
     Ok(figures.find_map(|figure| figure.file(name)).transpose()?)
 }
 
-/// The summary that the program prints for a report of the command of this name.
+/// The text that the program prints for a report of the command of this name, with its details if asked for.
 #[pyfunction]
-pub fn summary(command: &str, report: &str) -> PyResult<String> {
-    Ok(read(command, report)?.summary())
+pub fn summary(command: &str, report: &str, details: bool) -> PyResult<String> {
+    Ok(read(command, report)?.text(details))
+}
+
+/// The text of a report of the command of this name as HTML.
+#[pyfunction]
+pub fn html(command: &str, report: &str) -> PyResult<String> {
+    Ok(read(command, report)?.html())
 }
 
 /// The page of a report of the command of this name; `None` if reports of this kind have none.

@@ -4,6 +4,7 @@
 //! [`DeflectReport`](deflect::DeflectReport), in the units of its JSON. States between (matrices, coordinates)
 //! are private to the folder.
 
+mod changed;
 pub mod check;
 pub mod compare;
 pub mod cut;

@@ -169,7 +169,7 @@ fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
     arguments.page.write(&report)?;
     // A table of several scenes in this folder is from an earlier run and is removed.
     let optional = [&optional_names()[..], &several::FILES].concat();
-    let words = || report.summary();
+    let words = || arguments.output.words(&report);
     arguments
         .output
         .print(&folder, &files, &optional, &json, words)

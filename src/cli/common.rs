@@ -57,6 +57,9 @@ pub struct Output {
     /// Print the report as JSON instead of the summary
     #[arg(long)]
     pub json: bool,
+    /// Print certificates, backward errors and the basis, too
+    #[arg(long)]
+    details: bool,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -202,6 +205,11 @@ impl Output {
         OutputFolder::open(path.unwrap_or(Path::new("sawflutter-out")))
     }
 
+    /// The text of a report, with its details if asked for.
+    pub fn words(&self, report: &dyn CommandReport) -> String {
+        report.text(self.details)
+    }
+
     /// Writes the page of a report, its figures, the `others` and the report itself, and prints the report.
     pub fn report<R: CommandReport + Serialize>(
         &self,
@@ -217,7 +225,7 @@ impl Output {
         files.extend(others);
         files.push((command.file, json.clone().into_bytes()));
         let optional = command.figures.concat();
-        self.print(folder, &files, &optional, &json, || report.summary())
+        self.print(folder, &files, &optional, &json, || self.words(report))
     }
 
     /// Writes the files as [`Writing::finish`] describes, and prints the report, as a summary or as JSON.

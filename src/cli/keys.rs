@@ -5,8 +5,8 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use crate::analyses::study;
+use crate::outline::wrapped;
 use crate::scene::{self, Key, Quantity};
-use crate::summary::wrapped;
 use crate::text::shown;
 use clap::Args;
 

@@ -11,7 +11,8 @@ use serde::Serialize;
 use super::common::{Output, is_standard_input};
 use super::in_words;
 
-use crate::summary::{Answer, shortened, wrapped};
+use crate::outline::{shortened, wrapped};
+use crate::report::Answer;
 
 /// Files of the table, beside the folders of the scenes.
 pub const FILES: [&str; 2] = ["scenes.csv", "scenes.json"];

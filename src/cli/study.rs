@@ -238,7 +238,7 @@ fn print(output: &Output, folder: &OutputFolder, rows: &Rows<'_>) -> anyhow::Res
     writing.stage_bytes(StudyReport::COMMAND.file, json.as_bytes())?;
     // Only a program that was built with the feature `parquet` writes this file.
     let optional = ["study.parquet"];
-    output.print_written(folder, writing, &optional, &json, || report.summary())
+    output.print_written(folder, writing, &optional, &json, || output.words(&report))
 }
 
 /// Prints the path of the log of a part, and the step that follows when all parts are done.

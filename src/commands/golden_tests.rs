@@ -35,7 +35,7 @@ fn read(name: &str) -> Box<dyn CommandReport> {
 
 /// All faces of a report: the summary, the page without its drawings, the charts, and a checksum of each drawing.
 fn faces(report: &dyn CommandReport) -> Result<String, std::fmt::Error> {
-    let mut text = format!("== summary\n{}", report.summary());
+    let mut text = format!("== summary\n{}", report.text(true));
     writeln!(text, "== page\n{}", undrawn(&report.page().unwrap()))?;
     for [png, _] in report.command().figures {
         let name = png.trim_end_matches(".png");

@@ -1,24 +1,21 @@
 //! The table of the numbers of a scene.
 
-use super::Table;
+use crate::outline::{Column, Table, Value};
 use crate::scene::{Quantity, SceneFile, in_words};
 use crate::text::shown;
 
 /// A table with the key, the meaning, and the value with its unit, of each number that the scene contains.
 pub fn inputs(scene: &SceneFile) -> Table {
+    let columns = ["key", "meaning", "value"].map(Column::words);
     let rows = scene.inputs().into_iter().map(|(path, value)| {
         let quantity = Quantity::of(&path);
         let meaning = quantity.map_or("", |quantity| quantity.name);
-        let value = match (value.as_f64(), quantity.map(|quantity| quantity.unit)) {
+        let shown = match (value.as_f64(), quantity.map(|quantity| quantity.unit)) {
             (Some(number), None | Some("")) => shown(number),
             (Some(number), Some(unit)) => format!("{} {unit}", shown(number)),
             (None, _) => in_words(&value),
         };
-        vec![path, meaning.to_owned(), value]
+        [path.into(), meaning.into(), Value::from(shown)]
     });
-    Table {
-        title: String::new(),
-        columns: vec!["key", "meaning", "value"],
-        rows: rows.collect(),
-    }
+    Table::new("", columns).with_rows(rows)
 }

@@ -3,37 +3,42 @@
 use std::fmt::Write;
 
 use super::inputs::inputs;
-use super::{Document, Table};
-use crate::figure::{Figure, FigureError};
+use crate::commands::CommandReport;
+use crate::figure::FigureError;
 use crate::scene::SceneFile;
 use crate::text::escaped;
 
 const STYLE: &str = "\
 body{font:15px/1.45 Inter,Helvetica,Arial,sans-serif;color:#20242a;max-width:1100px;margin:2em auto;padding:0 1.5em}\
-h1{font-size:1.5em;margin:0}h2{font-size:1.15em;margin:1.8em 0 .4em;border-bottom:1px solid #d6d8dc}\
+h1{font-size:1.5em;margin:0}h2{font-size:1.15em;margin:1.8em 0 .4em;border-bottom:1px solid #d6d8dc}h3{font-size:1em;margin:1.4em 0 .3em}\
 p{margin:.25em 0}.facts{color:#696f78;margin:.2em 0}\
-.answer{font-size:1.25em;font-weight:600;margin:.4em 0}.warnings{border-left:4px solid #c8102e;padding-left:1em}\
+.answer{font-size:1.25em;font-weight:600;margin:.4em 0}.remarks{border-left:4px solid #c8102e;padding-left:1em}\
 table{border-collapse:collapse;font-size:.9em;font-variant-numeric:tabular-nums}\
 th,td{text-align:left;padding:.2em 1.2em .2em 0;border-bottom:1px solid #e9ebed;vertical-align:top}\
-pre{font-size:.85em;overflow-x:auto;white-space:pre-wrap}\
+th{font-weight:600}td.number{text-align:right}\
 figure{margin:1em 0;break-inside:avoid}figure svg{width:100%;height:auto}tr{break-inside:avoid}\
 @media print{body{margin:0;max-width:none;font-size:11px}h2{break-after:avoid}}@page{margin:15mm}";
 
-/// Returns a page with its figures as HTML.
+/// Returns the page of a report.
 ///
 /// # Errors
 /// [`FigureError`] if a figure cannot be drawn.
-pub fn page(document: &Document<'_>, figures: &[Figure]) -> Result<String, FigureError> {
+pub fn page<R: CommandReport + ?Sized>(report: &R) -> Result<String, FigureError> {
+    let figures = report.figures();
     let figures = figures.iter().map(|figure| figure.svg());
     let figures = figures.collect::<Result<Vec<String>, _>>()?;
     let mut text = String::new();
     // Writing to a string cannot fail, so that the result is ignored.
-    let _ = write_page(&mut text, document, &figures);
+    let _ = write_page(&mut text, report, &figures);
     Ok(text)
 }
 
-fn write_page(text: &mut String, document: &Document, figures: &[String]) -> std::fmt::Result {
-    let name = escaped(&document.scene.name);
+fn write_page<R: CommandReport + ?Sized>(
+    text: &mut String,
+    report: &R,
+    figures: &[String],
+) -> std::fmt::Result {
+    let name = escaped(&report.scene().name);
     writeln!(
         text,
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>\n<style>{STYLE}</style>\n</head>\n<body>"
@@ -41,75 +46,24 @@ fn write_page(text: &mut String, document: &Document, figures: &[String]) -> std
     writeln!(
         text,
         "<h1>{name}</h1>\n<p class=\"facts\">sawflutter {} {}</p>",
-        escaped(document.version),
-        document.command
+        escaped(report.version()),
+        report.command().name
     )?;
-    warnings(text, &document.warnings)?;
-    verdict(text, document)?;
-    for table in &document.tables {
-        writeln!(text, "<h2>{}</h2>", escaped(&table.title))?;
-        write_table(text, table)?;
-    }
+    writeln!(text, "<h2>Result</h2>\n{}", report.outline().in_html())?;
     writeln!(text, "<h2>Figures</h2>")?;
     for figure in figures {
         // The XML header of the drawing is removed, because HTML does not allow it.
         let drawing = figure.find("<svg").map_or("", |start| &figure[start..]);
         writeln!(text, "<figure>\n{drawing}\n</figure>")?;
     }
-    if !document.certificate.is_empty() {
-        writeln!(text, "<h2>Certificate</h2>")?;
-        paragraphs(text, &document.certificate)?;
-    }
-    scene(text, document.scene)?;
-    if !document.answer.is_empty() {
-        writeln!(
-            text,
-            "<h2>Summary</h2>\n<pre>{}</pre>",
-            escaped(&document.summary)
-        )?;
-    }
+    scene(text, report.scene())?;
     writeln!(text, "</body>\n</html>")
-}
-
-fn warnings(text: &mut String, warnings: &[String]) -> std::fmt::Result {
-    if warnings.is_empty() {
-        return Ok(());
-    }
-    writeln!(text, "<div class=\"warnings\">\n<h2>Warnings</h2>")?;
-    paragraphs(text, warnings)?;
-    writeln!(text, "</div>")
-}
-
-/// Writes the answer, or the whole summary if the document has no answer of its own.
-fn verdict(text: &mut String, document: &Document) -> std::fmt::Result {
-    writeln!(text, "<h2>Result</h2>")?;
-    let Some((first, rest)) = document.answer.split_first() else {
-        return writeln!(text, "<pre>{}</pre>", escaped(&document.summary));
-    };
-    writeln!(text, "<p class=\"answer\">{}</p>", escaped(first))?;
-    paragraphs(text, rest)
 }
 
 fn paragraphs(text: &mut String, lines: &[String]) -> std::fmt::Result {
     lines
         .iter()
         .try_for_each(|line| writeln!(text, "<p>{}</p>", escaped(line)))
-}
-
-fn write_table(text: &mut String, table: &Table) -> std::fmt::Result {
-    let row = |cells: &mut dyn Iterator<Item = &str>, tag: &str| {
-        let cells = cells.map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell)));
-        format!("<tr>{}</tr>", cells.collect::<String>())
-    };
-    writeln!(
-        text,
-        "<table>\n<thead>{}</thead>\n<tbody>",
-        row(&mut table.columns.iter().copied(), "th")
-    )?;
-    for cells in &table.rows {
-        writeln!(text, "{}", row(&mut cells.iter().map(String::as_str), "td"))?;
-    }
-    writeln!(text, "</tbody>\n</table>")
 }
 
 /// Writes notes and numbers of the scene, and the scene as JSON for programs that read the page.
@@ -124,7 +78,7 @@ fn scene(text: &mut String, scene: &SceneFile) -> std::fmt::Result {
         );
         writeln!(text, "<p>{}</p>", escaped(&line))?;
     }
-    write_table(text, &inputs(scene))?;
+    text.push_str(&inputs(scene).in_html());
     let json = serde_json::to_string(scene).unwrap_or_default();
     // A text of the scene may contain `</script>`, which would end the element; JSON allows `<` to be
     // escaped.

@@ -6,10 +6,9 @@ use super::charts::{Charts, Fidelity, drafted};
 use super::refusal::Refusal;
 use super::told::{Fact, of_bands, of_critical};
 use crate::figure::{Band, Item, Upright};
-use crate::report::{InstabilityBand, OperatingPoint};
+use crate::report::{Answer, InstabilityBand, OperatingPoint, headline};
 use crate::scene::{Scene, rpm};
 use crate::stability::{ChosenBasis, Evidence, Instability, Interim, flutter_onsets};
-use crate::summary::{Answer, headline};
 
 /// Results before the diagram, equal to those of the diagram.
 #[derive(Debug, Serialize)]

@@ -5,7 +5,6 @@
 //! functions as on the command line.
 
 mod ahead;
-mod answers;
 mod backend;
 mod charts;
 mod examples;
@@ -29,7 +28,6 @@ mod refusal;
 mod reply;
 #[cfg(feature = "explore")]
 mod server;
-mod tables;
 mod task;
 mod told;
 mod tolerances;

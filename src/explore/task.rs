@@ -3,9 +3,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::answers::{
-    TaskAnswer, of_cut, of_fit, of_gap, of_place, of_response, of_runup, of_washboard,
-};
 use super::meter::Meter;
 use super::refusal::Refusal;
 use super::tolerances::{Tolerance, Typed, study as study_of};
@@ -19,7 +16,9 @@ use crate::analyses::runup::{self, RunUpReport};
 use crate::analyses::study::{Saw, Study, StudyReport};
 use crate::analyses::washboard::{self, WashboardError, WashboardReport};
 use crate::commands::CommandReport;
-use crate::scene::{Freed, Scene, SceneError, SceneFile};
+use crate::figure::number_name;
+use crate::outline::Fact;
+use crate::scene::{Freed, Quantity, Scene, SceneError, SceneFile};
 use crate::transient::TransientError;
 
 /// Computes the answer to a request as JSON.
@@ -67,7 +66,7 @@ struct Answer<'a, R> {
     /// Summary as printed by the program.
     summary: String,
     /// Main numbers of the result.
-    answers: Vec<TaskAnswer>,
+    facts: Vec<Fact>,
     report: &'a R,
     /// Figures as SVG, by file name.
     figures: Vec<(&'static str, String)>,
@@ -95,7 +94,6 @@ impl Task {
 
 fn answer<R: CommandReport + Serialize>(
     report: &R,
-    answers: Vec<TaskAnswer>,
     scene: Option<&SceneFile>,
 ) -> Result<String, Refusal> {
     let figures = report.figures().into_iter().map(|figure| {
@@ -103,14 +101,27 @@ fn answer<R: CommandReport + Serialize>(
         Ok((name, figure.svg().map_err(|error| Refusal::of(&error))?))
     });
     let figures = figures.collect::<Result<_, Refusal>>()?;
+    let outline = report.outline();
+    let facts = outline.main_facts().into_iter().cloned().map(named);
     let answer = Answer {
-        summary: report.summary(),
-        answers,
+        summary: outline.in_columns(true),
+        facts: facts.collect(),
         report,
         figures,
         scene,
     };
     serde_json::to_string(&answer).map_err(|error| Refusal::of(&error))
+}
+
+/// The fact with the name of its number in place of the path.
+fn named(fact: Fact) -> Fact {
+    match Quantity::of(&fact.name) {
+        Some(_) => Fact {
+            name: number_name(&fact.name),
+            ..fact
+        },
+        None => fact,
+    }
 }
 
 fn refused(error: TransientError) -> Refusal {
@@ -121,14 +132,14 @@ fn cut(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     let runs = scene.needed_cut()?.runs_at(&[])?;
     let progress = |done, of| meter.show("points of the map", done, of);
     let report = cut::cut(&scene, &runs, &progress).map_err(refused)?;
-    answer(&report, of_cut(&report), None)
+    answer(&report, None)
 }
 
 fn runup(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     scene.needed_runup()?;
     let progress = |done, of| meter.show("steps", done, of);
     let report = runup::runup(&scene, &progress).map_err(refused)?;
-    answer(&report, of_runup(&report), None)
+    answer(&report, None)
 }
 
 fn washboard(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
@@ -137,7 +148,7 @@ fn washboard(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refus
     let progress = |done, of| meter.show("speeds", done, of);
     let report = washboard::washboard(&scene, &run, &progress);
     let report = report.map_err(|error: WashboardError| Refusal::of(&error))?;
-    answer(&report, of_washboard(&report), None)
+    answer(&report, None)
 }
 
 fn fit(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
@@ -147,7 +158,7 @@ fn fit(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     let progress = |done, of| meter.show("starts", done, of);
     let report = fit::fit(&scene, &measurement, &freed, &options, &progress);
     let report = report.map_err(|error| Refusal::of(&error))?;
-    answer(&report, of_fit(&report), Some(&report.scene))
+    answer(&report, Some(&report.scene))
 }
 
 const NO_LIMIT: &str = "The lower limit of the first critical speed must be above 0 rpm";
@@ -165,7 +176,7 @@ fn place(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
     let options = place::Options::default();
     let report = place::place(&scene, &freed, &demands, &options, &progress);
     let report = report.map_err(|error| Refusal::of(&error))?;
-    answer(&report, of_place(&report), Some(&report.scene))
+    answer(&report, Some(&report.scene))
 }
 
 fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
@@ -180,7 +191,7 @@ fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
         meter.draw(|| so_far(saws));
     });
     let report = study.report(&saws).map_err(|error| Refusal::of(&error))?;
-    answer(&report, Vec::new(), None)
+    answer(&report, None)
 }
 
 fn response(scene: Scene, _: &Asked, _: &Meter<'_>) -> Result<String, Refusal> {
@@ -189,7 +200,7 @@ fn response(scene: Scene, _: &Asked, _: &Meter<'_>) -> Result<String, Refusal> {
         ResponseError::Refused(refused) => refused.into(),
         other => Refusal::of(&other),
     })?;
-    answer(&report, of_response(&report), None)
+    answer(&report, None)
 }
 
 const NO_AXIS: &str = "A map needs one or two numbers of the scene";
@@ -215,7 +226,7 @@ fn map(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal
     };
     let progress = |done, of| meter.show("saws", done, of);
     let report = map::map(scene, &options, &progress).map_err(|error| Refusal::of(&error))?;
-    answer(&report, Vec::new(), None)
+    answer(&report, None)
 }
 
 fn gap(scene: Scene, _: &Asked, _: &Meter<'_>) -> Result<String, Refusal> {
@@ -224,5 +235,5 @@ fn gap(scene: Scene, _: &Asked, _: &Meter<'_>) -> Result<String, Refusal> {
         GapError::Refused(refused) => refused.into(),
         other => Refusal::of(&other),
     })?;
-    answer(&report, of_gap(&report), None)
+    answer(&report, None)
 }

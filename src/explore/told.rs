@@ -2,9 +2,8 @@
 
 use serde::Serialize;
 
-use super::tables::{Table, tables};
-use crate::report::{Report, ToleratedHeat};
-use crate::summary::{Answer, answer};
+use crate::outline::Table;
+use crate::report::{Answer, Report, ToleratedHeat, answer, outline};
 use crate::text::shown_to;
 
 /// Text from the summary.
@@ -29,12 +28,12 @@ pub struct Fact {
 impl Told {
     /// Creates the text for a report.
     pub fn new(report: &Report) -> Self {
-        let on_one_line = |line: String| line.split_whitespace().collect::<Vec<_>>().join(" ");
+        let lines = answer(report);
         Told {
             answer: report.operating.as_ref().map(Answer::new),
-            lines: answer(report).into_iter().map(on_one_line).collect(),
+            lines: lines.lines().into_iter().map(str::to_owned).collect(),
             facts: facts(report),
-            tables: tables(report),
+            tables: outline(report).tables().into_iter().cloned().collect(),
         }
     }
 }

@@ -18,6 +18,7 @@ mod excitation;
 mod in_cut;
 mod membrane;
 mod modes;
+mod outline;
 mod remarks;
 
 mod saturated;
@@ -40,6 +41,10 @@ pub use self::modes::{
     ComplexNumbers, HarmonicShape, HarmonicShare, ModeHarmonic, ModeShape, RestMode, Whirl,
     WhirlMode,
 };
+pub use self::outline::Answer;
+pub(crate) use self::outline::outline;
+#[cfg(feature = "page")]
+pub(crate) use self::outline::{answer, headline};
 pub(crate) use self::remarks::{lifting_off, side_force_in_words};
 pub(crate) use self::saturated::add_amplitudes;
 pub use self::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};

@@ -50,7 +50,7 @@ fn the_sweep_of_a_large_flange_ends_after_forty_critical_speeds() {
     assert_eq!(report.critical_speeds.len(), 20);
     let warnings = report.warnings.join("\n");
     assert!(warnings.contains("40 critical speeds"), "{warnings}");
-    let limit = "keeps the 85 % rule (at most 30180 rpm)";
+    let limit = "the limit is 85 % (30180 rpm)";
     assert!(text(&output.stdout).contains(limit));
 }
 

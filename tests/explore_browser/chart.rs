@@ -64,7 +64,7 @@ fn the_answer_is_the_one_that_the_program_prints() {
         let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
         for (rpm, class, mark, says) in [
             ("900", "runs", "✓", "at most 1301 rpm"),
-            ("1800", "past_rule", "!", "window without instability"),
+            ("1800", "past_rule", "!", "usable speeds"),
             ("2400", "flutter", "✗", "inside the band of flutter"),
         ] {
             page.enter("operating_rpm", rpm).await;

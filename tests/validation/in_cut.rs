@@ -282,7 +282,7 @@ fn the_response_in_the_cut_is_that_of_the_whole_matrices() {
 /// Text, page and figures say which saw the report is of.
 fn assert_said(report: &impl CommandReport, condition: &str) {
     assert_eq!(condition, "in the cut at 2800 rpm (4 teeth)");
-    let summary = report.document().summary;
+    let summary = report.text(true);
     assert!(summary.contains(condition), "{summary}");
     assert!(report.page().unwrap().contains(condition));
     for figure in report.figures() {

@@ -16,6 +16,7 @@
 
 mod criteria;
 mod limits;
+mod outline;
 mod report;
 mod rim;
 mod static_deflection;
@@ -26,6 +27,7 @@ use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError, Rise, saturations};
 use crate::stretched::StretchedError;
+pub(crate) use outline::outline;
 
 use criteria::{of_gaps, without_stiffness};
 #[cfg(feature = "cli")]

@@ -1,7 +1,9 @@
 //! Compares saws with the first of them: over the same speeds, unless their scenes name others.
 
+mod outline;
 mod report;
 
+pub(crate) use outline::outline;
 use serde_json::Value;
 
 use crate::analyses::check::rim_stiffness_at_rest_n_per_m;

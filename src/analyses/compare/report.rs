@@ -71,13 +71,4 @@ impl CompareReport {
         }
         conditions.join(" | ")
     }
-
-    /// Warnings of every saw, with its label.
-    pub(crate) fn warnings_of_saws(&self) -> Vec<String> {
-        let of_saws = self.saws.iter().flat_map(|saw| {
-            let warnings = saw.warnings.iter();
-            warnings.map(|warning| format!("{}: {warning}", saw.label))
-        });
-        of_saws.collect()
-    }
 }

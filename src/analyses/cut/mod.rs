@@ -16,6 +16,7 @@
 mod certificate;
 mod criteria;
 mod history;
+mod outline;
 mod report;
 mod saw;
 mod spline;
@@ -26,6 +27,7 @@ mod tooth_passing;
 mod verdict_map;
 mod warnings;
 
+pub(crate) use outline::outline;
 use std::f64::consts::TAU;
 
 use crate::campbell::{Progress, even_speeds};

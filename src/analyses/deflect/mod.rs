@@ -20,6 +20,7 @@
 
 mod equilibria;
 mod options;
+mod outline;
 mod point_load;
 mod reading;
 mod report;
@@ -27,6 +28,7 @@ mod report;
 mod tests;
 
 pub use options::{Options, SideForce};
+pub(crate) use outline::outline;
 pub(crate) use point_load::rim_compliance_m_per_n;
 pub use report::{Arc, DeflectReport, EquilibriumCurve, Jump, SlowSweep, Turn};
 

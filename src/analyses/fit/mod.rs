@@ -27,6 +27,7 @@ mod error;
 mod measurement;
 mod model;
 mod options;
+mod outline;
 mod report;
 mod solve;
 mod starts;
@@ -39,6 +40,7 @@ use crate::scene::{
 };
 use crate::spectrum::SpectrumError;
 use crate::stability::ChosenBasis;
+pub(crate) use outline::outline;
 
 use compared::Compared;
 pub use error::FitError;

@@ -29,6 +29,7 @@ mod oscillating_blade;
 mod oscillation;
 mod oscillation_report;
 mod oscillators;
+mod outline;
 mod pressed;
 mod report;
 
@@ -38,6 +39,7 @@ pub use oscillation_report::{
     Oscillation, OscillationAt, OscillationLine, OscillationPad, OscillationPlace,
 };
 pub use oscillators::OscillatingForce;
+pub(crate) use outline::outline;
 pub use report::{AtAmplitude, BasisError, DeviationMap, FrictionHeat, FrictionPad, GapReport};
 
 use amplitude::AmplitudeChart;

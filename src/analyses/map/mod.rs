@@ -24,9 +24,11 @@
 
 mod axis;
 mod contour;
+mod outline;
 mod report;
 mod saws;
 
+pub(crate) use outline::outline;
 pub use report::{Contour, Contoured, MapAxis, MapReport, MappedSaw};
 
 use crate::analyses::study::{Study, StudyError, StudyFile};

@@ -30,10 +30,12 @@ mod demands;
 mod error;
 mod map;
 mod neighbours;
+mod outline;
 mod report;
 mod search;
 mod settle;
 
+pub(crate) use outline::outline;
 use std::convert::Infallible;
 use std::sync::atomic::{AtomicUsize, Ordering};
 

@@ -11,6 +11,7 @@
 mod family;
 mod load;
 mod options;
+mod outline;
 mod points;
 mod report;
 mod solver;
@@ -22,6 +23,7 @@ mod warnings;
 pub(crate) use family::{State, solution};
 pub(crate) use load::{Load, loads};
 pub use options::Options;
+pub(crate) use outline::outline;
 pub use report::{
     Cause, FrequencyResponse, OperatingResponse, Resonance, ResponseLine, ResponseReport,
 };

@@ -4,8 +4,10 @@
 //! [`transient`](crate::transient), and reports it beside the bands over the same speeds, each with the growth that its
 //! eigenvalue explains.
 
+mod outline;
 mod report;
 
+pub(crate) use outline::outline;
 pub use report::{ResponseMap, RunUpBand, RunUpReport, RunUpStretching};
 
 use std::f64::consts::{LN_2, TAU};

@@ -30,6 +30,7 @@ mod finished;
 mod inputs;
 mod log;
 mod order;
+mod outline;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod plan;
@@ -43,7 +44,6 @@ mod statistics;
 mod table;
 mod tally;
 
-#[doc(hidden)]
 pub use self::{
     csv::CsvTable,
     inputs::Inputs,
@@ -55,6 +55,8 @@ pub use self::{
     tally::sum_up,
 };
 pub use file::{DistributionFile, GapFile, ParameterFile, StudyError, StudyFile, json_schema};
+#[doc(hidden)]
+pub(crate) use outline::{accuracy_of_saws, outline};
 #[cfg(feature = "parquet")]
 #[doc(hidden)]
 pub use parquet::ParquetTable;

@@ -23,6 +23,7 @@ mod delay;
 mod delayed;
 mod lobes;
 mod modes;
+mod outline;
 mod report;
 mod roots;
 #[cfg(test)]
@@ -30,6 +31,7 @@ mod tests;
 mod transfer;
 mod warnings;
 
+pub(crate) use outline::outline;
 use std::f64::consts::TAU;
 
 pub use self::report::{Lobes, WashboardMode, WashboardReport};

@@ -137,7 +137,7 @@ class Task {
     this.fault.setAttribute("role", "alert");
     this.old = node("p", { className: "remark", hidden: true, textContent: "Computed for an earlier scene." });
     this.answer = node("div", { className: "answer" });
-    this.answers = [];
+    this.facts = [];
     this.numbers = node("dl", { className: "numbers-of-answer" });
     this.start.addEventListener("click", () => this.#run());
     this.stop.addEventListener("click", () => this.#abort?.abort());
@@ -286,7 +286,7 @@ class Task {
     this.so_far.textContent = `${what}: ${done} of ${of}`;
   }
 
-  #show({ summary, answers, report, figures, scene }) {
+  #show({ summary, facts, report, figures, scene }) {
     const { name, took } = this.entry;
     const text = node("pre", { textContent: summary, tabIndex: 0 });
     text.setAttribute("role", "region");
@@ -305,21 +305,27 @@ class Task {
       link.addEventListener("click", () => download(this.nameOf(file), new Blob([svg], { type: "image/svg+xml" })));
       return node("figure", {}, picture, link);
     });
-    this.answers = answers;
+    this.facts = facts;
     this.#replace(this.numbers, tools, ...pictures, text);
     this.#tellNumbers();
   }
 
   // Shows the main numbers of the answer with three digits in the units of the form.
   #tellNumbers() {
-    this.numbers.replaceChildren(...this.answers.map(({ name, unit_of, value, before }) => {
-      const { unit, scale } = unitOf(unit_of);
-      const told = (number) => shown(number * scale, 3).replace("-", "−");
-      const now = value === null ? "none" : `${told(value)} ${unit}`;
-      const text = before === null || value === null || told(before) === told(value) ? now : `${told(before)} → ${now}`;
+    this.numbers.replaceChildren(...this.facts.map(({ name, value, before, remark }) => {
+      const now = inFormUnit(value);
+      const was = before === null ? now : inFormUnit(before);
+      const text = `${was.words === now.words ? "" : `${was.words} → `}${now.words} ${now.unit} ${remark}`.trim();
       return node("div", { className: "fact" }, node("dt", { textContent: name }), node("dd", { textContent: text }));
     }));
   }
+}
+
+// The words of a value; a number whose unit is one of the form, with three digits in the unit of the form.
+function inFormUnit({ words, unit = "", value, unit_of }) {
+  if (unit_of === undefined) return { words, unit };
+  const own = unitOf(unit_of);
+  return { words: shown(value * own.scale, 3).replace("-", "−"), unit: own.unit };
 }
 
 const pictureOf = (svg) => URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));

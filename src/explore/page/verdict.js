@@ -29,12 +29,17 @@ export function facts(place, now, before) {
   }));
 }
 
-function table({ caption, heads, rows }) {
-  const cell = (tag) => (text) => node(tag, { textContent: text, ...(tag === "th" ? { scope: "col" } : {}) });
+function table({ title, columns, rows }) {
+  const cell = (tag, span) => (text) => node(tag, { textContent: text, ...span, ...(tag === "th" ? { scope: "col" } : {}) });
+  const heads = columns.map(({ group, name, unit }) => `${group} ${name} ${unit}`.trim().replace("  ", " "));
+  const shown = ({ cells, remark }) => [
+    node("tr", {}, ...cells.map(({ words }) => words).map(cell("td"))),
+    ...(remark === null ? [] : [node("tr", {}, cell("td", { colSpan: columns.length })(remark))]),
+  ];
   return node("table", {},
-    node("caption", { textContent: caption }),
+    node("caption", { textContent: title }),
     node("thead", {}, node("tr", {}, ...heads.map(cell("th")))),
-    node("tbody", {}, ...rows.map((row) => node("tr", {}, ...row.map(cell("td"))))));
+    node("tbody", {}, ...rows.flatMap(shown)));
 }
 
 // Shows the numbers of a chart in tables, also for users who do not see the chart.

@@ -12,7 +12,7 @@ use crate::report::{BranchCurve, Direction, Report};
 use crate::text::shown_to;
 
 /// Name of the line along the axis of speeds between the ends of the window around the operating speed.
-pub const WINDOW: &str = "window without instability";
+pub const WINDOW: &str = "usable speeds";
 const WINDOW_TINT: f64 = 0.35;
 /// Width of this line; half of it is visible where curves are clipped at the axis.
 const WINDOW_WIDTH: f64 = 7.0;

@@ -1,32 +1,27 @@
-//! The summary of a cut.
+//! The text of a cut.
 
-use std::fmt::Write;
-
-use super::{decimals_or, each, heading, sentence};
-use crate::analyses::cut::{CutAtSpeed, CutCriterion, CutReport, CutVerdict};
+use super::{CutAtSpeed, CutCriterion, CutReport, CutVerdict};
+use crate::outline::{Column, FREQUENCY, Fact, GROWTH, LENGTH, Outline, Table, Value};
 use crate::report::Verdict;
 use crate::stability::CRITICAL_MARGIN;
 use crate::stretched::LARGEST_SLOPE;
-use crate::text::{fixed, shown_to};
+use crate::text::shown_to;
 use crate::transient::LINEAR_THICKNESSES;
 
-pub fn of_report(text: &mut String, report: &CutReport) -> std::fmt::Result {
-    heading(
-        text,
+pub fn outline(report: &CutReport) -> Outline {
+    let mut text = Outline::of(
         &report.scene.name,
         &report.condition,
         &report.unusual_numbers,
-    )?;
+    );
     for run in &report.runs {
-        sentence(text, &in_one_line(run, report.linear_limit_m))?;
+        text.headline(in_one_line(run, report.linear_limit_m));
     }
     for run in &report.runs {
-        of_run(text, run, report.teeth)?;
+        at_speed(&mut text, run, report.teeth);
     }
-    if !report.warnings.is_empty() {
-        writeln!(text)?;
-    }
-    each(text, "Note", &report.warnings)
+    text.remarks("Note", &report.warnings);
+    text
 }
 
 /// The verdict at a speed; `linear_limit_m` is the largest deflection of the linear model.
@@ -67,7 +62,7 @@ fn unstable(run: &CutAtSpeed) -> String {
     )
 }
 
-fn of_run(text: &mut String, run: &CutAtSpeed, teeth: f64) -> std::fmt::Result {
+fn at_speed(text: &mut Outline, run: &CutAtSpeed, teeth: f64) {
     let forces = format!(
         "{} rpm, on each tooth {} N against the rotation, {} N inwards, {} N across ({} N in all)",
         run.rpm,
@@ -76,38 +71,31 @@ fn of_run(text: &mut String, run: &CutAtSpeed, teeth: f64) -> std::fmt::Result {
         run.lateral_n_per_tooth,
         shown_to(3, teeth * run.lateral_n_per_tooth)
     );
-    writeln!(text)?;
-    sentence(text, &forces)?;
-    writeln!(text, "                              growth  frequency")?;
-    writeln!(text, "                               [1/s]       [Hz]")?;
-    for entry in &run.criteria {
-        writeln!(
-            text,
-            "  {:<25} {:>9} {:>10}  {}{}",
-            entry.criterion.to_string(),
-            fixed(3, entry.growth_per_s),
-            decimals_or("-", 2, entry.frequency_hz),
-            in_capitals(entry.verdict),
-            remark(run, entry.criterion)
-        )?;
-    }
-    writeln!(text, "  {}", deflections(run))?;
-    if let Some(found) = &run.stretching {
-        writeln!(
-            text,
-            "  slopes of the blade of {:.3} at most",
-            found.largest_slope
-        )?;
-    }
-    let statement = format!("  certificate: {}", run.certificate.statement);
-    sentence(text, &statement)
-}
-
-fn in_capitals(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Stable => "stable",
-        Verdict::Unstable => "UNSTABLE",
-    }
+    let columns = [
+        Column::words("criterion"),
+        Column::of("growth", &GROWTH),
+        Column::of("frequency", &FREQUENCY),
+        Column::words("verdict"),
+    ];
+    let rows = run.criteria.iter().map(|entry| {
+        let verdict = match entry.verdict {
+            Verdict::Stable => "stable",
+            Verdict::Unstable => "UNSTABLE",
+        };
+        let remark = remark(run, entry.criterion);
+        [
+            entry.criterion.to_string().into(),
+            GROWTH.fixed(3, entry.growth_per_s),
+            FREQUENCY.fixed(2, entry.frequency_hz),
+            format!("{verdict}{remark}").into(),
+        ]
+    });
+    text.table(Table::new(forces, columns).with_rows(rows));
+    text.facts("", deflections(run));
+    text.details(|text| {
+        let statement = &run.certificate.statement;
+        text.sentence(format!("Certificate at {} rpm: {statement}", run.rpm));
+    });
 }
 
 /// Remark after the verdict of a criterion.
@@ -128,25 +116,23 @@ fn remark(run: &CutAtSpeed, criterion: CutCriterion) -> String {
     }
 }
 
-/// Largest deflections at the probe in the cut and after it, in millimetres.
-fn deflections(run: &CutAtSpeed) -> String {
-    let millimetres = |metres: f64| format!("{:.2} mm", 1e3 * metres);
-    let (in_cut, after) = (
-        run.largest_deflection_in_cut_m.map(millimetres),
-        run.largest_deflection_after_m.map(millimetres),
-    );
-    let (probe, model) = match run.stretching {
-        Some(_) => (
-            "with stretching, largest deflection at the probe:",
-            "the model",
-        ),
-        None => ("largest deflection at the probe:", "the linear model"),
+/// Largest deflections at the probe in the cut and after it.
+fn deflections(run: &CutAtSpeed) -> Vec<Fact> {
+    let model = match run.stretching {
+        Some(_) => "leaves the model with stretching",
+        None => "leaves the linear model",
     };
-    match (in_cut, after) {
-        (Some(in_cut), Some(after)) => format!("{probe} {in_cut} in the cut, {after} after it"),
-        (Some(in_cut), None) => {
-            format!("{probe} {in_cut} in the cut; after it {model} ends")
-        }
-        (None, _) => format!("the deflection in the cut leaves {model}"),
+    let at = |when: &str, deflection_m: Option<f64>| -> Fact {
+        let name = format!("largest at the probe {when} at {} rpm", run.rpm);
+        let unknown: Value = model.into();
+        let value = deflection_m.map_or(unknown, |m| LENGTH.fixed(2, m));
+        Fact::new(name, value)
+    };
+    let mut facts = vec![at("in the cut", run.largest_deflection_in_cut_m)];
+    if run.largest_deflection_in_cut_m.is_some() {
+        facts.push(at("after the cut", run.largest_deflection_after_m));
     }
+    let slope = run.stretching.as_ref().map(|found| found.largest_slope);
+    facts.extend(slope.map(|slope| Fact::new("largest slope of the blade", format!("{slope:.3}"))));
+    facts
 }

@@ -1,35 +1,37 @@
-//! The summary of a map.
+//! The text of a map.
 
-use std::fmt::Write;
-
-use super::study::accuracy_of_saws;
-use super::{ROWS, decimals_or, each, more, named, sentence, shortened};
-use crate::analyses::map::{MapAxis, MapReport, MappedSaw};
+use super::{MapAxis, MapReport, MappedSaw};
+use crate::analyses::study::accuracy_of_saws;
+use crate::outline::{Column, Outline, PLAIN, SPEED, Table, Value};
 use crate::stability::{CRITICAL_MARGIN, StabilityState};
 use crate::text::{shown, shown_to};
+
+/// Number of evenly spaced saws in the table.
+const SAWS: usize = 12;
 
 /// A function that returns a speed of a saw in rpm; `None` if the saw has no such speed in the sweep.
 type Speed = fn(&MappedSaw) -> Option<f64>;
 
-pub fn of_report(text: &mut String, report: &MapReport) -> std::fmt::Result {
-    each(text, "Unusual number", &report.unusual_numbers)?;
-    sentence(text, &verdict(report))?;
-    speeds(text, report)?;
+pub fn outline(report: &MapReport) -> Outline {
+    let mut text = Outline::default();
+    text.remarks("Unusual number", &report.unusual_numbers);
+    text.headline(verdict(report));
+    speeds(&mut text, report);
     let saws = format!("{} saws of {}", report.saws.len(), report.scene.name);
-    writeln!(text)?;
-    named(text, &saws, &report.condition)?;
+    text.heading(&saws, &report.condition);
     for axis in std::iter::once(&report.x).chain(&report.y) {
-        sentence(text, &format!("  {}", range(axis)))?;
+        text.reason(range(axis));
     }
     if report.y.is_none() {
-        table(text, report)?;
+        text.table(saws_of(report));
     }
     let (error, wrong) = (
         report.largest_estimated_relative_error,
         report.saws_with_krein_violations,
     );
-    accuracy_of_saws(text, error, wrong, "")?;
-    each(text, "Warning", &report.warnings)
+    accuracy_of_saws(&mut text, error, wrong, "");
+    text.remarks("Warning", &report.warnings);
+    text
 }
 
 /// Key and name of a number, its range, and its value in the scene.
@@ -80,8 +82,8 @@ fn verdict(report: &MapReport) -> String {
     )
 }
 
-/// Writes the saws with the lowest and the highest flutter speed and critical speed.
-fn speeds(text: &mut String, report: &MapReport) -> std::fmt::Result {
+/// Adds the saws with the lowest and the highest flutter speed and critical speed.
+fn speeds(text: &mut Outline, report: &MapReport) {
     let kinds: [(&str, Speed); 2] = [
         ("Flutter speed", |saw| saw.flutter_speed_rpm),
         ("Lowest critical speed", |saw| saw.lowest_critical_rpm),
@@ -91,74 +93,77 @@ fn speeds(text: &mut String, report: &MapReport) -> std::fmt::Result {
         let by_speed = |a: &(f64, &MappedSaw), b: &(f64, &MappedSaw)| a.0.total_cmp(&b.0);
         let ends = known.clone().min_by(by_speed).zip(known.max_by(by_speed));
         let Some((low, high)) = ends else {
-            let to = report.to_rpm;
-            writeln!(text, "{name}: none up to {to:.0} rpm")?;
+            text.sentence(format!("{name}: none up to {:.0} rpm", report.to_rpm));
             continue;
         };
-        let place = |saw: &MappedSaw| {
-            let y = report.y.as_ref().zip(saw.y);
-            let all = std::iter::once((&report.x, saw.x)).chain(y);
-            let all = all.map(|(axis, value)| {
-                let unit = axis.unit.as_str();
-                let key = axis.path.rsplit('.').next().unwrap_or(&axis.path);
-                format!("{key} = {} {unit}", shown_to(5, value))
-                    .trim_end()
-                    .to_owned()
-            });
-            all.collect::<Vec<_>>().join(", ")
-        };
-        let line = format!(
+        text.sentence(format!(
             "{name}: {:.1} rpm ({}) to {:.1} rpm ({})",
             low.0,
-            place(low.1),
+            place(report, low.1),
             high.0,
-            place(high.1)
-        );
-        sentence(text, &line)?;
+            place(report, high.1)
+        ));
     }
     let beyond = report
         .saws
         .iter()
         .filter(|saw| saw.flutter_speed_rpm.is_none() && saw.not_analysed.is_none());
     match beyond.count() {
-        0 => Ok(()),
-        count => writeln!(
-            text,
-            "  {count} saws do not flutter up to {:.0} rpm",
+        0 => (),
+        count => text.reason(format!(
+            "{count} saws do not flutter up to {:.0} rpm",
             report.to_rpm
-        ),
+        )),
     }
 }
 
-/// Writes a table of at most [`ROWS`] evenly spaced saws, with the first and the last.
-fn table(text: &mut String, report: &MapReport) -> std::fmt::Result {
+/// The numbers of a saw of the map.
+fn place(report: &MapReport, saw: &MappedSaw) -> String {
+    let y = report.y.as_ref().zip(saw.y);
+    let all = std::iter::once((&report.x, saw.x)).chain(y);
+    let all = all.map(|(axis, value)| {
+        let key = axis.path.rsplit('.').next().unwrap_or(&axis.path);
+        format!("{key} = {} {}", shown_to(5, value), axis.unit)
+            .trim_end()
+            .to_owned()
+    });
+    all.collect::<Vec<_>>().join(", ")
+}
+
+/// Evenly spaced saws, with the first and the last.
+fn saws_of(report: &MapReport) -> Table {
     let key = report.x.path.rsplit('.').next().unwrap_or(&report.x.path);
-    writeln!(
-        text,
-        "\n  {:<24} critical   flutter   bands   state",
-        shortened(key, 24)
-    )?;
+    let columns = [
+        Column::words(key),
+        Column::of("critical", &SPEED),
+        Column::of("flutter", &SPEED),
+        Column::words("bands"),
+        Column::words("state"),
+    ];
     let last = report.saws.len().saturating_sub(1);
-    let rows = ROWS.min(report.saws.len());
-    let shown_rows = (0..rows).map(|k| k * last / rows.saturating_sub(1).max(1));
-    for saw in shown_rows.filter_map(|k| report.saws.get(k)) {
-        let state = match saw.state {
-            _ if saw.not_analysed.is_some() => "not analysed",
-            None => "–",
-            Some(StabilityState::Stable) if saw.at_critical_rpm.is_some() => "at critical",
-            Some(StabilityState::Stable) => "stable",
-            Some(StabilityState::Divergence) => "divergence",
-            Some(StabilityState::Flutter) => "flutter",
-            Some(StabilityState::OutsideSweep) => "outside sweep",
+    let count = SAWS.min(report.saws.len());
+    let spaced = (0..count).map(|k| k * last / count.saturating_sub(1).max(1));
+    let rows = spaced.filter_map(|k| report.saws.get(k)).map(|saw| {
+        let state: Value = match saw.state {
+            _ if saw.not_analysed.is_some() => "not analysed".into(),
+            None => Value::Missing,
+            Some(StabilityState::Stable) if saw.at_critical_rpm.is_some() => "at critical".into(),
+            Some(StabilityState::Stable) => "stable".into(),
+            Some(StabilityState::Divergence) => "divergence".into(),
+            Some(StabilityState::Flutter) => "flutter".into(),
+            Some(StabilityState::OutsideSweep) => "outside sweep".into(),
         };
-        writeln!(
-            text,
-            "  {:<24} {:>8} {:>9} {:>7}   {state}",
-            shown_to(6, saw.x),
-            decimals_or("–", 1, saw.lowest_critical_rpm),
-            decimals_or("–", 1, saw.flutter_speed_rpm),
-            saw.instabilities.len()
-        )?;
-    }
-    more(text, report.saws.len(), rows, "map.json")
+        [
+            PLAIN.digits(6, saw.x),
+            SPEED.fixed(1, saw.lowest_critical_rpm),
+            SPEED.fixed(1, saw.flutter_speed_rpm),
+            saw.instabilities.len().into(),
+            state,
+        ]
+    });
+    let title = match report.saws.len() {
+        all if all > count => format!("{count} of {all} saws; map.json has all"),
+        _ => String::new(),
+    };
+    Table::new(title, columns).with_rows(rows)
 }

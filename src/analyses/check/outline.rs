@@ -1,20 +1,19 @@
-//! The summary of a check.
+//! The text of a check.
 
-use super::{each, heading, sentence};
-use crate::analyses::check::{CheckReport, Criterion};
+use super::{CheckReport, Criterion};
+use crate::outline::Outline;
 use crate::text::shown_to;
 
-pub fn of_report(text: &mut String, report: &CheckReport) -> std::fmt::Result {
-    heading(text, &report.scene.name, &report.condition, &[])?;
-    sentence(text, &verdict(report))?;
+pub fn outline(report: &CheckReport) -> Outline {
+    let mut text = Outline::of(&report.scene.name, &report.condition, &[]);
+    text.headline(verdict(report));
     for number in &report.unusual_numbers {
-        let line = match report.accept_unusual {
+        text.sentence(match report.accept_unusual {
             true => format!("Unusual number, accepted: {number}"),
             false => format!(
                 "FAIL unusual number: {number}. Correct it, or accept it by --accept-unusual"
             ),
-        };
-        sentence(text, &line)?;
+        });
     }
     for Criterion {
         name,
@@ -24,10 +23,11 @@ pub fn of_report(text: &mut String, report: &CheckReport) -> std::fmt::Result {
     } in &report.criteria
     {
         let word = if *passed { "PASS" } else { "FAIL" };
-        sentence(text, &format!("{word} {name}: {finding}"))?;
+        text.sentence(format!("{word} {name}: {finding}"));
     }
-    sentence(text, &report.rim_stiffness_in_words())?;
-    each(text, "Warning", &report.warnings)
+    text.sentence(report.rim_stiffness_in_words());
+    text.remarks("Warning", &report.warnings);
+    text
 }
 
 fn verdict(report: &CheckReport) -> String {

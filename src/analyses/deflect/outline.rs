@@ -1,52 +1,53 @@
-//! The summary of equilibria over speed.
+//! The text of equilibria over speed.
 
-use std::fmt::Write;
-
-use super::{ROWS, each, heading, more, sentence};
-use crate::analyses::deflect::{Arc, DeflectReport, Jump, SlowSweep};
+use super::{Arc, DeflectReport, Jump, SlowSweep};
+use crate::outline::{Column, FREQUENCY, LENGTH, Outline, SPEED, Table, Value};
 use crate::scene::ContactLaw;
 use crate::stretched::{LARGEST_SLOPE, TurnKind};
-use crate::text::{fixed, shown_to};
+use crate::text::shown_to;
 
-pub fn of_report(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
-    heading(
-        text,
+/// Number of evenly spaced speeds in the table.
+const SPEEDS: usize = 12;
+/// Number of frequencies in a row of the table.
+const FREQUENCIES: usize = 4;
+
+pub fn outline(report: &DeflectReport) -> Outline {
+    let mut text = Outline::of(
         &report.scene.name,
         &report.condition,
         &report.unusual_numbers,
-    )?;
-    sentence(text, &verdict(report))?;
-    sentence(text, &critical(report))?;
+    );
+    text.headline(verdict(report));
+    text.sentence(critical(report));
+    let thickness_m = report.scene.blade.thickness_m;
     for (sweep, word) in [(&report.up, "rises"), (&report.down, "falls")] {
         if !sweep.arcs.is_empty() {
-            jumps(text, sweep, (word, report.scene.blade.thickness_m))?;
+            jumps(&mut text, sweep, word, thickness_m);
         }
         if let Some(rpm) = sweep.valid_until_rpm {
-            let end = format!(
-                "While the speed {word} slopes of the blade exceed 0.1 from {rpm:.1} rpm on: the model is not valid there, and no results are given."
-            );
-            sentence(text, &end)?;
+            text.sentence(format!(
+                "While the speed {word} slopes of the blade exceed {LARGEST_SLOPE} from {rpm:.1} rpm: the model is not valid there, and no results are given."
+            ));
         }
         if let Some(rpm) = sweep.stopped_at_rpm {
-            let end = format!(
+            text.sentence(format!(
                 "While the speed {word} the search stopped at {rpm:.1} rpm at its largest number of equilibria: no results are given beyond. Give a shorter range of speeds."
-            );
-            sentence(text, &end)?;
+            ));
         }
     }
-    table(text, report)?;
+    text.table(over_speed(report));
     if let Some(pads) = pads(report) {
-        sentence(text, &pads)?;
+        text.sentence(pads);
     }
-    writeln!(text)?;
-    sentence(text, &accuracy(report))?;
-    sentence(text, MEANING)?;
-    each(text, "Warning", &report.warnings)
+    text.sentence(accuracy(report));
+    text.sentence(MEANING);
+    text.remarks("Warning", &report.warnings);
+    text
 }
 
 const MEANING: &str = "With any damping fixed in space every motion ends in a stable equilibrium. Damping that turns with the blade may stabilize the flat blade, and a fast run-up may end before the blade leaves the flat state. Curves of equilibria may exist to which neither a sweep, nor its mirror image, nor a critical speed leads.";
 
-/// Speed from which the deflection exceeds the thickness, and the largest deflection while the speed rises.
+/// Speed above which the deflection exceeds the thickness, and the largest deflection while the speed rises.
 fn verdict(report: &DeflectReport) -> String {
     let force = format!(
         "Under {} N at the rim at {}°",
@@ -62,19 +63,15 @@ fn verdict(report: &DeflectReport) -> String {
         );
     };
     let within = match report.beyond_thickness_rpm {
-        None => {
-            format!("the deflection does not exceed the thickness up to {last_rpm:.0} rpm")
-        }
+        None => format!("the deflection does not exceed the thickness up to {last_rpm:.0} rpm"),
         Some(beyond) if beyond <= report.from_rpm => {
             format!("the deflection exceeds the thickness at {beyond:.0} rpm already")
         }
-        Some(beyond) => {
-            format!("the deflection exceeds the thickness from {beyond:.0} rpm on")
-        }
+        Some(beyond) => format!("the deflection exceeds the thickness above {beyond:.0} rpm"),
     };
     format!(
         "{force} {within}; the largest deflection is {}, at {rpm:.0} rpm",
-        millimetres(*largest_m)
+        LENGTH.fixed(3, *largest_m).with_unit()
     )
 }
 
@@ -88,38 +85,38 @@ fn critical(report: &DeflectReport) -> String {
     }
 }
 
-/// Writes the considerable jumps of a sweep; `word` states whether its speed rises or falls.
-fn jumps(
-    text: &mut String,
-    sweep: &SlowSweep,
-    (word, thickness_m): (&str, f64),
-) -> std::fmt::Result {
+/// Adds the considerable jumps of a sweep; `word` states whether its speed rises or falls.
+fn jumps(text: &mut Outline, sweep: &SlowSweep, word: &str, thickness_m: f64) {
     let all = sweep.jumps.iter();
-    let listed: Vec<&Jump> = all
-        .filter(|jump| jump.is_considerable(thickness_m))
-        .collect();
-    if listed.is_empty() {
-        let none = format!("While the speed {word} slowly the blade does not jump");
-        return sentence(text, &none);
-    }
-    writeln!(
-        text,
-        "While the speed {word} slowly the blade jumps, at the probe:"
-    )?;
-    for jump in listed.iter().take(ROWS) {
+    let listed = all.filter(|jump| jump.is_considerable(thickness_m));
+    let rows = listed.map(|jump| {
         let kind = match jump.kind {
             TurnKind::Fold => "fold",
             TurnKind::Bifurcation => "bifurcation",
         };
-        writeln!(
-            text,
-            "  {:>10.1} rpm  from {:>11} to {:>11}  ({kind})",
-            jump.rpm,
-            millimetres(jump.from_m),
-            millimetres(jump.to_m)
-        )?;
+        [
+            SPEED.fixed(1, jump.rpm),
+            LENGTH.fixed(3, jump.from_m),
+            LENGTH.fixed(3, jump.to_m),
+            kind.into(),
+        ]
+    });
+    let columns = [
+        Column::of("speed", &SPEED),
+        Column::of("from", &LENGTH),
+        Column::of("to", &LENGTH),
+        Column::words("at a"),
+    ];
+    let title = format!("While the speed {word} slowly the blade jumps, at the probe:");
+    let table = Table::new(title, columns)
+        .in_file("deflect.json")
+        .with_rows(rows);
+    match table.rows.is_empty() {
+        true => text.sentence(format!(
+            "While the speed {word} slowly the blade does not jump"
+        )),
+        false => text.table(table),
     }
-    more(text, listed.len(), ROWS, "deflect.json")
 }
 
 impl Jump {
@@ -131,45 +128,51 @@ impl Jump {
     }
 }
 
-/// Writes deflections in millimetres and the lowest frequencies at evenly spaced speeds.
-fn table(text: &mut String, report: &DeflectReport) -> std::fmt::Result {
-    writeln!(
-        text,
-        "\nDeflection       speed rises           speed falls      lowest frequencies"
-    )?;
-    writeln!(
-        text,
-        "    [rpm]    probe   largest      probe   largest      speed rises [Hz]"
-    )?;
-    for k in 0..ROWS {
-        let share = k as f64 / (ROWS - 1) as f64;
+/// Deflections and the lowest frequencies at evenly spaced speeds.
+fn over_speed(report: &DeflectReport) -> Table {
+    let deflection = |name: &str, group| Column::of(name, &LENGTH).in_group(group);
+    let columns = [
+        Column::of("speed", &SPEED),
+        deflection("probe", "speed rises"),
+        deflection("largest", "speed rises"),
+        deflection("probe", "speed falls"),
+        deflection("largest", "speed falls"),
+        Column {
+            unit: FREQUENCY.unit,
+            ..Column::words("lowest frequencies, speed rises")
+        },
+    ];
+    let row = |k: usize| {
+        let share = k as f64 / (SPEEDS - 1) as f64;
         let rpm = report.from_rpm + share * (report.to_rpm - report.from_rpm);
         let of = |sweep: &SlowSweep| {
             let at = sweep.at(rpm, |arc, k| {
                 [arc.deflection_m[k], arc.largest_deflection_m[k]]
             });
-            at.map_or(["-".into(), "-".into()], |at| at.map(in_mm))
+            at.map_or([Value::Missing, Value::Missing], |at| {
+                at.map(|m| LENGTH.fixed(3, m))
+            })
         };
-        let ([up_probe, up_most], [down_probe, down_most]) = (of(&report.up), of(&report.down));
+        let [up_probe, up_most] = of(&report.up);
+        let [down_probe, down_most] = of(&report.down);
         let lowest = |arc: &Arc, k: usize| {
             std::array::from_fn(|i| arc.frequencies_hz[k].get(i).copied().unwrap_or(f64::NAN))
         };
         let frequencies: Option<[f64; FREQUENCIES]> = report.up.at(rpm, lowest);
         let known = frequencies.iter().flatten().filter(|hz| hz.is_finite());
-        let frequencies = known
-            .map(|hz| format!("{hz:>6.2}"))
-            .collect::<Vec<_>>()
-            .join(" ");
-        let line = format!(
-            "{rpm:>9.0} {up_probe:>8} {up_most:>9} {down_probe:>10} {down_most:>9}   {frequencies}"
-        );
-        writeln!(text, "{}", line.trim_end())?;
-    }
-    writeln!(text, "Deflections in mm")
+        let known: Vec<String> = known.map(|hz| format!("{hz:>6.2}")).collect();
+        let speed = SPEED.fixed(0, rpm);
+        [
+            speed,
+            up_probe,
+            up_most,
+            down_probe,
+            down_most,
+            known.join(" ").into(),
+        ]
+    };
+    Table::new("Deflection", columns).with_rows((0..SPEEDS).map(row))
 }
-
-/// Number of frequencies in a row of the table.
-const FREQUENCIES: usize = 4;
 
 impl SlowSweep {
     /// Values at a speed, by linear interpolation between two equilibria of one arc; `None` if no arc contains
@@ -222,8 +225,8 @@ fn pads(report: &DeflectReport) -> Option<String> {
 }
 
 fn accuracy(report: &DeflectReport) -> String {
-    let shapes = format!(
-        "{} shapes of a basis of {}",
+    let made = format!(
+        "The deflection is made of {} shapes of a basis of {}",
         report.shapes, report.degrees_of_freedom
     );
     let with_more = report.estimated_relative_error.map(|error| {
@@ -234,7 +237,6 @@ fn accuracy(report: &DeflectReport) -> String {
         let change = at_most(error);
         format!("with a larger basis, a small deflection at the force changes by about {change}")
     });
-    let made = format!("The deflection is made of {shapes}");
     let facts: Vec<String> = [Some(made), with_more, of_basis]
         .into_iter()
         .flatten()
@@ -248,12 +250,4 @@ fn at_most(share: f64) -> String {
         true => "less than 0.1 %".to_owned(),
         false => format!("{:.1} %", 1e2 * share),
     }
-}
-
-fn millimetres(metres: f64) -> String {
-    format!("{} mm", in_mm(metres))
-}
-
-fn in_mm(metres: f64) -> String {
-    fixed(3, 1e3 * metres)
 }

@@ -1,0 +1,98 @@
+//! The text of a comparison.
+
+use super::{CompareReport, ComparedSaw};
+use crate::outline::{Column, Outline, SPEED, Table, Value, shortened};
+use crate::report::Answer;
+use crate::text::fixed;
+
+/// Number of characters of the name of a saw.
+const NAME: usize = 22;
+
+pub fn outline(report: &CompareReport) -> Outline {
+    let mut text = Outline::of(&report.scene.name, &report.condition(), &[]);
+    let columns = [
+        Column::words("saw"),
+        Column::of("critical", &SPEED),
+        Column::of("flutter", &SPEED),
+        Column::words("bands"),
+        Column {
+            unit: "N/mm",
+            ..Column::words("rim stiff.")
+        },
+        Column::words("verdict"),
+    ];
+    let mut table = Table::new("", columns).showing(usize::MAX);
+    for (place, saw) in report.saws.iter().enumerate() {
+        table.row(row(place + 1, saw));
+        if let (true, Some(first)) = (place > 0, report.saws.first()) {
+            table.row(changes(first, saw));
+        }
+    }
+    text.table(table);
+    differences(&mut text, report);
+    for saw in &report.saws {
+        for warning in &saw.warnings {
+            text.sentence(format!("{}: {warning}", saw.label));
+        }
+    }
+    text
+}
+
+fn row(number_of_saw: usize, saw: &ComparedSaw) -> [Value; 6] {
+    let verdict = saw.operating.as_ref().map(|operating| {
+        let answer = Answer::new(operating).in_few_words();
+        format!("{}: {answer}", operating.rpm.round())
+    });
+    let stiffness = saw.rim_stiffness_at_rest_n_per_m;
+    [
+        shortened(&format!("{number_of_saw} {}", saw.label), NAME).into(),
+        SPEED.fixed(1, lowest(saw)),
+        SPEED.fixed(1, saw.flutter_speed_rpm),
+        saw.instabilities.len().into(),
+        stiffness.map_or(Value::Missing, |n_per_m| fixed(2, 1e-3 * n_per_m).into()),
+        verdict.map_or(Value::Missing, Value::from),
+    ]
+}
+
+fn lowest(saw: &ComparedSaw) -> Option<f64> {
+    saw.critical_speeds.first().map(|critical| critical.rpm)
+}
+
+/// Relative differences of the speeds and the stiffness of a saw from those of the first, and the difference of the
+/// numbers of bands.
+fn changes(first: &ComparedSaw, saw: &ComparedSaw) -> [Value; 6] {
+    let percent = |value: fn(&ComparedSaw) -> Option<f64>| {
+        let change = value(first)
+            .zip(value(saw))
+            .map(|(from, to)| to / from - 1.0);
+        change.map_or("".into(), |change| {
+            Value::from(format!("{:+.1} %", 1e2 * change))
+        })
+    };
+    let bands = saw.instabilities.len() as i64 - first.instabilities.len() as i64;
+    [
+        "".into(),
+        percent(lowest),
+        percent(|saw| saw.flutter_speed_rpm),
+        format!("{bands:+}").into(),
+        percent(|saw| saw.rim_stiffness_at_rest_n_per_m),
+        "".into(),
+    ]
+}
+
+fn differences(text: &mut Outline, report: &CompareReport) {
+    if report.differences.is_empty() {
+        return text.sentence("The scenes have the same numbers.");
+    }
+    let columns = [Column::words("key"), Column::words("values")];
+    let rows = report.differences.iter().map(|entry| {
+        let values = entry.values.iter().map(|value| match value.as_str() {
+            "" => "none",
+            value => value,
+        });
+        let values = values.collect::<Vec<_>>().join(" | ");
+        [entry.path.clone().into(), values.into()]
+    });
+    let table = Table::new("Differences of the scenes", columns).in_file("compare.json");
+    text.table(table.with_rows(rows));
+}

@@ -1,0 +1,93 @@
+//! The text of a fit.
+
+use super::{FitReport, FittedParameter};
+use crate::analyses::changed::changed;
+use crate::outline::{Column, FREQUENCY, Fact, Outline, SPEED, Table, Value};
+use crate::text::shown_to;
+
+/// Number of speeds of which the text shows the deviations.
+const SPEEDS: usize = 20;
+/// Largest number of frequencies in a row of this table; the report contains all.
+const FREQUENCIES: usize = 7;
+
+pub fn outline(report: &FitReport) -> Outline {
+    let mut text = Outline::of(
+        &report.scene.name,
+        &report.condition,
+        &report.unusual_numbers,
+    );
+    text.headline(format!(
+        "Fitted to {} frequencies ({})",
+        report.measured_frequencies, report.source
+    ));
+    text.remarks("Warning", &report.warnings);
+    let rms = FREQUENCY.fixed(3, report.rms_hz);
+    let before = FREQUENCY.fixed(3, report.rms_before_hz);
+    let deviation = Fact::new("deviation (rms)", rms).after(before);
+    let fitted = report.parameters.iter();
+    let fitted = fitted.map(|found| number(found, report.confidence));
+    text.facts("", std::iter::once(deviation).chain(fitted));
+    text.table(deviations(report));
+    let reached = report.starts.iter().filter_map(|start| start.rms_hz);
+    let best = reached.clone().fold(f64::INFINITY, f64::min);
+    let same = reached.clone().filter(|rms| *rms <= 1.001 * best);
+    text.sentence(format!(
+        "{} of {} starts led to this minimum (n up to {}, {} polynomials over the radius)",
+        same.count(),
+        reached.count(),
+        report.max_diameters,
+        report.radial_functions
+    ));
+    text
+}
+
+/// A fitted number after its value in the scene, with its interval of confidence.
+fn number(found: &FittedParameter, confidence: f64) -> Fact {
+    let percent = 100.0 * confidence;
+    let interval = match (found.interval_from, found.interval_to) {
+        (Some(from), Some(to)) => format!(
+            "({percent:.0} % interval {} … {})",
+            shown_to(5, from),
+            shown_to(5, to)
+        ),
+        _ if found.at_bound => "(at its bound)".into(),
+        _ => "(not determined)".into(),
+    };
+    changed(&found.path, found.start, found.value, 5).with(interval)
+}
+
+/// Deviations of the computed from the measured frequencies, ascending, a row for each speed.
+fn deviations(report: &FitReport) -> Table {
+    let mut speeds: Vec<f64> = report.residuals.iter().map(|r| r.rpm).collect();
+    speeds.dedup();
+    let places = report.residuals.iter().map(|r| r.place).max().unwrap_or(0);
+    let places = 1..=places.min(FREQUENCIES);
+    let is_partly = report.residuals.iter().any(|r| !r.fitted);
+    let mut columns = vec![Column::of("speed", &SPEED)];
+    columns.extend(
+        places
+            .clone()
+            .map(|place| Column::of(place.to_string(), &FREQUENCY)),
+    );
+    columns.extend(is_partly.then(|| Column::words("")));
+    let title = "Computed minus measured frequency, in ascending order";
+    let mut table = Table::new(title, columns)
+        .showing(SPEEDS)
+        .in_file("fit.json");
+    for rpm in speeds {
+        let own = || report.residuals.iter().filter(|r| r.rpm == rpm);
+        let at = |place: usize| {
+            let residual = own().find(|r| r.place == place);
+            FREQUENCY.fixed(2, residual.map(|r| r.fitted_hz - r.measured_hz))
+        };
+        let mut row = vec![SPEED.digits(6, rpm)];
+        row.extend(places.clone().map(at));
+        let fitted: Value = match own().all(|r| r.fitted) {
+            true => "".into(),
+            false => "not fitted".into(),
+        };
+        row.extend(is_partly.then_some(fitted));
+        table.row(row);
+    }
+    table
+}

@@ -1,0 +1,346 @@
+//! The text of guides with a gap.
+
+use super::{AtAmplitude, DeviationMap, FrictionHeat, GapReport, Oscillation, OscillationAt};
+use crate::outline::{
+    Column, FORCE, FREQUENCY, Fact, KELVIN, LENGTH, Outline, PERCENT, SPEED, Table, Value,
+};
+use crate::text::shown_to;
+
+/// The tables list every third force and gap; the report contains all of them.
+const EVERY: usize = 3;
+
+pub fn outline(report: &GapReport) -> Outline {
+    let mut text = Outline::of(
+        &report.scene.name,
+        &report.condition,
+        &report.unusual_numbers,
+    );
+    text.headline(half_way(report));
+    let critical = |at: &AtAmplitude| SPEED.fixed(1, at.critical_rpm.first().copied()).or("none");
+    let half = LENGTH.digits(4, report.half_way_amplitude_m).or("none");
+    let facts = [
+        Fact::new("guides act half from an amplitude of", half),
+        Fact::new(
+            "first critical speed inside the gaps",
+            critical(&report.free),
+        ),
+        Fact::new(
+            "first critical speed of linear guides",
+            critical(&report.linear),
+        ),
+    ];
+    text.facts("", facts);
+    text.table(over_amplitude(report));
+    deviation(&mut text, report);
+    if let Some(found) = &report.oscillation {
+        oscillation(&mut text, report.deviation.rpm, found);
+    }
+    if let Some(friction) = &report.friction {
+        heat(&mut text, &report.deviation, friction);
+    }
+    if let Some(error) = &report.deviation.basis_error {
+        text.sentence(format!(
+            "Estimated error of these deflections: {} % (checked with {} modes at rest instead of {})",
+            shown_to(2, 1e2 * error.share),
+            error.more_modes,
+            error.modes
+        ));
+    }
+    text.sentence(MEANING);
+    text.remarks("Warning", &report.warnings);
+    text
+}
+
+const MEANING: &str = "The chart over the amplitude is the linear one with the mean stiffness of the guides over a sinusoidal oscillation \
+     of the same amplitude at all of them; it is an approximation. Deflections are stationary ones, unless an oscillation is named.";
+
+fn half_way(report: &GapReport) -> String {
+    let gap = shown_to(3, 1e3 * report.smallest_gap_m);
+    match report.half_way_amplitude_m {
+        None => format!(
+            "The first critical speed inside the gap of {gap} mm is that of linear guides to 0.1 %"
+        ),
+        Some(amplitude) => format!(
+            "Below {} mm of vibration at the guides (gap {gap} mm) the blade behaves rather as if unguided",
+            shown_to(2, 1e3 * amplitude)
+        ),
+    }
+}
+
+fn over_amplitude(report: &GapReport) -> Table {
+    let columns = [
+        Column::of("amplitude", &LENGTH),
+        Column::of("stiffness", &PERCENT),
+        Column::of("first critical", &SPEED),
+        Column::of("flutter", &SPEED),
+        Column::words("bands"),
+    ];
+    let row = |name: Value, at: &AtAmplitude| {
+        let share = at.stiffness_shares.iter().copied().fold(0.0, f64::max);
+        [
+            name,
+            PERCENT.digits(3, share),
+            SPEED.fixed(1, at.critical_rpm.first().copied()).or("none"),
+            SPEED.fixed(1, at.flutter_speed_rpm).or("none"),
+            at.instabilities.len().into(),
+        ]
+    };
+    let amplitudes = report.amplitudes.iter();
+    let amplitudes = amplitudes.map(|at| row(LENGTH.digits(4, at.amplitude_m), at));
+    let rows = std::iter::once(row("inside gap".into(), &report.free))
+        .chain(amplitudes)
+        .chain([row("linear".into(), &report.linear)]);
+    let title = "Over the amplitude at the guides (mean stiffness of an oscillation)";
+    Table::new(title, columns)
+        .showing(usize::MAX)
+        .with_rows(rows)
+}
+
+/// Whether a row is in the tables: the first, which is that of linear guides, and every third gap.
+fn is_shown(row: usize) -> bool {
+    row == 0 || (row - 1).is_multiple_of(EVERY)
+}
+
+fn deviation(text: &mut Outline, report: &GapReport) {
+    let map = &report.deviation;
+    text.table(over_forces(report));
+    if let Some(limit) = map.max_deflection_m {
+        text.table(within(report, limit));
+    }
+    let columns = [
+        Column::of("speed", &SPEED),
+        Column::of("deflection", &LENGTH),
+        Column {
+            unit: FORCE.unit,
+            ..Column::words("pad forces")
+        },
+    ];
+    let series = map.speeds_rpm.iter().zip(&map.deflection_over_speed_m);
+    let rows = series.enumerate().map(|(k, (rpm, deflection))| {
+        let forces = map.pad_forces_over_speed_n.iter().filter_map(|pad| pad[k]);
+        let forces: Vec<String> = forces.map(|force| shown_to(3, force)).collect();
+        [
+            SPEED.fixed(0, *rpm),
+            LENGTH.fixed(4, *deflection).or("leans"),
+            forces.join("  ").into(),
+        ]
+    });
+    let title = format!(
+        "Over the speed under {} N, with the gap of the scene",
+        shown_to(3, map.force_n)
+    );
+    let table = Table::new(title, columns).showing(usize::MAX);
+    text.table(table.with_rows(rows));
+    if map.deflection_over_speed_m.iter().any(Option::is_none) {
+        text.sentence("leans: the flat blade is unstable and leans on a guide");
+    }
+}
+
+/// A gap of the map, in millimetres.
+fn gap(report: &GapReport, factor: f64) -> Value {
+    match factor == 0.0 {
+        true => "linear".into(),
+        false => LENGTH.digits(3, factor * report.smallest_gap_m),
+    }
+}
+
+/// Deflections over gap and force.
+fn over_forces(report: &GapReport) -> Table {
+    let map = &report.deviation;
+    let mut columns = vec![Column::of("gap", &LENGTH)];
+    let forces = map.forces_n.iter().step_by(EVERY);
+    columns.extend(forces.map(|force| Column::of(format!("{} N", shown_to(3, *force)), &LENGTH)));
+    let title = format!(
+        "Deflection of the rim at the cut at {:.0} rpm under a side force of",
+        map.rpm
+    );
+    let mut table = Table::new(title, columns).showing(usize::MAX);
+    let rows = map.gap_factors.iter().zip(&map.deflection_m).enumerate();
+    for (_, (factor, deflections)) in rows.filter(|(row, _)| is_shown(*row)) {
+        let deflections = deflections.iter().step_by(EVERY);
+        let cells = deflections.map(|m| LENGTH.fixed(4, *m));
+        table.row(std::iter::once(gap(report, *factor)).chain(cells));
+    }
+    table
+}
+
+/// Largest force and largest speed with a deflection of at most `limit`, in metres, over the gap.
+fn within(report: &GapReport, limit: f64) -> Table {
+    let map = &report.deviation;
+    let columns = [
+        Column::of("gap", &LENGTH),
+        Column::words("largest side force"),
+        Column::words(format!("speed under {} N", shown_to(3, map.force_n))),
+    ];
+    let [first, last] = [map.forces_n.first(), map.forces_n.last()]
+        .map(|force| force.map_or(0.0, |force| force.abs()));
+    let end = map.speeds_rpm.last().copied().unwrap_or_default();
+    let found = map.force_within_n.iter().zip(&map.speed_within_rpm);
+    let rows = map.gap_factors.iter().zip(found).enumerate();
+    let rows = rows.filter(|(row, _)| is_shown(*row));
+    let rows = rows.map(|(_, (factor, (force, speed)))| {
+        let force = match force {
+            None => format!("less than {} N", shown_to(3, first)),
+            Some(force) if *force >= last => format!("{} N or more", shown_to(3, last)),
+            Some(force) => format!("{} N", shown_to(3, *force)),
+        };
+        let speed = match speed {
+            None => "at no speed".to_owned(),
+            Some(speed) if *speed >= end => format!("{end:.0} rpm or more"),
+            Some(speed) => format!("{speed:.0} rpm"),
+        };
+        [gap(report, *factor), force.into(), speed.into()]
+    });
+    let title = format!(
+        "Within {} mm at the cut at {:.0} rpm",
+        shown_to(3, 1e3 * limit),
+        map.rpm
+    );
+    Table::new(title, columns)
+        .showing(usize::MAX)
+        .with_rows(rows)
+}
+
+fn oscillation(text: &mut Outline, rpm: f64, found: &Oscillation) {
+    let title = format!(
+        "Oscillation at {rpm:.0} rpm under {} N, with the gap of the scene",
+        shown_to(3, found.force_n)
+    );
+    let Some(at) = &found.at else {
+        return text.sentence(format!("{title}: no periodic motion was found"));
+    };
+    let mm = |m: f64| LENGTH.fixed(4, m).with_unit();
+    let moved = format!(
+        ", amplitude {}, at most {}",
+        mm(at.cut.amplitude_m),
+        mm(at.cut.largest_m)
+    );
+    let at_probe = format!(", amplitude {}", mm(at.probe.amplitude_m));
+    let still = LENGTH.fixed(4, found.still_deflection_m);
+    let mut facts = vec![
+        Fact::new("rim at the cut, mean", mm(at.cut.mean_m) + &moved),
+        Fact::new("without oscillation", still),
+        Fact::new("probe, mean", mm(at.probe.mean_m) + &at_probe),
+        Fact::new("small motions", decay(at)),
+    ];
+    facts.extend(at.pads.iter().map(|pad| {
+        let name = format!("guides[{}], mean force", pad.guide);
+        let remark = format!(
+            "{}, at most {}, touches {:.0} % of the time",
+            FORCE.digits(3, pad.mean_force_n).with_unit(),
+            FORCE.digits(3, pad.largest_force_n).with_unit(),
+            1e2 * pad.contact_share
+        );
+        Fact::new(name, remark)
+    }));
+    text.facts(title, facts);
+    text.table(lines(found, at));
+    let error = |share: Option<f64>| PERCENT.digits(2, share).or("unknown").with_unit();
+    text.sentence(format!(
+        "Estimated error of this amplitude at the cut: {} with more harmonics, {} with more modes at rest",
+        error(found.harmonics_error_share),
+        error(found.basis_error_share)
+    ));
+}
+
+fn lines(found: &Oscillation, at: &OscillationAt) -> Table {
+    let columns = [
+        Column::words("order"),
+        Column::of("frequency", &FREQUENCY),
+        Column::of("at the cut", &LENGTH),
+        Column::of("at the probe", &LENGTH),
+        Column::words("cause"),
+    ];
+    let sizes = at.cut.lines_m.iter().zip(&at.probe.lines_m);
+    let rows = found.lines.iter().zip(sizes).map(|(line, (cut, probe))| {
+        [
+            format!("{}×", line.order).into(),
+            FREQUENCY.digits(4, f64::from(line.order) * at.rpm / 60.0),
+            LENGTH.digits(3, *cut),
+            LENGTH.digits(3, *probe),
+            line.name.clone().into(),
+        ]
+    });
+    Table::new("", columns).showing(usize::MAX).with_rows(rows)
+}
+
+/// Stability of the oscillation: largest growth rate of small motions about it.
+fn decay(at: &OscillationAt) -> String {
+    match at.growth_per_s {
+        None => "unknown".to_owned(),
+        Some(growth) if at.stable => format!("stable, growth {} 1/s at most", shown_to(2, growth)),
+        Some(growth) => format!("unstable, growth {} 1/s", shown_to(2, growth)),
+    }
+}
+
+fn heat(text: &mut Outline, map: &DeviationMap, friction: &FrictionHeat) {
+    let rises = friction.radii_m.iter().zip(&friction.rise_k);
+    let hottest = rises.fold((0.0, 0.0), |most: (f64, f64), (radius_m, rise_k)| {
+        if *rise_k > most.1 {
+            (*radius_m, *rise_k)
+        } else {
+            most
+        }
+    });
+    let mm = |m: Option<f64>| LENGTH.fixed(4, m).or("unknown").with_unit();
+    let speed = |rpm: Option<f64>| SPEED.fixed(1, rpm).or("none").with_unit();
+    let forces = friction.pad_forces_n.iter();
+    let forces = forces.map(|force| shown_to(3, *force));
+    let mut facts = vec![
+        Fact::new(
+            "power",
+            format!(
+                "{} W, of which {} W heat the blade",
+                shown_to(3, friction.power_w),
+                shown_to(3, friction.heat_share * friction.power_w)
+            ),
+        ),
+        Fact::new("largest rise", KELVIN.digits(3, hottest.1)).with(format!(
+            "at a radius of {}",
+            LENGTH.digits(3, hottest.0).with_unit()
+        )),
+        Fact::new(
+            "deflection",
+            format!(
+                "{}, without friction {}",
+                mm(friction.deflection_m),
+                mm(friction.cold_deflection_m)
+            ),
+        ),
+        Fact::new(
+            "pad forces",
+            format!("{} N", forces.collect::<Vec<_>>().join("  ")),
+        ),
+        Fact::new(
+            "first critical speed",
+            format!(
+                "{}, without friction {} (linear guides)",
+                speed(friction.critical_rpm),
+                speed(friction.cold_critical_rpm)
+            ),
+        ),
+    ];
+    facts.extend(friction.pads.iter().map(|pad| {
+        let left = match pad.gap_left_m {
+            None => "unknown".to_owned(),
+            Some(m) if m < 0.0 => {
+                format!("none, pressed in by {}", LENGTH.digits(4, -m).with_unit())
+            }
+            Some(m) => LENGTH.digits(4, m).with_unit(),
+        };
+        let ends = [pad.from_radius_m, pad.to_radius_m].map(|m| shown_to(3, 1e3 * m));
+        let place = match ends[0] == ends[1] {
+            true => format!("{} mm", ends[0]),
+            false => format!("{} to {} mm", ends[0], ends[1]),
+        };
+        let name = format!("guides[{}], gap left", pad.guide);
+        Fact::new(name, format!("{left} (radius {place})"))
+    }));
+    let title = format!(
+        "Heat of friction at {:.0} rpm under {} N, coefficient {}",
+        map.rpm,
+        shown_to(3, map.force_n),
+        shown_to(3, friction.coefficient)
+    );
+    text.facts(title, facts);
+}
