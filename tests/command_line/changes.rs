@@ -162,7 +162,10 @@ fn a_page_is_written_beside_the_files_or_refused() {
         &folder,
     );
     let text_of = |path: &std::path::Path| std::fs::read_to_string(path).unwrap();
-    let critical = format!("<td>{:.1}</td>", found.critical_speeds[0].rpm);
+    let critical = format!(
+        "<td class=\"number\">{:.1}</td>",
+        found.critical_speeds[0].rpm
+    );
     assert!(text_of(&page).contains(&critical));
     assert!(text_of(&page).ends_with("</html>\n"));
     let check = folder.path().join("check.html");
@@ -177,7 +180,7 @@ fn a_page_is_written_beside_the_files_or_refused() {
     // Nothing restrains this blade against rigid motions, so that it fails the check.
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
     // The page has the sentences of the terminal.
-    let first = text(&output.stdout).lines().nth(1).unwrap();
+    let first = text(&output.stdout).lines().nth(2).unwrap();
     assert!(text_of(&check).contains(first), "{first}");
     for wrong in [
         folder.path().join("none/page.html"),

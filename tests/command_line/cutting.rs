@@ -14,7 +14,7 @@ use super::program::{
 #[test]
 fn the_built_in_cut_is_stable_at_1800_and_unstable_at_2800() {
     let folder = TempDir::new().unwrap();
-    let output = run(&["cut"], &folder);
+    let output = run(&["cut", "--details"], &folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let expected = [
         "cut-map.png",

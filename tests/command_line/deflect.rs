@@ -29,7 +29,7 @@ fn the_built_in_saw_has_deflected_equilibria_past_its_first_critical_speed() {
         "{beyond}"
     );
     assert!(
-        summary.contains(&format!("from {beyond:.0} rpm")),
+        summary.contains(&format!("above {beyond:.0} rpm")),
         "{summary}"
     );
     let [first, last] = [report.up.arcs.first(), report.up.arcs.last()].map(Option::unwrap);

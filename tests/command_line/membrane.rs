@@ -126,7 +126,7 @@ fn a_light_gap_reaches_report_and_summary_and_gives_back_its_strain() {
     let printed = text(&assert.success().get_output().stdout).to_owned();
     for words in [
         "Straight edge of 400 mm, blade level on two points at 200 mm:",
-        "times the rolling,\n    eigenstrain 0.0007 at 100 mm",
+        "times the rolling,\n  eigenstrain 0.0007 at 100 mm",
     ] {
         assert!(printed.contains(words), "{words}: {printed}");
     }

@@ -32,8 +32,8 @@ fn the_verdict_comes_first_and_is_that_of_the_report() {
     let expected = ["washboard.json", "washboard.png", "washboard.svg"];
     assert_eq!(names_in(&out(&folder)), expected);
     let summary = text(&output.stdout);
-    let second = summary.lines().nth(1).unwrap();
-    assert!(second.starts_with("2400 rpm: UNSTABLE"), "{summary}");
+    let answer = summary.lines().nth(2).unwrap();
+    assert!(answer.starts_with("2400 rpm: UNSTABLE"), "{summary}");
     assert_in_80_columns(summary);
     let report: WashboardReport = written(&folder, "washboard.json");
     assert_eq!(report.verdict, Verdict::Unstable);

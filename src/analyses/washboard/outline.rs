@@ -59,7 +59,7 @@ fn boundary(text: &mut Outline, report: &WashboardReport) {
             );
             let hz = FREQUENCY.fixed(1, report.critical_frequency_hz);
             let facts = [
-                smallest.with(format!("; the cut has {share:.3} times that")),
+                smallest.with(format!("(the cut has {share:.3} times that)")),
                 Fact::new("frequency of this vibration", hz),
             ];
             text.facts("", facts);
