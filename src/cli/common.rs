@@ -134,6 +134,20 @@ pub fn with_settings<'a>(
     scene.file().set(&settings).with_context(refused)
 }
 
+/// The scene with numbers of options that are short for `--set PATH=…`, each an option, a path and its text.
+pub fn with_shorthands(
+    mut scene: Scene,
+    given: &[(&str, &str, &Option<String>)],
+) -> anyhow::Result<Scene> {
+    for (option, path, text) in given {
+        if let Some(text) = text {
+            let text = format!("{path}={text}");
+            scene = with_settings(&scene, std::iter::once(text.as_str()), option)?;
+        }
+    }
+    Ok(scene)
+}
+
 /// Parses the number of an option.
 pub fn number(text: &str) -> Result<f64, String> {
     let point = match text.contains(',') {

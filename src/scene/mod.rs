@@ -32,6 +32,7 @@ mod roll_band;
 mod runup;
 mod schema;
 mod setting;
+mod side_force;
 mod span;
 mod speed_range;
 mod spline;
@@ -90,6 +91,8 @@ pub use schema::json_schema;
 #[cfg(feature = "cli")]
 pub(crate) use schema::{Key, keys};
 pub use setting::{Setting, number_of};
+pub use side_force::SideForceFile;
+pub(crate) use side_force::{OscillatingForce, SideForce, USUAL_SIDE_FORCE_N};
 pub use span::Span;
 pub use speed_range::SpeedRange;
 pub(crate) use speed_range::speed_rad_per_s;

@@ -7,7 +7,7 @@ use super::check::is_default;
 use super::speed_range::check_rise;
 use super::{Blade, SceneError, SpeedRange};
 
-/// Run-up at a constant rate, under a constant lateral force fixed in space.
+/// Run-up at a constant rate, under the constant force of `side_force`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunUpFile {
@@ -18,11 +18,6 @@ pub struct RunUpFile {
     pub to_rpm: f64,
     /// Duration of the run-up.
     pub duration_s: f64,
-    /// Lateral force at the rim.
-    pub force_n: f64,
-    /// Angle of the force, positive in the direction of rotation.
-    #[serde(default)]
-    pub angle_deg: f64,
     /// Whether the model includes stretching of the middle surface at large deflections: then the record ends
     /// where slopes exceed 0.1, and not at five thicknesses. It takes longer.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -62,11 +57,6 @@ impl RunUpFile {
     /// Range of speeds.
     pub fn speeds(&self) -> SpeedRange {
         SpeedRange::between_rpm(self.from_rpm, self.to_rpm)
-    }
-
-    /// Angle of the force.
-    pub fn angle_rad(&self) -> f64 {
-        self.angle_deg.to_radians()
     }
 
     /// Rate Ω̇ at which the rotation speed rises, in rad/s².

@@ -42,8 +42,8 @@ impl TryFrom<SceneFile> for Scene {
         if let Some(spline) = &file.spline {
             spline.checked(&file.mount, &blade)?;
         }
-        if let Some(response) = &file.response {
-            response.checked(&blade, file.blade.teeth)?;
+        if let Some(force) = &file.side_force {
+            force.checked(&blade)?;
         }
         Ok(Scene {
             cut: file

@@ -146,7 +146,7 @@ impl Scene {
         self.cut.as_ref().map_or(0.0, |cut| cut.teeth.angle_rad)
     }
 
-    /// Run-up under a lateral force.
+    /// Run-up under the side force.
     pub fn runup(&self) -> Option<&RunUpFile> {
         self.file.runup.as_ref()
     }

@@ -1,15 +1,15 @@
-//! Response at the probe to a harmonic force at the rim, over frequency and speed.
+//! Response at the probe to a harmonic force at the place of the side force, over frequency and speed.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, c64};
 use rayon::prelude::*;
 
 use crate::plate::Plate;
-use crate::scene::{Probe, RunUpFile};
+use crate::scene::{Probe, RunUpFile, SideForce};
 use crate::system::GyroscopicSystem;
 
 use super::reduced::at_point;
-use super::runup::reduced_blade;
+use super::runup::{at_place, reduced_blade};
 
 /// Computes the receptance |w/F| = |cᵀ L(s)⁻¹ b| at the probe, in m/N, on s = iω + Δω/2: a row for each speed.
 ///
@@ -18,17 +18,13 @@ use super::runup::reduced_blade;
 /// one frequency step Δω wide.
 pub fn response_map(
     plate: &Plate,
-    runup: &RunUpFile,
+    (runup, force): (&RunUpFile, &SideForce),
     probe: &Probe,
     (speeds, frequencies): (&[f64], &[f64]),
 ) -> Vec<Vec<f64>> {
-    let blade = reduced_blade(plate, runup);
+    let blade = reduced_blade(plate, runup, force);
     let system = blade.system(&GyroscopicSystem::of_plate(plate));
-    let force = blade.vector(&at_point(
-        plate,
-        plate.blade.outer_radius_m,
-        runup.angle_rad(),
-    ));
+    let force = blade.vector(&at_place(plate, force));
     let read = blade.vector(&at_point(plate, probe.radius_m, probe.angle_rad));
     let apart = match frequencies {
         [first, second, ..] => second - first,

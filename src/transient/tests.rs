@@ -113,12 +113,11 @@ fn newmark_tends_to_the_exact_answer_in_second_order() {
 fn a_run_up_converges_and_is_static_when_slow() {
     let plate = paper_plate(SMALL);
     let probe = *Scene::paper().probe();
+    let force = Scene::paper().side_force();
     let runup = RunUpFile {
         from_rpm: 0.0,
         to_rpm: 1300.0,
         duration_s: 20.0,
-        force_n: 5.0,
-        angle_deg: 0.0,
         stretching: false,
     };
     let record = |highest_hz: f64, duration_s: f64| {
@@ -126,7 +125,14 @@ fn a_run_up_converges_and_is_static_when_slow() {
             duration_s,
             ..runup
         };
-        run_up(&plate, &runup, &probe, TAU * highest_hz, &|_, _| ()).unwrap()
+        run_up(
+            &plate,
+            (&runup, &force),
+            &probe,
+            TAU * highest_hz,
+            &|_, _| (),
+        )
+        .unwrap()
     };
     let (coarse, fine) = (record(50.0, 20.0), record(100.0, 20.0));
     let at = |history: &RunUpHistory, at_rpm: f64| {

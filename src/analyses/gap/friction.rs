@@ -38,11 +38,7 @@ impl Heated {
     ///
     /// # Errors
     /// [`GapError`].
-    pub fn new(
-        analysis: &Analysis,
-        friction: FrictionFile,
-        (force_n, rpm): (f64, f64),
-    ) -> Result<Self, GapError> {
+    pub fn new(analysis: &Analysis, friction: FrictionFile, rpm: f64) -> Result<Self, GapError> {
         let scene = &analysis.scene;
         let resolution = analysis.model.plate.resolution;
         let radii_m = radii_m(scene.blade());
@@ -82,7 +78,7 @@ impl Heated {
             let Some(blade) = unless_buckled(pressed)? else {
                 break;
             };
-            let (deviation, contacts) = blade.with_contacts(force_n, rpm)?;
+            let (deviation, contacts) = blade.with_contacts(scene.file().side_force_n(), rpm)?;
             hot = deviation;
             heat.deflection_m = hot.as_ref().map(|at| at.deviation_m);
             if heat.repetitions == 0 {

@@ -80,7 +80,7 @@ impl Solver {
                 Cause::RunOut => format!("run-out, {order}×"),
                 Cause::Flatness => format!("flatness, {order}×"),
                 Cause::Imbalance => format!("imbalance, {order}×"),
-                Cause::ToothPassing => format!("tooth passing, {order}×"),
+                Cause::OscillatingForce => format!("side force, {order}×"),
             },
             resonances: resonances.collect(),
             phase_deg: of(|w| w.at_probe.arg().to_degrees()),

@@ -47,12 +47,10 @@ pub struct StudyFile {
     pub bands: bool,
 }
 
-/// The deflection at the cut of a saw with guides with a gap, as of `sawflutter gap`.
+/// The deflection at the cut of a saw with guides with a gap under the side force of its scene, as of `sawflutter gap`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GapFile {
-    /// Side force at the rim at the cut.
-    pub force_n: f64,
     /// Rotation speed; by default the operating speed of the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rpm: Option<f64>,

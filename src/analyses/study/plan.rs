@@ -326,13 +326,11 @@ fn limits(file: &LimitsFile, scene: &Scene) -> Result<Limits, StudyError> {
 /// Validates the block `gap` of the study.
 fn gap(file: &GapFile, scene: &Scene) -> Result<GapCase, StudyError> {
     let options = gap::Options {
-        force_n: Some(file.force_n),
         rpm: file.rpm,
         max_deviation_mm: file.max_deviation_mm,
-        ..gap::Options::default()
     };
     let of_study = |refused: RefusedValue| match refused.key.as_str() {
-        "force_n" | "rpm" | "max_deviation_mm" | "amplitude_mm" => RefusedValue {
+        "rpm" | "max_deviation_mm" | "amplitude_mm" => RefusedValue {
             key: format!("gap.{}", refused.key),
             ..refused
         },

@@ -10,7 +10,7 @@ import { numberOf, partName, readings, shown, tidy } from "./words.js";
 // Order of the first groups; the others follow in the order of the schema.
 const ORDER = ["operating_rpm", "blade", "guides", "mount", "cut"];
 // Groups that the chart does not use, or only on request, and the command that uses each.
-const ELSEWHERE = { cut: "cut", "cut.washboarding": "washboard", runup: "runup", friction: "gap", spline: "cut" };
+const ELSEWHERE = { cut: "cut", "cut.washboarding": "washboard", runup: "runup", side_force: "deflect", friction: "gap", spline: "cut" };
 
 // Numbers that influence the speeds of most saws. Their fields reserve a line for the influence before it is computed,
 // so that the form does not jump.
