@@ -19,6 +19,7 @@ mod guide;
 mod membrane;
 mod needed;
 mod parameter;
+mod point;
 mod profile;
 mod quantities;
 mod quantity;
@@ -70,6 +71,7 @@ pub(crate) use guide::{Guide, Lifting};
 pub(crate) use membrane::{Membrane, Temperature, TemperatureShape};
 pub use membrane::{MembraneFile, TemperatureFile, TemperatureRow};
 pub use parameter::Parameter;
+pub(crate) use point::Point;
 pub(crate) use profile::Profile;
 #[cfg(any(test, feature = "page"))]
 pub(crate) use quantities::QUANTITIES;
@@ -85,7 +87,6 @@ pub use residual::ResidualStressRow;
 pub use response::ResponseFile;
 pub use roll_band::RollBandFile;
 pub(crate) use roll_band::{Groove, RollBand};
-pub(crate) use runup::Probe;
 pub use runup::{ProbeFile, RunUpFile};
 pub use schema::json_schema;
 #[cfg(feature = "cli")]

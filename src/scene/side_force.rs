@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::check::is_default;
 use super::quantities::typical_value;
-use super::{Blade, RefusedValue, Scene, SceneError, SceneFile};
+use super::{Blade, Point, RefusedValue, Scene, SceneError, SceneFile};
 
 /// Lateral force at a point fixed in space, constant and oscillating. `deflect`, `runup`, `gap`, `place` and studies of guides with
 /// a gap use the constant force, by default 1 N; `response` both, and `gap` both.
@@ -34,10 +34,8 @@ pub struct SideForceFile {
 pub(crate) struct SideForce {
     /// Force in the direction of positive deflections.
     pub force_n: f64,
-    /// Distance from the axis.
-    pub radius_m: f64,
-    /// Angle, positive in the direction of rotation.
-    pub angle_deg: f64,
+    /// Point on which it acts.
+    pub at: Point,
 }
 
 /// A side force that oscillates with a multiple of the rotation frequency.
@@ -76,13 +74,6 @@ impl SideForceFile {
     }
 }
 
-impl SideForce {
-    /// Distance from the axis in m, and angle in rad.
-    pub fn place(&self) -> (f64, f64) {
-        (self.radius_m, self.angle_deg.to_radians())
-    }
-}
-
 impl SceneFile {
     /// Constant side force in N: the given one, or 1 N.
     pub fn side_force_n(&self) -> f64 {
@@ -118,8 +109,10 @@ impl Scene {
         let typed = self.file.side_force.unwrap_or_default();
         SideForce {
             force_n: self.file.side_force_n(),
-            radius_m: typed.radius_m.unwrap_or(self.blade.outer_radius_m),
-            angle_deg: typed.angle_deg.unwrap_or(self.file.cut_angle_deg()),
+            at: Point {
+                radius_m: typed.radius_m.unwrap_or(self.blade.outer_radius_m),
+                angle_deg: typed.angle_deg.unwrap_or(self.file.cut_angle_deg()),
+            },
         }
     }
 

@@ -5,11 +5,11 @@ use faer::{Col, Mat, c64};
 use rayon::prelude::*;
 
 use crate::plate::Plate;
-use crate::scene::{Probe, RunUpFile, SideForce};
+use crate::scene::{Point, RunUpFile, SideForce};
 use crate::system::GyroscopicSystem;
 
 use super::reduced::at_point;
-use super::runup::{at_place, reduced_blade};
+use super::runup::reduced_blade;
 
 /// Computes the receptance |w/F| = |cᵀ L(s)⁻¹ b| at the probe, in m/N, on s = iω + Δω/2: a row for each speed.
 ///
@@ -19,13 +19,13 @@ use super::runup::{at_place, reduced_blade};
 pub fn response_map(
     plate: &Plate,
     (runup, force): (&RunUpFile, &SideForce),
-    probe: &Probe,
+    probe: Point,
     (speeds, frequencies): (&[f64], &[f64]),
 ) -> Vec<Vec<f64>> {
     let blade = reduced_blade(plate, runup, force);
     let system = blade.system(&GyroscopicSystem::of_plate(plate));
-    let force = blade.vector(&at_place(plate, force));
-    let read = blade.vector(&at_point(plate, probe.radius_m, probe.angle_rad));
+    let force = blade.vector(&at_point(plate, force.at.polar()));
+    let read = blade.vector(&at_point(plate, probe.polar()));
     let apart = match frequencies {
         [first, second, ..] => second - first,
         _ => 1.0,

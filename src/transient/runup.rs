@@ -5,7 +5,7 @@ use faer::linalg::solvers::Solve;
 
 use crate::campbell::{Progress, even_speeds};
 use crate::plate::Plate;
-use crate::scene::{Probe, RunUpFile, SideForce, rpm};
+use crate::scene::{Point, RunUpFile, SideForce, rpm};
 use crate::spectrum::Cancellation;
 use crate::system::GyroscopicSystem;
 
@@ -48,13 +48,12 @@ pub(super) fn reduced_blade(plate: &Plate, runup: &RunUpFile, force: &SideForce)
             speed_rad_per_s,
         })
         .collect();
-    ReducedBlade::new(plate, &snapshots, MODES, &[at_place(plate, force)])
-}
-
-/// The basis functions at the place of a force.
-pub(super) fn at_place(plate: &Plate, force: &SideForce) -> Col<f64> {
-    let (radius_m, angle_rad) = force.place();
-    at_point(plate, radius_m, angle_rad)
+    ReducedBlade::new(
+        plate,
+        &snapshots,
+        MODES,
+        &[at_point(plate, force.at.polar())],
+    )
 }
 
 /// Integrates the run-up, with steps that resolve the frequency `highest_rad_per_s`.
@@ -65,13 +64,13 @@ pub(super) fn at_place(plate: &Plate, force: &SideForce) -> Col<f64> {
 pub fn run_up(
     plate: &Plate,
     (runup, force): (&RunUpFile, &SideForce),
-    probe: &Probe,
+    probe: Point,
     highest_rad_per_s: f64,
     progress: Progress<'_>,
 ) -> Result<RunUpHistory, TransientError> {
     let blade = reduced_blade(plate, runup, force);
     let system = blade.system(&GyroscopicSystem::of_plate(plate));
-    let load = faer::Scale(force.force_n) * blade.vector(&at_place(plate, force));
+    let load = faer::Scale(force.force_n) * blade.vector(&at_point(plate, force.at.polar()));
     let gauge = Gauge::new(plate, &blade, probe);
     // The force acts from the beginning, so that the blade starts in its static deflection, if it has one.
     let from = runup.speeds().from_rad_per_s;

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::campbell::Progress;
 use crate::plate::Plate;
-use crate::scene::{Probe, RunUpFile, SideForce};
+use crate::scene::{Point, RunUpFile, SideForce};
 use crate::stretched::StretchedBlade;
 
 use super::runup::{MAX_SAMPLES, Moving, RunUpHistory, Steps};
@@ -60,11 +60,11 @@ const WINDOW_S: (f64, f64) = (1.5, 6.0);
 pub fn stretched_run_up(
     plate: &Plate,
     (runup, force): (&RunUpFile, &SideForce),
-    probe: &Probe,
+    probe: Point,
     highest_rad_per_s: f64,
     progress: Progress<'_>,
 ) -> Result<StretchedRunUp, TransientError> {
-    let place = force.place();
+    let place = force.at.polar();
     let (from, to) = (runup.speeds().from_rad_per_s, runup.speeds().to_rad_per_s);
     let blade = StretchedBlade::up_to(plate, to, place, MODES)?.pressed(force.force_n, place)?;
     // The system includes the damping of the saw, which is not part of the potential.

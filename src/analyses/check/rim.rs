@@ -87,7 +87,7 @@ mod tests {
         let analysis = Analysis::new(&saw).unwrap();
         let plate = point_load_plate(&analysis);
         let system = GyroscopicSystem::of_plate(&plate);
-        let point = at_point(&plate, plate.blade.outer_radius_m, saw.cut_angle_rad());
+        let point = at_point(&plate, rim_at_cut(&saw));
         let at_rest = compliance_m_per_n(&plate, rim_at_cut(&saw), 0.0).unwrap();
         let waves = crate::spectrum::critical_speeds(&system).unwrap();
         let critical = waves[0].speed_rad_per_s;

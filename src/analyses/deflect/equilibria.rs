@@ -105,7 +105,7 @@ fn gentler(
     speed_rad_per_s: f64,
 ) -> Result<Option<f64>, StretchedError> {
     let is_gentle = |force_n: f64| {
-        let pressed = blade.clone().pressed(force_n, force.place())?;
+        let pressed = blade.clone().pressed(force_n, force.at.polar())?;
         match pressed.settled(speed_rad_per_s, &pressed.flat()) {
             Ok(found) => Ok(pressed.largest_slope(&found) <= LARGEST_SLOPE),
             Err(StretchedError::NotFound { .. }) => Ok(false),

@@ -8,14 +8,14 @@ use crate::stability::ahead;
 use crate::system::GyroscopicSystem;
 use crate::transient::at_point;
 
-/// φᵀ K(Ω)⁻¹ φ in m/N with the basis functions φ at a radius and an angle: deflection over force at a point fixed in space
+/// φᵀ K(Ω)⁻¹ φ in m/N with the basis functions φ at a place, a radius in m and an angle in rad: deflection over force at a point fixed in space
 /// while the saw turns. `None` if rigid motions are free, and where K(Ω) is singular.
 pub(crate) fn compliance_m_per_n(
     plate: &Plate,
-    (radius_m, angle_rad): (f64, f64),
+    place: (f64, f64),
     speed_rad_per_s: f64,
 ) -> Option<f64> {
-    let point = at_point(plate, radius_m, angle_rad);
+    let point = at_point(plate, place);
     let system = GyroscopicSystem::of_plate(plate);
     if !system.free_rigid.is_empty() {
         return None;

@@ -46,6 +46,6 @@ pub(super) fn under(
     to_rad_per_s: f64,
     modes: usize,
 ) -> Result<StretchedBlade, StretchedError> {
-    StretchedBlade::up_to(plate, to_rad_per_s, force.place(), modes)?
-        .pressed(force.force_n, force.place())
+    StretchedBlade::up_to(plate, to_rad_per_s, force.at.polar(), modes)?
+        .pressed(force.force_n, force.at.polar())
 }

@@ -107,7 +107,7 @@ fn every_equilibrium_that_the_blade_reaches_is_on_a_curve() {
     let speed = rad_per_s(2000.0);
     let plate = plate(2200.0);
     let blade = under(&draft().side_force(), &plate, rad_per_s(2200.0), MODES).unwrap();
-    let probe = *draft().probe();
+    let probe = draft().probe();
     let mut seen = Vec::new();
     for k in 0..12 {
         let angle = std::f64::consts::TAU * f64::from(k) / 12.0;
@@ -115,7 +115,7 @@ fn every_equilibrium_that_the_blade_reaches_is_on_a_curve() {
         let pushed = blade.clone().pressed(200.0, pushed).unwrap();
         let begun = pushed.settled(speed, &blade.flat()).unwrap();
         let rest = blade.settled(speed, &begun.coordinates).unwrap();
-        let deflection_m = blade.deflection_m(&rest, probe.radius_m, probe.angle_rad);
+        let deflection_m = blade.deflection_m(&rest, probe.radius_m, probe.angle_deg.to_radians());
         let is_on = |curve: &EquilibriumCurve| {
             let mut pairs = curve.rpm.windows(2).zip(curve.deflection_m.windows(2));
             pairs.any(|(rpm, m)| {

@@ -91,8 +91,8 @@ impl OscillatingBlade {
         }
         let modes = modes.min(plate.degrees_of_freedom());
         let blade =
-            StretchedBlade::up_to_with(&plate, to_rad_per_s, force.place(), (modes, &further))?;
-        let blade = blade.pressed(force.force_n, force.place())?;
+            StretchedBlade::up_to_with(&plate, to_rad_per_s, force.at.polar(), (modes, &further))?;
+        let blade = blade.pressed(force.force_n, force.at.polar())?;
         let probe = scene.probe();
         let reduced = loads.into_iter().map(|load| {
             let vector = &load.vector;
@@ -105,7 +105,7 @@ impl OscillatingBlade {
         Ok(OscillatingBlade {
             loads: reduced.collect(),
             system: reduced_system(&plate, &blade),
-            probe: blade.shapes_at((probe.radius_m, probe.angle_rad)),
+            probe: blade.shapes_at(probe.polar()),
             cut: blade.shapes_at(cut),
             sites: blade.sites(),
             guides: scene

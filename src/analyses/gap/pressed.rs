@@ -54,7 +54,7 @@ impl PressedBlade {
         modes: usize,
     ) -> Result<Self, GapError> {
         let plate = Plate::new(scene, resolution);
-        let place = scene.side_force().place();
+        let place = scene.side_force().at.polar();
         let modes = modes.min(plate.degrees_of_freedom());
         let blade = StretchedBlade::up_to(&plate, rad_per_s(to_rpm), place, modes)?;
         Ok(PressedBlade {

@@ -63,7 +63,7 @@ const RIGID: f64 = 1e-9;
 /// The number of nodal diameters of a shape that the excitation has, but that is a rigid motion of the blade.
 pub fn loads(plate: &Plate, scene: &Scene, force_n: f64) -> Result<Vec<Load>, usize> {
     let mut loads = Vec::new();
-    let (rim, place) = (plate.blade.outer_radius_m, scene.side_force().place());
+    let (rim, place) = (plate.blade.outer_radius_m, scene.side_force().at.polar());
     let typed = scene.file().response.unwrap_or_default();
     if force_n != 0.0 {
         loads.push(Load::at(Cause::SideForce, 0, plate, place, force_n));

@@ -76,7 +76,7 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
         .map(|(load, resonances)| solver.line(&analysis, load, &speeds, resonances))
         .collect::<Result<_, _>>()?;
     let points = asked.or(operating).map(|speed| {
-        let place = scene.side_force().place();
+        let place = scene.side_force().at.polar();
         FrequencyResponse::new(&analysis, &solver, (speed, options.to_hz), place)
     });
     let points = points.transpose()?;
@@ -94,7 +94,7 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
         from_rpm: chart.campbell.from_rpm,
         to_rpm: chart.campbell.to_rpm,
         probe_radius_m: probe.radius_m,
-        probe_angle_deg: probe.angle_rad.to_degrees(),
+        probe_angle_deg: probe.angle_deg,
         cut_angle_deg: scene.file().cut_angle_deg(),
         damped: !analysis.model.is_conservative(),
         linear_limit_m: solver.limit_m,

@@ -39,10 +39,10 @@ impl Solver {
         let (probe, rim) = (scene.probe(), plate.blade.outer_radius_m);
         let angle = |k: usize| TAU * k as f64 / AROUND as f64;
         let mut probes = vec![
-            at_point(plate, probe.radius_m, probe.angle_rad),
-            at_point(plate, rim, scene.cut_angle_rad()),
+            at_point(plate, probe.polar()),
+            at_point(plate, (rim, scene.cut_angle_rad())),
         ];
-        probes.extend((0..AROUND).map(|k| at_point(plate, rim, angle(k))));
+        probes.extend((0..AROUND).map(|k| at_point(plate, (rim, angle(k)))));
         Solver {
             system: GyroscopicSystem::of_plate(plate),
             probes,

@@ -13,7 +13,7 @@ use std::f64::consts::{LN_2, TAU};
 use crate::campbell::Progress;
 use crate::plate::Plate;
 use crate::report::InstabilityBand;
-use crate::scene::{Probe, RunUpFile, Scene, SceneError, SideForce, rpm};
+use crate::scene::{Point, RunUpFile, Scene, SceneError, SideForce, rpm};
 use crate::spectrum::Mode;
 use crate::stability::Analysis;
 use crate::transient::{
@@ -105,7 +105,7 @@ impl ResponseMap {
     fn new(
         plate: &Plate,
         (runup, force): (&RunUpFile, &SideForce),
-        probe: &Probe,
+        probe: Point,
         highest_rad_per_s: f64,
     ) -> Self {
         let (from, to) = (runup.speeds().from_rad_per_s, runup.speeds().to_rad_per_s);
