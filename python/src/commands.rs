@@ -10,7 +10,7 @@ use sawflutter::analyses::gap::{self, Options as GapOptions};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
 use sawflutter::analyses::{cut, deflect, response, runup, washboard};
-use sawflutter::report::{ModeShape, NumberSensitivity};
+use sawflutter::report::{ModeShape, Sensitivity};
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
@@ -88,7 +88,7 @@ fn analyze(options: &Options<'_>) -> PyResult<Work> {
             report.add_shapes(&analysis, &asked)?;
         }
         if sensitivity {
-            report.sensitivities = NumberSensitivity::all(&analysis)?;
+            report.sensitivities = Sensitivity::all(&analysis)?;
         }
         json(&report)
     }))

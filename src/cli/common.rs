@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::commands::CommandReport;
-use crate::scene::{Accuracy, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting};
-use crate::text::{FileError, Kind, printable, read_path, read_stream};
+use crate::scene::{Accuracy, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting, quantity};
+use crate::text::{FileError, Kind, printable, read_path, read_stream, shown};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -34,8 +34,13 @@ pub struct Changes {
     /// Speed for accuracy; overrides the scene's
     #[arg(long, value_name = "NAME")]
     accuracy: Option<AccuracyName>,
-    /// Relative error allowed of critical speeds and onsets, 1e-7 to 0.1, instead of a name
-    #[arg(long, value_name = "SHARE", conflicts_with = "accuracy", value_parser = number)]
+    #[arg(
+        long,
+        value_name = "SHARE",
+        conflicts_with = "accuracy",
+        value_parser = number,
+        help = tolerance_help()
+    )]
     tolerance: Option<f64>,
 }
 
@@ -85,6 +90,15 @@ impl Input {
         let path = self.scene.as_deref();
         path.filter(|path| !is_standard_input(path))
     }
+}
+
+fn tolerance_help() -> String {
+    let allowed = const { quantity("tolerance") }.allowed;
+    format!(
+        "Relative error allowed of critical speeds and onsets, {} to {}, instead of a name",
+        shown(allowed.from),
+        shown(allowed.to)
+    )
 }
 
 /// Reads a scene from a file, or from standard input where the path is `-`.

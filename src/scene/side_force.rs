@@ -88,12 +88,11 @@ impl SceneFile {
             None => "the rim".to_owned(),
             Some(radius_m) => format!("{radius_m} m"),
         };
-        match (typed.radius_m, typed.angle_deg) {
-            (None, None) => "at the cut".to_owned(),
-            (_, angle_deg) => {
-                let angle_deg = angle_deg.unwrap_or(self.cut_angle_deg());
-                format!("at {radius} at {angle_deg}°")
-            }
+        let angle_deg = typed.angle_deg.unwrap_or(self.cut_angle_deg());
+        let is_in_cut = self.cut.is_some() && angle_deg == self.cut_angle_deg();
+        match typed.radius_m.is_none() && is_in_cut {
+            true => "at the cut".to_owned(),
+            false => format!("at {radius} at {angle_deg}°"),
         }
     }
 

@@ -303,6 +303,11 @@ fn an_invalid_study_is_refused_by_key() {
             "limit: there is no such key; did you mean limits?",
         ),
         (
+            r#"{ "path": "operating_rpm", "distribution": { "kind": "tolerance", "plus_minus": 9 } }"#.to_owned(),
+            r#""saws": 4"#,
+            "parameters[0].path is operating_rpm, but must be a number that changes critical speeds",
+        ),
+        (
             one.clone(),
             r#""saws": 4, "gap": { "force_n": 2 }"#,
             "gap.force_n: there is no such key; give it as side_force.force_n in the scene",

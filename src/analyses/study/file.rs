@@ -41,8 +41,9 @@ pub struct StudyFile {
     /// Confidence of the interval around the probability of passing.
     #[serde(default = "default_confidence")]
     pub confidence: f64,
-    /// Whether the table lists the bands of instability of each saw, in the column `bands`: kind, onset and end in rpm, largest
-    /// growth rate in 1/s, and the ranges of speed in which the band counts; bands are separated by semicolons.
+    /// Whether the table lists the bands of instability of each saw, in the column `bands`: kind, onset and end in rpm, whether both
+    /// are within the sweep, speed in rpm, growth rate in 1/s and frequency in Hz of the largest growth, and the ranges of speed in
+    /// which the band counts; bands are separated by semicolons.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub bands: bool,
 }
@@ -166,6 +167,9 @@ pub enum StudyError {
     /// The scene itself, without deviations, cannot be analysed.
     #[error("the saw of the scene itself: {0}")]
     Nominal(#[from] AnalysisError),
+    /// The values of more than a million saws could not be kept in temporary files.
+    #[error("cannot keep the saws in temporary files: {0}")]
+    Kept(#[from] std::io::Error),
 }
 
 impl StudyFile {

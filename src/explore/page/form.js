@@ -287,7 +287,8 @@ export class Form {
   #number(schema, path, key, value, required) {
     const { unit, scale, name, digits } = unitOf(path);
     const whole = schema.type === "integer";
-    const usual = fieldOf(path)?.usual;
+    const field = fieldOf(path);
+    const usual = field.usual;
     const fallback = schema.default ?? undefined;
     const input = node("input", { id: path, type: "text", inputMode: "decimal", autocomplete: "off" });
     const typical = schema.examples?.[0];
@@ -297,9 +298,9 @@ export class Form {
     const fullName = inWords(path, name);
     input.setAttribute("aria-label", unit ? `${fullName}, ${unit}` : fullName);
     slider.setAttribute("aria-label", `${fullName}, slider`);
-    const range = new Range(key, value ?? fallback, usual, this.state.scene);
+    const range = new Range(field, value ?? fallback, this.state.scene);
     const send = (number, options) => this.state.set(path, number, options);
-    const isUsual = (typed) => !usual || (usual[0] <= typed / scale && typed / scale <= usual[1]);
+    const isUsual = (typed) => usual[0] <= typed / scale && typed / scale <= usual[1];
     input.addEventListener("change", () => {
       const number = numberOf(input.value, isUsual);
       if (input.value.trim() === "" && !required) send(undefined);
