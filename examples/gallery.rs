@@ -15,7 +15,9 @@ use sawflutter::analyses::response::{self, response};
 use sawflutter::analyses::runup::runup;
 use sawflutter::analyses::study::StudyReport;
 use sawflutter::commands::CommandReport;
-use sawflutter::scene::{Accuracy, ContactLaw, Freed, Scene, SceneError, SceneFile, rad_per_s};
+use sawflutter::scene::{
+    Accuracy, ContactLaw, Freed, Scene, SceneError, SceneFile, SideForceFile, rad_per_s,
+};
 use sawflutter::stability::Analysis;
 
 fn main() -> anyhow::Result<()> {
@@ -136,8 +138,8 @@ fn further(root: &Path) -> anyhow::Result<Vec<Figure>> {
     figures.extend(svgs(&compare(saws, &|_, _| ())?)?);
 
     let excited = draft("paper", &|saw| {
-        let response = saw.response.get_or_insert_default();
-        (response.force_n, response.flatness_m) = (5.0, 5e-5);
+        saw.side_force = Some(SideForceFile::of(5.0));
+        saw.response.get_or_insert_default().flatness_m = 5e-5;
     })?;
     let report = response(&excited, &response::Options::default())?;
     figures.extend(svgs(&report)?.into_iter().take(1));

@@ -30,7 +30,7 @@
 //! use sawflutter::prelude::*;
 //!
 //! let saw = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft)?;
-//! let options = Options { to_rpm: Some(1600.0), ..Options::default() };
+//! let options = Options { to_rpm: Some(1600.0) };
 //! let found = sawflutter::deflect(&saw, &options)?;
 //! println!("{}", found.summary());
 //! assert!(found.up.jumps.is_empty());
@@ -48,6 +48,7 @@
 //! | what happens in a run-up | [`runup()`] |
 //! | which stiffness, density … has a measured saw | [`fit()`] |
 //! | where do guides belong | [`place()`] |
+//! | how many saws within tolerances keep their limits | [`study()`] |
 //! | how does stability change over one or two numbers | [`map()`] |
 //! | how do saws differ | [`compare()`] |
 //! | what does accuracy cost | [`tradeoff()`] |
@@ -109,6 +110,7 @@ pub use analyses::map::map;
 pub use analyses::place::place;
 pub use analyses::response::response;
 pub use analyses::runup::runup;
+pub use analyses::study::study;
 pub use analyses::tradeoff::tradeoff;
 pub use analyses::washboard::washboard;
 

@@ -255,7 +255,7 @@ class Questions(Searches):
         tolerance: Number = None,
         progress: Progress = None,
     ) -> RunUpResults:
-        """Computes a run-up under a lateral force, both from the scene's ``runup``.
+        """Computes a run-up under the side force, from the scene's ``runup`` and ``side_force``.
 
         Parameters
         ----------
@@ -295,10 +295,10 @@ class Questions(Searches):
         Parameters
         ----------
         force_n : float, optional
-            Constant lateral force at the rim, fixed in space; by default that of the scene's
-            ``runup``, or 1 N.
+            Constant lateral force, fixed in space, in place of the scene's ``side_force.force_n``;
+            1 N in a scene without one.
         angle_deg : float, optional
-            Angle of the force; by default that of the scene's ``runup``, or 0.
+            Angle of the force, in place of the scene's ``side_force.angle_deg``.
         to_rpm : float, optional
             Last speed; by default the end of the scene's sweep.
         accuracy, tolerance, progress
@@ -322,8 +322,8 @@ class Questions(Searches):
         >>> found.beyond_thickness_rpm is None
         True
         """
-        force = {"force_n": force_n, "angle_deg": angle_deg}
-        return self._asked(DeflectResults, accuracy, tolerance, progress, **force, to_rpm=to_rpm)
+        scene = self._with({"side_force.force_n": force_n, "side_force.angle_deg": angle_deg})
+        return scene._asked(DeflectResults, accuracy, tolerance, progress, to_rpm=to_rpm)
 
     def run_response(
         self,
@@ -334,8 +334,8 @@ class Questions(Searches):
         tolerance: Number = None,
         progress: Progress = None,
     ) -> ResponseResults:
-        """Computes the steady state over the speed for the excitation of the block ``response`` of
-        the scene, or for a side force of 1 N.
+        """Computes the steady state over the speed for the excitation of the blocks ``side_force``
+        and ``response`` of the scene, or for a side force of 1 N.
 
         Parameters
         ----------
@@ -361,7 +361,7 @@ class Questions(Searches):
         Examples
         --------
         >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper().replace({"response": {"force_n": 2.0}, "runup": None})
+        >>> saw = sf.Scene.paper().replace({"side_force": {"force_n": 2.0}})
         >>> r = saw.run_response(accuracy="draft")
         >>> [line.name for line in r.lines]
         ['side force, static']
@@ -375,7 +375,7 @@ class Questions(Searches):
         rpm: Number = None,
         max_deviation_mm: Number = None,
         oscillating_force_n: Number = None,
-        oscillating_order: int = 1,
+        oscillating_order: int | None = None,
         friction: Number = None,
         accuracy: Accuracy | None = None,
         tolerance: Number = None,
@@ -387,18 +387,21 @@ class Questions(Searches):
         Parameters
         ----------
         force_n : float, optional
-            Side force at the rim at the cut; that of the scene's ``runup`` by default, or 1 N.
+            Constant side force, in place of the scene's ``side_force.force_n``; 1 N in a scene
+            without one.
         rpm : float, optional
             Speed of the map over gap and force; the operating speed by default, or half of the
             first critical speed.
         max_deviation_mm : float, optional
             Largest deflection at the cut that is allowed.
         oscillating_force_n : float, optional
-            Amplitude of a side force at the rim at the cut that oscillates. With it, or with
-            ``runout_m``, ``flatness_m`` or ``imbalance_kg_m2`` in the scene's ``response``, the
-            oscillation of the blade about its deflection is computed.
-        oscillating_order : int
-            Ratio of the frequency of this force to that of rotation.
+            Amplitude of a side force that oscillates, in place of the scene's
+            ``side_force.oscillating_n``. With it, or with ``runout_m``, ``flatness_m`` or
+            ``imbalance_kg_m2`` in the scene's ``response``, the oscillation of the blade about its
+            deflection is computed.
+        oscillating_order : int, optional
+            Ratio of the frequency of this force to that of rotation, in place of the scene's
+            ``side_force.order``; 1 in a scene without one.
         friction : float, optional
             Coefficient of friction of the pads in place of the scene's ``friction.coefficient``. With
             friction the heat of the pads is computed, and the deflection of the blade that it heats.
@@ -425,17 +428,19 @@ class Questions(Searches):
         >>> bool(r.free.critical_rpm[0] < r.linear.critical_rpm[0])
         True
         """
-        scene = self if friction is None else self.replace({"friction.coefficient": friction})
-        return scene._asked(
+        numbers = {
+            "side_force.force_n": force_n,
+            "side_force.oscillating_n": oscillating_force_n,
+            "side_force.order": oscillating_order,
+            "friction.coefficient": friction,
+        }
+        return self._with(numbers)._asked(
             GapResults,
             accuracy,
             tolerance,
             progress,
-            force_n=force_n,
             rpm=rpm,
             max_deviation_mm=max_deviation_mm,
-            oscillating_force_n=oscillating_force_n,
-            oscillating_order=oscillating_order,
         )
 
     def run_washboard(

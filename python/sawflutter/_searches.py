@@ -28,6 +28,7 @@ from .results import CampbellResults
 
 if TYPE_CHECKING:
     from distributed import Client
+    from typing_extensions import Self
 
     from .maps import Along, MapResults
     from .scene import Scene
@@ -40,6 +41,11 @@ class Searches(SceneData):
     """Methods of a scene that compute many saws, or that return matrices."""
 
     __slots__ = ()
+
+    def _with(self, numbers: dict[str, Number]) -> Self:
+        """The scene with those numbers that are not None, each by its path."""
+        given = {path: number for path, number in numbers.items() if number is not None}
+        return self.replace(given) if given else self
 
     def _asked(
         self,
@@ -162,8 +168,8 @@ class Searches(SceneData):
         max_deviation_mm : float, optional
             Largest allowed deflection at the cut at the operating speed, with guides with a gap.
         force_n : float, optional
-            Side force at the rim at the cut for this limit; that of the scene's ``runup`` by
-            default, or 1 N.
+            Constant side force for this limit, in place of the scene's ``side_force.force_n``;
+            1 N in a scene without one.
         samples, refine, map : int
             Number of saws in the first sampling of the bounds, of saws in each refinement, and of
             points of the map along each axis (0 for no map).
@@ -196,7 +202,7 @@ class Searches(SceneData):
         >>> [parameter.path for parameter in found.parameters]
         ['guides[0].radius_m']
         """
-        return self._asked(
+        return self._with({"side_force.force_n": force_n})._asked(
             PlaceResults,
             accuracy,
             tolerance,
@@ -206,7 +212,6 @@ class Searches(SceneData):
             min_critical_rpm=min_critical_rpm,
             amplitude_mm=amplitude_mm,
             max_deviation_mm=max_deviation_mm,
-            force_n=force_n,
             samples=whole("samples", samples),
             refine=whole("refine", refine),
             map=whole("map", map),

@@ -6,11 +6,11 @@ use pyo3::types::PyDict;
 use sawflutter::analyses::check::{self, Limits, LimitsFile};
 use sawflutter::analyses::compare::{Saw, compare as compare_saws};
 use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
-use sawflutter::analyses::gap::{self, Options as GapOptions, OscillatingForce};
+use sawflutter::analyses::gap::{self, Options as GapOptions};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
 use sawflutter::analyses::{cut, deflect, response, runup, washboard};
-use sawflutter::report::{ModeShape, NumberSensitivity};
+use sawflutter::report::{ModeShape, Sensitivity};
 use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
@@ -88,7 +88,7 @@ fn analyze(options: &Options<'_>) -> PyResult<Work> {
             report.add_shapes(&analysis, &asked)?;
         }
         if sensitivity {
-            report.sensitivities = NumberSensitivity::all(&analysis)?;
+            report.sensitivities = Sensitivity::all(&analysis)?;
         }
         json(&report)
     }))
@@ -175,15 +175,13 @@ fn runup(scene: &Scene, meter: &Meter) -> Result<String, Failure> {
     json(&runup::runup(scene, &|done, of| meter.show(done, of))?)
 }
 
-/// `deflect.json` under a force, up to a speed.
+/// `deflect.json`, up to a speed.
 fn deflect(options: &Options<'_>) -> PyResult<Work> {
     let options = deflect::Options {
-        force_n: options.get("force_n")?,
-        angle_deg: options.get("angle_deg")?,
         to_rpm: options.get("to_rpm")?,
     };
     Ok(Box::new(move |scene, _| {
-        options.checked(scene)?;
+        options.checked()?;
         json(&deflect::deflect(scene, &options)?)
     }))
 }
@@ -200,15 +198,11 @@ fn response(options: &Options<'_>) -> PyResult<Work> {
     }))
 }
 
-/// `gap.json` under a side force at the cut, at a speed.
+/// `gap.json`, at a speed.
 fn gap(options: &Options<'_>) -> PyResult<Work> {
-    let amplitude_n: Option<f64> = options.get("oscillating_force_n")?;
-    let order = options.get("oscillating_order")?;
     let options = GapOptions {
-        force_n: options.get("force_n")?,
         rpm: options.get("rpm")?,
         max_deviation_mm: options.get("max_deviation_mm")?,
-        oscillating: amplitude_n.map(|amplitude_n| OscillatingForce { amplitude_n, order }),
     };
     Ok(Box::new(move |scene, _| {
         options.checked(scene)?;
@@ -260,7 +254,6 @@ fn place(options: &Options<'_>) -> PyResult<Work> {
     let min_critical_rpm = options.get("min_critical_rpm")?;
     let amplitude_mm = options.get("amplitude_mm")?;
     let max_deviation_mm = options.get("max_deviation_mm")?;
-    let force_n = options.get("force_n")?;
     let refine: u64 = options.get("refine")?;
     let options = PlaceOptions {
         samples: options.get("samples")?,
@@ -290,7 +283,7 @@ fn place(options: &Options<'_>) -> PyResult<Work> {
             }
         };
         let demands = Demands {
-            gap: GapDemands::new(scene, amplitude_mm, max_deviation_mm, force_n)?,
+            gap: GapDemands::new(scene, amplitude_mm, max_deviation_mm)?,
             ..Demands::new(around_rpm, min_critical_rpm)?
         };
         let options = options.checked()?;

@@ -140,6 +140,7 @@ impl From<StudyError> for Failure {
                 other => other,
             },
             StudyError::Nominal(source) => source.into(),
+            StudyError::Kept(source) => Failure::Unreadable(source, message),
         }
     }
 }

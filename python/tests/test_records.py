@@ -150,8 +150,8 @@ def unlowered(rows: list[tuple[float, list[float]]], step_s: float) -> list[tupl
 
 def test_a_fit_to_a_computed_run_up_finds_the_guide(draft: sf.Scene) -> None:
     pytest.importorskip("scipy")
-    force = {"from_rpm": 0, "to_rpm": 1400, "duration_s": 60, "force_n": 50}
-    saw = draft.replace({"cut": None, "measured": None, "runup": force})
+    course = {"from_rpm": 0, "to_rpm": 1400, "duration_s": 60}
+    saw = draft.replace({"cut": None, "measured": None, "runup": course, "side_force": {"force_n": 50}})
     up = saw.run_up()
     computed = sf.Record.of_run_up(up)
     turns = 2.0 * np.pi * np.cumsum(computed.rpm) / 60.0 / computed.rate_hz

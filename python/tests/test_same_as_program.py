@@ -66,7 +66,7 @@ def test_the_report_of_deflect(programs: list[str], scenes: Path, tmp_path: Path
 
 
 def test_the_report_of_a_response(programs: list[str], scenes: Path, tmp_path: Path) -> None:
-    causes = {"force_n": 2.0, "flatness_m": 5e-5}
+    causes = {"flatness_m": 5e-5}
     saw = sf.Scene.load(scenes / "paper.json").replace(
         {"response": causes, "sweep.to_rpm": 1000, "runup": None}
     )

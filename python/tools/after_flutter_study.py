@@ -24,10 +24,10 @@ LONG = {"runup.to_rpm": 2800.0, "runup.duration_s": 21.0}
 MATERIAL, AIR = "damping.material_retardation_time_s", "damping.air_n_s_per_m3"
 ROWS: list[tuple[str, dict[str, float]]] = [
     ("5 N at 0°, without damping", {}),
-    ("0.001 N", {"runup.force_n": 1e-3}),
-    ("0.1 N", {"runup.force_n": 0.1}),
-    ("0.1 N, to 2800 rpm in 21 s", {"runup.force_n": 0.1, **LONG}),
-    ("20 N", {"runup.force_n": 20.0}),
+    ("0.001 N", {"side_force.force_n": 1e-3}),
+    ("0.1 N", {"side_force.force_n": 0.1}),
+    ("0.1 N, to 2800 rpm in 21 s", {"side_force.force_n": 0.1, **LONG}),
+    ("20 N", {"side_force.force_n": 20.0}),
     ("air at rest 10 N s/m³", {AIR: 10.0}),
     ("air at rest 30 N s/m³", {AIR: 30.0}),
     ("air at rest 100 N s/m³", {AIR: 100.0}),

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::figure::CampbellView;
-use crate::report::{NumberSensitivity, Report, VTK_NAMES, Whirl};
+use crate::report::{Report, Sensitivity, VTK_NAMES, Whirl};
 use crate::scene::{Scene, SpeedRange};
 use crate::stability::{Analysis, AnalysisOptions, ExpectedWork};
 use anyhow::Context;
@@ -221,7 +221,7 @@ fn watched_report(
         report.add_amplitudes(&analysis)?;
     }
     if arguments.sensitivity {
-        report.sensitivities = NumberSensitivity::all(&analysis)?;
+        report.sensitivities = Sensitivity::all(&analysis)?;
     }
     Ok(report)
 }

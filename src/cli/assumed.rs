@@ -11,8 +11,8 @@ use super::common::of_option;
 pub struct Given<'a> {
     /// Name of the option, without dashes.
     pub option: &'static str,
-    /// Key of the number in the block.
-    pub key: &'static str,
+    /// Path of the number in the scene.
+    pub path: &'static str,
     /// Text of the option; `None` if it is not given.
     pub text: Option<&'a String>,
 }
@@ -42,7 +42,7 @@ impl Block<'_> {
         let path = |key: &str| format!("{}.{key}", self.name);
         let mut settings = Vec::new();
         for given in given() {
-            settings.push(Setting::new(path(given.key), self.number(given)?));
+            settings.push(Setting::new(given.path.to_owned(), number(given)?));
         }
         let mut file = scene.file().clone();
         let assumed = match self.is_missing {
@@ -77,7 +77,7 @@ impl Block<'_> {
     fn usual_beside_given(&self, scene: &SceneFile) -> Map<String, Value> {
         let is_given = |key: &str| {
             let mut given = self.given.iter();
-            given.any(|given| given.key == key && given.text.is_some())
+            given.any(|given| given.path == format!("{}.{key}", self.name) && given.text.is_some())
         };
         let is_beaten = |key: &str| {
             let mut wins = self.wins.iter();
@@ -89,15 +89,15 @@ impl Block<'_> {
         block.retain(|key, _| !is_given(key) && !is_beaten(key));
         block
     }
+}
 
-    /// Parses the number of an option, in the unit of its key.
-    fn number(&self, given: &Given) -> anyhow::Result<f64> {
-        let text = given.text.map_or("", String::as_str);
-        number_of(&format!("{}.{}", self.name, given.key), text).map_err(|mut refused| {
-            refused.key = given.option.into();
-            of_option(refused)
-        })
-    }
+/// Parses the number of an option, in the unit of its key.
+fn number(given: &Given) -> anyhow::Result<f64> {
+    let text = given.text.map_or("", String::as_str);
+    number_of(given.path, text).map_err(|mut refused| {
+        refused.key = given.option.into();
+        of_option(refused)
+    })
 }
 
 /// The scene with a list in a block, which a [`Setting`] cannot express.

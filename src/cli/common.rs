@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::commands::CommandReport;
-use crate::scene::{Accuracy, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting};
-use crate::text::{FileError, Kind, printable, read_path, read_stream};
+use crate::scene::{Accuracy, RefusedValue, SCENE_TEXT, Scene, SceneError, Setting, quantity};
+use crate::text::{FileError, Kind, printable, read_path, read_stream, shown};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -34,8 +34,13 @@ pub struct Changes {
     /// Speed for accuracy; overrides the scene's
     #[arg(long, value_name = "NAME")]
     accuracy: Option<AccuracyName>,
-    /// Relative error allowed of critical speeds and onsets, 1e-7 to 0.1, instead of a name
-    #[arg(long, value_name = "SHARE", conflicts_with = "accuracy", value_parser = number)]
+    #[arg(
+        long,
+        value_name = "SHARE",
+        conflicts_with = "accuracy",
+        value_parser = number,
+        help = tolerance_help()
+    )]
     tolerance: Option<f64>,
 }
 
@@ -90,6 +95,15 @@ impl Input {
     }
 }
 
+fn tolerance_help() -> String {
+    let allowed = const { quantity("tolerance") }.allowed;
+    format!(
+        "Relative error allowed of critical speeds and onsets, {} to {}, instead of a name",
+        shown(allowed.from),
+        shown(allowed.to)
+    )
+}
+
 /// Reads a scene from a file, or from standard input where the path is `-`.
 pub fn read_scene(path: &Path) -> anyhow::Result<Scene> {
     let text = read_text(path, SCENE_TEXT)?;
@@ -135,6 +149,20 @@ pub fn with_settings<'a>(
     let settings = texts.map(str::parse).collect::<Result<Vec<Setting>, _>>();
     let settings = settings.with_context(refused)?;
     scene.file().set(&settings).with_context(refused)
+}
+
+/// The scene with numbers of options that are short for `--set PATH=…`, each an option, a path and its text.
+pub fn with_shorthands(
+    mut scene: Scene,
+    given: &[(&str, &str, &Option<String>)],
+) -> anyhow::Result<Scene> {
+    for (option, path, text) in given {
+        if let Some(text) = text {
+            let text = format!("{path}={text}");
+            scene = with_settings(&scene, std::iter::once(text.as_str()), option)?;
+        }
+    }
+    Ok(scene)
 }
 
 /// Parses the number of an option.

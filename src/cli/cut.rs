@@ -68,20 +68,28 @@ struct Forces {
 
 impl Forces {
     fn applied(&self, scene: Scene) -> anyhow::Result<Scene> {
-        let given = |option, key, text| Given { option, key, text };
+        let given = |option, path, text| Given { option, path, text };
         let given = [
-            given("power", "power_w", self.power.as_ref()),
-            given("depth", "depth_m", self.depth.as_ref()),
-            given("teeth-in-cut", "teeth_in_cut", self.teeth_in_cut.as_ref()),
+            given("power", "cut.power_w", self.power.as_ref()),
+            given("depth", "cut.depth_m", self.depth.as_ref()),
+            given(
+                "teeth-in-cut",
+                "cut.teeth_in_cut",
+                self.teeth_in_cut.as_ref(),
+            ),
             given(
                 "tangential",
-                "tangential_n_per_tooth",
+                "cut.tangential_n_per_tooth",
                 self.tangential.as_ref(),
             ),
-            given("radial", "radial_n_per_tooth", self.radial.as_ref()),
-            given("lateral", "lateral_n_per_tooth", self.lateral.as_ref()),
-            given("feed", "feed_m_per_s", self.feed.as_ref()),
-            given("board-length", "board_length_m", self.board_length.as_ref()),
+            given("radial", "cut.radial_n_per_tooth", self.radial.as_ref()),
+            given("lateral", "cut.lateral_n_per_tooth", self.lateral.as_ref()),
+            given("feed", "cut.feed_m_per_s", self.feed.as_ref()),
+            given(
+                "board-length",
+                "cut.board_length_m",
+                self.board_length.as_ref(),
+            ),
         ];
         let block = Block {
             name: "cut",

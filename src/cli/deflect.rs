@@ -3,7 +3,7 @@
 use crate::analyses::deflect::{DeflectError, Options, deflect};
 use clap::Args;
 
-use super::common::{Common, number, of_option};
+use super::common::{Common, number, of_option, with_shorthands};
 use super::page::Page;
 use super::progress::watched;
 
@@ -23,12 +23,12 @@ the scene's `probe`.";
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// Constant force across the blade at its rim; by default that of the scene's run-up, or 1 N
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
-    force_n: Option<f64>,
-    /// Angle of the force, fixed in space; by default that of the scene's run-up, or 0
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = number)]
-    angle_deg: Option<f64>,
+    /// Constant force across the blade, as `--set side_force.force_n=N`; 1 N in a scene without one
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    force_n: Option<String>,
+    /// Angle of the force, fixed in space, as `--set side_force.angle_deg=DEG`; by default that of the cut
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    angle_deg: Option<String>,
     /// Last speed; by default the end of the scene's sweep
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     to_rpm: Option<f64>,
@@ -38,13 +38,15 @@ pub struct Arguments {
 
 /// Follows the equilibria, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let scene = arguments.common.scene()?;
+    let given = [
+        ("--force-n", "side_force.force_n", &arguments.force_n),
+        ("--angle-deg", "side_force.angle_deg", &arguments.angle_deg),
+    ];
+    let scene = with_shorthands(arguments.common.scene()?, &given)?;
     let options = Options {
-        force_n: arguments.force_n,
-        angle_deg: arguments.angle_deg,
         to_rpm: arguments.to_rpm,
     };
-    options.checked(&scene).map_err(of_option)?;
+    options.checked().map_err(of_option)?;
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;
     let report = watched(|_| deflect(&scene, &options))?;

@@ -1,9 +1,9 @@
 //! `sawflutter gap`.
 
-use crate::analyses::gap::{GapError, Options, OscillatingForce, gap};
+use crate::analyses::gap::{GapError, Options, gap};
 use clap::Args;
 
-use super::common::{Common, number, of_option, with_settings};
+use super::common::{Common, number, of_option, with_shorthands};
 use super::page::Page;
 use super::progress::watched;
 
@@ -17,33 +17,28 @@ Examples:
   sawflutter gap my-saw.json --json | jq .half_way_amplitude_m
 
 At least one guide needs `contact` one_sided and a `gap_m`. The deflection is
-that of the rim at the cut under a side force there.";
+that of the rim at the cut under the scene's `side_force`, by default 1 N there.";
 
 #[derive(Args)]
 pub struct Arguments {
     #[command(flatten)]
     common: Common,
-    /// Side force at the rim at the cut; by default that of the scene's run-up, or 1 N
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
-    force_n: Option<f64>,
+    /// Constant side force, as `--set side_force.force_n=N`; 1 N in a scene without one
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    force_n: Option<String>,
     /// Speed of the map; by default the operating speed, or half of the first critical speed
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     rpm: Option<f64>,
     /// Largest deflection at the cut that is allowed
     #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
     max_deviation_mm: Option<f64>,
-    /// Amplitude of a side force at the rim at the cut that oscillates: the oscillation of the blade beside its deflection.
-    /// Run-out, flatness and imbalance of the scene's `response` make it oscillate, too
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
-    oscillating_force_n: Option<f64>,
-    /// Ratio of the frequency of this force to that of rotation
-    #[arg(
-        long,
-        value_name = "K",
-        default_value_t = 1,
-        requires = "oscillating_force_n"
-    )]
-    oscillating_order: u32,
+    /// Amplitude of a side force that oscillates, as `--set side_force.oscillating_n=N`: the oscillation of the blade beside its
+    /// deflection. Run-out, flatness and imbalance of the scene's `response` make it oscillate, too
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    oscillating_force_n: Option<String>,
+    /// Ratio of the frequency of this force to that of rotation, as `--set side_force.order=K`; 1 by default
+    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    oscillating_order: Option<String>,
     /// Coefficient of friction of the pads, for their heat and the deflection with it, as `--set friction.coefficient=MU`
     #[arg(long, value_name = "MU", allow_negative_numbers = true)]
     friction: Option<String>,
@@ -53,22 +48,24 @@ pub struct Arguments {
 
 /// Evaluates the gaps, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let scene = arguments.common.scene()?;
-    let friction = arguments.friction.iter();
-    let friction: Vec<String> = friction
-        .map(|mu| format!("friction.coefficient={mu}"))
-        .collect();
-    let scene = with_settings(&scene, friction.iter().map(String::as_str), "--friction")?;
+    let given = [
+        ("--force-n", "side_force.force_n", &arguments.force_n),
+        (
+            "--oscillating-force-n",
+            "side_force.oscillating_n",
+            &arguments.oscillating_force_n,
+        ),
+        (
+            "--oscillating-order",
+            "side_force.order",
+            &arguments.oscillating_order,
+        ),
+        ("--friction", "friction.coefficient", &arguments.friction),
+    ];
+    let scene = with_shorthands(arguments.common.scene()?, &given)?;
     let options = Options {
-        force_n: arguments.force_n,
         rpm: arguments.rpm,
         max_deviation_mm: arguments.max_deviation_mm,
-        oscillating: arguments
-            .oscillating_force_n
-            .map(|amplitude_n| OscillatingForce {
-                amplitude_n,
-                order: arguments.oscillating_order,
-            }),
     };
     let refused = |refused: crate::scene::RefusedValue| match refused.key.contains('.') {
         true => refused.into(),

@@ -4,7 +4,7 @@ use crate::analyses::place::{Demands, GapDemands, Options, Tolerances, place};
 use crate::scene::{Freed, RefusedValue, Scene};
 use clap::{Args, ValueEnum};
 
-use super::common::{Common, count, number, of_option};
+use super::common::{Common, count, number, of_option, with_shorthands};
 use super::free::named_bounds;
 use super::page::Page;
 use super::progress::watched;
@@ -46,9 +46,14 @@ pub struct Arguments {
     /// Upper limit of the deflection at the cut at the operating speed, with the gaps of one-sided guides
     #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
     max_deviation_mm: Option<f64>,
-    /// Side force at the rim at the cut for this limit; by default that of the scene's run-up, or 1 N
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
-    force_n: Option<f64>,
+    /// Constant side force for this limit, as `--set side_force.force_n=N`; 1 N in a scene without one
+    #[arg(
+        long,
+        value_name = "N",
+        allow_hyphen_values = true,
+        requires = "max_deviation_mm"
+    )]
+    force_n: Option<String>,
     /// Saws spread over the bounds at first
     #[arg(long, value_name = "COUNT", default_value_t = 64, value_parser = count::<usize>)]
     samples: usize,
@@ -84,7 +89,8 @@ enum GoalName {
 
 /// Searches for the best place, writes the files and prints the summary. Returns whether the limit is kept.
 pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
-    let scene = arguments.common.scene()?;
+    let given = [("--force-n", "side_force.force_n", &arguments.force_n)];
+    let scene = with_shorthands(arguments.common.scene()?, &given)?;
     let demands = demands(arguments, &scene)?;
     let options = Options {
         samples: arguments.samples,
@@ -122,15 +128,13 @@ fn demands(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Demands> {
     let Arguments {
         amplitude_mm,
         max_deviation_mm,
-        force_n,
         ..
     } = *arguments;
-    let gap = GapDemands::new(scene, amplitude_mm, max_deviation_mm, force_n);
-    let refused =
-        |refused: RefusedValue| match refused.key.ends_with("_mm") || refused.key == "force_n" {
-            true => of_option(refused),
-            false => refused.into(),
-        };
+    let gap = GapDemands::new(scene, amplitude_mm, max_deviation_mm);
+    let refused = |refused: RefusedValue| match refused.key.ends_with("_mm") {
+        true => of_option(refused),
+        false => refused.into(),
+    };
     Ok(Demands {
         gap: gap.map_err(refused)?,
         ..demands

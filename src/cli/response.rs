@@ -9,15 +9,15 @@ use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
 Examples:
-  sawflutter response my-saw.json              # what the scene's `response` has
-  sawflutter response my-saw.json --set response.force_n=5N \\
+  sawflutter response my-saw.json              # what the scene has of causes
+  sawflutter response my-saw.json --set side_force.force_n=5N \\
     --set response.flatness_m=0.05mm           # a side force, a warped blade
   sawflutter response my-saw.json --rpm 1200 --to-hz 300
                              # from the force to the probe, over the frequency
   sawflutter response my-saw.json --json | jq '.lines[].resonances'
 
-Causes are keys of the block `response`: force_n, runout_m, flatness_m,
-imbalance_kg_m2, tooth_force_n. Without any, the force is 1 N.";
+Causes are `side_force`, constant or oscillating, and runout_m, flatness_m and
+imbalance_kg_m2 of the block `response`. Without any, the force is 1 N.";
 
 #[derive(Args)]
 pub struct Arguments {

@@ -18,7 +18,7 @@ Examples:
   sawflutter runup --stretching            # past five thicknesses
   sawflutter runup --json | jq '.bands[]'  # for scripts
 
-Speeds, duration and force are the scene's `runup`, the probe its `probe`.";
+Speeds and duration are the scene's `runup`, the force its `side_force` or 1 N,\nthe probe its `probe`.";
 
 #[derive(Args)]
 pub struct Arguments {
@@ -33,7 +33,7 @@ pub struct Arguments {
     page: Page,
 }
 
-/// Numbers of the scene's `runup`, with or without a unit. If the scene has no run-up, the others are assumed and
+/// Numbers of the scene's `runup` and `side_force`, with or without a unit. If the scene has no run-up, the others are assumed and
 /// printed.
 #[derive(Args)]
 #[command(next_help_heading = "Numbers of the run-up, with or without a unit")]
@@ -47,7 +47,7 @@ struct Course {
     /// Time it takes, in s, or like 2min
     #[arg(long, value_name = "TIME")]
     seconds: Option<String>,
-    /// Lateral force at the rim, in N
+    /// Constant side force, in N
     #[arg(long, value_name = "FORCE", allow_hyphen_values = true)]
     force: Option<String>,
     /// Angle of the force, in degrees, positive with the rotation
@@ -57,13 +57,13 @@ struct Course {
 
 impl Course {
     fn applied(&self, scene: Scene) -> anyhow::Result<Scene> {
-        let given = |option, key, text| Given { option, key, text };
+        let given = |option, path, text| Given { option, path, text };
         let given = [
-            given("from", "from_rpm", self.from.as_ref()),
-            given("to", "to_rpm", self.to.as_ref()),
-            given("seconds", "duration_s", self.seconds.as_ref()),
-            given("force", "force_n", self.force.as_ref()),
-            given("angle", "angle_deg", self.angle.as_ref()),
+            given("from", "runup.from_rpm", self.from.as_ref()),
+            given("to", "runup.to_rpm", self.to.as_ref()),
+            given("seconds", "runup.duration_s", self.seconds.as_ref()),
+            given("force", "side_force.force_n", self.force.as_ref()),
+            given("angle", "side_force.angle_deg", self.angle.as_ref()),
         ];
         let block = Block {
             name: "runup",

@@ -14,7 +14,7 @@ use super::told::Told;
 use super::under_way::UnderWay;
 use crate::figure::ChartData;
 use crate::plate::Resolution;
-use crate::report::{NumberSensitivity, Report};
+use crate::report::{Report, Sensitivity};
 use crate::scene::{Accuracy, Scene, SceneError};
 use crate::stability::{Analysis, AnalysisOptions, Detail, Interim};
 
@@ -169,7 +169,7 @@ impl Charts {
         let chart: usize = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
         let found = self.find(chart, |kept| (kept.analysis.clone(), kept.report.clone()));
         let (analysis, report) = found.ok_or_else(|| Refusal::gone(chart))?;
-        let entries = NumberSensitivity::all(&analysis).map_err(|error| Refusal::of(&error))?;
+        let entries = Sensitivity::all(&analysis).map_err(|error| Refusal::of(&error))?;
         let report = report.unwrap_or_else(|| Arc::new(analysis.report()));
         Ok(influences(&entries, &report))
     }

@@ -37,6 +37,8 @@ pub struct Field {
     pub label: String,
     /// Whether the number is a count.
     pub whole: bool,
+    /// Kind of the number.
+    kind: Kind,
     /// Range that includes all saws in use, in the unit of the key.
     pub usual: (f64, f64),
     metric: FieldUnit,
@@ -123,6 +125,7 @@ impl Field {
             name: quantity.name,
             label: label.replace('_', " "),
             whole: quantity.kind == Kind::Count,
+            kind: quantity.kind,
             usual: quantity.usual,
             metric,
             inches,

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::report::{NumberSensitivity, Report};
+use crate::report::{Report, Sensitivity};
 
 /// Influence of a number.
 #[derive(Debug, Serialize)]
@@ -16,7 +16,7 @@ pub struct Influence {
 }
 
 /// Returns the influences on the first critical speed and the flutter speed.
-pub fn influences(entries: &[NumberSensitivity], report: &Report) -> Vec<Influence> {
+pub fn influences(entries: &[Sensitivity], report: &Report) -> Vec<Influence> {
     let critical = report.critical_speeds.first().map(|critical| critical.rpm);
     let flutter = report.flutter_speed_rpm;
     let band = flutter.and_then(|rpm| {
@@ -47,7 +47,7 @@ pub fn influences(entries: &[NumberSensitivity], report: &Report) -> Vec<Influen
     influences.collect()
 }
 
-fn words(entry: &NumberSensitivity, change: &[Option<f64>; 2]) -> String {
+fn words(entry: &Sensitivity, change: &[Option<f64>; 2]) -> String {
     let named = ["critical", "flutter"].into_iter().zip(change);
     let parts: Vec<String> = named
         .filter_map(|(name, rpm)| Some(format!("{name} {}", signed((*rpm)?))))

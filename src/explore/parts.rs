@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::refusal::Refusal;
-use super::usual::{SPLINE, between, guide, inner, mount, next_row, rim, runup, usual_teeth};
+use super::usual::{SPLINE, between, guide, inner, mount, next_row, rim, side_force, usual_teeth};
 use crate::scene::typical::rounded;
 use crate::scene::{
     CutFile, CutSpeedFile, DampingFile, ExcitationFile, FrictionFile, ModeRatioRow, ProbeFile,
@@ -63,12 +63,14 @@ fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
                 to_rpm: rounded(2.0 * typical::operating_rpm(scene), 2),
             });
         }
-        "runup" => scene.runup = Some(runup(scene)?),
+        "side_force" => scene.side_force = Some(side_force(scene)),
+        "runup" => {
+            scene.runup = serde_json::from_value(typical::runup(scene)).ok()?;
+            let usual = side_force(scene);
+            scene.side_force.get_or_insert(usual);
+        }
         "response" => {
-            scene.response = Some(ResponseFile {
-                force_n: const { typical_value("response.force_n") },
-                ..ResponseFile::default()
-            });
+            scene.response = Some(ResponseFile::default());
         }
         "damping.mode_ratios[]" => {
             let rows = &mut scene.damping.get_or_insert_default().mode_ratios;
@@ -206,7 +208,7 @@ mod tests {
     use crate::explore::examples::examples;
     use crate::explore::needs::NEEDS;
 
-    const PARTS: [&str; 24] = [
+    const PARTS: [&str; 25] = [
         "response",
         "damping.mode_ratios[]",
         "guides[]",
@@ -216,6 +218,7 @@ mod tests {
         "spline",
         "probe",
         "sweep",
+        "side_force",
         "runup",
         "blade.rim",
         "blade.profile[]",

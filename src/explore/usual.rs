@@ -2,7 +2,7 @@
 
 use crate::scene::typical::rounded;
 use crate::scene::{
-    GuideFile, InPlane, Mount, RunUpFile, SceneFile, SplineFile, typical, typical_value,
+    GuideFile, InPlane, Mount, SceneFile, SideForceFile, SplineFile, typical_value,
 };
 
 const LEAST_TEETH: f64 = 12.0;
@@ -125,24 +125,17 @@ pub fn next_row(scene: &SceneFile, rows: &[(f64, f64)], value: f64) -> (f64, f64
     )
 }
 
-/// The typical run-up, with a force for the guides of this scene.
-pub fn runup(scene: &SceneFile) -> Option<RunUpFile> {
-    Some(RunUpFile {
-        force_n: side_force(scene),
-        ..serde_json::from_value(typical::runup(scene)).ok()?
-    })
-}
-
-/// Side force of a run-up in N. Without a collar, it deflects the guides by about 1 % of the thickness of the blade at
-/// most, because the model is linear.
-fn side_force(scene: &SceneFile) -> f64 {
-    if matches!(scene.mount, Mount::Collar { .. }) {
-        return const { typical_value("runup.force_n") };
-    }
-    let stiffness: f64 = scene.guides.iter().map(|pad| pad.stiffness_n_per_m).sum();
-    rounded(
-        (0.01 * scene.blade.thickness_m * stiffness)
-            .clamp(1e-3, const { typical_value("runup.force_n") }),
-        1,
-    )
+/// A side force in N. Without a collar, it deflects the guides by about 1 % of the thickness of the blade at most, because the
+/// model of a run-up is linear.
+pub fn side_force(scene: &SceneFile) -> SideForceFile {
+    let usual_n = const { typical_value("side_force.force_n") };
+    let force_n = match scene.mount {
+        Mount::Collar { .. } => usual_n,
+        Mount::Spline {} => {
+            let stiffness: f64 = scene.guides.iter().map(|pad| pad.stiffness_n_per_m).sum();
+            let gentle_n = 0.01 * scene.blade.thickness_m * stiffness;
+            rounded(gentle_n.clamp(1e-3, usual_n), 1)
+        }
+    };
+    SideForceFile::of(force_n)
 }

@@ -72,10 +72,8 @@ fn shown_jumps<'a>(
 }
 
 fn facts(report: &DeflectReport) -> Vec<String> {
-    let force = format!(
-        "{} N across the rim at {}°",
-        report.force_n, report.force_angle_deg
-    );
+    let place = report.scene.side_force_place_in_words();
+    let force = format!("{} N {place}", report.force_n);
     let probe = format!("deflection at the probe at {}°", report.probe_angle_deg);
     let jumps = |sweep| shown_jumps(report, sweep).count();
     let jumps = format!(

@@ -64,7 +64,11 @@ fn facts(report: &GapReport, heat: &FrictionHeat) -> Vec<String> {
     let all = [
         Some(heading::of_saw(&report.scene.name, &report.condition)),
         Some(format!("{:.0} rpm", map.rpm)),
-        Some(format!("{} N at the cut", shown_to(3, map.force_n))),
+        Some(format!(
+            "{} N {}",
+            shown_to(3, map.force_n),
+            report.scene.side_force_place_in_words()
+        )),
         Some(format!("coefficient {}", shown_to(3, heat.coefficient))),
         Some(format!("{} W", shown_to(3, heat.power_w))),
         settled,
@@ -168,10 +172,10 @@ fn list_pads(sheet: &mut Sheet, heat: &FrictionHeat) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analyses::gap::{Options, OscillatingForce, gap};
+    use crate::analyses::gap::{Options, gap};
     use crate::figure::gap_oscillation;
     use crate::figure::tidy::{assert_tidy, texts};
-    use crate::scene::{Accuracy, ContactLaw, FrictionFile, Scene, SweepFile};
+    use crate::scene::{Accuracy, ContactLaw, FrictionFile, Scene, SideForceFile, SweepFile};
 
     #[test]
     #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
@@ -183,6 +187,10 @@ mod tests {
                 to_rpm: 1500.0,
             });
             file.friction = Some(FrictionFile::of(0.1));
+            file.side_force = Some(SideForceFile {
+                oscillating_n: 0.5,
+                ..SideForceFile::of(4.0)
+            });
             let pad = &mut file.guides[0];
             (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5));
             let mut others = [*pad; 2];
@@ -192,11 +200,6 @@ mod tests {
             file.guides.extend(others);
         });
         let options = Options {
-            force_n: Some(4.0),
-            oscillating: Some(OscillatingForce {
-                amplitude_n: 0.5,
-                order: 1,
-            }),
             max_deviation_mm: Some(0.2),
             ..Options::default()
         };

@@ -67,7 +67,8 @@ fn facts(report: &GapReport, found: &Oscillation) -> Vec<String> {
             found.oscillating_order
         )
     });
-    let steady = format!("{} N steady at the cut", shown_to(3, found.force_n));
+    let place = report.scene.side_force_place_in_words();
+    let steady = format!("{} N steady {place}", shown_to(3, found.force_n));
     let gap = format!(
         "smallest gap {} mm",
         shown_to(3, 1e3 * report.smallest_gap_m)

@@ -37,6 +37,7 @@ pub fn empty_report(name: &str) -> Report {
         spline: None,
         excitation: None,
         cut: None,
+        side_force: None,
         runup: None,
         response: None,
         probe: None,

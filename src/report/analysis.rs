@@ -12,6 +12,7 @@ use super::membrane::BladeStress;
 use super::modes::{RestMode, Whirl};
 use super::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
 use crate::scene::{Accuracy, SceneFile};
+use crate::stability::Sensitivity;
 
 /// Report of an analysis (`report.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -81,7 +82,7 @@ pub struct Report {
     /// Stress of heat, roll tension and manufacture, if the scene has any.
     pub membrane: Option<BladeStress>,
     /// Derivatives of critical speeds and onsets by numbers of the scene, on request.
-    pub sensitivities: Vec<NumberSensitivity>,
+    pub sensitivities: Vec<Sensitivity>,
     /// Remarks on the validity of the result.
     pub warnings: Vec<String>,
 }
@@ -137,25 +138,4 @@ pub struct SolveCounts {
     pub refined_pairs: usize,
     /// Symmetric eigenproblems of the full model at other temperatures, for limits of heat.
     pub heat_solves: usize,
-}
-
-/// Relative change of speeds for a change of one number of the scene.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "SensitivityEntry")]
-pub struct NumberSensitivity {
-    /// JSON path of the number in the scene.
-    pub parameter: String,
-    /// The change: "1 %" or "1 degree".
-    pub change: String,
-    /// Change of each critical speed up to the end of the sweep, in percent; double ones of a free blade are
-    /// listed twice.
-    pub critical_speeds_percent: Vec<f64>,
-    /// Change of the onset of each reported band, in percent; null if the sweep begins inside the band.
-    pub onsets_percent: Vec<Option<f64>>,
-    /// dλ/dp of each mode at the operating speed (at rest without one), times the change: real part, growth
-    /// in 1/s.
-    pub growth_per_s: Vec<f64>,
-    /// Imaginary part of this change: frequency in Hz.
-    pub frequency_hz: Vec<f64>,
 }

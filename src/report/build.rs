@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
-use super::analysis::{BasisAccuracy, NumberSensitivity, Report, SolveCounts};
+use super::analysis::{BasisAccuracy, Report, SolveCounts};
 use super::branches::Numbered;
 use super::certificate::BandCertificate;
 use super::chart::{CampbellDiagram, RootLoci, RootPath};
@@ -19,9 +19,7 @@ use crate::analyses::check::side_force_factor;
 use crate::plate::Plate;
 use crate::scene::rpm;
 use crate::spectrum::{DescribedMode, EventName, EventWaves, WorkCounters};
-use crate::stability::{
-    Analysis, Evidence, Instability, OPERATING_LIMIT, Sensitivity, SensitivityError,
-};
+use crate::stability::{Analysis, Evidence, Instability, InstabilityKind, OPERATING_LIMIT};
 
 /// Harmonics with a smaller share of the kinetic energy are omitted from a mode at rest.
 const LEAST_SHARE: f64 = 1e-4;
@@ -127,33 +125,6 @@ fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLoci> {
         rpm: loci.speeds.iter().map(|s| rpm(*s)).collect(),
         paths: paths.collect(),
     })
-}
-
-impl NumberSensitivity {
-    /// Sensitivities of an analysis, with eigenvalues at the operating speed, or at the start of the sweep if
-    /// there is none; sorted by their influence on the lowest critical speed.
-    ///
-    /// # Errors
-    /// [`SensitivityError`].
-    pub fn all(analysis: &Analysis) -> Result<Vec<Self>, SensitivityError> {
-        let start = analysis.range_rad_per_s.0;
-        let at = analysis.scene.operating_rad_per_s().unwrap_or(start);
-        let found = analysis.sensitivities(at)?;
-        Ok(found.iter().map(Self::from).collect())
-    }
-}
-
-impl From<&Sensitivity> for NumberSensitivity {
-    fn from(s: &Sensitivity) -> Self {
-        NumberSensitivity {
-            parameter: s.parameter.clone(),
-            change: s.change.to_owned(),
-            critical_speeds_percent: s.critical_speeds.iter().map(|c| 100.0 * c).collect(),
-            onsets_percent: s.onsets.iter().map(|c| c.map(|c| 100.0 * c)).collect(),
-            growth_per_s: s.eigenvalues.iter().map(|l| l.re).collect(),
-            frequency_hz: s.eigenvalues.iter().map(|l| l.im / TAU).collect(),
-        }
-    }
 }
 
 /// The modes at rest, with branch and estimated error.
@@ -293,25 +264,37 @@ fn critical_speeds(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<Critical
 }
 
 impl InstabilityBand {
-    /// A band, with the range in which its growth exceeds the threshold.
-    pub(crate) fn new(band: &Instability, threshold_per_s: f64) -> Self {
-        let counted = band.counted(threshold_per_s).into_iter();
+    /// A band between two speeds in rpm, without growth, waves and errors.
+    pub(crate) fn between(kind: InstabilityKind, [from_rpm, to_rpm]: [f64; 2]) -> Self {
         InstabilityBand {
-            kind: band.kind,
-            from_rpm: rpm(band.from_rad_per_s),
-            to_rpm: rpm(band.to_rad_per_s),
-            closed: band.closed,
-            peak_rpm: rpm(band.peak_rad_per_s),
-            peak_growth_per_s: band.peak_growth_per_s,
-            frequency_hz: band.frequency_rad_per_s / TAU,
+            kind,
+            from_rpm,
+            to_rpm,
+            closed: true,
+            peak_rpm: from_rpm,
+            peak_growth_per_s: 0.0,
+            frequency_hz: 0.0,
             name: None,
             branches: Vec::new(),
             modes: Vec::new(),
-            counted_rpm: counted.map(|(from, to)| [rpm(from), rpm(to)]).collect(),
+            counted_rpm: Vec::new(),
             saturated_amplitude_m: None,
             amplitude_not_computed: None,
             estimated_relative_error: None,
             estimated_relative_growth_error: None,
+        }
+    }
+
+    /// A band, with the range in which its growth exceeds the threshold.
+    pub(crate) fn new(band: &Instability, threshold_per_s: f64) -> Self {
+        let counted = band.counted(threshold_per_s).into_iter();
+        InstabilityBand {
+            closed: band.closed,
+            peak_rpm: rpm(band.peak_rad_per_s),
+            peak_growth_per_s: band.peak_growth_per_s,
+            frequency_hz: band.frequency_rad_per_s / TAU,
+            counted_rpm: counted.map(|(from, to)| [rpm(from), rpm(to)]).collect(),
+            ..Self::between(band.kind, [band.from_rad_per_s, band.to_rad_per_s].map(rpm))
         }
     }
 

@@ -1,12 +1,10 @@
 //! Checks of the list of bands, and disagreements that they found.
 
-use std::f64::consts::TAU;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::rpm;
-use crate::stability::{Certificate, InstabilityKind, Miscount, Mismatch, StabilityChart};
+use crate::stability::{Certificate, ContradictedBands, MiscountedModes, StabilityChart};
 
 /// Checks of the list of bands against the spectrum, by the Krein index, by counts of eigenvalues on the full
 /// model and by the growth found at single speeds, and the share of the sweep that is proven to have no other
@@ -60,41 +58,6 @@ pub struct BandCertificate {
     pub max_listed_backward_error: Option<f64>,
 }
 
-/// Modes at a speed that are missing or superfluous according to a count on the full model.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "MiscountEntry")]
-pub struct MiscountedModes {
-    /// The speed.
-    pub rpm: f64,
-    /// Lower end of the range of frequencies.
-    pub from_hz: f64,
-    /// Upper end of the range of frequencies.
-    pub to_hz: f64,
-    /// Number of modes of Krein sign + that the spectrum lacks there, minus that of sign −; negative if it
-    /// has superfluous ones.
-    pub missing: i64,
-}
-
-/// A speed at which the list of bands contradicts the eigenvalues found there.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "MismatchEntry")]
-pub struct ContradictedBands {
-    /// The speed.
-    pub rpm: f64,
-    /// Kind of the modes and bands compared.
-    pub kind: InstabilityKind,
-    /// Number of unstable modes of that kind; for divergence 1 or 0.
-    pub unstable_modes: usize,
-    /// Number of bands of that kind that contain the speed.
-    pub bands: usize,
-    /// Growth of the fastest of these modes.
-    pub growth_per_s: f64,
-    /// Largest growth of these bands.
-    pub peak_per_s: f64,
-}
-
 impl BandCertificate {
     /// The certificate of a sweep over `range`, in rad/s.
     pub(super) fn new(
@@ -117,9 +80,9 @@ impl BandCertificate {
             violating_rpm: violations.map(|s| rpm(*s)).collect(),
             full_basis_counts: certificate.full_basis_counts,
             uncertain_counts: certificate.uncertain_counts,
-            miscounted_modes: certificate.miscounts.iter().map(Into::into).collect(),
+            miscounted_modes: certificate.miscounts.clone(),
             searched_again: certificate.searched_again,
-            mismatches: certificate.mismatches.iter().map(Into::into).collect(),
+            mismatches: certificate.mismatches.clone(),
             gave_up: certificate.gave_up,
             proven_share,
             unproven_rpm: unproven.map(|(a, b)| [rpm(*a), rpm(*b)]).collect(),
@@ -145,43 +108,6 @@ fn proven_share(certificate: &Certificate, (from, to): (f64, f64)) -> Option<f64
     let open: f64 = unproven.iter().map(|(a, b)| b - a).sum();
     let share = 1.0 - open / (to - from);
     (to > from).then(|| (1e4 * share.clamp(0.0, 1.0)).floor() / 1e4)
-}
-
-impl MiscountedModes {
-    /// Text such as "1 missing between 10.0 and 12.0 Hz".
-    pub(crate) fn in_words(&self) -> String {
-        let what = if self.missing > 0 {
-            "missing"
-        } else {
-            "too many"
-        };
-        let (count, from, to) = (self.missing.unsigned_abs(), self.from_hz, self.to_hz);
-        format!("{count} {what} between {from:.1} and {to:.1} Hz")
-    }
-}
-
-impl From<&Miscount> for MiscountedModes {
-    fn from(miscount: &Miscount) -> Self {
-        MiscountedModes {
-            rpm: rpm(miscount.speed_rad_per_s),
-            from_hz: miscount.from_rad_per_s / TAU,
-            to_hz: miscount.to_rad_per_s / TAU,
-            missing: miscount.missing as i64,
-        }
-    }
-}
-
-impl From<&Mismatch> for ContradictedBands {
-    fn from(mismatch: &Mismatch) -> Self {
-        ContradictedBands {
-            rpm: rpm(mismatch.speed_rad_per_s),
-            kind: mismatch.kind,
-            unstable_modes: mismatch.unstable_modes,
-            bands: mismatch.bands,
-            growth_per_s: mismatch.growth_per_s,
-            peak_per_s: mismatch.peak_per_s,
-        }
-    }
 }
 
 /// The statement shown in every output.
@@ -239,10 +165,11 @@ fn contradictions(certificate: &Certificate, is_undamped: bool) -> Vec<String> {
         true => "Krein index does not match",
         false => "growing modes do not match the bands",
     };
-    let contradicted = certificate.mismatches.iter().map(|m| m.speed_rad_per_s);
+    let violations = certificate.violations_rad_per_s.iter().copied().map(rpm);
+    let contradicted = certificate.mismatches.iter().map(|m| m.rpm);
     let mut wrong = Vec::new();
     for (what, speeds) in [
-        (differs, certificate.violations_rad_per_s.clone()),
+        (differs, violations.collect::<Vec<f64>>()),
         (
             "the list of bands contradicts the eigenvalues",
             contradicted.collect(),
@@ -257,12 +184,7 @@ fn contradictions(certificate: &Certificate, is_undamped: bool) -> Vec<String> {
         }
     }
     if let Some(first) = certificate.miscounts.first() {
-        let speeds: Vec<f64> = certificate
-            .miscounts
-            .iter()
-            .map(|m| m.speed_rad_per_s)
-            .collect();
-        let first = MiscountedModes::from(first);
+        let speeds: Vec<f64> = certificate.miscounts.iter().map(|m| m.rpm).collect();
         wrong.push(format!(
             "modes are miscounted on the full model at {}: {} at {:.1} rpm",
             span(&speeds),
@@ -279,15 +201,12 @@ fn contradictions(certificate: &Certificate, is_undamped: bool) -> Vec<String> {
 }
 
 /// Text such as "1200.0 rpm" or "1200.0 to 1300.0 rpm".
-fn span(speeds_rad_per_s: &[f64]) -> String {
-    let least = speeds_rad_per_s
-        .iter()
-        .copied()
-        .fold(f64::INFINITY, f64::min);
-    let most = speeds_rad_per_s.iter().copied().fold(0.0, f64::max);
+fn span(speeds_rpm: &[f64]) -> String {
+    let least = speeds_rpm.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = speeds_rpm.iter().copied().fold(0.0, f64::max);
     match least < most {
-        true => format!("{:.1} to {:.1} rpm", rpm(least), rpm(most)),
-        false => format!("{:.1} rpm", rpm(least)),
+        true => format!("{least:.1} to {most:.1} rpm"),
+        false => format!("{least:.1} rpm"),
     }
 }
 
@@ -295,13 +214,14 @@ fn span(speeds_rad_per_s: &[f64]) -> String {
 mod tests {
     use super::*;
     use crate::scene::rad_per_s;
+    use crate::stability::InstabilityKind;
 
     /// A certificate in which every check disagrees.
     fn contradicted(clean: Certificate) -> Certificate {
         Certificate {
             violations_rad_per_s: [1200.0, 1300.0].map(rad_per_s).to_vec(),
-            mismatches: vec![Mismatch {
-                speed_rad_per_s: rad_per_s(1400.0),
+            mismatches: vec![ContradictedBands {
+                rpm: 1400.0,
                 kind: InstabilityKind::Flutter,
                 unstable_modes: 1,
                 bands: 0,
@@ -309,10 +229,10 @@ mod tests {
                 peak_per_s: 0.0,
             }],
             gave_up: true,
-            miscounts: vec![Miscount {
-                speed_rad_per_s: rad_per_s(1500.0),
-                from_rad_per_s: 10.0 * TAU,
-                to_rad_per_s: 12.0 * TAU,
+            miscounts: vec![MiscountedModes {
+                rpm: 1500.0,
+                from_hz: 10.0,
+                to_hz: 12.0,
                 missing: 1,
             }],
             ..clean

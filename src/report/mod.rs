@@ -2,7 +2,7 @@
 //!
 //! Reports are made from an [`Analysis`](crate::stability::Analysis), a fit or a placement, and are written as JSON with
 //! speeds in rpm, frequencies in Hz and growth rates in 1/s. The contents of a report are computed before it is made;
-//! only [`Whirl`], [`EventShape`] and [`NumberSensitivity`] are computed on request and added.
+//! only [`Whirl`], [`EventShape`] and [`Sensitivity`] are computed on request and added.
 
 mod analysis;
 mod branches;
@@ -26,10 +26,10 @@ mod speeds;
 mod verdict;
 mod vtu;
 
-pub use self::analysis::{BasisAccuracy, NumberSensitivity, Report, SolveCounts};
+pub use self::analysis::{BasisAccuracy, Report, SolveCounts};
 pub(crate) use self::branches::Numbered;
+pub use self::certificate::BandCertificate;
 pub(crate) use self::certificate::statement;
-pub use self::certificate::{BandCertificate, ContradictedBands, MiscountedModes};
 pub use self::chart::{BranchCurve, CampbellDiagram, RootLoci, RootPath};
 pub use self::event_shape::{EventShape, ShapeOccasion};
 pub use self::excitation::{ExcitationLines, LineCrossing, NamedLine};
@@ -50,6 +50,7 @@ pub(crate) use self::saturated::add_amplitudes;
 pub use self::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
 pub use self::verdict::Verdict;
 pub use self::vtu::VTK_NAMES;
+pub use crate::stability::{ContradictedBands, MiscountedModes, Sensitivity};
 
 pub use crate::spectrum::Direction;
 pub use crate::stability::{InstabilityKind, StabilityState};

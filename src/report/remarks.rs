@@ -72,11 +72,11 @@ pub fn terms(scene: &Scene, plate: &Plate) -> Vec<String> {
     let in_cut = scene.cut().filter(|cut| cut.chart.is_some());
     let wood = in_cut.and_then(|cut| cut.wood);
     add(
-        wood.is_some_and(|wood| wood.stiffness_n_per_m > 0.0),
+        wood.is_some_and(|wood| wood.typed.stiffness_n_per_m > 0.0),
         "wood stiffness K_g",
     );
     add(
-        wood.is_some_and(|wood| wood.damping_n_s_per_m > 0.0),
+        wood.is_some_and(|wood| wood.typed.damping_n_s_per_m > 0.0),
         "wood damping C",
     );
     let without_potential = contact.nonconservative_stiffness().is_some();

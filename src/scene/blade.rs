@@ -24,7 +24,7 @@ pub struct BladeFile {
     /// radius are a step, and so is a first row of another thickness. By default the thickness is uniform.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub profile: Vec<ThicknessRow>,
-    /// Number of teeth, required for `cut`, `rim`, `excitation.tooth_passing` and `response.tooth_force_n`. They have no
+    /// Number of teeth, required for `cut`, `rim` and `excitation.tooth_passing`. They have no
     /// stiffness in the model, and no mass unless `rim` gives it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub teeth: Option<u32>,

@@ -1,6 +1,6 @@
 //! The cut: the forces that the wood exerts on the teeth, and their duration.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use super::check::{needed_teeth, refuse};
 use super::cut_file::{CutFile, CutSpeedFile};
@@ -182,9 +182,9 @@ fn teeth_in_cut(
     let remedy = "the pitch of the teeth determines where the forces act; give their number";
     let all_teeth = needed_teeth(teeth, "where the scene has a cut", remedy)?;
     Ok(TeethInCut {
-        angle_rad: typed.angle_deg.to_radians(),
+        angle_deg: typed.angle_deg,
         mean: mean(typed, all_teeth, blade)?,
-        pitch_rad: TAU / f64::from(all_teeth),
+        all: all_teeth,
     })
 }
 
@@ -233,7 +233,7 @@ mod tests {
         let standing = teeth.standing();
         let pitches: Vec<f64> = standing
             .iter()
-            .map(|tooth| tooth.angle_rad / teeth.pitch_rad)
+            .map(|tooth| tooth.angle_rad / teeth.pitch_rad())
             .collect();
         assert_eq!(pitches, [-1.5, -0.5, 0.5, 1.5]);
         assert!(standing.iter().all(|tooth| tooth.share == 1.0));

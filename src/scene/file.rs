@@ -16,6 +16,7 @@ use super::membrane::MembraneFile;
 use super::quantities::typical_value;
 use super::response::ResponseFile;
 use super::runup::{ProbeFile, RunUpFile};
+use super::side_force::SideForceFile;
 use super::spline::SplineFile;
 
 /// A saw and the analysis, as written in a scene file.
@@ -70,10 +71,13 @@ pub struct SceneFile {
     /// Forces of the wood on the teeth, for `sawflutter cut`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cut: Option<CutFile>,
-    /// Run-up under a lateral force, for `sawflutter runup`.
+    /// Lateral force fixed in space. None by default; commands that need one assume 1 N.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub side_force: Option<SideForceFile>,
+    /// Run-up under the side force, for `sawflutter runup`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub runup: Option<RunUpFile>,
-    /// Excitation of the steady-state response, for `sawflutter response`.
+    /// Shape and imbalance that turn with the blade and excite it, for `sawflutter response` and `gap`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub response: Option<ResponseFile>,
     /// Point at which the deflection is read; by default at the rim at θ = 90°.

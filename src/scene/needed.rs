@@ -28,7 +28,7 @@ impl Scene {
     /// # Errors
     /// [`RefusedValue`] if the scene has no run-up.
     pub fn needed_runup(&self) -> Result<&RunUpFile, RefusedValue> {
-        let allowed = "given, with its speeds, duration and force";
+        let allowed = "given, with its speeds and duration";
         let remedy = "add it to the scene";
         self.runup()
             .ok_or_else(|| RefusedValue::missing("runup", allowed, remedy))

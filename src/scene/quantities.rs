@@ -31,7 +31,7 @@ const STRESS: Span = Span::closed(-1e11, 1e11);
 /// built: diameters from 50 mm (slitting saws) to 4 m (stone saws), materials from aluminium to tungsten carbide, guides from
 /// felt to steel.
 #[rustfmt::skip]
-pub const QUANTITIES: [Quantity; 102] = [
+pub const QUANTITIES: [Quantity; 101] = [
     q("blade.outer_diameter_m", "outer diameter", "m", POSITIVE, 0.04, 5.0),
     q("blade.inner_diameter_m", "bore diameter", "m", POSITIVE, 0.003, 2.0),
     q("blade.thickness_m", "thickness of the blade", "m", POSITIVE, 1e-4, 0.04),
@@ -155,23 +155,21 @@ pub const QUANTITIES: [Quantity; 102] = [
     q("cut.speeds[].lateral_n_per_tooth", "lateral force on a tooth", "N", FORCE, -1e5, 1e5),
     q("cut.speeds[].power_w", "power of the cut", "W", NOT_NEGATIVE, 100.0, 2e6),
     q("cut.speeds[].feed_m_per_s", "feed", "m/s", FEED, 1e-5, 10.0),
+    q("side_force.force_n", "constant side force", "N", Span::closed(-1e6, 1e6), -1e5, 1e5)
+        .typically(1.0, "", 0.1, 10.0, "assumption of this program: small deflections of a linear model"),
+    q("side_force.radius_m", "radius of the side force", "m", POSITIVE, 0.005, 2.5).of_kind(Kind::Radius),
+    q("side_force.angle_deg", "angle of the side force", "°", ANGLE, -360.0, 360.0).of_kind(Kind::Angle),
+    q("side_force.oscillating_n", "amplitude of the oscillating side force", "N", Span::closed(0.0, 1e6), 1e-3, 1e4),
+    q("side_force.order", "order of the oscillating side force", "", Span::closed(1.0, 1e4), 1.0, 1000.0).of_kind(Kind::Count),
     q("runup.from_rpm", "first speed of the run-up", "rpm", SPEED, 0.0, 1e5),
     q("runup.to_rpm", "last speed of the run-up", "rpm", SPEED, 30.0, 2e5)
         .typically(1.5, "times the operating speed", 1.2, 2.0, "assumption of this program"),
     // The paper's experiment took 1600 s.
     q("runup.duration_s", "duration of the run-up", "s", Span::closed(0.01, 3600.0), 0.0, 3600.0)
         .typically(60.0, "", 5.0, 120.0, "assumption of this program"),
-    q("runup.force_n", "lateral force", "N", FORCE, -1e5, 1e5)
-        .typically(1.0, "", 0.1, 10.0, "assumption of this program: small deflections of a linear model"),
-    q("runup.angle_deg", "angle of the force", "°", ANGLE, -360.0, 360.0).of_kind(Kind::Angle),
-    q("response.force_n", "lateral force", "N", Span::closed(-1e6, 1e6), -1e5, 1e5)
-        .typically(1.0, "", 0.1, 10.0, "assumption of this program: a response is proportional to it"),
-    q("response.radius_m", "radius of the force", "m", POSITIVE, 0.005, 2.5).of_kind(Kind::Radius),
-    q("response.angle_deg", "angle of the force", "°", ANGLE, -360.0, 360.0).of_kind(Kind::Angle),
     q("response.runout_m", "run-out of the rim", "m", Span::closed(0.0, 1.0), 1e-6, 5e-3),
     q("response.flatness_m", "lack of flatness at the rim", "m", Span::closed(0.0, 1.0), 1e-6, 5e-3),
     q("response.imbalance_kg_m2", "imbalance beside the middle plane", "kg·m²", Span::closed(0.0, 1e3), 1e-9, 1.0),
-    q("response.tooth_force_n", "lateral force with tooth passing", "N", Span::closed(-1e6, 1e6), -1e4, 1e4),
     q("probe.radius_m", "radius of the probe", "m", POSITIVE, 0.005, 2.5).of_kind(Kind::Radius),
     q("probe.angle_deg", "angle of the probe", "°", ANGLE, -360.0, 360.0).of_kind(Kind::Angle),
     q("measured.rows[].rpm", "rotation speed", "rpm", SPEED, 0.0, 1e5),

@@ -127,13 +127,14 @@ impl Quantity {
                 self.allowed.end_in_words(value),
                 self.usual_in_words()
             ),
-            false => self.allowed.in_words(),
+            false => format!("{} {}", self.allowed.in_words(), self.unit),
         };
         let remedy = match (self.unit, self.kind) {
             ("", Kind::Count) => "give a whole number in this range",
             ("", _) => "give a number in this range; 1 % is 0.01",
-            _ => "give it in the unit that ends the key's name",
+            _ => "give a number in this range, in this unit",
         };
+        let allowed = allowed.trim_end();
         RefusedValue::new(key, words, allowed, remedy)
     }
 

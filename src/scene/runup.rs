@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use super::check::is_default;
 use super::speed_range::check_rise;
-use super::{Blade, SceneError, SpeedRange};
+use super::{Blade, Point, Scene, SceneError, SpeedRange};
 
-/// Run-up at a constant rate, under a constant lateral force fixed in space.
+/// Run-up at a constant rate, under the constant force of `side_force`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RunUpFile {
@@ -18,11 +18,6 @@ pub struct RunUpFile {
     pub to_rpm: f64,
     /// Duration of the run-up.
     pub duration_s: f64,
-    /// Lateral force at the rim.
-    pub force_n: f64,
-    /// Angle of the force, positive in the direction of rotation.
-    #[serde(default)]
-    pub angle_deg: f64,
     /// Whether the model includes stretching of the middle surface at large deflections: then the record ends
     /// where slopes exceed 0.1, and not at five thicknesses. It takes longer.
     #[serde(default, skip_serializing_if = "is_default")]
@@ -40,15 +35,6 @@ pub struct ProbeFile {
     pub angle_deg: f64,
 }
 
-/// A validated probe.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Probe {
-    /// Distance from the axis.
-    pub radius_m: f64,
-    /// Angle of the probe.
-    pub angle_rad: f64,
-}
-
 /// The paper's position of the displacement probe, section 3.1.
 const DEFAULT_PROBE_DEG: f64 = 90.0;
 
@@ -64,11 +50,6 @@ impl RunUpFile {
         SpeedRange::between_rpm(self.from_rpm, self.to_rpm)
     }
 
-    /// Angle of the force.
-    pub fn angle_rad(&self) -> f64 {
-        self.angle_deg.to_radians()
-    }
-
     /// Rate Ω̇ at which the rotation speed rises, in rad/s².
     pub fn acceleration_rad_per_s2(&self) -> f64 {
         let speeds = self.speeds();
@@ -76,16 +57,23 @@ impl RunUpFile {
     }
 }
 
-impl Probe {
-    pub(super) fn new(typed: Option<&ProbeFile>, blade: &Blade) -> Result<Self, SceneError> {
-        let radius_m = typed.and_then(|probe| probe.radius_m);
-        let radius_m = radius_m.unwrap_or(blade.outer_radius_m);
+impl ProbeFile {
+    /// Checks that the probe is over the moving part of the blade.
+    pub(super) fn checked(&self, blade: &Blade) -> Result<(), SceneError> {
         let remedy = "put the probe over the moving part of the blade";
-        blade.check_on("probe.radius_m", radius_m, remedy)?;
-        let degrees = typed.map_or(DEFAULT_PROBE_DEG, |probe| probe.angle_deg);
-        Ok(Probe {
-            radius_m,
-            angle_rad: degrees.to_radians(),
-        })
+        let radius_m = self.radius_m.unwrap_or(blade.outer_radius_m);
+        blade.check_on("probe.radius_m", radius_m, remedy)
+    }
+}
+
+impl Scene {
+    /// Point at which the deflection is read.
+    pub(crate) fn probe(&self) -> Point {
+        let typed = self.file.probe.as_ref();
+        let radius_m = typed.and_then(|probe| probe.radius_m);
+        Point {
+            radius_m: radius_m.unwrap_or(self.blade.outer_radius_m),
+            angle_deg: typed.map_or(DEFAULT_PROBE_DEG, |probe| probe.angle_deg),
+        }
     }
 }

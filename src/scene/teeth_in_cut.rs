@@ -4,15 +4,17 @@
 //! f < 1. During the share f of the time z + 1 teeth cut, and during the rest z; in the mean over either of these times they are
 //! symmetric about the middle of the arc.
 
+use std::f64::consts::TAU;
+
 /// The teeth that pass the arc of the cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TeethInCut {
     /// Angle of the middle of the cut.
-    pub angle_rad: f64,
+    pub angle_deg: f64,
     /// Mean number of teeth in the cut: arc over pitch.
     pub mean: f64,
-    /// Angle between successive teeth.
-    pub pitch_rad: f64,
+    /// Number of all teeth of the blade.
+    pub all: u32,
 }
 
 /// A tooth at a place of the rim for a share of the time.
@@ -25,6 +27,11 @@ pub struct Tooth {
 }
 
 impl TeethInCut {
+    /// Angle between successive teeth.
+    pub fn pitch_rad(&self) -> f64 {
+        TAU / f64::from(self.all)
+    }
+
     /// The teeth of the mean loads: z and z + 1 of them, one pitch apart, symmetric about the middle of the cut, each for its
     /// share of the time.
     pub fn standing(&self) -> Vec<Tooth> {
@@ -33,7 +40,7 @@ impl TeethInCut {
         let row = |count: f64, share: f64| {
             let places = (0..count as u32).map(move |k| f64::from(k) - 0.5 * (count - 1.0));
             places.map(move |place| Tooth {
-                angle_rad: self.angle_rad + place * self.pitch_rad,
+                angle_rad: self.angle_deg.to_radians() + place * self.pitch_rad(),
                 share,
             })
         };
@@ -50,30 +57,28 @@ impl TeethInCut {
             let (enters, leaves) = (from + k, (to + k).min(self.mean));
             let middle = 0.5 * (enters + leaves) - 0.5 * self.mean;
             (enters < leaves).then(|| Tooth {
-                angle_rad: self.angle_rad + middle * self.pitch_rad,
+                angle_rad: self.angle_deg.to_radians() + middle * self.pitch_rad(),
                 share: (leaves - enters) / (to - from),
             })
         });
         teeth.collect()
     }
 
-    /// Arc of a contact around the middle of the cut: the given one, or else that of the teeth.
-    pub fn arc_rad(&self, given_deg: Option<f64>) -> f64 {
-        given_deg.map_or(self.mean * self.pitch_rad, f64::to_radians)
+    /// Arc of the cut, one pitch for each tooth in it.
+    pub fn arc_rad(&self) -> f64 {
+        self.mean * self.pitch_rad()
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::TAU;
-
     use super::*;
 
     /// Angles of the teeth in the cut, relative to its middle, of a blade with 7 teeth that has turned by a share of a pitch
     /// since a tooth entered the cut.
     fn in_cut(teeth: &TeethInCut, turned: f64) -> Vec<f64> {
-        let half = 0.5 * teeth.mean * teeth.pitch_rad;
-        let all = (0..7).map(|k| (f64::from(k) + turned) * teeth.pitch_rad - half);
+        let half = 0.5 * teeth.arc_rad();
+        let all = (0..7).map(|k| (f64::from(k) + turned) * teeth.pitch_rad() - half);
         all.filter(|angle| *angle < half).collect()
     }
 
@@ -86,9 +91,9 @@ mod tests {
 
     fn teeth(mean: f64) -> TeethInCut {
         TeethInCut {
-            angle_rad: 0.0,
+            angle_deg: 0.0,
             mean,
-            pitch_rad: TAU / 7.0,
+            all: 7,
         }
     }
 

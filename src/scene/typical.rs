@@ -44,8 +44,7 @@ pub(crate) fn runup(scene: &SceneFile) -> Value {
     json!({
         "from_rpm": 0,
         "to_rpm": short(rounded(const { typical_value("runup.to_rpm") } * operating_rpm(scene), 2)),
-        "duration_s": short(const { typical_value("runup.duration_s") }),
-        "force_n": short(const { typical_value("runup.force_n") })
+        "duration_s": short(const { typical_value("runup.duration_s") })
     })
 }
 

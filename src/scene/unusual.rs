@@ -6,7 +6,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::SceneFile;
-use super::quantities::QUANTITIES;
+use super::quantities::{QUANTITIES, typical_value};
 use super::quantity::{Kind, Quantity, Typical};
 use crate::text::{shown, shown_to};
 
@@ -34,7 +34,7 @@ const RADIANS: &str = "radians";
 /// Slower cold saws exist, but critical speeds do not limit them.
 const RIM_M_PER_S: (f64, f64) = (2.0, 300.0);
 /// Rim speed of most saws for wood and stone.
-const TYPICAL_RIM_M_PER_S: f64 = 60.0;
+const TYPICAL_RIM_M_PER_S: f64 = typical_value("operating_rpm");
 /// Paths of the speeds at which a saw runs.
 const RUNS: [&str; 3] = ["operating_rpm", "cut.chart_rpm", "cut.speeds[].rpm"];
 /// Paths of the largest speeds of an analysis and of a measurement.

@@ -5,7 +5,6 @@ use super::check::{MAX_GUIDES, refuse};
 use super::cut::Cut;
 use super::guide::guide;
 use super::membrane::Membrane;
-use super::runup::Probe;
 use super::speed_range::check_rise;
 use super::thickness::ThicknessProfile;
 use super::{Blade, Bore, ExcitationLine, Mount, RefusedValue, Scene, SceneError, SceneFile};
@@ -39,11 +38,14 @@ impl TryFrom<SceneFile> for Scene {
         if let Some(runup) = &file.runup {
             runup.checked()?;
         }
+        if let Some(probe) = &file.probe {
+            probe.checked(&blade)?;
+        }
         if let Some(spline) = &file.spline {
             spline.checked(&file.mount, &blade)?;
         }
-        if let Some(response) = &file.response {
-            response.checked(&blade, file.blade.teeth)?;
+        if let Some(force) = &file.side_force {
+            force.checked(&blade)?;
         }
         Ok(Scene {
             cut: file
@@ -51,7 +53,6 @@ impl TryFrom<SceneFile> for Scene {
                 .as_ref()
                 .map(|cut| Cut::new(cut, file.operating_rpm, file.blade.teeth, &blade))
                 .transpose()?,
-            probe: Probe::new(file.probe.as_ref(), &blade)?,
             membrane: file
                 .membrane
                 .as_ref()

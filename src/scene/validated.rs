@@ -1,8 +1,8 @@
 //! A [`Scene`]: a validated saw, in SI units and radians.
 
 use super::{
-    Accuracy, Blade, Cut, DampingFile, ExcitationLine, Guide, Membrane, Probe, RunUpFile,
-    SceneError, SceneFile, SpeedRange, SplineFile, SweepFile, in_the_cut, rad_per_s, rpm,
+    Accuracy, Blade, Cut, DampingFile, ExcitationLine, Guide, Membrane, RunUpFile, SceneError,
+    SceneFile, SpeedRange, SplineFile, SweepFile, in_the_cut, rad_per_s, rpm,
 };
 
 /// A validated saw. It contains the scene as typed and the numbers derived from it, so that it cannot be
@@ -20,7 +20,6 @@ pub struct Scene {
     pub(super) membrane: Option<Membrane>,
     pub(super) excitation: Vec<ExcitationLine>,
     pub(super) cut: Option<Cut>,
-    pub(super) probe: Probe,
 }
 
 impl Scene {
@@ -143,16 +142,11 @@ impl Scene {
 
     /// Angle of the middle of the cut; without a cut, zero, the direction from which angles are counted.
     pub fn cut_angle_rad(&self) -> f64 {
-        self.cut.as_ref().map_or(0.0, |cut| cut.teeth.angle_rad)
+        self.file.cut_angle_deg().to_radians()
     }
 
-    /// Run-up under a lateral force.
+    /// Run-up under the side force.
     pub fn runup(&self) -> Option<&RunUpFile> {
         self.file.runup.as_ref()
-    }
-
-    /// Position at which the deflection is read.
-    pub(crate) fn probe(&self) -> &Probe {
-        &self.probe
     }
 }

@@ -1,14 +1,12 @@
 //! Washboarding: the lateral force on a tooth that cuts the surface left by the preceding tooth.
 
-use std::f64::consts::TAU;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::check::{MAX_GUIDES, refuse};
 use super::quantities::{quantity, typical_value};
 use super::teeth_in_cut::TeethInCut;
-use super::wood::Wood;
+use super::wood::{Wood, WoodFile};
 use super::{RefusedValue, SceneError};
 use crate::text::shown;
 
@@ -38,18 +36,12 @@ fn full_overlap() -> f64 {
 /// Validated washboarding.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Washboarding {
-    /// Lateral cutting stiffness k of all teeth in the cut together.
-    pub stiffness_n_per_m: f64,
-    /// Overlap μ.
-    pub overlap: f64,
-    /// Angles between successive teeth, repeated around the blade; a single value for even teeth.
+    /// The force as typed.
+    pub typed: WashboardingFile,
+    /// The teeth, and the middle of the arc.
+    pub teeth: TeethInCut,
+    /// Angles between successive teeth, repeated around the blade, scaled to a whole turn; a single value for even teeth.
     pub pitches_rad: Vec<f64>,
-    /// Number of all teeth.
-    pub teeth: u32,
-    /// Angle of the middle of the arc.
-    pub angle_rad: f64,
-    /// Angle that the arc spans.
-    pub arc_rad: f64,
 }
 
 /// Largest lateral cutting stiffness, in N/m.
@@ -63,18 +55,11 @@ const MIN_PITCH: f64 = 0.05;
 
 impl Washboarding {
     pub(super) fn new(typed: &WashboardingFile, teeth: &TeethInCut) -> Result<Self, SceneError> {
-        let all_teeth = (TAU / teeth.pitch_rad).round() as u32;
+        let key = "cut.washboarding.pitches_deg";
         Ok(Washboarding {
-            stiffness_n_per_m: typed.stiffness_n_per_m,
-            overlap: typed.overlap,
-            pitches_rad: pitches_rad(
-                "cut.washboarding.pitches_deg",
-                &typed.pitches_deg,
-                all_teeth,
-            )?,
-            teeth: all_teeth,
-            angle_rad: teeth.angle_rad,
-            arc_rad: teeth.arc_rad(typed.arc_deg),
+            pitches_rad: pitches_rad(key, &typed.pitches_deg, teeth.all)?,
+            typed: typed.clone(),
+            teeth: *teeth,
         })
     }
 
@@ -87,7 +72,7 @@ impl Washboarding {
 
     /// Angular frequency of tooth passing, Ω times the number of teeth.
     pub fn tooth_passing_rad_per_s(&self, speed_rad_per_s: f64) -> f64 {
-        f64::from(self.teeth) * speed_rad_per_s
+        f64::from(self.teeth.all) * speed_rad_per_s
     }
 
     /// Whether the teeth are evenly spaced.
@@ -98,11 +83,12 @@ impl Washboarding {
     /// A spring of 1 N/m on the arc of the rim. The part of the force that is not delayed is k times its force.
     pub fn unit_spring(&self) -> Wood {
         Wood {
-            angle_rad: self.angle_rad,
-            arc_rad: self.arc_rad,
-            depth_m: 0.0,
-            stiffness_n_per_m: 1.0,
-            damping_n_s_per_m: 0.0,
+            typed: WoodFile {
+                stiffness_n_per_m: 1.0,
+                arc_deg: self.typed.arc_deg,
+                ..WoodFile::default()
+            },
+            teeth: self.teeth,
         }
     }
 }
@@ -143,6 +129,8 @@ fn pitches_rad(key: &str, typed: &[f64], teeth: u32) -> Result<Vec<f64>, SceneEr
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
     use crate::scene::Scene;
 
@@ -166,8 +154,8 @@ mod tests {
     #[test]
     fn teeth_give_the_arc_and_the_delays() {
         let even = with(|_| ()).unwrap();
-        assert_eq!(even.teeth, 42);
-        assert!((even.arc_rad - 4.0 * TAU / 42.0).abs() < 1e-12);
+        assert_eq!(even.teeth.all, 42);
+        assert!((even.unit_spring().arc_rad() - 4.0 * TAU / 42.0).abs() < 1e-12);
         let delays = even.delays_s(100.0);
         assert!(delays.len() == 1 && (delays[0] - TAU / 4200.0).abs() < 1e-12);
         // 8° + 10° exceed two of 42 pitches by 5 %; 8.07° + 9.07° differ by rounding only.

@@ -26,19 +26,13 @@ pub struct WoodFile {
     pub arc_deg: Option<f64>,
 }
 
-/// Validated wood in the kerf.
+/// Wood in the kerf, or another contact on an arc of the rim.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Wood {
-    /// Angle of the middle of the contact.
-    pub angle_rad: f64,
-    /// Angle that the contact spans.
-    pub arc_rad: f64,
-    /// Extent from the rim towards the axis; zero for contact along the rim only.
-    pub depth_m: f64,
-    /// Stiffness of the whole contact.
-    pub stiffness_n_per_m: f64,
-    /// Damping of the whole contact.
-    pub damping_n_s_per_m: f64,
+    /// The contact as typed.
+    pub typed: WoodFile,
+    /// The teeth, around the middle of whose cut it lies.
+    pub teeth: TeethInCut,
 }
 
 impl Wood {
@@ -54,14 +48,16 @@ impl Wood {
             let remedy = "give the distance from the rim to which the wood touches the blade";
             return Err(refuse("cut.wood.depth_m", typed.depth_m, allowed, remedy));
         }
-        let wood = Wood {
-            angle_rad: teeth.angle_rad,
-            arc_rad: teeth.arc_rad(typed.arc_deg),
-            depth_m: typed.depth_m,
-            stiffness_n_per_m: typed.stiffness_n_per_m,
-            damping_n_s_per_m: typed.damping_n_s_per_m,
-        };
-        let any = wood.stiffness_n_per_m > 0.0 || wood.damping_n_s_per_m > 0.0;
-        Ok(any.then_some(wood))
+        let any = typed.stiffness_n_per_m > 0.0 || typed.damping_n_s_per_m > 0.0;
+        Ok(any.then_some(Wood {
+            typed: *typed,
+            teeth: *teeth,
+        }))
+    }
+
+    /// Angle that the contact spans.
+    pub fn arc_rad(&self) -> f64 {
+        let given = self.typed.arc_deg.map(f64::to_radians);
+        given.unwrap_or(self.teeth.arc_rad())
     }
 }

@@ -1,8 +1,12 @@
 //! Results of the checks of a list of bands.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::band::{Instability, InstabilityKind};
-use super::mode_counts::Miscount;
+use super::mode_counts::MiscountedModes;
 use super::signature::Signature;
+use crate::scene::rpm;
 
 /// Results of the checks of a list of bands: comparisons of the Krein index with the spectra, mode counts on the
 /// full model, and the part of the range that is proven to contain no unlisted band.
@@ -13,7 +17,7 @@ pub struct Certificate {
     /// Speeds at which the Krein index contradicts the modes even on the full model, in rad/s.
     pub violations_rad_per_s: Vec<f64>,
     /// Speeds at which the bands contradict the eigenvalues.
-    pub(crate) mismatches: Vec<Mismatch>,
+    pub mismatches: Vec<ContradictedBands>,
     /// Whether the search used up its allowed number of speeds.
     pub gave_up: bool,
     /// Number of conclusive mode counts on the full model.
@@ -21,7 +25,7 @@ pub struct Certificate {
     /// Number of inconclusive counts of a damped saw, because an eigenvalue is on their path.
     pub uncertain_counts: usize,
     /// Counts that contradict the spectra.
-    pub(crate) miscounts: Vec<Miscount>,
+    pub miscounts: Vec<MiscountedModes>,
     /// Whether counts contradicted the spectra at first, so that the bands were searched again on the full
     /// model.
     pub searched_again: bool,
@@ -40,20 +44,22 @@ impl Certificate {
     }
 }
 
-/// Contradiction between the list of bands and the eigenvalues at one speed.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Mismatch {
-    /// Rotation speed Ω.
-    pub speed_rad_per_s: f64,
-    /// Kind of the bands and modes that were compared.
+/// A speed at which the list of bands contradicts the eigenvalues found there.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "MismatchEntry")]
+pub struct ContradictedBands {
+    /// The speed.
+    pub rpm: f64,
+    /// Kind of the modes and bands compared.
     pub kind: InstabilityKind,
     /// Number of unstable modes of that kind; for divergence 1 or 0.
     pub unstable_modes: usize,
-    /// Number of bands of that kind at that speed.
+    /// Number of bands of that kind that contain the speed.
     pub bands: usize,
-    /// Growth rate of the fastest growing mode of that kind, in 1/s; 0 without one.
+    /// Growth of the fastest of these modes.
     pub growth_per_s: f64,
-    /// Largest peak of the bands of that kind at that speed, in 1/s; 0 without one.
+    /// Largest growth of these bands.
     pub peak_per_s: f64,
 }
 
@@ -66,7 +72,11 @@ const PEAK_TOLERANCE: f64 = 0.03;
 
 /// Compares bands with the modes at a speed: each kind must have as many bands as unstable modes, and no mode
 /// may grow faster than the peak of its band. `floor_per_s` is the growth below which a mode may be rounding.
-pub fn mismatches(bands: &[Instability], signature: &Signature, floor_per_s: f64) -> Vec<Mismatch> {
+pub fn mismatches(
+    bands: &[Instability],
+    signature: &Signature,
+    floor_per_s: f64,
+) -> Vec<ContradictedBands> {
     let speed = signature.speed_rad_per_s;
     let near = |edge: f64| (speed / edge - 1.0).abs() <= EDGE_TOLERANCE;
     if bands
@@ -96,7 +106,7 @@ fn mismatch(
     kind: InstabilityKind,
     mut growth: Vec<f64>,
     floor_per_s: f64,
-) -> Option<Mismatch> {
+) -> Option<ContradictedBands> {
     let covers =
         |b: &&Instability| b.kind == kind && (b.from_rad_per_s..=b.to_rad_per_s).contains(&speed);
     let mut peaks: Vec<f64> = bands
@@ -115,8 +125,8 @@ fn mismatch(
         |(growth, peak): (&f64, &f64)| *growth > peak * (1.0 + PEAK_TOLERANCE) + floor_per_s;
     let is_faster = growth.iter().zip(&peaks).any(above);
     let strong = peaks.iter().filter(|peak| **peak > floor_per_s).count();
-    (certain > peaks.len() || strong > growth.len() || is_faster).then(|| Mismatch {
-        speed_rad_per_s: speed,
+    (certain > peaks.len() || strong > growth.len() || is_faster).then(|| ContradictedBands {
+        rpm: rpm(speed),
         kind,
         unstable_modes: growth.len(),
         bands: peaks.len(),

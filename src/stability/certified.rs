@@ -1,12 +1,12 @@
 //! Search for the bands of an undamped blade, with their checks.
 
 use super::band::{Instability, InstabilityKind};
-use super::certificate::{Certificate, Mismatch, mismatches};
+use super::certificate::{Certificate, ContradictedBands, mismatches};
 use super::divergence::{close_pairs, divergence};
 use super::evaluator::SignatureEvaluator;
 use super::flutter::{Quadruple, flutter, quadruples};
 use super::found::Found;
-use super::mode_counts::{Miscount, ModeCounts};
+use super::mode_counts::{MiscountedModes, ModeCounts};
 use super::partition::Plane;
 use super::pieces::{Piece, Search};
 use super::proof::Proof;
@@ -222,7 +222,7 @@ impl Checks<'_> {
     }
 
     /// Contradictions of counts at some speeds of the search.
-    fn at_anchors(&self) -> Result<Vec<Miscount>, SpectrumError> {
+    fn at_anchors(&self) -> Result<Vec<MiscountedModes>, SpectrumError> {
         let signatures = self.signatures;
         let count = match self.full.is_dense() {
             true => DENSE_ANCHORS,
@@ -291,7 +291,7 @@ pub(super) fn contradictions(
     bands: &[Instability],
     signatures: &[Signature],
     floor: f64,
-) -> Vec<Mismatch> {
+) -> Vec<ContradictedBands> {
     let of = |signature: &Signature| {
         let highest = signature.highest_rad_per_s();
         let floor = floor * (signature.speed_rad_per_s + highest);

@@ -7,7 +7,7 @@
 use faer::c64;
 
 use super::damped::counted_in_window;
-use super::mode_counts::{Miscount, claims, of_claims};
+use super::mode_counts::{MiscountedModes, claims, of_claims};
 use super::signature::Signature;
 use crate::plate::Plate;
 use crate::spectrum::{
@@ -28,7 +28,7 @@ pub(crate) struct GrowingModes {
     /// Number of conclusive mode counts on the full model.
     pub full_basis_counts: usize,
     /// Counts that contradict the modes.
-    pub miscounts: Vec<Miscount>,
+    pub miscounts: Vec<MiscountedModes>,
 }
 
 /// Number of modes computed at first; above many critical speeds more are needed.

@@ -58,8 +58,7 @@ pub(crate) use band::CurvePoint;
 pub use band::{Instability, InstabilityKind};
 pub use basis::ChosenBasis;
 pub(crate) use basis::{end_of_sweep, resolved};
-pub use certificate::Certificate;
-pub(crate) use certificate::Mismatch;
+pub use certificate::{Certificate, ContradictedBands};
 pub use chart::StabilityChart;
 #[doc(hidden)]
 pub use chart::chart;
@@ -73,7 +72,7 @@ pub use expected::ExpectedWork;
 pub(crate) use growing::GrowingModes;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub(crate) use ladder::{DENSE_LADDER, LADDER, ahead, diameters_beyond, resolution};
-pub(crate) use mode_counts::Miscount;
+pub use mode_counts::MiscountedModes;
 pub use onsets::Onsets;
 #[doc(hidden)]
 pub use onsets::search_bands;

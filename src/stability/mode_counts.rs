@@ -8,11 +8,15 @@
 //! that none is missing. A coalesced pair does not change the count. A + and a − mode that are neighbours
 //! change only the count between them.
 
+use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::signature::{Sign, Signature};
+use crate::scene::rpm;
 use crate::spectrum::{AtSpeed, FullModel, SpectralModel, SpectrumError};
 
 /// Mode counts on the full model of an undamped guided blade.
@@ -22,17 +26,43 @@ pub struct ModeCounts<'a> {
     counted: AtomicUsize,
 }
 
-/// A contradiction between a count and the modes of a speed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Miscount {
-    /// Rotation speed Ω.
-    pub speed_rad_per_s: f64,
-    /// Lower frequency, in rad/s.
-    pub from_rad_per_s: f64,
-    /// Upper frequency, in rad/s.
-    pub to_rad_per_s: f64,
-    /// Missing modes of Krein sign + minus missing modes of sign − between these frequencies.
-    pub missing: isize,
+/// Modes at a speed that are missing or superfluous according to a count on the full model.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "MiscountEntry")]
+pub struct MiscountedModes {
+    /// The speed.
+    pub rpm: f64,
+    /// Lower end of the range of frequencies.
+    pub from_hz: f64,
+    /// Upper end of the range of frequencies.
+    pub to_hz: f64,
+    /// Number of modes of Krein sign + that the spectrum lacks there, minus that of sign −; negative if it
+    /// has superfluous ones.
+    pub missing: i64,
+}
+
+impl MiscountedModes {
+    /// The result of a count at a speed between two frequencies in rad/s.
+    pub(super) fn new(speed_rad_per_s: f64, (from, to): (f64, f64), missing: isize) -> Self {
+        MiscountedModes {
+            rpm: rpm(speed_rad_per_s),
+            from_hz: from / TAU,
+            to_hz: to / TAU,
+            missing: missing as i64,
+        }
+    }
+
+    /// Text such as "1 missing between 10.0 and 12.0 Hz".
+    pub(crate) fn in_words(&self) -> String {
+        let what = if self.missing > 0 {
+            "missing"
+        } else {
+            "too many"
+        };
+        let (count, from, to) = (self.missing.unsigned_abs(), self.from_hz, self.to_hz);
+        format!("{count} {what} between {from:.1} and {to:.1} Hz")
+    }
 }
 
 /// Count at a frequency, as the modes of a speed imply it.
@@ -194,7 +224,7 @@ impl<'a> ModeCounts<'a> {
         &self,
         signatures: &[&Signature],
         height_rad_per_s: f64,
-    ) -> Result<Vec<Miscount>, SpectrumError> {
+    ) -> Result<Vec<MiscountedModes>, SpectrumError> {
         let at = |signature: &&Signature| {
             self.model.counters.cancellation.check()?;
             Ok(self.of_claims(
@@ -202,14 +232,14 @@ impl<'a> ModeCounts<'a> {
                 &claims(signature, height_rad_per_s),
             ))
         };
-        let found: Vec<Result<Vec<Miscount>, SpectrumError>> =
+        let found: Vec<Result<Vec<MiscountedModes>, SpectrumError>> =
             signatures.par_iter().map(at).collect();
-        let found: Vec<Vec<Miscount>> = found.into_iter().collect::<Result<_, _>>()?;
+        let found: Vec<Vec<MiscountedModes>> = found.into_iter().collect::<Result<_, _>>()?;
         Ok(found.into_iter().flatten().collect())
     }
 
     /// Compares ascending claims at a speed with counts; inconclusive counts contradict nothing.
-    pub fn of_claims(&self, speed_rad_per_s: f64, claims: &[Claim]) -> Vec<Miscount> {
+    pub fn of_claims(&self, speed_rad_per_s: f64, claims: &[Claim]) -> Vec<MiscountedModes> {
         let negative = self.negative_stiffness(speed_rad_per_s) as isize;
         let begins = (!self.has_free_motions()).then_some(negative);
         let counted = of_claims(self.basis, speed_rad_per_s, claims, begins);
@@ -223,7 +253,7 @@ pub(super) struct Counted {
     /// Number of conclusive counts.
     pub certain: usize,
     /// Counts that contradict the claims.
-    pub miscounts: Vec<Miscount>,
+    pub miscounts: Vec<MiscountedModes>,
 }
 
 /// Compares ascending claims with counts; inconclusive counts contradict nothing. `begins` is n₋(K), the
@@ -249,12 +279,9 @@ pub(super) fn of_claims(
         counted.certain += 1;
         let (from, last) = before.unwrap_or((frequency, difference));
         if difference != last {
-            counted.miscounts.push(Miscount {
-                speed_rad_per_s,
-                from_rad_per_s: from,
-                to_rad_per_s: frequency,
-                missing: difference - last,
-            });
+            let missing = difference - last;
+            let miscount = MiscountedModes::new(speed_rad_per_s, (from, frequency), missing);
+            counted.miscounts.push(miscount);
         }
         before = Some((frequency, difference));
     }

@@ -3,7 +3,11 @@
 //! Differences of assembled matrices give their derivatives, see [`matrix_slopes`]; the derivatives of the
 //! eigenvalues are then exact, with left and right vectors.
 
+use std::f64::consts::TAU;
+
 use faer::{Col, c64};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::analysis::Analysis;
 use super::band::{Instability, InstabilityKind};
@@ -25,18 +29,24 @@ const SAME_SPEED: f64 = 1e-10;
 
 /// First-order effect of changing one number of the scene by 1 %, an angle by 1 degree, or a temperature rise
 /// by 1 K.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "SensitivityEntry")]
 pub struct Sensitivity {
-    /// JSON path of the number.
+    /// JSON path of the number in the scene.
     pub parameter: String,
-    /// The change as text: "1 %", "1 degree" or "1 K".
-    pub change: &'static str,
-    /// Relative change of each critical speed within the range.
-    pub critical_speeds: Vec<f64>,
-    /// Relative change of the onset of each band; `None` if the range begins in it.
-    pub onsets: Vec<Option<f64>>,
-    /// Change of λ of each mode at the requested speed, in 1/s.
-    pub eigenvalues: Vec<c64>,
+    /// The change: "1 %" or "1 degree".
+    pub change: String,
+    /// Change of each critical speed up to the end of the sweep, in percent; double ones of a free blade are
+    /// listed twice.
+    pub critical_speeds_percent: Vec<f64>,
+    /// Change of the onset of each reported band, in percent; null if the sweep begins inside the band.
+    pub onsets_percent: Vec<Option<f64>>,
+    /// dλ/dp of each mode at the operating speed (at rest without one), times the change: real part, growth
+    /// in 1/s.
+    pub growth_per_s: Vec<f64>,
+    /// Imaginary part of this change: frequency in Hz.
+    pub frequency_hz: Vec<f64>,
 }
 
 /// Reason why no sensitivity could be computed.
@@ -95,43 +105,58 @@ impl Analysis {
         let mut all = Vec::new();
         for variation in Variation::of_scene(scene.file()) {
             let changes = variation.of_matrices(scene, &self.model.plate)?;
-            let relative = |merging: &Merging| {
+            let percent = |merging: &Merging| {
                 let system = &self.model.components[merging.component].full;
                 let change = &changes[merging.component];
-                merging.change(system, change) / merging.speed
+                100.0 * (merging.change(system, change) / merging.speed)
             };
+            let eigenvalues: Vec<c64> = modes
+                .iter()
+                .map(|m| {
+                    let component = &self.model.components[m.mode.component];
+                    let x = component.coordinates(&m.shape);
+                    let change = &changes[m.mode.component];
+                    derivative::with_change(
+                        &component.full,
+                        modes_at_rad_per_s,
+                        m.mode.lambda,
+                        &x,
+                        change,
+                    )
+                })
+                .collect();
             let critical = self.model.critical.iter();
             all.push(Sensitivity {
-                critical_speeds: critical
+                critical_speeds_percent: critical
                     .take_while(|c| c.speed_rad_per_s <= self.range_rad_per_s.1)
-                    .map(|c| relative(&Merging::standing(c.component, c.speed_rad_per_s, &c.shape)))
+                    .map(|c| percent(&Merging::standing(c.component, c.speed_rad_per_s, &c.shape)))
                     .collect(),
-                onsets: mergings.iter().map(|m| m.as_ref().map(relative)).collect(),
-                eigenvalues: modes
-                    .iter()
-                    .map(|m| {
-                        let component = &self.model.components[m.mode.component];
-                        let x = component.coordinates(&m.shape);
-                        let change = &changes[m.mode.component];
-                        derivative::with_change(
-                            &component.full,
-                            modes_at_rad_per_s,
-                            m.mode.lambda,
-                            &x,
-                            change,
-                        )
-                    })
-                    .collect(),
+                onsets_percent: mergings.iter().map(|m| m.as_ref().map(percent)).collect(),
+                growth_per_s: eigenvalues.iter().map(|change| change.re).collect(),
+                frequency_hz: eigenvalues.iter().map(|change| change.im / TAU).collect(),
                 parameter: variation.parameter.path().to_owned(),
                 change: match variation.by {
-                    By::Percent => "1 %",
-                    By::One(unit) => unit,
+                    By::Percent => "1 %".to_owned(),
+                    By::One(unit) => unit.to_owned(),
                 },
             });
         }
-        let influence = |s: &Sensitivity| s.critical_speeds.first().map_or(0.0, |c| c.abs());
+        let influence =
+            |s: &Sensitivity| s.critical_speeds_percent.first().map_or(0.0, |c| c.abs());
         all.sort_by(|x, y| influence(y).total_cmp(&influence(x)));
         Ok(all)
+    }
+}
+
+impl Sensitivity {
+    /// Sensitivities of an analysis, with eigenvalues at the operating speed, or at the start of the sweep if
+    /// there is none; sorted by their influence on the lowest critical speed.
+    ///
+    /// # Errors
+    /// [`SensitivityError`].
+    pub fn all(analysis: &Analysis) -> Result<Vec<Self>, SensitivityError> {
+        let start = analysis.range_rad_per_s.0;
+        analysis.sensitivities(analysis.scene.operating_rad_per_s().unwrap_or(start))
     }
 }
 

@@ -39,7 +39,6 @@ use faer::{Col, Mat, MatRef, Scale};
 
 use crate::linalg::symmetric_eigenvalues;
 use crate::plate::{GapPotential, Plate, ReducedStretching, StretchingError};
-use crate::scene::Blade;
 use crate::spectrum::SpectrumError;
 use crate::system::GyroscopicSystem;
 
@@ -154,11 +153,6 @@ impl StretchedBlade {
     pub fn with_gaps(mut self, factor: f64) -> Self {
         self.gaps = self.gaps.map(|gaps| gaps.scaled(factor));
         self
-    }
-
-    /// The blade without its guides.
-    pub(crate) fn blade(&self) -> &Blade {
-        &self.plate.blade
     }
 
     /// The potential of stretching in the basis.

@@ -85,7 +85,9 @@ fn of_data(path: &str, said: &str, line: usize) -> (String, String) {
             "it is missing, but must be given".into(),
         );
     } else if begins("unknown field") {
-        format!("there is no such key; {}", meant(subject, known))
+        let moved = moved(&below(path, subject));
+        let meant = moved.map_or_else(|| meant(subject, known), str::to_owned);
+        format!("there is no such key; {meant}")
     } else if begins("duplicate field") {
         "it is given twice; remove one".to_owned()
     } else if begins("unknown variant") {
@@ -160,8 +162,28 @@ const UNITS: [(&str, &str, &str); 13] = [
 /// Keys that users write for remarks; so are all that begin with an underscore.
 const REMARKS: [&str; 5] = ["comment", "comments", "description", "remark", "//"];
 
+/// Keys of earlier versions, and the keys that say the same now.
+const MOVED: [(&str, &str); 7] = [
+    ("runup.force_n", "give it as side_force.force_n"),
+    ("runup.angle_deg", "give it as side_force.angle_deg"),
+    ("response.force_n", "give it as side_force.force_n"),
+    ("response.radius_m", "give it as side_force.radius_m"),
+    ("response.angle_deg", "give it as side_force.angle_deg"),
+    (
+        "response.tooth_force_n",
+        "give it as side_force.oscillating_n, with the number of teeth as side_force.order",
+    ),
+    ("gap.force_n", "give it as side_force.force_n in the scene"),
+];
+
 /// Smallest similarity, from 0 to 1, at which a known name is suggested for a misspelt one.
 const LIKENESS: f64 = 0.75;
+
+/// The remedy for a key of an earlier version.
+fn moved(key: &str) -> Option<&'static str> {
+    let found = MOVED.iter().find(|(old, _)| *old == key);
+    found.map(|(_, remedy)| *remedy)
+}
 
 /// Suggests the known name that was probably meant, or lists all known names.
 fn meant(subject: &str, known: &[&str]) -> String {

@@ -6,7 +6,7 @@
 use faer::Col;
 
 use crate::plate::Plate;
-use crate::scene::{Blade, Probe};
+use crate::scene::{Blade, Point};
 
 use super::TransientError;
 use super::reduced::{ReducedBlade, at_point};
@@ -27,9 +27,9 @@ pub(crate) struct Gauge {
 }
 
 impl Gauge {
-    pub fn new(plate: &Plate, blade: &ReducedBlade, probe: &Probe) -> Self {
+    pub fn new(plate: &Plate, blade: &ReducedBlade, probe: Point) -> Self {
         Gauge {
-            probe: blade.vector(&at_point(plate, probe.radius_m, probe.angle_rad)),
+            probe: blade.vector(&at_point(plate, probe.polar())),
             limit_m: linear_limit_m(&plate.blade),
         }
     }

@@ -74,18 +74,18 @@ pub enum TransientError {
     },
     /// The force of a run-up deflects the blade beyond the linear model at once.
     #[error(
-        "runup.force_n is {force_n}, which alone bends the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses, where the linear model ends; give a smaller force"
+        "side_force.force_n is {force_n}, which alone bends the blade at the probe by more than {LINEAR_THICKNESSES} thicknesses, where the linear model ends; give a smaller force"
     )]
     BentByForce {
-        /// Lateral force at the rim.
+        /// Constant side force.
         force_n: f64,
     },
     /// The force of a run-up causes slopes at once for which von Kármán's strains are not valid.
     #[error(
-        "runup.force_n is {force_n}, which alone bends the blade to slopes of more than {LARGEST_SLOPE}, where the model with stretching ends; give a smaller force"
+        "side_force.force_n is {force_n}, which alone bends the blade to slopes of more than {LARGEST_SLOPE}, where the model with stretching ends; give a smaller force"
     )]
     SteepByForce {
-        /// Lateral force at the rim.
+        /// Constant side force.
         force_n: f64,
     },
     /// Newton's method did not converge in a step.

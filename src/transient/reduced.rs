@@ -164,7 +164,7 @@ impl ReducedBlade {
 }
 
 /// Values of all basis functions at a point: the load of a unit force there, and the weights of a probe there.
-pub fn at_point(plate: &Plate, radius_m: f64, angle_rad: f64) -> Col<f64> {
+pub fn at_point(plate: &Plate, (radius_m, angle_rad): (f64, f64)) -> Col<f64> {
     let values = plate.functions_at(radius_m, angle_rad);
     Col::from_fn(values.len(), |i| values[i])
 }
@@ -173,7 +173,7 @@ pub fn at_point(plate: &Plate, radius_m: f64, angle_rad: f64) -> Col<f64> {
 pub fn lateral_load(plate: &Plate, teeth: &[Tooth]) -> Col<f64> {
     let mut load = Col::zeros(plate.degrees_of_freedom());
     for Tooth { angle_rad, share } in teeth {
-        load += Scale(*share) * at_point(plate, plate.blade.outer_radius_m, *angle_rad);
+        load += Scale(*share) * at_point(plate, (plate.blade.outer_radius_m, *angle_rad));
     }
     load
 }

@@ -1,11 +1,11 @@
-//! Response at the probe to a harmonic force at the rim, over frequency and speed.
+//! Response at the probe to a harmonic force at the place of the side force, over frequency and speed.
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, c64};
 use rayon::prelude::*;
 
 use crate::plate::Plate;
-use crate::scene::{Probe, RunUpFile};
+use crate::scene::{Point, RunUpFile, SideForce};
 use crate::system::GyroscopicSystem;
 
 use super::reduced::at_point;
@@ -18,18 +18,14 @@ use super::runup::reduced_blade;
 /// one frequency step Δω wide.
 pub fn response_map(
     plate: &Plate,
-    runup: &RunUpFile,
-    probe: &Probe,
+    (runup, force): (&RunUpFile, &SideForce),
+    probe: Point,
     (speeds, frequencies): (&[f64], &[f64]),
 ) -> Vec<Vec<f64>> {
-    let blade = reduced_blade(plate, runup);
+    let blade = reduced_blade(plate, runup, force);
     let system = blade.system(&GyroscopicSystem::of_plate(plate));
-    let force = blade.vector(&at_point(
-        plate,
-        plate.blade.outer_radius_m,
-        runup.angle_rad(),
-    ));
-    let read = blade.vector(&at_point(plate, probe.radius_m, probe.angle_rad));
+    let force = blade.vector(&at_point(plate, force.at.polar()));
+    let read = blade.vector(&at_point(plate, probe.polar()));
     let apart = match frequencies {
         [first, second, ..] => second - first,
         _ => 1.0,

@@ -1,11 +1,11 @@
-//! The saw during a run-up under a constant lateral force.
+//! The saw during a run-up under a constant side force.
 
 use faer::Col;
 use faer::linalg::solvers::Solve;
 
 use crate::campbell::{Progress, even_speeds};
 use crate::plate::Plate;
-use crate::scene::{Probe, RunUpFile, rpm};
+use crate::scene::{Point, RunUpFile, SideForce, rpm};
 use crate::spectrum::Cancellation;
 use crate::system::GyroscopicSystem;
 
@@ -38,7 +38,7 @@ const HELD_STEPS: usize = 8;
 pub(super) const MAX_SAMPLES: usize = 30_000;
 
 /// The basis of a run-up: modes at a few speeds, and static responses to the force.
-pub(super) fn reduced_blade(plate: &Plate, runup: &RunUpFile) -> ReducedBlade {
+pub(super) fn reduced_blade(plate: &Plate, runup: &RunUpFile, force: &SideForce) -> ReducedBlade {
     let system = GyroscopicSystem::of_plate(plate);
     let range = (runup.speeds().from_rad_per_s, runup.speeds().to_rad_per_s);
     let snapshots: Vec<Snapshot<'_>> = even_speeds(range, SNAPSHOTS)
@@ -48,8 +48,12 @@ pub(super) fn reduced_blade(plate: &Plate, runup: &RunUpFile) -> ReducedBlade {
             speed_rad_per_s,
         })
         .collect();
-    let force = at_point(plate, plate.blade.outer_radius_m, runup.angle_rad());
-    ReducedBlade::new(plate, &snapshots, MODES, &[force])
+    ReducedBlade::new(
+        plate,
+        &snapshots,
+        MODES,
+        &[at_point(plate, force.at.polar())],
+    )
 }
 
 /// Integrates the run-up, with steps that resolve the frequency `highest_rad_per_s`.
@@ -59,15 +63,14 @@ pub(super) fn reduced_blade(plate: &Plate, runup: &RunUpFile) -> ReducedBlade {
 /// [`TransientError::Overflow`] if a growing motion overflows.
 pub fn run_up(
     plate: &Plate,
-    runup: &RunUpFile,
-    probe: &Probe,
+    (runup, force): (&RunUpFile, &SideForce),
+    probe: Point,
     highest_rad_per_s: f64,
     progress: Progress<'_>,
 ) -> Result<RunUpHistory, TransientError> {
-    let blade = reduced_blade(plate, runup);
+    let blade = reduced_blade(plate, runup, force);
     let system = blade.system(&GyroscopicSystem::of_plate(plate));
-    let force = at_point(plate, plate.blade.outer_radius_m, runup.angle_rad());
-    let load = faer::Scale(runup.force_n) * blade.vector(&force);
+    let load = faer::Scale(force.force_n) * blade.vector(&at_point(plate, force.at.polar()));
     let gauge = Gauge::new(plate, &blade, probe);
     // The force acts from the beginning, so that the blade starts in its static deflection, if it has one.
     let from = runup.speeds().from_rad_per_s;
@@ -90,7 +93,7 @@ pub fn run_up(
     })?;
     if history.deflection_m.is_empty() {
         return Err(TransientError::BentByForce {
-            force_n: runup.force_n,
+            force_n: force.force_n,
         });
     }
     Ok(history)

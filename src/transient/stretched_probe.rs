@@ -1,6 +1,6 @@
 //! Readings of a moving blade that stretches.
 
-use crate::scene::Probe;
+use crate::scene::Point;
 use crate::stretched::{Equilibrium, LARGEST_SLOPE, StretchedBlade};
 
 use super::State;
@@ -8,14 +8,14 @@ use super::State;
 /// The deflection at a probe, and the check that slopes are within the model.
 pub(crate) struct StretchedProbe<'a> {
     blade: &'a StretchedBlade,
-    probe: &'a Probe,
+    probe: Point,
     /// Largest slope of the blade so far.
     pub largest_slope: f64,
 }
 
 impl<'a> StretchedProbe<'a> {
     /// The probe before the first sample.
-    pub fn new(blade: &'a StretchedBlade, probe: &'a Probe) -> Self {
+    pub fn new(blade: &'a StretchedBlade, probe: Point) -> Self {
         StretchedProbe {
             blade,
             probe,
@@ -33,10 +33,7 @@ impl<'a> StretchedProbe<'a> {
     /// Deflection at the probe, in m.
     pub fn deflection_m(&self, state: &State, speed_rad_per_s: f64) -> f64 {
         let at = shape(state, speed_rad_per_s);
-        let Probe {
-            radius_m,
-            angle_rad,
-        } = *self.probe;
+        let (radius_m, angle_rad) = self.probe.polar();
         self.blade.deflection_m(&at, radius_m, angle_rad)
     }
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::campbell::Progress;
 use crate::plate::Plate;
-use crate::scene::{Probe, RunUpFile};
+use crate::scene::{Point, RunUpFile, SideForce};
 use crate::stretched::StretchedBlade;
 
 use super::runup::{MAX_SAMPLES, Moving, RunUpHistory, Steps};
@@ -59,14 +59,14 @@ const WINDOW_S: (f64, f64) = (1.5, 6.0);
 /// deflection is too steep, [`TransientError::NotBalanced`] if a step has no solution.
 pub fn stretched_run_up(
     plate: &Plate,
-    runup: &RunUpFile,
-    probe: &Probe,
+    (runup, force): (&RunUpFile, &SideForce),
+    probe: Point,
     highest_rad_per_s: f64,
     progress: Progress<'_>,
 ) -> Result<StretchedRunUp, TransientError> {
-    let place = (plate.blade.outer_radius_m, runup.angle_rad());
+    let place = force.at.polar();
     let (from, to) = (runup.speeds().from_rad_per_s, runup.speeds().to_rad_per_s);
-    let blade = StretchedBlade::up_to(plate, to, place, MODES)?.pressed(runup.force_n, place)?;
+    let blade = StretchedBlade::up_to(plate, to, place, MODES)?.pressed(force.force_n, place)?;
     // The system includes the damping of the saw, which is not part of the potential.
     let system = system(plate, &blade);
     let forces = forces(&blade);
@@ -88,7 +88,7 @@ pub fn stretched_run_up(
     })?;
     if samples.deflection_m.is_empty() {
         return Err(TransientError::SteepByForce {
-            force_n: runup.force_n,
+            force_n: force.force_n,
         });
     }
     let spectrum = samples.spectrum(STRIDE as f64 * steps.step_s, highest_rad_per_s);
@@ -212,12 +212,13 @@ mod tests {
         let scene = Scene::paper().edited(|saw| {
             if let Some(runup) = &mut saw.runup {
                 (runup.from_rpm, runup.to_rpm) = speeds_rpm;
-                (runup.duration_s, runup.force_n) = (duration_s, force_n);
+                runup.duration_s = duration_s;
             }
+            saw.side_force.get_or_insert_default().force_n = Some(force_n);
         });
         let scene = scene.unwrap();
         let (plate, probe, highest) = (plate(), scene.probe(), TAU * 45.0);
-        let runup = scene.runup().unwrap();
+        let runup = (scene.runup().unwrap(), &scene.side_force());
         let stretched = stretched_run_up(&plate, runup, probe, highest, &|_, _| ());
         let linear = run_up(&plate, runup, probe, highest, &|_, _| ());
         (stretched.unwrap(), linear.unwrap())
@@ -254,12 +255,10 @@ mod tests {
     #[test]
     fn a_force_that_leaves_no_record_is_refused_by_its_name() {
         let scene = Scene::paper().edited(|saw| {
-            if let Some(runup) = &mut saw.runup {
-                runup.force_n = 2e4;
-            }
+            saw.side_force.get_or_insert_default().force_n = Some(2e4);
         });
         let scene = scene.unwrap();
-        let (runup, probe) = (scene.runup().unwrap(), scene.probe());
+        let (runup, probe) = ((scene.runup().unwrap(), &scene.side_force()), scene.probe());
         let error = stretched_run_up(&plate(), runup, probe, TAU * 45.0, &|_, _| ()).unwrap_err();
         assert!(
             matches!(error, TransientError::SteepByForce { force_n } if force_n == 2e4),

@@ -84,7 +84,7 @@ fn newmark_tends_to_the_exact_answer_in_second_order() {
     // The basis contains few modes, because the stiffest would require steps of a microsecond.
     let basis = low_modes(&system, speed);
     let system = system.project(basis.as_ref());
-    let loads = [basis.transpose() * at_point(&plate, plate.blade.outer_radius_m, 0.3)];
+    let loads = [basis.transpose() * at_point(&plate, (plate.blade.outer_radius_m, 0.3))];
     let end_s = 0.2;
     let exact = Propagator::new(&system, speed, &loads, end_s)
         .unwrap()
@@ -112,13 +112,12 @@ fn newmark_tends_to_the_exact_answer_in_second_order() {
 #[test]
 fn a_run_up_converges_and_is_static_when_slow() {
     let plate = paper_plate(SMALL);
-    let probe = *Scene::paper().probe();
+    let probe = Scene::paper().probe();
+    let force = Scene::paper().side_force();
     let runup = RunUpFile {
         from_rpm: 0.0,
         to_rpm: 1300.0,
         duration_s: 20.0,
-        force_n: 5.0,
-        angle_deg: 0.0,
         stretching: false,
     };
     let record = |highest_hz: f64, duration_s: f64| {
@@ -126,7 +125,14 @@ fn a_run_up_converges_and_is_static_when_slow() {
             duration_s,
             ..runup
         };
-        run_up(&plate, &runup, &probe, TAU * highest_hz, &|_, _| ()).unwrap()
+        run_up(
+            &plate,
+            (&runup, &force),
+            probe,
+            TAU * highest_hz,
+            &|_, _| (),
+        )
+        .unwrap()
     };
     let (coarse, fine) = (record(50.0, 20.0), record(100.0, 20.0));
     let at = |history: &RunUpHistory, at_rpm: f64| {
@@ -144,8 +150,8 @@ fn a_run_up_converges_and_is_static_when_slow() {
         assert!(change.abs() < 1e-2, "{speed}: {change:e}");
     }
     let system = GyroscopicSystem::of_plate(&plate);
-    let force = Scale(5.0) * at_point(&plate, plate.blade.outer_radius_m, 0.0);
-    let read = at_point(&plate, probe.radius_m, probe.angle_rad);
+    let force = Scale(5.0) * at_point(&plate, (plate.blade.outer_radius_m, 0.0));
+    let read = at_point(&plate, probe.polar());
     let slow = record(50.0, 60.0);
     for speed in [300.0, 900.0] {
         let held = system.stiffness_at(rad_per_s(speed));

@@ -119,7 +119,8 @@ fn a_scene_without_a_run_up_takes_one_from_options_and_says_what_is_assumed() {
     let options = ["runup", scene, "--seconds", "500ms", "--force", "-5N"];
     let (found, said) = scene_of(&options, "runup.json", &folder);
     let runup = found.runup.unwrap();
-    assert_eq!((runup.duration_s, runup.force_n), (0.5, -5.0));
+    let force_n = found.side_force.unwrap().force_n;
+    assert_eq!((runup.duration_s, force_n), (0.5, Some(-5.0)));
     assert_eq!((runup.from_rpm, runup.to_rpm), (0.0, 1500.0));
     assert!(said.contains("runup.to_rpm = 1500"), "{said}");
     assert!(!said.contains("force_n"), "{said}");

@@ -82,8 +82,6 @@ fn a_run_up_lists_every_band_it_passes() {
         from_rpm: 1000.0,
         to_rpm: 2000.0,
         duration_s: 5.0,
-        force_n: 5.0,
-        angle_deg: 0.0,
         stretching: false,
     });
     let scene = write_scene(&folder, &file);

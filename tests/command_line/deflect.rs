@@ -45,7 +45,10 @@ fn a_force_or_a_saw_without_an_answer_is_refused() {
     let folder = TempDir::new().unwrap();
     for (options, said) in [
         (&["--force-n", "1e9"][..], "--force-n"),
-        (&["--force-n", "1e5", "--accuracy", "draft"], "--force-n"),
+        (
+            &["--force-n", "1e5", "--accuracy", "draft"],
+            "side_force.force_n is 100000",
+        ),
         (&["--angle-deg", "inf"], "--angle-deg"),
         (&["--to-rpm", "-5"], "--to-rpm"),
     ] {

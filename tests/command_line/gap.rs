@@ -104,14 +104,14 @@ fn a_saw_without_a_gap_and_invalid_numbers_are_refused() {
     let path = saw(&folder);
     for (words, said) in [
         (&["gap"][..], "guides[].contact"),
-        (&["gap", &path, "--force-n", "0"], "--force-n"),
+        (&["gap", &path, "--force-n", "0"], "side_force.force_n is 0"),
         (&["gap", &path, "--rpm", "-3"], "--rpm"),
         (
             &["gap", &path, "--max-deviation-mm", "0"],
             "--max-deviation-mm",
         ),
         (
-            &["gap", &path, "--oscillating-force-n", "0"],
+            &["gap", &path, "--oscillating-force-n", "-1"],
             "--oscillating-force-n",
         ),
         (
@@ -127,7 +127,7 @@ fn a_saw_without_a_gap_and_invalid_numbers_are_refused() {
         ),
         (
             &["gap", &path, "--oscillating-order", "2"],
-            "--oscillating-force-n",
+            "side_force.oscillating_n is missing",
         ),
     ] {
         assert_refused(words, said, &folder);

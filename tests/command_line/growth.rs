@@ -217,10 +217,10 @@ fn a_run_up_says_where_its_linear_model_ends() {
 fn a_run_up_under_too_large_a_force_is_refused() {
     let folder = TempDir::new().unwrap();
     let mut file = Scene::paper().file().clone();
-    file.runup.as_mut().unwrap().force_n = 1e6;
+    file.side_force.as_mut().unwrap().force_n = Some(1e6);
     let scene = write_scene(&folder, &file);
     let arguments = ["runup", scene.to_str().unwrap(), "--accuracy", "draft"];
-    assert_refused(&arguments, "runup.force_n is 1000000", &folder);
+    assert_refused(&arguments, "side_force.force_n is 1000000", &folder);
 }
 
 /// The block that a refusal prints, between its first and its last brace.

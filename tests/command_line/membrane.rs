@@ -246,7 +246,7 @@ fn cut_run_up_and_matrices_have_heat_and_tension() {
         "radial_n_per_tooth": 20, "lateral_n_per_tooth": 2, "speeds": [{"rpm": 3000}]
     });
     scene["runup"] = serde_json::json!({
-        "from_rpm": 0, "to_rpm": 6000, "duration_s": 5, "force_n": 5, "angle_deg": 0
+        "from_rpm": 0, "to_rpm": 6000, "duration_s": 5
     });
     let runup = |scene: &serde_json::Value| -> RunUpReport {
         let (folder, assert) = command("runup", scene, &[]);

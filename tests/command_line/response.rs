@@ -4,7 +4,7 @@
 
 use sawflutter::analyses::check::CheckReport;
 use sawflutter::analyses::response::ResponseReport;
-use sawflutter::scene::{Accuracy, ProbeFile, ResponseFile, Scene};
+use sawflutter::scene::{Accuracy, ProbeFile, Scene, SideForceFile};
 use tempfile::TempDir;
 
 use super::program::{
@@ -21,11 +21,7 @@ fn saw(folder: &TempDir) -> String {
         radius_m: None,
         angle_deg,
     });
-    file.response = Some(ResponseFile {
-        force_n: 2.0,
-        angle_deg,
-        ..ResponseFile::default()
-    });
+    file.side_force = Some(SideForceFile::of(2.0));
     write_scene(folder, &file).to_str().unwrap().to_owned()
 }
 

@@ -10,7 +10,7 @@ use sawflutter::analyses::place::{
 };
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{
-    Accuracy, ContactLaw, Freed, Parameter, Scene, SpeedRange, rad_per_s, rpm,
+    Accuracy, ContactLaw, Freed, Parameter, Scene, SideForceFile, SpeedRange, rad_per_s, rpm,
 };
 use sawflutter::spectrum::{SpectralModel, Strategy};
 use sawflutter::stability::{Instability, InstabilityKind, Onsets, undamped_bands};
@@ -290,11 +290,12 @@ fn the_gap_is_as_narrow_as_the_deflection_demands() {
         saw.operating_rpm = Some(1000.0);
         let pad = &mut saw.guides[0];
         (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(8e-5));
+        saw.side_force = Some(SideForceFile::of(2.0));
     });
     let saw = saw.unwrap();
     let free = freed(&saw, &[("guides[0].gap_m", 2e-5, 1e-4)]);
     let demands = Demands {
-        gap: GapDemands::new(&saw, Some(0.15), Some(0.3), Some(2.0)).unwrap(),
+        gap: GapDemands::new(&saw, Some(0.15), Some(0.3)).unwrap(),
         ..Demands::default()
     };
     let few = Options {
@@ -304,11 +305,8 @@ fn the_gap_is_as_narrow_as_the_deflection_demands() {
     };
     let found = place(&saw, &free, &demands, &few);
     assert!(!found.before.kept && found.best.kept && found.improved);
-    let options = gap::Options {
-        force_n: Some(2.0),
-        ..gap::Options::default()
-    };
-    let map = gap::gap(&placed(&found), &options).unwrap().deviation;
+    let map = gap::gap(&placed(&found), &gap::Options::default());
+    let map = map.unwrap().deviation;
     let of = |own: &[f64], value: f64| {
         let place = own.iter().position(|own| (own / value - 1.0).abs() < 1e-9);
         place.unwrap()
@@ -319,8 +317,6 @@ fn the_gap_is_as_narrow_as_the_deflection_demands() {
     assert!(deflection_m < 1.02 * 3e-4, "{deflection_m}");
     let idle = place::place(&saw, &free, &Demands::default(), &quick(), &|_, _, _| ());
     assert!(matches!(idle, Err(PlaceError::NothingFree)));
-    let alone = GapDemands::new(&saw, None, None, Some(2.0)).unwrap_err();
-    assert_eq!(alone.key, "force_n");
 }
 
 #[test]

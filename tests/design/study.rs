@@ -8,7 +8,7 @@ use crate::common::{assert_close, scene};
 use sawflutter::analyses::check::{Limits, check};
 use sawflutter::analyses::gap::{Options, gap};
 use sawflutter::analyses::study::{Outcome, Saw, Study, StudyError, StudyFile};
-use sawflutter::scene::{Accuracy, ContactLaw, Scene, rad_per_s, rpm};
+use sawflutter::scene::{Accuracy, ContactLaw, Scene, SideForceFile, rad_per_s, rpm};
 use sawflutter::stability::{Analysis, Onsets};
 
 fn free_blade() -> Scene {
@@ -302,6 +302,16 @@ fn an_invalid_study_is_refused_by_key() {
             r#""saws": 4, "limit": {}"#,
             "limit: there is no such key; did you mean limits?",
         ),
+        (
+            r#"{ "path": "operating_rpm", "distribution": { "kind": "tolerance", "plus_minus": 9 } }"#.to_owned(),
+            r#""saws": 4"#,
+            "parameters[0].path is operating_rpm, but must be a number that changes critical speeds",
+        ),
+        (
+            one.clone(),
+            r#""saws": 4, "gap": { "force_n": 2 }"#,
+            "gap.force_n: there is no such key; give it as side_force.force_n in the scene",
+        ),
     ];
     for (parameters, rest, expected) in cases {
         let json = format!(r#"{{ "name": "x", "parameters": [{parameters}], {rest} }}"#);
@@ -319,12 +329,13 @@ fn a_study_says_what_the_gap_does() {
         saw.sweep.as_mut().unwrap().to_rpm = 1700.0;
         let pad = &mut saw.guides[0];
         (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5));
+        saw.side_force = Some(SideForceFile::of(2.0));
     });
     let saw = saw.unwrap();
     let asked = |amplitude_mm: f64| {
         let json = format!(
             r#"{{ "name": "gap", "to_rpm": 1700,
-                  "gap": {{ "force_n": 2, "max_deviation_mm": 0.25, "amplitude_mm": {amplitude_mm} }},
+                  "gap": {{ "max_deviation_mm": 0.25, "amplitude_mm": {amplitude_mm} }},
                   "parameters": [{{ "path": "guides[0].gap_m",
                                     "distribution": {{ "kind": "grid", "values": [2e-5, 4e-5, 8e-5] }} }}] }}"#
         );
@@ -335,13 +346,7 @@ fn a_study_says_what_the_gap_does() {
         (rows.collect::<Vec<_>>(), report)
     };
     let (inside, report) = asked(0.02);
-    let gaps = gap(
-        &saw,
-        &Options {
-            force_n: Some(2.0),
-            ..Options::default()
-        },
-    );
+    let gaps = gap(&saw, &Options::default());
     let map = gaps.unwrap().deviation;
     let of = |factor: f64| {
         let row = map

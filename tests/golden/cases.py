@@ -6,7 +6,7 @@ Changes have a path of the scene and a value, which may be an object; None remov
 
 SHORT = {"sweep.to_rpm": 1700, "operating_rpm": 1000, "measured": None}
 ONE_SIDED = {**SHORT, "sweep.to_rpm": 1400, "guides.0.contact": "one_sided", "guides.0.gap_m": 4e-5}
-CAUSES = {"response": {"force_n": 5, "flatness_m": 5e-5, "runout_m": 0, "tooth_force_n": 1}}
+CAUSES = {"response": {"flatness_m": 5e-5, "runout_m": 0}, "side_force.oscillating_n": 1, "side_force.order": 42}
 BRIEF = {"runup.to_rpm": 2600, "runup.duration_s": 6}
 PADS = ["--force-n", "2", "--max-deviation-mm", "0.3", "--oscillating-force-n", "0.5", "--friction", "0.2"]
 QUICK_PLACE = ["--free", "guides[0].radius_m=0.195..0.205", "--samples", "3", "--refine", "4"]
@@ -60,9 +60,9 @@ CASES = {
     "place-window": ("paper", {}, ["place", "saw", *QUICK_PLACE, "--map", "0", "--goal", "window"]),
     "response-causes": ("paper", {**SHORT, **CAUSES}, ["response", "saw"]),
     "response-frequencies": ("gallery/damped-pad", {}, ["response", "saw", "--rpm", "1200", "--to-hz", "100"]),
-    "response-resonance": ("paper", {"response": {"force_n": 2}}, ["response", "saw"]),
+    "response-resonance": ("paper", {"side_force.force_n": 2}, ["response", "saw"]),
     "runup-paper": ("paper", BRIEF, ["runup", "saw"]),
-    "runup-ends": ("paper", {**BRIEF, "runup.force_n": 500}, ["runup", "saw"]),
+    "runup-ends": ("paper", {**BRIEF, "side_force.force_n": 500}, ["runup", "saw"]),
     "runup-stretching": ("paper", BRIEF, ["runup", "saw", "--stretching"]),
     "washboard-grows": ("gallery/washboarding", {}, ["washboard", "saw"]),
     "washboard-smooth": ("gallery/washboarding", {"cut.washboarding.stiffness_n_per_m": 100}, ["washboard", "saw"]),

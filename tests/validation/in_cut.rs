@@ -11,7 +11,7 @@ use sawflutter::analyses::runup::runup;
 use sawflutter::analytical::free_wave::on_a_bed_rad_per_s;
 use sawflutter::commands::CommandReport;
 use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, Scene, SceneFile, WoodFile, rad_per_s, rpm};
+use sawflutter::scene::{Accuracy, Scene, SceneFile, SideForceFile, WoodFile, rad_per_s, rpm};
 use sawflutter::stability::{Analysis, ChosenBasis, InstabilityKind, Onsets, StabilityState};
 use sawflutter::system::GyroscopicSystem;
 
@@ -309,7 +309,6 @@ fn every_command_has_the_same_saw_in_the_cut() {
     let runup = runup(&scene, &|_, _| ()).unwrap();
     let options = deflect::Options {
         to_rpm: Some(1300.0),
-        ..deflect::Options::default()
     };
     let deflect = deflect(&scene, &options).unwrap();
     let found = [
@@ -332,10 +331,10 @@ fn every_command_has_the_same_saw_in_the_cut() {
 #[test]
 fn a_small_force_in_the_cut_deflects_the_blade_as_the_whole_matrices_say() {
     let scene = against_wood();
+    let scene = scene.edited(|saw| saw.side_force = Some(SideForceFile::of(1e-4)));
+    let scene = scene.unwrap();
     let options = deflect::Options {
-        force_n: Some(1e-4),
         to_rpm: Some(1300.0),
-        ..deflect::Options::default()
     };
     let report = deflect(&scene, &options).unwrap();
     let swept = scene.swept((0.0, rad_per_s(1300.0)).into()).unwrap();

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use sawflutter::analyses::runup::runup;
 use sawflutter::plate::Plate;
-use sawflutter::scene::{Accuracy, RunUpFile, Scene, rad_per_s};
+use sawflutter::scene::{Accuracy, RunUpFile, Scene, SideForceFile, rad_per_s};
 use sawflutter::spectrum::LowestModes;
 use sawflutter::stability::ChosenBasis;
 
@@ -37,10 +37,9 @@ fn overlapping_bands_divide_the_growth_of_all_modes() {
                 from_rpm: SPEEDS_RPM[0],
                 to_rpm: SPEEDS_RPM[1],
                 duration_s: DURATION_S,
-                force_n: 1e-6,
-                angle_deg: 0.0,
                 stretching: false,
             });
+            saw.side_force = Some(SideForceFile::of(1e-6));
         });
         let scene = scene.unwrap();
         let bands = runup(&scene, &|_, _| ()).unwrap().bands;

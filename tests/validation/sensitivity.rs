@@ -1,6 +1,8 @@
 //! Derivatives of eigenvalues, critical speeds and onsets, compared with central differences of whole analyses of
 //! changed scenes.
 
+use std::f64::consts::TAU;
+
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{
     GuideFile, InPlane, Mount, Parameter, RimFile, Scene, ThicknessRow, rad_per_s,
@@ -80,7 +82,8 @@ fn critical_speeds_of_a_stepped_blade_with_heavy_teeth_move_as_reported() {
     ] {
         let told = found.iter().find(|own| own.parameter == path).expect(path);
         let [low, high] = [-share, share].map(|s| critical(&moved(&stepped, path, s)).unwrap());
-        for (k, told) in told.critical_speeds.iter().enumerate() {
+        for (k, told) in told.critical_speeds_percent.iter().enumerate() {
+            let told = 0.01 * told;
             let difference = high[k].speed_rad_per_s - low[k].speed_rad_per_s;
             let difference = difference / (2.0 * share * middle[k].speed_rad_per_s);
             let error = (told - difference).abs();
@@ -137,7 +140,7 @@ fn the_onset_of_divergence_moves_with_its_coalescence() {
         let told = found.iter().find(|own| own.parameter == path).expect(path);
         let [low, high] = [-share, share].map(|s| onset(&of(&moved(&scene, path, s))));
         let difference = (high - low) / (2.0 * share * onset(&middle));
-        let told = told.onsets[place].expect("an onset");
+        let told = 0.01 * told.onsets_percent[place].expect("an onset");
         assert!(
             (told - difference).abs() < 1e-5 * 0.01_f64.max(difference.abs()),
             "{path}: {told} {difference}"
@@ -169,21 +172,21 @@ fn assert_central_differences(scene: &Scene) -> usize {
                 "{path} {what}: {x} {y}"
             );
         };
-        for (k, value) in sensitivity.critical_speeds.iter().enumerate() {
+        for (k, value) in sensitivity.critical_speeds_percent.iter().enumerate() {
             let of = |a: &Analysis| a.model.critical[k].speed_rad_per_s;
-            close(*value, difference(&of), "critical speed");
+            close(0.01 * value, difference(&of), "critical speed");
         }
-        for (k, value) in sensitivity.onsets.iter().enumerate() {
+        for (k, value) in sensitivity.onsets_percent.iter().enumerate() {
             let of = |a: &Analysis| a.chart.instabilities[k].from_rad_per_s;
-            close(value.unwrap(), difference(&of), "onset");
+            close(0.01 * value.unwrap(), difference(&of), "onset");
         }
-        for (k, value) in sensitivity.eigenvalues.iter().enumerate() {
+        for (k, value_hz) in sensitivity.frequency_hz.iter().enumerate() {
             let of = |a: &Analysis| a.model.modes(at).unwrap()[k].lambda.im;
             if of(&middle) == 0.0 {
                 // A diverging mode has no frequency as a reference.
                 continue;
             }
-            close(value.im / of(&middle), difference(&of), "frequency");
+            close(TAU * value_hz / of(&middle), difference(&of), "frequency");
         }
     }
     middle.chart.instabilities.len()

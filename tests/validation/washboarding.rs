@@ -72,7 +72,7 @@ fn collocated(scene: &Scene, report: &WashboardReport, stiffness: f64) -> Vec<c6
     let cut = scene.cut().unwrap();
     let typed = scene.file().cut.as_ref().unwrap();
     let delayed = typed.washboarding.as_ref().unwrap();
-    let of_teeth = cut.teeth.mean * cut.teeth.pitch_rad;
+    let of_teeth = cut.teeth.arc_rad();
     let arc = delayed.arc_deg.map_or(of_teeth, f64::to_radians);
     let run = cut.at_rpm(report.rpm).unwrap();
     let resolution = Resolution {
@@ -84,7 +84,7 @@ fn collocated(scene: &Scene, report: &WashboardReport, stiffness: f64) -> Vec<c6
     let order = system.order();
     let mut columns = Mat::zeros(order, ON_ARC);
     for (k, [node, weight]) in gauss(ON_ARC).into_iter().enumerate() {
-        let angle = cut.teeth.angle_rad + 0.5 * arc * node;
+        let angle = cut.teeth.angle_deg.to_radians() + 0.5 * arc * node;
         let functions = plate.functions_at(plate.blade.outer_radius_m, angle);
         for (i, value) in functions.into_iter().enumerate() {
             columns[(i, k)] = value * (0.5 * weight).sqrt();

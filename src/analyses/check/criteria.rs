@@ -226,7 +226,7 @@ pub(super) fn of_gaps(
     with_gap
         .filter_map(|(index, guide, gap_m)| {
             let bending = bending?;
-            let place = at_point(plate, guide.radius_m, guide.angle_deg.to_radians());
+            let place = at_point(plate, (guide.radius_m, guide.angle_deg.to_radians()));
             bending.in_cut_m(&place, 0.0)?;
             let found = bending.fills_gap_at(&place, gap_m);
             Some(Criterion {

@@ -21,7 +21,7 @@ mod report;
 mod rim;
 mod static_deflection;
 
-use crate::analyses::deflect::rim_compliance_m_per_n;
+use crate::analyses::deflect::compliance_m_per_n;
 use crate::report::{InstabilityBand, Numbered, add_amplitudes, lifting_off, side_force_in_words};
 use crate::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::spectrum::SpectrumError;
@@ -89,7 +89,7 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
     criteria.extend(is_free.then(|| without_stiffness(operating)));
     // Nothing resists a side force where rigid motions are free, or where K(Ω) is singular.
     let stiffness = |speed: f64| {
-        let compliance = rim_compliance_m_per_n(plate, angle, speed);
+        let compliance = compliance_m_per_n(plate, (plate.blade.outer_radius_m, angle), speed);
         compliance.map_or(0.0, |m_per_n| 1.0 / m_per_n)
     };
     let to_rad_per_s = analysis.range_rad_per_s.1;

@@ -1,8 +1,9 @@
 //! Lateral stiffness of a point of the rim at the middle of the cut, while the saw turns below a force fixed in
 //! space.
 
-use crate::analyses::deflect::rim_compliance_m_per_n;
+use crate::analyses::deflect::compliance_m_per_n;
 use crate::plate::{Plate, Resolution};
+use crate::scene::Scene;
 use crate::stability::{Analysis, StabilityState};
 
 /// A point load deforms the rim in waves of all lengths; the contribution of n diameters falls only with n³.
@@ -27,10 +28,18 @@ pub(super) fn point_load_plate(analysis: &Analysis) -> Plate {
     Plate::new(&analysis.scene, resolution)
 }
 
+/// Radius and angle of the rim at the cut.
+fn rim_at_cut(scene: &Scene) -> (f64, f64) {
+    (scene.blade().outer_radius_m, scene.cut_angle_rad())
+}
+
 /// Lateral stiffness at rest, in N/m; `None` if rigid motions are free.
 pub(crate) fn rim_stiffness_at_rest_n_per_m(analysis: &Analysis) -> Option<f64> {
-    let angle = analysis.scene.cut_angle_rad();
-    let compliance = rim_compliance_m_per_n(&point_load_plate(analysis), angle, 0.0)?;
+    let compliance = compliance_m_per_n(
+        &point_load_plate(analysis),
+        rim_at_cut(&analysis.scene),
+        0.0,
+    )?;
     Some(1.0 / compliance)
 }
 
@@ -47,8 +56,8 @@ pub(crate) fn side_force_factor(analysis: &Analysis, speed_rad_per_s: f64) -> Op
     if verdict.state != StabilityState::Stable || error > DISTANCE_ERROR * distance {
         return None;
     }
-    let (plate, angle) = (point_load_plate(analysis), analysis.scene.cut_angle_rad());
-    let at = |speed: f64| rim_compliance_m_per_n(&plate, angle, speed);
+    let (plate, place) = (point_load_plate(analysis), rim_at_cut(&analysis.scene));
+    let at = |speed: f64| compliance_m_per_n(&plate, place, speed);
     Some(at(speed_rad_per_s)? / at(0.0)?)
 }
 
@@ -56,7 +65,7 @@ pub(crate) fn side_force_factor(analysis: &Analysis, speed_rad_per_s: f64) -> Op
 mod tests {
     use super::*;
     use crate::analyses::response::{Options, response};
-    use crate::scene::{Accuracy, ProbeFile, ResponseFile, Scene, rpm};
+    use crate::scene::{Accuracy, ProbeFile, SideForceFile, rpm};
     use crate::system::GyroscopicSystem;
     use crate::transient::at_point;
 
@@ -78,8 +87,8 @@ mod tests {
         let analysis = Analysis::new(&saw).unwrap();
         let plate = point_load_plate(&analysis);
         let system = GyroscopicSystem::of_plate(&plate);
-        let point = at_point(&plate, plate.blade.outer_radius_m, saw.cut_angle_rad());
-        let at_rest = rim_compliance_m_per_n(&plate, saw.cut_angle_rad(), 0.0).unwrap();
+        let point = at_point(&plate, rim_at_cut(&saw));
+        let at_rest = compliance_m_per_n(&plate, rim_at_cut(&saw), 0.0).unwrap();
         let waves = crate::spectrum::critical_speeds(&system).unwrap();
         let critical = waves[0].speed_rad_per_s;
         let waves = waves
@@ -93,7 +102,7 @@ mod tests {
             .sum();
         let sides = [0.997, 1.003].map(|ratio| {
             let one_wave = 1.0 / (1.0 - ratio * ratio);
-            let at = rim_compliance_m_per_n(&plate, saw.cut_angle_rad(), ratio * critical);
+            let at = compliance_m_per_n(&plate, rim_at_cut(&saw), ratio * critical);
             (at.unwrap() / at_rest, one_wave * share / at_rest)
         });
         let [below, above] = sides;
@@ -112,11 +121,7 @@ mod tests {
         for ratio in [0.96, 1.045] {
             let saw = clamped(rpm(ratio * critical)).edited(|saw| {
                 let angle_deg = clamped(3800.0).cut_angle_rad().to_degrees();
-                saw.response = Some(ResponseFile {
-                    force_n: 1e-3,
-                    angle_deg,
-                    ..ResponseFile::default()
-                });
+                saw.side_force = Some(SideForceFile::of(1e-3));
                 saw.probe = Some(ProbeFile {
                     radius_m: None,
                     angle_deg,

@@ -52,7 +52,7 @@ impl StaticDeflection {
             return None;
         }
         let rim_radius_m = plate.blade.outer_radius_m;
-        let rim = at_point(plate, rim_radius_m, angle_rad);
+        let rim = at_point(plate, (rim_radius_m, angle_rad));
         let of_teeth = |(cut, lateral_n): (&Cut, f64)| {
             Scale(lateral_n) * lateral_load(plate, &cut.teeth.standing())
         };

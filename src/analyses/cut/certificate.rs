@@ -47,7 +47,7 @@ impl CutCertificate {
             idle_growing_modes: idle.modes,
             full_basis_counts: idle.full_basis_counts + in_cut.full_basis_counts,
             krein_violations: states.iter().filter(|s| !s.found.matches_krein()).count(),
-            miscounted_modes: miscounts.map(Into::into).collect(),
+            miscounted_modes: miscounts.cloned().collect(),
         }
     }
 
@@ -81,7 +81,7 @@ impl State<'_> {
                 false => format!("Krein index {modes} does not match {stiffness} of the stiffness"),
             });
         }
-        for miscount in self.found.miscounts.iter().map(MiscountedModes::from) {
+        for miscount in &self.found.miscounts {
             checks.push(format!(
                 "miscounted on the full model: {}",
                 miscount.in_words()
@@ -100,11 +100,8 @@ impl State<'_> {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::TAU;
-
     use super::*;
     use crate::spectrum::Growing;
-    use crate::stability::Miscount;
 
     #[test]
     fn the_sentence_says_what_agrees_and_what_does_not() {
@@ -128,10 +125,10 @@ mod tests {
         );
         let wrong = GrowingModes {
             krein: Some([4, 2]),
-            miscounts: vec![Miscount {
-                speed_rad_per_s: 100.0,
-                from_rad_per_s: 10.0 * TAU,
-                to_rad_per_s: 12.0 * TAU,
+            miscounts: vec![MiscountedModes {
+                rpm: 955.0,
+                from_hz: 10.0,
+                to_hz: 12.0,
                 missing: -2,
             }],
             ..found

@@ -3,7 +3,7 @@
 use faer::Col;
 
 use crate::plate::Plate;
-use crate::scene::{CutRun, Probe};
+use crate::scene::{CutRun, Point};
 use crate::spectrum::{Assembled, Growing, SpectrumError, companion_eigenpairs};
 use crate::stability::{CRITICAL_MARGIN, GrowingModes, critical_at};
 use crate::system::GyroscopicSystem;
@@ -137,7 +137,7 @@ const GROWTH_A_SAMPLE: f64 = 0.1;
 ///
 /// # Errors
 /// [`TransientError`].
-pub(super) fn cut_history(saw: &SawInCut<'_>, probe: &Probe) -> Result<CutHistory, TransientError> {
+pub(super) fn cut_history(saw: &SawInCut<'_>, probe: Point) -> Result<CutHistory, TransientError> {
     let SawInCut {
         plate, cut, run, ..
     } = saw;

@@ -91,7 +91,7 @@ pub fn cut(
     let cut = scene.needed_cut().map_err(SceneError::from)?;
     let teeth = cut.teeth;
     let (turn_deg, level) = map_steps(scene.accuracy());
-    let stage_count = (teeth.pitch_rad.to_degrees() / STAGE_DEG).ceil() as usize;
+    let stage_count = (teeth.pitch_rad().to_degrees() / STAGE_DEG).ceil() as usize;
     let cutting = Cutting {
         scene,
         cut,
@@ -125,7 +125,7 @@ pub fn cut(
         flutter_threshold_per_s: scene.flutter_threshold_per_s(),
         linear_limit_m: linear_limit_m(scene.blade()),
         teeth: teeth.mean,
-        arc_deg: (teeth.mean * teeth.pitch_rad).to_degrees(),
+        arc_deg: teeth.arc_rad().to_degrees(),
         warnings: lifting_off(scene)
             .into_iter()
             .chain(found.iter().flat_map(of_run))

@@ -6,7 +6,7 @@ use faer::{Col, Scale};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::scene::Probe;
+use crate::scene::Point;
 use crate::spectrum::Cancellation;
 use crate::stretched::StretchedBlade;
 use crate::system::GyroscopicSystem;
@@ -49,7 +49,7 @@ const LOOK_S: f64 = 0.01;
 /// solution.
 pub(super) fn stretched_cut(
     saw: &SawInCut<'_>,
-    probe: &Probe,
+    probe: Point,
     growths: [Growth; 2],
 ) -> Result<(Record, CutStretching), TransientError> {
     with_modes(saw, probe, growths, MODES)
@@ -57,7 +57,7 @@ pub(super) fn stretched_cut(
 
 fn with_modes(
     saw: &SawInCut<'_>,
-    probe: &Probe,
+    probe: Point,
     growths: [Growth; 2],
     modes: usize,
 ) -> Result<(Record, CutStretching), TransientError> {
@@ -133,7 +133,7 @@ struct Samples<'a> {
 }
 
 impl<'a> Samples<'a> {
-    fn new(blade: &'a StretchedBlade, probe: &'a Probe, speed_rad_per_s: f64) -> Self {
+    fn new(blade: &'a StretchedBlade, probe: Point, speed_rad_per_s: f64) -> Self {
         Samples {
             blade,
             probe: StretchedProbe::new(blade, probe),
@@ -276,11 +276,11 @@ mod tests {
             Scale(run.lateral_n) * reduced.vector(&lateral_load(&plate, &cut.teeth.standing()));
         let system = reduced.system(&saw.cutting_system);
         let speed = run.speed_rad_per_s;
-        let probe = Probe {
+        let probe = Point {
             radius_m: 0.4,
-            angle_rad: 0.0,
+            angle_deg: 0.0,
         };
-        let mut samples = Samples::new(&blade, &probe, speed);
+        let mut samples = Samples::new(&blade, probe, speed);
         let phase = Phase {
             system: &system,
             load: &load,
@@ -318,16 +318,16 @@ mod tests {
             ..cut.at_rpm(1800.0).unwrap()
         };
         let saw = SawInCut::new(&plate, &cut, &run).unwrap();
-        let probe = Probe {
+        let probe = Point {
             radius_m: predicted.radius_m,
-            angle_rad: predicted.angle_rad,
+            angle_deg: predicted.angle_rad.to_degrees(),
         };
         let growth = Growth {
             growth_per_s: predicted.growth_per_s,
             frequency_rad_per_s: predicted.frequency_rad_per_s,
             diverges: false,
         };
-        let (record, found) = stretched_cut(&saw, &probe, [growth; 2]).unwrap();
+        let (record, found) = stretched_cut(&saw, probe, [growth; 2]).unwrap();
         let seen = largest(&record.deflection_m);
         let error = predicted.amplitude_m / seen - 1.0;
         println!("{predicted:?} {seen} {error} {found:?}");

@@ -39,11 +39,11 @@ fn run_at(rpm: f64) -> CutRun {
 #[test]
 fn the_paper_saw_is_stable_at_1800_and_flutters_at_2800() {
     let plate = paper_plate(DESIGN);
-    let probe = *Scene::paper().probe();
+    let probe = Scene::paper().probe();
     let history_at = |rpm: f64| {
         let (cut, run) = (paper_cut(), run_at(rpm));
         let saw = SawInCut::new(&plate, &cut, &run).unwrap();
-        cut_history(&saw, &probe).unwrap()
+        cut_history(&saw, probe).unwrap()
     };
     let quiet = history_at(1800.0);
     assert_eq!(quiet.in_cut().growth_per_s, 0.0);
@@ -74,14 +74,14 @@ fn the_paper_saw_is_stable_at_1800_and_flutters_at_2800() {
 fn few_motions_make_the_record_of_the_full_model() {
     let plate = paper_plate(SMALL);
     let (cut, run) = (paper_cut(), run_at(2800.0));
-    let probe = *Scene::paper().probe();
-    let history = cut_history(&SawInCut::new(&plate, &cut, &run).unwrap(), &probe).unwrap();
+    let probe = Scene::paper().probe();
+    let history = cut_history(&SawInCut::new(&plate, &cut, &run).unwrap(), probe).unwrap();
     let system = GyroscopicSystem::of_plate(&plate.in_cut(&cut, &run));
     let mut load: Col<f64> = Col::zeros(system.order());
     for angle in cut.teeth.standing().iter().map(|tooth| tooth.angle_rad) {
-        load += at_point(&plate, plate.blade.outer_radius_m, angle);
+        load += at_point(&plate, (plate.blade.outer_radius_m, angle));
     }
-    let read = at_point(&plate, probe.radius_m, probe.angle_rad);
+    let read = at_point(&plate, probe.polar());
     let propagator =
         Propagator::new(&system, run.speed_rad_per_s, &[load], run.duration_s).unwrap();
     let force = [run.lateral_n];
@@ -99,11 +99,11 @@ fn few_motions_make_the_record_of_the_full_model() {
 #[test]
 fn passing_teeth_act_like_their_mean() {
     let plate = paper_plate(DESIGN);
-    let probe = *Scene::paper().probe();
+    let probe = Scene::paper().probe();
     let passing_at = |rpm: f64, stages: usize| -> ToothPassing {
         let (cut, run) = (paper_cut(), run_at(rpm));
         let saw = SawInCut::new(&plate, &cut, &run).unwrap();
-        tooth_passing(&saw, &probe, stages).unwrap().0
+        tooth_passing(&saw, probe, stages).unwrap().0
     };
     let passing = passing_at(2800.0, 8);
     let of_mean = passing.passing_growth_per_s / passing.mean_growth_per_s - 1.0;

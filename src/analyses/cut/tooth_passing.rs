@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::linalg::real_eigenvalues;
 use crate::plate::RimForce;
-use crate::scene::{Probe, Tooth, rad_per_s};
+use crate::scene::{Point, Tooth, rad_per_s};
 use crate::spectrum::{Growing, SpectrumError};
 use crate::system::GyroscopicSystem;
 use crate::transient::{
@@ -58,11 +58,11 @@ const SHAPES_UP_TO: f64 = 2.0;
 /// [`TransientError`].
 pub(super) fn tooth_passing(
     saw: &SawInCut<'_>,
-    probe: &Probe,
+    probe: Point,
     stages: usize,
 ) -> Result<(ToothPassing, Growth), TransientError> {
     let speed = saw.run.speed_rad_per_s;
-    let period_s = saw.cut.teeth.pitch_rad / speed;
+    let period_s = saw.cut.teeth.pitch_rad() / speed;
     let tooth_frequency_rad_per_s = std::f64::consts::TAU / period_s;
     let highest = SHAPES_UP_TO * tooth_frequency_rad_per_s;
     let blade = saw.blade.with_shapes_below(&saw.cutting_system, highest)?;
@@ -113,7 +113,7 @@ impl<'a> MovingLoads<'a> {
     }
 
     fn step_s(&self) -> f64 {
-        let pitch_s = self.saw.cut.teeth.pitch_rad / self.saw.run.speed_rad_per_s;
+        let pitch_s = self.saw.cut.teeth.pitch_rad() / self.saw.run.speed_rad_per_s;
         pitch_s / self.steps.len() as f64
     }
 

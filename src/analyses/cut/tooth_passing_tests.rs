@@ -27,10 +27,9 @@ fn saw_with_teeth(teeth: u32, in_cut: f64, tangential_n: f64) -> Scene {
 /// The forces of the teeth that are in the cut when the last one entered it some pitches ago.
 fn loads(cut: &Cut, run: &CutRun, entered: f64) -> Vec<RimForce> {
     let TeethInCut {
-        angle_rad,
-        mean,
-        pitch_rad,
+        angle_deg, mean, ..
     } = cut.teeth;
+    let (angle_rad, pitch_rad) = (angle_deg.to_radians(), cut.teeth.pitch_rad());
     let places = (0..8).map(|k| entered + f64::from(k));
     let in_cut = places.filter(|place| *place < mean);
     let force = in_cut.map(|place| RimForce {
@@ -44,7 +43,7 @@ fn loads(cut: &Cut, run: &CutRun, entered: f64) -> Vec<RimForce> {
 /// max ln|μ| / T by the classical Runge–Kutta method, with K_e of the loads at each of `stages` positions.
 fn by_runge_kutta(plate: &Plate, cut: &Cut, run: &CutRun, stages: usize, steps: usize) -> f64 {
     let speed = run.speed_rad_per_s;
-    let period_s = cut.teeth.pitch_rad / speed;
+    let period_s = cut.teeth.pitch_rad() / speed;
     let step_s = period_s / (stages * steps) as f64;
     let order = plate.degrees_of_freedom();
     let mut q = Mat::from_fn(order, 2 * order, |i, k| f64::from(u8::from(i == k)));
@@ -137,7 +136,7 @@ fn the_mean_of_moving_loads_is_spread_evenly_over_the_arc() {
     let cut = scene.cut().unwrap();
     let run = cut.at_rpm(1200.0).unwrap();
     let stiffness = |teeth: &[Tooth]| plate.edge_stiffness_of(&RimForce::of_teeth(teeth, &run));
-    let arc_rad = cut.teeth.mean * cut.teeth.pitch_rad;
+    let arc_rad = cut.teeth.arc_rad();
     let points = 4000;
     let share = cut.teeth.mean / f64::from(points);
     let spread = (0..points).map(|k| Tooth {

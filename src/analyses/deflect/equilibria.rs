@@ -2,9 +2,10 @@
 
 use faer::Col;
 
-use super::{DeflectError, Options, SideForce};
+use super::pressed::{steep, under};
+use super::{DeflectError, Options};
 use crate::plate::{Plate, Resolution};
-use crate::scene::{Scene, rad_per_s};
+use crate::scene::{Scene, SideForce, rad_per_s};
 use crate::spectrum::{Cancellation, Work};
 use crate::stability::Analysis;
 use crate::stretched::{
@@ -58,9 +59,9 @@ impl Equilibria {
         let range = analysis.range_rad_per_s;
         let plate = &analysis.model.plate;
         let parts = Work::of("parts of the deflection", PARTS);
-        let blade = force.on(plate, range.1, MODES.min(plate.degrees_of_freedom()))?;
+        let blade = under(force, plate, range.1, MODES.min(plate.degrees_of_freedom()))?;
         if let Some(gentle_n) = gentler(force, &blade, range.0)? {
-            return Err(options.steep(scene, force, gentle_n).into());
+            return Err(steep(force, gentle_n).into());
         }
         let (blade, up, relative_error) = resolved(force, plate, blade, range)?;
         parts.advance();
@@ -104,7 +105,7 @@ fn gentler(
     speed_rad_per_s: f64,
 ) -> Result<Option<f64>, StretchedError> {
     let is_gentle = |force_n: f64| {
-        let pressed = SideForce { force_n, ..*force }.presses(blade)?;
+        let pressed = blade.clone().pressed(force_n, force.at.polar())?;
         match pressed.settled(speed_rad_per_s, &pressed.flat()) {
             Ok(found) => Ok(pressed.largest_slope(&found) <= LARGEST_SLOPE),
             Err(StretchedError::NotFound { .. }) => Ok(false),
@@ -150,7 +151,7 @@ fn resolved(
     mut blade: StretchedBlade,
     range: (f64, f64),
 ) -> Result<(StretchedBlade, Sweep, Option<f64>), DeflectError> {
-    let on = |modes: usize| force.on(plate, range.1, modes.min(plate.degrees_of_freedom()));
+    let on = |modes: usize| under(force, plate, range.1, modes.min(plate.degrees_of_freedom()));
     let mut modes = MODES;
     loop {
         let more = modes + modes / 2;

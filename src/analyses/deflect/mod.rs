@@ -11,7 +11,7 @@
 //! use sawflutter::scene::{Accuracy, Scene};
 //!
 //! let scene = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft)?;
-//! let options = Options { to_rpm: Some(1800.0), ..Options::default() };
+//! let options = Options { to_rpm: Some(1800.0) };
 //! let report = deflect(&scene, &options)?;
 //! let deflections = report.up.arcs.iter().flat_map(|arc| &arc.largest_deflection_m);
 //! assert!(deflections.fold(0.0, |most: f64, m| most.max(*m)) > scene.file().blade.thickness_m);
@@ -19,17 +19,17 @@
 //! ```
 
 mod equilibria;
-mod options;
 mod outline;
 mod point_load;
+mod pressed;
 mod reading;
 mod report;
 #[cfg(test)]
 mod tests;
 
-pub use options::{Options, SideForce};
 pub(crate) use outline::outline;
-pub(crate) use point_load::rim_compliance_m_per_n;
+pub(crate) use point_load::compliance_m_per_n;
+pub use pressed::Options;
 pub use report::{Arc, DeflectReport, EquilibriumCurve, Jump, SlowSweep, Turn};
 
 use crate::scene::{RefusedValue, Scene, SceneError};
@@ -62,7 +62,8 @@ pub enum DeflectError {
 /// # Errors
 /// [`DeflectError`] if an option is refused, the saw cannot be analysed, or no equilibrium is found.
 pub fn deflect(scene: &Scene, options: &Options) -> Result<DeflectReport, DeflectError> {
-    let force = options.side_force(scene)?;
+    options.checked()?;
+    let force = scene.side_force();
     let found = Equilibria::new(scene, options, &force)?;
     let chart = found.analysis.report();
     let probe = scene.probe();
@@ -80,15 +81,15 @@ pub fn deflect(scene: &Scene, options: &Options) -> Result<DeflectReport, Deflec
             _ => basis_error(
                 &found.analysis.scene,
                 &found.analysis.model.plate,
-                force.angle_rad,
+                force.at.polar(),
             ),
         },
         from_rpm: chart.campbell.from_rpm,
         to_rpm: chart.campbell.to_rpm,
         force_n: force.force_n,
-        force_angle_deg: force.angle_rad.to_degrees(),
+        force_angle_deg: force.at.angle_deg,
         probe_radius_m: probe.radius_m,
-        probe_angle_deg: probe.angle_rad.to_degrees(),
+        probe_angle_deg: probe.angle_deg,
         beyond_thickness_rpm: reader.beyond_rpm(&found.up, scene.blade().thickness_range_m().0),
         up: reader.sweep(&found.up)?,
         down: reader.sweep(&found.down)?,

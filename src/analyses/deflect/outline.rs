@@ -49,10 +49,8 @@ const MEANING: &str = "With any damping fixed in space every motion ends in a st
 
 /// Speed above which the deflection exceeds the thickness, and the largest deflection while the speed rises.
 fn verdict(report: &DeflectReport) -> String {
-    let force = format!(
-        "Under {} N at the rim at {}°",
-        report.force_n, report.force_angle_deg
-    );
+    let place = report.scene.side_force_place_in_words();
+    let force = format!("Under {} N {place}", report.force_n);
     let up = report.up.arcs.iter();
     let all = up.flat_map(|arc| arc.rpm.iter().zip(&arc.largest_deflection_m));
     let last = all.clone().last();

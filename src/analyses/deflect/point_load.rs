@@ -1,4 +1,4 @@
-//! Deflection of a blade at rest under a force at a point of its rim, and its error on a basis.
+//! Deflection of a blade at rest under a force at a point, and its error on a basis.
 
 use faer::linalg::solvers::Solve;
 
@@ -8,14 +8,14 @@ use crate::stability::ahead;
 use crate::system::GyroscopicSystem;
 use crate::transient::at_point;
 
-/// φᵀ K(Ω)⁻¹ φ in m/N with the basis functions φ at the rim: deflection over force at a point fixed in space while
-/// the saw turns. `None` if rigid motions are free, and where K(Ω) is singular.
-pub(crate) fn rim_compliance_m_per_n(
+/// φᵀ K(Ω)⁻¹ φ in m/N with the basis functions φ at a place, a radius in m and an angle in rad: deflection over force at a point fixed in space
+/// while the saw turns. `None` if rigid motions are free, and where K(Ω) is singular.
+pub(crate) fn compliance_m_per_n(
     plate: &Plate,
-    angle_rad: f64,
+    place: (f64, f64),
     speed_rad_per_s: f64,
 ) -> Option<f64> {
-    let point = at_point(plate, plate.blade.outer_radius_m, angle_rad);
+    let point = at_point(plate, place);
     let system = GyroscopicSystem::of_plate(plate);
     if !system.free_rigid.is_empty() {
         return None;
@@ -31,10 +31,10 @@ pub(crate) fn rim_compliance_m_per_n(
 /// A point load deforms the rim in waves of all lengths; the contribution of n diameters falls with n³, so that what N
 /// diameters leave out falls with 1/N². The change on the larger basis that measures the error of critical speeds is a
 /// known part of it.
-pub(super) fn basis_error(scene: &Scene, plate: &Plate, angle_rad: f64) -> Option<f64> {
+pub(super) fn basis_error(scene: &Scene, plate: &Plate, place: (f64, f64)) -> Option<f64> {
     let larger = ahead(plate.resolution);
-    let own = rim_compliance_m_per_n(plate, angle_rad, 0.0)?;
-    let more = rim_compliance_m_per_n(&Plate::new(scene, larger), angle_rad, 0.0)?;
+    let own = compliance_m_per_n(plate, place, 0.0)?;
+    let more = compliance_m_per_n(&Plate::new(scene, larger), place, 0.0)?;
     let left_out = (plate.max_diameters() as f64 / larger.max_diameters as f64).powi(2);
     // The larger basis contains the smaller one: the compliance of a blade that is not buckled rises.
     let missing = (1.0 - own / more) / (1.0 - left_out);
@@ -62,12 +62,13 @@ mod tests {
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
     fn the_error_of_the_compliance_is_estimated_within_a_factor_of_two() {
         for (name, saw) in saws() {
-            let of = |plate: &Plate| rim_compliance_m_per_n(plate, PI, 0.0).unwrap();
+            let place = (saw.blade().outer_radius_m, PI);
+            let of = |plate: &Plate| compliance_m_per_n(plate, place, 0.0).unwrap();
             let exact = of(&Plate::new(&saw, basis(40, 18)));
             for size in [basis(12, 7), basis(14, 9)] {
                 let plate = Plate::new(&saw, size);
                 let error = 1.0 - of(&plate) / exact;
-                let estimate = basis_error(&saw, &plate, PI).unwrap();
+                let estimate = basis_error(&saw, &plate, place).unwrap();
                 let ratio = estimate / error;
                 assert!(
                     (0.5..2.0).contains(&ratio),

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 
 use super::report::{Arc, EquilibriumCurve, Jump, SlowSweep, Turn};
-use crate::scene::{Probe, rpm};
+use crate::scene::{Point, rpm};
 use crate::stretched::{
     Branch, Equilibrium, LARGEST_SLOPE, Sites, StretchedBlade, StretchedError, Sweep,
 };
@@ -14,13 +14,13 @@ use crate::stretched::{
 pub(super) struct Reader<'a> {
     blade: &'a StretchedBlade,
     sites: Sites,
-    probe: &'a Probe,
+    probe: Point,
     /// Frequency up to which small motions are listed.
     to_hz: f64,
 }
 
 impl<'a> Reader<'a> {
-    pub fn new(blade: &'a StretchedBlade, probe: &'a Probe, to_hz: f64) -> Self {
+    pub fn new(blade: &'a StretchedBlade, probe: Point, to_hz: f64) -> Self {
         Reader {
             blade,
             sites: blade.sites(),
@@ -30,10 +30,7 @@ impl<'a> Reader<'a> {
     }
 
     fn at_probe_m(&self, e: &Equilibrium) -> f64 {
-        let Probe {
-            radius_m,
-            angle_rad,
-        } = *self.probe;
+        let (radius_m, angle_rad) = self.probe.polar();
         self.blade.deflection_m(e, radius_m, angle_rad)
     }
 

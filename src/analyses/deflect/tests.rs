@@ -3,11 +3,18 @@
 use faer::Col;
 
 use super::equilibria::MODES;
+use super::pressed::under;
 use super::*;
 use crate::plate::Plate;
-use crate::scene::{Accuracy, rad_per_s};
+use crate::scene::{Accuracy, SideForceFile, rad_per_s};
 use crate::stability::ChosenBasis;
 use crate::stretched::Equilibrium;
+
+/// The paper's saw under a side force.
+fn pressed(force: SideForceFile) -> Scene {
+    let saw = draft().edited(|saw| saw.side_force = Some(force));
+    saw.unwrap()
+}
 
 fn draft() -> Scene {
     Scene::paper()
@@ -28,12 +35,10 @@ fn plate(to_rpm: f64) -> Plate {
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn without_a_force_the_blade_deflects_from_its_first_critical_speed_on() {
     let options = Options {
-        force_n: Some(0.0),
         to_rpm: Some(1600.0),
-        ..Options::default()
     };
-    let force = options.side_force(&draft()).unwrap();
-    let found = Equilibria::new(&draft(), &options, &force).unwrap();
+    let saw = pressed(SideForceFile::of(0.0));
+    let found = Equilibria::new(&saw, &options, &saw.side_force()).unwrap();
     let critical = found.analysis.model.critical[0].speed_rad_per_s;
     let sites = found.blade.sites();
     for sweep in [&found.up, &found.down] {
@@ -58,11 +63,13 @@ fn without_a_force_the_blade_deflects_from_its_first_critical_speed_on() {
 fn a_small_force_deflects_a_slow_blade_as_the_linear_model_says() {
     use faer::linalg::solvers::Solve;
     let options = Options {
-        force_n: Some(1e-3),
-        angle_deg: Some(90.0),
         to_rpm: Some(1000.0),
     };
-    let report = deflect(&draft(), &options).unwrap();
+    let force = SideForceFile {
+        angle_deg: Some(90.0),
+        ..SideForceFile::of(1e-3)
+    };
+    let report = deflect(&pressed(force), &options).unwrap();
     let plate = plate(1000.0);
     let system = crate::system::GyroscopicSystem::of_plate(&plate);
     let values = plate.functions_at(plate.blade.outer_radius_m, 90_f64.to_radians());
@@ -79,21 +86,9 @@ fn a_small_force_deflects_a_slow_blade_as_the_linear_model_says() {
 }
 
 #[test]
-fn forces_angles_and_speeds_out_of_range_and_a_free_blade_are_refused() {
-    let asked = |force_n, angle_deg, to_rpm| {
-        let options = Options {
-            force_n,
-            angle_deg,
-            to_rpm,
-        };
-        options.checked(&draft()).unwrap_err().to_string()
-    };
-    let force = asked(Some(f64::NAN), None, None);
-    assert!(force.contains("force_n"), "{force}");
-    let angle = asked(None, Some(1e5), None);
-    assert!(angle.contains("angle_deg"), "{angle}");
-    let speed = asked(None, None, Some(-3.0));
-    assert!(speed.contains("to_rpm"), "{speed}");
+fn a_speed_out_of_range_and_a_free_blade_are_refused() {
+    let options = Options { to_rpm: Some(-3.0) };
+    assert_eq!(options.checked().unwrap_err().key, "to_rpm");
     let free = draft().edited(|saw| saw.guides.clear()).unwrap();
     let free = deflect(&free, &Options::default());
     let said = free.unwrap_err().to_string();
@@ -107,14 +102,12 @@ fn forces_angles_and_speeds_out_of_range_and_a_free_blade_are_refused() {
 fn every_equilibrium_that_the_blade_reaches_is_on_a_curve() {
     let options = Options {
         to_rpm: Some(2200.0),
-        ..Options::default()
     };
     let report = deflect(&draft(), &options).unwrap();
     let speed = rad_per_s(2000.0);
     let plate = plate(2200.0);
-    let force = options.side_force(&draft()).unwrap();
-    let blade = force.on(&plate, rad_per_s(2200.0), MODES).unwrap();
-    let probe = *draft().probe();
+    let blade = under(&draft().side_force(), &plate, rad_per_s(2200.0), MODES).unwrap();
+    let probe = draft().probe();
     let mut seen = Vec::new();
     for k in 0..12 {
         let angle = std::f64::consts::TAU * f64::from(k) / 12.0;
@@ -122,7 +115,7 @@ fn every_equilibrium_that_the_blade_reaches_is_on_a_curve() {
         let pushed = blade.clone().pressed(200.0, pushed).unwrap();
         let begun = pushed.settled(speed, &blade.flat()).unwrap();
         let rest = blade.settled(speed, &begun.coordinates).unwrap();
-        let deflection_m = blade.deflection_m(&rest, probe.radius_m, probe.angle_rad);
+        let deflection_m = blade.deflection_m(&rest, probe.radius_m, probe.angle_deg.to_radians());
         let is_on = |curve: &EquilibriumCurve| {
             let mut pairs = curve.rpm.windows(2).zip(curve.deflection_m.windows(2));
             pairs.any(|(rpm, m)| {
@@ -145,17 +138,15 @@ fn every_equilibrium_that_the_blade_reaches_is_on_a_curve() {
 fn a_force_that_deflects_the_blade_beyond_the_model_is_refused() {
     let at = |force_n: f64| {
         let options = Options {
-            force_n: Some(force_n),
             to_rpm: Some(300.0),
-            ..Options::default()
         };
-        deflect(&draft(), &options)
+        deflect(&pressed(SideForceFile::of(force_n)), &options)
     };
     for force_n in [1e6, -1e4] {
         let Err(DeflectError::Refused(refused)) = at(force_n) else {
             panic!("{force_n}");
         };
-        assert_eq!(refused.key, "force_n");
+        assert_eq!(refused.key, "side_force.force_n");
         let allowed: f64 = refused.allowed.split(' ').nth(3).unwrap().parse().unwrap();
         assert!(allowed < force_n.abs(), "{refused}");
         let found = at(allowed.copysign(force_n)).unwrap();

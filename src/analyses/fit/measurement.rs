@@ -29,7 +29,7 @@ const MAX_COLUMNS: usize = 24;
 /// End of the range of speeds for frequencies measured at rest only, because the choice of a basis needs a range.
 const LEAST_RPM: f64 = 100.0;
 /// Largest frequency in Hz, as in scenes.
-const MAX_HZ: f64 = 1e9;
+const MAX_HZ: f64 = quantity("measured.rows[].frequencies_hz[]").allowed.to;
 
 impl Row {
     /// Pairs the numbers of a row, in ascending order, with the columns that contain a number: the number of the k-th

@@ -38,10 +38,10 @@ type Row = Vec<Option<Deviation>>;
 pub(super) fn deviation_map(
     analysis: &Analysis,
     rpm: f64,
-    force_n: f64,
     limit_m: Option<f64>,
 ) -> Result<DeviationMap, GapError> {
     let scene = &analysis.scene;
+    let force_n = scene.file().side_force_n();
     let end_rpm = crate::scene::rpm(analysis.range_rad_per_s.1);
     let blade_of = |scene: &Scene, modes: usize| {
         let resolution = analysis.model.plate.resolution;
@@ -83,7 +83,7 @@ pub(super) fn deviation_map(
     let own = own.map_or(&[][..], |own| &over_speed[own]);
     let sizes_n: Vec<f64> = forces_n.iter().map(|force| force.abs()).collect();
     Ok(DeviationMap {
-        angle_deg: scene.cut_angle_rad().to_degrees(),
+        angle_deg: scene.file().cut_angle_deg(),
         rpm,
         gap_factors,
         forces_n,

@@ -5,7 +5,9 @@
 //! the deflection under the side force and the forces of the pads: the loop is repeated until the temperature no longer
 //! changes. The effect of the force of friction on the motion is neglected.
 
-use crate::scene::{self, FrictionFile, Guide, Scene, TemperatureFile, TemperatureRow, rad_per_s};
+use crate::scene::{
+    self, FrictionFile, Guide, Scene, TemperatureFile, TemperatureRow, rad_per_s, typical_value,
+};
 use crate::spectrum::{SpectrumError, Work};
 use crate::stability::Analysis;
 use crate::stretched::StretchedError;
@@ -18,7 +20,7 @@ use super::pressed::{Deviation, PressedBlade};
 use super::report::{FrictionHeat, FrictionPad};
 
 /// Coefficient of linear thermal expansion of steel.
-const STEEL_EXPANSION_PER_K: f64 = 1.2e-5;
+const STEEL_EXPANSION_PER_K: f64 = typical_value("membrane.temperature.expansion_per_k");
 /// Relative change of the temperature at which the loop ends.
 const CONVERGED: f64 = 1e-4;
 /// Number of repetitions after which the loop ends without convergence.
@@ -38,11 +40,7 @@ impl Heated {
     ///
     /// # Errors
     /// [`GapError`].
-    pub fn new(
-        analysis: &Analysis,
-        friction: FrictionFile,
-        (force_n, rpm): (f64, f64),
-    ) -> Result<Self, GapError> {
+    pub fn new(analysis: &Analysis, friction: FrictionFile, rpm: f64) -> Result<Self, GapError> {
         let scene = &analysis.scene;
         let resolution = analysis.model.plate.resolution;
         let radii_m = radii_m(scene.blade());
@@ -82,7 +80,7 @@ impl Heated {
             let Some(blade) = unless_buckled(pressed)? else {
                 break;
             };
-            let (deviation, contacts) = blade.with_contacts(force_n, rpm)?;
+            let (deviation, contacts) = blade.with_contacts(scene.file().side_force_n(), rpm)?;
             hot = deviation;
             heat.deflection_m = hot.as_ref().map(|at| at.deviation_m);
             if heat.repetitions == 0 {

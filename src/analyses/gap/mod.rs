@@ -38,7 +38,6 @@ pub(crate) use numbers::{GapCase, GapNumbers};
 pub use oscillation_report::{
     Oscillation, OscillationAt, OscillationLine, OscillationPad, OscillationPlace,
 };
-pub use oscillators::OscillatingForce;
 pub(crate) use outline::outline;
 pub use report::{AtAmplitude, BasisError, DeviationMap, FrictionHeat, FrictionPad, GapReport};
 
@@ -48,7 +47,6 @@ use friction::Heated;
 use oscillation::oscillation;
 use oscillators::Oscillators;
 
-use crate::analyses::deflect;
 use crate::scene::{
     Blade, Bore, Guide, RefusedValue, Scene, SceneError, rad_per_s, rpm, speed_rad_per_s,
 };
@@ -80,15 +78,10 @@ pub enum GapError {
 /// Options of [`gap`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Options {
-    /// Side force at the rim at the cut; by default that of the scene's run-up, or 1 N.
-    pub force_n: Option<f64>,
     /// Speed of the map over gap and force; by default the operating speed, or half of the first critical speed.
     pub rpm: Option<f64>,
     /// Largest deflection at the cut that is allowed.
     pub max_deviation_mm: Option<f64>,
-    /// Side force at the rim at the cut that oscillates. Shape and imbalance of the scene's `response` are added to it;
-    /// without any of them no oscillation is computed.
-    pub oscillating: Option<OscillatingForce>,
 }
 
 /// Largest limit of the deflection that is accepted; no blade deflects as far.
@@ -100,6 +93,12 @@ impl Options {
     /// # Errors
     /// [`RefusedValue`].
     pub fn checked(&self, scene: &Scene) -> Result<(), RefusedValue> {
+        self.checked_still(scene)?;
+        Oscillators::of(scene).map_or(Ok(()), Oscillators::checked)
+    }
+
+    /// As [`Options::checked`], for deflections without oscillation.
+    fn checked_still(&self, scene: &Scene) -> Result<(), RefusedValue> {
         if let Some(rpm) = self.rpm {
             speed_rad_per_s("rpm", rpm)?;
         }
@@ -116,14 +115,11 @@ impl Options {
                 remedy,
             ));
         }
-        if let Some(oscillators) = Oscillators::of(scene, self.oscillating) {
-            oscillators.checked()?;
-        }
-        let force_n = self.force(scene)?;
+        let force_n = scene.file().side_force_n();
         if force_n == 0.0 {
-            let allowed = "other than 0";
+            let (key, allowed) = ("side_force.force_n", "other than 0");
             let remedy = "a side force presses the blade on its guides; give it, such as 5";
-            return Err(RefusedValue::new("force_n", force_n, allowed, remedy));
+            return Err(RefusedValue::new(key, force_n, allowed, remedy));
         }
         let mut guides = scene.guides().iter();
         guides.try_for_each(|guide| check_reached(scene.blade(), guide))?;
@@ -135,15 +131,6 @@ impl Options {
                 "a linear guide acts at any deflection; give contact as \"one_sided\" and gap_m",
             )),
         }
-    }
-
-    /// The side force in N: that of the options, of the scene, or the usual one.
-    fn force(&self, scene: &Scene) -> Result<f64, RefusedValue> {
-        let options = deflect::Options {
-            force_n: self.force_n,
-            ..deflect::Options::default()
-        };
-        Ok(options.side_force(scene)?.force_n)
     }
 }
 
@@ -162,8 +149,11 @@ fn check_reached(blade: &Blade, guide: &Guide) -> Result<(), RefusedValue> {
         false => Err(RefusedValue::new(
             format!("guides[{}].gap_m", guide.index),
             lifting.gap_m,
-            format!("at most {} m", shown_to(3, most_m)),
-            "with slopes up to 0.1, to which the model is valid, the blade between its collars does not deflect as far: give the gap in metres, such as 5e-5, or leave this pad out",
+            format!(
+                "at most {} m, as far as a blade between collars deflects with slopes up to {LARGEST_SLOPE}, to which the model is valid",
+                shown_to(3, most_m)
+            ),
+            "give the gap in metres, such as 5e-5, or leave this pad out",
         )),
     }
 }
@@ -183,17 +173,17 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
         .or(scene.operating_rad_per_s())
         .or(first.map(|critical| 0.5 * critical.speed_rad_per_s))
         .unwrap_or(analysis.range_rad_per_s.1);
-    let (force_n, speed_rpm) = (options.force(scene)?, rpm(speed));
+    let speed_rpm = rpm(speed);
     let limit_m = options.max_deviation_mm.map(|mm| 1e-3 * mm);
-    let deviation = deviation_map(&analysis, speed_rpm, force_n, limit_m)?;
-    let oscillators = Oscillators::of(scene, options.oscillating);
+    let deviation = deviation_map(&analysis, speed_rpm, limit_m)?;
+    let oscillators = Oscillators::of(scene);
     let oscillation = oscillators
-        .map(|all| oscillation(&analysis, &all, force_n, speed))
+        .map(|all| oscillation(&analysis, &all, speed))
         .transpose()?;
     let heated = scene
         .file()
         .friction
-        .map(|friction| Heated::new(&analysis, friction, (force_n, speed_rpm)))
+        .map(|friction| Heated::new(&analysis, friction, speed_rpm))
         .transpose()?;
     let chart = analysis.report();
     let mut warnings = chart.warnings;

@@ -9,15 +9,14 @@ use super::deviation::MODES;
 use super::pressed::{Deviation, PressedBlade};
 use super::{GapError, Options};
 
-/// Side force, speed and amplitude for which [`GapNumbers`] are computed.
+/// Speed and amplitude for which [`GapNumbers`] are computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct GapCase {
-    force_n: f64,
     rpm: f64,
     amplitude_m: Option<f64>,
 }
 
-/// A saw under a side force at the cut.
+/// A saw under its side force.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct GapNumbers {
     /// Deflection of the rim at the cut, as an absolute value; `None` if the model is not valid.
@@ -33,7 +32,7 @@ pub(crate) struct GapNumbers {
 const MAX_AMPLITUDE_MM: f64 = 1e3;
 
 impl GapCase {
-    /// The force of the options, their speed or the operating speed, and an amplitude at the guides.
+    /// The speed of the options or the operating speed, and an amplitude at the guides.
     ///
     /// # Errors
     /// [`RefusedValue`] as [`Options::checked`], if there is no speed, and for an invalid amplitude.
@@ -42,7 +41,7 @@ impl GapCase {
         options: &Options,
         amplitude_mm: Option<f64>,
     ) -> Result<Self, RefusedValue> {
-        options.checked(scene)?;
+        options.checked_still(scene)?;
         let typed = match options.rpm {
             Some(typed) => typed,
             None => rpm(speed_rad_per_s("rpm", scene.needed_operating_rpm(None)?)?),
@@ -61,7 +60,6 @@ impl GapCase {
             ));
         }
         Ok(GapCase {
-            force_n: options.force(scene)?,
             rpm: typed,
             amplitude_m: amplitude_mm.map(|mm| 1e-3 * mm),
         })
@@ -84,11 +82,6 @@ impl GapCase {
         self.amplitude_m
     }
 
-    /// Side force at the rim at the cut, in N.
-    pub fn force_n(&self) -> f64 {
-        self.force_n
-    }
-
     /// Deflection at the cut in m, as an absolute value; `None` if the model is not valid.
     ///
     /// # Errors
@@ -108,7 +101,7 @@ impl GapCase {
         resolution: Resolution,
     ) -> Result<Option<Deviation>, GapError> {
         let pressed = PressedBlade::new(scene, resolution, self.rpm, MODES)?;
-        pressed.deviation(self.force_n, self.rpm)
+        pressed.deviation(scene.file().side_force_n(), self.rpm)
     }
 
     /// The numbers of a saw on a basis.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use faer::{Col, Mat, c64};
 
-use crate::analyses::response::{Cause, Load, State, loads, rigid, solution};
+use crate::analyses::response::{Load, State, loads, rigid, solution};
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, rpm};
 use crate::spectrum::Cancellation;
@@ -45,7 +45,7 @@ pub(super) struct OscillatingBlade {
 }
 
 impl OscillatingBlade {
-    /// The blade of a scene under a steady side force at the rim at the cut. The basis has the modes of
+    /// The blade of a scene under its steady side force. The basis has the modes of
     /// [`StretchedBlade::up_to`], and the linear responses to the alternating loads at `speed_rad_per_s`, with and without
     /// contact.
     ///
@@ -55,23 +55,15 @@ impl OscillatingBlade {
         scene: &Scene,
         resolution: Resolution,
         oscillators: &Oscillators,
-        (force_n, speed_rad_per_s, to_rad_per_s): (f64, f64, f64),
+        (speed_rad_per_s, to_rad_per_s): (f64, f64),
         modes: usize,
     ) -> Result<Self, GapError> {
         let plate = Plate::new(scene, resolution);
-        let place = (plate.blade.outer_radius_m, scene.cut_angle_rad());
-        let mut loads = loads(&plate, scene, &oscillators.turning)
-            .map_err(|waves| rigid(waves, &oscillators.turning))?;
-        if let Some(force) = oscillators.force {
-            let (order, amplitude_n) = (force.order, force.amplitude_n);
-            loads.push(Load::at(
-                Cause::SideForce,
-                order,
-                &plate,
-                place,
-                amplitude_n,
-            ));
-        }
+        let (force, cut) = (
+            scene.side_force(),
+            (plate.blade.outer_radius_m, scene.cut_angle_rad()),
+        );
+        let loads = loads(&plate, scene, 0.0).map_err(|waves| rigid(waves, scene))?;
         let systems = [
             Some(GyroscopicSystem::of_plate(&plate)),
             GyroscopicSystem::of_released(&plate),
@@ -98,8 +90,9 @@ impl OscillatingBlade {
             }
         }
         let modes = modes.min(plate.degrees_of_freedom());
-        let blade = StretchedBlade::up_to_with(&plate, to_rad_per_s, place, (modes, &further))?;
-        let blade = blade.pressed(force_n, place)?;
+        let blade =
+            StretchedBlade::up_to_with(&plate, to_rad_per_s, force.at.polar(), (modes, &further))?;
+        let blade = blade.pressed(force.force_n, force.at.polar())?;
         let probe = scene.probe();
         let reduced = loads.into_iter().map(|load| {
             let vector = &load.vector;
@@ -112,8 +105,8 @@ impl OscillatingBlade {
         Ok(OscillatingBlade {
             loads: reduced.collect(),
             system: reduced_system(&plate, &blade),
-            probe: blade.shapes_at((probe.radius_m, probe.angle_rad)),
-            cut: blade.shapes_at(place),
+            probe: blade.shapes_at(probe.polar()),
+            cut: blade.shapes_at(cut),
             sites: blade.sites(),
             guides: scene
                 .guides()

@@ -33,13 +33,12 @@ const LARGE_ERROR: f64 = 0.05;
 pub(super) fn oscillation(
     analysis: &Analysis,
     oscillators: &Oscillators,
-    force_n: f64,
     speed_rad_per_s: f64,
 ) -> Result<Oscillation, GapError> {
     let scene = &analysis.scene;
     let to = analysis.range_rad_per_s.1.max(speed_rad_per_s);
     let of_modes = |modes: usize| {
-        let asked = (force_n, speed_rad_per_s, to);
+        let asked = (speed_rad_per_s, to);
         let resolution = analysis.model.plate.resolution;
         OscillatingBlade::new(scene, resolution, oscillators, asked, modes)
     };
@@ -92,7 +91,7 @@ pub(super) fn oscillation(
     };
     let force = oscillators.force;
     Ok(Oscillation {
-        force_n,
+        force_n: scene.file().side_force_n(),
         oscillating_force_n: force.map_or(0.0, |force| force.amplitude_n),
         oscillating_order: force.map_or(0, |force| force.order),
         lines: (0..HARMONICS).map(line).collect(),

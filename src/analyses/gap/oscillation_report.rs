@@ -4,14 +4,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Periodic motion of the blade under the steady side force of the map, with the gaps of the scene. Its causes are an
-/// oscillating side force at the cut and `response.runout_m`, `flatness_m` and `imbalance_kg_m2` of the scene.
+/// oscillating side force and `response.runout_m`, `flatness_m` and `imbalance_kg_m2` of the scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "OscillationEntry")]
 pub struct Oscillation {
-    /// Steady side force at the rim at the cut.
+    /// Steady side force.
     pub force_n: f64,
-    /// Amplitude of the oscillating side force at the rim at the cut; 0 without one.
+    /// Amplitude of the oscillating side force; 0 without one.
     pub oscillating_force_n: f64,
     /// Ratio of its frequency to that of rotation; 0 without one.
     pub oscillating_order: u32,

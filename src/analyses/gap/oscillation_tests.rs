@@ -5,11 +5,12 @@ use std::f64::consts::TAU;
 use faer::{Col, Mat, c64};
 
 use super::*;
-use crate::analyses::gap::{Options, OscillatingForce, OscillationPlace, gap};
+use crate::analyses::gap::{Options, OscillationPlace, gap};
 use crate::analyses::response::{Options as ResponseOptions, response};
 use crate::plate::Resolution;
 use crate::scene::{
-    Accuracy, ContactLaw, DampingFile, GuideFile, ResponseFile, Scene, SweepFile, rad_per_s,
+    Accuracy, ContactLaw, DampingFile, GuideFile, ResponseFile, Scene, SideForceFile, SweepFile,
+    rad_per_s,
 };
 use crate::transient::{Force, Integrator, Newmark, State as MovingState};
 
@@ -25,6 +26,7 @@ fn saw(change: impl FnOnce(&mut GuideFile)) -> Scene {
             air_n_s_per_m3: 400.0,
             ..DampingFile::default()
         });
+        file.side_force = Some(SideForceFile::of(1.0));
         file.response = Some(ResponseFile {
             flatness_m: 1.5e-4,
             ..ResponseFile::default()
@@ -54,6 +56,7 @@ fn without_a_gap_the_motion_is_the_linear_response() {
             // Small deflections, which do not stretch the blade.
             (response.flatness_m, response.imbalance_kg_m2) = (1e-5, 1e-6);
         }
+        file.side_force = Some(SideForceFile::of(0.01));
     });
     let typed = typed.unwrap();
     let linear = response(&typed, &ResponseOptions::default()).unwrap();
@@ -62,13 +65,13 @@ fn without_a_gap_the_motion_is_the_linear_response() {
         (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(1e-12));
     });
     let analysis = Analysis::new(&lifting.unwrap()).unwrap();
-    let oscillators = Oscillators::of(&analysis.scene, None).unwrap();
+    let oscillators = Oscillators::of(&analysis.scene).unwrap();
     let speed = rad_per_s(900.0);
     assert_eq!(oscillators.base_order(), 1);
     assert_eq!(oscillators.name_of(2), "flatness, imbalance");
     let to = analysis.range_rad_per_s.1;
     let resolution = analysis.model.plate.resolution;
-    let asked = (0.01, speed, to);
+    let asked = (speed, to);
     let scene = &analysis.scene;
     let blade = OscillatingBlade::new(scene, resolution, &oscillators, asked, MODES).unwrap();
     let speeds = (1..=SPEEDS).map(|k| to * k as f64 / SPEEDS as f64);
@@ -119,32 +122,32 @@ fn without_a_gap_the_motion_is_the_linear_response() {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many steps: run it in release")]
 fn the_motion_of_a_blade_that_is_not_flat_is_that_of_the_time_history() {
-    compare_with_time_history(true, None, 2);
+    compare_with_time_history(true, 0.0, 2);
 }
 
 /// Independent value: the time history of the same blade, from rest until its oscillation is steady.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many steps: run it in release")]
 fn the_motion_under_an_oscillating_force_is_that_of_the_time_history() {
-    let force = OscillatingForce {
-        amplitude_n: 0.6,
-        order: 1,
-    };
-    compare_with_time_history(false, Some(force), 1);
+    compare_with_time_history(false, 0.6, 1);
 }
 
-fn compare_with_time_history(turning: bool, force: Option<OscillatingForce>, base: u32) {
+fn compare_with_time_history(turning: bool, oscillating_n: f64, base: u32) {
     let scene = saw(|pad| (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5)));
     let speed = rad_per_s(900.0);
     let scene = scene.edited(|file| {
         if !turning {
             file.response = None;
         }
+        file.side_force = Some(SideForceFile {
+            oscillating_n,
+            ..SideForceFile::of(1.0)
+        });
     });
     let scene = scene.unwrap();
-    let oscillators = Oscillators::of(&scene, force).unwrap();
+    let oscillators = Oscillators::of(&scene).unwrap();
     assert_eq!(oscillators.base_order(), base);
-    let asked = (1.0, speed, rad_per_s(1400.0));
+    let asked = (speed, rad_per_s(1400.0));
     let blade = OscillatingBlade::new(&scene, SMALL, &oscillators, asked, 10).unwrap();
     let (found, _) = blade.at(speed).unwrap();
     let at = blade.read(speed, &found.unwrap());
@@ -208,11 +211,8 @@ fn compare_with_time_history(turning: bool, force: Option<OscillatingForce>, bas
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn more_harmonics_and_modes_change_little() {
     let scene = saw(|pad| (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5)));
-    let options = Options {
-        force_n: Some(1.0),
-        ..Options::default()
-    };
-    let found = gap(&scene, &options).unwrap().oscillation.unwrap();
+    let found = gap(&scene, &Options::default()).unwrap();
+    let found = found.oscillation.unwrap();
     let errors = [found.harmonics_error_share, found.basis_error_share];
     let [harmonics, basis] = errors.map(Option::unwrap);
     assert!(harmonics < 0.02 && basis < 0.05, "{harmonics} {basis}");
@@ -221,22 +221,21 @@ fn more_harmonics_and_modes_change_little() {
 }
 
 #[test]
-fn a_force_too_fast_for_the_turning_blade_and_invalid_numbers_are_refused() {
+fn a_force_too_fast_for_the_turning_blade_is_refused() {
     let scene = saw(|pad| (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5)));
-    let with = |amplitude_n: f64, order: u32| Options {
-        oscillating: Some(OscillatingForce { amplitude_n, order }),
-        ..Options::default()
+    let checked = |scene: &Scene, order: u32| {
+        let scene = scene.edited(|file| {
+            file.side_force = Some(SideForceFile {
+                oscillating_n: 1.0,
+                order: Some(order),
+                ..SideForceFile::default()
+            });
+        });
+        Options::default().checked(&scene.unwrap())
     };
-    for (options, key) in [
-        (with(0.0, 1), "oscillating_force_n"),
-        (with(f64::NAN, 1), "oscillating_force_n"),
-        (with(1.0, 0), "oscillating_order"),
-        (with(1.0, 41), "oscillating_order"),
-    ] {
-        assert_eq!(options.checked(&scene).unwrap_err().key, key);
-    }
-    assert!(with(1.0, 4).checked(&scene).is_ok());
+    assert_eq!(checked(&scene, 41).unwrap_err().key, "side_force.order");
+    assert!(checked(&scene, 4).is_ok());
     let alone = scene.edited(|file| file.response = None).unwrap();
-    assert!(with(1.0, 41).checked(&alone).is_ok());
-    assert!(Oscillators::of(&alone, None).is_none());
+    assert!(checked(&alone, 41).is_ok());
+    assert!(Oscillators::of(&alone).is_none());
 }

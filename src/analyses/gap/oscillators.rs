@@ -1,15 +1,6 @@
 //! Causes of an oscillation: a side force at the cut, and a shape or an imbalance that turns with the blade.
 
-use crate::scene::{RefusedValue, ResponseFile, Scene};
-
-/// A side force at the rim at the cut that oscillates with a multiple of the rotation frequency.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OscillatingForce {
-    /// Amplitude of the force.
-    pub amplitude_n: f64,
-    /// Ratio of its frequency to that of rotation.
-    pub order: u32,
-}
+use crate::scene::{OscillatingForce, RefusedValue, ResponseFile, Scene};
 
 /// Causes of an oscillation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,51 +14,12 @@ pub struct Oscillators {
 /// Largest ratio of the order of the force to the base order, so that the harmonics of the motion include multiples of the
 /// force's frequency.
 const LARGEST_RATIO: u32 = 3;
-/// Largest order that is accepted; no saw has as many teeth.
-const LARGEST_ORDER: u32 = 1000;
-
-impl OscillatingForce {
-    /// Refuses invalid numbers.
-    ///
-    /// # Errors
-    /// [`RefusedValue`].
-    pub fn checked(self) -> Result<(), RefusedValue> {
-        let Self { amplitude_n, order } = self;
-        if !(amplitude_n > 0.0 && amplitude_n <= 1e6) {
-            let (allowed, remedy) = (
-                "above 0 and at most 1e6",
-                "give the amplitude of the side force, such as 2",
-            );
-            return Err(RefusedValue::new(
-                "oscillating_force_n",
-                amplitude_n,
-                allowed,
-                remedy,
-            ));
-        }
-        if !(1..=LARGEST_ORDER).contains(&order) {
-            let remedy = "1 is once a turn, the number of teeth is the tooth passing frequency";
-            let allowed = format!("from 1 to {LARGEST_ORDER}");
-            return Err(RefusedValue::new(
-                "oscillating_order",
-                order,
-                allowed,
-                remedy,
-            ));
-        }
-        Ok(())
-    }
-}
 
 impl Oscillators {
-    /// The causes of a scene and of a force; `None` if there are none.
-    pub(super) fn of(scene: &Scene, force: Option<OscillatingForce>) -> Option<Self> {
-        let typed = scene.file().response.unwrap_or_default();
-        let turning = ResponseFile {
-            force_n: 0.0,
-            tooth_force_n: 0.0,
-            ..typed
-        };
+    /// The causes of a scene; `None` if there are none.
+    pub(super) fn of(scene: &Scene) -> Option<Self> {
+        let turning = scene.file().response.unwrap_or_default();
+        let force = scene.oscillating_force();
         (force.is_some() || turning.excites()).then_some(Oscillators { force, turning })
     }
 
@@ -111,27 +63,25 @@ impl Oscillators {
         orders.fold(0, divisor).max(1)
     }
 
-    /// Refuses an invalid force, and one whose frequency is too far above that of the turning shape or imbalance.
+    /// Refuses a force whose frequency is too far above that of the turning shape or imbalance.
     ///
     /// # Errors
     /// [`RefusedValue`].
     pub(super) fn checked(self) -> Result<(), RefusedValue> {
-        let Some(force) = self.force else {
+        let order = self.force.map_or(0, |force| force.order);
+        if order <= LARGEST_RATIO * self.base_order() {
             return Ok(());
-        };
-        force.checked()?;
-        if force.order > LARGEST_RATIO * self.base_order() {
-            let allowed = format!(
-                "1 to {LARGEST_RATIO} in a scene with response.runout_m, flatness_m or imbalance_kg_m2"
-            );
-            let remedy = "the motion would need too many harmonics; remove these keys to answer the force alone";
-            return Err(RefusedValue::new(
-                "oscillating_order",
-                force.order,
-                allowed,
-                remedy,
-            ));
         }
-        Ok(())
+        let allowed = format!(
+            "1 to {LARGEST_RATIO} in a scene with response.runout_m, flatness_m or imbalance_kg_m2"
+        );
+        let remedy =
+            "the motion would need too many harmonics; remove these keys to answer the force alone";
+        Err(RefusedValue::new(
+            "side_force.order",
+            order,
+            allowed,
+            remedy,
+        ))
     }
 }

@@ -1,4 +1,4 @@
-//! Stationary deflection of a blade under a side force at the rim at the cut.
+//! Stationary deflection of a blade under a side force.
 
 use crate::plate::{Plate, Resolution};
 use crate::scene::{Scene, rad_per_s};
@@ -32,10 +32,13 @@ impl Deviation {
 /// Radius in m and magnitude of the force in N at each point of contact.
 pub(super) type Contacts = Vec<(f64, f64)>;
 
-/// A blade whose deflections under side forces at the rim at the cut can be computed.
+/// A blade whose deflections under side forces can be computed.
 pub(crate) struct PressedBlade {
     blade: StretchedBlade,
+    /// Radius and angle of the force.
     place: (f64, f64),
+    /// Radius and angle of the rim at the cut.
+    cut: (f64, f64),
     sites: Sites,
 }
 
@@ -51,13 +54,14 @@ impl PressedBlade {
         modes: usize,
     ) -> Result<Self, GapError> {
         let plate = Plate::new(scene, resolution);
-        let place = (plate.blade.outer_radius_m, scene.cut_angle_rad());
+        let place = scene.side_force().at.polar();
         let modes = modes.min(plate.degrees_of_freedom());
         let blade = StretchedBlade::up_to(&plate, rad_per_s(to_rpm), place, modes)?;
         Ok(PressedBlade {
             sites: blade.sites(),
             blade,
             place,
+            cut: (plate.blade.outer_radius_m, scene.cut_angle_rad()),
         })
     }
 
@@ -65,8 +69,8 @@ impl PressedBlade {
     pub fn with_gaps(&self, factor: f64) -> Self {
         PressedBlade {
             blade: self.blade.clone().with_gaps(factor),
-            place: self.place,
             sites: self.sites.clone(),
+            ..*self
         }
     }
 
@@ -124,7 +128,7 @@ impl PressedBlade {
             return None;
         }
         Some(Deviation {
-            deviation_m: self.blade.deflection_m(found, self.place.0, self.place.1),
+            deviation_m: self.blade.deflection_m(found, self.cut.0, self.cut.1),
             largest_m: self.sites.largest_m(&found.coordinates),
             pad_forces_n: self.blade.pad_forces_n(found),
             distances_left_m: self.blade.distances_left_m(found),

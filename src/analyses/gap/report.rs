@@ -127,12 +127,12 @@ pub struct AtAmplitude {
     pub flutter_speed_rpm: Option<f64>,
 }
 
-/// Stationary deflection of the rim at the cut under a side force there.
+/// Stationary deflection of the rim at the cut under the side force of the scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "DeviationEntry")]
 pub struct DeviationMap {
-    /// Angle of the force and of the deflection.
+    /// Angle of the deflection, that of the cut.
     pub angle_deg: f64,
     /// Speed of the map over gap and force.
     pub rpm: f64,

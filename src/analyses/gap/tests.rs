@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::pressed::Deviation;
 use super::*;
-use crate::scene::{Accuracy, ContactLaw, FrictionFile, Scene};
+use crate::scene::{Accuracy, ContactLaw, FrictionFile, Scene, SideForceFile};
 
 fn lifting(gap_m: f64) -> Scene {
     let scene = Scene::paper().edited(|file| {
@@ -124,13 +124,6 @@ fn what_cannot_be_answered_is_refused() {
     for (options, key) in [
         (
             Options {
-                force_n: Some(0.0),
-                ..options
-            },
-            "force_n",
-        ),
-        (
-            Options {
                 rpm: Some(-1.0),
                 ..options
             },
@@ -146,6 +139,9 @@ fn what_cannot_be_answered_is_refused() {
     ] {
         assert_eq!(options.checked(&scene).unwrap_err().key, key);
     }
+    let idle = scene.edited(|file| file.side_force = Some(SideForceFile::of(0.0)));
+    let refused = options.checked(&idle.unwrap()).unwrap_err();
+    assert_eq!(refused.key, "side_force.force_n");
 }
 
 /// The pad of the paper's saw reaches from 0.1 to 0.355 m at most. Between collars of 200 mm the blade has a slope of 0.1
@@ -195,6 +191,7 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
     let json = include_str!("../../../scenes/collar-400mm.json");
     let scene = Scene::from_json(json).unwrap().edited(|file| {
         file.accuracy = Accuracy::Draft;
+        file.side_force = Some(SideForceFile::of(30.0));
         file.guides = vec![crate::scene::GuideFile {
             radius_m: 0.17,
             angle_deg: 0.0,
@@ -208,9 +205,7 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
     });
     let analysis = Analysis::new(&scene.unwrap()).unwrap();
     let friction = FrictionFile::of(0.2);
-    let heat = Heated::new(&analysis, friction, (30.0, 2000.0))
-        .unwrap()
-        .heat;
+    let heat = Heated::new(&analysis, friction, 2000.0).unwrap().heat;
     assert!(heat.settled && heat.repetitions > 1, "{heat:?}");
     let force_n = heat.pad_forces_n[0].abs();
     // The spring of the pad is pressed in by its force.
@@ -239,7 +234,7 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
     assert!((hot / cold - 1.0).abs() > 1e-3, "{hot} {cold}");
 
     // Ten times the friction buckles the blade: it has deflections, but no critical speed.
-    let found = Heated::new(&analysis, FrictionFile::of(2.0), (30.0, 2000.0)).unwrap();
+    let found = Heated::new(&analysis, FrictionFile::of(2.0), 2000.0).unwrap();
     let heat = &found.heat;
     assert!(found.buckles && heat.critical_rpm.is_none(), "{heat:?}");
 }

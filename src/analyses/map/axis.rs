@@ -1,12 +1,9 @@
 //! The axes of a map.
 
 use super::{MapAxis, Range};
-use crate::analyses::study::{DistributionFile, ParameterFile, StudyError};
-use crate::scene::{Freed, Quantity, RefusedValue, Scene, is_logarithmic};
+use crate::analyses::study::{DistributionFile, ParameterFile, StudyError, check_varies};
+use crate::scene::{Freed, Quantity, Scene, is_logarithmic};
 use crate::text::shown;
-
-/// Path of the speed at which the saws are judged. It changes no band, and every saw is judged at the same one.
-const OPERATING_SPEED: &str = "operating_rpm";
 
 impl MapAxis {
     /// `points` values of a range, whose ends are exact; `key` names the axis in errors.
@@ -22,12 +19,7 @@ impl MapAxis {
         };
         let Range { path, from, to } = range;
         let freed = Freed::new(scene.file(), path, *from, *to).map_err(refused)?;
-        if path == OPERATING_SPEED {
-            let allowed = "a number that changes critical speeds or bands";
-            let remedy =
-                "name another one; a map over one number has the speed as its vertical axis";
-            return Err(RefusedValue::new(key, OPERATING_SPEED, allowed, remedy).into());
-        }
+        check_varies(key, path)?;
         let value = |k: usize| match k {
             0 => *from,
             _ if k + 1 == points => *to,

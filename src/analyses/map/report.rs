@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::analyses::study::FoundBand;
+use crate::report::InstabilityBand;
 use crate::scene::SceneFile;
 use crate::stability::StabilityState;
 
@@ -76,7 +76,7 @@ pub struct MappedSaw {
     /// Critical speeds within the sweep, ascending.
     pub critical_rpm: Vec<f64>,
     /// Bands of instability within the sweep, by onset.
-    pub instabilities: Vec<FoundBand>,
+    pub instabilities: Vec<InstabilityBand>,
     /// Whether the saw is stable at the speed at which the saws are judged; null without such a speed.
     pub state: Option<StabilityState>,
     /// Critical speed within 5 % of that speed; null if there is none.

@@ -2,7 +2,8 @@
 
 use super::contour::contours;
 use super::{Contour, Contoured, Map, MapReport, MappedSaw};
-use crate::analyses::study::{Found, FoundBand, LogError, Rows, Saw};
+use crate::analyses::study::{Found, LogError, Rows, Saw};
+use crate::report::InstabilityBand;
 use crate::scene::rpm;
 use crate::stability::{StabilityState, critical_at};
 
@@ -89,7 +90,7 @@ impl Map {
 /// analysis.
 ///
 /// [`Evidence::verdict`]: crate::stability::Evidence::verdict
-pub fn state_at(bands: &[FoundBand], rpm: f64) -> StabilityState {
+pub fn state_at(bands: &[InstabilityBand], rpm: f64) -> StabilityState {
     let around = |[from, to]: &[f64; 2]| (*from..=*to).contains(&rpm);
     let counted = bands
         .iter()

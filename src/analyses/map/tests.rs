@@ -1,7 +1,7 @@
 use super::contour::contours;
 use super::saws::state_at;
 use super::{Contour, Contoured};
-use crate::analyses::study::FoundBand;
+use crate::report::InstabilityBand;
 use crate::stability::{InstabilityKind, StabilityState};
 
 fn grid(size: usize, value: impl Fn(f64, f64) -> f64) -> Vec<Vec<Option<f64>>> {
@@ -43,12 +43,9 @@ fn contours_of_a_plane_and_of_a_cone_are_lines_and_circles() {
 
 #[test]
 fn divergence_counts_before_flutter() {
-    let band = |kind, counted: &[[f64; 2]]| FoundBand {
-        kind,
-        from_rpm: 1000.0,
-        to_rpm: 1100.0,
-        peak_growth_per_s: 0.3,
+    let band = |kind, counted: &[[f64; 2]]| InstabilityBand {
         counted_rpm: counted.to_vec(),
+        ..InstabilityBand::between(kind, [1000.0, 1100.0])
     };
     let flutter = band(InstabilityKind::Flutter, &[[1020.0, 1080.0]]);
     let divergence = band(InstabilityKind::Divergence, &[[1000.0, 1050.0]]);

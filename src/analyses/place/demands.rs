@@ -28,30 +28,22 @@ pub struct GapDemands {
 
 impl GapDemands {
     /// Demands that bands and critical speeds are those with the mean stiffness of the guides over an oscillation of an
-    /// amplitude, and that the deflection at the cut under a side force at the operating speed keeps a limit; `None`
+    /// amplitude, and that the deflection at the cut under the side force of the scene at the operating speed keeps a limit; `None`
     /// without amplitude and limit.
     ///
     /// # Errors
-    /// [`RefusedValue`] if no guide is one-sided, a number is invalid, or a side force has no limit.
+    /// [`RefusedValue`] if no guide is one-sided, or a number is invalid.
     pub fn new(
         scene: &Scene,
         amplitude_mm: Option<f64>,
         max_deviation_mm: Option<f64>,
-        force_n: Option<f64>,
     ) -> Result<Option<Self>, RefusedValue> {
-        if let (Some(force_n), None) = (force_n, max_deviation_mm) {
-            let remedy =
-                "give max_deviation_mm, the largest deflection at the cut under this force";
-            return Err(RefusedValue::new("force_n", force_n, "left out", remedy));
-        }
         if amplitude_mm.is_none() && max_deviation_mm.is_none() {
             return Ok(None);
         }
         let options = gap::Options {
-            force_n,
             rpm: None,
             max_deviation_mm,
-            ..gap::Options::default()
         };
         Ok(Some(GapDemands {
             case: GapCase::new(scene, &options, amplitude_mm)?,

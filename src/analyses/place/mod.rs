@@ -138,7 +138,7 @@ pub fn place(
         max_deflection_m: demands.gap.and_then(|gap| gap.max_deflection_m),
         force_n: demands
             .gap
-            .and_then(|gap| gap.max_deflection_m.map(|_| gap.case.force_n())),
+            .and_then(|gap| gap.max_deflection_m.map(|_| scene.file().side_force_n())),
         kept: best.neighbours.keep_limit(),
         improved,
         from_rpm: rpm(question.range.0),

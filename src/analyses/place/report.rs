@@ -32,7 +32,7 @@ pub struct PlaceReport {
     /// Upper limit of the deflection at the cut, if there is one.
     #[serde(default)]
     pub max_deflection_m: Option<f64>,
-    /// Side force at the cut for this limit.
+    /// Side force for this limit.
     #[serde(default)]
     pub force_n: Option<f64>,
     /// Whether the best saw keeps the limits in the worst case of its tolerances.

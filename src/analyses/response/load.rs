@@ -13,7 +13,7 @@ use faer::{Col, c64};
 use super::report::Cause;
 use crate::linalg::SymmetricEigen;
 use crate::plate::Plate;
-use crate::scene::{ResponseFile, Scene};
+use crate::scene::Scene;
 
 /// A load f e^{ikΩt}.
 #[derive(Debug, Clone)]
@@ -57,16 +57,16 @@ const IMBALANCE_ORDERS: [usize; 2] = [1, 2];
 /// Share of the largest stiffness below which a stiffness is that of a rigid motion.
 const RIGID: f64 = 1e-9;
 
-/// The loads of an excitation of a scene.
+/// The loads on the blade of a scene: a constant side force in N, shape and imbalance, and the oscillating side force.
 ///
 /// # Errors
 /// The number of nodal diameters of a shape that the excitation has, but that is a rigid motion of the blade.
-pub fn loads(plate: &Plate, scene: &Scene, typed: &ResponseFile) -> Result<Vec<Load>, usize> {
+pub fn loads(plate: &Plate, scene: &Scene, force_n: f64) -> Result<Vec<Load>, usize> {
     let mut loads = Vec::new();
-    let rim = plate.blade.outer_radius_m;
-    if typed.force_n != 0.0 {
-        let place = force_place(scene, typed);
-        loads.push(Load::at(Cause::SideForce, 0, plate, place, typed.force_n));
+    let (rim, place) = (plate.blade.outer_radius_m, scene.side_force().at.polar());
+    let typed = scene.file().response.unwrap_or_default();
+    if force_n != 0.0 {
+        loads.push(Load::at(Cause::SideForce, 0, plate, place, force_n));
     }
     let shapes = [
         (Cause::RunOut, 1, typed.runout_m),
@@ -95,17 +95,17 @@ pub fn loads(plate: &Plate, scene: &Scene, typed: &ResponseFile) -> Result<Vec<L
             }
         }));
     }
-    if let (true, Some(teeth)) = (typed.tooth_force_n != 0.0, scene.file().blade.teeth) {
-        let (place, force_n) = ((rim, scene.cut_angle_rad()), typed.tooth_force_n);
-        loads.push(Load::at(Cause::ToothPassing, teeth, plate, place, force_n));
+    if let Some(force) = scene.oscillating_force() {
+        let (order, amplitude_n) = (force.order, force.amplitude_n);
+        loads.push(Load::at(
+            Cause::OscillatingForce,
+            order,
+            plate,
+            place,
+            amplitude_n,
+        ));
     }
     Ok(loads)
-}
-
-/// Radius in m and angle in rad of the side force.
-pub fn force_place(scene: &Scene, typed: &ResponseFile) -> (f64, f64) {
-    let radius = typed.radius_m.unwrap_or(scene.blade().outer_radius_m);
-    (radius, typed.angle_deg.to_radians())
 }
 
 /// The vector of a wave with n nodal diameters that turns with the blade: Re (cos nθ − i sin nθ) e^{inΩt} = cos n(θ − Ωt).

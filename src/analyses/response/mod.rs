@@ -28,11 +28,9 @@ pub use report::{
     Cause, FrequencyResponse, OperatingResponse, Resonance, ResponseLine, ResponseReport,
 };
 
-use crate::scene::typical_value;
-use crate::scene::{RefusedValue, ResponseFile, Scene, SceneError, rpm};
+use crate::scene::{RefusedValue, Scene, SceneError, USUAL_SIDE_FORCE_N, rpm};
 use crate::spectrum::SpectrumError;
 use crate::stability::{Analysis, AnalysisError};
-use load::force_place;
 use solver::Solver;
 use speeds::{resonances, speeds};
 use warnings::warnings;
@@ -54,19 +52,16 @@ pub enum ResponseError {
     Spectrum(#[from] SpectrumError),
 }
 
-/// Side force in N of a scene without an excitation.
-const ASSUMED_N: f64 = typical_value("response.force_n");
-
 /// Computes the response of a saw.
 ///
 /// # Errors
 /// [`ResponseError`].
 pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, ResponseError> {
     options.checked()?;
-    let (excitation, is_assumed) = excitation(scene);
+    let (force_n, is_assumed) = constant_force_n(scene);
     let analysis = Analysis::new(scene)?;
     let plate = &analysis.model.plate;
-    let loads = loads(plate, scene, &excitation).map_err(|waves| rigid(waves, &excitation))?;
+    let loads = loads(plate, scene, force_n).map_err(|waves| rigid(waves, scene))?;
     let resonances: Vec<Vec<f64>> = loads
         .iter()
         .map(|load| resonances(&analysis, load.order))
@@ -83,7 +78,7 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
         .map(|(load, resonances)| solver.line(&analysis, load, &speeds, resonances))
         .collect::<Result<_, _>>()?;
     let points = asked.or(operating).map(|speed| {
-        let place = force_place(scene, &excitation);
+        let place = scene.side_force().at.polar();
         FrequencyResponse::new(&analysis, &solver, (speed, options.to_hz), place)
     });
     let points = points.transpose()?;
@@ -91,7 +86,7 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
     let deviation_m = |k: usize| lines.iter().map(|line| line.at_cut_m[k]).sum();
     let board_deviation_m: Vec<Option<f64>> = (0..rpm.len()).map(deviation_m).collect();
     let (probe, chart) = (scene.probe(), analysis.report());
-    let assumed = is_assumed.then_some(ASSUMED_N);
+    let assumed = is_assumed.then_some(force_n);
     Ok(ResponseReport {
         sawflutter: chart.sawflutter,
         scene: scene.file().clone(),
@@ -101,8 +96,8 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
         from_rpm: chart.campbell.from_rpm,
         to_rpm: chart.campbell.to_rpm,
         probe_radius_m: probe.radius_m,
-        probe_angle_deg: probe.angle_rad.to_degrees(),
-        cut_angle_deg: scene.file().cut.as_ref().map_or(0.0, |cut| cut.angle_deg),
+        probe_angle_deg: probe.angle_deg,
+        cut_angle_deg: scene.file().cut_angle_deg(),
         damped: !analysis.model.is_conservative(),
         linear_limit_m: solver.limit_m,
         warnings: warnings(&analysis, assumed, &lines, chart.warnings),
@@ -137,23 +132,20 @@ impl OperatingResponse {
     }
 }
 
-/// The excitation of a scene, and whether it is assumed because the scene has none.
-fn excitation(scene: &Scene) -> (ResponseFile, bool) {
-    let typed = scene.file().response.unwrap_or_default();
-    match typed.excites() {
-        true => (typed, false),
-        false => {
-            let assumed = ResponseFile {
-                force_n: ASSUMED_N,
-                ..typed
-            };
-            (assumed, true)
-        }
+/// Constant side force in N that excites the blade of a scene, 0 for none, and whether it is assumed because nothing else does.
+fn constant_force_n(scene: &Scene) -> (f64, bool) {
+    let file = scene.file();
+    let typed = file.side_force.and_then(|typed| typed.force_n);
+    let turning = file.response.is_some_and(|response| response.excites());
+    match typed.unwrap_or(0.0) {
+        0.0 if !turning && scene.oscillating_force().is_none() => (USUAL_SIDE_FORCE_N, true),
+        given => (given, false),
     }
 }
 
 /// The refusal of a run-out or of a lack of flatness that is a rigid motion of the blade.
-pub(crate) fn rigid(waves: usize, excitation: &ResponseFile) -> RefusedValue {
+pub(crate) fn rigid(waves: usize, scene: &Scene) -> RefusedValue {
+    let excitation = scene.file().response.unwrap_or_default();
     let (key, value) = match waves {
         1 => ("response.runout_m", excitation.runout_m),
         _ => ("response.flatness_m", excitation.flatness_m),

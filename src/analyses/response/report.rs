@@ -68,8 +68,8 @@ pub enum Cause {
     Flatness,
     /// Imbalance beside the middle plane.
     Imbalance,
-    /// Lateral force at the cut with the tooth passing frequency.
-    ToothPassing,
+    /// Side force that oscillates with a multiple of the rotation frequency.
+    OscillatingForce,
 }
 
 /// Response to one cause with one order.

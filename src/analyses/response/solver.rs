@@ -39,10 +39,10 @@ impl Solver {
         let (probe, rim) = (scene.probe(), plate.blade.outer_radius_m);
         let angle = |k: usize| TAU * k as f64 / AROUND as f64;
         let mut probes = vec![
-            at_point(plate, probe.radius_m, probe.angle_rad),
-            at_point(plate, rim, scene.cut_angle_rad()),
+            at_point(plate, probe.polar()),
+            at_point(plate, (rim, scene.cut_angle_rad())),
         ];
-        probes.extend((0..AROUND).map(|k| at_point(plate, rim, angle(k))));
+        probes.extend((0..AROUND).map(|k| at_point(plate, (rim, angle(k)))));
         Solver {
             system: GyroscopicSystem::of_plate(plate),
             probes,
@@ -80,7 +80,7 @@ impl Solver {
                 Cause::RunOut => format!("run-out, {order}×"),
                 Cause::Flatness => format!("flatness, {order}×"),
                 Cause::Imbalance => format!("imbalance, {order}×"),
-                Cause::ToothPassing => format!("tooth passing, {order}×"),
+                Cause::OscillatingForce => format!("side force, {order}×"),
             },
             resonances: resonances.collect(),
             phase_deg: of(|w| w.at_probe.arg().to_degrees()),

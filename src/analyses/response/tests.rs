@@ -7,18 +7,25 @@ use super::family::{reading, readings, solution};
 use super::*;
 use crate::campbell::even_speeds;
 use crate::plate::{Plate, Resolution};
-use crate::scene::{Accuracy, DampingFile, GuideFile, InPlane, Mount, SweepFile, rad_per_s};
+use crate::scene::{
+    Accuracy, DampingFile, GuideFile, InPlane, Mount, ResponseFile, SideForceFile, SweepFile,
+    rad_per_s,
+};
 use crate::stability::{ChosenBasis, StabilityState};
 use crate::system::GyroscopicSystem;
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, c64};
 
 /// The paper's saw, with another excitation.
-fn scene(response: ResponseFile, edit: impl FnOnce(&mut crate::scene::SceneFile)) -> Scene {
+fn scene(
+    force: SideForceFile,
+    response: ResponseFile,
+    edit: impl FnOnce(&mut crate::scene::SceneFile),
+) -> Scene {
     let scene = Scene::paper().edited(|saw| {
         saw.accuracy = Accuracy::Draft;
         saw.measured = None;
-        saw.response = Some(response);
+        (saw.side_force, saw.response) = (Some(force), Some(response));
         edit(saw);
     });
     scene.unwrap()
@@ -50,18 +57,21 @@ fn states_on_few_solutions_are_those_of_the_full_matrices() {
             ..DampingFile::default()
         });
     };
+    let force = SideForceFile {
+        oscillating_n: 1.0,
+        order: Some(42),
+        ..SideForceFile::of(1.0)
+    };
     let typed = ResponseFile {
-        force_n: 1.0,
         flatness_m: 1e-4,
         imbalance_kg_m2: 1e-6,
-        tooth_force_n: 1.0,
         ..ResponseFile::default()
     };
-    let scene = scene(typed, damping);
+    let scene = scene(force, typed, damping);
     let plate = Plate::new(&scene, Resolution::of(Accuracy::Draft));
     let system = GyroscopicSystem::of_plate(&plate);
     let solver = Solver::new(&plate, &scene);
-    for load in loads(&plate, &scene, &typed).unwrap() {
+    for load in loads(&plate, &scene, 1.0).unwrap() {
         let states: Vec<State> = even_speeds((1.0, rad_per_s(2900.0)), 97)
             .into_iter()
             .map(|speed| State {
@@ -87,12 +97,11 @@ fn states_on_few_solutions_are_those_of_the_full_matrices() {
 #[test]
 fn a_blade_on_soft_springs_deflects_as_a_rigid_body() {
     let (k, r) = (30.0, 0.25);
-    let typed = ResponseFile {
-        force_n: 0.01,
-        angle_deg: 90.0,
-        ..ResponseFile::default()
+    let force = SideForceFile {
+        angle_deg: Some(90.0),
+        ..SideForceFile::of(0.01)
     };
-    let scene = scene(typed, |saw| {
+    let scene = scene(force, ResponseFile::default(), |saw| {
         saw.cut = None;
         saw.runup = None;
         saw.sweep = Some(SweepFile {
@@ -128,12 +137,11 @@ fn a_blade_on_soft_springs_deflects_as_a_rigid_body() {
 #[test]
 fn a_resonance_of_one_mode_has_the_height_and_the_width_of_its_damping() {
     let air_n_s_per_m3 = 40.0;
-    let typed = ResponseFile {
-        force_n: 1.0,
-        angle_deg: 90.0,
-        ..ResponseFile::default()
+    let force = SideForceFile {
+        angle_deg: Some(90.0),
+        ..SideForceFile::of(1.0)
     };
-    let scene = scene(typed, |saw| {
+    let scene = scene(force, ResponseFile::default(), |saw| {
         clamped_free_blade(saw);
         saw.damping = Some(DampingFile {
             air_n_s_per_m3,
@@ -176,7 +184,7 @@ fn centrifugal_tension_flattens_a_warped_blade() {
         flatness_m: 1e-4,
         ..ResponseFile::default()
     };
-    let scene = scene(typed, clamped_free_blade);
+    let scene = scene(SideForceFile::default(), typed, clamped_free_blade);
     let report = response(&scene, &Options::default()).unwrap();
     let plate = plate(&scene);
     let block = &plate.harmonics[2];
@@ -202,11 +210,7 @@ fn centrifugal_tension_flattens_a_warped_blade() {
 /// refused.
 #[test]
 fn no_number_is_given_where_there_is_no_steady_state() {
-    let typed = ResponseFile {
-        force_n: 1.0,
-        ..ResponseFile::default()
-    };
-    let saw = scene(typed, |_| ());
+    let saw = scene(SideForceFile::of(1.0), ResponseFile::default(), |_| ());
     let report = response(&saw, &Options::default()).unwrap();
     let analysis = Analysis::new(&saw).unwrap();
     let line = &report.lines[0];
@@ -220,7 +224,10 @@ fn no_number_is_given_where_there_is_no_steady_state() {
         runout_m: 1e-4,
         ..ResponseFile::default()
     };
-    let refused = response(&scene(tilting, |_| ()), &Options::default());
+    let refused = response(
+        &scene(SideForceFile::default(), tilting, |_| ()),
+        &Options::default(),
+    );
     let said = refused.unwrap_err().to_string();
     assert!(said.starts_with("response.runout_m is 0.0001"), "{said}");
 }

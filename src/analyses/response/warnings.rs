@@ -15,7 +15,7 @@ pub(super) fn warnings(
     let mut warnings = of_chart;
     if let Some(force_n) = assumed_force_n {
         warnings.push(format!(
-            "the scene has no excitation; a constant side force of {} N was assumed, set response.force_n, response.runout_m or others",
+            "the scene has no excitation; a constant side force of {} N was assumed, set side_force.force_n, response.runout_m or others",
             shown(force_n)
         ));
     }

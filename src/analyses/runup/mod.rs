@@ -1,6 +1,6 @@
 //! The saw during a run-up: its deflection over the speed, the growth in each band, and the response to a harmonic force.
 //!
-//! [`runup`](runup()) integrates the motion of the blade under a constant force while its speed rises, see
+//! [`runup`](runup()) integrates the motion of the blade under the constant side force while its speed rises, see
 //! [`transient`](crate::transient), and reports it beside the bands over the same speeds, each with the growth that its
 //! eigenvalue explains.
 
@@ -15,7 +15,7 @@ use std::f64::consts::{LN_2, TAU};
 use crate::campbell::Progress;
 use crate::plate::Plate;
 use crate::report::InstabilityBand;
-use crate::scene::{Probe, RunUpFile, Scene, SceneError, rpm};
+use crate::scene::{Point, RunUpFile, Scene, SceneError, SideForce, rpm};
 use crate::spectrum::Mode;
 use crate::stability::Analysis;
 use crate::transient::{
@@ -36,7 +36,7 @@ const DOUBLING: f64 = LN_2;
 /// [`TransientError`].
 pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, TransientError> {
     let runup = scene.needed_runup().map_err(SceneError::from)?;
-    let probe = scene.probe();
+    let (probe, force) = (scene.probe(), scene.side_force());
     let speeds = runup.speeds();
     let analysis = Analysis::new(&scene.swept(speeds)?)?;
     let (model, plate) = (&analysis.model, &analysis.model.plate);
@@ -44,9 +44,12 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
     let shown = modes.iter().take(SHOWN_MODES);
     let highest = shown.map(Mode::frequency_rad_per_s).fold(0.0, f64::max);
     let (history, stretching) = match runup.stretching {
-        false => (run_up(plate, runup, probe, highest, progress)?, None),
+        false => (
+            run_up(plate, (runup, &force), probe, highest, progress)?,
+            None,
+        ),
         true => {
-            let found = stretched_run_up(plate, runup, probe, highest, progress)?;
+            let found = stretched_run_up(plate, (runup, &force), probe, highest, progress)?;
             let stretching = RunUpStretching::new(&found);
             (found.history, Some(stretching))
         }
@@ -94,19 +97,24 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
         bands,
         stretching,
         campbell: chart.campbell,
-        response: ResponseMap::new(plate, runup, probe, highest),
+        response: ResponseMap::new(plate, (runup, &force), probe, highest),
         warnings: chart.warnings,
     })
 }
 
 impl ResponseMap {
     /// The response over the speeds of a run-up, up to a frequency.
-    fn new(plate: &Plate, runup: &RunUpFile, probe: &Probe, highest_rad_per_s: f64) -> Self {
+    fn new(
+        plate: &Plate,
+        (runup, force): (&RunUpFile, &SideForce),
+        probe: Point,
+        highest_rad_per_s: f64,
+    ) -> Self {
         let (from, to) = (runup.speeds().from_rad_per_s, runup.speeds().to_rad_per_s);
         let speeds = even(from, to, MAP_SIZE.0);
         let frequencies = even(0.0, highest_rad_per_s, MAP_SIZE.1);
         ResponseMap {
-            receptance_m_per_n: response_map(plate, runup, probe, (&speeds, &frequencies)),
+            receptance_m_per_n: response_map(plate, (runup, force), probe, (&speeds, &frequencies)),
             rpm: in_rpm(&speeds),
             frequency_hz: in_hz(&frequencies),
         }

@@ -3,8 +3,9 @@
 use std::io::{self, Write};
 
 use super::plan::Study;
-use super::saw::{Found, FoundBand, Outcome, STATUS, Saw};
+use super::saw::{Found, Outcome, STATUS, Saw};
 use super::table::Table;
+use crate::report::InstabilityBand;
 use crate::stability::InstabilityKind;
 
 /// A table of saws as comma-separated values.
@@ -172,32 +173,38 @@ fn numbers_of(text: &str) -> Option<Vec<f64>> {
     numbers.map(|number| number.parse().ok()).collect()
 }
 
-/// Bands as text, each with kind, onset and end in rpm, largest growth in 1/s and the ranges in which it counts:
-/// "divergence 1500 1560 0.4 1500 1560;flutter 2255.9 2266.1 0.1".
-pub(super) fn bands_in_words(bands: &[FoundBand]) -> String {
-    let band = |band: &FoundBand| {
-        let numbers = [band.from_rpm, band.to_rpm, band.peak_growth_per_s];
-        let numbers = numbers.iter().chain(band.counted_rpm.iter().flatten());
-        numbers.fold(band.kind.to_string(), |text, number| {
-            format!("{text} {number}")
-        })
+/// Bands as text, each with kind, onset and end in rpm, whether both are within the sweep, speed of largest growth in rpm, this
+/// growth in 1/s, frequency in Hz, and the ranges in which it counts: "divergence 1500 1560 true 1530 0.4 0 1500 1560;flutter
+/// 2255.9 2266.1 true 2261 0.1 6.01".
+pub(super) fn bands_in_words(bands: &[InstabilityBand]) -> String {
+    let band = |band: &InstabilityBand| {
+        let (kind, closed) = (band.kind, band.closed);
+        let at_peak = [band.peak_rpm, band.peak_growth_per_s, band.frequency_hz];
+        let numbers = at_peak.iter().chain(band.counted_rpm.iter().flatten());
+        let edges = format!("{kind} {} {} {closed}", band.from_rpm, band.to_rpm);
+        numbers.fold(edges, |text, number| format!("{text} {number}"))
     };
     bands.iter().map(band).collect::<Vec<_>>().join(";")
 }
 
-fn bands_of(text: &str) -> Option<Vec<FoundBand>> {
+fn bands_of(text: &str) -> Option<Vec<InstabilityBand>> {
     let band = |text: &str| {
-        let (kind, numbers) = text.split_once(' ')?;
+        let words: Vec<&str> = text.split(' ').collect();
+        let ([kind, from, to, closed], numbers) = words.split_first_chunk()?;
         let kinds = [InstabilityKind::Divergence, InstabilityKind::Flutter];
-        let kind = kinds.into_iter().find(|known| known.to_string() == kind)?;
-        let numbers = numbers_of(numbers)?;
-        let (&[from_rpm, to_rpm, peak_growth_per_s], counted) = numbers.split_first_chunk()?;
-        Some(FoundBand {
-            kind,
-            from_rpm,
-            to_rpm,
+        let kind = kinds.into_iter().find(|own| own.to_string() == *kind)?;
+        let edges = [from.parse().ok()?, to.parse().ok()?];
+        let numbers: Option<Vec<f64>> = numbers.iter().map(|word| word.parse().ok()).collect();
+        let numbers = numbers?;
+        let (&[peak_rpm, peak_growth_per_s, frequency_hz], counted) =
+            numbers.split_first_chunk()?;
+        Some(InstabilityBand {
+            closed: closed.parse().ok()?,
+            peak_rpm,
             peak_growth_per_s,
+            frequency_hz,
             counted_rpm: counted.chunks_exact(2).map(|c| [c[0], c[1]]).collect(),
+            ..InstabilityBand::between(kind, edges)
         })
     };
     let parts = text.split(';').filter(|part| !part.is_empty());

@@ -41,18 +41,17 @@ pub struct StudyFile {
     /// Confidence of the interval around the probability of passing.
     #[serde(default = "default_confidence")]
     pub confidence: f64,
-    /// Whether the table lists the bands of instability of each saw, in the column `bands`: kind, onset and end in rpm, largest
-    /// growth rate in 1/s, and the ranges of speed in which the band counts; bands are separated by semicolons.
+    /// Whether the table lists the bands of instability of each saw, in the column `bands`: kind, onset and end in rpm, whether both
+    /// are within the sweep, speed in rpm, growth rate in 1/s and frequency in Hz of the largest growth, and the ranges of speed in
+    /// which the band counts; bands are separated by semicolons.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub bands: bool,
 }
 
-/// The deflection at the cut of a saw with guides with a gap, as of `sawflutter gap`.
+/// The deflection at the cut of a saw with guides with a gap under the side force of its scene, as of `sawflutter gap`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GapFile {
-    /// Side force at the rim at the cut.
-    pub force_n: f64,
     /// Rotation speed; by default the operating speed of the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rpm: Option<f64>,
@@ -168,6 +167,9 @@ pub enum StudyError {
     /// The scene itself, without deviations, cannot be analysed.
     #[error("the saw of the scene itself: {0}")]
     Nominal(#[from] AnalysisError),
+    /// The values of more than a million saws could not be kept in temporary files.
+    #[error("cannot keep the saws in temporary files: {0}")]
+    Kept(#[from] std::io::Error),
 }
 
 impl StudyFile {

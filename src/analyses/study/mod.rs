@@ -1,22 +1,22 @@
 //! Studies of many saws: how manufacturing tolerances and grids of design numbers change the speeds of a saw.
 //!
-//! A [`Study`] names numbers of a scene and their distributions. Each of its [`Saw`]s is analysed
-//! independently and written to a [`Log`] when it is finished; a [`StudyReport`] contains the statistics.
+//! A [`Study`] names numbers of a scene and their distributions. Each of its [`Saw`]s is analysed independently; a
+//! [`StudyReport`] contains the statistics. [`study()`] keeps all saws in memory; the program writes each to a [`Log`] when it is
+//! finished, from which a stopped study is resumed.
 //!
 //! ```
 //! use sawflutter::scene::{Accuracy, Scene};
-//! use sawflutter::analyses::study::{Study, StudyFile};
+//! use sawflutter::analyses::study::{StudyFile, study};
 //!
 //! let scene = Scene::paper().edited(|saw| {
 //!     saw.accuracy = Accuracy::Draft;
 //!     saw.guides.clear();
 //! })?;
-//! let study = StudyFile::from_json(
+//! let file = StudyFile::from_json(
 //!     r#"{ "name": "Thickness", "saws": 8, "parameters": [{ "path": "blade.thickness_m",
 //!          "distribution": { "kind": "tolerance", "plus_minus": 5e-5 } }] }"#,
 //! )?;
-//! let study = Study::new(scene, study)?;
-//! let report = study.report(&study.saws(&|_| ()))?;
+//! let report = study(scene, file, &|_, _| ())?;
 //! let median = report.all.lowest_critical.quantiles[3].rpm.unwrap();
 //! assert!((median / 1476.6 - 1.0).abs() < 0.01, "{median}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -61,9 +61,28 @@ pub(crate) use outline::{accuracy_of_saws, outline};
 #[doc(hidden)]
 pub use parquet::ParquetTable;
 pub use plan::Study;
+pub(crate) use plan::check_varies;
 pub use report::{
     GapStatistics, GridNumber, Group, Histogram, LimitStatistics, NumberQuantile, NumberStatistics,
     Passing, Quantile, Refusal, Reliability, ReliabilityPoint, SpeedStatistics, StudyReport,
     WorstSaw,
 };
-pub use saw::{Found, FoundBand, Outcome, Saw};
+pub use saw::{Found, Outcome, Saw};
+
+use crate::campbell::Progress;
+use crate::scene::Scene;
+
+/// Analyses the saws of a study on all threads, in memory, and returns their statistics.
+///
+/// # Errors
+/// [`StudyError`] that names the key, what is allowed and what to do.
+pub fn study(
+    scene: Scene,
+    file: StudyFile,
+    progress: Progress<'_>,
+) -> Result<StudyReport, StudyError> {
+    let study = Study::new(scene, file)?;
+    let count = study.count();
+    let saws = study.saws(&|done| progress(done.len(), count));
+    Ok(study.report(&saws)?)
+}

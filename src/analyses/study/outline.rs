@@ -34,7 +34,7 @@ pub fn outline(report: &StudyReport) -> Outline {
             "{within} of {} saws deflect by at most {} mm at the cut under {} N",
             report.all.saws,
             shown_to(3, limit),
-            shown_to(3, asked.force_n)
+            shown_to(3, report.scene.side_force_n())
         ));
     }
     if let Some(passing) = &report.all.passing {

@@ -212,6 +212,22 @@ fn refuse(
     RefusedValue::new(key, value, allowed, remedy).into()
 }
 
+/// Path of the speed at which saws are judged.
+const OPERATING_SPEED: &str = "operating_rpm";
+
+/// Refuses the operating speed as a number that varies: it changes no band, and every saw is judged at the same one.
+///
+/// # Errors
+/// [`RefusedValue`] for the key or option `key`.
+pub(crate) fn check_varies(key: &str, path: &str) -> Result<(), RefusedValue> {
+    if path != OPERATING_SPEED {
+        return Ok(());
+    }
+    let allowed = "a number that changes critical speeds or bands";
+    let remedy = "name another one; a map over one number has the speed as its vertical axis";
+    Err(RefusedValue::new(key, OPERATING_SPEED, allowed, remedy))
+}
+
 fn varying(
     scene: &SceneFile,
     file: &StudyFile,
@@ -234,6 +250,7 @@ fn varying(
             key: key.clone(),
             source,
         };
+        check_varies(&key, &entry.path)?;
         let nominal = parameter.get(scene).map_err(unusable)?;
         // This step refuses counts, which do not vary.
         scene.with(&[(&parameter, nominal)]).map_err(unusable)?;
@@ -326,13 +343,11 @@ fn limits(file: &LimitsFile, scene: &Scene) -> Result<Limits, StudyError> {
 /// Validates the block `gap` of the study.
 fn gap(file: &GapFile, scene: &Scene) -> Result<GapCase, StudyError> {
     let options = gap::Options {
-        force_n: Some(file.force_n),
         rpm: file.rpm,
         max_deviation_mm: file.max_deviation_mm,
-        ..gap::Options::default()
     };
     let of_study = |refused: RefusedValue| match refused.key.as_str() {
-        "force_n" | "rpm" | "max_deviation_mm" | "amplitude_mm" => RefusedValue {
+        "rpm" | "max_deviation_mm" | "amplitude_mm" => RefusedValue {
             key: format!("gap.{}", refused.key),
             ..refused
         },

@@ -2,13 +2,13 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::plan::Study;
 use crate::analyses::gap::{GapError, GapNumbers};
+use crate::report::InstabilityBand;
 use crate::scene::{Scene, rpm};
-use crate::stability::{CRITICAL_MARGIN, Evidence, Instability, InstabilityKind, Onsets};
+use crate::stability::{CRITICAL_MARGIN, Evidence, Onsets};
 
 /// A saw and its result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -59,37 +59,7 @@ pub struct Found {
     pub critical_rpm: Vec<f64>,
     /// Bands of instability by onset; empty in a study that does not list them.
     #[serde(default)]
-    pub bands: Vec<FoundBand>,
-}
-
-/// A band of instability of a saw of a map.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(rename = "MappedBandEntry")]
-pub struct FoundBand {
-    /// Divergence or flutter.
-    pub kind: InstabilityKind,
-    /// Speed at which the band begins.
-    pub from_rpm: f64,
-    /// Speed at which the band ends, or the end of the sweep.
-    pub to_rpm: f64,
-    /// Largest growth rate.
-    pub peak_growth_per_s: f64,
-    /// Ranges of speed in which the band counts; empty for flutter below the threshold.
-    pub counted_rpm: Vec<[f64; 2]>,
-}
-
-impl FoundBand {
-    fn new(band: &Instability, threshold_per_s: f64) -> Self {
-        let counted = band.counted(threshold_per_s).into_iter();
-        FoundBand {
-            kind: band.kind,
-            from_rpm: rpm(band.from_rad_per_s),
-            to_rpm: rpm(band.to_rad_per_s),
-            peak_growth_per_s: band.peak_growth_per_s,
-            counted_rpm: counted.map(|(from, to)| [rpm(from), rpm(to)]).collect(),
-        }
-    }
+    pub bands: Vec<InstabilityBand>,
 }
 
 /// Values of the column `status`.
@@ -186,7 +156,7 @@ impl Study {
         if self.file().bands {
             let threshold = scene.flutter_threshold_per_s();
             let listed = onsets.instabilities.iter();
-            bands.extend(listed.map(|band| FoundBand::new(band, threshold)));
+            bands.extend(listed.map(|band| InstabilityBand::new(band, threshold)));
             let end = self.to_rad_per_s();
             let critical = onsets.critical_rad_per_s.iter();
             let near = critical.take_while(|speed| (1.0 - CRITICAL_MARGIN) * **speed <= end);

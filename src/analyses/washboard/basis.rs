@@ -130,7 +130,7 @@ impl Motions {
 
     /// Cutting stiffness in N/m up to which damping alone prevents the growth of every omitted mode.
     pub fn safe_beyond_n_per_m(&self, washboarding: &Washboarding) -> f64 {
-        let fed = washboarding.overlap * self.most_moved;
+        let fed = washboarding.typed.overlap * self.most_moved;
         withstood_n_per_m(&self.plate, self.complete_to_rad_per_s, fed)
     }
 }
@@ -163,8 +163,8 @@ fn needed(
     let shapes = Shapes::new(&system, run.speed_rad_per_s)?;
     let moved = shapes.vectors.transpose() * columns(&arc(plate, washboarding))?;
     let kept = shapes.up_to(passing);
-    let fed = washboarding.overlap * most_moved(&moved, kept);
-    let stiffness = WITHSTOOD * washboarding.stiffness_n_per_m;
+    let fed = washboarding.typed.overlap * most_moved(&moved, kept);
+    let stiffness = WITHSTOOD * washboarding.typed.stiffness_n_per_m;
     let mut needed = BEYOND_TOOTH_PASSING * passing;
     while withstood_n_per_m(plate, needed, fed) < stiffness && needed < MOST_BEYOND * passing {
         needed *= 1.05;

@@ -17,7 +17,7 @@ impl Delay {
     /// The delay at a speed.
     pub fn new(washboarding: &Washboarding, speed_rad_per_s: f64) -> Self {
         Delay {
-            overlap: washboarding.overlap,
+            overlap: washboarding.typed.overlap,
             delays_s: washboarding.delays_s(speed_rad_per_s),
         }
     }

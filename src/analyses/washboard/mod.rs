@@ -107,7 +107,7 @@ pub fn washboard(
     let washboarding = cut.needed_washboarding().map_err(SceneError::from)?;
     let motions = Motions::new(&scene.idling()?, cut, washboarding, run, DIAGRAM[1])?;
     let at = |speed: f64| motions.delayed_at(washboarding, speed);
-    let (speed, stiffness) = (run.speed_rad_per_s, washboarding.stiffness_n_per_m);
+    let (speed, stiffness) = (run.speed_rad_per_s, washboarding.typed.stiffness_n_per_m);
     let saw = at(speed)?;
     let safe_beyond_n_per_m = motions.safe_beyond_n_per_m(washboarding);
     let ceiling = (CEILING * stiffness).min(MAX_CUTTING_STIFFNESS);
@@ -131,8 +131,8 @@ pub fn washboard(
         tooth_passing_hz: washboarding.tooth_passing_rad_per_s(speed) / TAU,
         delays_s: washboarding.delays_s(speed),
         stiffness_n_per_m: stiffness,
-        overlap: washboarding.overlap,
-        arc_deg: washboarding.arc_rad.to_degrees(),
+        overlap: washboarding.typed.overlap,
+        arc_deg: washboarding.unit_spring().arc_rad().to_degrees(),
         feed_m_per_s: run.feed_m_per_s,
         critical_stiffness_n_per_m: boundary.map(|b| b.stiffness_n_per_m),
         critical_frequency_hz: boundary.map(|b| b.frequency_rad_per_s / TAU),

@@ -57,7 +57,7 @@ pub fn described(
     run: &CutRun,
     growing: Option<usize>,
 ) -> Vec<WashboardMode> {
-    let stiffness = washboarding.stiffness_n_per_m;
+    let stiffness = washboarding.typed.stiffness_n_per_m;
     let mut found = roots_with_all_growing(saw, stiffness, growing);
     found.sort_by(|x, y| y.lambda.re.total_cmp(&x.lambda.re));
     found.retain(|root| root.lambda.re > 0.0 || root.lambda.im <= motions.complete_to_rad_per_s);
@@ -109,7 +109,7 @@ fn shape(motions: &Motions, washboarding: &Washboarding, speed: f64, lambda: c64
     let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
     let delay = super::delay::Delay::new(washboarding, speed);
     let lambda = lambda * (1.0 + BESIDE);
-    let cutting = delay.at(lambda) * washboarding.stiffness_n_per_m;
+    let cutting = delay.at(lambda) * washboarding.typed.stiffness_n_per_m;
     let size = motions.columns.ncols();
     let yielding = Mat::from_fn(size, size, |i, k| {
         let unit = if i == k { 1.0 } else { 0.0 };

@@ -10,7 +10,7 @@ use super::delayed::DelayedSaw;
 use super::modes::Pattern;
 use super::roots::{right_of_axis, roots_with_all_growing};
 use crate::analytical::regenerative::OneMode;
-use crate::scene::Washboarding;
+use crate::scene::{TeethInCut, Washboarding, WashboardingFile};
 use crate::spectrum::companion_eigenpairs;
 use crate::system::GyroscopicSystem;
 
@@ -45,12 +45,18 @@ fn system(frequencies: &[f64], damping_ratio: f64) -> GyroscopicSystem {
 /// A delayed force whose pitches in rad are the delays in s at a speed of 1 rad/s.
 fn cutting(stiffness: f64, overlap: f64, delays_s: &[f64]) -> Washboarding {
     Washboarding {
-        stiffness_n_per_m: stiffness,
-        overlap,
+        typed: WashboardingFile {
+            stiffness_n_per_m: stiffness,
+            overlap,
+            arc_deg: None,
+            pitches_deg: Vec::new(),
+        },
+        teeth: TeethInCut {
+            angle_deg: 0.0,
+            mean: 1.0,
+            all: 1,
+        },
         pitches_rad: delays_s.to_vec(),
-        teeth: 1,
-        angle_rad: 0.0,
-        arc_rad: 0.1,
     }
 }
 

@@ -10,7 +10,7 @@ import { numberOf, partName, readings, shown, tidy } from "./words.js";
 // Order of the first groups; the others follow in the order of the schema.
 const ORDER = ["operating_rpm", "blade", "guides", "mount", "cut"];
 // Groups that the chart does not use, or only on request, and the command that uses each.
-const ELSEWHERE = { cut: "cut", "cut.washboarding": "washboard", runup: "runup", friction: "gap", spline: "cut" };
+const ELSEWHERE = { cut: "cut", "cut.washboarding": "washboard", runup: "runup", side_force: "deflect", friction: "gap", spline: "cut" };
 
 // Numbers that influence the speeds of most saws. Their fields reserve a line for the influence before it is computed,
 // so that the form does not jump.
@@ -287,7 +287,8 @@ export class Form {
   #number(schema, path, key, value, required) {
     const { unit, scale, name, digits } = unitOf(path);
     const whole = schema.type === "integer";
-    const usual = fieldOf(path)?.usual;
+    const field = fieldOf(path);
+    const usual = field.usual;
     const fallback = schema.default ?? undefined;
     const input = node("input", { id: path, type: "text", inputMode: "decimal", autocomplete: "off" });
     const typical = schema.examples?.[0];
@@ -297,9 +298,9 @@ export class Form {
     const fullName = inWords(path, name);
     input.setAttribute("aria-label", unit ? `${fullName}, ${unit}` : fullName);
     slider.setAttribute("aria-label", `${fullName}, slider`);
-    const range = new Range(key, value ?? fallback, usual, this.state.scene);
+    const range = new Range(field, value ?? fallback, this.state.scene);
     const send = (number, options) => this.state.set(path, number, options);
-    const isUsual = (typed) => !usual || (usual[0] <= typed / scale && typed / scale <= usual[1]);
+    const isUsual = (typed) => usual[0] <= typed / scale && typed / scale <= usual[1];
     input.addEventListener("change", () => {
       const number = numberOf(input.value, isUsual);
       if (input.value.trim() === "" && !required) send(undefined);

@@ -5,28 +5,30 @@ export class Range {
   // Number of steps of a slider.
   static NOTCHES = 400;
 
-  // `usual` is the range of the values of all saws. If the scene has no value, the geometric mean of `usual` takes its
-  // place, or zero if `usual` is unknown or not positive.
-  constructor(key, known, usual, scene) {
-    const [least, most] = usual ?? [-Infinity, Infinity];
-    const value = known ?? (least > 0 ? Math.sqrt(least * most) : 0);
+  // `field` is the entry of the table of numbers, with kind and usual range. If the scene has no value, the geometric mean of
+  // the usual range takes its place, or zero if the range is not positive.
+  constructor(field, known, scene) {
+    const [least, most] = field.usual;
+    const middle = least > 0 ? Math.sqrt(least * most) : 0;
+    const value = known ?? middle;
     // A slider over several decades is logarithmic.
     this.log = value > 0 && least > 0 && most / least > 3000;
-    const [from, to] = this.#around(key, value, scene);
+    const [from, to] = this.#around(field, value, scene);
     this.from = Math.max(from, this.log ? Math.log(least) : least);
     this.to = Math.min(to, this.log ? Math.log(most) : most);
     if (!(this.from < this.to)) [this.from, this.to] = [from, to];
   }
 
-  #around(key, value, scene) {
+  #around({ kind, usual: [least, most], metric }, value, scene) {
     if (this.log) return [Math.log(value) - Math.log(100), Math.log(value) + Math.log(100)];
-    if (key === "poisson_ratio") return [0, 0.49];
-    if (key.endsWith("angle_deg")) return [-180, 180];
-    if (key === "radius_m") return [0.5 * scene.blade.inner_diameter_m, 0.5 * scene.blade.outer_diameter_m];
-    if (key.endsWith("rpm")) return [0, Math.max(2 * value, 4000)];
+    // Half a turn either way.
+    if (kind === "angle") return [0.5 * least, 0.5 * most];
+    if (kind.endsWith("radius")) return [0.5 * scene.blade.inner_diameter_m, 0.5 * scene.blade.outer_diameter_m];
+    const speeds = [value, scene.operating_rpm ?? 0, scene.sweep?.to_rpm ?? 0];
+    if (metric.unit === "rpm" && Math.max(...speeds) > 0) return [0, 2 * Math.max(...speeds)];
     if (value > 0) return [0.25 * value, 2 * value];
     if (value < 0) return [2 * value, -2 * value];
-    return [0, key.endsWith("_m") ? 0.5 : key.endsWith("_s") ? 0.01 : key.endsWith("_per_m") ? 1000 : 10];
+    return [0, least > 0 ? Math.sqrt(least * most) : most];
   }
 
   value(notch) {

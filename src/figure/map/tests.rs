@@ -1,7 +1,8 @@
 use super::*;
 use crate::analyses::map::{Map, MappedSaw, Options, Range};
-use crate::analyses::study::{Found, FoundBand, Outcome, Saw};
+use crate::analyses::study::{Found, Outcome, Saw};
 use crate::figure::tidy::{assert_tidy, texts};
+use crate::report::InstabilityBand;
 use crate::scene::Scene;
 use crate::stability::InstabilityKind;
 
@@ -22,12 +23,13 @@ fn report(with_y: bool) -> MapReport {
     let saw = |index: usize| {
         let (x, y) = ((index % 9) as f64, (index / 9) as f64);
         let flutter = 2000.0 + 60.0 * x - 10.0 * y;
-        let band = |kind, from_rpm: f64, width: f64, counts: bool| FoundBand {
-            kind,
-            from_rpm,
-            to_rpm: from_rpm + width,
-            peak_growth_per_s: 0.4,
-            counted_rpm: Vec::from_iter(counts.then_some([from_rpm, from_rpm + width])),
+        let band = |kind, from_rpm: f64, width: f64, counts: bool| {
+            let edges = [from_rpm, from_rpm + width];
+            InstabilityBand {
+                peak_growth_per_s: 0.4,
+                counted_rpm: Vec::from_iter(counts.then_some(edges)),
+                ..InstabilityBand::between(kind, edges)
+            }
         };
         let found = Found {
             lowest_critical_rpm: Some(0.7 * flutter),

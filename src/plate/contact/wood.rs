@@ -13,33 +13,38 @@ use super::{Contact, ContactTerms};
 impl Contact for Wood {
     fn add_to(&self, plate: &Plate, terms: &mut ContactTerms) {
         let circles = self.circles(plate);
-        let coupling = coupling(plate, self.angle_rad, circles.into_iter());
-        if self.stiffness_n_per_m > 0.0 {
-            terms.add_stiffness(&(Scale(self.stiffness_n_per_m) * &coupling));
+        let coupling = coupling(
+            plate,
+            self.teeth.angle_deg.to_radians(),
+            circles.into_iter(),
+        );
+        let typed = &self.typed;
+        if typed.stiffness_n_per_m > 0.0 {
+            terms.add_stiffness(&(Scale(typed.stiffness_n_per_m) * &coupling));
         }
-        if self.damping_n_s_per_m > 0.0 {
-            terms.add_damping(&(Scale(self.damping_n_s_per_m) * &coupling));
+        if typed.damping_n_s_per_m > 0.0 {
+            terms.add_damping(&(Scale(typed.damping_n_s_per_m) * &coupling));
         }
     }
 }
 
 impl Wood {
     fn circles(&self, plate: &Plate) -> Vec<Circle> {
-        let outer = plate.blade.outer_radius_m;
-        let half = 0.5 * self.arc_rad;
+        let (outer, arc_rad) = (plate.blade.outer_radius_m, self.arc_rad());
+        let half = 0.5 * arc_rad;
         let circle = |radius_m: f64, weight: f64| Circle {
             radius_m,
             weight,
             arcs: Some(vec![(0.0, half)]),
         };
-        if self.depth_m == 0.0 {
-            return vec![circle(outer, 1.0 / self.arc_rad)];
+        if self.typed.depth_m == 0.0 {
+            return vec![circle(outer, 1.0 / arc_rad)];
         }
-        let inner = outer - self.depth_m;
+        let inner = outer - self.typed.depth_m;
         let mut edges = plate.blade.edges_m();
         edges.retain(|r| *r > inner);
         edges.insert(0, inner);
-        let area = 0.5 * self.arc_rad * (outer - inner) * (outer + inner);
+        let area = 0.5 * arc_rad * (outer - inner) * (outer + inner);
         quadrature::piecewise(&edges, sufficient_points(plate))
             .iter()
             .map(|(r, w)| circle(r, w * r / area))

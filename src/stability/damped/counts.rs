@@ -8,7 +8,7 @@ use super::spectrum::{Solver, Spectrum};
 use crate::spectrum::{FullModel, SpectralModel, SpectrumError};
 use crate::stability::band::Instability;
 use crate::stability::certified::drawn_share;
-use crate::stability::mode_counts::Miscount;
+use crate::stability::mode_counts::MiscountedModes;
 
 /// Number of bands, from the lowest, with counts on both sides of their onsets; each count takes about forty
 /// determinants.
@@ -28,7 +28,7 @@ pub struct Counts {
     /// Number of conclusive counts.
     pub made: usize,
     /// Counts that contradict the eigenvalues.
-    pub miscounts: Vec<Miscount>,
+    pub miscounts: Vec<MiscountedModes>,
     /// Eigenvalues at the speeds of the counts.
     pub spectra: Vec<Spectrum>,
 }
@@ -60,7 +60,7 @@ impl Counts {
             .map(|&speed| solver.at(speed))
             .collect();
         let spectra = spectra?;
-        let counted: Vec<Option<Option<Miscount>>> = spectra
+        let counted: Vec<Option<Option<MiscountedModes>>> = spectra
             .par_iter()
             .map(|spectrum| counted(full, spectrum, solver.highest()))
             .collect();
@@ -84,7 +84,7 @@ fn speeds(bands: &[Instability], (from, to): (f64, f64)) -> Vec<f64> {
     speeds
 }
 
-fn counted(full: &FullModel, spectrum: &Spectrum, highest: f64) -> Option<Option<Miscount>> {
+fn counted(full: &FullModel, spectrum: &Spectrum, highest: f64) -> Option<Option<MiscountedModes>> {
     counted_in_window(full, spectrum.speed, &spectrum.values, highest)
 }
 
@@ -95,17 +95,12 @@ pub fn counted_in_window(
     speed_rad_per_s: f64,
     listed: &[c64],
     highest_rad_per_s: f64,
-) -> Option<Option<Miscount>> {
+) -> Option<Option<MiscountedModes>> {
     let top = window(listed, highest_rad_per_s)?;
     let unlisted = full.unlisted(speed_rad_per_s, listed, [top, top])?;
     // Two conjugate eigenvalues are one mode, and so is a single real eigenvalue.
     let modes = (unlisted + unlisted.signum()) / 2;
-    Some((unlisted != 0).then_some(Miscount {
-        speed_rad_per_s,
-        from_rad_per_s: 0.0,
-        to_rad_per_s: top,
-        missing: modes,
-    }))
+    Some((unlisted != 0).then_some(MiscountedModes::new(speed_rad_per_s, (0.0, top), modes)))
 }
 
 /// Upper end of the window of a count: the middle of the widest gap between frequencies.

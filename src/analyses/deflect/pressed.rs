@@ -1,0 +1,51 @@
+//! The range of speeds, and a blade under the side force.
+
+use crate::plate::Plate;
+use crate::scene::{RefusedValue, SideForce, speed_rad_per_s};
+use crate::stretched::{LARGEST_SLOPE, StretchedBlade, StretchedError};
+use crate::text::{rounded_down, shown_to};
+
+/// Options of the computation of equilibria.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Options {
+    /// Last speed; by default the end of the scene's sweep.
+    pub to_rpm: Option<f64>,
+}
+
+impl Options {
+    /// Checks the options.
+    ///
+    /// # Errors
+    /// [`RefusedValue`] that names the option.
+    pub fn checked(&self) -> Result<(), RefusedValue> {
+        match self.to_rpm {
+            Some(to_rpm) => speed_rad_per_s("to_rpm", to_rpm).map(|_| ()),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The refusal of a force that deflects the blade beyond the model at the first speed; a `gentle_n` does not.
+pub(super) fn steep(force: &SideForce, gentle_n: f64) -> RefusedValue {
+    let most = shown_to(2, rounded_down(2, gentle_n.abs()));
+    let allowed = format!(
+        "between -{most} and {most} for this saw: a larger force deflects it to slopes above {LARGEST_SLOPE}, where the model ends"
+    );
+    RefusedValue::new(
+        "side_force.force_n",
+        force.force_n,
+        allowed,
+        "give a smaller force",
+    )
+}
+
+/// A blade under a side force, on a reduced basis of `modes` modes at rest and the shapes needed for equilibria up to a speed.
+pub(super) fn under(
+    force: &SideForce,
+    plate: &Plate,
+    to_rad_per_s: f64,
+    modes: usize,
+) -> Result<StretchedBlade, StretchedError> {
+    StretchedBlade::up_to(plate, to_rad_per_s, force.at.polar(), modes)?
+        .pressed(force.force_n, force.at.polar())
+}
