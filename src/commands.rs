@@ -211,8 +211,8 @@ commands! {
         figures: [
             "campbell" => |report| campbell::sheet(report, CampbellView::default()),
             "root-loci" => root_loci::sheet,
-            "membrane" => membrane::sheet,
-            "in-cut" => in_cut::sheet,
+            "membrane" => membrane::chart,
+            "in-cut" => in_cut::chart,
             "modes" => modes::sheet,
         ],
         charts: [
@@ -223,7 +223,7 @@ commands! {
     }
     "check", "check.json", CheckReport {
         summary: check,
-        figures: ["check" => check::sheet],
+        figures: ["check" => check::chart],
     }
     "compare", "compare.json", CompareReport {
         summary: compare,
@@ -233,8 +233,8 @@ commands! {
     "cut", "cut.json", CutReport {
         summary: cut,
         figures: [
-            "cut" => cut::sheet,
-            "cut-map" => cut_map::sheet,
+            "cut" => cut::chart,
+            "cut-map" => cut_map::chart,
             "spline-orbit" => spline_orbit::sheet,
         ],
     }
@@ -244,24 +244,24 @@ commands! {
     }
     "fit", "fit.json", FitReport {
         summary: fit,
-        figures: ["fit" => fit::sheet],
+        figures: ["fit" => fit::chart],
     }
     "gap", "gap.json", GapReport {
         summary: gap,
         figures: [
-            "gap" => gap::sheet,
-            "gap-map" => gap_map::sheet,
-            "gap-oscillation" => gap_oscillation::sheet,
-            "gap-friction" => gap_friction::sheet,
+            "gap" => gap::chart,
+            "gap-map" => gap_map::chart,
+            "gap-oscillation" => gap_oscillation::chart,
+            "gap-friction" => gap_friction::chart,
         ],
     }
     "map", "map.json", MapReport {
         summary: map,
-        figures: ["map" => map::sheet],
+        figures: ["map" => map::chart],
     }
     "place", "place.json", PlaceReport {
         summary: place,
-        figures: ["place" => place::sheet],
+        figures: ["place" => place::chart],
     }
     "response", "response.json", ResponseReport {
         summary: response,
@@ -274,13 +274,13 @@ commands! {
         summary: runup,
         figures: [
             "runup" => runup::chart,
-            "response-map" => response_map::sheet,
-            "runup-map" => response_map::stretched_sheet,
+            "response-map" => response_map::chart,
+            "runup-map" => response_map::stretched_chart,
         ],
     }
     "study", "study.json", StudyReport {
         summary: study,
-        figures: ["study" => study::sheet],
+        figures: ["study" => study::chart],
         warnings: |report: &StudyReport| report.unusual_numbers.clone(),
     }
     "washboard", "washboard.json", WashboardReport {
