@@ -199,8 +199,8 @@ commands! {
         figures: [
             "campbell" => |report| campbell::sheet(report, CampbellView::default()),
             "root-loci" => root_loci::sheet,
-            "membrane" => membrane::sheet,
-            "in-cut" => in_cut::sheet,
+            "membrane" => membrane::chart,
+            "in-cut" => in_cut::chart,
             "modes" => modes::sheet,
         ],
         charts: [
@@ -210,7 +210,7 @@ commands! {
     }
     "check", "check.json", CheckReport {
         outline: analyses::check::outline,
-        figures: ["check" => check::sheet],
+        figures: ["check" => check::chart],
     }
     "compare", "compare.json", CompareReport {
         outline: analyses::compare::outline,
@@ -219,8 +219,8 @@ commands! {
     "cut", "cut.json", CutReport {
         outline: analyses::cut::outline,
         figures: [
-            "cut" => cut::sheet,
-            "cut-map" => cut_map::sheet,
+            "cut" => cut::chart,
+            "cut-map" => cut_map::chart,
             "spline-orbit" => spline_orbit::sheet,
         ],
     }
@@ -230,24 +230,24 @@ commands! {
     }
     "fit", "fit.json", FitReport {
         outline: analyses::fit::outline,
-        figures: ["fit" => fit::sheet],
+        figures: ["fit" => fit::chart],
     }
     "gap", "gap.json", GapReport {
         outline: analyses::gap::outline,
         figures: [
-            "gap" => gap::sheet,
-            "gap-map" => gap_map::sheet,
-            "gap-oscillation" => gap_oscillation::sheet,
-            "gap-friction" => gap_friction::sheet,
+            "gap" => gap::chart,
+            "gap-map" => gap_map::chart,
+            "gap-oscillation" => gap_oscillation::chart,
+            "gap-friction" => gap_friction::chart,
         ],
     }
     "map", "map.json", MapReport {
         outline: analyses::map::outline,
-        figures: ["map" => map::sheet],
+        figures: ["map" => map::chart],
     }
     "place", "place.json", PlaceReport {
         outline: analyses::place::outline,
-        figures: ["place" => place::sheet],
+        figures: ["place" => place::chart],
     }
     "response", "response.json", ResponseReport {
         outline: analyses::response::outline,
@@ -260,13 +260,13 @@ commands! {
         outline: analyses::runup::outline,
         figures: [
             "runup" => runup::chart,
-            "response-map" => response_map::sheet,
-            "runup-map" => response_map::stretched_sheet,
+            "response-map" => response_map::chart,
+            "runup-map" => response_map::stretched_chart,
         ],
     }
     "study", "study.json", StudyReport {
         outline: analyses::study::outline,
-        figures: ["study" => study::sheet],
+        figures: ["study" => study::chart],
     }
     "washboard", "washboard.json", WashboardReport {
         outline: analyses::washboard::outline,

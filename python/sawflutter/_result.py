@@ -343,12 +343,7 @@ class Result(Report, Entry):
         return f"<{type(self).__name__} {self.raw['scene']['name']!r}: {warned}{self._facts()}>"
 
     def _chart(self) -> Chart:
-        from .plot.described import OWN
-
-        facts, own = self._facts(), OWN.get(self.command)
-        if own is not None:
-            return own(self, facts)
-        return self._described(self.figure_names[0].partition(".")[0], facts)
+        return self._described(self.figure_names[0].partition(".")[0], self._facts())
 
     def _facts(self) -> str:
         """The answer in one line."""

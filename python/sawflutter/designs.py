@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from . import _native
 from ._drawn import Drawn
 from ._entry import Entry, FloatArray
 from ._report_types import FitReport, PlaceReport, Setting
@@ -103,9 +104,9 @@ class TradeoffResults(Report):
         return min(charts, key=lambda setting: setting.seconds, default=None)
 
     def _chart(self) -> Chart:
-        from .plot.design import tradeoff
+        from .plot.described import read
 
-        return tradeoff(self.settings, self.name)
+        return read(_native.tradeoff_chart(self.name, self._text))
 
     def __reduce__(self) -> tuple[Any, tuple[str, str]]:
         return TradeoffResults.from_json, (self._text, self.name)
@@ -133,6 +134,6 @@ class StiffnessMap(Drawn, Entry):
     """Flutter speed of each; NaN where there is none within the sweep."""
 
     def _chart(self) -> Chart:
-        from .plot.design import stiffness
+        from .plot.derived import stiffness
 
         return stiffness(self)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ._extras import frame
@@ -41,11 +42,10 @@ class CutResults(Result, CutReport):
         >>> import sawflutter as sf
         >>> cut = sf.Scene.paper().run_cut(1800, accuracy="draft")
         >>> cut.map_chart().panels[0].y_name
-        'multiple of the forces'
+        "load, relative to the scene's"
         """
-        from .plot.histories import cut_map
-
-        return cut_map(self, run)
+        chart = self._described("cut-map")
+        return replace(chart, panels=(chart.panels[run],))
 
     def _facts(self) -> str:
         verdicts = ", ".join(
@@ -76,11 +76,9 @@ class RunUpResults(Result, RunUpReport):
         >>> short = {"runup.to_rpm": 500, "runup.duration_s": 5}
         >>> up = sf.Scene.paper().replace(short).run_up(accuracy="draft")
         >>> up.response_chart().panels[0].y_name
-        'frequency of the force [Hz]'
+        'frequency in space [Hz]'
         """
-        from .plot.histories import response
-
-        return response(self)
+        return self._described("response-map")
 
     def _facts(self) -> str:
         last = self.rpm[-1]

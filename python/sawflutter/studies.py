@@ -171,7 +171,7 @@ class StudyResults(Result, StudyReport):
         >>> found.map_chart("lowest_critical_rpm").panels[0].items[0].z.shape
         (2, 2)
         """
-        from .plot.design import grid
+        from .plot.derived import grid
 
         paths = [
             parameter["path"]

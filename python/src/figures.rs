@@ -2,6 +2,7 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use sawflutter::analyses::tradeoff::Setting;
 use sawflutter::commands::{Command, CommandReport};
 use sawflutter::figure;
 use sawflutter::report::Report;
@@ -79,6 +80,14 @@ pub fn chart(command: &str, name: &str, report: &str) -> PyResult<Option<String>
     let chart = read(command, report)?.chart(name);
     let text = chart.map(|chart| serde_json::to_string(&chart));
     Ok(text.transpose().map_err(Failure::from)?)
+}
+
+/// The description of the figure of a tradeoff, as JSON; `scene` is the name of the scene.
+#[pyfunction]
+pub fn tradeoff_chart(scene: &str, settings: &str) -> PyResult<String> {
+    let settings: Vec<Setting> = serde_json::from_str(settings).map_err(Failure::from)?;
+    let chart = figure::tradeoff_chart(scene, &settings);
+    Ok(serde_json::to_string(&chart).map_err(Failure::from)?)
 }
 
 /// `campbell.csv` of a report.

@@ -22,7 +22,8 @@ mod _native {
     use super::commands::{compare, run};
     #[pymodule_export]
     use super::figures::{
-        campbell_csv, chart, figure_names, html, page, palette, picture, summary, vtk_files,
+        campbell_csv, chart, figure_names, html, page, palette, picture, summary, tradeoff_chart,
+        vtk_files,
     };
     #[pymodule_export]
     use super::map::Map;

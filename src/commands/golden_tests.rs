@@ -2,10 +2,12 @@
 //!
 //! With the variable SAWFLUTTER_BLESS the texts are written anew; CONTRIBUTING.md says when.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
+use serde_json::Value;
 
 use super::{COMMANDS, Command, CommandReport};
 use crate::figure::assert_tidy;
@@ -159,4 +161,88 @@ fn figures_of_committed_reports_are_tidy_and_every_command_has_some() {
             assert_tidy(figure.sheet());
         }
     });
+}
+
+/// Every list of numbers in a report in which some are null and at least two are not: rows and columns of tables, too.
+fn interrupted(value: &Value) -> Vec<Vec<Option<f64>>> {
+    let (lists, inner): (Vec<_>, Vec<&Value>) = match value {
+        Value::Array(items) => {
+            let rows: Vec<&Vec<Value>> = items.iter().filter_map(Value::as_array).collect();
+            let width = rows.iter().map(|row| row.len()).min().unwrap_or(0);
+            let column = |k: usize| rows.iter().map(|row| row[k].as_f64()).collect();
+            let columns = (0..width).map(column);
+            let own = items.iter().map(Value::as_f64).collect();
+            (columns.chain([own]).collect(), items.iter().collect())
+        }
+        Value::Object(entries) => (Vec::new(), entries.values().collect()),
+        _ => (Vec::new(), Vec::new()),
+    };
+    let is_one = |list: &Vec<Option<f64>>| {
+        let known = list.iter().flatten().filter(|value| **value != 0.0).count();
+        known >= 2 && list.contains(&None)
+    };
+    let lists = lists.into_iter().filter(is_one);
+    lists
+        .chain(inner.into_iter().flat_map(interrupted))
+        .collect()
+}
+
+/// Curves and rows of cells of a chart, as lists of ordinates.
+fn curves(chart: &Value) -> Vec<Vec<Option<f64>>> {
+    let panels = chart["panels"].as_array().unwrap().iter();
+    let items = panels.flat_map(|panel| panel["items"].as_array().unwrap());
+    let lists = items.flat_map(|item| match item["item"].as_str() {
+        Some("line") => vec![&item["y"]],
+        Some("heat") => item["z"].as_array().unwrap().iter().collect(),
+        _ => Vec::new(),
+    });
+    let numbers = |list: &Value| list.as_array().unwrap().iter().map(Value::as_f64).collect();
+    lists.map(numbers).collect()
+}
+
+/// Whether a curve is proportional to the numbers of a list where these are known.
+fn shows(curve: &[Option<f64>], list: &[Option<f64>]) -> bool {
+    let ratios = curve.iter().zip(list).filter_map(|(y, value)| {
+        let value = value.filter(|value| *value != 0.0)?;
+        Some(y.map_or(f64::NAN, |y| y.abs() / value.abs()))
+    });
+    let ratios: Vec<f64> = ratios.collect();
+    curve.len() == list.len()
+        && ratios.len() >= 2
+        && ratios.iter().all(|r| (r / ratios[0] - 1.0).abs() < 1e-9)
+}
+
+/// A curve that shows the numbers of a list has a gap where the list has null.
+#[test]
+fn no_curve_of_a_committed_report_is_drawn_where_its_data_is_null() {
+    let shown = cases().into_par_iter().flat_map(|name| {
+        let path = Path::new(FOLDER).join(format!("reports/{name}.json"));
+        let text = std::fs::read_to_string(path).unwrap();
+        let lists = interrupted(&serde_json::from_str(&text).unwrap());
+        let report = read(&name);
+        let figures = report.command().figures.iter();
+        let charts = figures.filter_map(|[png, _]| report.chart(png.trim_end_matches(".png")));
+        let charts = charts.map(|chart| serde_json::to_value(chart).unwrap());
+        let mut shown = Vec::new();
+        for curve in charts.flat_map(|chart| curves(&chart)) {
+            // The first row of a table may be left out, which is that of linear guides.
+            let suffixes = lists.iter().flat_map(|list| [&list[..], &list[1..]]);
+            for list in suffixes.filter(|list| shows(&curve, list)) {
+                let is_gap = curve
+                    .iter()
+                    .zip(list)
+                    .all(|(y, v)| v.is_some() || y.is_none());
+                assert!(is_gap, "{name}: {curve:?} {list:?}");
+                shown.push(report.command().name);
+            }
+        }
+        shown
+    });
+    let shown: BTreeSet<&str> = shown.collect();
+    assert!(
+        ["gap", "response"]
+            .iter()
+            .all(|command| shown.contains(command)),
+        "{shown:?}"
+    );
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::style::{AXIS_SIZE, GRID, HAIRLINE, INK, QUIET};
+use super::style::{AXIS_SIZE, GRID, HAIRLINE, INK, QUIET, Weight, text_width};
 
 /// Name of an axis of rotation speeds.
 pub const SPEED: &str = "rotation speed Ω\u{2003}[rpm]";
@@ -55,32 +55,6 @@ impl Axis {
         Axis::new(values, places, Spread::Linear)
     }
 
-    /// A linear axis from the first of some values to the last.
-    pub fn over(values: &[f64], places: [f64; 2]) -> Self {
-        let first = values.first().copied().unwrap_or(0.0);
-        let last = values.last().copied().unwrap_or(1.0);
-        Axis::linear([first, last], places)
-    }
-
-    /// An axis from the first of some values to the last, and half a cell longer at either end, so that a cell
-    /// around an outermost value lies within.
-    pub fn of_cells(values: &[f64], places: [f64; 2], spread: Spread) -> Self {
-        let first = values.first().copied().unwrap_or(1.0);
-        let last = values.last().copied().unwrap_or(first);
-        let share = 0.5 / values.len().saturating_sub(1).max(1) as f64;
-        let ends = match spread {
-            Spread::Logarithmic => {
-                let beside = (last / first).powf(share);
-                [first / beside, last * beside]
-            }
-            _ => {
-                let beside = share * (last - first);
-                [first - beside, last + beside]
-            }
-        };
-        Axis::new(ends, places, spread)
-    }
-
     /// Values at the ends of the axis.
     pub fn values(&self) -> [f64; 2] {
         self.values
@@ -106,6 +80,15 @@ impl Axis {
         let [from, to] = self.values.map(|v| self.spread.of(v));
         let share = (self.spread.of(value) - from) / (to - from);
         self.places[0] + share * (self.places[1] - self.places[0])
+    }
+
+    /// Smallest distance of the ticks of a vertical axis.
+    pub fn apart(&self) -> f64 {
+        match self.spread {
+            Spread::Linear => 40.0,
+            // Ticks on these scales are closer to each other, so that small values have ticks too.
+            Spread::SignedRoot | Spread::Logarithmic => 21.0,
+        }
     }
 
     /// Round values at a distance of at least `apart` figure units, in ascending order.
@@ -189,6 +172,29 @@ impl Axis {
         ticks.sort_by(f64::total_cmp);
         ticks
     }
+}
+
+/// Ends of an axis from the first of some values to the last, and half a cell longer at either end, so that a cell around
+/// an outermost value lies within.
+pub fn ends_of_cells(values: &[f64], spread: Spread) -> [f64; 2] {
+    let [first, last] = ends(values);
+    let share = 0.5 / values.len().saturating_sub(1).max(1) as f64;
+    match spread {
+        Spread::Logarithmic => {
+            let beside = (last / first).powf(share);
+            [first / beside, last * beside]
+        }
+        _ => {
+            let beside = share * (last - first);
+            [first - beside, last + beside]
+        }
+    }
+}
+
+/// The first and the last of some values.
+pub fn ends(values: &[f64]) -> [f64; 2] {
+    let first = values.first().copied().unwrap_or(1.0);
+    [first, values.last().copied().unwrap_or(first)]
 }
 
 /// Smallest and largest of the values, which are ∞ and −∞ if there are none.
@@ -276,16 +282,12 @@ fn superscript(letter: char) -> char {
 
 /// Draws grid lines, ticks, numbers and name of a vertical axis.
 pub fn draw_vertical(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str) {
-    let apart = match axis.spread() {
-        Spread::Linear => 40.0,
-        // Ticks on these scales are closer to each other, so that small values have ticks too.
-        Spread::SignedRoot | Spread::Logarithmic => 21.0,
-    };
-    draw_vertical_at(sheet, axis, panel, name, &axis.ticks(apart));
+    draw_vertical_at(sheet, axis, panel, &axis.ticks(axis.apart()));
+    name_upright(sheet, 28.0, panel, name);
 }
 
-/// Draws a vertical axis with ticks at given values.
-pub fn draw_vertical_at(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &str, ticks: &[f64]) {
+/// Draws grid lines, ticks and numbers of a vertical axis at given values.
+pub fn draw_vertical_at(sheet: &mut Sheet, axis: &Axis, panel: &Frame, ticks: &[f64]) {
     for tick in ticks {
         let y = axis.at(*tick);
         sheet.horizontal(y, panel, Stroke::solid(GRID, HAIRLINE));
@@ -293,7 +295,6 @@ pub fn draw_vertical_at(sheet: &mut Sheet, axis: &Axis, panel: &Frame, name: &st
         sheet.line([[panel.left - 5.0, y], [panel.left, y]], short);
         number_beside(sheet, panel, y, &axis.label(*tick));
     }
-    name_upright(sheet, 28.0, panel, name);
 }
 
 /// Writes a number to the left of a panel, at the height of a tick.
@@ -315,13 +316,33 @@ pub fn name_upright(sheet: &mut Sheet, x: f64, panel: &Frame, name: &str) {
 /// Draws line and ticks of a horizontal axis, with numbers if `numbered`.
 pub fn draw_horizontal(sheet: &mut Sheet, axis: &Axis, y: f64, numbered: bool) {
     let [left, right] = axis.places();
+    // A short axis has ticks closer to each other.
+    let apart = ((right - left) / 6.0).min(100.0);
+    let ticks = axis.ticks(apart).into_iter();
+    let ticks = ticks.map(|tick| (tick, axis.label(tick)));
+    draw_horizontal_at(sheet, axis, y, ticks, numbered);
+}
+
+/// Draws line and ticks of a horizontal axis, with the name of each tick if `named` and if it has room beside the one
+/// before.
+pub fn draw_horizontal_at<T: AsRef<str>>(
+    sheet: &mut Sheet,
+    axis: &Axis,
+    y: f64,
+    ticks: impl IntoIterator<Item = (f64, T)>,
+    named: bool,
+) {
+    let [left, right] = axis.places();
     sheet.line([[left, y], [right, y]], Stroke::solid(QUIET, HAIRLINE));
-    for tick in axis.ticks(100.0) {
+    let mut free = f64::NEG_INFINITY;
+    for (tick, name) in ticks {
         let x = axis.at(tick);
         sheet.line([[x, y], [x, y + 5.0]], Stroke::solid(QUIET, HAIRLINE));
-        if numbered {
+        let half = 0.5 * text_width(name.as_ref(), AXIS_SIZE, Weight::Regular);
+        if named && x - half > free {
             let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::Middle);
-            sheet.text([x, y + 20.0], letters, &axis.label(tick));
+            sheet.text([x, y + 20.0], letters, name.as_ref());
+            free = x + half + 6.0;
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, two_digits};
 use super::canvas::{Frame, Sheet};
-use super::chart_data::Band;
+use super::items::Band;
 use super::palette::Hue;
 use crate::report::InstabilityBand;
 
@@ -91,17 +91,6 @@ fn label(band: &InstabilityBand, [first, last]: [f64; 2]) -> String {
         None => label,
         Some(metres) => format!("{label}, ±{} mm", two_digits(1e3 * metres)),
     }
-}
-
-/// Shades the bands of a report over the height of each panel.
-pub fn shade<'a>(
-    sheet: &mut Sheet,
-    speed: &Axis,
-    bands: impl Iterator<Item = &'a InstabilityBand>,
-    panels: &[Frame],
-) {
-    let bands: Vec<Band> = bands.map(|band| Band::new(band, speed.values())).collect();
-    draw(sheet, speed, bands.iter(), panels);
 }
 
 /// Shades bands over the height of each panel.

@@ -13,14 +13,14 @@ mod waves;
 #[cfg(test)]
 pub(super) use growth::curve;
 pub use view::CampbellView;
-pub(super) use waves::draw_measured_mark;
 
 use band_labels::BandLabels;
 use describe::describe;
 
 use super::axis::{Axis, SPEED, draw_horizontal, draw_vertical, name_below};
 use super::canvas::{Frame, Sheet, Stroke};
-use super::chart_data::{Band, ChartData, Item, Line, PanelData, Role, Upright};
+use super::chart_data::{ChartData, PanelData};
+use super::items::{Band, Item, Line, Role, Upright};
 use super::paint::Ground;
 use super::style::{BETWEEN_FACTS, HAIRLINE, MARGIN, QUIET};
 use super::{bands, heading};

@@ -1,42 +1,31 @@
-//! Limits and results of a check, each in its own row over a common axis of speeds.
+//! Limits and results of a check, each in its own row over a common axis of speeds, and the stiffness of the rim.
 
-use super::axis::{Axis, SPEED, draw_named};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::key::Key;
-use super::style::{
-    ALARM, BETWEEN_FACTS, CURVE, Colour, DIVERGENCE_SHADE, FINE_DASH, FLUTTER_SHADE, FORWARD, GRID,
-    HAIRLINE, INK, LABEL_SIZE, MARGIN, QUIET, STRONG_CURVE, shorten_label, tint,
-};
-use super::{bands, heading};
+use super::chart_data::{AxisData, ChartData, PanelData};
+use super::items::{Band, Item, Line, Points, Role, Shape, Upright};
+use super::palette::Hue;
+use super::style::STRONG_CURVE;
 use crate::analyses::check::{CheckReport, Criterion};
 
-const WIDTH: u32 = 1200;
-const LEFT: f64 = 372.0;
-const RIGHT: f64 = 1160.0;
-const TOP: f64 = 96.0;
-const ROW: f64 = 66.0;
-/// Height below the rows for the axis, its name and the key.
-const BELOW: f64 = 92.0;
-const PASS: Colour = FORWARD;
+/// Height of a row and of the panel of the stiffness, relative to a panel of usual height.
+const ROW: f64 = 0.135;
+const STIFFNESS: f64 = 0.34;
+/// Width of the bar from the limit to the result, and share of its colour.
+const BAR: f64 = 14.0;
+const BAR_TINT: f64 = 0.35;
+/// Ends of the mark of a limit above and below the middle of its row.
+const LIMIT: [f64; 2] = [-0.15, 0.3];
+const RESULT_SIZE: f64 = 12.0;
 
-pub fn sheet(report: &CheckReport) -> Sheet {
-    let rows = 2 + report.criteria.len();
-    let bottom = TOP + ROW * rows as f64;
-    let mut sheet = Sheet::new(WIDTH, (bottom + BELOW) as u32);
+/// Rows of the limits, and the stiffness of the rim, as numbers.
+pub fn chart(report: &CheckReport) -> ChartData {
     let verdict = if report.passed { "passed" } else { "failed" };
     let title = format!("{}: check {verdict}", report.scene.name);
-    heading::draw(&mut sheet, &title, &facts(report));
-    let speed = Axis::linear([0.0, last_shown_rpm(report)], [LEFT, RIGHT]);
-    draw_saw(&mut sheet, report, &speed);
-    for (k, criterion) in report.criteria.iter().enumerate() {
-        draw_criterion(&mut sheet, criterion, &speed, row(k + 1));
+    let speed = AxisData::speed().within([0.0, last_shown_rpm(report)]);
+    let panels = vec![limits(report, &speed), stiffness(report, &speed)];
+    ChartData {
+        key: key(),
+        ..ChartData::new(&title, facts(report), panels)
     }
-    draw_stiffness(&mut sheet, report, &speed, row(rows - 1));
-    draw_end_of_sweep(&mut sheet, report, &speed, bottom);
-    draw_operating(&mut sheet, report, &speed, bottom);
-    draw_named(&mut sheet, &speed, bottom, SPEED);
-    draw_key(&mut sheet, bottom + BELOW - 22.0);
-    sheet
 }
 
 /// End of the axis in rpm. The axis includes the sweep, every limit and every result; the lowest critical speed may
@@ -48,43 +37,7 @@ fn last_shown_rpm(report: &CheckReport) -> f64 {
     report.to_rpm.max(1.03 * marks)
 }
 
-/// Draws the operating speed through all rows, with its name.
-fn draw_operating(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, bottom: f64) {
-    let x = speed.at(report.operating_rpm);
-    sheet.line([[x, TOP], [x, bottom]], Stroke::solid(INK, HAIRLINE));
-    let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Middle);
-    let text = format!("operating {:.0}", report.operating_rpm);
-    sheet.text([x, TOP - 6.0], letters, &text);
-}
-
-/// Draws the end of the sweep, beyond which no band is searched for, if it is within the axis.
-fn draw_end_of_sweep(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, bottom: f64) {
-    if report.to_rpm >= speed.values()[1] {
-        return;
-    }
-    let x = speed.at(report.to_rpm);
-    let dashed = Stroke::dashed(QUIET, HAIRLINE, FINE_DASH);
-    sheet.line([[x, TOP - 16.0], [x, bottom]], dashed);
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
-    // The text is above the name of the operating speed.
-    sheet.text(
-        [x.max(LEFT + 90.0), TOP - 20.0],
-        letters,
-        "end of the sweep",
-    );
-}
-
-/// Frame of the row with the number `k`, from 0 on.
-fn row(k: usize) -> Frame {
-    Frame {
-        left: LEFT,
-        top: TOP + ROW * k as f64,
-        right: RIGHT,
-        bottom: TOP + ROW * (k + 1) as f64,
-    }
-}
-
-fn facts(report: &CheckReport) -> String {
+fn facts(report: &CheckReport) -> Vec<String> {
     let unusual =
         (!report.unusual_numbers.is_empty()).then(|| "with numbers that no saw has".into());
     let facts = [
@@ -93,116 +46,168 @@ fn facts(report: &CheckReport) -> String {
         format!("margin {:.0} %", 100.0 * report.margin),
         report.rim_stiffness_in_words(),
     ];
-    let all: Vec<String> = unusual.into_iter().chain(facts).collect();
-    all.join(BETWEEN_FACTS)
+    unusual.into_iter().chain(facts).collect()
 }
 
-/// Draws all bands and critical speeds of the saw in the first row.
-fn draw_saw(sheet: &mut Sheet, report: &CheckReport, speed: &Axis) {
-    let frame = row(0);
-    bands::shade(sheet, speed, report.instabilities.iter(), &[frame]);
-    for x in report.critical_speeds_rpm.iter().map(|rpm| speed.at(*rpm)) {
-        sheet.vertical(x, &frame, Stroke::solid(QUIET, HAIRLINE));
-        sheet.disc([x, frame.centre()[1]], 3.5, INK);
-    }
-    let (critical, bands) = (report.critical_speeds_rpm.len(), report.instabilities.len());
-    let found = match (critical, bands) {
-        (0, 0) => format!("no critical speed, no band up to {:.0} rpm", report.to_rpm),
-        (_, 0) => "critical speeds, no band".to_owned(),
-        (0, _) => "bands, no critical speed".to_owned(),
-        _ => "critical speeds and bands".to_owned(),
+/// The operating speed, the end of the sweep if it is within the axis, and the critical speeds.
+fn speeds(report: &CheckReport, last: f64) -> Vec<Item> {
+    let operating = Upright {
+        x: report.operating_rpm,
+        role: Role::Operating,
+        colour: Hue::Ink,
+        dashed: false,
+        label: format!("operating {:.0}", report.operating_rpm),
+        name: format!("operating {:.0} rpm", report.operating_rpm),
     };
-    name(sheet, frame, "the saw", &found, QUIET);
+    let end = (report.to_rpm < last).then(|| Upright {
+        x: report.to_rpm,
+        role: Role::Guide,
+        colour: Hue::Quiet,
+        dashed: true,
+        label: "end of the sweep".to_owned(),
+        name: "end of the sweep".to_owned(),
+    });
+    let critical = report.critical_speeds_rpm.iter();
+    let critical = critical.map(|rpm| Upright {
+        name: format!("critical speed {rpm:.0} rpm"),
+        ..Upright::critical(*rpm, "")
+    });
+    let all = [operating].into_iter().chain(end).chain(critical);
+    all.map(Item::Upright).collect()
 }
 
-/// Writes name and result of a row.
-fn name(sheet: &mut Sheet, frame: Frame, above: &str, below: &str, colour: Colour) {
-    let room = LEFT - 2.0 * MARGIN;
-    let [_, middle] = frame.centre();
-    for (text, baseline, colour) in [(above, middle - 4.0, INK), (below, middle + 14.0, colour)] {
-        let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
-        sheet.text([MARGIN, baseline], letters, &shorten_label(text, room));
+fn limits(report: &CheckReport, speed: &AxisData) -> PanelData {
+    let last = last_shown_rpm(report);
+    let bands = report.instabilities.iter();
+    let bands = bands.map(|band| Item::Band(Band::new(band, [0.0, last])));
+    let rows = (1..).map(f64::from).zip(&report.criteria);
+    let names = rows.clone().map(|(row, criterion)| {
+        let word = if criterion.passed { "PASS" } else { "FAIL" };
+        (
+            row,
+            format!("{word} {}: {}", criterion.name, criterion.finding),
+        )
+    });
+    let count = report.criteria.len() as f64;
+    let criteria = rows.flat_map(|(row, criterion)| of_criterion(criterion, row, last));
+    PanelData {
+        share: ROW * (count + 0.2),
+        ..PanelData::new(
+            speed.clone(),
+            AxisData::new("", "")
+                .within([0.4, count + 0.6])
+                .named(names),
+            bands.chain(speeds(report, last)).chain(criteria).collect(),
+        )
     }
-    let line = [[MARGIN, frame.bottom], [RIGHT, frame.bottom]];
-    sheet.line(line, Stroke::solid(GRID, HAIRLINE));
 }
 
-/// Draws the limit as a vertical line, the result as a disc, and the difference as a bar.
-fn draw_criterion(sheet: &mut Sheet, criterion: &Criterion, speed: &Axis, frame: Frame) {
-    let (colour, word) = match criterion.passed {
-        true => (PASS, "PASS"),
-        false => (ALARM, "FAIL"),
+/// The result as a disc, the difference as a bar, and the limit as a short vertical line.
+fn of_criterion(criterion: &Criterion, row: f64, last: f64) -> Vec<Item> {
+    let hue = if criterion.passed {
+        Hue::Forward
+    } else {
+        Hue::Alarm
     };
-    let found = criterion.found_rpm;
+    let asked = criterion.asked_rpm;
     // The criterion `operating`, on a band at the operating speed, has no limit from which a distance could
     // be drawn.
-    let is_limit = criterion.key != "operating";
-    let above = format!("{word} {}", criterion.name);
-    name(sheet, frame, &above, &criterion.finding, colour);
-    let [_, middle] = frame.centre();
-    let asked = speed.at(criterion.asked_rpm);
-    let unreached = if is_limit { RIGHT } else { asked };
-    let end = found.map_or(unreached, |rpm| speed.at(rpm));
-    let bar = Frame {
-        left: asked.min(end),
-        top: middle - 7.0,
-        right: asked.max(end),
-        bottom: middle + 7.0,
+    let unreached = if criterion.key == "operating" {
+        asked
+    } else {
+        last
     };
-    sheet.fill(bar, tint(colour, 0.35));
-    let upright = [[asked, middle - 16.0], [asked, middle + 16.0]];
-    sheet.line(upright, Stroke::solid(INK, STRONG_CURVE));
-    if found.is_some() {
-        sheet.disc([end, middle], 6.0, colour);
-    } else if !is_limit {
-        let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
-        sheet.text([asked + 9.0, middle + 4.0], letters, "none");
-    }
+    let found = criterion.found_rpm;
+    let said = vec![
+        format!("{}\nasked {asked:.1} rpm", criterion.name),
+        format!("{}\n{}", criterion.name, criterion.finding),
+    ];
+    let bar = Line {
+        width: BAR,
+        tint: BAR_TINT,
+        said: said.clone(),
+        ..Line::new(
+            [[asked, row], [found.unwrap_or(unreached), row]],
+            hue,
+            &criterion.name,
+        )
+    };
+    let limit = Line {
+        width: STRONG_CURVE,
+        ..Line::new(LIMIT.map(|off| [asked, row + off]), Hue::Ink, "limit")
+    };
+    // A result that is not known gives the row its colour, too.
+    let result = [found.unwrap_or(f64::NAN), row];
+    let result = Points {
+        said: said.into_iter().skip(1).collect(),
+        ..Points::new([result], hue, RESULT_SIZE, &criterion.name)
+    };
+    vec![Item::Line(bar), Item::Line(limit), Item::Points(result)]
 }
 
-/// Draws the stiffness of the rim over the speed, from zero at the foot of the row to its largest value.
-fn draw_stiffness(sheet: &mut Sheet, report: &CheckReport, speed: &Axis, frame: Frame) {
+fn stiffness(report: &CheckReport, speed: &AxisData) -> PanelData {
     let curve = &report.rim_stiffness;
     let largest = curve.n_per_m.iter().fold(0.0_f64, |top, k| top.max(*k));
-    let said = match largest > 0.0 {
-        true => format!(
-            "up to {:.1} N/mm, zero at the critical speed",
-            1e-3 * largest
-        ),
-        false => "none: nothing holds the blade".to_owned(),
+    let top = if largest > 0.0 {
+        1.15e-3 * largest
+    } else {
+        1.0
     };
-    name(sheet, frame, "lateral stiffness of the rim", &said, QUIET);
-    let height = frame.bottom - frame.top - 16.0;
     let points = curve.rpm.iter().zip(&curve.n_per_m);
-    let places = points.map(|(rpm, k)| {
-        let share = (k / largest).clamp(0.0, 1.0);
-        [speed.at(*rpm), frame.bottom - height * share]
+    let points = points.map(|(rpm, k)| [*rpm, 1e-3 * k]);
+    let name = "lateral stiffness of the rim";
+    let note = match largest > 0.0 {
+        true => "",
+        false => "no lateral stiffness: nothing holds the blade",
+    };
+    let operating = speeds(report, last_shown_rpm(report)).into_iter().take(1);
+    let operating = operating.map(|item| match item {
+        Item::Upright(line) => Item::Upright(Upright {
+            label: String::new(),
+            ..line
+        }),
+        other => other,
     });
-    let places: Vec<[f64; 2]> = places.collect();
-    if largest > 0.0 {
-        sheet.line(places, Stroke::solid(INK, CURVE));
+    let curve = Item::Line(Line::new(points, Hue::Ink, name));
+    PanelData {
+        share: STIFFNESS,
+        note: note.to_owned(),
+        ..PanelData::new(
+            speed.clone(),
+            AxisData::new("rim stiffness", "N/mm").within([0.0, top]),
+            operating.chain([curve]).collect(),
+        )
     }
 }
 
-fn draw_key(sheet: &mut Sheet, baseline: f64) {
-    Key::new(sheet, MARGIN, baseline)
-        .shade(DIVERGENCE_SHADE)
-        .word("divergence")
-        .shade(FLUTTER_SHADE)
-        .word("flutter")
-        .upright(4.0, 8.0, Stroke::solid(INK, STRONG_CURVE))
-        .word("limit")
-        .dot(12.0, 6.0, PASS)
-        .word("result, with margin")
-        .dot(12.0, 6.0, ALARM)
-        .word("result, with shortfall");
+fn key() -> Vec<Item> {
+    let limit = Upright {
+        x: 0.0,
+        role: Role::Guide,
+        colour: Hue::Ink,
+        dashed: false,
+        label: String::new(),
+        name: "limit".to_owned(),
+    };
+    let result = |hue, name| Item::points_sample(RESULT_SIZE, Shape::Disc, hue, name);
+    vec![
+        Item::area_sample(Hue::DivergenceShade, "divergence"),
+        Item::area_sample(Hue::FlutterShade, "flutter"),
+        Item::Upright(Upright {
+            name: "critical speed".to_owned(),
+            ..Upright::critical(0.0, "")
+        }),
+        Item::Upright(limit),
+        result(Hue::Forward, "result, with margin"),
+        result(Hue::Alarm, "result, with shortfall"),
+    ]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::analyses::check::{Limits, check};
-    use crate::figure::canvas::Mark;
+    use crate::figure::layout::sheet;
     use crate::figure::tidy::{assert_tidy, texts};
     use crate::scene::{Accuracy, Scene, SweepFile, rad_per_s};
 
@@ -215,13 +220,12 @@ mod tests {
             min_critical_rad_per_s: Some(rad_per_s(1500.0)),
             ..Limits::at(rad_per_s(1250.0))
         };
-        let sheet = sheet(&check(&scene, &limits).unwrap());
+        let sheet = sheet(&chart(&check(&scene, &limits).unwrap()));
         assert_tidy(&sheet);
         let said: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
         let with = |start: &str| said.iter().filter(|text| text.starts_with(start)).count();
         assert_eq!((with("PASS "), with("FAIL ")), (4, 1), "{said:?}");
         assert_eq!(with("operating 1250"), 1, "{said:?}");
-        assert!(said.contains(&"none"), "{said:?}");
     }
 
     /// The lowest critical speed of this saw lies beyond its sweep.
@@ -240,15 +244,10 @@ mod tests {
         let found = report.criteria.iter().filter_map(|c| c.found_rpm);
         let highest = found.fold(0.0, f64::max);
         assert!(highest > report.to_rpm, "{highest}");
-        let sheet = sheet(&report);
+        let sheet = sheet(&chart(&report));
         assert_tidy(&sheet);
-        let discs = sheet.marks().iter().filter_map(|mark| match mark {
-            Mark::Disc(centre, radius, _) if *radius == 6.0 => Some(centre[0]),
-            _ => None,
-        });
-        let places: Vec<f64> = discs.filter(|x| *x > LEFT).collect();
-        assert!(!places.is_empty());
-        assert!(places.iter().all(|x| *x <= RIGHT), "{places:?}");
+        let [_, end] = chart(&report).panels[0].x.range.unwrap();
+        assert!(highest < end, "{highest} {end}");
         let said = texts(&sheet);
         assert!(said.iter().any(|(_, text)| *text == "end of the sweep"));
     }

@@ -1,8 +1,7 @@
 //! Layout of panels in two columns, row by row.
 
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::canvas::{Frame, Sheet};
 use super::heading;
-use super::style::{ALARM, HAIRLINE, LABEL_SIZE, label_width};
 
 /// Positions of the panels of a sheet, in figure units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,19 +59,4 @@ impl Columns {
 /// axis is that of the first.
 pub fn name_of_row(index: usize, name: &str) -> &str {
     if index.is_multiple_of(2) { name } else { "" }
-}
-
-/// Draws a vertical line where the model ends: beyond it the deflections are not valid.
-pub fn draw_end_of_model(sheet: &mut Sheet, panel: &Frame, x: f64) {
-    sheet.vertical(x, panel, Stroke::solid(ALARM, 1.5 * HAIRLINE));
-}
-
-/// Writes a label to the right of the line of [`draw_end_of_model`], or to its left if it does not fit there.
-pub fn label_end_of_model(sheet: &mut Sheet, panel: &Frame, x: f64, text: &str) {
-    let (anchor, x) = match panel.right - x < label_width(text) + 16.0 {
-        true => (Anchor::End, x - 8.0),
-        false => (Anchor::Start, x + 8.0),
-    };
-    let letters = Lettering::regular(LABEL_SIZE, ALARM, anchor);
-    sheet.text([x, panel.bottom - 10.0], letters, text);
 }

@@ -2,7 +2,8 @@
 
 use super::axis::{extremes, proper_range};
 use super::campbell::NEGLIGIBLE_PER_S;
-use super::chart_data::{AxisData, ChartData, Item, Line, PanelData, Points, lines_by_look};
+use super::chart_data::{AxisData, ChartData, PanelData};
+use super::items::{Item, Line, Points, Shape, lines_by_look};
 use super::palette::Hue;
 use super::style::{CURVE, STRONG_CURVE};
 use crate::analyses::compare::{CompareReport, ComparedSaw};
@@ -44,10 +45,9 @@ pub fn chart(report: &CompareReport) -> ChartData {
         .flat_map(|(_, saw, hue)| curves(saw, hue));
     let speeds = drawn(report).flat_map(|(row, saw, hue)| events(row, saw, hue));
     let labels: Vec<String> = drawn(report).map(|(_, saw, _)| saw.label.clone()).collect();
-    let names = AxisData {
-        names: labels.clone(),
-        ..AxisData::new("", "")
-    };
+    let names = labels.iter().enumerate();
+    let names = names.map(|(row, label)| (1.0 + row as f64, label.clone()));
+    let names = AxisData::new("", "").named(names);
     let count = labels.len() as f64;
     let shown = labels.join(", ");
     let shown = format!("critical speeds, bands and frequencies of {shown}");
@@ -77,6 +77,7 @@ pub fn chart(report: &CompareReport) -> ChartData {
                 ..PanelData::new(speed, names.within([0.4, count + 0.6]), speeds.collect())
             },
         ],
+        columns: 1,
         key: key(),
     }
 }
@@ -156,7 +157,7 @@ fn events(row: usize, saw: &ComparedSaw, hue: Hue) -> Vec<Item> {
     let operating = saw.operating.iter().map(|operating| {
         let name = format!("{}: runs at {:.0} rpm", saw.label, operating.rpm);
         Item::Points(Points {
-            hollow: true,
+            shape: Shape::Ring,
             ..Points::new([[operating.rpm, y]], hue, 1.5 * CRITICAL_SIZE, &name)
         })
     });
@@ -167,8 +168,13 @@ fn key() -> Vec<Item> {
     vec![
         Item::line_sample(STRONG_CURVE, false, Hue::Quiet, "grows"),
         Item::line_sample(CURVE, true, Hue::Quiet, "reflected wave"),
-        Item::points_sample(CRITICAL_SIZE, false, Hue::Ink, "critical speed"),
-        Item::points_sample(1.5 * CRITICAL_SIZE, true, Hue::Ink, "operating speed"),
+        Item::points_sample(CRITICAL_SIZE, Shape::Disc, Hue::Ink, "critical speed"),
+        Item::points_sample(
+            1.5 * CRITICAL_SIZE,
+            Shape::Ring,
+            Hue::Ink,
+            "operating speed",
+        ),
         Item::area_sample(Hue::DivergenceStreak, "divergence"),
         Item::area_sample(Hue::FlutterStreak, "flutter"),
     ]

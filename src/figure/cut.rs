@@ -1,54 +1,35 @@
 //! The deflection before, during and after the cut, one panel for each speed, as in the paper's Figures 16
 //! and 17.
 
-use super::axis::{Axis, draw_named, draw_vertical, two_digits};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::clip::draw_inside;
-use super::columns::{Columns, draw_end_of_model, label_end_of_model, name_of_row};
-use super::heading::of_saw;
-use super::style::{
-    ALARM, CURVE, FINE_DASH, FLUTTER, FLUTTER_SHADE, FORWARD, HAIRLINE, LABEL_SIZE, QUIET,
-    SUBTITLE_SIZE, broken, tint,
-};
+use super::axis::two_digits;
+use super::chart_data::{AxisData, ChartData, PanelData};
+use super::heading;
+use super::items::{Area, Item, Line, Role, Upright};
+use super::palette::Hue;
 use crate::analyses::cut::{CutAtSpeed, CutCriterion, CutFinding, CutReport, CutVerdict};
 use crate::report::Verdict;
 
-/// Distance of successive lines of facts.
-const LINE: f64 = 16.0;
-const PANELS: Columns = Columns {
-    lefts: [92.0, 680.0],
-    top: 136.0,
-    width: 488.0,
-    alone: 1076.0,
-    height: 330.0,
-    row: 470.0,
-};
+/// Share of the colour of the time of a stable cut.
+const STABLE_TINT: f64 = 0.12;
+/// Height of a panel, relative to one of usual height.
+const SHARE: f64 = 0.87;
 
-pub fn sheet(report: &CutReport) -> Sheet {
-    let title = "Deflection at the probe before, during and after the cut";
-    let panels = report.runs.len();
-    let mut sheet = PANELS.sheet(
-        panels,
-        title,
-        &of_saw(&report.scene.name, &report.condition),
-    );
+/// The deflection over time at each speed, as numbers.
+pub fn chart(report: &CutReport) -> ChartData {
     let scale = Scale::of(&report.runs);
-    for (index, run) in report.runs.iter().enumerate() {
-        let name = name_of_row(index, &scale.name);
-        draw_run(
-            &mut sheet,
-            (&PANELS.panel(index, panels), name),
-            run,
-            &scale,
-        );
+    let panels = report.runs.iter().map(|run| panel(run, &scale)).collect();
+    let facts = vec![heading::of_saw(&report.scene.name, &report.condition)];
+    let title = "Deflection at the probe before, during and after the cut";
+    ChartData {
+        columns: 2,
+        key: key(&report.runs),
+        ..ChartData::new(title, facts, panels)
     }
-    sheet
 }
 
 /// The axis of deflections, common to all panels for comparison.
 struct Scale {
-    /// Name with unit.
-    name: String,
+    unit: &'static str,
     /// Factor from metres to the unit of the axis.
     per_metre: f64,
     /// End of the axis on either side of zero, in its unit.
@@ -65,7 +46,7 @@ impl Scale {
             false => 1.0,
         };
         Scale {
-            name: format!("deflection\u{2003}[{unit}]"),
+            unit,
             per_metre,
             reach,
         }
@@ -86,124 +67,113 @@ fn unit_of(largest_m: f64) -> (&'static str, f64) {
     }
 }
 
-fn draw_run(sheet: &mut Sheet, (panel, name): (&Frame, &str), run: &CutAtSpeed, scale: &Scale) {
-    let end_s = run.forces_to_s + run.forces_from_s;
-    let time = Axis::linear([0.0, end_s], panel.across());
-    let deflection = Axis::linear([-scale.reach, scale.reach], panel.upwards());
-    draw_ground(sheet, panel, run, &time);
-    draw_vertical(sheet, &deflection, panel, name);
-    sheet.vertical(panel.left, panel, Stroke::solid(QUIET, HAIRLINE));
-    draw_named(sheet, &time, panel.bottom, "time\u{2003}[s]");
-    let place = |t: f64, w: f64| [time.at(t), deflection.at(scale.per_metre * w)];
-    // Stretching limits the growth, so that an exponential envelope would be wrong.
-    if run.stretching.is_none() {
-        draw_envelope(sheet, panel, run, place);
-    }
-    let record = run.time_s.iter().zip(&run.deflection_m);
-    let places: Vec<[f64; 2]> = record.map(|(t, w)| place(*t, *w)).collect();
-    draw_inside(sheet, panel, &places, Stroke::solid(FORWARD, CURVE));
-    if let Some(until_s) = run.ends_s() {
-        let x = time.at(until_s);
-        draw_end_of_model(sheet, panel, x);
-        let label = match run.stretching {
-            Some(_) => "the model ends",
-            None => "the linear model ends",
-        };
-        label_end_of_model(sheet, panel, x, label);
-    }
-    draw_verdict(sheet, panel, run);
-}
-
 /// A length in a unit in which it has few digits.
 fn length(metres: f64) -> String {
     let (unit, per_metre) = unit_of(metres);
     format!("{} {unit}", two_digits(per_metre * metres))
 }
 
-/// Shades the time of the cut in the colour of the verdict.
-fn draw_ground(sheet: &mut Sheet, panel: &Frame, run: &CutAtSpeed, time: &Axis) {
-    let in_cut = panel.between([run.forces_from_s, run.forces_to_s].map(|s| time.at(s)));
-    let shade = match run.verdict {
-        CutVerdict::Unstable | CutVerdict::LeavesModel | CutVerdict::AtCritical => FLUTTER_SHADE,
-        CutVerdict::Stable => tint(FORWARD, 0.12),
-    };
-    sheet.fill(in_cut, shade);
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
-    // If the model ends during the cut, a vertical line is drawn there, and the text is on the side of the
-    // line with more room.
-    let end = run.ends_s().map_or(in_cut.right, |s| time.at(s));
-    let end = end.clamp(in_cut.left, in_cut.right);
-    let free = match end - in_cut.left < in_cut.right - end {
-        true => [end, in_cut.right],
-        false => [in_cut.left, end],
-    };
-    let label = [(free[0] + free[1]) / 2.0, panel.top + 16.0];
-    sheet.text(label, letters, "in the cut");
+fn panel(run: &CutAtSpeed, scale: &Scale) -> PanelData {
+    let end_s = run.forces_to_s + run.forces_from_s;
+    let record = run.time_s.iter().zip(&run.deflection_m);
+    let points = record.map(|(t, w)| [*t, scale.per_metre * w]);
+    let mut items = vec![Item::Area(in_cut(run, scale.reach))];
+    // Stretching limits the growth, so that an exponential envelope would be wrong.
+    if run.stretching.is_none() {
+        items.extend(envelope(run, scale));
+    }
+    items.push(Item::Line(Line::new(points, Hue::Forward, "deflection")));
+    items.extend(end_of_model(run));
+    let deflection = AxisData::new("deflection", scale.unit);
+    PanelData {
+        title: title(run),
+        colour: match run.verdict {
+            CutVerdict::Stable => Hue::Forward,
+            _ => Hue::Alarm,
+        },
+        facts: facts(run),
+        share: SHARE,
+        ..PanelData::new(
+            AxisData::new("time", "s").within([0.0, end_s]),
+            deflection.within([-scale.reach, scale.reach]),
+            items,
+        )
+    }
 }
 
-/// Draws the exponential growth by the eigenvalues through the largest deflection in the cut, with both signs if the
-/// motion oscillates. A stable cut has no envelope.
-fn draw_envelope(
-    sheet: &mut Sheet,
-    panel: &Frame,
-    run: &CutAtSpeed,
-    place: impl Fn(f64, f64) -> [f64; 2],
-) {
+/// The time of the cut, in the colour of the verdict.
+fn in_cut(run: &CutAtSpeed, reach: f64) -> Area {
+    let (hue, tint, name) = match run.verdict {
+        CutVerdict::Stable => (Hue::Forward, STABLE_TINT, "in the cut, stable"),
+        CutVerdict::Unstable | CutVerdict::LeavesModel | CutVerdict::AtCritical => {
+            (Hue::FlutterShade, 1.0, "in the cut, not stable")
+        }
+    };
+    let columns = [run.forces_from_s, run.forces_to_s].map(|s| [s, -reach, reach]);
+    Area {
+        tint,
+        ..Area::new(columns, hue, name)
+    }
+}
+
+fn end_of_model(run: &CutAtSpeed) -> Option<Item> {
+    let name = match run.stretching {
+        Some(_) => "the model ends",
+        None => "the linear model ends",
+    };
+    Some(Item::Upright(Upright {
+        x: run.ends_s()?,
+        role: Role::Guide,
+        colour: Hue::Alarm,
+        dashed: false,
+        label: String::new(),
+        name: name.to_owned(),
+    }))
+}
+
+/// The exponential growth by the eigenvalues through the largest deflection in the cut, with both signs if the motion
+/// oscillates. A stable cut has no envelope.
+fn envelope(run: &CutAtSpeed, scale: &Scale) -> Vec<Item> {
     let grows = |c: &&CutFinding| {
         c.criterion == CutCriterion::Eigenvalues && c.verdict == Verdict::Unstable
-    };
-    let Some(eigenvalue) = run.criteria.iter().find(grows) else {
-        return;
     };
     let in_cut = |t: &f64| (run.forces_from_s..=run.forces_to_s).contains(t);
     let record = run.time_s.iter().zip(&run.deflection_m);
     let peak = record
         .filter(|(t, _)| in_cut(t))
         .max_by(|x, y| x.1.abs().total_cmp(&y.1.abs()));
-    let Some((peak_s, peak_m)) = peak else {
-        return;
+    let (Some(eigenvalue), Some((peak_s, peak_m))) = (run.criteria.iter().find(grows), peak) else {
+        return Vec::new();
     };
     let signs: &[f64] = match eigenvalue.frequency_hz {
         Some(hz) if hz > 0.0 => &[1.0, -1.0],
         _ => &[1.0],
     };
     let end_s = run.linear_until_s.unwrap_or(run.forces_to_s);
-    for sign in signs {
-        let places: Vec<[f64; 2]> = (0..=60)
-            .map(|k| {
-                let share = f64::from(k) / 60.0;
-                let t =
-                    run.forces_from_s + share * (end_s.min(run.forces_to_s) - run.forces_from_s);
-                let growth = (eigenvalue.growth_per_s * (t - peak_s)).exp();
-                place(t, sign * peak_m * growth)
-            })
-            .collect();
-        let dashed = Stroke::dashed(FLUTTER, CURVE, FINE_DASH);
-        draw_inside(sheet, panel, &places, dashed);
-    }
+    let length_s = end_s.min(run.forces_to_s) - run.forces_from_s;
+    let lines = signs.iter().map(|sign| {
+        let points = (0..=60).map(|k| {
+            let t = run.forces_from_s + f64::from(k) / 60.0 * length_s;
+            let growth = (eigenvalue.growth_per_s * (t - peak_s)).exp();
+            [t, scale.per_metre * sign * peak_m * growth]
+        });
+        Item::Line(Line {
+            dashed: true,
+            ..Line::new(points, Hue::Flutter, "growth by the eigenvalues")
+        })
+    });
+    lines.collect()
 }
 
-/// Writes verdict and facts above the panel.
-fn draw_verdict(sheet: &mut Sheet, panel: &Frame, run: &CutAtSpeed) {
-    let verdict = format!("{} rpm: {}", run.rpm, run.verdict);
-    let (text, colour) = match run.verdict {
-        CutVerdict::Stable => (verdict, FORWARD),
-        CutVerdict::LeavesModel | CutVerdict::AtCritical => (verdict, ALARM),
-        CutVerdict::Unstable => (format!("{verdict} ({})", run.decided_by), ALARM),
-    };
-    let title = Lettering::title(SUBTITLE_SIZE + 2.0, colour);
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let lines = broken(&facts(run), panel.right - panel.left + 20.0);
-    let mut baseline = panel.top - 12.0;
-    for line in lines.iter().rev() {
-        sheet.text([panel.left, baseline], letters, line);
-        baseline -= LINE;
+fn title(run: &CutAtSpeed) -> String {
+    match run.verdict {
+        CutVerdict::Unstable => format!("{} rpm: {} ({})", run.rpm, run.verdict, run.decided_by),
+        verdict => format!("{} rpm: {verdict}", run.rpm),
     }
-    sheet.text([panel.left, baseline + LINE - 20.0], title, &text);
 }
 
 /// The largest deflection, and the growth rate of each criterion.
-fn facts(run: &CutAtSpeed) -> String {
+fn facts(run: &CutAtSpeed) -> Vec<String> {
     // A growth rate that is rounded to zero is written without a sign.
     let growth = |value: f64| if value.abs() < 5e-3 { 0.0 } else { value };
     let criteria = run.criteria.iter().map(|entry| {
@@ -215,9 +185,30 @@ fn facts(run: &CutAtSpeed) -> String {
         Some(_) => "with stretching, largest",
         None => "largest",
     };
-    format!(
-        "{with} {}; {}\u{a0}1/s",
-        length(largest_m(run)),
-        criteria.collect::<Vec<_>>().join(", ")
-    )
+    let criteria = criteria.collect::<Vec<_>>().join(", ");
+    vec![
+        format!("{with} {}", length(largest_m(run))),
+        format!("{criteria}\u{a0}1/s"),
+    ]
+}
+
+/// Samples of what the panels contain, each once.
+fn key(runs: &[CutAtSpeed]) -> Vec<Item> {
+    let mut samples: Vec<Item> = Vec::new();
+    let areas = runs.iter().map(|run| Item::Area(in_cut(run, 1.0)));
+    let ends = runs.iter().filter_map(end_of_model).map(|end| match end {
+        Item::Upright(line) => Item::Upright(Upright { x: 0.0, ..line }),
+        other => other,
+    });
+    let is_linear = |run: &&CutAtSpeed| run.stretching.is_none();
+    let scale = Scale::of(runs);
+    let envelopes = runs.iter().filter(is_linear);
+    let envelopes = envelopes.flat_map(|run| envelope(run, &scale));
+    for item in areas.chain(envelopes).chain(ends) {
+        let sample = item.sample();
+        if !samples.contains(&sample) {
+            samples.push(sample);
+        }
+    }
+    samples
 }

@@ -1,71 +1,66 @@
 //! The verdict over guide angle and load level, one panel for each speed.
 
-use super::axis::{Axis, Spread, draw_named, draw_vertical, tick_label};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::clip::draw_inside;
-use super::columns::{Columns, name_of_row};
+use super::axis::{Spread, ends, proper_range};
+use super::chart_data::{AxisData, ChartData, PanelData};
 use super::heading::of_saw;
-use super::heat::{draw_grid, draw_scale, ramp};
-use super::style::{
-    CURVE, Colour, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, PAPER, QUIET, SUBTITLE_SIZE,
-    Weight, shorten,
-};
+use super::items::{Area, Heat, Item, Line, Points, Shape};
+use super::palette::Hue;
 use crate::analyses::cut::{CutAtSpeed, CutReport};
 use crate::report::Verdict;
 
-const PANELS: Columns = Columns {
-    lefts: [92.0, 610.0],
-    top: 124.0,
-    width: 438.0,
-    alone: 956.0,
-    height: 320.0,
-    row: 450.0,
-};
-const SCALE: [f64; 2] = [1088.0, 1108.0];
-
-/// Name of the axis of the load.
-const LOAD: &str = "load\u{2003}[of the scene's]";
-
-/// Colour of stability.
-const STABLE: Colour = plotters::style::RGBColor(226, 234, 242);
+/// Share of the colour of stability.
+const STABLE_TINT: f64 = 0.13;
 /// Colours from slow to fast growth: pale to dark, so that grey prints are legible too.
-const GROWING: [Colour; 4] = [
-    plotters::style::RGBColor(255, 236, 190),
-    plotters::style::RGBColor(240, 178, 62),
-    plotters::style::RGBColor(190, 84, 30),
-    plotters::style::RGBColor(92, 18, 32),
-];
+const GROWING: [[u8; 3]; 4] = [[255, 236, 190], [240, 178, 62], [190, 84, 30], [92, 18, 32]];
+/// Diameters of the rings at the load of the scene and at that which the power allows.
+const OWN_SIZE: f64 = 10.0;
+const POWER_SIZE: f64 = 8.0;
+/// Share of the load of the scene up to which the load that the power allows is marked.
+const LESS: f64 = 0.9;
 
-pub fn sheet(report: &CutReport) -> Sheet {
-    if report.scene.guides.is_empty() {
-        return over_load(report);
-    }
-    let title = "Growth in the cut over the angle of the guides and the load";
-    let panels = report.runs.len();
-    let mut sheet = PANELS.sheet(
-        panels,
-        title,
-        &of_saw(&report.scene.name, &report.condition),
-    );
-    let fastest = fastest_growth(report);
-    let shade = |growth: f64| ramp(&GROWING, growth / fastest);
-    let on_scale = |growth: f64| match growth < report.flutter_threshold_per_s {
-        true => STABLE,
-        false => shade(growth),
+/// The growth over angle and load, or over the load alone for a saw without guides, as numbers.
+pub fn chart(report: &CutReport) -> ChartData {
+    let has_guides = !report.scene.guides.is_empty();
+    let title = match has_guides {
+        true => "Growth in the cut over the angle of the guides and the load",
+        false => "Growth in the cut over the load",
     };
-    for (index, run) in report.runs.iter().enumerate() {
-        let panel = PANELS.panel(index, panels);
-        draw_map(&mut sheet, (&panel, name_of_row(index, LOAD)), run, shade);
-        draw_own_point(&mut sheet, &panel, report, run);
+    let panels = report.runs.iter().map(|run| match has_guides {
+        true => map(report, run),
+        false => over_load(report, run),
+    });
+    let panels = panels.map(|panel| PanelData {
+        share: 0.84,
+        ..panel
+    });
+    let stable = has_guides.then(|| Item::tinted_sample(Hue::Forward, STABLE_TINT, "stable"));
+    let facts = vec![of_saw(&report.scene.name, &report.condition)];
+    let panels: Vec<PanelData> = panels
+        .zip(&report.runs)
+        .map(|(panel, run)| PanelData {
+            title: format!("{} rpm", run.rpm),
+            facts: forces(run),
+            ..panel
+        })
+        .collect();
+    ChartData {
+        columns: 2,
+        key: stable.into_iter().collect(),
+        ..ChartData::new(title, facts, panels)
     }
-    draw_scale(
-        &mut sheet,
-        (&PANELS.panel(0, panels), 10.0, SCALE),
-        ([0.0, fastest], Spread::Linear),
-        "growth [1/s]",
-        (on_scale, |v| Some(tick_label(v))),
-    );
-    sheet
+}
+
+/// The axis of the load.
+fn load(run: &CutAtSpeed) -> AxisData {
+    let axis = AxisData::new("load, relative to the scene's", "");
+    axis.within(proper_range(ends(&run.map.load_level)))
+}
+
+fn forces(run: &CutAtSpeed) -> Vec<String> {
+    vec![format!(
+        "{:.0} N against and {:.0} N inwards a tooth at load 1",
+        run.tangential_n_per_tooth, run.radial_n_per_tooth
+    )]
 }
 
 /// Upper end of the scale of growth in 1/s, at least four times the threshold.
@@ -84,114 +79,88 @@ fn slowest_growth(report: &CutReport) -> f64 {
     1.2 * all.fold(0.0, f64::min)
 }
 
-/// Axes of a map: guide angle and load level.
-fn axes(panel: &Frame, run: &CutAtSpeed) -> (Axis, Axis) {
-    (
-        Axis::over(&run.map.guide_angle_deg, panel.across()),
-        Axis::over(&run.map.load_level, panel.upwards()),
-    )
+/// The verdict over guide angle and load: the growth where a motion grows.
+fn map(report: &CutReport, run: &CutAtSpeed) -> PanelData {
+    let found = &run.map;
+    let angle = AxisData::new("angle of the first guide, the cut at its own", "°");
+    let angle = angle.within(proper_range(ends(&found.guide_angle_deg)));
+    let load = load(run);
+    let [low, high] = load.range.unwrap_or([0.0, 1.0]);
+    let stable = angle.range.unwrap_or([0.0, 1.0]).map(|x| [x, low, high]);
+    let stable = Area {
+        tint: STABLE_TINT,
+        ..Area::new(stable, Hue::Forward, "stable")
+    };
+    let rows = found.growth_per_s.iter().zip(&found.verdict);
+    let rows = rows.map(|(growth, verdict)| {
+        let cells = growth.iter().zip(verdict);
+        let cells = cells.map(|(growth, verdict)| match verdict {
+            Verdict::Stable => f64::NAN,
+            _ => *growth,
+        });
+        cells.collect()
+    });
+    let heat = Heat {
+        x: found.guide_angle_deg.clone(),
+        y: found.load_level.clone(),
+        z: rows.collect(),
+        range: [0.0, fastest_growth(report)],
+        spread: Spread::Linear,
+        colours: GROWING.to_vec(),
+        name: "growth".to_owned(),
+        unit: "1/s".to_owned(),
+    };
+    let items = [Item::Area(stable), Item::Heat(heat)];
+    let own = own_points(report, run);
+    PanelData::new(angle, load, items.into_iter().chain(own).collect())
 }
 
-fn draw_map(
-    sheet: &mut Sheet,
-    (panel, load): (&Frame, &str),
-    run: &CutAtSpeed,
-    shade: impl Fn(f64) -> Colour,
-) {
-    let (angle, level) = axes(panel, run);
-    draw_vertical(sheet, &level, panel, load);
-    draw_grid(
-        sheet,
-        (&angle, &run.map.guide_angle_deg),
-        (&level, &run.map.load_level),
-        |column, row| {
-            let cell = |row: &Vec<f64>| row.get(column).copied();
-            let growth = run.map.growth_per_s.get(row).and_then(cell);
-            let verdict = run.map.verdict.get(row).and_then(|row| row.get(column));
-            match (verdict, growth) {
-                (Some(Verdict::Stable), _) => STABLE,
-                (_, Some(growth)) => shade(growth),
-                (_, None) => PAPER,
-            }
-        },
-    );
-    let name = "angle of the first guide, the cut at its own\u{2003}[°]";
-    draw_named(sheet, &angle, panel.bottom, name);
-    draw_forces(sheet, panel, run);
+/// Rings at the angle and the load of the scene, and at the load that the power of the saw allows.
+fn own_points(report: &CutReport, run: &CutAtSpeed) -> Vec<Item> {
+    let guide = report.scene.guides.first();
+    let own_deg = guide.map_or(0.0, |guide| guide.angle_deg);
+    let by_power = run.by_power.as_ref();
+    let by_power = by_power.map(|by_power| {
+        let share = by_power.tangential_n_per_tooth / run.tangential_n_per_tooth;
+        (share, Hue::Quiet, POWER_SIZE, "force that the power allows")
+    });
+    let by_power = by_power.filter(|(share, ..)| *share < LESS);
+    let own = (1.0, Hue::Ink, OWN_SIZE, "this saw");
+    let marks = [own].into_iter().chain(by_power);
+    let items = marks.flat_map(|(load, hue, size, name)| ring([own_deg, load], hue, size, name));
+    items.collect()
 }
 
-/// Writes speed and forces of a panel as its title.
-fn draw_forces(sheet: &mut Sheet, panel: &Frame, run: &CutAtSpeed) {
-    let title = Lettering::title(SUBTITLE_SIZE, INK);
-    let text = format!(
-        "{} rpm, {:.0} N against and {:.0} N inwards a tooth at load 1",
-        run.rpm, run.tangential_n_per_tooth, run.radial_n_per_tooth
-    );
-    let room = panel.right - panel.left;
-    let text = shorten(&text, SUBTITLE_SIZE, Weight::SemiBold, room);
-    sheet.text([panel.left, panel.top - 14.0], title, &text);
+fn ring(at: [f64; 2], hue: Hue, size: f64, name: &str) -> [Item; 2] {
+    [
+        Item::Points(Points {
+            shape: Shape::Ring,
+            ..Points::new([at], hue, size, name)
+        }),
+        Item::label(at, hue, name.to_owned()),
+    ]
 }
 
 /// Growth over the load, for a saw without guides.
-fn over_load(report: &CutReport) -> Sheet {
-    let title = "Growth in the cut over the load";
-    let panels = report.runs.len();
-    let mut sheet = PANELS.sheet(
-        panels,
-        title,
-        &of_saw(&report.scene.name, &report.condition),
-    );
-    let fastest = fastest_growth(report);
-    for (index, run) in report.runs.iter().enumerate() {
-        let panel = &PANELS.panel(index, panels);
-        let level = Axis::over(&run.map.load_level, panel.across());
-        let growth = Axis::linear([slowest_growth(report), fastest], panel.upwards());
-        draw_vertical(
-            &mut sheet,
-            &growth,
-            panel,
-            name_of_row(index, "growth\u{2003}[1/s]"),
-        );
-        draw_named(&mut sheet, &level, panel.bottom, LOAD);
-        let threshold = growth.at(report.flutter_threshold_per_s);
-        let dashed = Stroke::dashed(QUIET, HAIRLINE, FINE_DASH);
-        sheet.horizontal(threshold, panel, dashed);
-        let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
-        let at = [panel.right - 4.0, threshold - 6.0];
-        sheet.text(at, letters, "unstable above");
-        let points = run.map.load_level.iter().zip(&run.map.growth_per_s);
-        let places: Vec<[f64; 2]> = points
-            .filter_map(|(load, row)| Some([level.at(*load), growth.at(*row.first()?)]))
-            .collect();
-        draw_inside(&mut sheet, panel, &places, Stroke::solid(FORWARD, CURVE));
-        let [x, y] = [level.at(1.0), growth.at(run.growth_per_s)];
-        sheet.ring([x, y], 5.0, Stroke::solid(INK, 1.5 * HAIRLINE));
-        let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Start);
-        sheet.text_on_paper([x + 11.0, y + 4.0], letters, "this saw");
-        draw_forces(&mut sheet, panel, run);
-    }
-    sheet
-}
-
-/// Marks angle and load of the scene, and the load that the power of the saw allows.
-fn draw_own_point(sheet: &mut Sheet, panel: &Frame, report: &CutReport, run: &CutAtSpeed) {
-    let (angle, level) = axes(panel, run);
-    let own_deg = report
-        .scene
-        .guides
-        .first()
-        .map_or(0.0, |guide| guide.angle_deg);
-    let x = angle.at(own_deg);
-    let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Start);
-    let stroke = Stroke::solid(INK, 1.5 * HAIRLINE);
-    sheet.ring([x, level.at(1.0)], 5.0, stroke);
-    sheet.text([x + 11.0, level.at(1.0) + 4.0], letters, "this saw");
-    if let Some(by_power) = &run.by_power {
-        let share = by_power.tangential_n_per_tooth / run.tangential_n_per_tooth;
-        if share < 0.9 {
-            let y = level.at(share);
-            sheet.ring([x, y], 4.0, Stroke::solid(QUIET, HAIRLINE));
-            sheet.text([x + 11.0, y + 4.0], letters, "force that the power allows");
-        }
-    }
+fn over_load(report: &CutReport, run: &CutAtSpeed) -> PanelData {
+    let load = load(run);
+    let growth = [slowest_growth(report), fastest_growth(report)];
+    let threshold = report.flutter_threshold_per_s;
+    let ends = load.range.unwrap_or([0.0, 1.0]);
+    let threshold = Line {
+        label: "unstable above".to_owned(),
+        ..Line::guide(ends.map(|x| [x, threshold]), Hue::Quiet, "unstable above")
+    };
+    let points = run.map.load_level.iter().zip(&run.map.growth_per_s);
+    let points = points.map(|(load, row)| [*load, row.first().copied().unwrap_or(f64::NAN)]);
+    let items = [
+        Item::Line(threshold),
+        Item::Line(Line::new(points, Hue::Forward, "growth")),
+    ];
+    let own = ring([1.0, run.growth_per_s], Hue::Ink, OWN_SIZE, "this saw");
+    PanelData::new(
+        load,
+        AxisData::new("growth", "1/s").within(growth),
+        items.into_iter().chain(own).collect(),
+    )
 }

@@ -1,9 +1,8 @@
 //! Equilibria over speed, and the frequencies of small motions about them beside the frequencies of the flat blade.
 
 use super::axis::proper_range;
-use super::chart_data::{
-    AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright, lines_by_look,
-};
+use super::chart_data::{AxisData, ChartData, PanelData};
+use super::items::{Band, Item, Line, Points, Role, Shape, Upright, lines_by_look};
 use super::palette::Hue;
 use super::style::{HAIRLINE, STRONG_CURVE};
 use crate::analyses::deflect::{DeflectReport, EquilibriumCurve, Jump, SlowSweep};
@@ -32,6 +31,7 @@ pub fn chart(report: &DeflectReport) -> ChartData {
     ChartData {
         title: report.scene.name.clone(),
         facts: facts(report),
+        columns: 1,
         key: key(),
         panels: vec![
             PanelData::new(
@@ -133,7 +133,7 @@ fn leans(report: &DeflectReport) -> Vec<Item> {
     let turns = report.curves.iter().flat_map(|curve| &curve.turns);
     let turns = turns.map(|turn| [turn.rpm, 1e3 * turn.deflection_m]);
     items.push(Item::Points(Points {
-        hollow: true,
+        shape: Shape::Ring,
         ..Points::new(turns, Hue::Ink, TURN_SIZE, "fold or bifurcation")
     }));
     items
@@ -198,7 +198,7 @@ fn key() -> Vec<Item> {
         Item::line_sample(NARROWER, false, DOWN, "while it falls"),
         Item::line_sample(NARROWER, false, Hue::Standing, "stable, not reached"),
         Item::line_sample(HAIRLINE, true, Hue::Standing, "unstable"),
-        Item::points_sample(TURN_SIZE, true, Hue::Ink, "fold or bifurcation"),
+        Item::points_sample(TURN_SIZE, Shape::Ring, Hue::Ink, "fold or bifurcation"),
         Item::Line(Line {
             tint: FLAT_TINT,
             width: NARROWER,

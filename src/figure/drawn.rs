@@ -143,11 +143,16 @@ impl Report {
     }
 }
 
+/// Returns the run time of settings over their true error as numbers, see [`tradeoff`].
+pub fn tradeoff_chart(scene: &str, settings: &[Setting]) -> ChartData {
+    super::tradeoff::chart(scene, settings)
+}
+
 /// Draws the run time of settings over their true error, both on logarithmic scales, as measured by
 /// [`tradeoff`](crate::analyses::tradeoff::tradeoff); `scene` is the name of the scene.
 pub fn tradeoff(scene: &str, settings: &[Setting]) -> Figure {
     Figure {
         names: ["tradeoff.png", "tradeoff.svg"],
-        sheet: super::tradeoff::sheet(scene, settings),
+        sheet: layout::sheet(&tradeoff_chart(scene, settings)),
     }
 }

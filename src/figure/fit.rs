@@ -1,90 +1,69 @@
 //! Measured points over the fitted curves, and residuals.
 
-use super::axis::{Axis, SPEED, draw_horizontal, draw_named, draw_vertical, round_up};
-use super::campbell::draw_measured_mark;
-use super::canvas::{Frame, Sheet, Stroke};
-use super::clip::draw_inside;
-use super::heading;
-use super::key::Key;
-use super::style::{
-    ALARM, BACKWARD, BETWEEN_FACTS, CURVE, Colour, DASH, DIVERGENCE, FORWARD, HAIRLINE, INK, QUIET,
-    STANDING, shorten_label,
-};
+use super::axis::round_up;
+use super::chart_data::{AxisData, ChartData, PanelData};
+use super::items::{Item, Line, Points, Shape};
+use super::palette::Hue;
+use super::style::{HAIRLINE, MEASURED_SIZE};
 use super::written::in_words;
 use crate::analyses::fit::{FitReport, Residual};
 
-const WIDTH: u32 = 1200;
-const HEIGHT: u32 = 820;
-const UPPER: Frame = Frame {
-    left: 92.0,
-    top: 92.0,
-    right: 1172.0,
-    bottom: 560.0,
-};
-const LOWER: Frame = Frame {
-    top: 584.0,
-    bottom: 722.0,
-    ..UPPER
-};
-const BEFORE: Colour = STANDING;
-const FITTED: Colour = FORWARD;
 /// Shapes and colours of the residuals of the lowest measured frequency of a speed, the second, and so on; from the
 /// fifth on they repeat. Shapes distinguish the marks in grey prints.
-const PLACES: [(Shape, Colour); 4] = [
-    (Shape::Disc, FORWARD),
-    (Shape::Ring, BACKWARD),
-    (Shape::Square, DIVERGENCE),
-    (Shape::Cross, INK),
+const PLACES: [(Shape, Hue, &str); 4] = [
+    (Shape::Disc, Hue::Forward, "lowest"),
+    (Shape::Ring, Hue::Backward, "second"),
+    (Shape::Square, Hue::Divergence, "third"),
+    (Shape::Cross, Hue::Ink, "fourth, …"),
 ];
+const RESIDUAL_SIZE: f64 = 6.4;
+const LEFT_OUT_SIZE: f64 = 4.0;
+/// Distance of the residuals of a speed, which are side by side so that none hides another, relative to the axis.
+const ASIDE: f64 = 0.0065;
+/// Room on the axis of speeds for measured points at rest.
+const ROOM: f64 = 0.025;
 
-/// Shape of the mark of a residual.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Shape {
-    Disc,
-    Ring,
-    Square,
-    Cross,
-}
-
-pub fn sheet(report: &FitReport) -> Sheet {
-    let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    heading::draw(&mut sheet, &report.scene.name, &facts(report));
+/// Frequencies over speed, and residuals, as numbers.
+pub fn chart(report: &FitReport) -> ChartData {
     let last = report.curves.rpm.last().copied().unwrap_or(1.0);
-    // The axis begins below zero, which leaves room for measured points at rest.
-    let speed = Axis::linear([-0.025 * last, last], UPPER.across());
-    let shown = report.residuals.iter().filter(|r| speed.shows(r.rpm));
-    let shown: Vec<&Residual> = shown.collect();
-    let fitted = || shown.iter().filter(|r| r.fitted);
-    let highest = fitted().fold(1.0_f64, |top, r| top.max(r.measured_hz).max(r.fitted_hz));
-    let frequency = Axis::linear([0.0, 1.12 * highest], UPPER.upwards());
-    let off = |r: &Residual| r.fitted_hz - r.measured_hz;
-    let largest = fitted().fold(1e-3_f64, |top, r| top.max(off(r).abs()));
+    let shown = report.residuals.iter().filter(|r| r.rpm <= last);
+    let fitted = shown.clone().filter(|r| r.fitted);
+    let highest = fitted
+        .clone()
+        .fold(1.0_f64, |top, r| top.max(r.measured_hz).max(r.fitted_hz));
+    let largest = fitted.fold(1e-3_f64, |top, r| top.max(off(r).abs()));
     // The axis ends at round numbers, so that both signs have a tick.
     let reach = round_up(1.05 * largest);
-    let residual = Axis::linear([-reach, reach], LOWER.upwards());
-    draw_axes(&mut sheet, &speed, &frequency, &residual);
-    let before = Stroke::dashed(BEFORE, HAIRLINE, DASH);
-    let after = Stroke::solid(FITTED, CURVE);
-    let curves = &report.curves;
-    for (rows, stroke) in [(&curves.before_hz, before), (&curves.fitted_hz, after)] {
-        draw_curves(&mut sheet, report, rows, (&speed, &frequency), stroke);
+    let shown: Vec<&Residual> = shown.filter(|r| r.measured_hz <= 1.12 * highest).collect();
+    let speed = AxisData::speed().within([-ROOM * last, last]);
+    let upper = PanelData {
+        share: 1.2,
+        harmonics: true,
+        ..PanelData::new(
+            speed.clone(),
+            AxisData::new("frequency in space", "Hz").within([0.0, 1.12 * highest]),
+            frequencies(report, &shown),
+        )
+    };
+    let lower = PanelData {
+        share: 0.4,
+        ..PanelData::new(
+            speed,
+            AxisData::new("model − measured", "Hz").within([-reach, reach]),
+            residuals(&shown, last),
+        )
+    };
+    ChartData {
+        key: key(report, &shown),
+        ..ChartData::new(&report.scene.name, facts(report), vec![upper, lower])
     }
-    for r in &shown {
-        draw_pair(&mut sheet, r, &speed, &frequency, &residual);
-    }
-    draw_key(&mut sheet, report, shown.iter().any(|r| !r.fitted));
-    sheet
 }
 
-fn draw_axes(sheet: &mut Sheet, speed: &Axis, frequency: &Axis, residual: &Axis) {
-    draw_vertical(sheet, frequency, &UPPER, "frequency in space\u{2003}[Hz]");
-    draw_vertical(sheet, residual, &LOWER, "model − measured\u{2003}[Hz]");
-    sheet.horizontal(residual.at(0.0), &LOWER, Stroke::solid(QUIET, HAIRLINE));
-    draw_horizontal(sheet, speed, UPPER.bottom, false);
-    draw_named(sheet, speed, LOWER.bottom, SPEED);
+fn off(r: &Residual) -> f64 {
+    r.fitted_hz - r.measured_hz
 }
 
-fn facts(report: &FitReport) -> String {
+fn facts(report: &FitReport) -> Vec<String> {
     let found = report.parameters.iter();
     let found = found.map(|p| in_words(&p.path, p.value));
     let rms = format!(
@@ -94,87 +73,116 @@ fn facts(report: &FitReport) -> String {
     [report.condition.clone(), rms]
         .into_iter()
         .chain(found)
-        .collect::<Vec<_>>()
-        .join(BETWEEN_FACTS)
+        .collect()
 }
 
-/// Draws a curve through the lowest frequencies of all speeds, through the second ones, and so on. `rows` contains
-/// the frequencies of each speed in Hz, ascending.
-fn draw_curves(
-    sheet: &mut Sheet,
-    report: &FitReport,
-    rows: &[Vec<f64>],
-    (speed, frequency): (&Axis, &Axis),
-    stroke: Stroke,
-) {
-    let depth = rows.iter().map(Vec::len).max().unwrap_or(0);
-    for place in 0..depth {
-        let points = report.curves.rpm.iter().zip(rows);
-        let places: Vec<[f64; 2]> = points
-            .filter_map(|(rpm, row)| Some([speed.at(*rpm), frequency.at(*row.get(place)?)]))
-            .collect();
-        draw_inside(sheet, &UPPER, &places, stroke);
+/// Curves before and after the fit, and measured points, each with a line to its fitted frequency.
+fn frequencies(report: &FitReport, shown: &[&Residual]) -> Vec<Item> {
+    let curves = &report.curves;
+    let mut items = Vec::new();
+    for (rows, look) in [(&curves.before_hz, before()), (&curves.fitted_hz, after())] {
+        // A curve goes through the lowest frequencies of all speeds, the second through the second ones, and so on.
+        let depth = rows.iter().map(Vec::len).max().unwrap_or(0);
+        items.extend((0..depth).map(|place| {
+            let points = curves.rpm.iter().zip(rows);
+            let points =
+                points.map(|(rpm, row)| [*rpm, row.get(place).copied().unwrap_or(f64::NAN)]);
+            let (x, y) = points.map(|[x, y]| (x, y)).unzip();
+            Item::Line(Line {
+                x,
+                y,
+                name: format!("{}, frequency {}", look.name, place + 1),
+                ..look.clone()
+            })
+        }));
     }
+    let fitted = || shown.iter().filter(|r| r.fitted);
+    let ways = fitted().flat_map(|r| {
+        let ends = [r.measured_hz, r.fitted_hz].map(|hz| [r.rpm, hz]);
+        ends.into_iter().chain([[f64::NAN; 2]])
+    });
+    items.push(Item::Line(Line {
+        width: HAIRLINE,
+        ..Line::new(ways, Hue::Alarm, "measured to fitted")
+    }));
+    let point = |r: &&Residual| [r.rpm, r.measured_hz];
+    items.push(Item::Points(Points {
+        shape: Shape::Ring,
+        said: fitted().map(|r| describe(r)).collect(),
+        ..Points::new(fitted().map(point), Hue::Ink, MEASURED_SIZE, &report.source)
+    }));
+    let others = shown.iter().filter(|r| !r.fitted);
+    items.push(Item::Points(Points::new(
+        others.map(point),
+        Hue::Quiet,
+        LEFT_OUT_SIZE,
+        "not fitted",
+    )));
+    items
 }
 
-/// Draws a measured point, a line to the fitted frequency, and the residual.
-fn draw_pair(sheet: &mut Sheet, r: &Residual, speed: &Axis, frequency: &Axis, residual: &Axis) {
-    let x = speed.at(r.rpm);
-    if !frequency.shows(r.measured_hz) {
-        return;
-    }
-    let at = [x, frequency.at(r.measured_hz)];
-    if r.fitted && frequency.shows(r.fitted_hz) {
-        let way = [at, [x, frequency.at(r.fitted_hz)]];
-        sheet.line(way, Stroke::solid(ALARM, HAIRLINE));
-        // The residuals of one speed are drawn side by side, so that none hides another.
-        let place = (r.place - 1) % PLACES.len();
-        let (aside, (shape, colour)) = (7.0 * place as f64 - 10.5, PLACES[place]);
-        let x = (x + aside).clamp(LOWER.left, LOWER.right);
-        let (zero, top) = (residual.at(0.0), residual.at(r.fitted_hz - r.measured_hz));
-        sheet.line([[x, zero], [x, top]], Stroke::solid(colour, CURVE));
-        draw_shape(sheet, shape, [x, top], colour);
-    }
-    if r.fitted {
-        draw_measured_mark(sheet, at);
-    } else {
-        sheet.disc(at, 2.0, QUIET);
-    }
-}
-
-fn draw_shape(sheet: &mut Sheet, shape: Shape, [x, y]: [f64; 2], colour: Colour) {
-    let stroke = Stroke::solid(colour, 1.4);
-    match shape {
-        Shape::Disc => sheet.disc([x, y], 3.2, colour),
-        Shape::Ring => sheet.ring([x, y], 3.2, stroke),
-        Shape::Square => sheet.fill(Frame::around([x, y], 3.0), colour),
-        Shape::Cross => {
-            for side in [-3.2, 3.2] {
-                sheet.line([[x - 3.2, y - side], [x + 3.2, y + side]], stroke);
-            }
-        }
+fn before() -> Line {
+    Line {
+        dashed: true,
+        width: HAIRLINE,
+        ..Line::new([], Hue::Standing, "before")
     }
 }
 
-fn draw_key(sheet: &mut Sheet, report: &FitReport, some_left_out: bool) {
-    let source = shorten_label(&report.source, 260.0);
-    let mut key = Key::new(sheet, UPPER.left, f64::from(HEIGHT) - 22.0);
-    key.mark(8.0, |sheet, [x, y]| draw_measured_mark(sheet, [x + 4.0, y]))
-        .word(&source);
-    if some_left_out {
-        key.dot(6.0, 2.0, QUIET).word("not fitted");
+fn after() -> Line {
+    Line::new([], Hue::Forward, "fitted")
+}
+
+fn describe(r: &Residual) -> String {
+    format!(
+        "{:.0} rpm\n{} Hz measured\n{:+.2} Hz computed",
+        r.rpm,
+        r.measured_hz,
+        off(r)
+    )
+}
+
+/// The residuals of each place among the frequencies of a speed, with lines from zero.
+fn residuals(shown: &[&Residual], last: f64) -> Vec<Item> {
+    let zero = [[-ROOM * last, 0.0], [last, 0.0]];
+    let mut items = vec![Item::Line(Line {
+        width: HAIRLINE,
+        ..Line::new(zero, Hue::Quiet, "")
+    })];
+    for (place, (shape, hue, name)) in PLACES.into_iter().enumerate() {
+        let of_place = |r: &&&Residual| r.fitted && (r.place - 1) % PLACES.len() == place;
+        let own = || shown.iter().filter(of_place);
+        let aside = ASIDE * last * (place as f64 - 1.5);
+        let point = |r: &&Residual| [(r.rpm + aside).clamp(-ROOM * last, last), off(r)];
+        let sticks = own().flat_map(|r| {
+            let [x, y] = point(r);
+            [[x, 0.0], [x, y], [f64::NAN; 2]]
+        });
+        items.push(Item::Line(Line::new(sticks, hue, name)));
+        items.push(Item::Points(Points {
+            shape,
+            said: own().map(|r| describe(r)).collect(),
+            ..Points::new(own().map(point), hue, RESIDUAL_SIZE, name)
+        }));
     }
-    let before = Stroke::dashed(BEFORE, HAIRLINE, DASH);
-    for (stroke, text) in [(Stroke::solid(FITTED, CURVE), "fitted"), (before, "before")] {
-        key.line(22.0, stroke).word(text);
-    }
+    items
+}
+
+fn key(report: &FitReport, shown: &[&Residual]) -> Vec<Item> {
+    let measured = Item::points_sample(MEASURED_SIZE, Shape::Ring, Hue::Ink, &report.source);
+    let others = shown.iter().any(|r| !r.fitted);
+    let others =
+        others.then(|| Item::points_sample(LEFT_OUT_SIZE, Shape::Disc, Hue::Quiet, "not fitted"));
     let deepest = report.residuals.iter().map(|r| r.place).max().unwrap_or(0);
-    for (place, (shape, colour)) in PLACES.into_iter().enumerate().take(deepest) {
-        key.mark(6.0, |sheet, [x, y]| {
-            draw_shape(sheet, shape, [x + 3.0, y], colour)
-        })
-        .word(["lowest", "second", "third", "fourth, …"][place]);
-    }
+    let places = PLACES.into_iter().take(deepest);
+    let places =
+        places.map(|(shape, hue, name)| Item::points_sample(RESIDUAL_SIZE, shape, hue, name));
+    [measured]
+        .into_iter()
+        .chain(others)
+        .chain([after(), before()].map(Item::Line))
+        .chain(places)
+        .collect()
 }
 
 #[cfg(test)]
@@ -183,11 +191,8 @@ mod tests {
 
     #[test]
     fn residuals_are_distinguished_without_colours() {
-        for (k, (shape, _)) in PLACES.iter().enumerate() {
-            assert!(PLACES[..k].iter().all(|(other, _)| other != shape));
-            let mut sheet = Sheet::new(WIDTH, HEIGHT);
-            draw_shape(&mut sheet, *shape, [100.0, 100.0], INK);
-            assert!(!sheet.marks().is_empty());
+        for (k, (shape, ..)) in PLACES.iter().enumerate() {
+            assert!(PLACES[..k].iter().all(|(other, ..)| other != shape));
         }
     }
 }

@@ -1,62 +1,74 @@
 //! Oscillation of the blade between guides with a gap, over the speed: amplitudes of the harmonics at the probe, and
 //! mean and amplitude of the deflection at the cut.
 
-use super::axis::{Axis, SPEED, Spread, draw_horizontal, draw_named, draw_vertical, extremes};
-use super::canvas::{Frame, Sheet, Stroke};
-use super::clip::draw_inside;
+use super::axis::{Spread, extremes};
+use super::chart_data::{AxisData, ChartData, PanelData};
 use super::heading;
-use super::key::Key;
-use super::style::{
-    ALARM, BACKWARD, BETWEEN_FACTS, CURVE, Colour, DASH, DIVERGENCE, FINE_DASH, FLUTTER, FORWARD,
-    HAIRLINE, INK, STANDING, tint,
-};
+use super::items::{Area, Item, Line, Role, Upright, series};
+use super::palette::Hue;
+use super::style::{CURVE, HAIRLINE};
 use crate::analyses::gap::{GapReport, Oscillation, OscillationLine};
 use crate::text::shown_to;
 
-const WIDTH: u32 = 1100;
-const HEIGHT: u32 = 840;
-const PARTS: Frame = Frame {
-    left: 104.0,
-    top: 100.0,
-    right: 1064.0,
-    bottom: 400.0,
-};
-const CUT: Frame = Frame {
-    top: 450.0,
-    bottom: 710.0,
-    ..PARTS
-};
-/// Colour of speeds without a motion.
-const UNKNOWN: Colour = plotters::style::RGBColor(240, 241, 243);
+/// Share of the colour of speeds without a motion.
+const UNKNOWN_TINT: f64 = 0.4;
+/// Share of the colour of the deflections between mean and amplitude.
+const AMPLITUDE_TINT: f64 = 0.16;
 /// Colours of the harmonics.
-const COLOURS: [Colour; 6] = [FORWARD, BACKWARD, DIVERGENCE, FLUTTER, STANDING, INK];
+const HUES: [Hue; 6] = [
+    Hue::Forward,
+    Hue::Backward,
+    Hue::Divergence,
+    Hue::Flutter,
+    Hue::Standing,
+    Hue::Ink,
+];
 /// Largest number of decades between the lower end of the axis of amplitudes and the largest amplitude.
 const DECADES: i32 = 4;
-/// Number of harmonics in a row of the key.
-const IN_A_ROW: usize = 3;
 
-/// Draws both panels; `None` without an oscillation.
-pub fn sheet(report: &GapReport) -> Option<Sheet> {
+/// Both panels, as numbers; `None` without an oscillation.
+pub fn chart(report: &GapReport) -> Option<ChartData> {
     let found = report.oscillation.as_ref()?;
-    let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    heading::draw(
-        &mut sheet,
-        "Oscillation between guides with a gap",
-        &facts(report, found).join(BETWEEN_FACTS),
-    );
     let last = found.rpm.last().copied().unwrap_or(1.0);
-    let speed = Axis::linear([0.0, last], PARTS.across());
-    for panel in [&PARTS, &CUT] {
-        shade_unknown(&mut sheet, found, &speed, panel);
-    }
-    draw_parts(&mut sheet, found, &speed);
-    draw_cut(&mut sheet, report, found, &speed);
-    let x = speed.at(report.deviation.rpm);
-    for panel in [&PARTS, &CUT] {
-        sheet.vertical(x, panel, Stroke::dashed(ALARM, HAIRLINE, FINE_DASH));
-    }
-    draw_key(&mut sheet, report, found);
-    Some(sheet)
+    let speed = AxisData::speed().within([0.0, last]);
+    let map_speed = Item::Upright(Upright {
+        x: report.deviation.rpm,
+        role: Role::Guide,
+        colour: Hue::Alarm,
+        dashed: true,
+        label: String::new(),
+        name: "speed of the map".to_owned(),
+    });
+    let panel = |y: AxisData, share: f64, items: Vec<Item>| PanelData {
+        share,
+        ..PanelData::new(
+            speed.clone(),
+            y.clone(),
+            [
+                vec![Item::Area(unknown(found, &y))],
+                items,
+                vec![map_speed.clone()],
+            ]
+            .concat(),
+        )
+    };
+    let parts = found.lines.iter().zip(HUES);
+    let parts: Vec<Item> = parts.map(|(line, hue)| part(found, line, hue)).collect();
+    let mut chart = ChartData::new(
+        "Oscillation between guides with a gap",
+        facts(report, found),
+        vec![
+            panel(amplitudes(found), 0.8, parts.clone()),
+            panel(deflections(found), 0.7, at_the_cut(report, found, last)),
+        ],
+    );
+    let samples = chart.panels[1].items.iter().filter(|item| match item {
+        Item::Line(line) => line.width != HAIRLINE && !line.name.is_empty(),
+        _ => true,
+    });
+    chart.key = parts.iter().chain(samples).map(Item::sample).collect();
+    chart.key.dedup();
+    Some(chart)
 }
 
 fn facts(report: &GapReport, found: &Oscillation) -> Vec<String> {
@@ -82,127 +94,94 @@ fn facts(report: &GapReport, found: &Oscillation) -> Vec<String> {
     all.into_iter().flatten().collect()
 }
 
-/// Shades speeds without a motion, half way to their neighbours.
-fn shade_unknown(sheet: &mut Sheet, found: &Oscillation, speed: &Axis, panel: &Frame) {
-    let rpm = &found.rpm;
-    for (k, own) in rpm.iter().enumerate() {
-        let beside = |other: Option<&f64>| speed.at(other.map_or(*own, |rpm| 0.5 * (rpm + own)));
-        if found.probe_mean_m.get(k).copied().flatten().is_none() {
-            let left = beside(k.checked_sub(1).and_then(|k| rpm.get(k)));
-            let right = beside(rpm.get(k + 1));
-            sheet.fill(panel.between([left, right]), UNKNOWN);
-        }
+/// Speeds without a motion, over the height of an axis.
+fn unknown(found: &Oscillation, y: &AxisData) -> Area {
+    let [low, high] = y.range.unwrap_or([0.0, 1.0]);
+    let columns = found.rpm.iter().zip(&found.probe_mean_m);
+    let columns = columns.map(|(rpm, mean)| match mean {
+        Some(_) => [*rpm, f64::NAN, f64::NAN],
+        None => [*rpm, low, high],
+    });
+    let name = "no stable motion, or beyond the thickness";
+    Area {
+        tint: UNKNOWN_TINT,
+        ..Area::new(columns, Hue::Blank, name)
     }
 }
 
-/// Points of a series, divided at speeds without a value; `of` returns the point of a speed.
-fn pieces(found: &Oscillation, of: impl Fn(usize) -> Option<[f64; 2]>) -> Vec<Vec<[f64; 2]>> {
-    let mut all = vec![Vec::new()];
-    for k in 0..found.rpm.len() {
-        match (of(k), all.last_mut()) {
-            (Some(point), Some(piece)) => piece.push(point),
-            _ => all.push(Vec::new()),
-        }
-    }
-    all
-}
-
-/// Draws the pieces of a series; a piece of one point is drawn as a dot.
-fn draw(sheet: &mut Sheet, panel: &Frame, pieces: &[Vec<[f64; 2]>], stroke: Stroke) {
-    for piece in pieces {
-        if let [point] = piece[..] {
-            sheet.disc(point, 0.5 * stroke.width + 0.6, stroke.colour);
-        }
-        draw_inside(sheet, panel, piece, stroke);
-    }
-}
-
-fn draw_parts(sheet: &mut Sheet, found: &Oscillation, speed: &Axis) {
+fn amplitudes(found: &Oscillation) -> AxisData {
     let all = found.lines.iter().flat_map(|line| &line.probe_m).flatten();
     let [low, high] = extremes(all.map(|m| 1e3 * m).filter(|mm| *mm > 0.0));
     let ends = match high > 0.0 {
         true => [low.max(high * 10f64.powi(-DECADES)) / 1.5, 1.5 * high],
         false => [1e-3, 1.0],
     };
-    let axis = Axis::new(ends, PARTS.upwards(), Spread::Logarithmic);
-    draw_vertical(sheet, &axis, &PARTS, "parts at the probe\u{2003}[mm]");
-    for (line, colour) in found.lines.iter().zip(COLOURS) {
-        let points = pieces(found, |k| {
-            let mm = 1e3 * line.probe_m.get(k).copied().flatten()?;
-            Some([speed.at(found.rpm[k]), axis.at(mm)])
-        });
-        draw(sheet, &PARTS, &points, stroke_of(line, colour));
-    }
-    draw_horizontal(sheet, speed, PARTS.bottom, false);
+    let axis = AxisData::new("parts at the probe", "mm").within(ends);
+    axis.spread(Spread::Logarithmic)
 }
 
-/// Style of a harmonic: dashed if it is caused by contact alone.
-fn stroke_of(line: &OscillationLine, colour: Colour) -> Stroke {
-    match line.name == "contact" {
-        true => Stroke::dashed(colour, CURVE, DASH),
-        false => Stroke::solid(colour, 1.4 * CURVE),
-    }
+/// A harmonic; it is dashed if it is caused by contact alone.
+fn part(found: &Oscillation, line: &OscillationLine, hue: Hue) -> Item {
+    let is_contact = line.name == "contact";
+    let name = format!("{}× {}", line.order, line.name);
+    Item::Line(Line {
+        width: if is_contact { CURVE } else { 1.4 * CURVE },
+        dashed: is_contact,
+        ..Line::new(series(&found.rpm, &line.probe_m, 1e3), hue, &name)
+    })
 }
 
-fn draw_cut(sheet: &mut Sheet, report: &GapReport, found: &Oscillation, speed: &Axis) {
-    let limit_mm = report.deviation.max_deflection_m.map(|m| 1e3 * m);
+/// Mean deflection at the cut minus or plus its amplitude, in mm for each speed; NaN where there is no motion.
+fn cut_mm(found: &Oscillation, side: f64) -> impl Iterator<Item = f64> {
     let both = found.cut_mean_m.iter().zip(&found.cut_amplitude_m);
-    let ends = both.filter_map(|(mean, amplitude)| {
-        let [mean, amplitude] = [1e3 * (*mean)?, 1e3 * (*amplitude)?];
-        Some([mean - amplitude, mean + amplitude])
-    });
-    let ends = ends.fold([0.0_f64, 0.0_f64], |[low, high], [from, to]| {
-        [low.min(from), high.max(to)]
-    });
-    let size = 0.08 * (ends[1] - ends[0]).max(1e-6);
-    let ends = [ends[0] - size, ends[1] + size];
-    let axis = Axis::linear(ends, CUT.upwards());
-    let at = |k: usize, side: f64| {
-        let [mean, amplitude] = [&found.cut_mean_m, &found.cut_amplitude_m].map(|all| all[k]);
-        let mm = 1e3 * (mean? + side * amplitude?);
-        Some([speed.at(found.rpm[k]), axis.at(mm)])
-    };
-    let [upper, lower] = [1.0, -1.0].map(|side| pieces(found, |k| at(k, side)));
-    for (upper, lower) in upper.iter().zip(&lower) {
-        let around = upper.iter().chain(lower.iter().rev()).copied();
-        sheet.polygon(around.collect::<Vec<_>>(), tint(FORWARD, 0.16));
-    }
-    draw_vertical(sheet, &axis, &CUT, "deflection at the cut\u{2003}[mm]");
-    sheet.horizontal(axis.at(0.0), &CUT, Stroke::solid(INK, HAIRLINE));
-    let limits = limit_mm.iter().flat_map(|limit| [*limit, -limit]);
-    for limit in limits.filter(|limit| axis.shows(*limit)) {
-        sheet.horizontal(axis.at(limit), &CUT, Stroke::dashed(ALARM, CURVE, DASH));
-    }
-    for edge in [&upper, &lower] {
-        let stroke = Stroke::solid(tint(FORWARD, 0.6), HAIRLINE);
-        draw(sheet, &CUT, edge, stroke);
-    }
-    let mean = pieces(found, |k| at(k, 0.0));
-    draw(sheet, &CUT, &mean, Stroke::solid(FORWARD, 1.4 * CURVE));
-    draw_named(sheet, speed, CUT.bottom, SPEED);
+    both.map(move |(mean, amplitude)| match (mean, amplitude) {
+        (Some(mean), Some(amplitude)) => 1e3 * (mean + side * amplitude),
+        _ => f64::NAN,
+    })
 }
 
-fn draw_key(sheet: &mut Sheet, report: &GapReport, found: &Oscillation) {
-    let y = f64::from(HEIGHT) - 66.0;
-    let lines: Vec<(&OscillationLine, Colour)> = found.lines.iter().zip(COLOURS).collect();
-    for (row, some) in lines.chunks(IN_A_ROW).enumerate() {
-        let mut key = Key::new(sheet, PARTS.left, y + 20.0 * row as f64);
-        for (line, colour) in some {
-            key.line(24.0, stroke_of(line, *colour))
-                .word(&format!("{}× {}", line.order, line.name));
-        }
-    }
-    let mut key = Key::new(sheet, PARTS.left, y + 42.0);
-    key.line(24.0, Stroke::solid(FORWARD, 1.4 * CURVE))
-        .word("mean at the cut")
-        .shade(tint(FORWARD, 0.16))
-        .word("mean ± amplitude")
-        .line(24.0, Stroke::dashed(ALARM, HAIRLINE, FINE_DASH))
-        .word("speed of the map")
-        .shade(UNKNOWN)
-        .word("no stable motion, or beyond the thickness");
-    if report.deviation.max_deflection_m.is_some() {
-        key.line(24.0, Stroke::dashed(ALARM, CURVE, DASH))
-            .word("largest deflection allowed");
-    }
+fn deflections(found: &Oscillation) -> AxisData {
+    let ends = [-1.0, 1.0].map(|side| cut_mm(found, side).filter(|mm| mm.is_finite()));
+    let [low, high] = ends.map(|values| extremes(values.chain([0.0])));
+    let room = 0.08 * (high[1] - low[0]).max(1e-6);
+    AxisData::new("deflection at the cut", "mm").within([low[0] - room, high[1] + room])
+}
+
+fn at_the_cut(report: &GapReport, found: &Oscillation, last: f64) -> Vec<Item> {
+    let points = |side| found.rpm.iter().zip(cut_mm(found, side));
+    let curve = |side, width, tint, name| {
+        let points = points(side).map(|(rpm, mm)| [*rpm, mm]);
+        Item::Line(Line {
+            width,
+            tint,
+            ..Line::new(points, Hue::Forward, name)
+        })
+    };
+    let between = points(-1.0).zip(cut_mm(found, 1.0));
+    let between = between.map(|((rpm, low), high)| [*rpm, low, high]);
+    let between = Area {
+        tint: AMPLITUDE_TINT,
+        stepped: false,
+        ..Area::new(between, Hue::Forward, "mean ± amplitude")
+    };
+    let zero = Line {
+        width: HAIRLINE,
+        ..Line::new([[0.0, 0.0], [last, 0.0]], Hue::Ink, "")
+    };
+    let limits = report.deviation.max_deflection_m.into_iter();
+    let limits = limits.flat_map(|m| [1e3 * m, -1e3 * m]).map(|mm| {
+        let ends = [[0.0, mm], [last, mm]];
+        Item::Line(Line {
+            width: CURVE,
+            ..Line::guide(ends, Hue::Alarm, "largest deflection allowed")
+        })
+    });
+    let curves = [
+        Item::Area(between),
+        Item::Line(zero),
+        curve(1.0, HAIRLINE, 0.6, "mean ± amplitude"),
+        curve(-1.0, HAIRLINE, 0.6, "mean ± amplitude"),
+        curve(0.0, 1.4 * CURVE, 1.0, "mean at the cut"),
+    ];
+    curves.into_iter().chain(limits).collect()
 }

@@ -1,7 +1,9 @@
-//! Colour maps over a grid.
+//! Cells of a grid in the colours of a scale, and the scale.
 
-use super::axis::{Axis, Spread};
+use super::axis::Axis;
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::chart_data::with_unit;
+use super::items::Heat;
 use super::style::{AXIS_SIZE, Colour, HAIRLINE, QUIET};
 
 /// Number of steps of a ramp. It is so small that many neighbouring cells have the same colour and are joined, and so
@@ -9,7 +11,7 @@ use super::style::{AXIS_SIZE, Colour, HAIRLINE, QUIET};
 const STEPS: f64 = 40.0;
 
 /// The colour at `share`, from 0 to 1, of a ramp between evenly spaced colours.
-pub fn ramp(colours: &[Colour], share: f64) -> Colour {
+fn ramp(colours: &[Colour], share: f64) -> Colour {
     let share = (share.clamp(0.0, 1.0) * STEPS).round() / STEPS;
     let place = share * (colours.len() - 1) as f64;
     let below = (place.floor() as usize).min(colours.len() - 2);
@@ -22,13 +24,13 @@ pub fn ramp(colours: &[Colour], share: f64) -> Colour {
 }
 
 /// Fills a cell around each point of a grid, which ends half way to the next points and at the ends of the axes.
-/// `colour` returns the colour of a column and a row; neighbours along x of the same colour are joined to one
-/// rectangle.
-pub fn draw_grid(
+/// `colour` returns the colour of a column and a row, or `None` for a cell that is left out; neighbours along x of
+/// the same colour are joined to one rectangle.
+fn draw_grid(
     sheet: &mut Sheet,
     (x_axis, x_values): (&Axis, &[f64]),
     (y_axis, y_values): (&Axis, &[f64]),
-    colour: impl Fn(usize, usize) -> Colour,
+    colour: impl Fn(usize, usize) -> Option<Colour>,
 ) {
     let (x_edges, y_edges) = (edges(x_axis, x_values), edges(y_axis, y_values));
     for row in 0..y_values.len() {
@@ -43,7 +45,9 @@ pub fn draw_grid(
                 top: y_edges[row].min(y_edges[row + 1]),
                 bottom: y_edges[row].max(y_edges[row + 1]),
             };
-            sheet.fill(frame, shade);
+            if let Some(shade) = shade {
+                sheet.fill(frame, shade);
+            }
             from = to;
         }
     }
@@ -61,49 +65,55 @@ fn edges(axis: &Axis, values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Draws the vertical colour bar of a panel between two abscissae, from the distance `below` under its top to its
-/// bottom, with numbers to its right.
-pub fn draw_scale(
-    sheet: &mut Sheet,
-    (panel, below, [left, right]): (&Frame, f64, [f64; 2]),
-    (ends, spread): ([f64; 2], Spread),
-    name: &str,
-    (colour, label): (impl Fn(f64) -> Colour, impl Fn(f64) -> Option<String>),
-) {
+/// Fills the cells of a panel.
+pub fn draw_cells(sheet: &mut Sheet, heat: &Heat, x: &Axis, y: &Axis) {
+    let colours: Vec<Colour> = heat.colours.iter().map(|colour| rgb(*colour)).collect();
+    let scale = Axis::new(heat.range, [0.0, 1.0], heat.spread);
+    draw_grid(sheet, (x, &heat.x), (y, &heat.y), |column, row| {
+        let value = heat.z.get(row).and_then(|row| row.get(column)).copied();
+        let value = value.filter(|value| !value.is_nan())?;
+        Some(match colours[..] {
+            [only] => only,
+            _ => ramp(&colours, scale.at(value)),
+        })
+    });
+}
+
+/// A colour from its red, green and blue.
+pub fn rgb([red, green, blue]: [u8; 3]) -> Colour {
+    plotters::style::RGBColor(red, green, blue)
+}
+
+/// Draws the vertical colour bar of a panel from an abscissa on, with numbers to its right.
+pub fn draw_scale(sheet: &mut Sheet, heat: &Heat, panel: &Frame, left: f64) {
     const BARS: usize = 80;
+    const WIDTH: f64 = 20.0;
     let frame = Frame {
-        top: panel.top + below,
-        ..panel.between([left, right])
+        top: panel.top + 20.0,
+        ..panel.between([left, left + WIDTH])
     };
-    let axis = Axis::new(ends, frame.upwards(), spread);
-    let [low, high] = axis.values();
+    let colours: Vec<Colour> = heat.colours.iter().map(|colour| rgb(*colour)).collect();
     let height = (frame.bottom - frame.top) / BARS as f64;
     for bar in 0..BARS {
         let bottom = frame.bottom - bar as f64 * height;
-        let share = (bar as f64 + 0.5) / BARS as f64;
-        let value = match spread {
-            Spread::Logarithmic => low * (high / low).powf(share),
-            _ => low + (high - low) * share,
-        };
         let cell = Frame {
             top: bottom - height,
             bottom,
             ..frame
         };
-        sheet.fill(cell, colour(value));
+        sheet.fill(cell, ramp(&colours, (bar as f64 + 0.5) / BARS as f64));
     }
+    let axis = Axis::new(heat.range, frame.upwards(), heat.spread);
     let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::Start);
     for tick in axis.ticks(36.0) {
-        let Some(text) = label(tick) else {
-            continue;
-        };
         let y = axis.at(tick);
         let short = [[frame.right, y], [frame.right + 5.0, y]];
         sheet.line(short, Stroke::solid(QUIET, HAIRLINE));
         let at = [frame.right + 9.0, y + 0.36 * AXIS_SIZE];
-        sheet.text(at, letters, &text);
+        sheet.text(at, letters, &axis.label(tick));
     }
-    sheet.text([frame.left, frame.top - 12.0], letters, name);
+    let name = with_unit(&heat.name, &heat.unit);
+    sheet.text([frame.left, frame.top - 12.0], letters, &name);
 }
 
 #[cfg(test)]
@@ -135,7 +145,7 @@ mod tests {
             &mut sheet,
             (&x, &[0.0, 1.0, 2.0, 3.0]),
             (&y, &[0.0, 1.0]),
-            |column, row| colours[usize::from(column + row > 1)],
+            |column, row| Some(colours[usize::from(column + row > 1)]),
         );
         let frames: Vec<[f64; 4]> = sheet
             .marks()

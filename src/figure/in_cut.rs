@@ -1,125 +1,120 @@
 //! Unstable speeds of a saw, idling and under the forces of a cut, one above the other.
 
-use super::axis::{Axis, SPEED, draw_named};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::key::Key;
-use super::style::{
-    BETWEEN_FACTS, DIVERGENCE_SHADE, FLUTTER, FLUTTER_SHADE, GRID, HAIRLINE, INK, LABEL_SIZE,
-    MARGIN, QUIET, STRONG_CURVE,
-};
-use super::{bands, heading};
+use super::chart_data::{AxisData, ChartData, PanelData};
+use super::items::{Band, Item, Points, Role, Shape, Upright};
+use super::palette::Hue;
 use crate::report::{InCut, InstabilityBand, Report};
 
-const WIDTH: u32 = 1200;
-const HEIGHT: u32 = 420;
-const LEFT: f64 = 300.0;
-const RIGHT: f64 = 1160.0;
-const TOP: f64 = 104.0;
-const ROW: f64 = 96.0;
-/// Distance of the shaded areas of the two rows.
-const GAP: f64 = 14.0;
+/// Height of a row, relative to a panel of usual height.
+const ROW: f64 = 0.24;
+/// Place of the critical speeds in a row, from its upper end, and of its name.
+const CRITICAL: f64 = 0.8;
+const NAME: f64 = 0.45;
+const CRITICAL_SIZE: f64 = 7.0;
 
-/// Contents of the row of one of the two saws.
+/// A saw in one of the two states.
 struct Row<'a> {
-    name: String,
+    name: &'static str,
     critical_rpm: Vec<f64>,
     bands: &'a [InstabilityBand],
     flutter_rpm: Option<f64>,
 }
 
-/// Draws both rows; `None` if the report contains no comparison with the idling saw.
-pub fn sheet(report: &Report) -> Option<Sheet> {
+/// Both rows, as numbers; `None` if the report contains no comparison with the idling saw.
+pub fn chart(report: &Report) -> Option<ChartData> {
     let in_cut = report.in_cut.as_ref()?;
     let idling = in_cut.idling.as_ref()?;
-    let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    heading::draw(&mut sheet, &report.scene.name, &facts(report, in_cut));
-    let range = [report.campbell.from_rpm, report.campbell.to_rpm];
-    let speed = Axis::linear(range, [LEFT, RIGHT]);
     let critical = report.critical_speeds.iter().map(|critical| critical.rpm);
     let rows = [
         Row {
-            name: "idling".to_owned(),
+            name: "idling",
             critical_rpm: idling.critical_speeds_rpm.clone(),
             bands: &idling.instabilities,
             flutter_rpm: idling.flutter_speed_rpm,
         },
         Row {
-            name: "in the cut".to_owned(),
+            name: "in the cut",
             critical_rpm: critical.collect(),
             bands: &report.instabilities,
             flutter_rpm: report.flutter_speed_rpm,
         },
     ];
-    for (k, row) in rows.iter().enumerate() {
-        let top = TOP + ROW * k as f64;
-        let frame = Frame {
-            left: LEFT,
-            top,
-            right: RIGHT,
-            bottom: top + ROW - GAP,
-        };
-        row.draw(&mut sheet, &speed, frame);
-    }
-    let bottom = TOP + 2.0 * ROW;
-    if let Some(rpm) = report.scene.operating_rpm.filter(|rpm| speed.shows(*rpm)) {
-        let x = speed.at(rpm);
-        sheet.line([[x, TOP - 6.0], [x, bottom]], Stroke::solid(INK, HAIRLINE));
-        let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::Middle);
-        sheet.text([x, TOP - 10.0], letters, &format!("operating {rpm:.0}"));
-    }
-    draw_named(&mut sheet, &speed, bottom, SPEED);
-    draw_key(&mut sheet);
-    Some(sheet)
+    let panels = rows.iter().enumerate();
+    let panels = panels.map(|(k, row)| row.panel(report, k == 0)).collect();
+    let mut chart = ChartData::new(&report.scene.name, facts(report, in_cut), panels);
+    chart.key = vec![
+        Item::area_sample(Hue::DivergenceShade, "divergence"),
+        Item::area_sample(Hue::FlutterShade, "flutter"),
+        Item::Upright(flutter_speed(0.0)),
+        Item::points_sample(CRITICAL_SIZE, Shape::Disc, Hue::Ink, "critical speed"),
+    ];
+    Some(chart)
 }
 
-fn facts(report: &Report, in_cut: &InCut) -> String {
-    [
-        report.condition.clone(),
-        format!(
-            "{:.0} N against the rotation and {:.0} N inwards on each tooth, at every speed",
-            in_cut.tangential_n_per_tooth, in_cut.radial_n_per_tooth
-        ),
-    ]
-    .join(BETWEEN_FACTS)
+fn facts(report: &Report, in_cut: &InCut) -> Vec<String> {
+    let forces = format!(
+        "{:.0} N against the rotation and {:.0} N inwards on each tooth, at every speed",
+        in_cut.tangential_n_per_tooth, in_cut.radial_n_per_tooth
+    );
+    vec![report.condition.clone(), forces]
+}
+
+fn flutter_speed(rpm: f64) -> Upright {
+    Upright {
+        x: rpm,
+        role: Role::Guide,
+        colour: Hue::Flutter,
+        dashed: false,
+        label: String::new(),
+        name: "flutter speed".to_owned(),
+    }
 }
 
 impl Row<'_> {
-    fn draw(&self, sheet: &mut Sheet, speed: &Axis, frame: Frame) {
-        bands::shade(sheet, speed, self.bands.iter(), &[frame]);
-        sheet.horizontal(frame.bottom, &frame, Stroke::solid(GRID, HAIRLINE));
-        let shown = self.critical_rpm.iter().filter(|rpm| speed.shows(**rpm));
-        for rpm in shown {
-            sheet.disc([speed.at(*rpm), frame.bottom], 3.5, INK);
-        }
-        let shown = self.flutter_rpm.filter(|rpm| speed.shows(*rpm));
-        if let Some(x) = shown.map(|rpm| speed.at(rpm)) {
-            sheet.vertical(x, &frame, Stroke::solid(FLUTTER, STRONG_CURVE));
-        }
-        let [_, middle] = frame.centre();
-        let letters = |colour| Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
-        sheet.text([MARGIN, middle - 16.0], letters(INK), &self.name);
-        let lines = [
-            ("critical speed", self.critical_rpm.first().copied(), 2.0),
-            ("flutter speed", self.flutter_rpm, 20.0),
-        ];
-        for (name, rpm, below) in lines {
-            let line = match rpm {
-                Some(rpm) => format!("{name} {rpm:.0} rpm"),
-                None => format!("no {name} in the sweep"),
-            };
-            sheet.text([MARGIN, middle + below], letters(QUIET), &line);
+    fn panel(&self, report: &Report, is_first: bool) -> PanelData {
+        let speeds = [report.campbell.from_rpm, report.campbell.to_rpm];
+        let bands = self.bands.iter();
+        let bands = bands.map(|band| Item::Band(Band::new(band, speeds)));
+        let critical = self.critical_rpm.iter().map(|rpm| [*rpm, CRITICAL]);
+        let critical = Points::new(critical, Hue::Ink, CRITICAL_SIZE, "critical speed");
+        let operating = report.scene.operating_rpm.map(|rpm| {
+            let label = format!("operating {rpm:.0}");
+            Upright {
+                x: rpm,
+                role: Role::Operating,
+                colour: Hue::Ink,
+                dashed: false,
+                name: format!("{label} rpm"),
+                label: if is_first { label } else { String::new() },
+            }
+        });
+        let uprights = self.flutter_rpm.map(flutter_speed).into_iter();
+        let uprights = uprights.chain(operating).map(Item::Upright);
+        PanelData {
+            share: ROW,
+            ..PanelData::new(
+                AxisData::speed().within(speeds),
+                AxisData::new("", "")
+                    .within([0.0, 1.0])
+                    .named([(NAME, self.describe())]),
+                bands
+                    .chain(uprights)
+                    .chain([Item::Points(critical)])
+                    .collect(),
+            )
         }
     }
-}
 
-fn draw_key(sheet: &mut Sheet) {
-    Key::new(sheet, MARGIN, f64::from(HEIGHT) - 20.0)
-        .shade(DIVERGENCE_SHADE)
-        .word("divergence")
-        .shade(FLUTTER_SHADE)
-        .word("flutter")
-        .upright(4.0, 8.0, Stroke::solid(FLUTTER, STRONG_CURVE))
-        .word("flutter speed")
-        .dot(8.0, 3.5, INK)
-        .word("critical speed");
+    fn describe(&self) -> String {
+        let said = |name: &str, rpm: Option<f64>| match rpm {
+            Some(rpm) => format!("{name} {rpm:.0} rpm"),
+            None => format!("no {name} in the sweep"),
+        };
+        format!(
+            "{}: {}, {}",
+            self.name,
+            said("critical speed", self.critical_rpm.first().copied()),
+            said("flutter speed", self.flutter_rpm)
+        )
+    }
 }

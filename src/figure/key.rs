@@ -1,10 +1,11 @@
 //! The key below a figure, which explains its marks.
 
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::chart_data::Item;
-use super::layout::upright_stroke;
-use super::paint::{point_stroke, stroke};
-use super::style::{Colour, LABEL_SIZE, QUIET, label_width, tint};
+use super::heat::rgb;
+use super::items::Item;
+use super::paint::{draw_mark, stroke};
+use super::panel::upright_stroke;
+use super::style::{Colour, LABEL_SIZE, PAPER, QUIET, label_width, shorten_label, tint};
 
 /// Space after each word.
 const AFTER_WORD: f64 = 24.0;
@@ -15,8 +16,9 @@ const AFTER_MARK: f64 = 8.0;
 const LINE: f64 = 26.0;
 /// Space below the last line.
 const BELOW: f64 = 12.0;
-/// Length of the sample of a line.
+/// Length of the sample of a line, and its largest width.
 const SAMPLE: f64 = 24.0;
+const THICKEST: f64 = 12.0;
 
 /// Word of a sample, and width of its mark.
 fn measure(sample: &Item) -> (&str, f64) {
@@ -26,6 +28,9 @@ fn measure(sample: &Item) -> (&str, f64) {
         Item::Upright(upright) => (&upright.name, 2.0),
         Item::Area(area) => (&area.name, 16.0),
         Item::Band(band) => (&band.name, 16.0),
+        Item::Heat(heat) => (&heat.name, 16.0),
+        Item::Bars(bars) => (&bars.name, 16.0),
+        Item::Label(label) => (&label.text, 0.0),
     }
 }
 
@@ -59,19 +64,23 @@ pub fn draw(sheet: &mut Sheet, samples: &[Item], [left, top]: [f64; 2], width: f
         let mut key = Key::new(sheet, left, top + LINE * row as f64 + 14.0);
         for sample in line {
             match sample {
-                Item::Line(line) => key.line(SAMPLE, stroke(line)),
-                Item::Points(points) => {
-                    let (size, colour) = (points.size, tint(points.colour.colour(), points.tint));
-                    match points.hollow {
-                        true => key.ring(size, size / 2.0, point_stroke(points)),
-                        false => key.dot(size, size / 2.0, colour),
-                    }
+                Item::Line(line) => {
+                    let stroke = stroke(line);
+                    let width = stroke.width.min(THICKEST);
+                    key.line(SAMPLE, Stroke { width, ..stroke })
                 }
+                Item::Points(points) => key.mark(points.size, |sheet, [x, y]| {
+                    draw_mark(sheet, [x + 0.5 * points.size, y], points);
+                }),
                 Item::Upright(line) => key.upright(2.0, 7.0, upright_stroke(line)),
                 Item::Area(area) => key.shade(tint(area.colour.colour(), area.tint)),
                 Item::Band(band) => key.shade(band.shade.colour()),
+                Item::Heat(heat) => key.shade(heat.colours.first().map_or(PAPER, |c| rgb(*c))),
+                Item::Bars(bars) => key.shade(tint(bars.colour.colour(), bars.tint)),
+                Item::Label(_) => &mut key,
             };
-            key.word(measure(sample).0);
+            let (word, mark) = measure(sample);
+            key.word(&shorten_label(word, width - mark - AFTER_MARK));
         }
     }
 }
@@ -125,20 +134,6 @@ impl<'a> Key<'a> {
     pub fn upright(&mut self, width: f64, half: f64, stroke: Stroke) -> &mut Self {
         self.mark(width, |sheet, [x, y]| {
             sheet.line([[x, y - half], [x, y + half]], stroke);
-        })
-    }
-
-    /// Adds a dot in the middle of a width.
-    pub fn dot(&mut self, width: f64, radius: f64, colour: Colour) -> &mut Self {
-        self.mark(width, |sheet, [x, y]| {
-            sheet.disc([x + 0.5 * width, y], radius, colour)
-        })
-    }
-
-    /// Adds a ring in the middle of a width.
-    pub fn ring(&mut self, width: f64, radius: f64, stroke: Stroke) -> &mut Self {
-        self.mark(width, |sheet, [x, y]| {
-            sheet.ring([x + 0.5 * width, y], radius, stroke);
         })
     }
 

@@ -1,16 +1,14 @@
-//! Lays out the panels of a chart one above the other, with heading, axes and key.
+//! Lays out the panels of a chart in rows, with heading and key.
 
-use super::axis::{Axis, draw_horizontal, draw_named, draw_vertical, draw_vertical_at};
-use super::bands;
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::chart_data::{Area, ChartData, Item, PanelData, Upright};
-use super::declutter::{Extent, push_apart};
+use super::canvas::{Frame, Sheet};
+use super::chart_data::{ChartData, PanelData};
 use super::heading;
+use super::heat::draw_scale;
+use super::items::{Heat, Item, Upright};
 use super::key;
-use super::paint::Ground;
-use super::style::{
-    BETWEEN_FACTS, FINE_DASH, GRID, HAIRLINE, LABEL_SIZE, QUIET, Weight, shorten, tint,
-};
+use super::labels::end_room;
+use super::panel::{self, Named};
+use super::style::{BETWEEN_FACTS, broken};
 
 const WIDTH: u32 = 1200;
 const LEFT: f64 = 104.0;
@@ -24,170 +22,158 @@ const BETWEEN: f64 = 46.0;
 const NAMED: f64 = 58.0;
 /// Space above a panel for its title, and for the labels of its vertical lines.
 const ABOVE: f64 = 30.0;
-/// Space between the labels of vertical lines.
-const APART: f64 = 8.0;
+/// Space beside a panel for the numbers of the vertical axis of the next one, and for its name too.
+const NUMBERS: f64 = 64.0;
+const NUMBERS_AND_NAME: f64 = 116.0;
+/// Space at the right edge for the scale of colours.
+const SCALE: f64 = 134.0;
 
 /// Draws a chart.
 pub fn sheet(data: &ChartData) -> Sheet {
-    let frames = frames(&data.panels);
-    let bottom = frames.last().map_or(TOP, |frame| frame.bottom) + NAMED;
-    let height = bottom + key::height(&data.key, RIGHT - LEFT);
+    let grid = Grid::of(data);
+    let height = grid.bottom() + key::height(&data.key, RIGHT - LEFT);
     let mut sheet = Sheet::new(WIDTH, height as u32);
     heading::draw(&mut sheet, &data.title, &data.facts.join(BETWEEN_FACTS));
-    for (k, (panel, frame)) in data.panels.iter().zip(&frames).enumerate() {
-        let below = data.panels.get(k + 1);
-        draw_panel(
-            &mut sheet,
-            panel,
-            frame,
-            below.is_none_or(|next| next.x != panel.x),
-        );
+    for (k, (panel, frame)) in data.panels.iter().zip(&grid.frames).enumerate() {
+        let is_first = k % grid.columns == 0 || data.panels[k - 1].y != panel.y;
+        let named = Named {
+            x: !grid.is_shared(&data.panels, k),
+            y: is_first,
+        };
+        panel::draw(&mut sheet, panel, frame, named);
     }
-    key::draw(&mut sheet, &data.key, [LEFT, bottom], RIGHT - LEFT);
+    grid.draw_scales(&mut sheet, &data.panels);
+    key::draw(&mut sheet, &data.key, [LEFT, grid.bottom()], RIGHT - LEFT);
     sheet
 }
 
-/// Frames of the panels from top to bottom.
-fn frames(panels: &[PanelData]) -> Vec<Frame> {
-    let mut top = TOP;
-    let mut frames = Vec::new();
-    for (k, panel) in panels.iter().enumerate() {
-        let is_labelled = uprights(panel).any(|line| !line.label.is_empty());
-        if is_labelled || !panel.title.is_empty() {
-            top += ABOVE;
-        }
-        let frame = Frame {
-            left: LEFT,
-            top,
-            right: RIGHT,
-            bottom: top + HEIGHT * panel.share,
+/// Frames of the panels, in rows from top to bottom.
+struct Grid {
+    frames: Vec<Frame>,
+    columns: usize,
+}
+
+impl Grid {
+    fn of(data: &ChartData) -> Self {
+        let panels = &data.panels;
+        let columns = data.columns.clamp(1, panels.len().max(1));
+        let mut grid = Grid {
+            frames: Vec::new(),
+            columns,
         };
-        frames.push(frame);
-        let is_shared = panels.get(k + 1).is_some_and(|next| next.x == panel.x);
-        top = frame.bottom + if is_shared { BETWEEN } else { NAMED + ABOVE };
-    }
-    frames
-}
-
-fn draw_panel(sheet: &mut Sheet, panel: &PanelData, frame: &Frame, is_named: bool) {
-    let x = panel.x.placed(frame.across());
-    // Names are listed downwards.
-    let y = match panel.y.names.is_empty() {
-        true => panel.y.placed(frame.upwards()),
-        false => panel.y.placed([frame.top, frame.bottom]),
-    };
-    let shaded = panel.items.iter().filter_map(|item| match item {
-        Item::Band(band) => Some(band),
-        _ => None,
-    });
-    bands::draw(sheet, &x, shaded, std::slice::from_ref(frame));
-    for item in &panel.items {
-        if let Item::Area(area) = item {
-            draw_area(sheet, area, (&x, &y));
+        let sides = sides(panels, columns);
+        let mut top = TOP;
+        for (row, beside) in panels.chunks(columns).enumerate() {
+            let above = beside.iter().zip(&sides);
+            let above = above.map(|(panel, [left, right])| space_above(panel, right - left));
+            top += above.fold(0.0, f64::max);
+            let share = beside.iter().fold(0.0, |most, panel| panel.share.max(most));
+            let bottom = top + HEIGHT * share;
+            grid.frames
+                .extend(sides.iter().take(beside.len()).map(|[left, right]| Frame {
+                    left: *left,
+                    top,
+                    right: *right,
+                    bottom,
+                }));
+            let is_shared = grid.is_shared(panels, row * columns);
+            top = bottom
+                + if is_shared {
+                    BETWEEN
+                } else {
+                    NAMED + 0.4 * ABOVE
+                };
         }
+        grid
     }
-    if !panel.y.names.is_empty() {
-        name_rows(sheet, panel, &y, frame);
-    } else if panel.y.ticks.is_empty() {
-        draw_vertical(sheet, &y, frame, &panel.y.title());
-    } else {
-        draw_vertical_at(sheet, &y, frame, &panel.y.title(), &panel.y.ticks);
-    }
-    let ground = Ground {
-        x: &x,
-        y: &y,
-        frame,
-    };
-    ground.draw_lines(sheet, &panel.items);
-    draw_uprights(sheet, panel, &x, frame);
-    ground.draw_points(sheet, &panel.items);
-    match is_named {
-        true => draw_named(sheet, &x, frame.bottom, &panel.x.title()),
-        false => draw_horizontal(sheet, &x, frame.bottom, false),
-    }
-    if !panel.note.is_empty() {
-        let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
-        sheet.text_on_paper(frame.centre(), letters, &panel.note);
-    }
-    if !panel.title.is_empty() {
-        let letters = Lettering::title(LABEL_SIZE, QUIET);
-        sheet.text([frame.left, frame.top - 10.0], letters, &panel.title);
-    }
-}
 
-/// Fills an area. The outline has a step half way between abscissae, and each connected part is one polygon.
-fn draw_area(sheet: &mut Sheet, area: &Area, (x, y): (&Axis, &Axis)) {
-    let colour = tint(area.colour.colour(), area.tint);
-    let places: Vec<f64> = area.x.iter().map(|value| x.at(*value)).collect();
-    let [least, most] = y.values();
-    let edge = |values: &[f64], k: usize| y.at(values[k].clamp(least, most));
-    let is_filled = |k: &usize| edge(&area.high, *k) < edge(&area.low, *k);
-    let columns: Vec<usize> = (0..places.len()).collect();
-    for part in columns.chunk_by(|a, b| is_filled(a) == is_filled(b)) {
-        let steps = |values: &[f64]| {
-            let ends = part.iter().flat_map(|k| {
-                let before = places[k.saturating_sub(1)];
-                let after = places[(k + 1).min(places.len() - 1)];
-                let height = edge(values, *k);
-                [before, after].map(|beside| [0.5 * (places[*k] + beside), height])
+    /// Whether the panel below has the same horizontal axis.
+    fn is_shared(&self, panels: &[PanelData], k: usize) -> bool {
+        let below = panels.get(k + self.columns);
+        below.is_some_and(|next| next.x == panels[k].x && self.columns == 1)
+    }
+
+    /// Upper edge of the key.
+    fn bottom(&self) -> f64 {
+        self.frames.last().map_or(TOP, |frame| frame.bottom) + NAMED
+    }
+
+    /// Draws the scale of colours of each row, unless it is that of the row above.
+    fn draw_scales(&self, sheet: &mut Sheet, panels: &[PanelData]) {
+        let mut above: Option<&Heat> = None;
+        for (row, frames) in panels
+            .chunks(self.columns)
+            .zip(self.frames.chunks(self.columns))
+        {
+            let Some(heat) = row.iter().find_map(scaled) else {
+                continue;
+            };
+            let is_known = above.is_some_and(|other| {
+                (&other.colours, other.range, other.spread)
+                    == (&heat.colours, heat.range, heat.spread)
             });
-            ends.collect::<Vec<_>>()
-        };
-        if part.first().is_some_and(is_filled) {
-            let back = steps(&area.low).into_iter().rev();
-            sheet.polygon(steps(&area.high).into_iter().chain(back), colour);
+            if !is_known {
+                draw_scale(sheet, heat, &frames[0], RIGHT - SCALE + 24.0);
+            }
+            above = Some(heat);
         }
     }
 }
 
-/// Writes the name of each row above a line, in the colour of the first points of the row.
-fn name_rows(sheet: &mut Sheet, panel: &PanelData, y: &Axis, frame: &Frame) {
-    for (row, name) in panel.y.names.iter().enumerate() {
-        let value = 1.0 + row as f64;
-        let of_row = panel.items.iter().find_map(|item| match item {
-            Item::Points(points) if points.y.first() == Some(&value) => {
-                Some(points.colour.colour())
-            }
-            _ => None,
+/// Left and right edges of the columns of panels.
+fn sides(panels: &[PanelData], columns: usize) -> Vec<[f64; 2]> {
+    let right = match panels.iter().any(|panel| scaled(panel).is_some()) {
+        true => RIGHT - SCALE,
+        false => RIGHT,
+    };
+    let beside = panels
+        .chunks(columns)
+        .flat_map(|row| row.windows(2))
+        .map(|pair| match pair[0].y == pair[1].y {
+            true => NUMBERS,
+            false => NUMBERS_AND_NAME,
         });
-        sheet.horizontal(y.at(value), frame, Stroke::solid(GRID, HAIRLINE));
-        let label = shorten(name, LABEL_SIZE, Weight::SemiBold, frame.right - frame.left);
-        let letters = Lettering::title(LABEL_SIZE, of_row.unwrap_or(QUIET));
-        sheet.text([frame.left, y.at(value) - 10.0], letters, &label);
-    }
+    let beside = beside.fold(0.0, f64::max);
+    let width = (right - LEFT - beside * (columns - 1) as f64) / columns as f64;
+    let ends = |column: usize| {
+        let of_column = panels.iter().skip(column).step_by(columns);
+        of_column.map(end_room).fold(0.0, f64::max)
+    };
+    let sides = (0..columns).map(|column| {
+        let left = LEFT + (width + beside) * column as f64;
+        [left, left + width - ends(column)]
+    });
+    sides.collect()
 }
 
-fn uprights(panel: &PanelData) -> impl Iterator<Item = &Upright> {
-    panel.items.iter().filter_map(|item| match item {
-        Item::Upright(upright) => Some(upright),
+/// The cells of a panel that have the colours of a scale.
+fn scaled(panel: &PanelData) -> Option<&Heat> {
+    panel.items.iter().find_map(|item| match item {
+        Item::Heat(heat) if heat.has_scale() => Some(heat),
         _ => None,
     })
 }
 
-/// Draws the vertical lines, with their labels above the panel.
-fn draw_uprights(sheet: &mut Sheet, panel: &PanelData, x: &Axis, frame: &Frame) {
-    for line in uprights(panel).filter(|line| x.shows(line.x)) {
-        sheet.vertical(x.at(line.x), frame, upright_stroke(line));
-    }
-    let labelled = uprights(panel).filter(|line| !line.label.is_empty() && x.shows(line.x));
-    let labelled: Vec<&Upright> = labelled.collect();
-    let extents = labelled
-        .iter()
-        .map(|line| Extent::of_label(x.at(line.x), &line.label, APART));
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
-    for (line, place) in labelled.iter().zip(push_apart(extents, frame.across())) {
-        if let Some(place) = place {
-            let leader = [[x.at(line.x), frame.top], [place, frame.top - 12.0]];
-            sheet.line(leader, Stroke::solid(QUIET, HAIRLINE));
-            sheet.text([place, frame.top - 17.0], letters, &line.label);
-        }
+/// Space above a panel for its title, the facts below it, and the labels of vertical lines.
+fn space_above(panel: &PanelData, width: f64) -> f64 {
+    let has_labels = uprights(panel).any(|line| !line.label.is_empty());
+    let parts = [!panel.title.is_empty(), has_labels];
+    let parts = parts.into_iter().filter(|part| *part).count() as f64;
+    ABOVE * parts + panel::FACT * lines_of_facts(panel, width).len() as f64
+}
+
+/// The facts of a panel in lines of its width.
+pub fn lines_of_facts(panel: &PanelData, width: f64) -> Vec<String> {
+    match panel.facts.is_empty() {
+        true => Vec::new(),
+        false => broken(&panel.facts.join("; "), width),
     }
 }
 
-/// Style of a vertical line.
-pub fn upright_stroke(line: &Upright) -> Stroke {
-    match line.dashed {
-        true => Stroke::dashed(line.colour.colour(), HAIRLINE, FINE_DASH),
-        false => Stroke::solid(line.colour.colour(), 1.5 * HAIRLINE),
-    }
+/// The vertical lines of a panel.
+pub fn uprights(panel: &PanelData) -> impl Iterator<Item = &Upright> {
+    panel.items.iter().filter_map(|item| match item {
+        Item::Upright(upright) => Some(upright),
+        _ => None,
+    })
 }

@@ -34,7 +34,9 @@ pub(crate) mod gap_oscillation;
 mod heading;
 mod heat;
 pub(crate) mod in_cut;
+mod items;
 mod key;
+mod labels;
 mod layout;
 mod letters;
 pub(crate) mod map;
@@ -43,8 +45,8 @@ pub(crate) mod membrane;
 pub(crate) mod modes;
 mod paint;
 mod palette;
+mod panel;
 pub(crate) mod place;
-mod place_map;
 mod raster;
 pub(crate) mod response;
 pub(crate) mod response_map;
@@ -64,11 +66,10 @@ mod written;
 
 pub use axis::Spread;
 pub use campbell::CampbellView;
-pub use chart_data::{
-    Area, AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright,
-};
+pub use chart_data::{AxisData, ChartData, PanelData};
 pub(crate) use drawn::Drawing;
-pub use drawn::{Figure, tradeoff};
+pub use drawn::{Figure, tradeoff, tradeoff_chart};
+pub use items::{Area, Band, Bars, Heat, Item, Label, Line, Points, Role, Shape, Upright};
 pub use palette::Hue;
 #[doc(hidden)]
 pub use palette::{PALETTE, Palette};

@@ -2,8 +2,8 @@
 
 use super::axis::Axis;
 use super::canvas::{Frame, Sheet, Stroke};
-use super::chart_data::{Item, Line, Points};
 use super::clip::clip;
+use super::items::{Item, Line, Points, Shape};
 use super::style::{DASH, FINE_DASH, HAIRLINE, tint};
 
 /// Width of the head of an arrow relative to that of its line.
@@ -65,9 +65,25 @@ impl Ground<'_> {
                 for part in self.parts(line) {
                     sheet.line(part, stroke);
                 }
+                self.draw_single(sheet, line, stroke);
                 if line.arrow {
                     self.draw_head(sheet, line, stroke);
                 }
+            }
+        }
+    }
+
+    /// Draws a dot at a point of a curve without neighbours.
+    fn draw_single(&self, sheet: &mut Sheet, line: &Line, stroke: Stroke) {
+        let points: Vec<[f64; 2]> = line.x.iter().zip(&line.y).map(|(x, y)| [*x, *y]).collect();
+        let is_gap = |point: &[f64; 2]| point.iter().any(|value| value.is_nan());
+        for piece in points.split(is_gap) {
+            if let [[x, y]] = piece
+                && self.x.shows(*x)
+                && self.y.shows(*y)
+            {
+                let radius = 0.5 * stroke.width + 0.6;
+                sheet.disc([self.x.at(*x), self.y.at(*y)], radius, stroke.colour);
             }
         }
     }
@@ -102,25 +118,31 @@ impl Ground<'_> {
     }
 
     fn draw_all(&self, sheet: &mut Sheet, points: &Points) {
-        let radius = points.size / 2.0;
-        let colour = tint(points.colour.colour(), points.tint);
         for (x, y) in points.x.iter().zip(&points.y) {
             if !(self.x.shows(*x) && self.y.shows(*y)) {
                 continue;
             }
-            let at = [self.x.at(*x), self.y.at(*y)];
-            match points.hollow {
-                true => sheet.ring(at, radius, point_stroke(points)),
-                false => sheet.disc(at, radius, colour),
-            }
+            draw_mark(sheet, [self.x.at(*x), self.y.at(*y)], points);
         }
     }
 }
 
-/// Style of the edge of rings.
-pub fn point_stroke(points: &Points) -> Stroke {
+/// Draws a mark of some points.
+pub fn draw_mark(sheet: &mut Sheet, at: [f64; 2], points: &Points) {
+    let radius = points.size / 2.0;
     let colour = tint(points.colour.colour(), points.tint);
-    Stroke::solid(colour, EDGE * points.size)
+    let edge = Stroke::solid(colour, EDGE * points.size);
+    match points.shape {
+        Shape::Disc => sheet.disc(at, radius, colour),
+        Shape::Ring => sheet.ring(at, radius, edge),
+        Shape::Square => sheet.fill(Frame::around(at, radius), colour),
+        Shape::Cross => {
+            let [x, y] = at;
+            for side in [-radius, radius] {
+                sheet.line([[x - radius, y - side], [x + radius, y + side]], edge);
+            }
+        }
+    }
 }
 
 /// Style of a curve; dashed lines no wider than a hairline have finer dashes.

@@ -1,28 +1,51 @@
-//! The goal over two numbers of a guide, with marks for the best saw and for the saw that is best at its
+//! The goal over one or two numbers of a guide, with marks for the best saw and for the saw that is best at its
 //! nominal numbers.
 
 use super::along::Along;
-use super::canvas::{Sheet, Stroke};
-use super::heading;
-use super::key::Key;
-use super::place_map::{HEIGHT, PANEL, Shades, WIDTH, draw_panel, goals, title};
-use super::style::{ALARM, BETWEEN_FACTS, BLANK, INK, PAPER, STRONG_CURVE};
+use super::axis::{Spread, extremes};
+use super::chart_data::{AxisData, ChartData, PanelData};
+use super::items::{Area, Heat, Item, Line, Points, Shape};
+use super::palette::Hue;
 use super::written::in_words;
-use crate::analyses::place::{Goal, GoalMap, PlaceReport};
+use crate::analyses::place::{Goal, GoalMap, PlaceReport, PlacedParameter};
 
-/// Draws the map; `None` if the report contains none.
-pub fn sheet(report: &PlaceReport) -> Option<Sheet> {
+/// Colours from low to high; lightness rises evenly, so that grey prints are legible too.
+const LOW_TO_HIGH: [[u8; 3]; 5] = [
+    [52, 24, 66],
+    [58, 82, 139],
+    [33, 145, 140],
+    [122, 209, 81],
+    [240, 236, 120],
+];
+/// Heights of the panel for two numbers and for one, relative to one of usual height.
+const SHARES: [f64; 2] = [1.45, 1.0];
+const BEST_SIZE: f64 = 18.0;
+const CROSS_SIZE: f64 = 10.0;
+const SCENE_SIZE: f64 = 10.0;
+const FRAGILE_SIZE: f64 = 12.0;
+
+/// The map, as numbers; `None` if the report contains none.
+pub fn chart(report: &PlaceReport) -> Option<ChartData> {
     let map = report.map.as_ref()?;
-    let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    heading::draw(&mut sheet, title(report.goal), &facts(report));
-    let shades = Shades::of(goals(map));
-    let (x, y) = draw_panel(&mut sheet, map, &shades);
-    draw_marks(&mut sheet, report, map, &x, &y);
-    draw_key(&mut sheet, report, map);
-    Some(sheet)
+    let (title, goal) = match report.goal {
+        Goal::FlutterSpeed => (
+            "Flutter speed over the position of the guide",
+            "flutter speed",
+        ),
+        Goal::StableWindow => ("Stable window around the operating speed", "stable window"),
+    };
+    let x = Along::of_cells(&map.x_path, &map.x);
+    let panel = match &map.y_path {
+        Some(path) => over_two(report, map, x, Along::of_cells(path, &map.y)),
+        None => over_one(report, map, x, goal),
+    };
+    Some(ChartData {
+        key: key(report, map),
+        ..ChartData::new(title, facts(report), vec![panel])
+    })
 }
 
-fn facts(report: &PlaceReport) -> String {
+fn facts(report: &PlaceReport) -> Vec<String> {
     let goal = match report.goal {
         Goal::FlutterSpeed => "flutter",
         Goal::StableWindow => "window of",
@@ -42,81 +65,185 @@ fn facts(report: &PlaceReport) -> String {
         if report.fragile { "fragile, " } else { "" },
         100.0 * report.worst_neighbour_share
     );
+    let coarse = "map: coarse model".to_owned();
     [report.condition.clone(), best]
         .into_iter()
         .chain(values)
-        .chain([worst])
-        .collect::<Vec<_>>()
-        .join(BETWEEN_FACTS)
+        .chain([worst, coarse])
+        .collect()
 }
 
-/// Marks the scene, the fragile optimum and the best saw.
-fn draw_marks(sheet: &mut Sheet, report: &PlaceReport, map: &GoalMap, x: &Along, y: &Along) {
-    let place = |value_of: &dyn Fn(usize) -> Option<f64>| {
-        let number = |path: &str| {
-            let index = report.parameters.iter().position(|p| p.path == path)?;
-            value_of(index)
-        };
-        let across = x.at(number(&map.x_path)?);
-        let up = match &map.y_path {
-            Some(path) => y.at(number(path)?),
-            None => (PANEL.top + PANEL.bottom) / 2.0,
-        };
-        Some([across, up])
+/// Goals in rpm of a row of the map; NaN where the limit of the critical speed is not kept.
+fn goals(map: &GoalMap, row: usize) -> Vec<f64> {
+    let cells = map.goal_rpm[row].iter().zip(&map.kept[row]);
+    let goals = cells.map(|(goal, kept)| goal.filter(|_| *kept));
+    goals.map(|goal| goal.unwrap_or(f64::NAN)).collect()
+}
+
+/// Smallest and largest goal in rpm; if all are equal, a range around them.
+fn range(rows: &[Vec<f64>]) -> [f64; 2] {
+    match extremes(rows.iter().flatten().copied().filter(|rpm| rpm.is_finite())) {
+        [low, high] if low < high => [low, high],
+        [low, _] if low.is_finite() => [0.99 * low, 1.01 * low + 1.0],
+        _ => [0.0, 1.0],
+    }
+}
+
+fn over_two(report: &PlaceReport, map: &GoalMap, x: Along, y: Along) -> PanelData {
+    let z: Vec<Vec<f64>> = (0..map.y.len()).map(|row| goals(map, row)).collect();
+    let [low, high] = y.axis.range.unwrap_or([0.0, 1.0]);
+    let ground = x.axis.range.unwrap_or([0.0, 1.0]);
+    let ground = ground.map(|x| [x, low, high]);
+    let heat = Heat {
+        x: x.values.clone(),
+        y: y.values.clone(),
+        range: range(&z),
+        z,
+        spread: Spread::Linear,
+        colours: LOW_TO_HIGH.to_vec(),
+        name: "speed".to_owned(),
+        unit: "rpm".to_owned(),
     };
-    if let Some(at) = place(&|k| Some(report.parameters[k].start)) {
-        sheet.ring(at, 5.0, Stroke::solid(INK, 2.0));
-    }
-    let fragile = report.fragile_optimum.as_ref();
-    if let Some(at) = place(&|k| fragile?.saw.values.get(k).copied()) {
-        draw_fragile(sheet, at);
-    }
-    if let Some(at) = place(&|k| Some(report.parameters[k].value)) {
-        draw_best(sheet, at);
-    }
-}
-
-/// Draws a red ring on a white disc.
-fn draw_fragile(sheet: &mut Sheet, at: [f64; 2]) {
-    sheet.disc(at, 8.0, PAPER);
-    sheet.ring(at, 6.0, Stroke::solid(ALARM, 2.0));
-}
-
-/// Draws a red cross in a ring on a white disc.
-fn draw_best(sheet: &mut Sheet, [x, y]: [f64; 2]) {
-    sheet.disc([x, y], 11.0, PAPER);
-    sheet.ring([x, y], 9.0, Stroke::solid(ALARM, 2.0));
-    let arm = 6.0;
-    for line in [[[x - arm, y], [x + arm, y]], [[x, y - arm], [x, y + arm]]] {
-        sheet.line(line, Stroke::solid(ALARM, STRONG_CURVE / 1.7));
+    let place = |saw: &Saw| {
+        Some([
+            x.at(saw.number(&map.x_path)?),
+            y.at(saw.number(map.y_path.as_deref()?)?),
+        ])
+    };
+    let marks = marks(report, place);
+    let ground = Area::new(ground, Hue::Blank, &limit(report));
+    let items = [Item::Area(ground), Item::Heat(heat)];
+    PanelData {
+        share: SHARES[0],
+        ..PanelData::new(x.axis, y.axis, items.into_iter().chain(marks).collect())
     }
 }
 
-fn draw_key(sheet: &mut Sheet, report: &PlaceReport, map: &GoalMap) {
-    let mut key = Key::new(sheet, PANEL.left, f64::from(HEIGHT) - 26.0);
-    key.mark(22.0, |sheet, [x, y]| draw_best(sheet, [x + 11.0, y]))
-        .word("best in the worst case of its tolerances")
-        .ring(10.0, 5.0, Stroke::solid(INK, 2.0))
-        .word("the scene")
-        .word("colours: coarse model");
-    if report.fragile_optimum.is_some() {
-        key.mark(12.0, |sheet, [x, y]| draw_fragile(sheet, [x + 6.0, y]))
-            .word("better nominally, fragile");
+fn over_one(report: &PlaceReport, map: &GoalMap, x: Along, goal: &str) -> PanelData {
+    let z = goals(map, 0);
+    let place = |saw: &Saw| Some([x.at(saw.number(&map.x_path)?), saw.goal_rpm?]);
+    let marks = marks(report, place);
+    let best = saws(report).into_iter().filter_map(|saw| saw.goal_rpm);
+    let [low, high] = range(&[z.clone(), best.collect()]);
+    let room = 0.06 * (high - low);
+    let points = x.values.iter().zip(&z).map(|(x, rpm)| [*x, *rpm]);
+    let [bottom, top] = [low - room, high + room];
+    let lost = x.values.iter().zip(&z).map(|(x, rpm)| match rpm.is_nan() {
+        true => [*x, bottom, top],
+        false => [*x, f64::NAN, f64::NAN],
+    });
+    let items = [
+        Item::Area(Area::new(lost, Hue::Blank, &limit(report))),
+        Item::Line(Line::new(points, Hue::Forward, goal)),
+    ];
+    PanelData {
+        share: SHARES[1],
+        ..PanelData::new(
+            x.axis.clone(),
+            AxisData::new(goal, "rpm").within([bottom, top]),
+            items.into_iter().chain(marks).collect(),
+        )
     }
-    if map.kept.iter().flatten().any(|kept| !kept) {
-        let limit = report.min_critical_rpm.map_or("no saw".into(), |rpm| {
-            format!("lowest critical speed below {rpm:.0} rpm")
+}
+
+/// Numbers of a saw, with their paths, and its goal.
+struct Saw<'a> {
+    report: &'a PlaceReport,
+    values: Vec<f64>,
+    goal_rpm: Option<f64>,
+}
+
+impl Saw<'_> {
+    fn number(&self, path: &str) -> Option<f64> {
+        let parameters = &self.report.parameters;
+        let index = parameters.iter().position(|p| p.path == path)?;
+        self.values.get(index).copied()
+    }
+}
+
+/// The saw of the scene, the fragile one if there is one, and the best one.
+fn saws(report: &PlaceReport) -> Vec<Saw<'_>> {
+    let saw = |values: Vec<f64>, goal_rpm| Saw {
+        report,
+        values,
+        goal_rpm,
+    };
+    let of = |value: fn(&PlacedParameter) -> f64| report.parameters.iter().map(value).collect();
+    let fragile = report.fragile_optimum.as_ref().map(|fragile| {
+        let goal = fragile.saw.outcome.map(|outcome| outcome.goal_rpm);
+        saw(fragile.saw.values.clone(), goal)
+    });
+    [saw(of(|p| p.start), Some(report.before.goal_rpm))]
+        .into_iter()
+        .chain(fragile)
+        .chain([saw(of(|p| p.value), Some(report.best.goal_rpm))])
+        .collect()
+}
+
+/// Looks of the marks of the scene, the fragile saw and the best one.
+fn looks(is_fragile: bool) -> Vec<(Shape, Hue, f64, &'static str)> {
+    let fragile = is_fragile.then_some((
+        Shape::Ring,
+        Hue::Alarm,
+        FRAGILE_SIZE,
+        "better nominally, fragile",
+    ));
+    [(Shape::Ring, Hue::Ink, SCENE_SIZE, "the scene")]
+        .into_iter()
+        .chain(fragile)
+        .chain([(
+            Shape::Ring,
+            Hue::Alarm,
+            BEST_SIZE,
+            "best in the worst case of its tolerances",
+        )])
+        .collect()
+}
+
+/// Marks of the scene, the fragile optimum and the best saw.
+fn marks(report: &PlaceReport, place: impl Fn(&Saw) -> Option<[f64; 2]>) -> Vec<Item> {
+    let looks = looks(report.fragile_optimum.is_some());
+    let saws = saws(report);
+    let rings = saws
+        .iter()
+        .zip(looks)
+        .filter_map(|(saw, (shape, hue, size, name))| {
+            let goal = saw.goal_rpm.map(|rpm| format!("{name}: {rpm:.0} rpm"));
+            Some(Item::Points(Points {
+                shape,
+                said: goal.into_iter().collect(),
+                ..Points::new([place(saw)?], hue, size, name)
+            }))
         });
-        key.shade(BLANK).word(&limit);
-    }
+    let cross = saws.last().and_then(&place).map(|at| {
+        Item::Points(Points {
+            shape: Shape::Cross,
+            ..Points::new([at], Hue::Alarm, CROSS_SIZE, "best saw")
+        })
+    });
+    rings.chain(cross).collect()
+}
+
+/// Meaning of cells without a goal.
+fn limit(report: &PlaceReport) -> String {
+    report.min_critical_rpm.map_or("no saw".into(), |rpm| {
+        format!("lowest critical speed below {rpm:.0} rpm")
+    })
+}
+
+fn key(report: &PlaceReport, map: &GoalMap) -> Vec<Item> {
+    let looks = looks(report.fragile_optimum.is_some()).into_iter().rev();
+    let marks = looks.map(|(shape, hue, size, name)| Item::points_sample(size, shape, hue, name));
+    let is_lost = map.kept.iter().flatten().any(|kept| !kept);
+    let lost = is_lost.then(|| Item::area_sample(Hue::Blank, &limit(report)));
+    marks.chain(lost).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analyses::place::{
-        FragileOptimum, Neighbour, Outcome, PlaceCertificate, PlacedParameter,
-    };
+    use crate::analyses::place::{FragileOptimum, Neighbour, Outcome, PlaceCertificate};
+    use crate::figure::layout::sheet;
     use crate::figure::tidy::{assert_tidy, texts};
     use crate::scene::Scene;
 
@@ -214,7 +341,7 @@ mod tests {
     #[test]
     fn nothing_is_cut_off_or_hidden() {
         for y_path in [None, Some("guides[0].stiffness_n_per_m")] {
-            let sheet = sheet(&report(y_path)).unwrap();
+            let sheet = sheet(&chart(&report(y_path)).unwrap());
             assert_tidy(&sheet);
             let all: Vec<&str> = texts(&sheet).iter().map(|(_, text)| *text).collect();
             assert!(
@@ -228,6 +355,6 @@ mod tests {
             map: None,
             ..report(None)
         };
-        assert!(super::sheet(&without).is_none());
+        assert!(chart(&without).is_none());
     }
 }

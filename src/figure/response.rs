@@ -1,9 +1,8 @@
 //! Steady-state amplitude, phase and deviation of the board over the speed; amplitude and phase over the frequency.
 
 use super::axis::{Spread, extremes};
-use super::chart_data::{
-    AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright, series,
-};
+use super::chart_data::{AxisData, ChartData, PanelData};
+use super::items::{Band, Item, Line, Points, Role, Shape, Upright, series};
 use super::palette::Hue;
 use super::style::CURVE;
 use crate::analyses::response::{FrequencyResponse, ResponseLine, ResponseReport};
@@ -72,6 +71,7 @@ pub fn chart(report: &ResponseReport) -> ChartData {
             in_panel(LOW, phase(), phases.collect(), false),
             in_panel(BOARD, board, vec![deviation], false),
         ],
+        columns: 1,
         key: key(report),
     }
 }
@@ -169,7 +169,7 @@ fn key(report: &ResponseReport) -> Vec<Item> {
     let unknown = resonances.any(|resonance| resonance.amplitude_m.is_none());
     let unknown = unknown.then(|| {
         let name = "resonance without an amplitude";
-        Item::points_sample(RESONANCE, false, Hue::Quiet, name)
+        Item::points_sample(RESONANCE, Shape::Disc, Hue::Quiet, name)
     });
     let kinds = [InstabilityKind::Divergence, InstabilityKind::Flutter].into_iter();
     let kinds = kinds.filter(|kind| report.instabilities.iter().any(|band| band.kind == *kind));
@@ -209,6 +209,7 @@ pub fn points_chart(report: &ResponseReport) -> Option<ChartData> {
                 ..PanelData::new(frequency, phase(), curve(phases, "phase"))
             },
         ],
+        columns: 1,
         key: Vec::new(),
     })
 }

@@ -4,11 +4,10 @@
 
 use super::axis::{Axis, SPEED as SPEED_NAME, draw_named, draw_vertical, extremes, two_digits};
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::chart_data::{
-    AxisData, ChartData, Item, Line, PanelData, Points, Role, Upright, lines_by_look,
-};
+use super::chart_data::{AxisData, ChartData, PanelData};
 use super::declutter::{Extent, push_apart};
 use super::heading;
+use super::items::{Item, Line, Points, Role, Upright, lines_by_look};
 use super::palette::Hue;
 use super::style::{
     BETWEEN_FACTS, CURVE, Colour, FLUTTER, FLUTTER_SHADE, GRID, HAIRLINE, LABEL_SIZE, MARGIN,
@@ -120,6 +119,7 @@ pub fn chart(report: &Report) -> Option<ChartData> {
     let speed = AxisData::speed().within(chart.speed.values());
     let [from, to] = [entry.onset_rpm, entry.end_rpm].map(|rpm| chart.rpm(rpm));
     Some(ChartData {
+        columns: 1,
         key: Vec::new(),
         title: report.scene.name.clone(),
         facts: vec![

@@ -1,7 +1,8 @@
 //! The deflection over speed during a run-up, as in the paper's Figure 13.
 
-use super::chart_data::{AxisData, Band, ChartData, Item, Line, PanelData, Role, Upright};
+use super::chart_data::{AxisData, ChartData, PanelData};
 use super::heading;
+use super::items::{Band, Item, Line, Role, Upright};
 use super::palette::Hue;
 use super::style::CURVE;
 use crate::analyses::runup::RunUpReport;
@@ -49,6 +50,7 @@ pub fn chart(report: &RunUpReport) -> ChartData {
             AxisData::new("deflection", "mm").within([-reach, reach]),
             items.collect(),
         )],
+        columns: 1,
         key: key.into_iter().chain(end).collect(),
     }
 }

@@ -1,79 +1,49 @@
 //! Distributions of the lowest critical speed and of the flutter speed of many saws.
 
-use super::axis::{Axis, SPEED, draw_horizontal, draw_vertical, name_below};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::declutter::{Extent, push_apart};
-use super::heading;
-use super::style::{
-    ALARM, AXIS_SIZE, BETWEEN_FACTS, Colour, FINE_DASH, FLUTTER_STREAK, FORWARD, HAIRLINE, INK,
-    LABEL_SIZE, QUIET, tint,
-};
-use crate::analyses::study::{Passing, SpeedStatistics, StudyReport};
+use super::axis::proper_range;
+use super::chart_data::{AxisData, ChartData, PanelData};
+use super::items::{Bars, Item, Line, Role, Upright};
+use super::palette::Hue;
+use crate::analyses::study::{Passing, Reliability, SpeedStatistics, StudyReport};
 
-const WIDTH: u32 = 1000;
-const HEIGHT: u32 = 700;
-const CRITICAL: Frame = Frame {
-    left: 92.0,
-    top: 144.0,
-    right: 960.0,
-    bottom: 324.0,
-};
-const FLUTTERING: Frame = Frame {
-    left: 92.0,
-    top: 430.0,
-    right: 960.0,
-    bottom: 610.0,
-};
 /// Shares of saws whose quantiles have labels if the report contains them, in order of importance.
 const NAMED: [f64; 5] = [0.5, 0.05, 0.95, 0.01, 0.99];
 /// Space beside the outermost bars and limits, relative to their distance.
 const ASIDE: f64 = 0.04;
+/// Height of a panel, relative to one of usual height.
+const SHARE: f64 = 0.5;
 
-/// A limit of a speed.
-struct Limit {
-    rpm: f64,
-    /// Origin of the limit, written before its speed.
-    word: &'static str,
-}
-
-pub fn sheet(report: &StudyReport) -> Sheet {
-    let mut sheet = Sheet::new(WIDTH, HEIGHT);
+/// Histograms of both speeds, and the share of saws that can run, as numbers.
+pub fn chart(report: &StudyReport) -> ChartData {
     let count = format!("{} × {}", report.all.saws, report.scene.name);
     let passing = report.all.passing.as_ref().map(verdict);
-    let facts: Vec<String> = [report.condition.clone(), count]
-        .into_iter()
-        .chain(passing)
-        .collect();
-    heading::draw(&mut sheet, &report.study.name, &facts.join(BETWEEN_FACTS));
-    let of = |keys: &[(&str, &'static str)]| limits(report, keys);
-    let critical = of(&[("margin", "operating/margin"), ("min_critical", "asked")]);
-    let flutter = of(&[("min_flutter", "asked")]);
+    let facts = [report.condition.clone(), count].into_iter().chain(passing);
     let all = &report.all;
-    let bars = tint(FORWARD, 0.45);
-    draw_panel(
-        &mut sheet,
-        &all.lowest_critical,
-        (CRITICAL, bars),
-        &critical,
-    );
-    let bars = FLUTTER_STREAK;
-    draw_panel(&mut sheet, &all.flutter, (FLUTTERING, bars), &flutter);
-    let names = [
-        (CRITICAL, "Lowest critical speed", String::new()),
-        (FLUTTERING, "Flutter speed", beyond(report)),
-    ];
-    for (panel, name, note) in names {
-        let y = panel.top - 44.0;
-        sheet.text([panel.left, y], Lettering::title(AXIS_SIZE, INK), name);
-        let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
-        sheet.text([panel.right, y], letters, &note);
+    let critical = Speed {
+        name: "Lowest critical speed",
+        statistics: &all.lowest_critical,
+        bars: (Hue::Forward, 0.45),
+        limits: limits(
+            report,
+            &[("margin", "operating/margin"), ("min_critical", "asked")],
+        ),
+        swept_to_rpm: report.swept_to_rpm,
+    };
+    let flutter = Speed {
+        name: "Flutter speed",
+        statistics: &all.flutter,
+        bars: (Hue::FlutterStreak, 1.0),
+        limits: limits(report, &[("min_flutter", "asked")]),
+        swept_to_rpm: report.swept_to_rpm,
+    };
+    let mut flutter = flutter.panel();
+    flutter.facts = beyond(report).into_iter().collect();
+    let runs = report.reliability.as_ref().map(runs);
+    let panels = [critical.panel(), flutter].into_iter().chain(runs);
+    ChartData {
+        key: key(),
+        ..ChartData::new(&report.study.name, facts.collect(), panels.collect())
     }
-    let baseline = FLUTTERING.bottom + 44.0;
-    name_below(&mut sheet, FLUTTERING.across(), baseline, SPEED);
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let key = "dashed: share of the saws below, and the speed; red: limits";
-    sheet.text([FLUTTERING.left, f64::from(HEIGHT) - 16.0], letters, key);
-    sheet
 }
 
 /// Share of the saws that keep all limits, with its confidence interval.
@@ -90,15 +60,11 @@ fn verdict(passing: &Passing) -> String {
     }
 }
 
-/// Note on the saws that do not flutter in the sweep; empty if there are none.
-fn beyond(report: &StudyReport) -> String {
-    match report.all.flutter.beyond {
-        0 => String::new(),
-        count => format!(
-            "{count} of {} do not flutter up to {:.0} rpm",
-            report.all.saws, report.swept_to_rpm
-        ),
-    }
+/// Remark on the saws that do not flutter in the sweep; `None` if there are none.
+fn beyond(report: &StudyReport) -> Option<String> {
+    let count = report.all.flutter.beyond;
+    let (saws, rpm) = (report.all.saws, report.swept_to_rpm);
+    (count > 0).then(|| format!("{count} of {saws} do not flutter up to {rpm:.0} rpm"))
 }
 
 /// A share in percent, rounded to four decimals.
@@ -107,105 +73,143 @@ fn percent(share: f64) -> f64 {
 }
 
 /// Limits of the criteria with given keys, with a word for each.
-fn limits(report: &StudyReport, keys: &[(&str, &'static str)]) -> Vec<Limit> {
+fn limits(report: &StudyReport, keys: &[(&str, &str)]) -> Vec<Upright> {
     let criteria = report.all.passing.iter().flat_map(|p| &p.criteria);
-    let limit = |key: &str, rpm| {
+    let limit = |key: &str, rpm: f64| {
         let (_, word) = keys.iter().find(|(name, _)| *name == key)?;
-        Some(Limit { rpm, word })
+        Some(mark(rpm, Hue::Alarm, format!("{word} {rpm:.0}")))
     };
     criteria
         .filter_map(|criterion| limit(&criterion.key, criterion.asked_rpm))
         .collect()
 }
 
-/// The axis of speeds of a panel. It includes all bars, and limits that are no further from them than the bars are wide
-/// together.
-fn speed_axis(entry: &SpeedStatistics, limits: &[Limit], panel: Frame) -> Axis {
-    let bars = entry.histogram.as_ref().map(|b| (b.from_rpm, b.to_rpm));
-    let near =
-        |rpm: &f64| bars.is_none_or(|(from, to)| (2.0 * from - to..=2.0 * to - from).contains(rpm));
-    let asked = limits.iter().map(|limit| limit.rpm).filter(near);
-    let (low, high) = asked.fold(
-        bars.unwrap_or((f64::INFINITY, f64::NEG_INFINITY)),
-        |(low, high), rpm| (low.min(rpm), high.max(rpm)),
-    );
-    let aside = ASIDE * (high - low);
-    Axis::linear([low - aside, high + aside], panel.across())
-}
-
-/// Draws the histogram of a speed, and its quantiles and limits.
-fn draw_panel(
-    sheet: &mut Sheet,
-    entry: &SpeedStatistics,
-    (panel, colour): (Frame, Colour),
-    limits: &[Limit],
-) {
-    let speed = &speed_axis(entry, limits, panel);
-    let total = (entry.saws + entry.beyond).max(1) as f64;
-    let counts = entry.histogram.iter().flat_map(|bars| &bars.counts);
-    let most = counts.max().map_or(1.0, |most| *most as f64);
-    let top = 108.0 * most / total;
-    let share = Axis::linear([0.0, top], panel.upwards());
-    draw_vertical(sheet, &share, &panel, "saws in a bar\u{2003}[%]");
-    if let Some(bars) = &entry.histogram {
-        let count = bars.counts.len() as f64;
-        let width = (bars.to_rpm - bars.from_rpm) / count;
-        for (k, saws) in bars.counts.iter().enumerate() {
-            let from = bars.from_rpm + k as f64 * width;
-            let (left, right) = (speed.at(from), speed.at(from + width));
-            let bar = Frame {
-                left,
-                // A gap separates the bars if they are wide enough; very narrow bars are drawn as thin lines.
-                right: (right - 1.0).max(left + 1.0),
-                top: share.at(100.0 * *saws as f64 / total),
-                bottom: panel.bottom,
-            };
-            sheet.fill(bar, colour);
-        }
+/// A vertical line at a speed, red and solid for a limit.
+fn mark(rpm: f64, colour: Hue, label: String) -> Upright {
+    Upright {
+        x: rpm,
+        role: Role::Guide,
+        colour,
+        dashed: colour != Hue::Alarm,
+        name: format!("{label} rpm"),
+        label,
     }
-    draw_horizontal(sheet, speed, panel.bottom, true);
-    draw_marks(sheet, entry, panel, speed, limits);
 }
 
-/// Draws lines at quantiles and limits, with labels above the panel.
-fn draw_marks(
-    sheet: &mut Sheet,
-    entry: &SpeedStatistics,
-    panel: Frame,
-    speed: &Axis,
-    limits: &[Limit],
-) {
-    let limits = limits.iter().filter(|limit| speed.shows(limit.rpm));
-    let limits = limits.map(|limit| {
-        let label = format!("{} {:.0}", limit.word, limit.rpm);
-        (limit.rpm, ALARM, label)
-    });
-    let quantiles = NAMED.iter().filter_map(|share| {
-        let quantile = entry.quantiles.iter().find(|q| q.share == *share)?;
-        let rpm = quantile.rpm?;
-        Some((rpm, QUIET, format!("{} %: {rpm:.0}", percent(*share))))
-    });
-    let marks: Vec<(f64, Colour, String)> = limits.chain(quantiles).collect();
-    let extent = |(rpm, _, label): &(f64, _, String)| Extent::of_label(speed.at(*rpm), label, 12.0);
-    let places = push_apart(marks.iter().map(extent), panel.across());
-    for ((rpm, colour, label), place) in marks.iter().zip(places) {
-        let x = speed.at(*rpm);
-        let stroke = Stroke {
-            dash: (*colour != ALARM).then_some(FINE_DASH),
-            ..Stroke::solid(*colour, 1.4 * HAIRLINE)
+/// A speed of all saws.
+struct Speed<'a> {
+    name: &'static str,
+    statistics: &'a SpeedStatistics,
+    /// Colour of the bars, and its share.
+    bars: (Hue, f64),
+    limits: Vec<Upright>,
+    swept_to_rpm: f64,
+}
+
+impl Speed<'_> {
+    /// Histogram, quantiles and limits.
+    fn panel(&self) -> PanelData {
+        let found = self.statistics;
+        let total = (found.saws + found.beyond).max(1) as f64;
+        let percent = |saws: &usize| 100.0 * *saws as f64 / total;
+        let counts = found.histogram.iter().flat_map(|bars| &bars.counts);
+        let most = counts.map(percent).fold(0.0, f64::max);
+        let most = if most > 0.0 { most } else { 100.0 };
+        let bars = found.histogram.as_ref().map(|bars| {
+            let count = bars.counts.len();
+            let width = (bars.to_rpm - bars.from_rpm) / count as f64;
+            let (colour, tint) = self.bars;
+            Item::Bars(Bars {
+                edges: (0..=count)
+                    .map(|k| bars.from_rpm + k as f64 * width)
+                    .collect(),
+                heights: bars.counts.iter().map(percent).collect(),
+                colour,
+                tint,
+                name: "saws in a bar".to_owned(),
+            })
+        });
+        let note = match found.histogram.is_none() {
+            true => format!("no saw has one up to {:.0} rpm", self.swept_to_rpm),
+            false => String::new(),
         };
-        sheet.vertical(x, &panel, stroke);
-        if let Some(place) = place {
-            let leader = [[x, panel.top], [place, panel.top - 10.0]];
-            sheet.line(leader, Stroke::solid(*colour, HAIRLINE));
-            let letters = Lettering::regular(LABEL_SIZE, *colour, Anchor::Middle);
-            sheet.text([place, panel.top - 15.0], letters, label);
+        PanelData {
+            title: self.name.to_owned(),
+            note,
+            share: SHARE,
+            ..PanelData::new(
+                AxisData::speed().within(self.ends()),
+                AxisData::new("saws in a bar", "%").within([0.0, 1.08 * most]),
+                bars.into_iter().chain(self.marks()).collect(),
+            )
         }
     }
+
+    /// Ends of the axis of speeds. It includes all bars, and limits that are no further from them than the bars are wide
+    /// together.
+    fn ends(&self) -> [f64; 2] {
+        let Some(bars) = &self.statistics.histogram else {
+            return [0.0, self.swept_to_rpm];
+        };
+        let (from, to) = (bars.from_rpm, bars.to_rpm);
+        let near = |rpm: &f64| (2.0 * from - to..=2.0 * to - from).contains(rpm);
+        let asked = self.limits.iter().map(|limit| limit.x).filter(near);
+        let (low, high) = asked.fold((from, to), |(low, high), rpm| (low.min(rpm), high.max(rpm)));
+        let aside = ASIDE * (high - low);
+        proper_range([low - aside, high + aside])
+    }
+
+    /// Lines at limits and quantiles.
+    fn marks(&self) -> impl Iterator<Item = Item> {
+        let quantiles = NAMED.iter().filter_map(|share| {
+            let all = &self.statistics.quantiles;
+            let rpm = all.iter().find(|q| q.share == *share)?.rpm?;
+            let label = format!("{} %: {rpm:.0}", percent(*share));
+            Some(mark(rpm, Hue::Quiet, label))
+        });
+        let marks = self.limits.iter().cloned().chain(quantiles);
+        marks.map(Item::Upright)
+    }
+}
+
+/// The share of saws that can run, over the operating speed.
+fn runs(reliability: &Reliability) -> PanelData {
+    let points = reliability.curve.iter();
+    let points = points.map(|point| [point.operating_rpm, 100.0 * point.share]);
+    let ends = [reliability.curve.first(), reliability.curve.last()];
+    let ends = ends.map(|point| point.map_or(0.0, |point| point.operating_rpm));
+    let name = format!(
+        "Saws that can run at up to {:.0} % of their lowest critical speed, without flutter",
+        100.0 * reliability.margin
+    );
+    let curve = Line::new(points, Hue::Forward, &name);
+    PanelData {
+        title: name,
+        share: SHARE,
+        ..PanelData::new(
+            AxisData::new("operating speed", "rpm").within(proper_range(ends)),
+            AxisData::new("saws", "%").within([0.0, 100.0]),
+            vec![Item::Line(curve)],
+        )
+    }
+}
+
+fn key() -> Vec<Item> {
+    let sample = |colour, name: &str| {
+        Item::Upright(Upright {
+            name: name.to_owned(),
+            ..mark(0.0, colour, String::new())
+        })
+    };
+    vec![
+        sample(Hue::Quiet, "share of the saws below, and the speed [rpm]"),
+        sample(Hue::Alarm, "limit [rpm]"),
+    ]
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::layout::sheet;
     use super::super::tidy::{assert_tidy, texts};
     use super::*;
     use crate::analyses::study::{Found, Outcome, Saw, Study, StudyFile};
@@ -249,14 +253,14 @@ mod tests {
         let alike = report(|_| Some(1510.0));
         let none = report(|_| None);
         for report in [spread, narrow, alike, none] {
-            assert_tidy(&sheet(&report));
+            assert_tidy(&sheet(&chart(&report)));
         }
     }
 
     #[test]
     fn quantiles_limits_and_saws_beyond_the_sweep_are_written() {
         let report = report(|share| Some(1480.0 + 80.0 * share));
-        let sheet = sheet(&report);
+        let sheet = sheet(&chart(&report));
         let written: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
         // 1.5 × 1533.3 is 2300; a third of the saws exceed it.
         for expected in [

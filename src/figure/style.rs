@@ -68,6 +68,9 @@ pub const DASH: [f64; 2] = [6.0, 4.0];
 /// Lengths of dash and gap of guide lines, in figure units.
 pub const FINE_DASH: [f64; 2] = [4.0, 4.0];
 
+/// Diameter of the rings at measured frequencies.
+pub const MEASURED_SIZE: f64 = 6.0;
+
 /// Weight of a font.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weight {

@@ -1,170 +1,138 @@
 //! Run time over true error, both on logarithmic scales.
 
-use super::axis::{Axis, Spread, extremes, name_below, name_upright, number_beside, tick_label};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
-use super::heading;
-use super::key::Key;
-use super::style::{
-    AXIS_SIZE, BACKWARD, CURVE, Colour, DASH, DIVERGENCE, FORWARD, GRID, HAIRLINE, LABEL_SIZE,
-    PAPER, QUIET, STRONG_CURVE, tint,
-};
+use super::axis::{Spread, extremes};
+use super::chart_data::{AxisData, ChartData, PanelData};
+use super::items::{Item, Line, Points, Role, Shape, Upright};
+use super::palette::Hue;
+use super::style::{CURVE, STRONG_CURVE};
 use crate::analyses::tradeoff::{Method, Setting};
-
-const WIDTH: u32 = 900;
-const HEIGHT: u32 = 660;
-const PANEL: Frame = Frame {
-    left: 92.0,
-    top: 100.0,
-    right: 860.0,
-    bottom: 560.0,
-};
 
 /// Smallest relative error and smallest time in s on the axes; smaller values are rounding errors.
 const LEAST: f64 = 1e-12;
-
+/// Largest errors in percent that the named accuracies allow.
+const ALLOWED: [(f64, &str); 3] = [(1.0, "draft"), (0.1, "design"), (0.01, "reference")];
+/// Number of speeds of the charts that a line connects.
+const SPEEDS: usize = 51;
 const METHODS: [Method; 3] = [Method::Reduced, Method::Dense, Method::CriticalSpeeds];
+const DOT_SIZE: f64 = 8.0;
+/// Width of the line along the best settings, and share of its colour.
+const FRONT: (f64, f64) = (2.0 * STRONG_CURVE, 0.25);
+const FRONT_NAME: &str = "no other chart is both faster and more accurate";
 
-pub fn sheet(scene: &str, settings: &[Setting]) -> Sheet {
-    let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    heading::draw(&mut sheet, "Computing time over true error", scene);
-    let decades = |value: fn(&Setting) -> f64| {
-        let logs = settings.iter().map(|s| value(s).max(LEAST).log10());
-        let [low, high] = extremes(logs);
-        let low = low.floor();
-        [low, high.max(low + 1.0).ceil()].map(|log| 10f64.powf(log))
-    };
-    let errors = decades(|s| s.error).map(|share| 100.0 * share);
-    let error = Axis::new(errors, PANEL.across(), Spread::Logarithmic);
+/// Time over error, as numbers; `scene` is the name of the scene.
+pub fn chart(scene: &str, settings: &[Setting]) -> ChartData {
+    let errors = decades(settings.iter().map(|s| s.error));
+    let errors = errors.map(|share| 100.0 * share);
     // The factor leaves room for a number above the slowest setting.
-    let [least, most] = decades(|s| s.seconds);
-    let time = Axis::new([least, 2.0 * most], PANEL.upwards(), Spread::Logarithmic);
-    draw_axes(&mut sheet, &error, &time);
-    draw_front(&mut sheet, settings, &error, &time);
-    draw_key(&mut sheet);
-    // The labels cover the dashed lines of the accuracies, but not the dots, so that the background of the
-    // labels is drawn before the dots.
-    for (at, letters, label) in labels(settings, &error, &time) {
-        sheet.fill(text_frame(at, &letters, &label), PAPER);
-    }
-    for method in METHODS {
-        let own: Vec<&Setting> = settings.iter().filter(|s| s.method == method).collect();
-        draw_method(&mut sheet, method, &own, &error, &time);
-    }
-    for (at, letters, label) in labels(settings, &error, &time) {
-        sheet.text(at, letters, &label);
-    }
-    sheet
-}
-
-/// Position of a setting on the sheet.
-fn place(setting: &Setting, error: &Axis, time: &Axis) -> [f64; 2] {
-    let percent = 100.0 * setting.error.max(LEAST);
-    [error.at(percent), time.at(setting.seconds.max(LEAST))]
-}
-
-fn look(method: Method) -> (Colour, &'static str) {
-    match method {
-        Method::Reduced => (FORWARD, "chart, projected"),
-        Method::Dense => (BACKWARD, "chart, full model"),
-        Method::CriticalSpeeds => (DIVERGENCE, "critical speeds"),
-    }
-}
-
-/// Labels of the complete charts at 51 speeds: numbers of functions above the dots. The dots of the critical speeds
-/// have the same numbers in the same order, and no labels.
-fn labels(settings: &[Setting], error: &Axis, time: &Axis) -> Vec<([f64; 2], Lettering, String)> {
-    let charts = settings.iter().filter(|s| s.is_chart() && s.speeds == 51);
-    let label = |setting: &Setting| {
-        let [x, y] = place(setting, error, time);
-        let (colour, _) = look(setting.method);
-        let letters = Lettering::regular(LABEL_SIZE, tint(colour, 0.8), Anchor::Middle);
-        // The dots of settings with the same basis and other numbers of speeds may be close to this dot: the
-        // label is above the highest of them.
-        let alike = settings
-            .iter()
-            .filter(|s| s.method == setting.method && s.functions == setting.functions);
-        let close = alike.map(|s| place(s, error, time));
-        let close = close.filter(|[_, other]| (y - 16.0..y).contains(other));
-        let y = close.fold(y, |top, [_, other]| top.min(other));
-        ([x, y - 11.0], letters, setting.functions.to_string())
+    let [least, most] = decades(settings.iter().map(|s| s.seconds));
+    let error = AxisData::new("true error of critical speeds and onsets", "%").within(errors);
+    let time = AxisData::new("time", "s").within([least, 2.0 * most]);
+    let allowed = ALLOWED.map(|(percent, word)| {
+        Item::Upright(Upright {
+            x: percent,
+            role: Role::Guide,
+            colour: Hue::Quiet,
+            dashed: true,
+            label: word.to_owned(),
+            name: format!("{word}: an error of {percent} %"),
+        })
+    });
+    let methods = METHODS
+        .iter()
+        .flat_map(|method| of_method(*method, settings));
+    let items = allowed.into_iter().chain([front(settings)]).chain(methods);
+    let samples = METHODS.map(|method| {
+        let (hue, name) = look(method);
+        Item::points_sample(DOT_SIZE, Shape::Disc, hue, name)
+    });
+    let facts = vec![scene.to_owned(), "numbers: basis functions".to_owned()];
+    let panel = PanelData::new(
+        error.spread(Spread::Logarithmic),
+        time.spread(Spread::Logarithmic),
+        items.collect(),
+    );
+    let panel = PanelData {
+        share: 1.2,
+        ..panel
     };
-    charts.map(label).collect()
-}
-
-/// Draws the dots of a method, connected for one number of speeds.
-fn draw_method(sheet: &mut Sheet, method: Method, own: &[&Setting], error: &Axis, time: &Axis) {
-    let (colour, _) = look(method);
-    for setting in own {
-        let at = place(setting, error, time);
-        sheet.disc(at, 4.0, colour);
+    ChartData {
+        key: samples
+            .into_iter()
+            .chain([front(settings).sample()])
+            .collect(),
+        ..ChartData::new("Computing time over true error", facts, vec![panel])
     }
-    let line = own.iter().filter(|s| s.speeds == 51 || !s.is_chart());
-    let line = line.map(|s| place(s, error, time));
-    sheet.line(line, Stroke::solid(tint(colour, 0.6), CURVE));
 }
 
-fn draw_key(sheet: &mut Sheet) {
-    let mut key = Key::new(sheet, PANEL.left, f64::from(HEIGHT) - 22.0);
-    for method in METHODS {
-        let (colour, name) = look(method);
-        key.dot(8.0, 4.0, colour).word(name);
+/// Powers of ten around some values.
+fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let [low, high] = extremes(values.map(|value| value.max(LEAST).log10()));
+    let low = low.floor();
+    [low, high.max(low + 1.0).ceil()].map(|log| 10f64.powf(log))
+}
+
+/// Error in percent and time in s of a setting.
+fn place(setting: &Setting) -> [f64; 2] {
+    let percent = 100.0 * setting.error.max(LEAST);
+    [percent, setting.seconds.max(LEAST)]
+}
+
+fn look(method: Method) -> (Hue, &'static str) {
+    match method {
+        Method::Reduced => (Hue::Forward, "chart, projected"),
+        Method::Dense => (Hue::Backward, "chart, full model"),
+        Method::CriticalSpeeds => (Hue::Divergence, "critical speeds"),
     }
 }
 
 /// Connects the settings than which no other is both faster and more accurate.
-fn draw_front(sheet: &mut Sheet, settings: &[Setting], error: &Axis, time: &Axis) {
-    let mut front: Vec<[f64; 2]> = settings
-        .iter()
-        .filter(|s| s.on_front)
-        .map(|s| place(s, error, time))
-        .collect();
+fn front(settings: &[Setting]) -> Item {
+    let front = settings.iter().filter(|s| s.on_front);
+    let mut front: Vec<[f64; 2]> = front.map(place).collect();
     front.sort_by(|x, y| x[0].total_cmp(&y[0]));
-    sheet.line(
-        front,
-        Stroke::solid(tint(FORWARD, 0.25), 2.0 * STRONG_CURVE),
-    );
+    let (width, tint) = FRONT;
+    Item::Line(Line {
+        width,
+        tint,
+        ..Line::new(front, Hue::Forward, FRONT_NAME)
+    })
 }
 
-fn draw_axes(sheet: &mut Sheet, error: &Axis, time: &Axis) {
-    let letters = Lettering::regular(AXIS_SIZE, QUIET, Anchor::Middle);
-    for tick in error.ticks(90.0) {
-        let x = error.at(tick);
-        sheet.vertical(x, &PANEL, Stroke::solid(GRID, HAIRLINE));
-        let share = format!("{} %", error.label(tick));
-        sheet.text([x, PANEL.bottom + 20.0], letters, &share);
-    }
-    for tick in time.ticks(40.0) {
-        let y = time.at(tick);
-        sheet.horizontal(y, &PANEL, Stroke::solid(GRID, HAIRLINE));
-        number_beside(sheet, &PANEL, y, &seconds(tick));
-    }
-    sheet.horizontal(PANEL.bottom, &PANEL, Stroke::solid(QUIET, HAIRLINE));
-    let name = "true error of critical speeds and onsets; numbers of functions at the dots";
-    name_below(sheet, PANEL.across(), PANEL.bottom + 44.0, name);
-    name_upright(sheet, 28.0, &PANEL, "time");
-    // Dashed lines are at the largest errors that the named accuracies allow.
-    for (percent, word) in [(1.0, "draft"), (0.1, "design"), (0.01, "reference")] {
-        if error.shows(percent) {
-            let x = error.at(percent);
-            sheet.vertical(x, &PANEL, Stroke::dashed(QUIET, HAIRLINE, DASH));
-            let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Middle);
-            sheet.text([x, PANEL.top - 7.0], letters, word);
-        }
-    }
-}
-
-/// A time in s, or in ms if it is shorter than a second.
-fn seconds(value: f64) -> String {
-    match value < 1.0 {
-        true => format!("{} ms", tick_label(1e3 * value)),
-        false => format!("{} s", tick_label(value)),
-    }
+/// The dots of a method, connected for one number of speeds, with the numbers of functions of its charts. The critical
+/// speeds have the same numbers in the same order, which are not written.
+fn of_method(method: Method, settings: &[Setting]) -> Vec<Item> {
+    let (hue, name) = look(method);
+    let own = || settings.iter().filter(|s| s.method == method);
+    let is_connected = |s: &&Setting| s.speeds == SPEEDS || !s.is_chart();
+    let line = Line {
+        tint: 0.6,
+        width: CURVE,
+        ..Line::new(own().filter(is_connected).map(place), hue, name)
+    };
+    let say = |s: &Setting| {
+        let (milliseconds, percent) = (1e3 * s.seconds, 100.0 * s.error);
+        format!(
+            "{name}\n{} functions, {} speeds\n{milliseconds:.1} ms\nerror {percent:.2e} %",
+            s.functions, s.speeds
+        )
+    };
+    let dots = Points {
+        said: own().map(say).collect(),
+        ..Points::new(own().map(place), hue, DOT_SIZE, name)
+    };
+    let numbered = own().filter(|s| s.is_chart() && s.speeds == SPEEDS);
+    let numbers = numbered.map(|s| Item::label(place(s), hue, s.functions.to_string()));
+    [Item::Line(line), Item::Points(dots)]
+        .into_iter()
+        .chain(numbers)
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::canvas::Mark;
     use super::*;
+    use crate::figure::layout::sheet;
+    use crate::figure::tidy::{assert_tidy, texts};
 
     /// Eight sizes of the basis, for a diagram and for critical speeds, and two diagrams on the full model.
     #[test]
@@ -191,23 +159,13 @@ mod tests {
                 .chain(dense)
             })
             .collect();
-        let drawn = sheet("A saw", &settings);
-        super::super::tidy::assert_tidy(&drawn);
-        // Where a label crosses a dashed line, there is a white ground between them.
-        let marks = drawn.marks();
-        let is_fill = |m: &&Mark| matches!(m, Mark::Fill(_, colour) if *colour == PAPER);
-        let papered = marks.iter().filter(is_fill).count();
-        let charts = settings.iter().filter(|s| s.is_chart()).count();
-        assert_eq!(papered, charts);
-        let last_dashed = marks
-            .iter()
-            .rposition(|m| matches!(m, Mark::Line(_, s) if s.dash.is_some()));
-        assert!(last_dashed < marks.iter().position(|m| is_fill(&m)));
-    }
-
-    #[test]
-    fn ticks_are_written_in_seconds() {
-        assert_eq!([1e-3, 0.1, 10.0].map(seconds), ["1 ms", "100 ms", "10 s"]);
+        let drawn = sheet(&chart("A saw", &settings));
+        assert_tidy(&drawn);
+        let written = texts(&drawn);
+        for setting in settings.iter().filter(|s| s.is_chart()) {
+            let number = setting.functions.to_string();
+            assert!(written.iter().any(|(_, text)| *text == number), "{number}");
+        }
     }
 
     /// The errors extend from rounding to a percent.
@@ -223,6 +181,6 @@ mod tests {
             error,
             on_front: true,
         });
-        super::super::tidy::assert_tidy(&sheet("A saw", &settings));
+        assert_tidy(&sheet(&chart("A saw", &settings)));
     }
 }

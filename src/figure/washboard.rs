@@ -1,7 +1,8 @@
 //! The lobe diagram: smallest cutting stiffness at which a motion grows, over the speed, and its frequency.
 
 use super::axis::{Spread, proper_range};
-use super::chart_data::{Area, AxisData, ChartData, Item, Line, PanelData, Points};
+use super::chart_data::{AxisData, ChartData, PanelData};
+use super::items::{Area, Item, Line, Points, Shape};
 use super::palette::Hue;
 use super::style::HAIRLINE;
 use crate::analyses::washboard::WashboardReport;
@@ -32,7 +33,7 @@ pub fn chart(report: &WashboardReport) -> ChartData {
     let shown = lobes.frequency_hz.iter().flatten().copied();
     let top = 1.05 * shown.fold(per_rpm * ends[1], f64::max);
     let own = Points {
-        hollow: true,
+        shape: Shape::Ring,
         ..Points::new(
             [[report.rpm, report.stiffness_n_per_m]],
             own_hue(report),
@@ -84,6 +85,7 @@ pub fn chart(report: &WashboardReport) -> ChartData {
                 )
             },
         ],
+        columns: 1,
         key: key(report),
     }
 }
@@ -212,7 +214,7 @@ fn key(report: &WashboardReport) -> Vec<Item> {
     let open = (0..report.lobes.rpm.len()).any(is_unknown);
     let open = open.then(|| Item::area_sample(Hue::Blank, "not searched, or not confirmed"));
     let others = [
-        Item::points_sample(OWN_SIZE, true, own_hue(report), "this cut"),
+        Item::points_sample(OWN_SIZE, Shape::Ring, own_hue(report), "this cut"),
         Item::line_sample(
             HAIRLINE,
             true,

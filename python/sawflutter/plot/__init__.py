@@ -7,7 +7,7 @@ program's figures.
 
 from __future__ import annotations
 
-from .chart import Area, Bars, Chart, Heat, Line, Panel, Points, Shade, Upright, colours
+from .chart import Area, Bars, Chart, Heat, Label, Line, Panel, Points, Shade, Upright, colours
 from .motion import Animation, animate
 
 __all__ = [
@@ -16,6 +16,7 @@ __all__ = [
     "Bars",
     "Chart",
     "Heat",
+    "Label",
     "Line",
     "Panel",
     "Points",

@@ -8,14 +8,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from .. import _native
 from .._drawn import Drawn
 from .._entry import FloatArray
-from .._report_types import Instability
 
 # Width of curves and of the stretches that matter most, in the units of the program's figures.
 CURVE = 1.6
@@ -57,13 +56,13 @@ class Line:
 
 @dataclass(frozen=True)
 class Points:
-    """Dots or rings."""
+    """Marks, each a disc, a ring, a square or a cross."""
 
     x: FloatArray
     y: FloatArray
     colour: str
     name: str = ""
-    hollow: bool = False
+    shape: Shape = "disc"
     size: float = 7.0
     hover: Sequence[str] = ()
 
@@ -80,7 +79,8 @@ class Bars:
 
 @dataclass(frozen=True)
 class Heat:
-    """Values over two axes, with one row of z for each y; NaN is blank."""
+    """Values over two axes, with one row of z for each y; NaN is blank. One colour is that of a class
+    of cells, whose values have no meaning."""
 
     x: FloatArray
     y: FloatArray
@@ -88,17 +88,40 @@ class Heat:
     name: str
     scale: Sequence[str] = LOW_TO_HIGH
     range: tuple[float, float] | None = None
+    log: bool = False
+    """Whether the colours follow the logarithm of the values."""
 
 
 @dataclass(frozen=True)
 class Area:
-    """Columns from a lower to an upper value, half way to the next ones."""
+    """Columns from a lower to an upper value; without steps, their ends are connected."""
 
     x: FloatArray
     low: FloatArray
     high: FloatArray
     colour: str
     name: str = ""
+    stepped: bool = True
+    """Whether a column reaches half way to the next ones."""
+
+    def columns(self) -> tuple[FloatArray, FloatArray]:
+        """Middles and widths of the columns."""
+        edges = np.concatenate([self.x[:1], (self.x[1:] + self.x[:-1]) / 2.0, self.x[-1:]])
+        return (edges[1:] + edges[:-1]) / 2.0, np.diff(edges)
+
+    def heights(self) -> FloatArray:
+        """Heights of the columns; zero where there is no area."""
+        return np.nan_to_num(np.maximum(self.high - self.low, 0.0))
+
+
+@dataclass(frozen=True)
+class Label:
+    """A text at a point."""
+
+    x: float
+    y: float
+    colour: str
+    name: str
 
 
 @dataclass(frozen=True)
@@ -121,7 +144,8 @@ class Upright:
     name: str = ""
 
 
-Item: TypeAlias = "Line | Points | Area | Bars | Heat | Shade | Upright"
+Item: TypeAlias = "Line | Points | Area | Bars | Heat | Label | Shade | Upright"
+Shape: TypeAlias = Literal["disc", "ring", "square", "cross"]
 
 
 @dataclass(frozen=True)
@@ -138,10 +162,14 @@ class Panel:
     y_root: bool = False
     """Whether the y axis shows signed square roots, so that small values next to large ones are
     seen."""
+    x_ticks: Sequence[float] = ()
+    """Values of the x axis that have a number; empty if the range determines them."""
+    x_names: Sequence[str] = ()
+    """Words at these values, in place of numbers."""
     y_ticks: Sequence[float] = ()
     """Values of the y axis that have a number; empty if the range determines them."""
     y_names: Sequence[str] = ()
-    """Words at the places 1, 2, 3 … of the y axis, in place of numbers."""
+    """Names of rows at these values, in place of numbers."""
     share: float = 1.0
     """Height beside that of the other panels."""
     title: str = ""
@@ -155,7 +183,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Chart(Drawn):
-    """Panels one above the other; those with the same name of the x axis share it."""
+    """Panels one above the other, which share the x axis if it is the same in all."""
 
     title: str
     facts: str
@@ -174,29 +202,33 @@ class Chart(Drawn):
 
     def together(self) -> bool:
         """Whether the panels share their x axis."""
-        return len({panel.x_name for panel in self.shown()}) == 1
-
-
-def shade(band: Instability) -> Shade:
-    """A band of instability."""
-    name = f"{band.kind} {band.from_rpm:.0f}–{band.to_rpm:.0f} rpm"
-    return Shade(band.from_rpm, band.to_rpm, colours()[f"{band.kind}_shade"], name)
+        return len({(panel.x_name, panel.x_range) for panel in self.shown()}) == 1
 
 
 def end_labels(panel: Panel, apart: float) -> list[tuple[Line, float]]:
     """Lines with a label at their end, and the height of the label: the labels are so far apart, as
     a share of the axis, that they do not overlap."""
     low, high = panel.y_range or (0.0, 1.0)
+    if panel.y_log:
+        low, high = np.log10([low, high]).tolist()
     lines = [item for item in panel.items if isinstance(item, Line) and item.end]
-    ends = sorted(((float(line.y[-1]), line) for line in lines), key=lambda pair: pair[0])
+    heights = [float(np.log10(line.y[-1]) if panel.y_log else line.y[-1]) for line in lines]
+    ends = sorted(zip(heights, lines), key=lambda pair: pair[0])
     placed: list[tuple[Line, float]] = []
     lowest = low
     for y, line in ends:
         if low <= y <= high:
             place = max(y, lowest)
-            placed.append((line, place))
+            placed.append((line, 10.0**place if panel.y_log else place))
             lowest = place + apart * (high - low)
     return placed
+
+
+def is_at_the_top(label: Label, panel: Panel) -> bool:
+    """Whether there is no room for a label above its point."""
+    low, high = panel.y_range or (-np.inf, np.inf)
+    ends = np.log10([low, high, label.y]) if panel.y_log else np.array([low, high, label.y])
+    return bool(np.isfinite(ends).all() and ends[2] > ends[1] - 0.08 * (ends[1] - ends[0]))
 
 
 def signed_root(values: Any) -> Any:

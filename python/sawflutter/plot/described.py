@@ -3,25 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+import textwrap
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from .. import _native
-from .chart import Area, Chart, Item, Line, Panel, Points, Shade, Upright, colours
-from .design import check, fit, place, study
-from .histories import cut
+from .chart import Area, Bars, Chart, Heat, Item, Label, Line, Panel, Points, Shade, Upright, colours
+from .chart import FACTS
 
-# The program does not describe the figures of these commands. A function makes the chart of a report
-# and of its answer in one line.
-OWN: dict[str, Callable[[Any, str], Chart]] = {
-    "check": check,
-    "cut": cut,
-    "fit": fit,
-    "place": place,
-    "study": study,
-}
 # Narrower bands, as a share of the axis, get a stronger colour.
 NARROW = 0.004
 
@@ -30,8 +21,11 @@ def described(command: str, name: str, report: str) -> Chart | None:
     """The chart of a figure of the program, by its name without an ending; None if the report has
     no data for it."""
     text = _native.chart(command, name, report)
-    if text is None:
-        return None
+    return None if text is None else read(text)
+
+
+def read(text: str) -> Chart:
+    """The chart that a JSON text of the program describes."""
     chart = json.loads(text)
     panels = tuple(_panel(panel) for panel in chart["panels"])
     return Chart(chart["title"], "; ".join(chart["facts"]), panels)
@@ -43,6 +37,9 @@ def _panel(panel: dict[str, Any]) -> Panel:
     items = [item for of in panel["items"] for item in _items(of, x_range)]
     # A wide band must not hide a narrow one within it.
     items.sort(key=lambda item: item.start - item.end if isinstance(item, Shade) else 0.0)
+    if y["names"] and y_range is not None:
+        # Rows are listed downwards.
+        y_range = y_range[::-1]
     return Panel(
         x_name=_axis(x),
         y_name=_axis(y),
@@ -52,10 +49,12 @@ def _panel(panel: dict[str, Any]) -> Panel:
         x_log=x["spread"] == "logarithmic",
         y_log=y["spread"] == "logarithmic",
         y_root=y["spread"] == "signed_root",
+        x_ticks=x["ticks"],
+        x_names=x["names"],
         y_ticks=y["ticks"],
         y_names=y["names"],
         share=panel["share"],
-        title=panel["title"],
+        title="\n".join([panel["title"], *textwrap.wrap("; ".join(panel["facts"]), FACTS)]),
         harmonics=panel["harmonics"],
         note=panel["note"],
     )
@@ -75,16 +74,30 @@ def _items(of: dict[str, Any], x_range: tuple[float, float] | None) -> Iterator[
             yield Shade(start, end, colour, of["name"])
     elif of["item"] == "area":
         x, low, high = (np.array(of[edge], float) for edge in ("x", "low", "high"))
-        yield Area(x, low, high, _tinted(colours()[of["colour"]], of["tint"]), of["name"])
+        colour = _tinted(colours()[of["colour"]], of["tint"])
+        yield Area(x, low, high, colour, of["name"], of["stepped"])
+    elif of["item"] == "heat":
+        x, y, z = (np.array(of[axis], float) for axis in "xyz")
+        scale = ["#" + "".join(f"{c:02x}" for c in rgb) for rgb in of["colours"]]
+        name, log = _axis(of), of["spread"] == "logarithmic"
+        yield Heat(x, y, z, name, scale, (of["range"][0], of["range"][1]), log)
+    elif of["item"] == "bars":
+        edges, heights = (np.array(of[key], float) for key in ("edges", "heights"))
+        yield Bars(edges, heights, _tinted(colours()[of["colour"]], of["tint"]), of["name"])
+    elif of["item"] == "label":
+        yield Label(of["x"], of["y"], colours()[of["colour"]], of["text"])
     elif of["item"] == "upright":
         yield Upright(of["x"], colours()[of["colour"]], of["dashed"], of["name"])
     else:
         x, y = (np.array(of[axis], float) for axis in "xy")
         colour, name, said = _tinted(colours()[of["colour"]], of["tint"]), of["name"], of["said"]
         if of["item"] == "points":
-            yield Points(x, y, colour, name, of["hollow"], of["size"], said)
-        else:
-            yield Line(x, y, colour, name, of["width"], of["dashed"], said, of["end"])
+            yield Points(x, y, colour, name, of["shape"], of["size"], said)
+            return
+        yield Line(x, y, colour, name, of["width"], of["dashed"], said, of["end"])
+        if of["label"]:
+            ends = slice(0, 2) if len(x) == 2 else slice(len(x) // 2, len(x) // 2 + 1)
+            yield Label(float(np.mean(x[ends])), float(np.mean(y[ends])), colour, of["label"])
 
 
 def _tinted(colour: str, share: float) -> str:

@@ -10,7 +10,7 @@ from typing import Any, SupportsFloat, get_args
 import numpy as np
 
 from .._drawn import Units
-from .chart import Area, Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
+from .chart import Area, Bars, Chart, Heat, Item, Label, Line, Panel, Points, Shade, Upright, colours
 
 # One rotation per second in each of the units.
 TURN: dict[str, float] = {"rpm": 60.0, "Hz": 1.0, "rad/s": tau}
@@ -78,6 +78,7 @@ def _in_units(panel: Panel, units: dict[str, str]) -> Panel:
         items=[_scaled(item, x, y, units) for item in panel.items],
         x_range=_times(panel.x_range, x),
         y_range=_times(panel.y_range, y),
+        x_ticks=[x * tick for tick in panel.x_ticks],
         y_ticks=[y * tick for tick in panel.y_ticks],
     )
 
@@ -97,6 +98,8 @@ def _scaled(item: Item, x: float, y: float, units: dict[str, str]) -> Item:
         return replace(item, start=x * item.start, end=x * item.end)
     if isinstance(item, Upright):
         return replace(item, x=x * item.x)
+    if isinstance(item, Label):
+        return replace(item, x=x * item.x, y=y * item.y)
     if isinstance(item, Bars):
         return replace(item, edges=x * item.edges)
     if isinstance(item, Heat):

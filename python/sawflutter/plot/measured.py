@@ -90,7 +90,7 @@ def _rings(peaks: Peaks | None) -> list[Item]:
             peaks.frequency_hz[chosen],
             colour,
             name,
-            True,
+            "ring",
             size,
             [f"{rpm:.0f} rpm<br>{hz:.2f} Hz measured" for rpm, hz in zip(peaks.rpm[chosen], peaks.frequency_hz[chosen])],
         )
@@ -120,7 +120,7 @@ def spectrum(s: Spectrum, saw: Scene | None, peaks: Peaks | None) -> Chart:
     if peaks is not None:
         said = [f"{hz:.2f} Hz measured" for hz in peaks.frequency_hz]
         rings = Points(
-            peaks.frequency_hz, level(peaks.amplitude), colours()["alarm"], "picked peaks", True, hover=said
+            peaks.frequency_hz, level(peaks.amplitude), colours()["alarm"], "picked peaks", "ring", hover=said
         )
         items.append(rings)
     facts = f"{s.name} at {s.rpm:.0f} rpm: 0 dB is {top:.3g} {s.unit}".rstrip()

@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._extras import extra
-from .chart import Area, Bars, Chart, Heat, Item, Panel, Points, Shade, Upright, colours
-from .chart import end_labels, root_ticks, signed_root
+from .chart import Area, Bars, Chart, Heat, Item, Label, Panel, Points, Shade, Upright, colours
+from .chart import end_labels, is_at_the_top, root_ticks, signed_root
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 # Width of a figure, where those of the program are 1200 units wide.
 WIDTH_INCHES = 10.0
+MARKERS = {"disc": "o", "ring": "o", "square": "s", "cross": "x"}
 FONTS = ["Inter", "Helvetica", "Arial", "DejaVu Sans"]
 
 
@@ -44,17 +45,16 @@ def draw(chart: Chart, ax: Axes | Sequence[Axes] | None = None) -> Axes:
     ink, quiet = colours()["ink"], colours()["quiet"]
     figure.suptitle(chart.title, x=0.02, ha="left", fontsize=15, fontweight="bold", color=ink)
     # Above the title of the panel, where it has one.
-    facts = "\n".join(chart.lines())
-    above = f"{facts}\n" if panels[0].title else facts
+    above = 8 + 15 * len(panels[0].title.splitlines())
     axes[0, 0].annotate(
-        above, (0.0, 1.0), (0, 8), "axes fraction", "offset points", fontsize=10, color=quiet
+        "\n".join(chart.lines()), (0.0, 1.0), (0, above), "axes fraction", "offset points", fontsize=10, color=quiet
     )
     return axes[0, 0]  # type: ignore[no-any-return]
 
 
 def _panel(ax: Axes, panel: Panel, last: bool) -> None:
     for item in panel.items:
-        _add(ax, item)
+        _add(ax, item, panel)
     _end_labels(ax, panel)
     if panel.note:
         ax.annotate(
@@ -75,10 +75,18 @@ def _panel(ax: Axes, panel: Panel, last: bool) -> None:
         ax.set_ylim(*panel.y_range)
     if panel.equal:
         ax.set_aspect("equal")
-    if panel.y_ticks:
+    if panel.x_names:
+        ax.set_xticks(panel.x_ticks, panel.x_names)
+        ax.minorticks_off()
+    if panel.y_names or not panel.y_name:
+        ax.set_yticks([])
+    elif panel.y_ticks:
         ax.set_yticks(panel.y_ticks)
-    if panel.y_names:
-        ax.set_yticks(range(1, len(panel.y_names) + 1), panel.y_names)
+    for row, name in zip(panel.y_ticks, panel.y_names):
+        ax.annotate(
+            name, (0.0, row), (2, 6), ("axes fraction", "data"), "offset points", fontsize=9,
+            fontweight="semibold", color=colours()["quiet"],
+        )  # fmt: skip
     if last:
         ax.set_xlabel(panel.x_name, color=colours()["ink"])
     ax.set_ylabel(panel.y_name, color=colours()["ink"])
@@ -92,27 +100,41 @@ def _panel(ax: Axes, panel: Panel, last: bool) -> None:
     ax.set_axisbelow(True)
 
 
-def _add(ax: Axes, item: Item) -> None:
+def _add(ax: Axes, item: Item, panel: Panel) -> None:
     if isinstance(item, Shade):
         # The edge keeps a band visible that is narrower than a pixel.
         ax.axvspan(item.start, item.end, color=item.colour, linewidth=0.8, zorder=0.5)
     elif isinstance(item, Upright):
         style: Any = (0, (4, 4)) if item.dashed else "solid"
         ax.axvline(item.x, color=item.colour, linewidth=0.8, linestyle=style, zorder=1.5)
+    elif isinstance(item, Area) and item.stepped:
+        middles, widths = item.columns()
+        ax.bar(
+            middles, item.heights(), widths, np.nan_to_num(item.low, nan=1.0), color=item.colour,
+            linewidth=0.0, antialiased=False, zorder=0.4, label=item.name,
+        )  # fmt: skip
     elif isinstance(item, Area):
         ax.fill_between(
-            item.x, item.low, item.high, where=list(item.high > item.low), step="mid",
-            color=item.colour, linewidth=0.0, zorder=0.4, label=item.name,
+            item.x, item.low, item.high, where=list(item.high >= item.low), color=item.colour,
+            linewidth=0.0, zorder=0.4, label=item.name,
         )  # fmt: skip
     elif isinstance(item, Heat):
         _heat(ax, item)
     elif isinstance(item, Bars):
         ax.stairs(item.heights, item.edges, fill=True, color=item.colour, label=item.name)
+    elif isinstance(item, Label):
+        below = is_at_the_top(item, panel)
+        ax.annotate(
+            item.name, (item.x, item.y), (0, -5 if below else 5), textcoords="offset points",
+            ha="center", va="top" if below else "bottom", fontsize=9, color=item.colour, zorder=4.0,
+            annotation_clip=True,
+        )  # fmt: skip
     elif isinstance(item, Points):
-        inside = "none" if item.hollow else item.colour
+        style = {"facecolors": "none"} if item.shape == "ring" else {}
+        style |= {"color" if item.shape != "ring" else "edgecolors": item.colour}
         ax.scatter(
-            item.x, item.y, s=0.6 * item.size**2, facecolors=inside, edgecolors=item.colour,
-            linewidths=0.9, zorder=3.0, label=item.name,
+            item.x, item.y, s=0.6 * item.size**2, marker=MARKERS[item.shape],
+            linewidths=0.9, zorder=3.0, label=item.name, **style,
         )  # fmt: skip
     else:
         style = (0, (4, 2.5)) if item.dashed else "solid"
@@ -132,13 +154,20 @@ def _end_labels(ax: Axes, panel: Panel) -> None:
 
 
 def _heat(ax: Axes, item: Heat) -> None:
-    from matplotlib.colors import LinearSegmentedColormap
+    from matplotlib.colors import LinearSegmentedColormap, ListedColormap, LogNorm, Normalize
 
     low, high = item.range or (None, None)
-    scale = LinearSegmentedColormap.from_list(item.name, list(item.scale))
+    colours = list(item.scale)
+    is_class = len(colours) == 1
+    scale = ListedColormap(colours) if is_class else LinearSegmentedColormap.from_list(item.name, colours)
+    # On a logarithmic scale, smaller values have the first colour.
+    z = np.maximum(item.z, low) if item.log and low is not None else item.z
+    norm = LogNorm(low, high) if item.log else Normalize(low, high)
     # A vector file would have a path for each cell.
     mesh = ax.pcolormesh(
-        item.x, item.y, item.z, cmap=scale, vmin=low, vmax=high, shading="nearest", rasterized=True
+        item.x, item.y, np.ma.masked_invalid(z), cmap=scale, norm=norm, shading="nearest", rasterized=True
     )
+    if is_class:
+        return
     bar = ax.figure.colorbar(mesh, ax=ax, label=item.name)
     bar.outline.set_visible(False)

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._extras import extra
-from .chart import Area, Bars, Chart, Heat, Item, Line, Panel, Points, Shade, Upright, colours
-from .chart import end_labels, root_ticks, signed_root
+from .chart import Area, Bars, Chart, Heat, Item, Label, Line, Panel, Points, Shade, Upright, colours
+from .chart import end_labels, is_at_the_top, root_ticks, signed_root
+
+SYMBOLS = {"disc": "circle", "ring": "circle-open", "square": "square", "cross": "x-thin-open"}
 
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure
@@ -49,7 +51,9 @@ def _laid_out(chart: Chart) -> Figure:
         row_heights=[panel.share for panel in panels],
         shared_xaxes=together,
         vertical_spacing=0.05 if together else 0.14,
-        subplot_titles=[panel.title for panel in panels] if any(p.title for p in panels) else None,
+        subplot_titles=[panel.title.replace("\n", "<br>") for panel in panels]
+        if any(panel.title for panel in panels)
+        else None,
     )
     for row, panel in enumerate(panels, start=1):
         _panel(figure, panel, {"row": row, "col": 1}, last=row == len(panels))
@@ -71,7 +75,7 @@ def _laid_out(chart: Chart) -> Figure:
         margin={
             "r": 190 if any(end_labels(panel, 0.0) for panel in panels) else 40,
             # Title, facts and the title of the panel, one above the other.
-            "t": 56 + 18 * len(chart.lines()) + 24 * bool(panels[0].title),
+            "t": 56 + 18 * len(chart.lines()) + 24 * len(panels[0].title.splitlines()),
         },
     )  # fmt: skip
     return figure
@@ -82,8 +86,13 @@ def _panel(figure: Figure, panel: Panel, at: dict[str, int], last: bool) -> None
         _add(figure, item, panel, at)
     for line, place in end_labels(panel, apart=0.08 / panel.share):
         figure.add_annotation(
-            x=float(line.x[-1]), y=place, text=line.end, font={"color": line.colour, "size": 12},
+            x=_at(line.x[-1], panel.x_log), y=_at(place, panel.y_log), text=line.end, font={"color": line.colour, "size": 12},
             showarrow=False, xanchor="left", xshift=6, **at,
+        )  # fmt: skip
+    for at_row, name in zip(panel.y_ticks, panel.y_names):
+        figure.add_annotation(
+            x=0.0, xref="x domain", y=at_row, text=f"<b>{name}</b>", showarrow=False, xanchor="left",
+            yanchor="bottom", font={"color": colours()["quiet"], "size": 12}, **at,
         )  # fmt: skip
     if panel.note:
         figure.add_annotation(
@@ -92,6 +101,11 @@ def _panel(figure: Figure, panel: Panel, at: dict[str, int], last: bool) -> None
             bgcolor=colours()["paper"], **at,
         )  # fmt: skip
     _axes(figure, panel, at, last)
+
+
+def _at(value: float, log: bool) -> float:
+    """Coordinate of an annotation, which is a logarithm on a logarithmic axis."""
+    return float(np.log10(value) if log else value)
 
 
 def _scaled(values: Any, panel: Panel) -> Any:
@@ -118,23 +132,14 @@ def _add(figure: Figure, item: Item, panel: Panel, at: dict[str, int]) -> None:
         dash = "dash" if item.dashed else "solid"
         figure.add_vline(item.x, line={"color": item.colour, "width": 1, "dash": dash}, **opaque)
     elif isinstance(item, Heat):
-        low, high = item.range or (None, None)
-        scale = [[k / (len(item.scale) - 1), colour] for k, colour in enumerate(item.scale)]
-        figure.add_trace(
-            go.Heatmap(
-                x=item.x, y=item.y, z=item.z, zmin=low, zmax=high, colorscale=scale,
-                # Labels at the ends of lines are between the axes and the bar.
-                colorbar={"title": item.name, "xpad": 70 if end_labels(panel, 0.0) else 10}, name=item.name,
-            ),
-            **at,
+        figure.add_trace(_cells(go, item, panel), **at)
+    elif isinstance(item, Label):
+        figure.add_annotation(
+            x=_at(item.x, panel.x_log), y=_at(item.y, panel.y_log), text=item.name, showarrow=False,
+            yshift=-11 if is_at_the_top(item, panel) else 11, font={"color": item.colour, "size": 12}, **at,
         )  # fmt: skip
     elif isinstance(item, Area):
-        height = np.maximum(item.high - item.low, 0.0)
-        columns = go.Bar(
-            x=item.x, y=height, base=item.low, width=np.gradient(item.x), name=item.name,
-            marker={"color": item.colour, "line": {"width": 0}},
-        )  # fmt: skip
-        figure.add_trace(columns, **at)
+        figure.add_trace(_area(go, item), **at)
     elif isinstance(item, Bars):
         centres, widths = (item.edges[:-1] + item.edges[1:]) / 2.0, np.diff(item.edges)
         bar = go.Bar(
@@ -145,6 +150,45 @@ def _add(figure: Figure, item: Item, panel: Panel, at: dict[str, int]) -> None:
         figure.add_trace(_curve(go, item, panel), **at)
 
 
+def _cells(go: Any, item: Heat, panel: Panel) -> Any:
+    low, high = item.range or (None, None)
+    colours = [*item.scale, *item.scale] if len(item.scale) == 1 else item.scale
+    scale = [[k / (len(colours) - 1), colour] for k, colour in enumerate(colours)]
+    # Labels at the ends of lines are between the axes and the bar.
+    bar = {"title": item.name, "xpad": 70 if end_labels(panel, 0.0) else 10}
+    z, said = item.z, {}
+    if item.log and low is not None and high is not None:
+        z = np.log10(np.maximum(item.z, low))
+        low, high = np.log10(low), np.log10(high)
+        decades = np.arange(np.ceil(low), np.floor(high) + 1)
+        bar |= {"tickvals": decades.tolist(), "ticktext": [f"{10.0**power:g}" for power in decades]}
+        said = {
+            "customdata": item.z,
+            "hovertemplate": "%{x:.4g}, %{y:.4g}<br>%{customdata:.3g}<extra>" + item.name + "</extra>",
+        }
+    if len(item.scale) == 1:
+        said = {"showscale": False, "hoverinfo": "name"}
+    return go.Heatmap(
+        x=item.x, y=item.y, z=z, zmin=low, zmax=high, colorscale=scale, colorbar=bar,
+        name=item.name, **said,
+    )  # fmt: skip
+
+
+def _area(go: Any, item: Area) -> Any:
+    if not item.stepped:
+        known = item.high >= item.low
+        x = np.concatenate([item.x[known], item.x[known][::-1]])
+        y = np.concatenate([item.low[known], item.high[known][::-1]])
+        return go.Scatter(
+            x=x, y=y, fill="toself", fillcolor=item.colour, mode="none", name=item.name,
+            hoverinfo="name",
+        )  # fmt: skip
+    middles, widths = item.columns()
+    return go.Bar(
+        x=middles, y=item.heights(), base=np.nan_to_num(item.low, nan=1.0), width=widths, name=item.name, marker={"color": item.colour, "line": {"width": 0}},
+    )  # fmt: skip
+
+
 def _curve(go: Any, item: Line | Points, panel: Panel) -> Any:
     said: dict[str, Any] = {"hoverinfo": "name"}
     if item.hover:
@@ -152,8 +196,7 @@ def _curve(go: Any, item: Line | Points, panel: Panel) -> Any:
         said = {"text": lines, "hovertemplate": "%{text}<extra></extra>"}
     shared = {"x": item.x, "y": _scaled(item.y, panel), "name": item.name, **said}
     if isinstance(item, Points):
-        symbol = "circle-open" if item.hollow else "circle"
-        marker = {"color": item.colour, "size": item.size, "symbol": symbol}
+        marker = {"color": item.colour, "size": item.size, "symbol": SYMBOLS[item.shape]}
         return go.Scatter(mode="markers", marker=marker, **shared)
     line = {"color": item.colour, "width": item.width, "dash": "dash" if item.dashed else "solid"}
     return go.Scatter(mode="lines", line=line, **shared)
@@ -161,9 +204,11 @@ def _curve(go: Any, item: Line | Points, panel: Panel) -> Any:
 
 def _axes(figure: Figure, panel: Panel, at: dict[str, int], last: bool) -> None:
     quiet = {"linecolor": colours()["quiet"], "tickcolor": colours()["quiet"]}
-    figure.update_xaxes(
-        range=panel.x_range, type="log" if panel.x_log else None, **at, **quiet
-    )
+    # The range of a logarithmic axis of plotly is given by logarithms.
+    ends = None if panel.x_range is None else [_at(end, panel.x_log) for end in panel.x_range]
+    figure.update_xaxes(range=ends, type="log" if panel.x_log else None, **at, **quiet)
+    if panel.x_names:
+        figure.update_xaxes(tickvals=list(panel.x_ticks), ticktext=list(panel.x_names), **at)
     if last or not panel.x_range:
         figure.update_xaxes(title_text=panel.x_name, **at)
     figure.update_yaxes(
@@ -177,11 +222,10 @@ def _axes(figure: Figure, panel: Panel, at: dict[str, int], last: bool) -> None:
         figure.update_yaxes(range=ends.tolist(), **at)
         if panel.equal:
             figure.update_yaxes(scaleanchor="x", **at)
+        if panel.y_names or not panel.y_name:
+            figure.update_yaxes(showticklabels=False, ticks="", **at)
         if panel.y_ticks:
             figure.update_yaxes(tickvals=list(panel.y_ticks), **at)
-        if panel.y_names:
-            places = list(range(1, len(panel.y_names) + 1))
-            figure.update_yaxes(tickvals=places, ticktext=list(panel.y_names), **at)
         if panel.y_root:
             ticks = root_ticks(low, high)
             figure.update_yaxes(

@@ -120,8 +120,9 @@ export class Painter {
   }
 
   points(items) {
-    for (const { x, y, colour, size, hollow } of items.filter(({ item }) => item === "points")) {
+    for (const { x, y, colour, size, shape } of items.filter(({ item }) => item === "points")) {
       this.#stroke(this.colours[colour], 0.2 * size);
+      const hollow = shape === "ring";
       this.context.fillStyle = this.colours[hollow ? "paper" : colour];
       x.forEach((at, i) => {
         this.context.beginPath();

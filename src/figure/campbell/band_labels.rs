@@ -2,7 +2,7 @@
 
 use super::super::bands::{NARROW, places};
 use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
-use super::super::chart_data::Band;
+use super::super::items::Band;
 use super::super::style::{HAIRLINE, LABEL_SIZE, MARGIN, PAPER};
 use super::speeds::operating_place;
 use super::{Chart, WIDTH};

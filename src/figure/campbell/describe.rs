@@ -1,10 +1,9 @@
 //! The contents of the Campbell diagram, as numbers.
 
-use super::super::chart_data::{
-    AxisData, Band, ChartData, Item, Line, PanelData, Points, Role, Upright, lines_by_look,
-};
+use super::super::chart_data::{AxisData, ChartData, PanelData};
+use super::super::items::{Band, Item, Line, Points, Role, Shape, Upright, lines_by_look};
 use super::super::palette::Hue;
-use super::super::style::{CURVE, HAIRLINE, STRONG_CURVE};
+use super::super::style::{CURVE, HAIRLINE, MEASURED_SIZE, STRONG_CURVE};
 use super::view::Shown;
 use super::waves::{Stretch, direction_at, look_of_segment};
 use super::{facts, growth};
@@ -18,7 +17,6 @@ const WINDOW_TINT: f64 = 0.35;
 const WINDOW_WIDTH: f64 = 7.0;
 const CRITICAL_SIZE: f64 = 7.0;
 const CROSSING_SIZE: f64 = 5.0;
-const MEASURED_SIZE: f64 = 6.0;
 /// Diameter of the dot of a branch that exists at a single speed.
 const DOT_SIZE: f64 = 4.0 * CURVE;
 
@@ -46,6 +44,7 @@ pub fn describe(report: &Report, shown: &Shown, said: bool) -> ChartData {
         )
     };
     ChartData {
+        columns: 1,
         key: Vec::new(),
         title: report.scene.name.clone(),
         facts: facts(report)
@@ -220,7 +219,7 @@ fn excitation(report: &Report, shown: &Shown) -> Vec<Item> {
     });
     let at = crossings.iter().map(|c| [c.rpm, c.frequency_hz]);
     let rings = Points {
-        hollow: true,
+        shape: Shape::Ring,
         said: said.collect(),
         ..Points::new(at, Hue::Quiet, CROSSING_SIZE, "crossing")
     };
@@ -236,7 +235,7 @@ fn measured(report: &Report, said: bool) -> Option<Item> {
         format!("{}\n{rpm:.0} rpm\n{} Hz", measured.source, shown_to(6, *hz))
     };
     Some(Item::Points(Points {
-        hollow: true,
+        shape: Shape::Ring,
         said: points.iter().filter(|_| said).map(words).collect(),
         ..Points::new(points, Hue::Ink, MEASURED_SIZE, &measured.source)
     }))

@@ -1,7 +1,7 @@
 //! Names of the lines at multiples of the rotation speed.
 
 use super::super::canvas::{Anchor, Lettering, Sheet, text_frame};
-use super::super::chart_data::Line;
+use super::super::items::Line;
 use super::super::style::{INK, LABEL_SIZE};
 use super::Chart;
 

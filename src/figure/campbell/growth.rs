@@ -2,7 +2,8 @@
 
 use super::super::axis::{Axis, Spread};
 use super::super::canvas::{Anchor, Lettering, Sheet, Stroke};
-use super::super::chart_data::{AxisData, Item, Line, PanelData, Points, lines_by_look};
+use super::super::chart_data::{AxisData, PanelData};
+use super::super::items::{Item, Line, Points, lines_by_look};
 use super::super::meeting::Coalescence;
 use super::super::paint::Ground;
 use super::super::palette::Hue;

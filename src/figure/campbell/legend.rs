@@ -1,7 +1,7 @@
 //! The lines below the figure that explain colours and styles, and state which contents have no label.
 
 use super::super::canvas::{Anchor, Lettering, Sheet, Stroke};
-use super::super::chart_data::Line;
+use super::super::items::Line;
 use super::super::key::Key;
 use super::super::paint::stroke;
 use super::super::palette::Hue;

@@ -2,8 +2,8 @@
 
 use super::super::bands::places;
 use super::super::canvas::{Anchor, Frame, Lettering, Mark, Sheet, Stroke, text_frame};
-use super::super::chart_data::{Role, Upright};
 use super::super::declutter::{Cluster, join_close};
+use super::super::items::{Role, Upright};
 use super::super::style::{
     FINE_DASH, HAIRLINE, INK, LABEL_SIZE, MARGIN, PAPER, QUIET, label_width,
 };

@@ -3,29 +3,25 @@
 mod over_numbers;
 mod over_speed;
 
-use super::canvas::{Frame, Sheet};
-use super::style::BETWEEN_FACTS;
+use super::chart_data::ChartData;
 use crate::analyses::map::MapReport;
 
-const WIDTH: u32 = 1100;
-const HEIGHT: u32 = 780;
-const PANEL: Frame = Frame {
-    left: 104.0,
-    top: 96.0,
-    right: 1064.0,
-    bottom: 650.0,
-};
-/// Baselines of the two lines of the key.
-const KEYS: [f64; 2] = [734.0, 758.0];
+/// Height of the panel, relative to one of usual height.
+const SHARE: f64 = 1.45;
 
-pub fn sheet(report: &MapReport) -> Sheet {
-    match &report.y {
-        Some(y) => over_numbers::sheet(report, y),
-        None => over_speed::sheet(report),
+/// The areas, as numbers.
+pub fn chart(report: &MapReport) -> ChartData {
+    let (panel, key) = match &report.y {
+        Some(y) => (over_numbers::panel(report, y), over_numbers::key(report)),
+        None => (over_speed::panel(report), over_speed::key(report)),
+    };
+    ChartData {
+        key,
+        ..ChartData::new(&report.scene.name, facts(report), vec![panel])
     }
 }
 
-fn facts(report: &MapReport) -> String {
+fn facts(report: &MapReport) -> Vec<String> {
     let count = report.saws.len();
     let judged = report.rpm.map(|rpm| format!("areas at {rpm:.0} rpm"));
     let judged = judged.filter(|_| report.y.is_some());
@@ -45,11 +41,7 @@ fn facts(report: &MapReport) -> String {
         Some(threshold),
         lost,
     ];
-    facts
-        .into_iter()
-        .flatten()
-        .collect::<Vec<_>>()
-        .join(BETWEEN_FACTS)
+    facts.into_iter().flatten().collect()
 }
 
 #[cfg(test)]

@@ -1,16 +1,12 @@
 //! Bands as areas over a number and the speed.
 
-use super::{HEIGHT, KEYS, PANEL, WIDTH, facts};
+use super::SHARE;
 use crate::analyses::map::{MapReport, MappedSaw};
 use crate::figure::along::Along;
-use crate::figure::axis::{Axis, SPEED, draw_named, draw_vertical};
-use crate::figure::canvas::{Anchor, Lettering, Sheet, Stroke};
-use crate::figure::heading;
-use crate::figure::key::Key;
-use crate::figure::style::{
-    ALARM, BLANK, CURVE, Colour, DIVERGENCE_STREAK, FINE_DASH, FLUTTER_STREAK, FORWARD, HAIRLINE,
-    INK, LABEL_SIZE, QUIET, tint,
-};
+use crate::figure::chart_data::{AxisData, PanelData};
+use crate::figure::items::{self, Item, Line, Points, Role, Upright};
+use crate::figure::palette::Hue;
+use crate::figure::style::CURVE;
 use crate::stability::InstabilityKind;
 
 /// Areas of two neighbouring saws are not joined if they are further apart than this share of the sweep, after their speeds
@@ -20,10 +16,19 @@ const JOINED: f64 = 0.02;
 const JUMP: f64 = 0.08;
 /// A band below the threshold that is wider than this share of the sweep is caused by damping and is not drawn.
 const WIDEST_WEAK: f64 = 0.03;
-const THINNEST: f64 = 1.5;
+const DOT_SIZE: f64 = 4.0;
+const NOT_ANALYSED: &str = "not analysed";
 
 /// A function that returns a speed of a saw in rpm; `None` if the saw has no such speed in the sweep.
 type Speed = fn(&MappedSaw) -> Option<f64>;
+
+/// The speeds that are drawn as curves.
+const SPEEDS: [(Hue, &str, Speed); 2] = [
+    (Hue::Forward, "lowest critical speed", |saw| {
+        saw.lowest_critical_rpm
+    }),
+    (Hue::Alarm, "flutter speed", |saw| saw.flutter_speed_rpm),
+];
 
 /// A band of a saw, or a part of one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,34 +51,50 @@ impl Look {
     /// Kinds in drawing order.
     const ALL: [Look; 3] = [Look::Weak, Look::Flutter, Look::Divergence];
 
-    fn colour(self) -> Colour {
+    /// Colour and its share, and name.
+    fn described(self) -> (Hue, f64, &'static str) {
         match self {
-            Look::Divergence => tint(DIVERGENCE_STREAK, 0.8),
-            Look::Flutter => tint(FLUTTER_STREAK, 0.9),
-            Look::Weak => tint(FLUTTER_STREAK, 0.4),
+            Look::Divergence => (Hue::DivergenceStreak, 0.8, "divergence"),
+            Look::Flutter => (Hue::FlutterStreak, 0.9, "flutter"),
+            Look::Weak => (
+                Hue::FlutterStreak,
+                0.4,
+                "flutter below the threshold, unless the band is wide",
+            ),
         }
+    }
+
+    /// An area of columns with an abscissa, a lower and an upper end.
+    fn area(self, columns: Vec<[f64; 3]>) -> Item {
+        let (hue, tint, name) = self.described();
+        Item::Area(items::Area {
+            tint,
+            stepped: false,
+            ..items::Area::new(columns, hue, name)
+        })
     }
 }
 
-pub fn sheet(report: &MapReport) -> Sheet {
-    let mut sheet = Sheet::new(WIDTH, HEIGHT);
-    heading::draw(&mut sheet, &report.scene.name, &facts(report));
-    let x = Along::between(&report.x.path, &report.x.values, PANEL.across());
-    let speed = Axis::linear([0.0, report.to_rpm], PANEL.upwards());
-    draw_blank(&mut sheet, report, &x);
-    draw_vertical(&mut sheet, &speed, &PANEL, SPEED);
-    draw_areas(&mut sheet, report, &x, &speed);
-    let speeds: [(Colour, Speed); 2] = [
-        (FORWARD, |saw| saw.lowest_critical_rpm),
-        (ALARM, |saw| saw.flutter_speed_rpm),
-    ];
-    for (colour, of) in speeds {
-        draw_curve(&mut sheet, report, (&x, &speed), colour, of);
+/// Areas of the bands, and curves of the critical and flutter speeds.
+pub fn panel(report: &MapReport) -> PanelData {
+    let along = Along::between(&report.x.path, &report.x.values);
+    let mut all = vec![Item::Area(not_analysed(report, &along))];
+    for look in Look::ALL {
+        let chains = chains(report, &along, look).into_iter();
+        all.extend(chains.map(|columns| look.area(columns)));
     }
-    draw_marks(&mut sheet, report, &x, &speed);
-    draw_named(&mut sheet, &x.axis, PANEL.bottom, &x.name);
-    draw_key(&mut sheet, report);
-    sheet
+    for (hue, name, of) in SPEEDS {
+        all.extend(curve(report, &along, (hue, name), of));
+    }
+    all.extend(marks(report, &along));
+    PanelData {
+        share: SHARE,
+        ..PanelData::new(
+            along.axis,
+            AxisData::speed().within([0.0, report.to_rpm]),
+            all,
+        )
+    }
 }
 
 /// The areas of a saw in a sweep up to `to_rpm`.
@@ -131,135 +152,115 @@ fn pairs(left: &[Area], right: &[Area], scale: f64, farthest: f64) -> Vec<(usize
     pairs
 }
 
-fn draw_areas(sheet: &mut Sheet, report: &MapReport, x: &Along, speed: &Axis) {
-    let columns: Vec<Vec<Area>> = report
-        .saws
-        .iter()
-        .map(|saw| areas(saw, report.to_rpm))
-        .collect();
-    let at = |k: usize| x.at(report.saws[k].x);
-    for look in Look::ALL {
-        let of = |k: usize| -> Vec<Area> {
-            let all = columns[k].iter().copied();
-            all.filter(|area| area.look == look).collect()
-        };
-        for k in 1..columns.len() {
-            let (left, right) = (of(k - 1), of(k));
-            let critical = [k - 1, k].map(|k| report.saws[k].lowest_critical_rpm);
-            let scale = match critical {
+/// The areas of a kind, each as columns with an abscissa, a lower and an upper end. Areas of neighbouring saws that belong
+/// together are one; an area without a partner ends half way to the neighbour.
+fn chains(report: &MapReport, along: &Along, look: Look) -> Vec<Vec<[f64; 3]>> {
+    let of = |saw: &MappedSaw| -> Vec<Area> {
+        let all = areas(saw, report.to_rpm).into_iter();
+        all.filter(|area| area.look == look).collect()
+    };
+    let column = |x: f64, area: &Area| [x, area.rpm[0], area.rpm[1]];
+    let (mut done, mut open): (Vec<Vec<[f64; 3]>>, Vec<Vec<[f64; 3]>>) = Default::default();
+    let mut before: Option<(&MappedSaw, Vec<Area>)> = None;
+    for saw in &report.saws {
+        let (x, own) = (along.at(saw.x), of(saw));
+        let mut next: Vec<Vec<[f64; 3]>> = Vec::new();
+        if let Some((left, others)) = &before {
+            let scale = match [left, saw].map(|saw| saw.lowest_critical_rpm) {
                 [Some(left), Some(right)] => right / left,
                 _ => 1.0,
             };
-            let pairs = pairs(&left, &right, scale, JOINED * report.to_rpm);
-            let ends = [at(k - 1), at(k)];
-            let middle = 0.5 * (ends[0] + ends[1]);
-            for (i, j) in &pairs {
-                draw_area(sheet, speed, (ends, [left[*i], right[*j]]));
+            let middle = along.half_way(left.x, saw.x);
+            let pairs = pairs(others, &own, scale, JOINED * report.to_rpm);
+            for (j, area) in own.iter().enumerate() {
+                let partner = pairs.iter().find(|(_, right)| *right == j);
+                let mut chain = match partner {
+                    Some((left, _)) => std::mem::take(&mut open[*left]),
+                    None => vec![column(middle, area)],
+                };
+                chain.push(column(x, area));
+                next.push(chain);
             }
-            for (i, area) in left.iter().enumerate() {
-                if pairs.iter().all(|(own, _)| *own != i) {
-                    draw_area(sheet, speed, ([ends[0], middle], [*area; 2]));
-                }
+            let ended = open.into_iter().zip(others);
+            for (mut chain, area) in ended.filter(|(chain, _)| !chain.is_empty()) {
+                chain.push(column(middle, area));
+                done.push(chain);
             }
-            for (j, area) in right.iter().enumerate() {
-                if pairs.iter().all(|(_, own)| *own != j) {
-                    draw_area(sheet, speed, ([middle, ends[1]], [*area; 2]));
-                }
-            }
+        } else {
+            next = own.iter().map(|area| vec![column(x, area)]).collect();
         }
+        (open, before) = (next, Some((saw, own)));
     }
+    done.extend(open);
+    done
 }
 
-/// Draws an area between two abscissae, from its range of speeds at the left one to that at the right one.
-fn draw_area(sheet: &mut Sheet, speed: &Axis, ([left, right], areas): ([f64; 2], [Area; 2])) {
-    let colour = areas[0].look.colour();
-    let [a, b] = areas.map(|area| area.rpm.map(|rpm| speed.at(rpm)));
-    let corners = [[left, a[0]], [left, a[1]], [right, b[1]], [right, b[0]]];
-    sheet.polygon(corners, colour);
-    let height = 0.5 * ((a[0] - a[1]) + (b[0] - b[1]));
-    if height < THINNEST {
-        let middle = [[left, 0.5 * (a[0] + a[1])], [right, 0.5 * (b[0] + b[1])]];
-        sheet.line(middle, Stroke::solid(colour, THINNEST));
-    }
-}
-
-fn draw_curve(
-    sheet: &mut Sheet,
-    report: &MapReport,
-    (x, speed): (&Along, &Axis),
-    colour: Colour,
-    of: Speed,
-) {
-    let stroke = Stroke::solid(colour, CURVE);
-    let shown = |saw: &MappedSaw| of(saw).filter(|rpm| speed.shows(*rpm));
-    for pair in report.saws.windows(2) {
-        if let [Some(a), Some(b)] = [&pair[0], &pair[1]].map(shown)
-            && (a - b).abs() <= JUMP * report.to_rpm
-        {
-            let ends = [
-                [x.at(pair[0].x), speed.at(a)],
-                [x.at(pair[1].x), speed.at(b)],
-            ];
-            sheet.line(ends, stroke);
+/// Dots at a speed of each saw, joined where neighbours differ little.
+fn curve(report: &MapReport, along: &Along, (hue, name): (Hue, &str), of: Speed) -> [Item; 2] {
+    let points = report.saws.iter().map(|saw| {
+        let rpm = of(saw).filter(|rpm| *rpm <= report.to_rpm);
+        [along.at(saw.x), rpm.unwrap_or(f64::NAN)]
+    });
+    let mut line: Vec<[f64; 2]> = Vec::new();
+    for point in points.clone() {
+        let last = line.last().map(|last| (last[1] - point[1]).abs());
+        if last.is_some_and(|step| step > JUMP * report.to_rpm) {
+            line.push([f64::NAN; 2]);
         }
+        line.push(point);
     }
-    for saw in &report.saws {
-        if let Some(rpm) = shown(saw) {
-            sheet.disc([x.at(saw.x), speed.at(rpm)], 2.0, colour);
-        }
-    }
+    [
+        Item::Line(Line::new(line, hue, name)),
+        Item::Points(Points::new(points, hue, DOT_SIZE, name)),
+    ]
 }
 
-/// Shades the columns of saws that were not analysed.
-fn draw_blank(sheet: &mut Sheet, report: &MapReport, x: &Along) {
-    let places: Vec<f64> = report.saws.iter().map(|saw| x.at(saw.x)).collect();
-    for (k, saw) in report.saws.iter().enumerate() {
-        if saw.not_analysed.is_some() {
-            let beside = |other: Option<&f64>| other.map_or(places[k], |at| 0.5 * (at + places[k]));
-            let left = beside(k.checked_sub(1).and_then(|k| places.get(k)));
-            let right = beside(places.get(k + 1));
-            sheet.fill(PANEL.between([left, right.max(left + 1.0)]), BLANK);
-        }
-    }
+/// The columns of saws that were not analysed.
+fn not_analysed(report: &MapReport, along: &Along) -> items::Area {
+    let columns = report.saws.iter().map(|saw| match saw.not_analysed {
+        Some(_) => [along.at(saw.x), 0.0, report.to_rpm],
+        None => [along.at(saw.x), f64::NAN, f64::NAN],
+    });
+    items::Area::new(columns, Hue::Blank, NOT_ANALYSED)
 }
 
-/// Draws lines at the number of the scene and at the speed at which the saws are judged.
-fn draw_marks(sheet: &mut Sheet, report: &MapReport, x: &Along, speed: &Axis) {
-    let dashed = Stroke::dashed(INK, HAIRLINE, FINE_DASH);
-    if x.shows(report.x.of_scene) {
-        sheet.vertical(x.at(report.x.of_scene), &PANEL, dashed);
-    }
-    if let Some(rpm) = report.rpm.filter(|rpm| speed.shows(*rpm)) {
-        let y = speed.at(rpm);
-        sheet.horizontal(y, &PANEL, dashed);
-        let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::End);
-        let at = [PANEL.right - 6.0, y - 6.0];
-        sheet.text_on_paper(at, letters, &format!("{rpm:.0} rpm"));
-    }
+/// A line at the number of the scene, for the key too.
+fn of_scene(x: f64) -> Item {
+    Item::Upright(Upright {
+        x,
+        role: Role::Guide,
+        colour: Hue::Ink,
+        dashed: true,
+        label: String::new(),
+        name: "the scene".to_owned(),
+    })
 }
 
-fn draw_key(sheet: &mut Sheet, report: &MapReport) {
-    let dashed = Stroke::dashed(INK, HAIRLINE, FINE_DASH);
-    Key::new(sheet, PANEL.left, KEYS[0])
-        .shade(Look::Divergence.colour())
-        .word("divergence")
-        .shade(Look::Flutter.colour())
-        .word("flutter")
-        .shade(Look::Weak.colour())
-        .word("flutter below the threshold, unless the band is wide");
-    let mut key = Key::new(sheet, PANEL.left, KEYS[1]);
-    key.line(24.0, Stroke::solid(FORWARD, CURVE))
-        .word("lowest critical speed")
-        .line(24.0, Stroke::solid(ALARM, CURVE))
-        .word("flutter speed")
-        .line(24.0, dashed)
-        .word("the scene");
-    if report.saws.iter().any(|saw| saw.not_analysed.is_some()) {
-        key.shade(BLANK).word("not analysed");
-    }
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
-    let note = "areas are joined between saws that are next to each other";
-    sheet.text([PANEL.right, KEYS[1]], letters, note);
+/// Lines at the number of the scene and at the speed at which the saws are judged.
+fn marks(report: &MapReport, along: &Along) -> Vec<Item> {
+    let ends = along.axis.range.unwrap_or([0.0, 1.0]);
+    let judged = report.rpm.map(|rpm| {
+        let label = format!("{rpm:.0} rpm");
+        Item::Line(Line {
+            label: label.clone(),
+            ..Line::guide(ends.map(|x| [x, rpm]), Hue::Ink, &label)
+        })
+    });
+    let scene = of_scene(along.at(report.x.of_scene));
+    [scene].into_iter().chain(judged).collect()
+}
+
+/// Samples of the areas, the curves and the number of the scene.
+pub fn key(report: &MapReport) -> Vec<Item> {
+    let looks = Look::ALL.iter().rev().map(|look| look.area(Vec::new()));
+    let curves = SPEEDS.map(|(hue, name, _)| Item::line_sample(CURVE, false, hue, name));
+    let is_blank = report.saws.iter().any(|saw| saw.not_analysed.is_some());
+    let blank = is_blank.then(|| Item::area_sample(Hue::Blank, NOT_ANALYSED));
+    looks
+        .chain(curves)
+        .chain([of_scene(0.0)])
+        .chain(blank)
+        .collect()
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 use super::*;
 use crate::analyses::map::{Map, MappedSaw, Options, Range};
 use crate::analyses::study::{Found, Outcome, Saw};
+use crate::figure::layout::sheet;
 use crate::figure::tidy::{assert_tidy, texts};
 use crate::report::InstabilityBand;
 use crate::scene::Scene;
@@ -59,7 +60,7 @@ fn report(with_y: bool) -> MapReport {
 fn nothing_is_cut_off_and_the_key_names_what_is_drawn() {
     for with_y in [false, true] {
         let report = report(with_y);
-        let sheet = sheet(&report);
+        let sheet = sheet(&chart(&report));
         assert_tidy(&sheet);
         let all: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
         assert!(all.iter().any(|text| text.contains("[mm]")), "{all:?}");
@@ -75,5 +76,5 @@ fn nothing_is_cut_off_and_the_key_names_what_is_drawn() {
             .collect(),
         ..report(true)
     };
-    assert_tidy(&sheet(&without));
+    assert_tidy(&sheet(&chart(&without)));
 }
