@@ -18,7 +18,7 @@ pub fn pasted<T>(scene: &Scene, needed: Result<T, RefusedValue>) -> anyhow::Resu
         };
         // The block is printed separately, because the message of an error has only one line.
         eprintln!(
-            "{block}\n\nPaste this behind the first brace of {place}, with your own numbers.\n"
+            "{block}\n\nInsert this after the opening brace of {place}, with your own numbers.\n"
         );
         refused.into()
     })

@@ -50,7 +50,7 @@ fn table(text: &mut String, saw: &str, settings: &[Setting]) -> std::fmt::Result
     writeln!(text, "{saw}")?;
     writeln!(
         text,
-        "True error of critical speeds and onsets (* best at its price)\n"
+        "True error of critical speeds and onsets (* fastest for its error)\n"
     )?;
     writeln!(
         text,

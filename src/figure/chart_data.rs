@@ -91,7 +91,7 @@ pub struct AxisData {
     pub spread: Spread,
     /// Values with a tick; empty if they follow from the range.
     pub ticks: Vec<f64>,
-    /// Names of these values, which are written in the place of numbers; empty if numbers are written. A vertical axis has
+    /// Names of these values, which are written in place of numbers; empty if numbers are written. A vertical axis has
     /// the first name at the top.
     pub names: Vec<String>,
 }

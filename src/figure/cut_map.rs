@@ -58,7 +58,7 @@ fn load(run: &CutAtSpeed) -> AxisData {
 
 fn forces(run: &CutAtSpeed) -> Vec<String> {
     vec![format!(
-        "{:.0} N against and {:.0} N inwards a tooth at load 1",
+        "per tooth at load 1: {:.0} N tangential, {:.0} N radial",
         run.tangential_n_per_tooth, run.radial_n_per_tooth
     )]
 }

@@ -11,7 +11,7 @@ const HEAD: f64 = 1.4;
 /// Width of the edge of a ring relative to its diameter.
 const EDGE: f64 = 0.2;
 
-/// Number of points of a curve for each figure unit from which on it is drawn by its extremes in each unit.
+/// Number of points of a curve for each figure unit above which it is drawn by its extremes in each unit.
 const DENSE: f64 = 4.0;
 
 /// The lowest and the highest point of a curve in each column of a figure unit, in the order of the curve: many points with

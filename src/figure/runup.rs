@@ -55,7 +55,7 @@ pub fn chart(report: &RunUpReport) -> ChartData {
     }
 }
 
-/// The line of the speed from which on the linear model is not valid.
+/// The line of the speed above which the linear model is not valid.
 fn end_of_model(rpm: f64) -> Item {
     Item::Upright(Upright {
         x: rpm,

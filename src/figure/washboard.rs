@@ -102,7 +102,7 @@ fn boundary(report: &WashboardReport, [least, _]: [f64; 2]) -> Line {
     }
 }
 
-/// The stiffness from which on it is not known whether a motion grows, at speeds where this is below the boundary.
+/// The stiffness above which it is not known whether a motion grows, at speeds where this is below the boundary.
 fn unknown_from(report: &WashboardReport, [least, _]: [f64; 2]) -> Line {
     let lobes = &report.lobes;
     let points = lobes.rpm.iter().enumerate().map(|(k, rpm)| {

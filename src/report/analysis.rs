@@ -50,7 +50,7 @@ pub struct Report {
     pub flutter_speed_rpm: Option<f64>,
     /// Onset of the first flutter band, including weak ones.
     pub first_merge_rpm: Option<f64>,
-    /// Growth rate from which on a band counts as flutter.
+    /// Growth rate above which a band counts as flutter.
     pub flutter_threshold_per_s: f64,
     /// The forces of the cut in the diagram, and the idling saw, if the scene requests it.
     #[serde(default)]

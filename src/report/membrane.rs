@@ -110,7 +110,7 @@ pub struct ToleratedHeat {
     pub past_critical_when_cold: bool,
     /// Peak at which the blade buckles at rest; null if no peak of this profile causes buckling.
     pub buckling: Option<ToleratedRise>,
-    /// Peak from which on the blade is flat, if roll tension buckles it when cold.
+    /// Peak above which the blade is flat, if roll tension buckles it when cold.
     pub flat_from: Option<ToleratedRise>,
     /// Whether the blade buckles at rest at a smaller peak than that at which its critical speed equals the
     /// operating speed.

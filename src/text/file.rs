@@ -96,7 +96,7 @@ pub fn read_stream(stream: impl Read, path: &Path, kind: Kind) -> Result<String,
     decode(&bytes, kind.other_encodings).map_err(|kind| FileError::NotText { path, kind })
 }
 
-/// First bytes and descriptions of files that users give in the place of tables or scenes.
+/// First bytes and descriptions of files that users give in place of tables or scenes.
 const FOREIGN: [(&[u8], &str); 6] = [
     (
         b"PK\x03\x04",

@@ -46,7 +46,7 @@ const LAST: f64 = 1e-9;
 const CLOSEST: f64 = 1e-13;
 /// Share of a correction that is applied even if the residual does not fall, which rounding may prevent.
 const SHORTEST: f64 = 0.01;
-/// Ratio of a correction to the preceding one from which on Newton's method replaces the fixed matrix.
+/// Ratio of a correction to the preceding one above which Newton's method replaces the fixed matrix.
 const QUICK: f64 = 0.3;
 
 impl<'a> Newmark<'a> {

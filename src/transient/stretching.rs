@@ -159,7 +159,7 @@ mod tests {
         assert!(change.abs() < 1e-10, "{change:e}");
     }
 
-    /// The built-in saw with point pads in the place of its own.
+    /// The built-in saw with point pads in place of its own.
     fn on_points(change: impl FnOnce(&mut GuideFile)) -> Plate {
         let scene = Scene::paper().edited(|saw| {
             saw.cut = None;

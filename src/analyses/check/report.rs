@@ -38,7 +38,7 @@ pub struct CheckReport {
     pub critical_speeds_rpm: Vec<f64>,
     /// Every band of instability within the sweep.
     pub instabilities: Vec<InstabilityBand>,
-    /// Growth rate from which on a band counts.
+    /// Growth rate above which a band counts.
     pub flutter_threshold_per_s: f64,
     /// Lateral stiffness of a point of the rim at the middle of the cut, at rest.
     pub rim_stiffness_at_rest_n_per_m: f64,
@@ -83,7 +83,7 @@ pub struct Criterion {
     pub name: String,
     /// Result in words.
     pub finding: String,
-    /// Speed that was found: the critical or flutter speed itself, or the speed from which on another limit is
+    /// Speed that was found: the critical or flutter speed itself, or the speed above which another limit is
     /// exceeded; null if it exceeds the sweep.
     pub found_rpm: Option<f64>,
     /// Speed with which the found one is compared.
@@ -111,6 +111,6 @@ impl CheckReport {
             Some(stiffness) => format!("{:.1} N/mm at the operating speed", 1e-3 * stiffness),
             None => "none above the first critical speed".to_owned(),
         };
-        format!("rim stiffness at a point {at_rest:.1} N/mm at rest, {operating}")
+        format!("stiffness of the rim at the cut: {at_rest:.1} N/mm at rest, {operating}")
     }
 }

@@ -27,7 +27,7 @@ pub struct CutReport {
     pub unusual_numbers: Vec<String>,
     /// Size of the basis.
     pub degrees_of_freedom: usize,
-    /// Growth rate from which on a cut is called unstable.
+    /// Growth rate above which a cut is called unstable.
     pub flutter_threshold_per_s: f64,
     /// Largest deflection that is given; beyond it the linear model is not valid.
     pub linear_limit_m: f64,

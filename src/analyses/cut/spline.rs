@@ -43,7 +43,7 @@ pub struct SplineOrbit {
     pub imbalance: f64,
     /// Measure of how far the motion is from being settled.
     pub unsteadiness: f64,
-    /// Index in the reported orbit from which on the reaction was averaged.
+    /// Index in the reported orbit above which the reaction was averaged.
     pub settled_from: usize,
     /// Times of the orbit.
     pub time_s: Vec<f64>,

@@ -73,7 +73,7 @@ pub struct SlowSweep {
     pub arcs: Vec<Arc>,
     /// Jumps at the ends of all arcs but the last.
     pub jumps: Vec<Jump>,
-    /// Speed from which on slopes of the blade exceed 0.1, where the model is not valid; there are no results
+    /// Speed above which slopes of the blade exceed 0.1, where the model is not valid; there are no results
     /// beyond it. Null if they do not.
     pub valid_until_rpm: Option<f64>,
     /// Speed at which the sweep stopped at its largest number of equilibria; there are no results beyond it. Null if it

@@ -195,7 +195,7 @@ impl BasisError {
     pub(super) fn warning(self) -> Option<String> {
         (self.share > LARGE_ERROR).then(|| {
             format!(
-                "the deflections at the cut are not converged: with {} modes at rest in the place of {}, that at {} of the gap under {} N changes by {} %",
+                "the deflections at the cut are not converged: with {} modes at rest in place of {}, that at {} of the gap under {} N changes by {} %",
                 self.more_modes,
                 self.modes,
                 shown_to(3, self.gap_factor),

@@ -29,7 +29,7 @@ pub struct MapReport {
     pub rpm: Option<f64>,
     /// Last speed of the sweep, the same for every saw; flutter beyond it is unknown.
     pub to_rpm: f64,
-    /// Growth rate from which on a band counts as flutter.
+    /// Growth rate above which a band counts as flutter.
     pub flutter_threshold_per_s: f64,
     /// The saws, row by row: x varies fastest.
     pub saws: Vec<MappedSaw>,

@@ -49,7 +49,7 @@ impl Rated {
 
 /// A saw that loses more than this share of its goal within its tolerances is fragile.
 const FRAGILE: f64 = 0.05;
-/// Share of the threshold from which on the growth of a band is close to it.
+/// Share of the threshold above which the growth of a band is close to it.
 const NEAR: f64 = 0.5;
 /// Largest number of free numbers for which the corners of the tolerances are computed; with more they are too many.
 const MAX_CORNERS: usize = 4;

@@ -45,7 +45,7 @@ pub struct PlaceReport {
     pub from_rpm: f64,
     /// Last speed of the sweep; flutter beyond it is unknown.
     pub to_rpm: f64,
-    /// Growth rate from which on a band counts as flutter.
+    /// Growth rate above which a band counts as flutter.
     pub flutter_threshold_per_s: f64,
     /// Free numbers and their best values.
     pub parameters: Vec<PlacedParameter>,

@@ -88,7 +88,7 @@ pub struct RunUpStretching {
     pub shapes: usize,
     /// Largest slope of the blade.
     pub largest_slope: f64,
-    /// Speed from which on slopes exceed 0.1 and the record ends; null if they do not.
+    /// Speed above which slopes exceed 0.1 and the record ends; null if they do not.
     pub valid_until_rpm: Option<f64>,
     /// Speeds of the spectrum.
     pub rpm: Vec<f64>,

@@ -129,7 +129,7 @@ impl std::fmt::Display for ParameterFile {
                 let about = mean.map_or(String::new(), |mean| format!("about {mean}, "));
                 write!(
                     formatter,
-                    "normal, {about}σ {standard_deviation}, cut at {truncated_at_deviations} σ"
+                    "normal, {about}σ = {standard_deviation}, truncated at ± {truncated_at_deviations} σ"
                 )
             }
             DistributionFile::Grid { values } => write!(formatter, "at {} values", values.len()),

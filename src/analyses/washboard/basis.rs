@@ -150,7 +150,7 @@ fn withstood_n_per_m(plate: &Plate, omega: f64, fed: f64) -> f64 {
     }
 }
 
-/// Frequency up to which all modes are needed: above tooth passing, and up to the frequency from which on damping
+/// Frequency up to which all modes are needed: above tooth passing, and up to the frequency above which damping
 /// alone prevents growth.
 fn needed(
     plate: &Plate,
