@@ -95,6 +95,12 @@ pub trait CommandReport {
     /// Draws the figures for which this report has data.
     fn figures(&self) -> Vec<Figure>;
 
+    /// Whether a designer does not need a figure of this report: the program draws it only with --details. `name` is its
+    /// file name without extension.
+    fn is_detail(&self, _name: &str) -> bool {
+        false
+    }
+
     /// Returns the contents of a figure as numbers, for other programs that draw it; `name` is its file name without
     /// extension. `None` if the figure has no such description or the report has no data for it.
     fn chart(&self, name: &str) -> Option<ChartData>;
@@ -138,6 +144,7 @@ macro_rules! commands {
         outline: $outline:expr,
         figures: [$($name:literal => $sheet:expr),* $(,)?],
         $(charts: [$($described:literal => $chart:expr),*],)?
+        $(is_detail: $is_detail:expr,)?
     })*) => {
         /// Every command with a report.
         pub const COMMANDS: &[Command] = &[$($report::COMMAND),*];
@@ -179,6 +186,10 @@ macro_rules! commands {
                 Figure::named(Self::COMMAND.figures, [$(Drawing::from(($sheet)(self))),*])
             }
 
+            $(fn is_detail(&self, name: &str) -> bool {
+                ($is_detail)(self, name)
+            })?
+
             fn chart(&self, name: &str) -> Option<ChartData> {
                 $($(if name == $described {
                     return ($chart)(self).into();
@@ -207,6 +218,7 @@ commands! {
             "campbell" => |report| campbell::chart(report, true),
             "root-loci" => root_loci::chart
         ],
+        is_detail: |_, name| name == "root-loci",
     }
     "check", "check.json", CheckReport {
         outline: analyses::check::outline,
@@ -223,6 +235,7 @@ commands! {
             "cut-map" => cut_map::chart,
             "spline-orbit" => spline_orbit::sheet,
         ],
+        is_detail: |report: &CutReport, name| name == "cut-map" && report.is_stable(),
     }
     "deflect", "deflect.json", DeflectReport {
         outline: analyses::deflect::outline,

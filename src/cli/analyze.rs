@@ -231,7 +231,9 @@ fn files(arguments: &Arguments, report: &Report) -> anyhow::Result<(Vec<NamedFil
     let json = serde_json::to_string_pretty(report)?;
     let sweep = [report.campbell.from_rpm, report.campbell.to_rpm];
     let view = arguments.drawn.view(sweep)?;
-    let mut files = pictures::files(&report.figures_within(view))?;
+    let details = arguments.output.details;
+    let figures = pictures::shown(report, report.figures_within(view), details);
+    let mut files = pictures::files(&figures)?;
     files.push(("campbell.csv", report.campbell_csv()?));
     if arguments.vtk {
         let vtk = report.vtk_files().into_iter();

@@ -79,7 +79,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     arguments.page.write(&report)?;
     let json = serde_json::to_string_pretty(&report)?;
     if let Some(folder) = folder {
-        let mut files = drawn(&report)?;
+        let mut files = drawn(&report, true)?;
         files.push((CheckReport::COMMAND.file, json.clone().into_bytes()));
         folder.write_together(&files, &[])?;
     }

@@ -62,9 +62,9 @@ pub struct Output {
     /// Print the report as JSON instead of the summary
     #[arg(long)]
     pub json: bool,
-    /// Print certificates, backward errors and the basis, too
+    /// Print certificates, backward errors and the basis, too, and draw all figures
     #[arg(long)]
-    details: bool,
+    pub details: bool,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -249,7 +249,7 @@ impl Output {
         let command = report.command();
         page.write(report)?;
         let json = serde_json::to_string_pretty(report)?;
-        let mut files = drawn(report)?;
+        let mut files = drawn(report, self.details)?;
         files.extend(others);
         files.push((command.file, json.clone().into_bytes()));
         let optional = command.figures.concat();

@@ -6,9 +6,18 @@ use super::common::NamedFile;
 use crate::commands::CommandReport;
 use crate::figure::{Figure, FigureError};
 
-/// Draws every figure of a report as PNG and SVG.
-pub fn drawn(report: &impl CommandReport) -> Result<Vec<NamedFile>, FigureError> {
-    files(&report.figures())
+/// Draws the figures of a report as PNG and SVG; those that a designer does not need only with `details`.
+pub fn drawn(report: &dyn CommandReport, details: bool) -> Result<Vec<NamedFile>, FigureError> {
+    files(&shown(report, report.figures(), details))
+}
+
+/// The figures that are drawn with or without details.
+pub fn shown(report: &dyn CommandReport, figures: Vec<Figure>, details: bool) -> Vec<Figure> {
+    let is_shown = |figure: &Figure| {
+        let [png, _] = figure.names();
+        details || !report.is_detail(png.trim_end_matches(".png"))
+    };
+    figures.into_iter().filter(is_shown).collect()
 }
 
 /// Draws figures as PNG and SVG, in parallel because one picture takes as long as a hundred spectra.

@@ -229,7 +229,7 @@ fn print(output: &Output, folder: &OutputFolder, rows: &Rows<'_>) -> anyhow::Res
     ];
     let report = sum_up(rows, folder.path(), tables)?;
     let json = serde_json::to_string_pretty(&report)?;
-    for (name, content) in drawn(&report)? {
+    for (name, content) in drawn(&report, true)? {
         writing.stage_bytes(name, &content)?;
     }
     #[cfg(feature = "parquet")]

@@ -137,3 +137,11 @@ impl CutAtSpeed {
             .or_else(|| stretched.and_then(|found| found.valid_until_s))
     }
 }
+
+impl CutReport {
+    /// Whether the cut is stable at all its speeds.
+    pub(crate) fn is_stable(&self) -> bool {
+        let mut runs = self.runs.iter();
+        runs.all(|run| run.verdict == CutVerdict::Stable)
+    }
+}
