@@ -65,6 +65,17 @@ def split_null(schema: Schema) -> tuple[Schema, bool]:
     return schema, False
 
 
+def default(schema: Schema, there: bool, kind: str) -> str | None:
+    """The default of a key that may be absent, also because earlier versions did not write it; none
+    if it is always there."""
+    if not there:
+        return "None"
+    value = schema.get("default", {})
+    if value == [] and kind.startswith("tuple"):
+        return "()"
+    return repr(value) if value is None or isinstance(value, (str, bool, int, float)) else None
+
+
 def literal(schema: Schema) -> str | None:
     """The type of one of several texts."""
     words = schema.get("enum") or [option.get("const") for option in schema.get("oneOf", [])]
@@ -236,16 +247,18 @@ class ReportTypes:
         base = METHODS.get(name, "Entry")
         lines = ["", "", "@dataclass(frozen=True, eq=False, repr=False)", f"class {name}({base}):"]
         lines += documented(schema.get("description", name).replace("`", ""), "    ")
-        for key, of, there in ordered(schema):
-            kind = self.type_of(command, of)
+        fields = [(key, of, there, self.type_of(command, of)) for key, of, there in ordered(schema)]
+        # Fields with a default follow those without.
+        for key, of, there, kind in sorted(fields, key=lambda f: default(*f[1:]) is not None):
             if not there and "None" not in kind:
                 kind += " | None"
             attribute = RENAMED.get((name, key), RENAMED.get(key, key))
-            settings = [] if there else ["default=None"]
+            value = default(of, there, kind)
+            settings = [] if value is None else [f"default={value}"]
             if attribute != key:
                 settings.append(f'metadata={{"key": "{key}"}}')
-            value = f" = field({', '.join(settings)})" if settings else ""
-            lines += ["", f"    {attribute}: {kind}{value}"]
+            given = f" = field({', '.join(settings)})" if settings else ""
+            lines += ["", f"    {attribute}: {kind}{given}"]
             lines += documented(of.get("description", key), "    ")
         self.written[name] = lines
 
