@@ -73,7 +73,9 @@ def default(schema: Schema, there: bool, kind: str) -> str | None:
     value = schema.get("default", {})
     if value == [] and kind.startswith("tuple"):
         return "()"
-    return repr(value) if value is None or isinstance(value, (str, bool, int, float)) else None
+    if isinstance(value, str):
+        return json.dumps(value)
+    return repr(value) if value is None or isinstance(value, (bool, int, float)) else None
 
 
 def literal(schema: Schema) -> str | None:
@@ -245,11 +247,11 @@ class ReportTypes:
 
     def dataclass(self, command: str, name: str, schema: Schema) -> None:
         base = METHODS.get(name, "Entry")
-        lines = ["", "", "@dataclass(frozen=True, eq=False, repr=False)", f"class {name}({base}):"]
+        lines = ["", "", "@dataclass(frozen=True, eq=False, repr=False, kw_only=True)"]
+        lines.append(f"class {name}({base}):")
         lines += documented(schema.get("description", name).replace("`", ""), "    ")
-        fields = [(key, of, there, self.type_of(command, of)) for key, of, there in ordered(schema)]
-        # Fields with a default follow those without.
-        for key, of, there, kind in sorted(fields, key=lambda f: default(*f[1:]) is not None):
+        for key, of, there in ordered(schema):
+            kind = self.type_of(command, of)
             if not there and "None" not in kind:
                 kind += " | None"
             attribute = RENAMED.get((name, key), RENAMED.get(key, key))
