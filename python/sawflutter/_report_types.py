@@ -34,12 +34,12 @@ Contoured: TypeAlias = Literal["flutter_speed", "lowest_critical_speed"]
 
 Goal: TypeAlias = Literal["flutter_speed", "stable_window"]
 
-Cause: TypeAlias = Literal["side_force", "run_out", "flatness", "imbalance", "tooth_passing"]
+Cause: TypeAlias = Literal["side_force", "run_out", "flatness", "imbalance", "oscillating_force"]
 
 Method: TypeAlias = Literal["reduced", "dense", "critical_speeds"]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Harmonic(Entry):
     """Share of n nodal diameters in a mode."""
 
@@ -50,7 +50,7 @@ class Harmonic(Entry):
     """Share, between 0 and 1."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Shape(Entry):
     """w(r, θ) = Σ_n cosine_n(r) cos nθ + sine_n(r) sin nθ at a few radii."""
 
@@ -67,7 +67,7 @@ class Shape(Entry):
     """Coefficient of sin nθ at these radii."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RestMode(RestModeMethods):
     """A mode of the blade that does not spin."""
 
@@ -94,7 +94,7 @@ class RestMode(RestModeMethods):
     logarithmic_decrement: float | None
     """−2π Re λ/|Im λ|; damped scenes only."""
 
-    estimated_relative_error: float | None
+    estimated_relative_error: float | None = field(default=None)
     """Estimated relative error of the frequency."""
 
     backward_error: float
@@ -107,7 +107,7 @@ class RestMode(RestModeMethods):
     """Deflection, scaled to a largest value of one."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CriticalSpeed(Entry):
     """A speed at which a wave stands still in space."""
 
@@ -127,11 +127,11 @@ class CriticalSpeed(Entry):
     nodal_circles: int
     """Nodal circles of that wave."""
 
-    estimated_relative_error: float | None
+    estimated_relative_error: float | None = field(default=None)
     """Estimated relative error of the speed."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Instability(Entry):
     """A band of unstable speeds."""
 
@@ -156,7 +156,7 @@ class Instability(Entry):
     frequency_hz: float
     """Frequency at the peak."""
 
-    name: str | None
+    name: str | None = field(default=None)
     """Waves of the band at its own speed: "2 diameters" for divergence, "4 reflected with 2
     forward" for flutter; null without a diagram. The branches are named by their modes at rest,
     which may differ."""
@@ -172,25 +172,25 @@ class Instability(Entry):
     flutter of an undamped blade as a whole if its largest growth reaches the threshold, of a
     damped one where its growth does."""
 
-    saturated_amplitude_m: float | None
+    saturated_amplitude_m: float | None = field(default=None)
     """Amplitude to which flutter rises from a small motion at the speed of largest growth,
     limited by stretching, without damping; up to 1.41 times as large near one edge of the band.
     Null unless requested, for divergence, if only damping makes the blade flutter, and if it
     was not computed."""
 
-    amplitude_not_computed: str | None
+    amplitude_not_computed: str | None = field(default=None)
     """Reason for which the amplitude was not computed, although it was requested; null if there
     is none."""
 
-    estimated_relative_error: float | None
+    estimated_relative_error: float | None = field(default=None)
     """Estimated relative error of the onset."""
 
-    estimated_relative_growth_error: float | None
+    estimated_relative_growth_error: float | None = field(default=None)
     """Estimated relative error of the largest growth rate. As a small difference of large
     numbers it may exceed the tolerance."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Idling(Entry):
     """The saw without the forces of the cut."""
 
@@ -207,7 +207,7 @@ class Idling(Entry):
     """Onset of the first flutter band, including weak ones."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class InCut(Entry):
     """The forces of the cut that a Campbell diagram includes."""
 
@@ -228,7 +228,7 @@ class InCut(Entry):
     """The idling saw; null in a diagram with few speeds."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ExcitationLine(Entry):
     """A frequency that is a multiple of the rotation speed."""
 
@@ -239,7 +239,7 @@ class ExcitationLine(Entry):
     """Name: "1×", "tooth passing, 42×"."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Crossing(Entry):
     """A speed at which a natural frequency equals a multiple of the rotation speed."""
 
@@ -259,7 +259,7 @@ class Crossing(Entry):
     """Name of the branch."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Excitation(Entry):
     """Excitation at multiples of the rotation speed."""
 
@@ -271,14 +271,14 @@ class Excitation(Entry):
     `campbell.complete_to_hz`."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Operating(Entry):
     """Comparison of the operating speed with the lowest critical speed."""
 
     rpm: float
     """The scene's operating speed."""
 
-    lowest_critical_rpm: float | None
+    lowest_critical_rpm: float | None = field(default=None)
     """Lowest critical speed, also above the sweep; null if the blade has none."""
 
     of_lowest_critical: float | None
@@ -297,10 +297,10 @@ class Operating(Entry):
     inside_instability: int | None
     """Index into `instabilities` of the band that makes it unstable."""
 
-    at_critical_rpm: float | None
+    at_critical_rpm: float | None = field(default=None)
     """Critical speed within 5 % of the operating speed; null if there is none."""
 
-    side_force_factor: float | None
+    side_force_factor: float | None = field(default=None)
     """Deflection of the rim at the cut under a constant side force there, relative to that at
     rest; negative if the blade moves against the force. Null unless the saw is stable and
     within 5 % of a critical speed, if nothing holds the blade's rigid motions, and so close to
@@ -318,7 +318,7 @@ class Operating(Entry):
     """Im λ/2π of this mode."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class WhirlMode(Entry):
     """A mode of a rotating saw."""
 
@@ -350,7 +350,7 @@ class WhirlMode(Entry):
     """Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Whirl(Entry):
     """The modes at one speed, and the verdict on it."""
 
@@ -360,14 +360,14 @@ class Whirl(Entry):
     verdict: StabilityState
     """Whether the saw is stable at this speed."""
 
-    at_critical_rpm: float | None
+    at_critical_rpm: float | None = field(default=None)
     """Critical speed within 5 % of this speed; null if there is none."""
 
     modes: tuple[WhirlMode, ...]
     """Modes, ascending in frequency."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Complex(Entry):
     """A list of complex numbers."""
 
@@ -378,7 +378,7 @@ class Complex(Entry):
     """Imaginary parts."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Wave(Entry):
     """The part of a mode with n nodal diameters."""
 
@@ -396,7 +396,7 @@ class Wave(Entry):
     """Coefficient of sin nθ at the radii."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class EventShape(ModeMethods):
     """The shape of the blade at an event: w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ)
     e^{λt}. The largest deflection of all points is 1, at t = 0."""
@@ -428,7 +428,7 @@ class EventShape(ModeMethods):
     an event their share is zero."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class AccuracyEntry(Entry):
     """Size of the basis and estimated errors."""
 
@@ -460,16 +460,16 @@ class AccuracyEntry(Entry):
     """Estimated relative error of the critical speeds within the sweep, from the change with a
     larger basis."""
 
-    estimated_resting_error: float | None
+    estimated_resting_error: float | None = field(default=None)
     """Estimated relative error of the lowest frequencies at rest, measured on a larger
     basis."""
 
-    estimated_drawn_error: float | None
+    estimated_drawn_error: float | None = field(default=None)
     """Estimated relative error of the frequencies in the diagram, each relative to the
     frequency of its wave on the blade."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Work(Entry):
     """Numbers of eigenproblems solved, by kind."""
 
@@ -496,7 +496,7 @@ class Work(Entry):
     """Symmetric eigenproblems of the full model at other temperatures, for limits of heat."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Miscount(Entry):
     """Modes at a speed that are missing or superfluous according to a count on the full
     model."""
@@ -515,7 +515,7 @@ class Miscount(Entry):
     negative if it has superfluous ones."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Mismatch(Entry):
     """A speed at which the list of bands contradicts the eigenvalues found there."""
 
@@ -538,7 +538,7 @@ class Mismatch(Entry):
     """Largest growth of these bands."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Certificate(Entry):
     """Checks of the list of bands against the spectrum, by the Krein index, by counts of
     eigenvalues on the full model and by the growth found at single speeds, and the share of the
@@ -605,7 +605,7 @@ class Certificate(Entry):
     with loads at the rim."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Branch(BranchMethods):
     """One mode followed over speed. All lists have one entry for each speed."""
 
@@ -648,7 +648,7 @@ class Branch(BranchMethods):
     """Nodal diameters of the dominant and of the next harmonic at each speed."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Campbell(Entry):
     """The Campbell diagram."""
 
@@ -665,7 +665,7 @@ class Campbell(Entry):
     """Branches, by frequency at their lowest speed."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RootPath(Entry):
     """One eigenvalue over the speeds of a [RootLoci]."""
 
@@ -682,7 +682,7 @@ class RootPath(Entry):
     """Krein sign: +1, −1, or 0 inside the band."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RootLoci(Entry):
     """Eigenvalues around a flutter onset, in the complex plane."""
 
@@ -700,7 +700,7 @@ class RootLoci(Entry):
     band."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RollBand(Entry):
     """A rolled band, by its strain and by its groove."""
 
@@ -718,7 +718,7 @@ class RollBand(Entry):
     a strain below zero."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class MeasuredGap(Entry):
     """Roll tension that follows from a measured light gap."""
 
@@ -735,7 +735,7 @@ class MeasuredGap(Entry):
     """The bands with this roll tension."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class StraightEdge(Entry):
     """Light gap under a straight edge across the blade off its machine, which lies level on two
     points under its own weight."""
@@ -770,7 +770,7 @@ class StraightEdge(Entry):
     """Roll tension that causes the measured gap; null if none was measured."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class HeatLimit(Entry):
     """A temperature rise at which the blade buckles, or its lowest critical speed equals the
     operating speed."""
@@ -778,7 +778,7 @@ class HeatLimit(Entry):
     rise_k: float
     """Peak of the profile."""
 
-    name: str
+    name: str = field(default="")
     """The shape that buckles, or the wave that stands still: "3 diameters", or the shares of
     waves if none dominates."""
 
@@ -789,11 +789,11 @@ class HeatLimit(Entry):
     """Nodal circles of that wave."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class HeatCurve(Entry):
     """A critical speed over the peak of the temperature profile."""
 
-    name: str
+    name: str = field(default="")
     """The wave that stands still; for a guided blade, that at the last peak."""
 
     nodal_diameters: int
@@ -809,7 +809,7 @@ class HeatCurve(Entry):
     """Critical speeds."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Heat(Entry):
     """The temperature profile of the scene, scaled to other peaks."""
 
@@ -842,7 +842,7 @@ class Heat(Entry):
     """Lowest critical speeds over the peak, while the blade is flat at rest."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Membrane(Entry):
     """Stress of heat, roll tension and manufacture over the radius."""
 
@@ -865,9 +865,10 @@ class Membrane(Entry):
     """Limits of temperature, if the scene has a temperature."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Sensitivity(Entry):
-    """Relative change of speeds for a change of one number of the scene."""
+    """First-order effect of changing one number of the scene by 1 %, an angle by 1 degree, or a
+    temperature rise by 1 K."""
 
     parameter: str
     """JSON path of the number in the scene."""
@@ -891,7 +892,7 @@ class Sensitivity(Entry):
     """Imaginary part of this change: frequency in Hz."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CampbellReport(Entry):
     """Report of an analysis (report.json)."""
 
@@ -901,11 +902,11 @@ class CampbellReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
-    condition: str
+    condition: str = field(default="")
     """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
     teeth)"."""
 
-    unusual_numbers: tuple[str, ...]
+    unusual_numbers: tuple[str, ...] = field(default=())
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
 
@@ -915,14 +916,14 @@ class CampbellReport(Entry):
     modes_at_rest: tuple[RestMode, ...]
     """Lowest oscillating modes of the blade at rest, ascending."""
 
-    overdamped_modes_at_rest: int
+    overdamped_modes_at_rest: int = field(default=0)
     """Number of modes at rest that decay without oscillating (overdamped), at rates up to 2π
     `campbell.complete_to_hz`; they are not listed."""
 
     critical_speeds: tuple[CriticalSpeed, ...]
     """Every critical speed up to the end of the sweep, ascending."""
 
-    critical_speeds_without_damping: bool
+    critical_speeds_without_damping: bool = field(default=False)
     """Whether `critical_speeds` are those of the saw without its damping: with damping that
     turns with the blade no eigenvalue of the damped saw is zero at any speed."""
 
@@ -939,10 +940,10 @@ class CampbellReport(Entry):
     flutter_threshold_per_s: float
     """Growth rate from which on a band counts as flutter."""
 
-    in_cut: InCut | None
+    in_cut: InCut | None = field(default=None)
     """The forces of the cut in the diagram, and the idling saw, if the scene requests it."""
 
-    excitation: Excitation | None
+    excitation: Excitation | None = field(default=None)
     """Multiples of the rotation speed and their crossings with natural frequencies, if the
     scene requests them."""
 
@@ -953,7 +954,7 @@ class CampbellReport(Entry):
     whirl: Whirl | None
     """Modes at one speed, on request."""
 
-    shapes: tuple[EventShape, ...]
+    shapes: tuple[EventShape, ...] = field(default=())
     """Shapes of the blade at every critical speed, at the peak of every band, at the operating
     speed and at further speeds, on request."""
 
@@ -984,7 +985,7 @@ class CampbellReport(Entry):
     """Remarks on the validity of the result."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Criterion(Entry):
     """One limit and its result."""
 
@@ -1008,7 +1009,7 @@ class Criterion(Entry):
     """Whether the limit is kept."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RimStiffness(Entry):
     """Lateral stiffness of a point of the rim over the speed: a force fixed in space, in N,
     over the deflection under it."""
@@ -1021,7 +1022,7 @@ class RimStiffness(Entry):
     """Stiffness at these speeds."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CheckReport(Entry):
     """A comparison of a saw with limits."""
 
@@ -1031,15 +1032,15 @@ class CheckReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
-    condition: str
+    condition: str = field(default="")
     """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
     teeth)"."""
 
-    unusual_numbers: tuple[str, ...]
+    unusual_numbers: tuple[str, ...] = field(default=())
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
 
-    accept_unusual: bool
+    accept_unusual: bool = field(default=False)
     """Whether a saw with unusual numbers may pass."""
 
     passed: bool
@@ -1082,7 +1083,7 @@ class CheckReport(Entry):
     max_rim_m_per_s: float
     """Limit of the rim speed."""
 
-    max_amplitude_m: float | None
+    max_amplitude_m: float | None = field(default=None)
     """Limit of the amplitude of flutter, if there is one."""
 
     estimated_relative_error: float | None
@@ -1092,7 +1093,7 @@ class CheckReport(Entry):
     """Remarks on the validity of the result."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Compared(Entry):
     """A saw among others."""
 
@@ -1102,7 +1103,7 @@ class Compared(Entry):
     scene: SceneDict
     """Scene of the saw."""
 
-    condition: str
+    condition: str = field(default="")
     """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
     teeth)"."""
 
@@ -1132,7 +1133,7 @@ class Compared(Entry):
     """Numbers that no saw has, and remarks on the validity of its result."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Difference(Entry):
     """A key that is not the same in all scenes."""
 
@@ -1143,7 +1144,7 @@ class Difference(Entry):
     """Its value in each scene, as in the file; empty where a scene has none."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CompareReport(Entry):
     """Report of a comparison (compare.json)."""
 
@@ -1161,7 +1162,7 @@ class CompareReport(Entry):
     frequencies are not compared."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CutCriterionEntry(Entry):
     """A criterion and its result."""
 
@@ -1178,7 +1179,7 @@ class CutCriterionEntry(Entry):
     """Frequency of that motion, if it is known and the motion grows."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CutCertificate(Entry):
     """Number of growing modes in the cut and without its forces, compared with counts on the
     full model."""
@@ -1203,7 +1204,7 @@ class CutCertificate(Entry):
     """Modes that, according to the counts, are missing or superfluous; none are expected."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ByPower(Entry):
     """A cut with the force that follows from its power."""
 
@@ -1217,7 +1218,7 @@ class ByPower(Entry):
     """Largest Re λ."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ToothPassing(Entry):
     """The effect of loads that move with the teeth, compared with stationary loads."""
 
@@ -1241,7 +1242,7 @@ class ToothPassing(Entry):
     """Largest deflection at the probe in the cut under moving loads."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CutStretching(Entry):
     """Numbers of a time history in the cut with stretching."""
 
@@ -1258,7 +1259,7 @@ class CutStretching(Entry):
     """Time at which slopes exceed 0.1 and the record ends; null if they do not."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class VerdictMap(Entry):
     """Growth rates over guide angle and load."""
 
@@ -1276,7 +1277,7 @@ class VerdictMap(Entry):
     """Verdicts by these growth rates, in the same rows and columns."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Spline(Entry):
     """The cut with the reaction of the simulated spline teeth."""
 
@@ -1331,7 +1332,7 @@ class Spline(Entry):
     rotation."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CutRun(Entry):
     """One speed of the cut."""
 
@@ -1351,7 +1352,7 @@ class CutRun(Entry):
     """The worst of the criteria; if no motion grows, whether the deflection stays within the
     model, and the speed away from critical speeds."""
 
-    at_critical_rpm: float | None
+    at_critical_rpm: float | None = field(default=None)
     """Critical speed within 5 % of this speed, of the saw in the cut or out of it; null if
     there is none."""
 
@@ -1415,7 +1416,7 @@ class CutRun(Entry):
     forces_to_s: float
     """End of the forces."""
 
-    stretching: CutStretching | None
+    stretching: CutStretching | None = field(default=None)
     """Results with stretching, if the scene requests it."""
 
     time_s: FloatArray
@@ -1431,7 +1432,7 @@ class CutRun(Entry):
     """The cut with the reaction of the simulated spline teeth, if the scene requests it."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CutReport(Entry):
     """Report of a cut (cut.json)."""
 
@@ -1441,10 +1442,10 @@ class CutReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
-    condition: str
+    condition: str = field(default="")
     """The cut of the report: "in the cut at 1800 and 2800 rpm (4 teeth)"."""
 
-    unusual_numbers: tuple[str, ...]
+    unusual_numbers: tuple[str, ...] = field(default=())
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
 
@@ -1472,7 +1473,7 @@ class CutReport(Entry):
     """Remarks on the forces and on the validity of the result."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Arc(Entry):
     """Stable equilibria. All lists have one entry for each speed."""
 
@@ -1497,7 +1498,7 @@ class Arc(Entry):
     row for each such guide, in the order of the scene."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Jump(Entry):
     """A jump from an equilibrium that ceases to be stable to another one."""
 
@@ -1521,7 +1522,7 @@ class Jump(Entry):
     """Largest deflection over the blade after the jump."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class SlowSweep(Entry):
     """Stable equilibria for slowly rising or falling speed."""
 
@@ -1535,12 +1536,12 @@ class SlowSweep(Entry):
     """Speed from which on slopes of the blade exceed 0.1, where the model is not valid; there
     are no results beyond it. Null if they do not."""
 
-    stopped_at_rpm: float | None
+    stopped_at_rpm: float | None = field(default=None)
     """Speed at which the sweep stopped at its largest number of equilibria; there are no
     results beyond it. Null if it did not."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Turn(Entry):
     """A fold or a bifurcation."""
 
@@ -1554,7 +1555,7 @@ class Turn(Entry):
     """Deflection at the probe."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class EquilibriumCurve(Entry):
     """A curve of equilibria. All lists have one entry for each equilibrium, in the order of the
     curve."""
@@ -1576,7 +1577,7 @@ class EquilibriumCurve(Entry):
     """Folds and bifurcations of the curve."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class DeflectReport(Entry):
     """Report of the equilibria over speed (deflect.json)."""
 
@@ -1586,11 +1587,11 @@ class DeflectReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
-    condition: str
+    condition: str = field(default="")
     """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
     teeth)"."""
 
-    unusual_numbers: tuple[str, ...]
+    unusual_numbers: tuple[str, ...] = field(default=())
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
 
@@ -1604,7 +1605,7 @@ class DeflectReport(Entry):
     """Largest relative change of the deflection with half as many modes more; null if the blade
     remains flat."""
 
-    basis_error: float | None
+    basis_error: float | None = field(default=None)
     """Estimated relative error of a small deflection at the force, at rest, on the basis from
     which the shapes are made; null without a force, and for a blade that is buckled at rest."""
 
@@ -1653,7 +1654,7 @@ class DeflectReport(Entry):
     """Remarks on the validity of the result."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Parameter(Entry):
     """A fitted number."""
 
@@ -1684,7 +1685,7 @@ class Parameter(Entry):
     """Whether the value is a bound."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Residual(Entry):
     """A measured frequency and the corresponding computed one."""
 
@@ -1707,7 +1708,7 @@ class Residual(Entry):
     """Whether the fit includes this speed."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Curves(Entry):
     """Lowest frequencies, ascending, one row for each speed."""
 
@@ -1721,7 +1722,7 @@ class Curves(Entry):
     """Frequencies after the fit."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Start(Entry):
     """A start and its result."""
 
@@ -1735,7 +1736,7 @@ class Start(Entry):
     """Root mean square of the residuals at the final values; null without them."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FitReport(Entry):
     """Report of a fit (fit.json)."""
 
@@ -1745,11 +1746,11 @@ class FitReport(Entry):
     scene: SceneDict
     """The fitted scene."""
 
-    condition: str
+    condition: str = field(default="")
     """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
     teeth)"."""
 
-    unusual_numbers: tuple[str, ...]
+    unusual_numbers: tuple[str, ...] = field(default=())
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
 
@@ -1802,7 +1803,7 @@ class FitReport(Entry):
     """Remarks on the validity of the result."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class AtAmplitude(Entry):
     """A saw whose blade oscillates at its guides with one amplitude."""
 
@@ -1823,7 +1824,7 @@ class AtAmplitude(Entry):
     """Flutter speed; null if no flutter counts within the sweep."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class BasisError(Entry):
     """Largest relative change of the deflections at the cut over gap and force, every third of
     each, in a larger basis."""
@@ -1844,12 +1845,12 @@ class BasisError(Entry):
     """Number of modes at rest in the larger basis."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Deviation(Entry):
-    """Stationary deflection of the rim at the cut under a side force there."""
+    """Stationary deflection of the rim at the cut under the side force of the scene."""
 
     angle_deg: float
-    """Angle of the force and of the deflection."""
+    """Angle of the deflection, that of the cut."""
 
     rpm: float
     """Speed of the map over gap and force."""
@@ -1906,7 +1907,7 @@ class Deviation(Entry):
     """Estimated error of the deflections over gap and force; null if none could be compared."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class OscillationLine(Entry):
     """A part of the motion, with a multiple of the rotation frequency."""
 
@@ -1921,7 +1922,7 @@ class OscillationLine(Entry):
     """Amplitude at the probe at the speeds of the series."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class OscillationPlace(Entry):
     """A periodic deflection at a point."""
 
@@ -1943,7 +1944,7 @@ class OscillationPlace(Entry):
     part."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class OscillationPad(Entry):
     """Forces and contact of a pad over one period of the motion."""
 
@@ -1960,7 +1961,7 @@ class OscillationPad(Entry):
     """Share of the period in which the pad touches the blade."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class OscillationAt(Entry):
     """The motion at one speed."""
 
@@ -1994,17 +1995,17 @@ class OscillationAt(Entry):
     """Whether no small motion about this one grows faster than the threshold of the scene."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Oscillation(Entry):
     """Periodic motion of the blade under the steady side force of the map, with the gaps of the
-    scene. Its causes are an oscillating side force at the cut and response.runout_m, flatness_m
-    and imbalance_kg_m2 of the scene."""
+    scene. Its causes are an oscillating side force and response.runout_m, flatness_m and
+    imbalance_kg_m2 of the scene."""
 
     force_n: float
-    """Steady side force at the rim at the cut."""
+    """Steady side force."""
 
     oscillating_force_n: float
-    """Amplitude of the oscillating side force at the rim at the cut; 0 without one."""
+    """Amplitude of the oscillating side force; 0 without one."""
 
     oscillating_order: int
     """Ratio of its frequency to that of rotation; 0 without one."""
@@ -2045,7 +2046,7 @@ class Oscillation(Entry):
     cut."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FrictionPad(Entry):
     """A one-sided pad beside the heated blade."""
 
@@ -2063,7 +2064,7 @@ class FrictionPad(Entry):
     negative where a face is pressed in, null where the model is not valid."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Friction(Entry):
     """The heat of friction at the pads, at the speed and under the side force of the map."""
 
@@ -2123,7 +2124,7 @@ class Friction(Entry):
     """Number of repetitions of the loop of temperature and deflection."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class GapReport(Entry):
     """Report of a saw whose guides have a gap (gap.json)."""
 
@@ -2133,11 +2134,11 @@ class GapReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
-    condition: str
+    condition: str = field(default="")
     """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
     teeth)"."""
 
-    unusual_numbers: tuple[str, ...]
+    unusual_numbers: tuple[str, ...] = field(default=())
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
 
@@ -2170,10 +2171,10 @@ class GapReport(Entry):
     deviation: Deviation
     """The deflection at the cut."""
 
-    oscillation: Oscillation | None
+    oscillation: Oscillation | None = field(default=None)
     """The oscillation of the blade; null without a cause of one."""
 
-    friction: Friction | None
+    friction: Friction | None = field(default=None)
     """The heat of friction at the pads with the gaps of the scene; null without a coefficient
     of friction."""
 
@@ -2181,7 +2182,7 @@ class GapReport(Entry):
     """Remarks on the validity of the result."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class MapAxis(Entry):
     """A number along an axis of a map."""
 
@@ -2201,27 +2202,7 @@ class MapAxis(Entry):
     """Value of the scene."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class MappedBand(Entry):
-    """A band of instability of a saw of a map."""
-
-    kind: InstabilityKind
-    """Divergence or flutter."""
-
-    from_rpm: float
-    """Speed at which the band begins."""
-
-    to_rpm: float
-    """Speed at which the band ends, or the end of the sweep."""
-
-    peak_growth_per_s: float
-    """Largest growth rate."""
-
-    counted_rpm: FloatArray
-    """Ranges of speed in which the band counts; empty for flutter below the threshold."""
-
-
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class MappedSaw(Entry):
     """A saw of a map."""
 
@@ -2240,7 +2221,7 @@ class MappedSaw(Entry):
     critical_rpm: FloatArray
     """Critical speeds within the sweep, ascending."""
 
-    instabilities: tuple[MappedBand, ...]
+    instabilities: tuple[Instability, ...]
     """Bands of instability within the sweep, by onset."""
 
     state: StabilityState | None
@@ -2254,7 +2235,7 @@ class MappedSaw(Entry):
     """Reason for which the saw was not analysed; null if it was."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Contour(Entry):
     """A line of equal speed."""
 
@@ -2268,7 +2249,7 @@ class Contour(Entry):
     """Points of the line: values of x and of y."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class MapReport(Entry):
     """Report of a map (map.json)."""
 
@@ -2278,11 +2259,11 @@ class MapReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
-    condition: str
+    condition: str = field(default="")
     """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
     teeth)"."""
 
-    unusual_numbers: tuple[str, ...]
+    unusual_numbers: tuple[str, ...] = field(default=())
     """Numbers that no saw has, each with its key, the usual range, and the remedy."""
 
     x: MapAxis
@@ -2316,7 +2297,7 @@ class MapReport(Entry):
     """Remarks on the validity of the result."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Mode(ModeMethods):
     """A mode at one speed: w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ) e^{λt}."""
 
@@ -2348,7 +2329,7 @@ class Mode(ModeMethods):
     """Harmonics whose share of the energy is visible, the largest first."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Placed(Entry):
     """A free number and its best value."""
 
@@ -2381,7 +2362,7 @@ class Placed(Entry):
     """Value of the goal if the number is larger by `offset`; null in the same cases."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Outcome(Entry):
     """Value of the goal for one saw, and the speeds that determine it."""
 
@@ -2398,14 +2379,14 @@ class Outcome(Entry):
     window_rpm: FloatArray | None
     """Window without instability around the operating speed, if it is the goal."""
 
-    deflection_m: float | None
+    deflection_m: float | None = field(default=None)
     """Deflection at the cut, as an absolute value, if it has a limit."""
 
     kept: bool
     """Whether the limits of the critical speed and of the deflection are kept."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Neighbour(Entry):
     """A saw whose numbers deviate from another one by the tolerances."""
 
@@ -2416,7 +2397,7 @@ class Neighbour(Entry):
     """Result of the saw; null if it could not be computed."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class PlaceCertificate(Entry):
     """Certificate of the bands of the best saw."""
 
@@ -2434,7 +2415,7 @@ class PlaceCertificate(Entry):
     """Number of counts of eigenvalues on the full model with which the modes were compared."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FragileOptimum(Entry):
     """A saw next to a jump of the goal."""
 
@@ -2445,7 +2426,7 @@ class FragileOptimum(Entry):
     """Worst neighbour of this saw within the tolerances."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Map(Entry):
     """The goal over two numbers; the others have their best values."""
 
@@ -2469,7 +2450,7 @@ class Map(Entry):
     """Whether the limits of the critical speed and of the deflection are kept."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class PlaceReport(Entry):
     """Report of a placement (place.json)."""
 
@@ -2479,11 +2460,11 @@ class PlaceReport(Entry):
     scene: SceneDict
     """The scene with the best numbers."""
 
-    condition: str
+    condition: str = field(default="")
     """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
     teeth)"."""
 
-    unusual_numbers: tuple[str, ...]
+    unusual_numbers: tuple[str, ...] = field(default=())
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
 
@@ -2493,15 +2474,15 @@ class PlaceReport(Entry):
     min_critical_rpm: float | None
     """Lower limit of the first critical speed, if there is one."""
 
-    amplitude_m: float | None
+    amplitude_m: float | None = field(default=None)
     """Amplitude at guides with a gap with whose mean stiffness bands and critical speeds were
     computed, if one was given."""
 
-    max_deflection_m: float | None
+    max_deflection_m: float | None = field(default=None)
     """Upper limit of the deflection at the cut, if there is one."""
 
-    force_n: float | None
-    """Side force at the cut for this limit."""
+    force_n: float | None = field(default=None)
+    """Side force for this limit."""
 
     kept: bool
     """Whether the best saw keeps the limits in the worst case of its tolerances."""
@@ -2577,7 +2558,7 @@ class PlaceReport(Entry):
     """Remarks on the validity of the result."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Resonance(Entry):
     """A resonance of a line."""
 
@@ -2592,7 +2573,7 @@ class Resonance(Entry):
     model, or the saw is unstable."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ResponseLine(Entry):
     """Response to one cause with one order."""
 
@@ -2622,7 +2603,7 @@ class ResponseLine(Entry):
     which the diagram is complete."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class OperatingResponse(Entry):
     """Deflections at the operating speed."""
 
@@ -2636,7 +2617,7 @@ class OperatingResponse(Entry):
     """Deviation of the board."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FrequencyResponse(Entry):
     """Deflection at the probe for a harmonic force of one newton at the place of the side
     force."""
@@ -2661,7 +2642,7 @@ class FrequencyResponse(Entry):
     """Phase, −180 to 180: negative if the deflection follows the force."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ResponseReport(Entry):
     """Report of steady-state responses (response.json)."""
 
@@ -2671,11 +2652,11 @@ class ResponseReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
-    condition: str
+    condition: str = field(default="")
     """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
     teeth)"."""
 
-    unusual_numbers: tuple[str, ...]
+    unusual_numbers: tuple[str, ...] = field(default=())
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
 
@@ -2729,7 +2710,7 @@ class ResponseReport(Entry):
     """Remarks on the validity of the result."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RunUpBand(Entry):
     """A band of instability in a run-up."""
 
@@ -2749,7 +2730,7 @@ class RunUpBand(Entry):
     contribute: with a small exponent the ratio shows beating of other modes, not growth."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Stretching(Entry):
     """A run-up with stretching."""
 
@@ -2773,7 +2754,7 @@ class Stretching(Entry):
     speed."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Response(Entry):
     """Magnitude of the deflection at the probe for a harmonic force of one newton, over speed
     and frequency."""
@@ -2788,7 +2769,7 @@ class Response(Entry):
     """|w/F|, one row for each speed."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RunUpReport(Entry):
     """Report of a run-up (runup.json)."""
 
@@ -2798,11 +2779,11 @@ class RunUpReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
-    condition: str
+    condition: str = field(default="")
     """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
     teeth)"."""
 
-    unusual_numbers: tuple[str, ...]
+    unusual_numbers: tuple[str, ...] = field(default=())
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
 
@@ -2834,10 +2815,10 @@ class RunUpReport(Entry):
     deflection_m: FloatArray
     """Deflection at the probe."""
 
-    largest_deflection_m: float
+    largest_deflection_m: float = field(default=0.0)
     """Largest magnitude of the deflection at the probe."""
 
-    largest_deflection_rpm: float
+    largest_deflection_rpm: float = field(default=0.0)
     """Speed of the largest deflection."""
 
     critical_speeds: tuple[CriticalSpeed, ...]
@@ -2850,7 +2831,7 @@ class RunUpReport(Entry):
     """Onset of the first band that more than doubles a motion at this rate; null if none
     does."""
 
-    stretching: Stretching | None
+    stretching: Stretching | None = field(default=None)
     """Results with stretching, if the scene requests it."""
 
     campbell: Campbell
@@ -2863,7 +2844,7 @@ class RunUpReport(Entry):
     """Remarks on the validity of the result."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Grid(Entry):
     """A number of a point of the grid."""
 
@@ -2874,7 +2855,7 @@ class Grid(Entry):
     """Value of the number."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Quantile(Entry):
     """A speed below which a share of the saws lies."""
 
@@ -2885,7 +2866,7 @@ class Quantile(Entry):
     """The speed; null where it lies beyond the speeds of the study."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Histogram(Entry):
     """Counts of saws in bars of equal width."""
 
@@ -2899,7 +2880,7 @@ class Histogram(Entry):
     """Number of saws in each bar."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Speed(Entry):
     """Distribution of a speed."""
 
@@ -2919,7 +2900,7 @@ class Speed(Entry):
     """Histogram; null without saws."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class StudyCriterion(Entry):
     """Number of saws that keep one limit."""
 
@@ -2936,7 +2917,7 @@ class StudyCriterion(Entry):
     """Number of saws that keep the limit."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Passing(Entry):
     """Share of saws that keep all limits. A saw that was refused or failed keeps none."""
 
@@ -2958,7 +2939,7 @@ class Passing(Entry):
     """Number of saws that keep each limit."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class NumberQuantile(Entry):
     """A number below which a share of the saws lies."""
 
@@ -2969,7 +2950,7 @@ class NumberQuantile(Entry):
     """The number; null if it is not known."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Number(Entry):
     """Distribution of a number of the analysed saws, in SI units or rpm."""
 
@@ -2984,7 +2965,7 @@ class Number(Entry):
     """Numbers below which given shares of the saws lie."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class GapStatistics(Entry):
     """Deflections and pad forces of the analysed saws of a group."""
 
@@ -3001,7 +2982,7 @@ class GapStatistics(Entry):
     """Number of saws whose deflection keeps its limit; null without a limit."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Group(Entry):
     """A group of saws."""
 
@@ -3026,11 +3007,11 @@ class Group(Entry):
     passing: Passing | None
     """Share of saws that keep the limits, if the study has any."""
 
-    gap: GapStatistics | None
+    gap: GapStatistics | None = field(default=None)
     """Numbers of guides with a gap, if the study has a block `gap`."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Refusal(Entry):
     """A saw that was not analysed."""
 
@@ -3041,7 +3022,7 @@ class Refusal(Entry):
     """Reason for which it was not analysed."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ReliabilityPoint(Entry):
     """Share of the saws that can run at a speed."""
 
@@ -3052,7 +3033,7 @@ class ReliabilityPoint(Entry):
     """The share of all saws."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Reliability(Entry):
     """Share of saws that can run, over the operating speed: at that speed they keep the margin
     to their lowest critical speed and do not flutter. A saw that was refused or failed cannot
@@ -3070,7 +3051,7 @@ class Reliability(Entry):
     """Shares of the saws that can run at evenly spaced speeds."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class WorstSaw(Entry):
     """A saw with a low speed."""
 
@@ -3084,7 +3065,7 @@ class WorstSaw(Entry):
     """Values of the varying numbers, in the order of the study."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class StudyReport(Entry):
     """Quantiles and probabilities of a study, and its inputs."""
 
@@ -3094,11 +3075,11 @@ class StudyReport(Entry):
     scene: SceneDict
     """The scene without deviations, as typed."""
 
-    condition: str
+    condition: str = field(default="")
     """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
     teeth)"."""
 
-    unusual_numbers: tuple[str, ...]
+    unusual_numbers: tuple[str, ...] = field(default=())
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
 
@@ -3124,22 +3105,22 @@ class StudyReport(Entry):
     not_analysed: tuple[Refusal, ...]
     """The first saws that were not analysed."""
 
-    reliability: Reliability | None
+    reliability: Reliability | None = field(default=None)
     """Share of saws that can run, over the operating speed; null if no saw has a critical or a
     flutter speed."""
 
-    worst_lowest_critical: tuple[WorstSaw, ...]
+    worst_lowest_critical: tuple[WorstSaw, ...] = field(default=())
     """The saws with the lowest first critical speed, ascending."""
 
-    worst_flutter: tuple[WorstSaw, ...]
+    worst_flutter: tuple[WorstSaw, ...] = field(default=())
     """The saws with the lowest flutter speed, ascending."""
 
-    processors: tuple[str, ...]
+    processors: tuple[str, ...] = field(default=())
     """Kinds of processors that have computed the saws, if there are several: the last digits of
     a speed may differ between them."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Setting(Entry):
     """One method with one size of the basis: its run time and its error."""
 
@@ -3169,7 +3150,7 @@ class Setting(Entry):
     """Whether no other chart is faster and at least as accurate."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class WashboardMode(Entry):
     """A mode with the delayed force."""
 
@@ -3204,7 +3185,7 @@ class WashboardMode(Entry):
     without a feed."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Lobes(Entry):
     """The lobe diagram."""
 
@@ -3227,7 +3208,7 @@ class Lobes(Entry):
     """Whether the argument principle confirms that nothing grows just below this stiffness."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class WashboardReport(Entry):
     """Report of a washboarding analysis (washboard.json)."""
 
@@ -3237,10 +3218,10 @@ class WashboardReport(Entry):
     scene: SceneDict
     """The scene, as typed."""
 
-    condition: str
+    condition: str = field(default="")
     """The cut of the verdict: "in the cut at 2800 rpm (4 teeth)"."""
 
-    unusual_numbers: tuple[str, ...]
+    unusual_numbers: tuple[str, ...] = field(default=())
     """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
     hold for the numbers as typed."""
 

@@ -80,10 +80,9 @@ class BladeDict(_BladeDict, total=False):
     thickness is uniform."""
 
     teeth: int | None
-    """Number of teeth, required for `cut`, `rim`, `excitation.tooth_passing` and
-    `response.tooth_force_n`. They have no stiffness in the model, and no mass unless `rim`
-    gives it. Typically 0.03 m of pitch, from 0.01 to 0.06 (assumption of this program; the
-    paper's saw has 0.053 m)."""
+    """Number of teeth, required for `cut`, `rim` and `excitation.tooth_passing`. They have no
+    stiffness in the model, and no mass unless `rim` gives it. Typically 0.03 m of pitch, from
+    0.01 to 0.06 (assumption of this program; the paper's saw has 0.053 m)."""
 
     rim: RimDict | None
     """Mass of teeth or carbide tips. None by default."""
@@ -557,8 +556,31 @@ class CutDict(TypedDict, total=False):
     """Speeds of the cut, with the values that differ. By default the operating speed."""
 
 
+class SideForceDict(TypedDict, total=False):
+    """Lateral force at a point fixed in space, constant and oscillating. `deflect`, `runup`,
+    `gap`, `place` and studies of guides with a gap compute with the constant force, by default
+    1 N, `response` and `gap` also with the oscillating one."""
+
+    force_n: float | None
+    """Constant force, positive in the direction of positive deflections. Typically 1, from 0.1
+    to 10 (assumption of this program: small deflections of a linear model)."""
+
+    radius_m: float | None
+    """Distance of the force from the axis; the rim by default."""
+
+    angle_deg: float | None
+    """Angle of the force, positive in the direction of rotation; by default that of the cut."""
+
+    oscillating_n: float
+    """Amplitude of a force at the same point that oscillates, for `response` and `gap`."""
+
+    order: int | None
+    """Ratio of its frequency to that of rotation; 1, once a turn, by default. The number of
+    teeth is the tooth passing frequency."""
+
+
 class _RunUpDict(TypedDict):
-    """Run-up at a constant rate, under a constant lateral force fixed in space."""
+    """Run-up at a constant rate, under the constant force of `side_force`."""
 
     to_rpm: float
     """Last speed. Typically 1.5 times the operating speed, from 1.2 to 2 (assumption of this
@@ -567,19 +589,12 @@ class _RunUpDict(TypedDict):
     duration_s: float
     """Duration of the run-up. Typically 60, from 5 to 120 (assumption of this program)."""
 
-    force_n: float
-    """Lateral force at the rim. Typically 1, from 0.1 to 10 (assumption of this program: small
-    deflections of a linear model)."""
-
 
 class RunUpDict(_RunUpDict, total=False):
-    """Run-up at a constant rate, under a constant lateral force fixed in space."""
+    """Run-up at a constant rate, under the constant force of `side_force`."""
 
     from_rpm: float
     """First speed."""
-
-    angle_deg: float
-    """Angle of the force, positive in the direction of rotation."""
 
     stretching: bool
     """Whether the model includes stretching of the middle surface at large deflections: then
@@ -587,18 +602,8 @@ class RunUpDict(_RunUpDict, total=False):
 
 
 class ResponseDict(TypedDict, total=False):
-    """Excitation of the steady-state response, for `sawflutter response`. Causes that are 0 are
-    absent."""
-
-    force_n: float
-    """Constant lateral force, fixed in space. Typically 1, from 0.1 to 10 (assumption of this
-    program: a response is proportional to it)."""
-
-    radius_m: float | None
-    """Distance of the force from the axis; the rim by default."""
-
-    angle_deg: float
-    """Angle of the force, positive in the direction of rotation."""
+    """Shape and imbalance of the blade, which turn with it and excite it, for `sawflutter
+    response` and `gap`; `side_force` excites it, too. Causes that are 0 are absent."""
 
     runout_m: float
     """Run-out of the rim: amplitude of one wave around it, of the blade at rest without guides.
@@ -612,9 +617,6 @@ class ResponseDict(TypedDict, total=False):
     """Imbalance at the rim beside the middle plane: mass times rim radius times distance from
     the middle plane. It excites at the rotation frequency and its double; an imbalance in the
     middle plane does not bend the blade."""
-
-    tooth_force_n: float
-    """Amplitude of the lateral force at the rim at the cut with the tooth passing frequency."""
 
 
 class _ProbeDict(TypedDict):
@@ -711,11 +713,15 @@ class SceneDict(_SceneDict, total=False):
     cut: CutDict | None
     """Forces of the wood on the teeth, for `sawflutter cut`."""
 
+    side_force: SideForceDict | None
+    """Lateral force fixed in space. None by default; commands that need one assume 1 N."""
+
     runup: RunUpDict | None
-    """Run-up under a lateral force, for `sawflutter runup`."""
+    """Run-up under the side force, for `sawflutter runup`."""
 
     response: ResponseDict | None
-    """Excitation of the steady-state response, for `sawflutter response`."""
+    """Shape and imbalance that turn with the blade and excite it, for `sawflutter response` and
+    `gap`."""
 
     probe: ProbeDict | None
     """Point at which the deflection is read; by default at the rim at θ = 90°."""
@@ -803,15 +809,9 @@ class LimitsDict(TypedDict, total=False):
     """Lower limit of the first critical speed."""
 
 
-class _GapDict(TypedDict):
-    """The deflection at the cut of a saw with guides with a gap, as of `sawflutter gap`."""
-
-    force_n: float
-    """Side force at the rim at the cut."""
-
-
-class GapDict(_GapDict, total=False):
-    """The deflection at the cut of a saw with guides with a gap, as of `sawflutter gap`."""
+class GapDict(TypedDict, total=False):
+    """The deflection at the cut of a saw with guides with a gap under the side force of its
+    scene, as of `sawflutter gap`."""
 
     rpm: float | None
     """Rotation speed; by default the operating speed of the scene."""
@@ -865,5 +865,6 @@ class StudyDict(_StudyDict, total=False):
 
     bands: bool
     """Whether the table lists the bands of instability of each saw, in the column `bands`:
-    kind, onset and end in rpm, largest growth rate in 1/s, and the ranges of speed in which the
-    band counts; bands are separated by semicolons."""
+    kind, onset and end in rpm, whether both are within the sweep, speed in rpm, growth rate in
+    1/s and frequency in Hz of the largest growth, and the ranges of speed in which the band
+    counts; bands are separated by semicolons."""

@@ -65,6 +65,19 @@ def split_null(schema: Schema) -> tuple[Schema, bool]:
     return schema, False
 
 
+def default(schema: Schema, there: bool, kind: str) -> str | None:
+    """The default of a key that may be absent, also because earlier versions did not write it; none
+    if it is always there."""
+    if not there:
+        return "None"
+    value = schema.get("default", {})
+    if value == [] and kind.startswith("tuple"):
+        return "()"
+    if isinstance(value, str):
+        return json.dumps(value)
+    return repr(value) if value is None or isinstance(value, (bool, int, float)) else None
+
+
 def literal(schema: Schema) -> str | None:
     """The type of one of several texts."""
     words = schema.get("enum") or [option.get("const") for option in schema.get("oneOf", [])]
@@ -234,18 +247,20 @@ class ReportTypes:
 
     def dataclass(self, command: str, name: str, schema: Schema) -> None:
         base = METHODS.get(name, "Entry")
-        lines = ["", "", "@dataclass(frozen=True, eq=False, repr=False)", f"class {name}({base}):"]
+        lines = ["", "", "@dataclass(frozen=True, eq=False, repr=False, kw_only=True)"]
+        lines.append(f"class {name}({base}):")
         lines += documented(schema.get("description", name).replace("`", ""), "    ")
         for key, of, there in ordered(schema):
             kind = self.type_of(command, of)
             if not there and "None" not in kind:
                 kind += " | None"
             attribute = RENAMED.get((name, key), RENAMED.get(key, key))
-            settings = [] if there else ["default=None"]
+            value = default(of, there, kind)
+            settings = [] if value is None else [f"default={value}"]
             if attribute != key:
                 settings.append(f'metadata={{"key": "{key}"}}')
-            value = f" = field({', '.join(settings)})" if settings else ""
-            lines += ["", f"    {attribute}: {kind}{value}"]
+            given = f" = field({', '.join(settings)})" if settings else ""
+            lines += ["", f"    {attribute}: {kind}{given}"]
             lines += documented(of.get("description", key), "    ")
         self.written[name] = lines
 

@@ -246,3 +246,17 @@ fn no_curve_of_a_committed_report_is_drawn_where_its_data_is_null() {
         "{shown:?}"
     );
 }
+
+/// The keys that say which program computed which saw, as readers of any report find them; only `compare` has several saws.
+#[test]
+fn every_report_of_one_saw_begins_with_the_same_keys() {
+    const FIRST: [&str; 4] = ["sawflutter", "scene", "condition", "unusual_numbers"];
+    for command in COMMANDS.iter().filter(|command| command.name != "compare") {
+        let schema = command.schema();
+        let keys: Vec<&str> = schema["required"].as_array().unwrap()[..4]
+            .iter()
+            .filter_map(Value::as_str)
+            .collect();
+        assert_eq!(keys, FIRST, "{}", command.name);
+    }
+}

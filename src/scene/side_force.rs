@@ -6,9 +6,10 @@ use serde::{Deserialize, Serialize};
 use super::check::is_default;
 use super::quantities::typical_value;
 use super::{Blade, Point, RefusedValue, Scene, SceneError, SceneFile};
+use crate::text::shown_to;
 
 /// Lateral force at a point fixed in space, constant and oscillating. `deflect`, `runup`, `gap`, `place` and studies of guides with
-/// a gap use the constant force, by default 1 N; `response` both, and `gap` both.
+/// a gap compute with the constant force, by default 1 N, `response` and `gap` also with the oscillating one.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SideForceFile {
@@ -86,13 +87,13 @@ impl SceneFile {
         let typed = self.side_force.unwrap_or_default();
         let radius = match typed.radius_m {
             None => "the rim".to_owned(),
-            Some(radius_m) => format!("{radius_m} m"),
+            Some(radius_m) => format!("{} m", shown_to(4, radius_m)),
         };
         let angle_deg = typed.angle_deg.unwrap_or(self.cut_angle_deg());
         let is_in_cut = self.cut.is_some() && angle_deg == self.cut_angle_deg();
         match typed.radius_m.is_none() && is_in_cut {
             true => "at the cut".to_owned(),
-            false => format!("at {radius} at {angle_deg}°"),
+            false => format!("at {radius} at {}°", shown_to(4, angle_deg)),
         }
     }
 

@@ -81,7 +81,7 @@ fn causes_are_set_by_their_keys_and_refused_by_them() {
     for (set, said) in [
         ("response.runout_m=-1mm", "response.runout_m"),
         ("response.runout_m=0.1mm", "tilts freely"),
-        ("response.radius_m=2", "response.radius_m is 2"),
+        ("side_force.radius_m=2", "side_force.radius_m is 2"),
     ] {
         assert_refused(&["response", &path, "--set", set], said, &folder);
     }

@@ -1,4 +1,4 @@
-//! Causes of an oscillation: a side force at the cut, and a shape or an imbalance that turns with the blade.
+//! Causes of an oscillation: a side force, and a shape or an imbalance that turns with the blade.
 
 use crate::scene::{OscillatingForce, RefusedValue, ResponseFile, Scene};
 

@@ -15,9 +15,10 @@ use std::f64::consts::{LN_2, TAU};
 use crate::campbell::Progress;
 use crate::plate::Plate;
 use crate::report::InstabilityBand;
-use crate::scene::{Point, RunUpFile, Scene, SceneError, SideForce, rpm};
+use crate::scene::{Point, RunUpFile, Scene, SceneError, SceneFile, SideForce, rpm};
 use crate::spectrum::Mode;
 use crate::stability::Analysis;
+use crate::text::shown;
 use crate::transient::{
     StretchedRunUp, TransientError, band_exponents, linear_limit_m, response_map, run_up,
     stretched_run_up,
@@ -98,8 +99,23 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
         stretching,
         campbell: chart.campbell,
         response: ResponseMap::new(plate, (runup, &force), probe, highest),
-        warnings: chart.warnings,
+        warnings: chart
+            .warnings
+            .into_iter()
+            .chain(assumed(scene.file()))
+            .collect(),
     })
+}
+
+/// Remark on a side force that the scene does not have.
+fn assumed(scene: &SceneFile) -> Option<String> {
+    let typed = scene.side_force.and_then(|force| force.force_n);
+    let assumed_n = typed.is_none().then(|| scene.side_force_n())?;
+    Some(format!(
+        "the scene has no side force; a constant one of {} N {} was assumed, set side_force.force_n",
+        shown(assumed_n),
+        scene.side_force_place_in_words()
+    ))
 }
 
 impl ResponseMap {
