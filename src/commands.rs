@@ -210,15 +210,12 @@ commands! {
         summary: report,
         figures: [
             "campbell" => |report| campbell::sheet(report, CampbellView::default()),
-            "root-loci" => root_loci::sheet,
+            "root-loci" => root_loci::chart,
             "membrane" => membrane::chart,
             "in-cut" => in_cut::chart,
             "modes" => modes::sheet,
         ],
-        charts: [
-            "campbell" => |report| campbell::chart(report, true),
-            "root-loci" => root_loci::chart
-        ],
+        charts: ["campbell" => |report| campbell::chart(report, true)],
         document: document::of_report,
     }
     "check", "check.json", CheckReport {
