@@ -209,15 +209,12 @@ commands! {
         outline: report::outline,
         figures: [
             "campbell" => |report| campbell::sheet(report, CampbellView::default()),
-            "root-loci" => root_loci::sheet,
+            "root-loci" => root_loci::chart,
             "membrane" => membrane::chart,
             "in-cut" => in_cut::chart,
             "modes" => modes::sheet,
         ],
-        charts: [
-            "campbell" => |report| campbell::chart(report, true),
-            "root-loci" => root_loci::chart
-        ],
+        charts: ["campbell" => |report| campbell::chart(report, true)],
         is_detail: |_, name| name == "root-loci",
     }
     "check", "check.json", CheckReport {

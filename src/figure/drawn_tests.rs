@@ -9,8 +9,8 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use super::campbell::{self, curve};
 use super::draws::{any_saw, lowest_critical, scene};
-use super::root_loci;
 use super::tidy::assert_tidy;
+use super::{layout, root_loci};
 use crate::report::{BranchCurve, Report, RootLoci};
 use crate::scene::{Accuracy, SceneFile, SweepFile, rpm};
 use crate::stability::Analysis;
@@ -122,7 +122,10 @@ fn figures_of_random_saws_agree_with_their_reports() {
             let mut all = loci.paths.iter().flat_map(|path| &path.frequency_hz);
             assert!(all.all(|hz| *hz >= 0.0), "{case}");
             assert!(largest_step(loci) < 0.3, "{case}: {}", largest_step(loci));
-            root_loci::sheet(&report).iter().for_each(assert_tidy);
+            let chart = root_loci::chart(&report);
+            chart
+                .iter()
+                .for_each(|chart| assert_tidy(&layout::sheet(chart)));
         }
     }
 }

@@ -22,6 +22,8 @@ const ASIDE: f64 = 11.0;
 const BELOW: f64 = 4.0;
 const OVER: f64 = -11.0;
 const UNDER: f64 = 21.0;
+const FAR_OVER: f64 = -28.0;
+const FAR_UNDER: f64 = 38.0;
 /// Number of marks up to which labels keep off them, and half the size of a mark.
 const FEW: usize = 60;
 const MARK: f64 = 4.0;
@@ -148,12 +150,21 @@ impl<'a> Labels<'a> {
         let lines = uprights(panel).map(|line| self.ground.x.at(line.x));
         let lines = lines.map(|x| self.ground.frame.between([x - 1.0, x + 1.0]));
         self.shunned.extend(lines);
-        let marks = panel.items.iter().flat_map(|item| match item {
-            Item::Points(points) if points.x.len() <= FEW => points.x.iter().zip(&points.y),
-            _ => [].iter().zip(&[]),
-        });
-        let marks = marks.map(|(x, y)| [self.ground.x.at(*x), self.ground.y.at(*y)]);
-        self.shunned.extend(marks.map(|at| Frame::around(at, MARK)));
+        let place = |(x, y): (&f64, &f64)| [self.ground.x.at(*x), self.ground.y.at(*y)];
+        for item in &panel.items {
+            match item {
+                Item::Points(points) if points.x.len() <= FEW => {
+                    let marks = points.x.iter().zip(&points.y).map(place);
+                    self.shunned.extend(marks.map(|at| Frame::around(at, MARK)));
+                }
+                Item::Line(line) if line.x.len() <= FEW && line.label.is_empty() => {
+                    let places: Vec<_> = line.x.iter().zip(&line.y).map(place).collect();
+                    let steps = places.windows(2).flat_map(filled);
+                    self.shunned.extend(steps.map(|at| Frame::around(at, 1.0)));
+                }
+                _ => {}
+            }
+        }
     }
 
     /// Writes a label at the first of some places that is inside the panel and free, and off marks and lines if there is
@@ -195,6 +206,10 @@ impl<'a> Labels<'a> {
             (0.0, UNDER, Anchor::Middle),
             (ASIDE, UNDER, Anchor::Start),
             (-ASIDE, UNDER, Anchor::End),
+            (0.0, FAR_OVER, Anchor::Middle),
+            (0.0, FAR_UNDER, Anchor::Middle),
+            (ASIDE, FAR_OVER, Anchor::Start),
+            (-ASIDE, FAR_UNDER, Anchor::End),
         ];
         let places = sides.map(|(aside, below, anchor)| ([x + aside, y + below], letters(anchor)));
         self.write(&label.text, places.into_iter());

@@ -5,7 +5,7 @@ mod blade;
 use super::canvas::{Anchor, Lettering, Sheet, Stroke};
 use super::heading;
 use super::key::Key;
-use super::style::{BETWEEN_FACTS, INK, LABEL_SIZE, MARGIN, QUIET, Weight, shorten};
+use super::style::{BETWEEN_FACTS, INK, LABEL_SIZE, MARGIN, QUIET, Weight, broken, shorten};
 use crate::report::{EventShape, Report, ShapeOccasion};
 use blade::{GUIDE_WIDTH, NODAL_WIDTH, colour};
 
@@ -14,7 +14,10 @@ const COLUMNS: usize = 4;
 /// Largest number of panels of a figure.
 const MOST: usize = 16;
 /// Width and height of a panel.
-const PANEL: [f64; 2] = [266.0, 336.0];
+const PANEL: [f64; 2] = [266.0, 352.0];
+/// Height and largest number of lines of the name of a shape.
+const LINE: f64 = 16.0;
+const LINES: usize = 2;
 const TOP: f64 = 86.0;
 const BELOW: f64 = 56.0;
 /// Largest number of harmonics listed below a shape.
@@ -72,7 +75,7 @@ fn facts(report: &Report, shown: usize) -> String {
 }
 
 fn panel(sheet: &mut Sheet, [left, top]: [f64; 2], report: &Report, shape: &EventShape) {
-    let centre = [left + 0.5 * PANEL[0], top + 54.0 + blade::RADIUS];
+    let centre = [left + 0.5 * PANEL[0], top + 54.0 + LINE + blade::RADIUS];
     blade::draw(sheet, centre, report, shape);
     let room = PANEL[0] - 14.0;
     let mut write = |y: f64, em: f64, colour, weight, text: &str| {
@@ -84,11 +87,24 @@ fn panel(sheet: &mut Sheet, [left, top]: [f64; 2], report: &Report, shape: &Even
         sheet.text([centre[0], y], letters, &text);
     };
     write(top + 14.0, 14.0, INK, Weight::SemiBold, &heading_of(shape));
-    write(top + 33.0, LABEL_SIZE, INK, Weight::Regular, &shape.name);
+    for (k, line) in name(shape, room).iter().enumerate() {
+        let y = top + 33.0 + LINE * k as f64;
+        write(y, LABEL_SIZE, INK, Weight::Regular, line);
+    }
     let bottom = centre[1] + blade::RADIUS + 20.0;
     write(bottom, LABEL_SIZE, QUIET, Weight::Regular, &shares(shape));
     let below = bottom + 17.0;
     write(below, LABEL_SIZE, QUIET, Weight::Regular, &motion(shape));
+}
+
+/// The name of a shape in lines of a width; what does not fit into the last one is left out.
+fn name(shape: &EventShape, room: f64) -> Vec<String> {
+    let mut lines = broken(&shape.name, room);
+    if lines.len() > LINES {
+        let last = lines.split_off(LINES - 1).join(" ");
+        lines.push(last);
+    }
+    lines
 }
 
 /// Speed and kind of a shape: "1531 rpm, critical", "2261 rpm, flutter".
@@ -173,6 +189,18 @@ mod tests {
         assert!(all.contains(&critical.as_str()), "{all:?}");
         assert!(all.contains(&"1000 rpm, mode"), "{all:?}");
         assert!(all.contains(&"guide"), "{all:?}");
+        // The name of the two waves of a band is complete.
+        let flutter = report
+            .shapes
+            .iter()
+            .find(|s| s.occasion == ShapeOccasion::Flutter);
+        let flutter = flutter.unwrap();
+        let written = all.join(" ");
+        assert!(
+            written.contains(&flutter.name),
+            "{} {written}",
+            flutter.name
+        );
         let mut free = report.clone();
         free.scene.guides.clear();
         let sheet = super::sheet(&free).unwrap();

@@ -63,11 +63,20 @@ pub fn chart(report: &ResponseReport) -> ChartData {
             [bands.clone(), items, operating(report, is_first)].concat(),
         )
     };
+    let mut all = report.lines.iter().flat_map(|line| &line.amplitude_m);
+    let note = match all.all(Option::is_none) {
+        true => "no steady state is known at any of these speeds",
+        false => "",
+    };
+    let amplitudes = PanelData {
+        note: note.to_owned(),
+        ..in_panel(1.0, amplitude, amplitudes_of.collect(), true)
+    };
     ChartData {
         title: report.scene.name.clone(),
         facts: facts(report),
         panels: vec![
-            in_panel(1.0, amplitude, amplitudes_of.collect(), true),
+            amplitudes,
             in_panel(LOW, phase(), phases.collect(), false),
             in_panel(BOARD, board, vec![deviation], false),
         ],
@@ -234,4 +243,20 @@ fn points_facts(report: &ResponseReport, points: &FrequencyResponse) -> Vec<Stri
             place(report.probe_radius_m, report.probe_angle_deg)
         ),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_response_without_any_amplitude_has_a_note() {
+        let report = include_str!("../../tests/golden/reports/response-resonance.json");
+        let mut report: ResponseReport = serde_json::from_str(report).unwrap();
+        assert_eq!(chart(&report).panels[0].note, "");
+        for line in &mut report.lines {
+            line.amplitude_m.fill(None);
+        }
+        assert!(chart(&report).panels[0].note.starts_with("no steady state"));
+    }
 }

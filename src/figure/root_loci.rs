@@ -1,47 +1,25 @@
-//! Root loci: the two eigenvalues that coalesce at the flutter onset, in the complex plane, and their
-//! frequencies over the rotation speed. Dots are computed eigenvalues; straight lines connect them in the order of
-//! the speeds.
+//! Paths of the two eigenvalues that meet at the flutter onset, in the complex plane and over speed.
 
-use super::axis::{Axis, SPEED as SPEED_NAME, draw_named, draw_vertical, extremes, two_digits};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
+use super::axis::{extremes, proper_range, two_digits};
 use super::chart_data::{AxisData, ChartData, PanelData};
-use super::declutter::{Extent, push_apart};
 use super::heading;
-use super::items::{Item, Line, Points, Role, Upright, lines_by_look};
+use super::items::{Area, Item, Line, Points, Role, Shape, Upright, lines_by_look};
 use super::palette::Hue;
-use super::style::{
-    BETWEEN_FACTS, CURVE, Colour, FLUTTER, FLUTTER_SHADE, GRID, HAIRLINE, LABEL_SIZE, MARGIN,
-    QUIET, label_width, shorten_label, tint,
-};
+use super::style::shorten_label;
 use crate::report::{Report, RootLoci, RootPath};
 use crate::text::shown_to;
 
-const WIDTH: u32 = 1200;
-const HEIGHT: u32 = 800;
-const PLANE: Frame = Frame {
-    left: 92.0,
-    top: 110.0,
-    right: 772.0,
-    bottom: 706.0,
-};
-const SPEED: Frame = Frame {
-    left: 812.0,
-    right: 1152.0,
-    ..PLANE
-};
-/// Distance from the imaginary axis at which purely imaginary eigenvalues are drawn: to the left those of Krein sign
-/// +1, to the right those of Krein sign −1.
-const ASIDE: f64 = 3.5;
-/// Radius of the dot of a computed eigenvalue.
-const DOT: f64 = 2.2;
-/// Line height of a label.
-const LINE: f64 = 15.0;
-/// Distance of a label from the imaginary axis, and from a growing eigenvalue.
-const GAP: f64 = 14.0;
-/// Largest width of the name of an eigenvalue.
-const LONGEST: f64 = 210.0;
 /// Larger speeds, growth rates and frequencies are not drawn: no saw has them, and labels would have no room.
 const LARGEST: f64 = 1e9;
+/// Diameter of the dot of a computed eigenvalue.
+const DOT_SIZE: f64 = 4.4;
+/// Distance of an eigenvalue on the imaginary axis from this axis, relative to the axis of growth rates: to the left for
+/// Krein sign +1 and to the right for −1, so that both paths are visible.
+const ASIDE: f64 = 0.011;
+/// Largest width of the name at the end of a path, in figure units.
+const LONGEST: f64 = 200.0;
+/// Height of the panels, relative to one of usual height.
+const SHARE: f64 = 1.45;
 
 /// A computed eigenvalue.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,82 +32,54 @@ struct Sample {
     sign: i8,
 }
 
-/// Eigenvalues and axes of the figure.
-struct Chart {
+/// Two paths of finite eigenvalues, and the axes that show them.
+struct Paths {
     paths: [Vec<Sample>; 2],
-    growth: Axis,
-    frequency: Axis,
-    speed: Axis,
+    /// End of the axis of growth rates on either side of zero.
+    reach: f64,
+    hz: [f64; 2],
+    rpm: [f64; 2],
     /// Number of decimals that distinguishes the speeds.
     decimals: usize,
 }
 
-/// Draws both panels; `None` if the report does not contain two paths of finite eigenvalues.
-pub fn sheet(report: &Report) -> Option<Sheet> {
+/// The eigenvalues in the complex plane and over speed, as numbers; `None` if the report does not contain two paths of
+/// finite eigenvalues.
+pub fn chart(report: &Report) -> Option<ChartData> {
     let entry = report.root_loci.as_ref()?;
-    let chart = Chart::new(entry)?;
-    let mut sheet = Sheet::new(WIDTH, HEIGHT);
+    let found = Paths::new(entry)?;
+    let hz = AxisData::new("Im λ / 2π", "Hz").within(found.hz);
+    let [from, to] = [entry.onset_rpm, entry.end_rpm].map(|rpm| found.rpm(rpm));
+    let plane = PanelData {
+        title: "Complex plane".to_owned(),
+        share: SHARE,
+        ..PanelData::new(
+            AxisData::new("Re λ, positive for growth", "1/s").within([-found.reach, found.reach]),
+            hz.clone(),
+            found.plane(entry),
+        )
+    };
+    let over_speed = PanelData {
+        title: format!("Flutter from {from} to {to} rpm"),
+        share: SHARE,
+        ..PanelData::new(
+            AxisData::speed().within(found.rpm),
+            hz,
+            found.over_speed(entry),
+        )
+    };
+    let facts = vec![
+        heading::of_saw(&report.scene.name, &report.condition),
+        "(+) and (−): Krein signs".to_owned(),
+    ];
     let title = format!(
         "Root loci around the flutter onset at {:.0} rpm",
         entry.onset_rpm
     );
-    heading::draw(
-        &mut sheet,
-        &title,
-        &heading::of_saw(&report.scene.name, &report.condition),
-    );
-    draw_axes(&mut sheet, &chart);
-    draw_band(&mut sheet, &chart, entry);
-    // The first path is drawn last, so that it is visible in the panel over speed, where both have the same frequency.
-    for path in chart.paths.iter().rev() {
-        draw_path(&mut sheet, path, |s| chart.in_plane(s));
-        draw_path(&mut sheet, path, |s| chart.over_speed(s));
-    }
-    draw_labels(&mut sheet, &chart, entry);
-    let notes = [
-        "dots: computed eigenvalues",
-        "(+) and (−): Krein signs",
-        "where Re λ = 0 dots are drawn beside the axis to keep them apart",
-    ];
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let at = [PLANE.left, f64::from(HEIGHT) - 16.0];
-    sheet.text(at, letters, &notes.join(BETWEEN_FACTS));
-    Some(sheet)
-}
-
-/// The eigenvalues in the complex plane and over speed, as numbers; `None` as for [`sheet`].
-pub fn chart(report: &Report) -> Option<ChartData> {
-    let entry = report.root_loci.as_ref()?;
-    let chart = Chart::new(entry)?;
-    let hz = AxisData::new("Im λ / 2π", "Hz").within(chart.frequency.values());
-    let mut plane = vec![Item::Upright(Upright {
-        x: 0.0,
-        role: Role::Guide,
-        colour: Hue::Quiet,
-        dashed: true,
-        label: String::new(),
-        name: "neither grows nor decays".to_owned(),
-    })];
-    let mut over_speed = Vec::new();
-    for (path, own) in chart.paths.iter().zip(&entry.paths).rev() {
-        plane.extend(items(path, &own.name, |s| [s.growth, s.hz]));
-        over_speed.extend(items(path, &own.name, |s| [s.rpm, s.hz]));
-    }
-    let growth = AxisData::new("Re λ", "1/s").within(chart.growth.values());
-    let speed = AxisData::speed().within(chart.speed.values());
-    let [from, to] = [entry.onset_rpm, entry.end_rpm].map(|rpm| chart.rpm(rpm));
     Some(ChartData {
-        columns: 1,
-        key: Vec::new(),
-        title: report.scene.name.clone(),
-        facts: vec![
-            report.condition.clone(),
-            format!("flutter from {from} to {to} rpm"),
-        ],
-        panels: vec![
-            PanelData::new(growth, hz.clone(), plane),
-            PanelData::new(speed, hz, over_speed),
-        ],
+        columns: 2,
+        key: key(),
+        ..ChartData::new(&title, facts, vec![plane, over_speed])
     })
 }
 
@@ -161,7 +111,7 @@ fn items(path: &[Sample], name: &str, place: impl Fn(&Sample) -> [f64; 2]) -> Ve
         items.push(Item::Points(Points {
             tint: of.1,
             said: own.clone().map(say).collect(),
-            ..Points::new(own.map(&place), of.0, 2.0 * DOT, name)
+            ..Points::new(own.map(&place), of.0, DOT_SIZE, name)
         }));
     }
     items
@@ -181,7 +131,7 @@ fn samples(entry: &RootLoci, path: &RootPath) -> Vec<Sample> {
         .collect()
 }
 
-impl Chart {
+impl Paths {
     fn new(entry: &RootLoci) -> Option<Self> {
         let [first, second] = entry.paths.first_chunk()?;
         let paths = [first, second].map(|path| samples(entry, path));
@@ -195,27 +145,79 @@ impl Chart {
         let reach = 1.62 * if reach > 0.0 { reach } else { 1.0 };
         let [bottom, top] = range(|s| s.hz);
         let air = (0.08 * (top - bottom)).max(1e-3 * top.abs());
-        let ends = range(|s| s.rpm);
+        let rpm = proper_range(range(|s| s.rpm));
         Some(Self {
-            growth: Axis::linear([-reach, reach], PLANE.across()),
-            frequency: Axis::linear([bottom - air, top + air], PLANE.upwards()),
-            speed: Axis::linear(ends, SPEED.across()),
-            decimals: (15.0 / (ends[1] - ends[0])).log10().ceil().clamp(0.0, 3.0) as usize,
+            reach,
+            hz: proper_range([bottom - air, top + air]),
+            decimals: (15.0 / (rpm[1] - rpm[0])).log10().ceil().clamp(0.0, 3.0) as usize,
+            rpm,
             paths,
         })
     }
 
-    fn in_plane(&self, s: &Sample) -> [f64; 2] {
-        let aside = -ASIDE * f64::from(s.sign);
-        [self.growth.at(s.growth) + aside, self.frequency.at(s.hz)]
-    }
-
-    fn over_speed(&self, s: &Sample) -> [f64; 2] {
-        [self.speed.at(s.rpm), self.frequency.at(s.hz)]
-    }
-
     fn rpm(&self, rpm: f64) -> String {
         format!("{rpm:.*}", self.decimals)
+    }
+
+    fn in_plane(&self, s: &Sample) -> [f64; 2] {
+        [s.growth - ASIDE * self.reach * f64::from(s.sign), s.hz]
+    }
+
+    /// The first path is drawn last, so that it is visible over the speed, where both have the same frequency.
+    fn drawn(&self, entry: &RootLoci, place: impl Fn(&Sample) -> [f64; 2]) -> Vec<Item> {
+        let paths = self.paths.iter().zip(&entry.paths).rev();
+        paths
+            .flat_map(|(path, own)| items(path, &own.name, &place))
+            .collect()
+    }
+
+    fn plane(&self, entry: &RootLoci) -> Vec<Item> {
+        let axis = Item::Upright(Upright {
+            x: 0.0,
+            role: Role::Guide,
+            colour: Hue::Quiet,
+            dashed: false,
+            label: String::new(),
+            name: "neither grows nor decays".to_owned(),
+        });
+        let paths = self.drawn(entry, |s| self.in_plane(s));
+        [axis]
+            .into_iter()
+            .chain(paths)
+            .chain(self.labels(entry))
+            .collect()
+    }
+
+    fn over_speed(&self, entry: &RootLoci) -> Vec<Item> {
+        let [first, last] = self.rpm;
+        let band = [entry.onset_rpm, entry.end_rpm].map(|rpm| rpm.clamp(first, last));
+        let band = band.map(|rpm| [rpm, self.hz[0], self.hz[1]]);
+        let band = Item::Area(Area::new(band, Hue::FlutterShade, "flutter"));
+        let paths = self.drawn(entry, |s| [s.rpm, s.hz]);
+        [band].into_iter().chain(paths).collect()
+    }
+
+    /// Names at the beginnings of the paths, the largest growth, and a note on its mirror image.
+    fn labels(&self, entry: &RootLoci) -> Vec<Item> {
+        let begins = self.paths.iter().zip(&entry.paths);
+        let begins = begins.filter_map(|(path, own)| {
+            let sample = path.first().filter(|s| s.sign != 0)?;
+            let sign = if sample.sign > 0 { "+" } else { "\u{2212}" };
+            let text = format!("({sign}) {}", shorten_label(&own.name, LONGEST));
+            Some(Item::label(self.in_plane(sample), hue(sample).0, text))
+        });
+        let all = self.paths.iter().flatten();
+        let peak = all.max_by(|a, b| a.growth.total_cmp(&b.growth));
+        let peak = peak.filter(|s| s.growth > 0.0).map(|peak| {
+            let [rpm, growth] = [self.rpm(peak.rpm), two_digits(peak.growth)];
+            let text = format!("peak {rpm} rpm, {growth} 1/s");
+            let mirrored = "decaying (mirror image)".to_owned();
+            [
+                Item::label([peak.growth, peak.hz], Hue::Flutter, text),
+                Item::label([-peak.growth, peak.hz], Hue::Flutter, mirrored),
+            ]
+        });
+        begins.chain(peak.into_iter().flatten()).collect()
     }
 }
 
@@ -229,11 +231,6 @@ fn hue(s: &Sample) -> (Hue, f64) {
     }
 }
 
-fn colour(s: &Sample) -> Colour {
-    let (hue, share) = hue(s);
-    tint(hue.colour(), share)
-}
-
 /// The eigenvalue that determines the colour of the line between an eigenvalue and the next: one inside the band if
 /// there is one, otherwise the first.
 fn colour_giver(path: &[Sample], i: usize) -> &Sample {
@@ -241,142 +238,16 @@ fn colour_giver(path: &[Sample], i: usize) -> &Sample {
     pair.iter().find(|s| s.sign == 0).unwrap_or(&pair[0])
 }
 
-fn draw_axes(sheet: &mut Sheet, chart: &Chart) {
-    let name = "Im λ / 2π\u{2003}[Hz]";
-    draw_vertical(sheet, &chart.frequency, &PLANE, name);
-    for hz in chart.frequency.ticks(40.0) {
-        let y = chart.frequency.at(hz);
-        sheet.horizontal(y, &SPEED, Stroke::solid(GRID, HAIRLINE));
-    }
-    for x in [PLANE.left, chart.growth.at(0.0), SPEED.left] {
-        sheet.vertical(x, &PLANE, Stroke::solid(QUIET, HAIRLINE));
-    }
-    draw_named(sheet, &chart.growth, PLANE.bottom, "Re λ\u{2003}[1/s]");
-    draw_named(sheet, &chart.speed, SPEED.bottom, SPEED_NAME);
-}
-
-/// Shades the band over the speeds, and writes its ends in rpm above.
-fn draw_band(sheet: &mut Sheet, chart: &Chart, entry: &RootLoci) {
-    let [first, last] = chart.speed.values();
-    let ends = [entry.onset_rpm, entry.end_rpm].map(|rpm| rpm.clamp(first, last));
-    let [left, right] = ends.map(|rpm| chart.speed.at(rpm));
-    sheet.fill(SPEED.between([left, right]), FLUTTER_SHADE);
-    let [from, to] = [entry.onset_rpm, entry.end_rpm].map(|rpm| chart.rpm(rpm));
-    let name = format!("flutter {from}–{to}");
-    let letters = Lettering::regular(LABEL_SIZE, FLUTTER, Anchor::Middle);
-    let half = label_width(&name) / 2.0;
-    let room = [SPEED.left + half, f64::from(WIDTH) - MARGIN - half];
-    let middle = (0.5 * (left + right)).min(room[1]).max(room[0]);
-    sheet.text([middle, SPEED.top - 8.0], letters, &name);
-}
-
-/// Draws straight lines between successive computed eigenvalues, and a dot at each.
-fn draw_path(sheet: &mut Sheet, path: &[Sample], place: impl Fn(&Sample) -> [f64; 2]) {
-    for (i, pair) in path.windows(2).enumerate() {
-        let line = [place(&pair[0]), place(&pair[1])];
-        sheet.line(line, Stroke::solid(colour(colour_giver(path, i)), CURVE));
-    }
-    for sample in path {
-        sheet.disc(place(sample), DOT, colour(sample));
-    }
-}
-
-/// Lines of text beside an eigenvalue.
-struct Label {
-    lines: Vec<String>,
-    colour: Colour,
-    /// Abscissa of the start or the end of the text.
-    x: f64,
-    /// Preferred ordinate of its middle.
-    y: f64,
-}
-
-/// Writes names and speeds at the ends of the paths, to the left of the imaginary axis for Krein sign +1 and to the right
-/// for −1, the largest growth to the right, and a note on its mirror image to the left.
-fn draw_labels(sheet: &mut Sheet, chart: &Chart, entry: &RootLoci) {
-    for (text, x, anchor) in [
-        ("← decaying", PLANE.left, Anchor::Start),
-        ("growing →", PLANE.right, Anchor::End),
-    ] {
-        let letters = Lettering::regular(LABEL_SIZE, QUIET, anchor);
-        sheet.text([x, PLANE.top - 8.0], letters, text);
-    }
-    let [mut left, mut right] = [Vec::new(), Vec::new()];
-    for (path, own) in chart.paths.iter().zip(&entry.paths) {
-        for (at, sample) in [path.first(), path.last()].into_iter().enumerate() {
-            let Some(sample) = sample.filter(|s| s.sign != 0) else {
-                continue;
-            };
-            let name = (at == 0).then_some(own.name.as_str());
-            match sample.sign > 0 {
-                true => left.push(label_of_end(chart, sample, name, -1.0)),
-                false => right.push(label_of_end(chart, sample, name, 1.0)),
-            }
-        }
-    }
-    let all = chart.paths.iter().flatten();
-    if let Some(peak) = all
-        .max_by(|a, b| a.growth.total_cmp(&b.growth))
-        .filter(|s| s.growth > 0.0)
-    {
-        let mirrored = Sample {
-            growth: -peak.growth,
-            ..*peak
-        };
-        right.push(label_of_peak(chart, peak));
-        left.push(Label {
-            lines: vec!["decaying".to_owned(), "(mirror image)".to_owned()],
-            colour: tint(FLUTTER, 0.75),
-            x: chart.in_plane(&mirrored)[0] - GAP,
-            y: chart.frequency.at(peak.hz),
-        });
-    }
-    write(sheet, &left, Anchor::End);
-    write(sheet, &right, Anchor::Start);
-}
-
-fn label_of_end(chart: &Chart, sample: &Sample, name: Option<&str>, way: f64) -> Label {
-    let sign = if sample.sign > 0 { "+" } else { "\u{2212}" };
-    let name = name.map_or(String::new(), |name| format!(" {name}"));
-    let name = shorten_label(&format!("({sign}){name}"), LONGEST);
-    Label {
-        lines: vec![name, format!("{} rpm", chart.rpm(sample.rpm))],
-        colour: colour(sample),
-        x: chart.growth.at(0.0) + way * GAP,
-        y: chart.frequency.at(sample.hz),
-    }
-}
-
-fn label_of_peak(chart: &Chart, peak: &Sample) -> Label {
-    let [x, y] = chart.in_plane(peak);
-    Label {
-        lines: vec![
-            "growing".to_owned(),
-            format!("peak {} rpm", chart.rpm(peak.rpm)),
-            format!("{} 1/s", two_digits(peak.growth)),
-        ],
-        colour: FLUTTER,
-        x: x + GAP,
-        y,
-    }
-}
-
-/// Writes the labels of one side without overlap.
-fn write(sheet: &mut Sheet, labels: &[Label], anchor: Anchor) {
-    let extents = labels.iter().map(|label| Extent {
-        centre: label.y,
-        length: LINE * label.lines.len() as f64 + 2.0,
-    });
-    let centres = push_apart(extents, [PLANE.top, PLANE.bottom]);
-    for (label, centre) in labels.iter().zip(centres) {
-        let Some(centre) = centre else { continue };
-        let letters = Lettering::regular(LABEL_SIZE, label.colour, anchor);
-        for (k, line) in label.lines.iter().enumerate() {
-            let above = k as f64 - 0.5 * (label.lines.len() as f64 - 1.0);
-            let at = [label.x, centre + above * LINE + 0.36 * LABEL_SIZE];
-            sheet.text_on_paper(at, letters, line);
-        }
-    }
+fn key() -> Vec<Item> {
+    let dot = |hue, name| Item::points_sample(DOT_SIZE, Shape::Disc, hue, name);
+    vec![
+        dot(Hue::Forward, "computed eigenvalue, Krein sign +1"),
+        dot(
+            Hue::Backward,
+            "Krein sign −1; drawn beside the axis where Re λ = 0",
+        ),
+        dot(Hue::Flutter, "inside the band"),
+    ]
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-use super::super::canvas::Mark;
+use super::super::layout::sheet;
 use super::super::sample::{busy_report, root_loci as sample_loci};
 use super::super::tidy::{assert_tidy, texts};
 use super::*;
@@ -26,36 +26,36 @@ fn cut_short() -> RootLoci {
 #[test]
 fn nothing_but_computed_eigenvalues_is_drawn() {
     for entry in [sample_loci(-0.01), cut_short()] {
-        let chart = Chart::new(&entry).unwrap();
-        let drawn = sheet(&report(entry)).unwrap();
-        let all = chart.paths.iter().flatten();
+        let found = Paths::new(&entry).unwrap();
+        let all = found.paths.iter().flatten();
         let known: Vec<[f64; 2]> = all
-            .flat_map(|s| [chart.in_plane(s), chart.over_speed(s)])
+            .flat_map(|s| [found.in_plane(s), [s.rpm, s.hz]])
             .collect();
-        let curves = drawn.marks().iter().filter_map(|mark| match mark {
-            Mark::Line(points, stroke) if stroke.width == CURVE => Some(points),
+        let chart = chart(&report(entry)).unwrap();
+        let items = chart.panels.iter().flat_map(|panel| &panel.items);
+        let points = items.filter_map(|item| match item {
+            Item::Line(line) => Some(line.x.iter().zip(&line.y)),
+            Item::Points(points) => Some(points.x.iter().zip(&points.y)),
             _ => None,
         });
-        let curves: Vec<_> = curves.flatten().collect();
-        assert_eq!(curves.len(), 2 * (known.len() - 4));
-        assert!(curves.iter().all(|point| known.contains(point)));
+        let points = points.flatten().map(|(x, y)| [*x, *y]);
+        let points: Vec<[f64; 2]> = points.filter(|[x, _]| !x.is_nan()).collect();
+        assert!(points.iter().all(|point| known.contains(point)));
+        assert!(known.iter().all(|point| points.contains(point)));
     }
 }
 
 #[test]
-fn the_largest_growth_and_the_speeds_of_all_ends_are_written() {
-    let drawn = sheet(&report(sample_loci(0.0))).unwrap();
+fn the_largest_growth_and_the_names_of_both_waves_are_written() {
+    let drawn = sheet(&chart(&report(sample_loci(0.0))).unwrap());
     let written = texts(&drawn);
     for text in [
         "Root loci around the flutter onset at 2256 rpm",
-        &heading::of_saw("Guided blade, 864 mm", "idling"),
         "(+) 4 diameters, backward",
         "(\u{2212}) 4 diameters, reflected",
-        "flutter 2256–2267",
-        "peak 2261 rpm",
-        "0.53 1/s",
-        "2240 rpm",
-        "2282 rpm",
+        "Flutter from 2256 to 2267 rpm",
+        "peak 2261 rpm, 0.53 1/s",
+        "decaying (mirror image)",
     ] {
         assert!(written.iter().any(|(_, own)| *own == text), "{text}");
     }
@@ -65,15 +65,15 @@ fn the_largest_growth_and_the_speeds_of_all_ends_are_written() {
 fn labels_neither_overlap_nor_leave_the_sheet() {
     for drift in [0.0, -0.002, 0.002, -0.01, 0.01, -0.05, 0.05, 3.0] {
         let mut loci = sample_loci(drift);
-        assert_tidy(&sheet(&report(loci.clone())).unwrap());
+        assert_tidy(&sheet(&chart(&report(loci.clone())).unwrap()));
         for path in &mut loci.paths {
             path.name = "12 diameters, 3 circles, backward, or so ".repeat(4);
         }
         let mut report = report(loci);
         report.scene.name = "Sägeblatt <&> ".repeat(40);
-        assert_tidy(&sheet(&report).unwrap());
+        assert_tidy(&sheet(&chart(&report).unwrap()));
     }
-    assert_tidy(&sheet(&report(cut_short())).unwrap());
+    assert_tidy(&sheet(&chart(&report(cut_short())).unwrap()));
 }
 
 #[test]
@@ -82,12 +82,12 @@ fn numbers_that_are_not_finite_or_huge_are_not_drawn() {
     odd.paths[0].frequency_hz[3] = f64::NAN;
     odd.paths[1].growth_per_s[9] = f64::INFINITY;
     odd.rpm[5] = 1e200;
-    assert_tidy(&sheet(&report(odd.clone())).unwrap());
+    assert_tidy(&sheet(&chart(&report(odd.clone())).unwrap()));
     let without_end = RootLoci {
         end_rpm: f64::NAN,
         ..odd.clone()
     };
-    assert!(sheet(&report(without_end)).is_none());
+    assert!(chart(&report(without_end)).is_none());
     odd.paths.truncate(1);
-    assert!(sheet(&report(odd)).is_none());
+    assert!(chart(&report(odd)).is_none());
 }
