@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+import sawflutter as sf
 from sawflutter import _native, _report_types
 
 GENERATOR = Path(__file__).resolve().parents[1] / "tools" / "generate_types.py"
@@ -31,3 +32,14 @@ def test_every_object_of_the_reports_has_a_class_with_a_docstring() -> None:
         of = getattr(_report_types, name)
         if isinstance(of, type) and of.__module__ == _report_types.__name__:
             assert of.__doc__, name
+
+
+def test_a_key_with_a_default_may_be_absent(report: sf.CampbellResults, tmp_path: Path) -> None:
+    path = tmp_path / "report.json"
+    report.save(path)
+    data = json.loads(path.read_text(encoding="utf-8"))
+    del data["condition"], data["unusual_numbers"]
+    path.write_text(json.dumps(data), encoding="utf-8")
+    found = sf.load(path)
+    assert isinstance(found, sf.CampbellResults)
+    assert (found.condition, found.unusual_numbers) == ("", ())
