@@ -128,7 +128,7 @@ fn schema<T: JsonSchema>() -> Value {
 
 /// Defines [`COMMANDS`], and implements [`CommandReport`] for the reports: name of the command, name of the file, type of
 /// the report; module of its summary; names of its figures, with the functions that describe them as numbers, or draw
-/// them; for some that are drawn, the functions that also describe them.
+/// them; for those that are drawn, the functions that describe them, if any.
 macro_rules! commands {
     ($($command:literal, $file:literal, $report:ident {
         summary: $summary:ident,
@@ -215,7 +215,10 @@ commands! {
             "in-cut" => in_cut::chart,
             "modes" => modes::sheet,
         ],
-        charts: ["campbell" => |report| campbell::chart(report, true)],
+        charts: [
+            "campbell" => |report| campbell::chart(report, true),
+            "modes" => |_| None::<ChartData>
+        ],
         document: document::of_report,
     }
     "check", "check.json", CheckReport {
@@ -232,7 +235,7 @@ commands! {
         figures: [
             "cut" => cut::chart,
             "cut-map" => cut_map::chart,
-            "spline-orbit" => spline_orbit::sheet,
+            "spline-orbit" => spline_orbit::chart,
         ],
     }
     "deflect", "deflect.json", DeflectReport {
