@@ -138,7 +138,7 @@ fn schema<T: JsonSchema>() -> Value {
 
 /// Defines [`COMMANDS`], and implements [`CommandReport`] for the reports: name of the command, name of the file, type of
 /// the report; its module, with its outline; names of its figures, with the functions that describe them as numbers, or draw
-/// them; for some that are drawn, the functions that also describe them.
+/// them; for those that are drawn, the functions that describe them, if any; which figures are details.
 macro_rules! commands {
     ($($command:literal, $file:literal, $report:ident {
         outline: $outline:expr,
@@ -214,7 +214,10 @@ commands! {
             "in-cut" => in_cut::chart,
             "modes" => modes::sheet,
         ],
-        charts: ["campbell" => |report| campbell::chart(report, true)],
+        charts: [
+            "campbell" => |report| campbell::chart(report, true),
+            "modes" => |_| None::<ChartData>
+        ],
         is_detail: |_, name| name == "root-loci",
     }
     "check", "check.json", CheckReport {
@@ -230,7 +233,7 @@ commands! {
         figures: [
             "cut" => cut::chart,
             "cut-map" => cut_map::chart,
-            "spline-orbit" => spline_orbit::sheet,
+            "spline-orbit" => spline_orbit::chart,
         ],
         is_detail: |report: &CutReport, name| name == "cut-map" && report.is_stable(),
     }

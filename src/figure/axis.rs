@@ -347,12 +347,6 @@ pub fn draw_horizontal_at<T: AsRef<str>>(
     }
 }
 
-/// Draws a horizontal axis with numbers, and its name below them.
-pub fn draw_named(sheet: &mut Sheet, axis: &Axis, y: f64, name: &str) {
-    draw_horizontal(sheet, axis, y, true);
-    name_below(sheet, axis.places(), y + 42.0, name);
-}
-
 /// Writes the name of a horizontal axis centred between its ends, on a baseline.
 pub fn name_below(sheet: &mut Sheet, [left, right]: [f64; 2], baseline: f64, name: &str) {
     let letters = Lettering::regular(AXIS_SIZE, INK, Anchor::Middle);

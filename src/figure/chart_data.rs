@@ -52,6 +52,8 @@ pub struct PanelData {
     pub y: AxisData,
     /// Height relative to that of the other panels.
     pub share: f64,
+    /// Whether a unit is as long on both axes.
+    pub equal: bool,
     /// Whether the panel shows frequencies over the rotation speed, so that multiples of the speed are
     /// straight lines.
     pub harmonics: bool,
@@ -71,6 +73,7 @@ impl PanelData {
             x,
             y,
             share: 1.0,
+            equal: false,
             harmonics: false,
             note: String::new(),
             items,

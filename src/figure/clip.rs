@@ -1,13 +1,6 @@
 //! Clips lines at the edges of a panel, because plotters does not.
 
-use super::canvas::{Frame, Sheet, Stroke};
-
-/// Draws the parts of a line inside the frame.
-pub fn draw_inside(sheet: &mut Sheet, frame: &Frame, points: &[[f64; 2]], stroke: Stroke) {
-    for part in clip(points, frame) {
-        sheet.line(part, stroke);
-    }
-}
+use super::canvas::Frame;
 
 /// The parts of a line inside the frame; non-finite points divide the line.
 pub fn clip(points: &[[f64; 2]], frame: &Frame) -> Vec<Vec<[f64; 2]>> {

@@ -5,7 +5,7 @@ use super::heat::rgb;
 use super::items::Item;
 use super::paint::{draw_mark, stroke};
 use super::panel::upright_stroke;
-use super::style::{Colour, LABEL_SIZE, PAPER, QUIET, label_width, shorten_label, tint};
+use super::style::{LABEL_SIZE, PAPER, QUIET, label_width, shorten_label, tint};
 
 /// Space after each word.
 const AFTER_WORD: f64 = 24.0;
@@ -61,87 +61,44 @@ pub fn height(samples: &[Item], width: f64) -> f64 {
 /// Draws the key of a chart below an upper left corner.
 pub fn draw(sheet: &mut Sheet, samples: &[Item], [left, top]: [f64; 2], width: f64) {
     for (row, line) in lines(samples, width).into_iter().enumerate() {
-        let mut key = Key::new(sheet, left, top + LINE * row as f64 + 14.0);
+        let baseline = top + LINE * row as f64 + 14.0;
+        let mut x = left;
         for sample in line {
-            match sample {
-                Item::Line(line) => {
-                    let stroke = stroke(line);
-                    let width = stroke.width.min(THICKEST);
-                    key.line(SAMPLE, Stroke { width, ..stroke })
-                }
-                Item::Points(points) => key.mark(points.size, |sheet, [x, y]| {
-                    draw_mark(sheet, [x + 0.5 * points.size, y], points);
-                }),
-                Item::Upright(line) => key.upright(2.0, 7.0, upright_stroke(line)),
-                Item::Area(area) => key.shade(tint(area.colour.colour(), area.tint)),
-                Item::Band(band) => key.shade(band.shade.colour()),
-                Item::Heat(heat) => key.shade(heat.colours.first().map_or(PAPER, |c| rgb(*c))),
-                Item::Bars(bars) => key.shade(tint(bars.colour.colour(), bars.tint)),
-                Item::Label(_) => &mut key,
-            };
             let (word, mark) = measure(sample);
-            key.word(&shorten_label(word, width - mark - AFTER_MARK));
+            draw_sample(sheet, sample, [x, baseline - 4.0]);
+            let word = shorten_label(word, width - mark - AFTER_MARK);
+            let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
+            sheet.text([x + mark + AFTER_MARK, baseline], letters, &word);
+            x += mark + AFTER_MARK + label_width(&word) + AFTER_WORD;
         }
     }
 }
 
-/// A line of marks and words, which is written from left to right.
-pub struct Key<'a> {
-    sheet: &'a mut Sheet,
-    left: f64,
-    baseline: f64,
-}
-
-impl<'a> Key<'a> {
-    /// Begins a key at the left end of a baseline.
-    pub fn new(sheet: &'a mut Sheet, left: f64, baseline: f64) -> Self {
-        Key {
-            sheet,
-            left,
-            baseline,
+/// Draws a mark with its left end at a point, at half the height of the letters.
+fn draw_sample(sheet: &mut Sheet, sample: &Item, [x, y]: [f64; 2]) {
+    let box_of = |colour| (Frame::around([x + 8.0, y], 8.0), colour);
+    let (frame, colour) = match sample {
+        Item::Line(line) => {
+            let stroke = stroke(line);
+            let width = stroke.width.min(THICKEST);
+            return sheet.line([[x, y], [x + SAMPLE, y]], Stroke { width, ..stroke });
         }
-    }
-
-    /// Adds a mark of a given width. `draw` receives the left end of the mark, at half the height of the letters.
-    pub fn mark(&mut self, width: f64, draw: impl FnOnce(&mut Sheet, [f64; 2])) -> &mut Self {
-        draw(self.sheet, [self.left, self.baseline - 4.0]);
-        self.left += width + AFTER_MARK;
-        self
-    }
-
-    /// Adds a filled box, for the meaning of an area.
-    pub fn shade(&mut self, colour: Colour) -> &mut Self {
-        let width = 16.0;
-        self.mark(width, |sheet, [x, y]| {
-            let frame = Frame {
-                left: x,
-                top: y - 6.0,
-                right: x + width,
-                bottom: y + 6.0,
-            };
-            sheet.fill(frame, colour);
-        })
-    }
-
-    /// Adds a horizontal line.
-    pub fn line(&mut self, width: f64, stroke: Stroke) -> &mut Self {
-        self.mark(width, |sheet, [x, y]| {
-            sheet.line([[x, y], [x + width, y]], stroke)
-        })
-    }
-
-    /// Adds a vertical line of twice the length `half` at the left end of a width.
-    pub fn upright(&mut self, width: f64, half: f64, stroke: Stroke) -> &mut Self {
-        self.mark(width, |sheet, [x, y]| {
-            sheet.line([[x, y - half], [x, y + half]], stroke);
-        })
-    }
-
-    /// Adds a word, with or without a mark before it.
-    pub fn word(&mut self, text: &str) -> &mut Self {
-        let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-        self.sheet.text([self.left, self.baseline], letters, text);
-        self.left += label_width(text) + AFTER_WORD;
-        self
-    }
+        Item::Points(points) => {
+            return draw_mark(sheet, [x + 0.5 * points.size, y], points);
+        }
+        Item::Upright(line) => {
+            return sheet.line([[x, y - 7.0], [x, y + 7.0]], upright_stroke(line));
+        }
+        Item::Label(_) => return,
+        Item::Area(area) => box_of(tint(area.colour.colour(), area.tint)),
+        Item::Band(band) => box_of(band.shade.colour()),
+        Item::Heat(heat) => box_of(heat.colours.first().map_or(PAPER, |c| rgb(*c))),
+        Item::Bars(bars) => box_of(tint(bars.colour.colour(), bars.tint)),
+    };
+    let frame = Frame {
+        top: y - 6.0,
+        bottom: y + 6.0,
+        ..frame
+    };
+    sheet.fill(frame, colour);
 }

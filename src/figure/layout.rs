@@ -69,13 +69,19 @@ impl Grid {
             top += above.fold(0.0, f64::max);
             let share = beside.iter().fold(0.0, |most, panel| panel.share.max(most));
             let bottom = top + HEIGHT * share;
-            grid.frames
-                .extend(sides.iter().take(beside.len()).map(|[left, right]| Frame {
+            let frames = beside
+                .iter()
+                .zip(&sides)
+                .map(|(panel, [left, right])| Frame {
                     left: *left,
                     top,
-                    right: *right,
+                    right: match panel.equal {
+                        true => right.min(left + bottom - top),
+                        false => *right,
+                    },
                     bottom,
-                }));
+                });
+            grid.frames.extend(frames);
             let is_shared = grid.is_shared(panels, row * columns);
             top = bottom
                 + if is_shared {

@@ -11,7 +11,6 @@ mod canvas;
 mod chart_data;
 pub(crate) mod check;
 mod clip;
-mod columns;
 pub(crate) mod compare;
 pub(crate) mod cut;
 pub(crate) mod cut_map;

@@ -2,9 +2,11 @@
 
 mod blade;
 
-use super::canvas::{Anchor, Lettering, Sheet, Stroke};
+use super::canvas::{Anchor, Lettering, Sheet};
 use super::heading;
-use super::key::Key;
+use super::items::{Heat, Item};
+use super::key;
+use super::palette::Hue;
 use super::style::{BETWEEN_FACTS, INK, LABEL_SIZE, MARGIN, QUIET, Weight, broken, shorten};
 use crate::report::{EventShape, Report, ShapeOccasion};
 use blade::{GUIDE_WIDTH, NODAL_WIDTH, colour};
@@ -41,7 +43,9 @@ pub fn sheet(report: &Report) -> Option<Sheet> {
         let corner = [MARGIN + column * PANEL[0], TOP + row * PANEL[1]];
         panel(&mut sheet, corner, report, shape);
     }
-    key(&mut sheet, height - 24.0, !report.scene.guides.is_empty());
+    let at = [MARGIN, height - 38.0];
+    let samples = samples(!report.scene.guides.is_empty());
+    key::draw(&mut sheet, &samples, at, width - 2.0 * MARGIN);
     Some(sheet)
 }
 
@@ -142,18 +146,19 @@ fn shares(shape: &EventShape) -> String {
     format!("n = {}", shares.collect::<Vec<_>>().join(", "))
 }
 
-fn key(sheet: &mut Sheet, baseline: f64, has_guides: bool) {
-    let mut key = Key::new(sheet, MARGIN, baseline);
-    key.shade(colour(1.0))
-        .word("towards the viewer")
-        .shade(colour(-1.0))
-        .word("away")
-        .line(22.0, Stroke::solid(INK, NODAL_WIDTH))
-        .word("nodal line, of a wave that travels at this moment");
-    if has_guides {
-        key.line(22.0, Stroke::solid(INK, GUIDE_WIDTH))
-            .word("guide");
-    }
+fn samples(has_guides: bool) -> Vec<Item> {
+    let side = |of: f64, name| Item::Heat(Heat::class([&[], &[]], |_, _| false, colour(of), name));
+    let line = |width, name| Item::line_sample(width, false, Hue::Ink, name);
+    let guide = has_guides.then(|| line(GUIDE_WIDTH, "guide"));
+    let nodal = "nodal line, of a wave that travels at this moment";
+    [
+        side(1.0, "towards the viewer"),
+        side(-1.0, "away"),
+        line(NODAL_WIDTH, nodal),
+    ]
+    .into_iter()
+    .chain(guide)
+    .collect()
 }
 
 #[cfg(test)]

@@ -1,49 +1,34 @@
 //! The orbit of the centre of the blade on its arbor, one panel for each speed.
 
-use super::axis::{Axis, draw_named, draw_vertical, tick_label};
-use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use super::clip::draw_inside;
-use super::columns::{Columns, name_of_row};
+use super::axis::tick_label;
+use super::chart_data::{AxisData, ChartData, PanelData};
 use super::heading::of_saw;
-use super::style::{
-    CURVE, FINE_DASH, FORWARD, HAIRLINE, INK, LABEL_SIZE, QUIET, STANDING, SUBTITLE_SIZE, tint,
-};
+use super::items::{Item, Line, Points, Shape};
+use super::palette::Hue;
+use super::style::{CURVE, HAIRLINE};
 use crate::analyses::cut::{CutAtSpeed, CutReport, SplineOrbit};
 
-/// Positions of the panels, which are square because both axes have the same scale.
-const PANELS: Columns = Columns {
-    lefts: [120.0, 700.0],
-    top: 140.0,
-    width: 420.0,
-    alone: 420.0,
-    height: 420.0,
-    row: 560.0,
-};
+/// Height of a panel, relative to one of usual height.
+const SHARE: f64 = 1.15;
+/// Share of the colour of the orbit before it is settled.
+const BEFORE: f64 = 0.35;
+const END_SIZE: f64 = 7.0;
 
-/// Draws a panel for each speed; `None` for a saw without spline.
-pub fn sheet(report: &CutReport) -> Option<Sheet> {
-    let runs: Vec<(&CutAtSpeed, &SplineOrbit)> = report
-        .runs
-        .iter()
-        .filter_map(|run| run.spline.as_ref().map(|spline| (run, spline)))
-        .collect();
-    if runs.is_empty() {
-        return None;
-    }
-    let title = "Orbit of the blade's centre on the splined arbor in the cut";
-    let panels = runs.len();
-    let mut sheet = PANELS.sheet(
-        panels,
-        title,
-        &of_saw(&report.scene.name, &report.condition),
-    );
+/// A panel for each speed, as numbers; `None` for a saw without spline.
+pub fn chart(report: &CutReport) -> Option<ChartData> {
+    let runs = report.runs.iter();
+    let runs = runs.filter_map(|run| Some((run, run.spline.as_ref()?)));
+    let runs: Vec<(&CutAtSpeed, &SplineOrbit)> = runs.collect();
+    let clearance_m = runs.first()?.1.clearance_m;
     let scale = Scale::of(runs.iter().map(|(_, spline)| *spline));
-    for (index, (run, spline)) in runs.into_iter().enumerate() {
-        let name = format!("a quarter turn further\u{2003}[{}]", scale.unit);
-        let panel = (&PANELS.panel(index, panels), name_of_row(index, &name));
-        draw_orbit(&mut sheet, panel, (run, spline), &scale);
-    }
-    Some(sheet)
+    let panels = runs.iter().map(|(run, spline)| panel(run, spline, &scale));
+    let title = "Orbit of the blade's centre on the splined arbor in the cut";
+    let facts = vec![of_saw(&report.scene.name, &report.condition)];
+    Some(ChartData {
+        columns: 2,
+        key: key(clearance_m, &scale),
+        ..ChartData::new(title, facts, panels.collect())
+    })
 }
 
 /// The axes of all panels, which include the centre of the arbor and every orbit.
@@ -71,77 +56,85 @@ impl Scale {
     }
 }
 
-fn draw_orbit(
-    sheet: &mut Sheet,
-    (panel, name): (&Frame, &str),
-    (run, spline): (&CutAtSpeed, &SplineOrbit),
-    scale: &Scale,
-) {
+fn panel(run: &CutAtSpeed, spline: &SplineOrbit, scale: &Scale) -> PanelData {
     let reach = [-scale.reach, scale.reach];
-    let x = Axis::linear(reach, panel.across());
-    let y = Axis::linear(reach, panel.upwards());
-    draw_vertical(sheet, &y, panel, name);
-    let name = format!("centre towards the cut\u{2003}[{}]", scale.unit);
-    draw_named(sheet, &x, panel.bottom, &name);
-    let grey = Stroke::solid(tint(STANDING, 0.6), HAIRLINE);
-    sheet.vertical(x.at(0.0), panel, grey);
-    sheet.horizontal(y.at(0.0), panel, grey);
-    draw_clearance(sheet, (&x, &y), panel, spline.clearance_m, scale);
     let points = spline.x_m.iter().zip(&spline.y_m);
-    let places: Vec<[f64; 2]> = points
-        .map(|(px, py)| [x.at(scale.per_metre * px), y.at(scale.per_metre * py)])
-        .collect();
-    let settled = spline.settled_from.min(places.len());
-    let pale = Stroke::solid(tint(FORWARD, 0.35), HAIRLINE);
-    sheet.line(places[..settled].iter().copied(), pale);
-    sheet.line(
-        places[settled..].iter().copied(),
-        Stroke::solid(FORWARD, CURVE),
-    );
-    if let Some(last) = places.last() {
-        sheet.disc(*last, 3.5, FORWARD);
+    let points = points.map(|(x, y)| [x, y].map(|m| scale.per_metre * m));
+    let points: Vec<[f64; 2]> = points.collect();
+    let (before, settled) = points.split_at(spline.settled_from.min(points.len()));
+    let zero = |ends: [[f64; 2]; 2]| {
+        Item::Line(Line {
+            tint: 0.6,
+            width: HAIRLINE,
+            ..Line::new(ends, Hue::Standing, "")
+        })
+    };
+    let before = Line {
+        tint: BEFORE,
+        width: HAIRLINE,
+        ..Line::new(before.iter().copied(), Hue::Forward, "before it is settled")
+    };
+    let settled = Line::new(settled.iter().copied(), Hue::Forward, "orbit");
+    let end = Points::new(points.last().copied(), Hue::Forward, END_SIZE, "end");
+    let clearance = clearance(scale.per_metre * spline.clearance_m);
+    let items = [
+        zero(reach.map(|x| [x, 0.0])),
+        zero(reach.map(|y| [0.0, y])),
+        Item::Line(clearance),
+        Item::Line(before),
+        Item::Line(settled),
+        Item::Points(end),
+    ];
+    let axis = |name| AxisData::new(name, scale.unit).within(reach);
+    PanelData {
+        title: format!(
+            "{:.0} rpm: {:.1} spline teeth in contact, {:.0} N at most on one",
+            run.rpm, spline.teeth_in_contact, spline.peak_tooth_n
+        ),
+        facts: vec![format!(
+            "growth in the cut {:.2} 1/s assumed, {:.2} 1/s with this reaction",
+            run.growth_per_s, spline.growth_per_s
+        )],
+        share: SHARE,
+        equal: true,
+        ..PanelData::new(
+            axis("centre towards the cut"),
+            axis("a quarter turn further"),
+            items.into(),
+        )
     }
-    let title = Lettering::title(SUBTITLE_SIZE, INK);
-    let text = format!(
-        "{:.0} rpm: {:.1} spline teeth in contact, {:.0} N at most on one",
-        run.rpm, spline.teeth_in_contact, spline.peak_tooth_n
-    );
-    sheet.text([panel.left, panel.top - 32.0], title, &text);
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
-    let text = format!(
-        "growth in the cut {:.2} 1/s assumed, {:.2} 1/s with this reaction",
-        run.growth_per_s, spline.growth_per_s
-    );
-    sheet.text([panel.left, panel.top - 12.0], letters, &text);
 }
 
-/// Draws the circle in which the centre of a blade without torque can move, and writes the clearance.
-fn draw_clearance(
-    sheet: &mut Sheet,
-    (x, y): (&Axis, &Axis),
-    panel: &Frame,
-    clearance_m: f64,
-    scale: &Scale,
-) {
-    let radius = scale.per_metre * clearance_m;
-    if radius <= 0.0 {
-        return;
-    }
+/// The circle in which the centre of a blade without torque can move.
+fn clearance(radius: f64) -> Line {
     let circle = (0..=120).map(|k| {
         let (sin, cos) = (f64::from(k) / 120.0 * std::f64::consts::TAU).sin_cos();
-        [x.at(radius * cos), y.at(radius * sin)]
+        [radius * cos, radius * sin]
     });
-    let circle: Vec<[f64; 2]> = circle.collect();
-    let dashed = Stroke::dashed(QUIET, HAIRLINE, FINE_DASH);
-    draw_inside(sheet, panel, &circle, dashed);
-    let clearance = format!("clearance {} mm", tick_label(1e3 * clearance_m));
-    let text = match radius <= scale.reach {
-        true => format!("dashed: {clearance}"),
-        false => format!("{clearance}, outside the picture"),
+    Line {
+        width: HAIRLINE,
+        dashed: true,
+        ..Line::new(circle, Hue::Quiet, "clearance")
+    }
+}
+
+fn key(clearance_m: f64, scale: &Scale) -> Vec<Item> {
+    let size = format!("clearance {} mm", tick_label(1e3 * clearance_m));
+    let name = match scale.per_metre * clearance_m <= scale.reach {
+        true => size,
+        false => format!("{size}, outside the picture"),
     };
-    let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::End);
-    let at = [panel.right - 6.0, panel.bottom - 10.0];
-    sheet.text_on_paper(at, letters, &text);
+    let before = Line {
+        tint: BEFORE,
+        width: HAIRLINE,
+        ..Line::new([], Hue::Forward, "before it is settled")
+    };
+    vec![
+        Item::Line(before),
+        Item::line_sample(CURVE, false, Hue::Forward, "orbit"),
+        Item::points_sample(END_SIZE, Shape::Disc, Hue::Forward, "its end"),
+        Item::line_sample(HAIRLINE, true, Hue::Quiet, &name),
+    ]
 }
 
 #[cfg(test)]

@@ -55,6 +55,7 @@ def _panel(panel: dict[str, Any]) -> Panel:
         y_names=y["names"],
         share=panel["share"],
         title="\n".join([panel["title"], *textwrap.wrap("; ".join(panel["facts"]), FACTS)]),
+        equal=panel["equal"],
         harmonics=panel["harmonics"],
         note=panel["note"],
     )

@@ -155,8 +155,9 @@ def _cells(go: Any, item: Heat, panel: Panel) -> Any:
     colours = [*item.scale, *item.scale] if len(item.scale) == 1 else item.scale
     scale = [[k / (len(colours) - 1), colour] for k, colour in enumerate(colours)]
     # Labels at the ends of lines are between the axes and the bar.
-    bar = {"title": item.name, "xpad": 70 if end_labels(panel, 0.0) else 10}
-    z, said = item.z, {}
+    bar: dict[str, Any] = {"title": item.name, "xpad": 70 if end_labels(panel, 0.0) else 10}
+    said: dict[str, Any] = {}
+    z = item.z
     if item.log and low is not None and high is not None:
         z = np.log10(np.maximum(item.z, low))
         low, high = np.log10(low), np.log10(high)
@@ -205,8 +206,8 @@ def _curve(go: Any, item: Line | Points, panel: Panel) -> Any:
 def _axes(figure: Figure, panel: Panel, at: dict[str, int], last: bool) -> None:
     quiet = {"linecolor": colours()["quiet"], "tickcolor": colours()["quiet"]}
     # The range of a logarithmic axis of plotly is given by logarithms.
-    ends = None if panel.x_range is None else [_at(end, panel.x_log) for end in panel.x_range]
-    figure.update_xaxes(range=ends, type="log" if panel.x_log else None, **at, **quiet)
+    across = None if panel.x_range is None else [_at(end, panel.x_log) for end in panel.x_range]
+    figure.update_xaxes(range=across, type="log" if panel.x_log else None, **at, **quiet)
     if panel.x_names:
         figure.update_xaxes(tickvals=list(panel.x_ticks), ticktext=list(panel.x_names), **at)
     if last or not panel.x_range:

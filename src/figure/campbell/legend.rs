@@ -1,21 +1,20 @@
 //! The lines below the figure that explain colours and styles, and state which contents have no label.
 
-use super::super::canvas::{Anchor, Lettering, Sheet, Stroke};
-use super::super::items::Line;
-use super::super::key::Key;
-use super::super::paint::stroke;
+use super::super::canvas::{Anchor, Lettering, Sheet};
+use super::super::items::{Item, Line, Shape};
+use super::super::key;
 use super::super::palette::Hue;
 use super::super::style::{
-    BETWEEN_FACTS, CURVE, LABEL_SIZE, MARGIN, QUIET, STANDING, shorten_label,
+    BETWEEN_FACTS, CURVE, LABEL_SIZE, MARGIN, MEASURED_SIZE, QUIET, shorten_label,
 };
 use super::band_labels::BandLabels;
 use super::describe::WINDOW;
 use super::view::left_out;
-use super::waves::{draw_measured_mark, measured_source};
+use super::waves::measured_source;
 use super::{Chart, HEIGHT, LEGEND_ABOVE_FOOT, NOTES_ABOVE_FOOT, PLOT_LEFT, WIDTH, growth};
 
-/// Length of a line in the legend.
-const SAMPLE: f64 = 22.0;
+/// Largest width of the source of measured frequencies, which leaves all samples on one line.
+const LONGEST_SOURCE: f64 = 180.0;
 
 /// Writes the legend of the colours and styles that the figure contains, and a line of notes.
 pub fn draw(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
@@ -24,38 +23,32 @@ pub fn draw(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
     let shown: Vec<&Line> = branches
         .filter(|line| !ground.parts(line).is_empty())
         .collect();
-    let mut key = Key::new(sheet, PLOT_LEFT, f64::from(HEIGHT) - LEGEND_ABOVE_FOOT);
     let hues = [
         (Hue::Forward, "forward wave"),
         (Hue::Backward, "backward wave"),
         (Hue::Standing, "standing or mixed"),
     ];
-    for (hue, word) in hues {
-        if shown.iter().any(|line| line.colour == hue) {
-            key.line(SAMPLE, Stroke::solid(hue.colour(), CURVE))
-                .word(word);
-        }
-    }
-    if let Some(reflected) = shown.iter().find(|line| line.dashed) {
+    let hues = hues.into_iter();
+    let hues = hues.filter(|(hue, _)| shown.iter().any(|line| line.colour == *hue));
+    let mut samples: Vec<Item> = hues
+        .map(|(hue, word)| Item::line_sample(CURVE, false, hue, word))
+        .collect();
+    let reflected = shown.iter().find(|line| line.dashed);
+    samples.extend(reflected.map(|line| {
         let word = "reflected: a backward wave above its critical speed";
-        key.line(SAMPLE, grey(reflected)).word(word);
-    }
-    if let Some(unstable) = shown.iter().find(|line| line.width > CURVE) {
-        key.line(SAMPLE, grey(unstable)).word("unstable");
-    }
-    if let Some(source) = measured_source(chart) {
-        let mark = |sheet: &mut Sheet, [x, y]: [f64; 2]| draw_measured_mark(sheet, [x + 4.0, y]);
-        key.mark(8.0, mark).word(&shorten_label(source, 250.0));
-    }
+        Item::line_sample(line.width, true, Hue::Standing, word)
+    }));
+    let unstable = shown.iter().find(|line| line.width > CURVE);
+    samples.extend(
+        unstable.map(|line| Item::line_sample(line.width, line.dashed, Hue::Standing, "unstable")),
+    );
+    samples.extend(measured_source(chart).map(|source| {
+        let source = shorten_label(source, LONGEST_SOURCE);
+        Item::points_sample(MEASURED_SIZE, Shape::Ring, Hue::Ink, &source)
+    }));
+    let at = [PLOT_LEFT, f64::from(HEIGHT) - LEGEND_ABOVE_FOOT - 14.0];
+    key::draw(sheet, &samples, at, f64::from(WIDTH) - PLOT_LEFT);
     draw_notes(sheet, chart, labels);
-}
-
-/// The style of a line, in the colour of waves without direction.
-fn grey(line: &Line) -> Stroke {
-    Stroke {
-        colour: STANDING,
-        ..stroke(line)
-    }
 }
 
 fn draw_notes(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {

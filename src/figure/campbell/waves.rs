@@ -4,7 +4,7 @@ use super::super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::super::clip::clip;
 use super::super::declutter::{Extent, push_apart};
 use super::super::palette::Hue;
-use super::super::style::{Colour, HAIRLINE, INK, LABEL_SIZE, label_width, shorten_label, tint};
+use super::super::style::{Colour, HAIRLINE, LABEL_SIZE, label_width, shorten_label, tint};
 use super::{Chart, NEGLIGIBLE_PER_S};
 use crate::report::{BranchCurve, Direction, Report};
 use crate::scene::MeasuredRow;
@@ -203,11 +203,6 @@ fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchCurve, f64)]) 
         // The label has a background, which covers dashed lines of critical speeds.
         sheet.text_on_paper(at, letters, &short_label(branch));
     }
-}
-
-/// Draws the ring of a measured frequency.
-pub fn draw_measured_mark(sheet: &mut Sheet, at: [f64; 2]) {
-    sheet.ring(at, 3.0, Stroke::solid(INK, 1.2));
 }
 
 /// Positions on the sheet of the measured frequencies on both axes.

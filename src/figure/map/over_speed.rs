@@ -30,6 +30,9 @@ const SPEEDS: [(Hue, &str, Speed); 2] = [
     (Hue::Alarm, "flutter speed", |saw| saw.flutter_speed_rpm),
 ];
 
+/// Columns of an area, each with an abscissa, a lower and an upper end.
+type Columns = Vec<[f64; 3]>;
+
 /// A band of a saw, or a part of one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Area {
@@ -65,7 +68,7 @@ impl Look {
     }
 
     /// An area of columns with an abscissa, a lower and an upper end.
-    fn area(self, columns: Vec<[f64; 3]>) -> Item {
+    fn area(self, columns: Columns) -> Item {
         let (hue, tint, name) = self.described();
         Item::Area(items::Area {
             tint,
@@ -154,17 +157,18 @@ fn pairs(left: &[Area], right: &[Area], scale: f64, farthest: f64) -> Vec<(usize
 
 /// The areas of a kind, each as columns with an abscissa, a lower and an upper end. Areas of neighbouring saws that belong
 /// together are one; an area without a partner ends half way to the neighbour.
-fn chains(report: &MapReport, along: &Along, look: Look) -> Vec<Vec<[f64; 3]>> {
+fn chains(report: &MapReport, along: &Along, look: Look) -> Vec<Columns> {
     let of = |saw: &MappedSaw| -> Vec<Area> {
         let all = areas(saw, report.to_rpm).into_iter();
         all.filter(|area| area.look == look).collect()
     };
     let column = |x: f64, area: &Area| [x, area.rpm[0], area.rpm[1]];
-    let (mut done, mut open): (Vec<Vec<[f64; 3]>>, Vec<Vec<[f64; 3]>>) = Default::default();
+    let mut done: Vec<Columns> = Vec::new();
+    let mut open: Vec<Columns> = Vec::new();
     let mut before: Option<(&MappedSaw, Vec<Area>)> = None;
     for saw in &report.saws {
         let (x, own) = (along.at(saw.x), of(saw));
-        let mut next: Vec<Vec<[f64; 3]>> = Vec::new();
+        let mut next: Vec<Columns> = Vec::new();
         if let Some((left, others)) = &before {
             let scale = match [left, saw].map(|saw| saw.lowest_critical_rpm) {
                 [Some(left), Some(right)] => right / left,
