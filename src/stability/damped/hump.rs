@@ -30,7 +30,7 @@ struct Stretch {
 /// Bands of a curve between the first and the last speed of a search.
 pub fn bands(
     solver: &Solver<'_>,
-    component: usize,
+    part: usize,
     curve: &[CurvePoint],
     range: (f64, f64),
 ) -> Result<Vec<Instability>, SpectrumError> {
@@ -47,13 +47,15 @@ pub fn bands(
         }
         let mut grown = curve[start..end].to_vec();
         if let Some(outside) = start.checked_sub(1) {
-            grown.insert(0, onset(solver, component, curve[outside], curve[start])?);
+            grown.insert(0, onset(solver, part, curve[outside], curve[start])?);
         }
         if let Some(outside) = curve.get(end) {
-            grown.push(onset(solver, component, *outside, curve[end - 1])?);
+            grown.push(onset(solver, part, *outside, curve[end - 1])?);
         }
+        // An onset may be at the neighbour inside itself.
+        grown.dedup_by_key(|point| point.speed_rad_per_s);
         let ends = [grown[0], grown[grown.len() - 1]].map(|point| point.speed_rad_per_s);
-        let (curve, extrema) = with_extrema(solver, component, grown)?;
+        let (curve, extrema) = with_extrema(solver, part, grown)?;
         let stretch = Stretch {
             curve,
             extrema,
@@ -67,7 +69,7 @@ pub fn bands(
 /// Speed of Re λ = 0 between a point outside an interval and its neighbour inside.
 fn onset(
     solver: &Solver<'_>,
-    component: usize,
+    part: usize,
     outside: CurvePoint,
     inside: CurvePoint,
 ) -> Result<CurvePoint, SpectrumError> {
@@ -75,13 +77,13 @@ fn onset(
     if outside.lambda.re >= 0.0 {
         return Ok(outside);
     }
-    root(solver, component, [outside, inside], |p| p.lambda.re)
+    root(solver, part, [outside, inside], |p| p.lambda.re)
 }
 
 /// The curve with points added at every extremum of growth, and the speeds of these.
 fn with_extrema(
     solver: &Solver<'_>,
-    component: usize,
+    part: usize,
     curve: Vec<CurvePoint>,
 ) -> Result<(Vec<CurvePoint>, Vec<f64>), SpectrumError> {
     let mut full = Vec::with_capacity(curve.len());
@@ -94,7 +96,7 @@ fn with_extrema(
         let width = next.speed_rad_per_s - curve[k].speed_rad_per_s;
         let turns = (curve[k].slope.re < 0.0) != (next.slope.re < 0.0);
         if turns && width > SPEED_TOLERANCE * next.speed_rad_per_s {
-            let found = root(solver, component, [curve[k], next], |p| p.slope.re)?;
+            let found = root(solver, part, [curve[k], next], |p| p.slope.re)?;
             let ends = [curve[k], next].map(|p| p.speed_rad_per_s);
             if !ends.contains(&found.speed_rad_per_s) {
                 extrema.push(found.speed_rad_per_s);
@@ -108,7 +110,7 @@ fn with_extrema(
 /// Point between two points of a curve at which a number is zero.
 fn root(
     solver: &Solver<'_>,
-    component: usize,
+    part: usize,
     ends: [CurvePoint; 2],
     number: impl Fn(&CurvePoint) -> f64,
 ) -> Result<CurvePoint, SpectrumError> {
@@ -118,7 +120,7 @@ fn root(
         point,
     };
     let found = bracketed(ends.map(look), SPEED_TOLERANCE, |ends, share| {
-        between_points(solver, component, ends, share).map(look)
+        between_points(solver, part, ends, share).map(look)
     })?;
     Ok(found.point)
 }
@@ -126,7 +128,7 @@ fn root(
 /// Point of a curve at a share of the way between two of its points.
 fn between_points(
     solver: &Solver<'_>,
-    component: usize,
+    part: usize,
     points: [CurvePoint; 2],
     share: f64,
 ) -> Result<CurvePoint, SpectrumError> {
@@ -140,7 +142,7 @@ fn between_points(
         .at(share)
     };
     let expected = c64::new(cubic(|z| z.re), cubic(|z| z.im));
-    let found = solver.nearest(speed, component, expected)?;
+    let found = solver.nearest(speed, part, expected)?;
     Ok(CurvePoint {
         speed_rad_per_s: speed,
         lambda: found.map_or(expected, |(lambda, _)| lambda),

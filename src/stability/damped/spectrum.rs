@@ -4,7 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
-use crate::spectrum::{ModeKind, SpectralModel, SpectrumError, smallest};
+use crate::spectrum::waves::{self, WaveModel};
+use crate::spectrum::{SpectralModel, SpectrumError, smallest};
 use crate::stability::group::Sloped;
 use crate::stability::partition::{BESIDES, Sample};
 use crate::stability::pieces::Piece;
@@ -13,8 +14,12 @@ use crate::stability::pieces::Piece;
 const NOISE: f64 = 1e-10;
 /// Largest number of spectra in one chart, a hundred times as many as usual saws need.
 const MOST_SPECTRA: usize = 12_000;
-/// An eigenvalue at more than this share of its size from the expected one may be another eigenvalue.
+/// An eigenvalue at more than this share of its size, or of a tenth of the highest accurate frequency, from the expected one
+/// may be another eigenvalue.
 const SAME: f64 = 1e-5;
+/// Frequency of an eigenvalue above all others of every sample, in multiples of the reach: a part of a saw may have none
+/// above the window for the search to end in.
+const FENCE: f64 = 3.0;
 
 /// Eigenvalues at one speed.
 #[derive(Debug, Clone)]
@@ -25,33 +30,48 @@ pub struct Spectrum {
     pub values: Vec<c64>,
 }
 
-/// Computes the spectra of a model, and counts them.
+/// Computes the spectra of a saw on its reduced model by waves, and counts them.
 pub struct Solver<'a> {
     model: &'a SpectralModel,
+    /// Parts of the saw that do not act on one another.
+    parts: Vec<WaveModel>,
     spent: AtomicUsize,
 }
 
 impl<'a> Solver<'a> {
-    /// A solver for a model.
-    pub fn new(model: &'a SpectralModel) -> Self {
-        Solver {
+    /// A solver for a range of speeds, in rad/s.
+    ///
+    /// # Errors
+    /// [`SpectrumError::HardlyOscillates`], [`SpectrumError::Cancelled`].
+    pub fn new(model: &'a SpectralModel, range: (f64, f64)) -> Result<Self, SpectrumError> {
+        let SpectralModel {
+            plate, components, ..
+        } = model;
+        let reduced = waves::reduced(plate, components, range, model.complete_to_rad_per_s)?;
+        Ok(Solver {
             model,
+            parts: reduced.parts(),
             spent: AtomicUsize::new(0),
-        }
+        })
+    }
+
+    /// Number of parts of the saw that do not act on one another.
+    pub fn parts(&self) -> usize {
+        self.parts.len()
     }
 
     /// Computes the eigenvalues at a speed.
     pub fn at(&self, speed: f64) -> Result<Spectrum, SpectrumError> {
         let mut values = Vec::new();
-        for component in 0..self.model.components.len() {
-            let sloped = self.eigenvalues(speed, component)?;
+        for part in 0..self.parts.len() {
+            let sloped = self.eigenvalues(speed, part)?;
             values.extend(sloped.into_iter().map(|(lambda, _)| lambda));
         }
         values.retain(|lambda| lambda.im <= self.highest());
         Ok(Spectrum { speed, values })
     }
 
-    /// The spectra at the speeds of a search, for a saw of one component.
+    /// The spectra at the speeds of a search, for a saw of one part.
     pub fn spectra(&self, pieces: &[Piece]) -> Vec<Spectrum> {
         let of = |sample: &Sample| {
             let all = sample.eigenvalues.iter().map(|(lambda, _)| *lambda);
@@ -66,43 +86,51 @@ impl<'a> Solver<'a> {
         first.into_iter().chain(others).collect()
     }
 
-    /// Computes the low eigenvalues of a component as a sample for a search; `None` once the allowed number of
-    /// spectra is used up.
-    pub fn sample(&self, speed: f64, component: usize) -> Result<Option<Sample>, SpectrumError> {
+    /// Computes the low eigenvalues of a part as a sample for a search; `None` once the allowed number of spectra is used
+    /// up.
+    pub fn sample(&self, speed: f64, part: usize) -> Result<Option<Sample>, SpectrumError> {
         if self.is_exhausted() {
             return Ok(None);
         }
-        let mut values = self.eigenvalues(speed, component)?;
+        let mut values = self.eigenvalues(speed, part)?;
         values.sort_by(|x, y| x.0.im.total_cmp(&y.0.im));
         let followed = values.partition_point(|(lambda, _)| lambda.im <= self.highest());
         values.truncate(followed + BESIDES);
+        let above = c64::new(0.0, FENCE * self.parts[part].reach_per_s());
+        values.push((above, c64::new(0.0, 0.0)));
         Ok(Some(Sample::new(speed, values.into_iter())))
     }
 
-    /// Eigenvalue of a component at a speed nearest to an expected one, with its slope.
+    /// Eigenvalue of a part at a speed nearest to an expected one, with its slope, refined on a larger model.
     pub fn nearest(
         &self,
         speed: f64,
-        component: usize,
+        part: usize,
         expected: c64,
     ) -> Result<Option<Sloped>, SpectrumError> {
         let distance = |(lambda, _): &Sloped| (lambda - expected).norm();
+        // Each part of a free blade is one of its components.
+        let component = match self.model.components.len() {
+            1 => 0,
+            _ => self.parts[part].diameters().unwrap_or(0),
+        };
         let found = self.model.eigenvalue_next_to(component, speed, expected);
-        if let Some(found) = found.filter(|found| distance(found) <= SAME * expected.norm()) {
+        let away = SAME * expected.norm().max(0.1 * self.highest());
+        if let Some(found) = found.filter(|found| distance(found) <= away) {
             return Ok(Some(found));
         }
-        Ok(smallest(self.eigenvalues(speed, component)?, distance))
+        Ok(smallest(self.eigenvalues(speed, part)?, distance))
     }
 
-    /// Eigenvalues of a component with Im λ ≥ 0, without free rigid motions, and their slopes.
-    fn eigenvalues(&self, speed: f64, component: usize) -> Result<Vec<Sloped>, SpectrumError> {
+    /// Eigenvalues of a part with Im λ ≥ 0, without free rigid motions, and their slopes.
+    fn eigenvalues(&self, speed: f64, part: usize) -> Result<Vec<Sloped>, SpectrumError> {
+        let counters = &self.model.counters;
+        counters.cancellation.check()?;
+        counters.local_solves.fetch_add(1, Ordering::Relaxed);
         self.spent.fetch_add(1, Ordering::Relaxed);
-        let modes = self.model.modes_of(component, speed)?;
-        let slopes = self.model.eigenvalue_slopes(component, speed, &modes);
-        let all = modes.iter().zip(slopes);
-        let elastic = all.filter(|(mode, _)| mode.kind != ModeKind::Rigid);
-        Ok(elastic
-            .map(|(mode, slope)| (mode.lambda, finite(slope)))
+        let found = self.parts[part].eigenvalues(speed)?.into_iter();
+        Ok(found
+            .map(|(lambda, slope)| (lambda, finite(slope)))
             .collect())
     }
 
@@ -111,15 +139,20 @@ impl<'a> Solver<'a> {
         self.model.complete_to_rad_per_s
     }
 
-    /// Growth rate, in 1/s, that is rounding, which is relative to the blade's frequencies and not to a small λ.
+    /// Growth rate, in 1/s, that is rounding.
     pub fn noise(&self) -> f64 {
-        NOISE * self.highest()
+        noise(self.model)
     }
 
     /// Whether the allowed number of spectra is used up.
     pub fn is_exhausted(&self) -> bool {
         self.spent.load(Ordering::Relaxed) >= MOST_SPECTRA
     }
+}
+
+/// Growth rate, in 1/s, that is rounding, which is relative to the blade's frequencies and not to a small λ.
+pub fn noise(model: &SpectralModel) -> f64 {
+    NOISE * model.complete_to_rad_per_s
 }
 
 /// A slope, or zero at the coalescence of two eigenvalues, where it is not finite.
