@@ -295,19 +295,6 @@ impl SpectralModel {
         derivative::with_speed(system, speed_rad_per_s, mode.lambda, &mode.coordinates)
     }
 
-    /// The eigenvalue of a component nearest to an expected one, and dλ/dΩ, by Newton's method. `None` if it
-    /// does not converge.
-    pub(crate) fn eigenvalue_next_to(
-        &self,
-        component: usize,
-        speed_rad_per_s: f64,
-        expected: c64,
-    ) -> Option<(c64, c64)> {
-        let system = &self.components[component].at(speed_rad_per_s).reduced;
-        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
-        derivative::next_to(system, speed_rad_per_s, expected)
-    }
-
     /// Relative change of a frequency at rest that rounding may cause: a backward stable solver changes ω² by
     /// ε times the largest ω². The inverse used for the waves of a free blade gives low frequencies with a small
     /// relative error; then rounding only changes each entry of the matrix by ε times its size.

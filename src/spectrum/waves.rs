@@ -7,15 +7,17 @@
 //! (A − B F⁻¹ C)(λ) = K̃ + λC̃ + λ²M̃ + λ³s₃ + λ⁴s₄ + …
 //!
 //! (`series`, `frame`, `whole`), at the nodes of a Chebyshev series in the speed (`over_speed`). No eigenproblem of
-//! the full matrices is needed. The eigenvalues follow from K̃ + λC̃ + λ²M̃ and a correction by the further terms
-//! (`roots`); λ is in units of the window, the frequency up to which the eigenvalues are wanted.
+//! the full matrices is needed. The eigenvalues are those of all terms together (`pair`, `roots`), or one of them
+//! (`newton`); λ is in units of the window, the frequency up to which the eigenvalues are wanted.
 
 use std::f64::consts::TAU;
 
 mod blade;
 mod frame;
 mod near;
+mod newton;
 mod over_speed;
+mod pair;
 mod roots;
 mod series;
 #[cfg(test)]
@@ -32,8 +34,7 @@ use super::component::Component;
 use super::error::SpectrumError;
 use crate::plate::Plate;
 
-/// Waves up to this multiple of the window are kept. The worst of all eigenvalues within the window is off by 1e-6 of the
-/// window; at 1.8 it is 1e-5, at 3.5 1e-7.
+/// Waves up to this multiple of the window are kept: the series in λ converges as the inverse powers of it.
 const CUT: f64 = 2.5;
 
 /// Smallest rate 1/η at which the material itself relaxes, in windows. The far waves have this eigenvalue too, so that the

@@ -106,9 +106,9 @@ impl Saw {
     }
 }
 
-/// Trace of what the columns leave out: with 1e-4 eigenvalues are the same to 2e-5 of the window, with 1e-9 and 1e-12 to
-/// rounding.
-const COLUMNS: f64 = 1e-7;
+/// Trace of what the columns leave out: with 1e-7 eigenvalues next to a coalescence are off by up to 1.4e-6 of the window, with
+/// 1e-9 by 3e-10, with 1e-11 by 1e-11.
+const COLUMNS: f64 = 1e-11;
 /// Entries of a column below this share of the largest are rounding.
 const ROUNDING: f64 = 1e-13;
 /// Largest number of columns.

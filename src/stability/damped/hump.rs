@@ -18,6 +18,9 @@ const VALLEY: Tuned = Tuned::new("stability/damped/hump::VALLEY", 0.5);
 /// pair that turns into two real eigenvalues.
 const LEAST_BAND: f64 = 1e-9;
 
+/// Difference of two slopes of one curve, as a share of the sum of their sizes.
+const ALIKE: f64 = 0.25;
+
 /// Interval of a curve with Re λ > 0.
 struct Stretch {
     curve: Vec<CurvePoint>,
@@ -27,14 +30,16 @@ struct Stretch {
     cut: [bool; 2],
 }
 
-/// Bands of a curve between the first and the last speed of a search.
+/// Bands of a curve between the first and the last speed of a search with a relative tolerance.
 pub fn bands(
     solver: &Solver<'_>,
     part: usize,
     curve: &[CurvePoint],
     range: (f64, f64),
+    tolerance: f64,
 ) -> Result<Vec<Instability>, SpectrumError> {
     let grows = |point: &CurvePoint| point.lambda.re >= 0.0 && point.lambda.im <= solver.highest();
+    let curve = computed(solver, part, curve, tolerance)?;
     let mut bands = Vec::new();
     let mut first = 0;
     while let Some(start) = (first..curve.len()).find(|&k| grows(&curve[k])) {
@@ -64,6 +69,47 @@ pub fn bands(
         bands.extend(parted(stretch, solver.noise()));
     }
     Ok(bands)
+}
+
+/// The curve with computed eigenvalues in place of interpolated ones, where it may grow and next to it. An eigenvalue is that of
+/// the curve if it differs from the interpolated one by no more than the `tolerance` of the search and has a similar slope:
+/// next to a coalescence the slope of the other one is opposite.
+fn computed(
+    solver: &Solver<'_>,
+    part: usize,
+    curve: &[CurvePoint],
+    tolerance: f64,
+) -> Result<Vec<CurvePoint>, SpectrumError> {
+    let growth = curve.iter().map(|point| point.lambda.re);
+    let fastest = growth.fold(0.0, f64::max);
+    let allowed = tolerance * fastest + solver.noise();
+    let may_grow = |k: usize| {
+        curve
+            .get(k)
+            .is_some_and(|point| point.lambda.re >= -allowed)
+    };
+    let of = |k: usize| {
+        let point = curve[k];
+        if fastest == 0.0 || !(may_grow(k) || may_grow(k + 1) || may_grow(k.wrapping_sub(1))) {
+            return Ok(point);
+        }
+        let found = solver.next_to(point.speed_rad_per_s, part, point.lambda)?;
+        let size = point.lambda.norm().max(1e-3 * solver.highest());
+        let is_same = |(lambda, slope): &(c64, c64)| {
+            let off = lambda - point.lambda;
+            let steepness = slope.norm() + point.slope.norm();
+            off.norm() <= tolerance * size
+                && off.re.abs() <= allowed
+                && (slope - point.slope).norm() <= ALIKE * steepness
+        };
+        let found = found.filter(is_same);
+        Ok(found.map_or(point, |(lambda, slope)| CurvePoint {
+            lambda,
+            slope,
+            ..point
+        }))
+    };
+    (0..curve.len()).map(of).collect()
 }
 
 /// Speed of Re λ = 0 between a point outside an interval and its neighbour inside.

@@ -172,7 +172,7 @@ fn searched(
     let curves = curve::curves(&pieces, solver.highest(), solver.noise());
     let found: Result<Vec<Vec<Instability>>, SpectrumError> = curves
         .par_iter()
-        .map(|curve| hump::bands(solver, part, curve, (first, last)))
+        .map(|curve| hump::bands(solver, part, curve, (first, last), tolerance))
         .collect();
     Ok((pieces, found?.into_iter().flatten().collect()))
 }

@@ -17,8 +17,9 @@ const MOST_SPECTRA: usize = 12_000;
 /// An eigenvalue at more than this share of its size, or of a tenth of the highest accurate frequency, from the expected one
 /// may be another eigenvalue.
 const SAME: f64 = 1e-5;
-/// Frequency of an eigenvalue above all others of every sample, in multiples of the reach: a part of a saw may have none
-/// above the window for the search to end in.
+/// Distance of eigenvalues beyond all others of a sample, in multiples of the reach. One ends the search above the window, where
+/// a part of a saw may have none. One on the negative axis takes the place of a real eigenvalue beyond the reach, so that the
+/// middle by frequency stays between conjugates.
 const FENCE: f64 = 3.0;
 
 /// Eigenvalues at one speed.
@@ -94,14 +95,19 @@ impl<'a> Solver<'a> {
         }
         let mut values = self.eigenvalues(speed, part)?;
         values.sort_by(|x, y| x.0.im.total_cmp(&y.0.im));
+        let reals = values.iter().filter(|(lambda, _)| lambda.im == 0.0).count();
         let followed = values.partition_point(|(lambda, _)| lambda.im <= self.highest());
         values.truncate(followed + BESIDES);
-        let above = c64::new(0.0, FENCE * self.parts[part].reach_per_s());
-        values.push((above, c64::new(0.0, 0.0)));
+        let away = FENCE * self.parts[part].reach_per_s();
+        let mut fences = vec![c64::new(0.0, away)];
+        if reals % 2 == 1 {
+            fences.push(c64::new(-away, 0.0));
+        }
+        values.extend(fences.into_iter().map(|fence| (fence, c64::new(0.0, 0.0))));
         Ok(Some(Sample::new(speed, values.into_iter())))
     }
 
-    /// Eigenvalue of a part at a speed nearest to an expected one, with its slope, refined on a larger model.
+    /// Eigenvalue of a part at a speed nearest to an expected one, with its slope.
     pub fn nearest(
         &self,
         speed: f64,
@@ -109,17 +115,25 @@ impl<'a> Solver<'a> {
         expected: c64,
     ) -> Result<Option<Sloped>, SpectrumError> {
         let distance = |(lambda, _): &Sloped| (lambda - expected).norm();
-        // Each part of a free blade is one of its components.
-        let component = match self.model.components.len() {
-            1 => 0,
-            _ => self.parts[part].diameters().unwrap_or(0),
-        };
-        let found = self.model.eigenvalue_next_to(component, speed, expected);
         let away = SAME * expected.norm().max(0.1 * self.highest());
+        let found = self.next_to(speed, part, expected)?;
         if let Some(found) = found.filter(|found| distance(found) <= away) {
             return Ok(Some(found));
         }
         Ok(smallest(self.eigenvalues(speed, part)?, distance))
+    }
+
+    /// Eigenvalue to which an iteration from an expected one leads. A real one stays real.
+    pub fn next_to(
+        &self,
+        speed: f64,
+        part: usize,
+        expected: c64,
+    ) -> Result<Option<Sloped>, SpectrumError> {
+        let counters = &self.model.counters;
+        counters.cancellation.check()?;
+        counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        Ok(self.parts[part].next_to(speed, expected))
     }
 
     /// Eigenvalues of a part with Im λ ≥ 0, without free rigid motions, and their slopes.
@@ -160,5 +174,49 @@ pub fn finite(slope: c64) -> c64 {
     match slope.is_finite() {
         true => slope,
         false => c64::new(0.0, 0.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plate::{Plate, Resolution};
+    use crate::scene::{Scene, rad_per_s};
+    use crate::spectrum::Strategy;
+
+    /// Dampers stronger than their springs: of their real eigenvalues one is within the reach and the next one beyond it, and
+    /// conjugates lie symmetrically about the middle nevertheless.
+    #[test]
+    fn the_middle_of_a_sample_is_between_conjugates() {
+        let range = (0.0, rad_per_s(2600.0));
+        let mut odd = 0;
+        for (stiffness, damping) in [(1e6, 1e4), (0.0, 1e5), (3e5, 3e3)] {
+            let scene = Scene::paper().edited(|saw| {
+                saw.guides[0].stiffness_n_per_m = stiffness;
+                saw.guides[0].damping_n_s_per_m = damping;
+            });
+            let resolution = Resolution {
+                max_diameters: 6,
+                radial_functions: 5,
+            };
+            let plate = Plate::new(&scene.unwrap(), resolution);
+            let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
+            let solver = Solver::new(&model, range).unwrap();
+            for k in 0..12 {
+                let speed = range.1 * (f64::from(k) + 0.3) / 12.0;
+                let all = solver.eigenvalues(speed, 0).unwrap();
+                odd += all.iter().filter(|(z, _)| z.im == 0.0).count() % 2;
+                let sample = solver.sample(speed, 0).unwrap().unwrap().eigenvalues;
+                let count = sample.len();
+                for (k, (z, _)) in sample.iter().enumerate() {
+                    let mirrored = sample[count - 1 - k].0.im;
+                    assert!(
+                        (z.im + mirrored).abs() < 1e-9,
+                        "{stiffness} {damping}: {z} {mirrored}"
+                    );
+                }
+            }
+        }
+        assert!(odd > 0);
     }
 }
