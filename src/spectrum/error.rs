@@ -42,18 +42,6 @@ pub enum SpectrumError {
         /// Share of the scene's membrane stress at which it buckles.
         share: f64,
     },
-    /// The material damps waves within the window so strongly that they do not oscillate.
-    #[error(
-        "damping.material_retardation_time_s of {retardation_s} s is too long: waves up to {highest_hz:.0} Hz would hardly oscillate; it must be at most {longest_s:.1e} s, and steel has about 1e-6 s"
-    )]
-    HardlyOscillates {
-        /// Retardation time of the scene.
-        retardation_s: f64,
-        /// Frequency up to which eigenvalues are wanted.
-        highest_hz: f64,
-        /// Longest retardation time for which they can be computed.
-        longest_s: f64,
-    },
     /// The numbers of the scene differ so much in size that their products overflow.
     #[error(
         "the matrices of order {order} are not finite at {rpm} rpm; the numbers of the scene differ by too many orders of magnitude"

@@ -10,7 +10,9 @@
 //! the full matrices is needed. The eigenvalues are those of all terms together (`pair`, `roots`), or one of them
 //! (`newton`); λ is in units of the window, the frequency up to which the eigenvalues are wanted.
 
-use std::f64::consts::TAU;
+use std::borrow::Cow;
+
+use faer::{Mat, Scale};
 
 mod blade;
 mod frame;
@@ -32,27 +34,46 @@ use whole::Whole;
 
 use super::component::Component;
 use super::error::SpectrumError;
+use super::vectors::orthonormal;
 use crate::plate::Plate;
+use series::Series;
 
 /// Waves up to this multiple of the window are kept: the series in λ converges as the inverse powers of it.
 const CUT: f64 = 2.5;
 
-/// Smallest rate 1/η at which the material itself relaxes, in windows. The far waves have this eigenvalue too, so that the
-/// series in λ converges up to it: at 1.6 windows eigenvalues are off by 5e-6 of the window, at 0.8 by 0.4.
-const SLOWEST_MATERIAL: f64 = 1.4;
-
-/// The reduced model of a plate with these components over a range of speeds, in rad/s, for eigenvalues up to a frequency,
-/// in rad/s.
+/// The reduced models of the parts of a plate, with these components, that do not act on one another, over a range of speeds,
+/// in rad/s, for eigenvalues up to a frequency, in rad/s.
 ///
 /// # Errors
-/// [`SpectrumError::HardlyOscillates`], [`SpectrumError::Cancelled`].
+/// [`SpectrumError::Cancelled`].
+pub fn parts(
+    plate: &Plate,
+    components: &[Component],
+    range: (f64, f64),
+    window_rad_per_s: f64,
+) -> Result<Vec<WaveModel>, SpectrumError> {
+    let damping = plate.damping.as_ref();
+    let retardation_s = damping.map_or(0.0, |damping| damping.material_retardation_time_s);
+    // The far waves too relax at the rate 1/η, up to which alone the series in λ converges. If this is below the cut, no wave
+    // is far.
+    if CUT * window_rad_per_s * retardation_s > 1.0 {
+        let whole = |component| WaveModel::whole(component, range, window_rad_per_s);
+        return components.iter().map(whole).collect();
+    }
+    Ok(reduced(plate, components, range, window_rad_per_s)?.parts())
+}
+
+/// The reduced model of a plate as a whole, see [`parts`].
+///
+/// # Errors
+/// [`SpectrumError::Cancelled`].
 pub fn reduced(
     plate: &Plate,
     components: &[Component],
     range: (f64, f64),
     window_rad_per_s: f64,
 ) -> Result<WaveModel, SpectrumError> {
-    let cut = (window_rad_per_s, cut(plate, window_rad_per_s)?);
+    let cut = (window_rad_per_s, cut(plate, window_rad_per_s));
     let saw = Saw::new(plate, window_rad_per_s);
     // More waves are far at rest than at any other speed, so that more dampers are strong.
     let dampers = Near::new(&saw, (0.0, 0.0), cut);
@@ -74,19 +95,37 @@ pub fn reduced(
 
 /// Distance ω − nΩ up to which waves are kept, in 1/s. In air with the damping c per mass a far wave decays as slowly as
 /// ω²/c, which must not be within `CUT` windows either.
-fn cut(plate: &Plate, window: f64) -> Result<f64, SpectrumError> {
+fn cut(plate: &Plate, window: f64) -> f64 {
     let Some(damping) = &plate.damping else {
-        return Ok(CUT * window);
+        return CUT * window;
     };
-    let retardation_s = damping.material_retardation_time_s;
-    let longest_s = (SLOWEST_MATERIAL * window).recip();
-    if retardation_s > longest_s {
-        return Err(SpectrumError::HardlyOscillates {
-            retardation_s,
-            highest_hz: window / TAU,
-            longest_s,
-        });
-    }
     let air = damping.air_n_s_per_m3 / plate.blade.mass_per_area_kg_per_m2();
-    Ok((CUT * window).max((CUT * window * air).sqrt()))
+    (CUT * window).max((CUT * window * air).sqrt())
+}
+
+/// Vectors closer than this to the span of the others are omitted.
+const SPAN: f64 = 1e-9;
+
+impl WaveModel {
+    /// The equation of motion of a component, in all vectors of its projections if it has some.
+    fn whole(component: &Component, range: (f64, f64), window: f64) -> Result<Self, SpectrumError> {
+        let vectors = component.spanned();
+        let system = match vectors.is_empty() {
+            true => Cow::Borrowed(&component.full),
+            false => {
+                let basis = orthonormal(component.full.order(), &vectors, SPAN);
+                Cow::Owned(component.full.project(basis.as_ref()))
+            }
+        };
+        let order = system.order();
+        let quadratic = |speed| {
+            let mut series = Series::default();
+            series.0[0] = Some(Scale(window.powi(-2)) * system.stiffness_at(speed));
+            series.0[1] = Some(Scale(window.recip()) * system.velocity_at(speed));
+            series.0[2] = Some(Mat::identity(order, order));
+            series
+        };
+        let rigid = component.full.free_rigid.len();
+        WaveModel::of(&quadratic, range, vec![None; order], (window, rigid))
+    }
 }

@@ -5,7 +5,6 @@ use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, c64};
 
 use super::over_speed::WaveModel;
-use super::series::TERMS;
 use crate::spectrum::vectors::unit;
 
 /// Largest number of steps; convergence is cubic.
@@ -62,8 +61,7 @@ impl WaveModel {
 fn polynomial(entries: &[f64], mu: c64, size: usize) -> [Mat<c64>; 2] {
     let count = size * size;
     let mut sums = vec![[c64::new(0.0, 0.0); 2]; count];
-    for power in (0..TERMS).rev() {
-        let term = &entries[power * count..(power + 1) * count];
+    for term in entries.chunks_exact(count).rev() {
         for ([sum, derivative], entry) in sums.iter_mut().zip(term) {
             *derivative = *derivative * mu + *sum;
             *sum = *sum * mu + entry;

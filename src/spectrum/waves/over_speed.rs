@@ -26,7 +26,9 @@ pub struct WaveModel {
     pub(super) window: f64,
     /// Number of free rigid motions, each with λ = 0 at most twice.
     pub(super) rigid: usize,
-    /// Entries of L₀, L₁, …, one matrix after another, by degree.
+    /// Number of terms L₀, L₁, … that are not zero.
+    terms: usize,
+    /// Their entries, one matrix after another, by degree.
     coefficients: Mat<f64>,
 }
 
@@ -53,7 +55,9 @@ impl WaveModel {
         let at_nodes: Result<Vec<Series>, SpectrumError> =
             (0..NODES).into_par_iter().map(at_node).collect();
         let at_nodes = at_nodes?;
-        let values = Mat::from_fn(TERMS * size * size, NODES, |row, node| {
+        let is_zero = |power: &usize| at_nodes.iter().all(|series| series.term(*power).is_none());
+        let terms = (0..TERMS).find(is_zero).unwrap_or(TERMS);
+        let values = Mat::from_fn(terms * size * size, NODES, |row, node| {
             let (power, entry) = (row / (size * size), row % (size * size));
             let term = at_nodes[node].term(power);
             term.map_or(0.0, |term| term[(entry % size, entry / size)])
@@ -67,6 +71,7 @@ impl WaveModel {
             diameters,
             window,
             rigid,
+            terms,
             coefficients: values * weights,
         })
     }
@@ -81,11 +86,6 @@ impl WaveModel {
         self.range
     }
 
-    /// Number of nodal diameters of the first wave.
-    pub fn diameters(&self) -> Option<usize> {
-        self.diameters.iter().flatten().next().copied()
-    }
-
     /// The parts that do not act on one another: a free blade has one for each number of nodal diameters, and saws with
     /// equal pads have several.
     pub fn parts(&self) -> Vec<WaveModel> {
@@ -93,7 +93,7 @@ impl WaveModel {
         let mut part: Vec<usize> = (0..size).collect();
         let coupled = |i: usize, k: usize| {
             let mut entries =
-                (0..TERMS).flat_map(|power| [self.row(power, i, k), self.row(power, k, i)]);
+                (0..self.terms).flat_map(|power| [self.row(power, i, k), self.row(power, k, i)]);
             entries.any(|row| self.coefficients.row(row).norm_max() > UNCOUPLED)
         };
         for i in 0..size {
@@ -111,7 +111,7 @@ impl WaveModel {
         let of = |name: &usize| {
             let kept: Vec<usize> = (0..size).filter(|k| part[*k] == *name).collect();
             let count = kept.len();
-            let coefficients = Mat::from_fn(TERMS * count * count, NODES, |row, degree| {
+            let coefficients = Mat::from_fn(self.terms * count * count, NODES, |row, degree| {
                 let (power, entry) = (row / (count * count), row % (count * count));
                 let [i, k] = [entry % count, entry / count].map(|place| kept[place]);
                 self.coefficients[(self.row(power, i, k), degree)]
@@ -148,7 +148,7 @@ impl WaveModel {
                     sums[(self.row(power, i, k), column)]
                 })
             };
-            (0..TERMS).map(matrix).collect()
+            (0..self.terms).map(matrix).collect()
         };
         (of(0), of(1))
     }

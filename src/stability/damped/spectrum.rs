@@ -43,15 +43,15 @@ impl<'a> Solver<'a> {
     /// A solver for a range of speeds, in rad/s.
     ///
     /// # Errors
-    /// [`SpectrumError::HardlyOscillates`], [`SpectrumError::Cancelled`].
+    /// [`SpectrumError::Cancelled`].
     pub fn new(model: &'a SpectralModel, range: (f64, f64)) -> Result<Self, SpectrumError> {
         let SpectralModel {
             plate, components, ..
         } = model;
-        let reduced = waves::reduced(plate, components, range, model.complete_to_rad_per_s)?;
+        let parts = waves::parts(plate, components, range, model.complete_to_rad_per_s)?;
         Ok(Solver {
             model,
-            parts: reduced.parts(),
+            parts,
             spent: AtomicUsize::new(0),
         })
     }
