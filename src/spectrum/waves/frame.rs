@@ -128,7 +128,7 @@ impl Frame {
         all
     }
 
-    /// The same before the forces are connected with displacements: P^T q in the rows of forces.
+    /// These equations before the forces are connected with displacements: Pᵀq in the rows of forces.
     fn without_far_waves(&self, speed: f64) -> Series {
         let size = self.size() + self.forces.len();
         let mut total = Series::default();

@@ -74,7 +74,7 @@ impl Near {
         near
     }
 
-    /// The same waves, with the strong dampers of another choice of waves.
+    /// These waves, with the strong dampers of another choice of waves.
     pub fn with_dampers_of(mut self, other: Near) -> Self {
         self.rotations = other.rotations;
         self

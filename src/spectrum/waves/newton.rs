@@ -2,7 +2,7 @@
 //! λ ← λ − yᴴL(λ)x / yᴴL′(λ)x (Lancaster, *Lambda-Matrices and Vibrating Systems*, 1966).
 
 use faer::linalg::solvers::Solve;
-use faer::{Col, Mat, c64};
+use faer::{Col, Mat, Scale, c64};
 
 use super::over_speed::WaveModel;
 use crate::spectrum::vectors::unit;
@@ -29,9 +29,9 @@ impl WaveModel {
         let start = Col::from_fn(size, |i| c64::new((1.0 + i as f64).cos(), 0.0));
         let (mut mu, mut x, mut y) = (expected / self.window, start.clone(), start);
         for step in 0..STEPS {
-            let beside = mu * (1.0 + BESIDE) + c64::new(BESIDE, 0.0);
-            let factors = polynomial(values, beside, size)[0].partial_piv_lu();
             let [at, by_root] = polynomial(values, mu, size);
+            let beside = BESIDE * (mu + 1.0);
+            let factors = (&at + Scale(beside) * &by_root).partial_piv_lu();
             for _ in 0..if step == 0 { FIRST_ITERATIONS } else { 1 } {
                 let right: Col<c64> = factors.solve(&by_root * &x);
                 let left: Col<c64> = factors.solve_adjoint(by_root.adjoint() * &y);
@@ -59,13 +59,21 @@ impl WaveModel {
 
 /// Σ λᵏ L_k and its derivative with respect to λ, by Horner's rule, from the entries of L₀, L₁, ….
 fn polynomial(entries: &[f64], mu: c64, size: usize) -> [Mat<c64>; 2] {
-    let count = size * size;
-    let mut sums = vec![[c64::new(0.0, 0.0); 2]; count];
-    for term in entries.chunks_exact(count).rev() {
-        for ([sum, derivative], entry) in sums.iter_mut().zip(term) {
-            *derivative = *derivative * mu + *sum;
-            *sum = *sum * mu + entry;
+    // Real and imaginary parts of the sums, then of their derivatives.
+    let mut sums = vec![[0.0; 4]; size * size];
+    for term in entries.chunks_exact(size * size).rev() {
+        for ([re, im, slope_re, slope_im], entry) in sums.iter_mut().zip(term) {
+            (*slope_re, *slope_im) = (
+                *slope_re * mu.re - *slope_im * mu.im + *re,
+                *slope_re * mu.im + *slope_im * mu.re + *im,
+            );
+            (*re, *im) = (*re * mu.re - *im * mu.im + entry, *re * mu.im + *im * mu.re);
         }
     }
-    [0, 1].map(|order| Mat::from_fn(size, size, |i, k| sums[k * size + i][order]))
+    [0, 2].map(|part| {
+        Mat::from_fn(size, size, |i, k| {
+            let sum = sums[k * size + i];
+            c64::new(sum[part], sum[part + 1])
+        })
+    })
 }
