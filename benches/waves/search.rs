@@ -1,19 +1,19 @@
-//! The search by pieces on the reduced model, interval by interval.
+//! The search by pieces on the reduced model.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
+use sawflutter::spectrum::waves::WaveModel;
 use sawflutter::stability::{Grouped, Piece, Plane, Sample, Search};
 
-use super::interval::{Interval, Root};
-use super::vectors::REAL;
+use super::vectors::{REAL, Root, undamped_roots};
 
-/// Largest number of eigenproblems of one interval.
+/// Largest number of eigenproblems.
 const MOST: usize = 4000;
 /// Number of eigenvalues above the window that a sample has.
 const BESIDES: usize = 8;
 
-/// Pieces of one interval.
+/// Pieces of a saw.
 pub struct Searched {
     /// Pieces, by speed, of each part of the saw.
     pub pieces: Vec<Vec<Piece>>,
@@ -28,32 +28,40 @@ const RIGID: f64 = 3e-6;
 /// Frequency of a mode above all others of every sample, in multiples of the reach.
 const FENCE: f64 = 3.0;
 
-/// Data that a search of an interval needs besides its model.
+/// Data that a search needs besides its model.
 #[derive(Debug, Clone, Copy)]
 pub struct Scope {
     /// Top of the window, in 1/s.
     pub window: f64,
-    /// |λ| up to which the model is accurate enough to be followed, in 1/s.
-    pub reach: f64,
     /// Relative error allowed for eigenvalues and growth.
     pub tolerance: f64,
     /// Growth that does not matter, in 1/s.
     pub noise_per_s: f64,
-    /// Entries of the model that are zero, in units of the window.
-    pub negligible: f64,
     /// Number of free rigid motions, each of which has λ = 0 twice at every speed.
     pub rigid: usize,
+    /// Whether nothing damps.
+    pub is_conservative: bool,
+}
+
+/// All eigenvalues at a speed with Im λ ≥ 0 within the reach.
+pub fn roots(model: &WaveModel, speed: f64, scope: Scope) -> Vec<Root> {
+    if scope.is_conservative {
+        return undamped_roots(model, speed, scope.window);
+    }
+    let found = model.eigenvalues(speed).expect("converges").into_iter();
+    found
+        .map(|(lambda, slope)| Root {
+            lambda,
+            slope,
+            sign: 0,
+        })
+        .collect()
 }
 
 /// Eigenvalues at a speed as a sample of the search, without those beyond the reach of the model.
-fn sample(interval: &Interval, speed: f64, scope: Scope, plane: Plane) -> Sample {
-    let Scope {
-        window,
-        reach,
-        rigid,
-        ..
-    } = scope;
-    let mut roots: Vec<Root> = interval.roots(speed, reach);
+fn sample(model: &WaveModel, speed: f64, scope: Scope, plane: Plane) -> Sample {
+    let Scope { window, rigid, .. } = scope;
+    let mut roots = roots(model, speed, scope);
     roots.sort_by(|x, y| x.lambda.norm().total_cmp(&y.lambda.norm()));
     let zeros = roots.partition_point(|root| root.lambda.norm() < RIGID * window);
     roots.drain(..zeros.min(2 * rigid));
@@ -62,9 +70,8 @@ fn sample(interval: &Interval, speed: f64, scope: Scope, plane: Plane) -> Sample
     roots.truncate(followed + BESIDES);
     // A part of a saw may have nothing above the window for the search to end in.
     roots.push(Root {
-        lambda: c64::new(0.0, FENCE * reach),
+        lambda: c64::new(0.0, FENCE * model.reach_per_s()),
         slope: c64::new(0.0, 0.0),
-        error: c64::new(0.0, 0.0),
         sign: 1,
     });
     let finite = |z: c64| if z.is_finite() { z } else { c64::new(0.0, 0.0) };
@@ -101,15 +108,15 @@ fn is_definite(piece: &Piece, grouped: &Grouped) -> bool {
 }
 
 impl Searched {
-    /// Searches an interval, part by part.
-    pub fn new(interval: &Interval, scope: Scope) -> Self {
-        let plane = match interval.is_conservative {
+    /// Searches part by part.
+    pub fn new(model: &WaveModel, scope: Scope) -> Self {
+        let plane = match scope.is_conservative {
             true => Plane::Squares,
             false => Plane::Eigenvalues,
         };
-        let parts = interval.parts(scope.negligible);
+        let parts = model.parts();
         let spent = AtomicUsize::new(0);
-        let searched = |part: &Interval| {
+        let searched = |part: &WaveModel| {
             let solve = |speed: f64| {
                 let found = sample(part, speed, scope, plane);
                 let most = spent.fetch_add(1, Ordering::Relaxed) >= MOST;
@@ -123,8 +130,10 @@ impl Searched {
                 noise_per_s: scope.noise_per_s,
                 solve: &solve,
             };
-            let (from, to) = (part.from, part.to);
-            let found = search.pieces(&[from, 0.5 * (from + to), to]);
+            let (from, to) = part.range_rad_per_s();
+            let found = search.pieces(
+                &[0, 1, 2, 3, 4, 5, 6, 7, 8].map(|k| from + (to - from) * f64::from(k) / 8.0),
+            );
             found.expect("no eigenproblem fails")
         };
         Searched {

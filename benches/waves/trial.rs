@@ -3,17 +3,12 @@
 use faer::{Mat, Scale, c64};
 use sawflutter::plate::{Plate, Resolution};
 use sawflutter::scene::{Scene, SceneFile};
+use sawflutter::spectrum::waves::{self, WaveModel};
+use sawflutter::spectrum::{Component, LowestModes};
 use sawflutter::system::GyroscopicSystem;
 
-use super::dense::Whole;
-use super::interval::{Interval, NODES, Root};
-use super::near::Near;
-use super::reduced::Frame;
 use super::scenes;
-use super::search::{Scope, Searched};
-use super::series::TERMS;
-use super::stages::Middle;
-use super::waves::Saw;
+use super::search::{Scope, Searched, roots};
 
 /// Basis in which all eigenvalues are computed.
 const SMALL: Resolution = Resolution {
@@ -22,22 +17,10 @@ const SMALL: Resolution = Resolution {
 };
 /// Top of the window, as a multiple of the last speed.
 const WINDOW: f64 = 2.0;
-/// Cut of the intervals, and distance of the waves that stage one keeps, in windows. For one pad the error of the worst
-/// eigenvalue of the window is 9e-4, 4e-4 and 2e-4 of it at cuts of 1.5, 2 and 2.5 windows.
-const CUTS: (f64, f64) = (2.5, 4.0);
-/// Number of intervals.
-const INTERVALS: usize = 4;
-/// Trace of what the columns leave out: eigenvalues of 1e-4 are the same to 2e-5 of the window.
-const COLUMNS: f64 = 1e-6;
 /// Speeds of a comparison.
 const SPEEDS: usize = 8;
 /// Growth that has to be found, in 1/s.
 const GROWS: f64 = 0.05;
-/// True error over the estimated one that is allowed; 1.4 is the largest of 50 drawn saws.
-const OFF: f64 = 2.0;
-/// Error, in windows, below which the estimate is not compared: that of columns and series.
-const FINE: f64 = 3e-6;
-
 /// Processor time of this thread in s: other work on the machine does not count.
 fn busy_s() -> f64 {
     let stat = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
@@ -47,63 +30,34 @@ fn busy_s() -> f64 {
 
 /// A saw by waves from rest to a speed.
 struct Model {
-    intervals: Vec<Interval>,
-    searched: Vec<Searched>,
-    window: f64,
-    /// Seconds for the columns, stage one, the intervals and the search.
-    seconds: [f64; 4],
+    waves: WaveModel,
+    searched: Searched,
+    scope: Scope,
+    /// Seconds for the model and the search.
+    seconds: [f64; 2],
 }
 
 impl Model {
-    fn new(plate: &Plate, system: &GyroscopicSystem, to: f64) -> Self {
+    fn new(plate: &Plate, to: f64) -> Self {
         let window = WINDOW * to;
+        let components: Vec<Component> = LowestModes::new(plate).components;
         let mut times = vec![busy_s()];
-        let saw = Saw::new(plate, window, COLUMNS);
-        times.push(busy_s());
-        let sweep = (0.0, to);
-        // Rule 2 is applied with all waves that are far at rest.
-        let dampers = Near::new(&saw, (0.0, 0.0), (window, CUTS.0 * window));
-        let wide = CUTS.1 * window;
-        let near = Near::new(&saw, sweep, (window, wide)).with_dampers_of(dampers);
-        let stage = (window, TERMS, NODES);
-        let middle = match plate.edge_stiffness.is_some() {
-            false => {
-                let frame = Frame::new(&saw, &near, window);
-                let equations = |speed: f64, terms: usize| frame.reduced(speed, terms);
-                Middle::new(
-                    &equations,
-                    frame.unknowns(),
-                    sweep,
-                    stage,
-                    saw.is_conservative,
-                )
-            }
-            true => {
-                let whole = Whole::new(&saw, system, &near, sweep, window);
-                let unknowns = whole.unknowns(wide);
-                let count = unknowns.len();
-                let equations = |speed: f64, terms: usize| whole.equations(speed, terms, count);
-                Middle::new(&equations, unknowns, sweep, stage, saw.is_conservative)
-            }
-        };
-        times.push(busy_s());
-        let intervals = middle.intervals(INTERVALS, CUTS.0 * window, TERMS, NODES);
+        let reduced = waves::reduced(plate, &components, (0.0, to), window).expect("weak damping");
         times.push(busy_s());
         let scope = Scope {
             window,
-            reach: 1.8 * window,
             tolerance: 1e-3,
             noise_per_s: 1e-6 * window,
-            negligible: 3.0 * COLUMNS,
-            rigid: system.free_rigid.len(),
+            rigid: components.iter().map(|c| c.full.free_rigid.len()).sum(),
+            is_conservative: plate.is_conservative(),
         };
-        let searched = intervals.iter().map(|i| Searched::new(i, scope)).collect();
+        let searched = Searched::new(&reduced, scope);
         times.push(busy_s());
         Model {
-            intervals,
+            waves: reduced,
             searched,
-            window,
-            seconds: [0, 1, 2, 3].map(|k| times[k + 1] - times[k]),
+            scope,
+            seconds: [0, 1].map(|k| times[k + 1] - times[k]),
         }
     }
 }
@@ -154,42 +108,37 @@ fn compared(name: &str, file: &SceneFile, e: f64) -> bool {
     let to = scene.sweep().expect("a sweep").to_rad_per_s;
     let plate = Plate::new(&scene, SMALL);
     let system = GyroscopicSystem::of_plate(&plate);
-    let model = Model::new(&plate, &system, to);
-    let window = model.window;
-    let (mut worst, mut off, mut wrong) = (0.0_f64, 0.0_f64, [0, 0]);
+    let model = Model::new(&plate, to);
+    let window = model.scope.window;
+    let (mut worst, mut wrong) = (0.0_f64, [0, 0]);
     for k in 0..SPEEDS {
         let speed = to * (k as f64 + 0.63) / SPEEDS as f64;
-        let place = k * INTERVALS / SPEEDS;
         let exact = dense(&system, speed, window);
-        let roots = model.intervals[place].roots(speed, CUTS.0 * window);
+        let roots = roots(&model.waves, speed, model.scope);
         let values: Vec<c64> = roots.iter().map(|root| root.lambda).collect();
         let inside = exact.iter().filter(|l| l.norm() < window);
         worst = inside
             .map(|l| nearest(&values, *l) / window)
             .fold(worst, f64::max);
-        for Root { lambda, error, .. } in roots.iter().filter(|r| r.lambda.norm() < 0.97 * window) {
-            let truth = nearest(&exact, *lambda);
-            off = off.max((truth - FINE * window) / error.norm());
-        }
-        let read_off = model.searched[place].eigenvalues(speed);
+        let read_off = model.searched.eigenvalues(speed);
         for (wrong, found) in wrong.iter_mut().zip([&values, &read_off]) {
             *wrong += usize::from(!grow_alike(&exact, found, window));
         }
     }
-    let sizes: Vec<usize> = model.intervals.iter().map(|i| i.size).collect();
-    let strong = model.intervals[0].strong;
-    let tails = model.intervals.iter().map(Interval::tail);
-    let solved: usize = model.searched.iter().map(|s| s.eigenproblems).sum();
-    let lost: f64 = model.searched.iter().map(Searched::lost).sum();
-    let [columns, first, second, search] = model.seconds.map(|s| s / e);
+    let (size, tail, lost) = (
+        model.waves.size(),
+        model.waves.tail(),
+        model.searched.lost(),
+    );
+    let solved = model.searched.eigenproblems;
+    let [reduced, search] = model.seconds.map(|s| s / e);
     println!(
-        "{name:22} {sizes:?}, {strong} strong | tail {:.0e}, error {worst:.1e} of the window, {off:.1} x the estimate | wrong: model {}, pieces {} of {SPEEDS} | {solved} eigenproblems, given up {:.0e} | columns {columns:.2}, stages {first:.2} + {second:.2}, search {search:.2} E",
-        tails.fold(0.0, f64::max),
+        "{name:22} {size} unknowns, tail {tail:.0e}, error {worst:.1e} of the window | wrong: model {}, pieces {} of {SPEEDS} | {solved} eigenproblems, given up {:.0e} | model {reduced:.2}, search {search:.2} E",
         wrong[0],
         wrong[1],
         lost / to,
     );
-    wrong == [0, 0] && off < OFF && lost < 1e-4 * to
+    wrong == [0, 0] && lost < 1e-4 * to
 }
 
 /// Compares the saws whose names contain a word; whether all are right.

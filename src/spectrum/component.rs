@@ -82,6 +82,16 @@ impl Component {
         }
     }
 
+    /// The vectors of all projections; none for a component that is solved as a whole.
+    pub(super) fn spanned(&self) -> Vec<Col<f64>> {
+        let Solution::Projected(intervals) = &self.solution else {
+            return Vec::new();
+        };
+        let bases = intervals.iter().map(|interval| &interval.projection.basis);
+        let vectors = bases.flat_map(|basis| basis.col_iter().map(|vector| vector.to_owned()));
+        vectors.collect()
+    }
+
     /// Eigenpairs at a speed in the coordinates of [`Component::at`]; `index` is that of the component, which
     /// for a free blade is the number of nodal diameters.
     pub(super) fn eigenpairs(

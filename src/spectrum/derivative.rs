@@ -6,7 +6,6 @@ use faer::{Col, Mat, Scale, c64};
 
 use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
-use super::companion::time_scale;
 use super::vectors::{real_times, unit};
 
 /// dλ/dΩ, in 1/s per rad/s: ∂L/∂Ω = 2λG + 2Ω(K_σ − N) + K_circ.
@@ -18,58 +17,6 @@ pub fn with_speed(
 ) -> c64 {
     let change = speed_slope(system, speed_rad_per_s, lambda, x);
     along(system, speed_rad_per_s, (lambda, x), &change)
-}
-
-/// dλ/dΩ of every eigenvalue, from all eigenpairs of Im λ ≥ 0. `None` if they do not span the states (q, λq),
-/// because two of them have coalesced or rigid motions are missing.
-///
-/// The rows of the inverse of the matrix of all states are the left vectors.
-pub fn of_all_with_speed(
-    system: &GyroscopicSystem,
-    speed_rad_per_s: f64,
-    pairs: &[(c64, &Col<c64>)],
-) -> Option<Vec<c64>> {
-    let order = system.order();
-    let width = |lambda: c64| if lambda.im > 0.0 { 2 } else { 1 };
-    let count: usize = pairs.iter().map(|(lambda, _)| width(*lambda)).sum();
-    let scale = time_scale(&system.stiffness);
-    if count != 2 * order {
-        return None;
-    }
-    let (mut states, mut changes) = (Mat::zeros(count, count), Mat::zeros(count, count));
-    let mut column = 0;
-    for (lambda, x) in pairs {
-        let change = speed_slope(system, speed_rad_per_s, *lambda, x);
-        let is_pair = lambda.im > 0.0;
-        let set = |matrix: &mut Mat<f64>, row: usize, z: c64| {
-            matrix[(row, column)] = z.re;
-            if is_pair {
-                matrix[(row, column + 1)] = z.im;
-            }
-        };
-        for i in 0..order {
-            set(&mut states, i, x[i]);
-            set(&mut states, order + i, lambda * x[i] / scale);
-            set(&mut changes, order + i, -change[i] / scale);
-        }
-        column += width(*lambda);
-    }
-    let slopes = states.partial_piv_lu().solve(changes);
-    let mut column = 0;
-    let all = pairs.iter().map(|(lambda, _)| {
-        let k = column;
-        column += width(*lambda);
-        if lambda.im > 0.0 {
-            // Columns k and k + 1 of the matrix X = `states` are the real and the imaginary part of a vector.
-            // With the rows a and b of X⁻¹ at the same indices, its left vector is (a − ib)/2.
-            let re = slopes[(k, k)] + slopes[(k + 1, k + 1)];
-            c64::new(re, slopes[(k, k + 1)] - slopes[(k + 1, k)]) * 0.5
-        } else {
-            c64::new(slopes[(k, k)], 0.0)
-        }
-    });
-    let all: Vec<c64> = all.collect();
-    all.iter().all(|slope| slope.is_finite()).then_some(all)
 }
 
 /// The eigenvalue nearest to an expected one, with its slope, by Newton's method with the right and the left
@@ -232,7 +179,6 @@ mod tests {
     use crate::plate::{Plate, Resolution};
     use crate::scene::{Scene, rad_per_s};
     use crate::spectrum::companion_eigenpairs;
-    use crate::spectrum::vectors::Eigenpair;
 
     /// The paper's saw with a damped pad.
     fn system() -> GyroscopicSystem {
@@ -242,35 +188,6 @@ mod tests {
             radial_functions: 3,
         };
         GyroscopicSystem::of_plate(&Plate::new(&scene.unwrap(), resolution))
-    }
-
-    fn nearest(pairs: &[Eigenpair], lambda: c64) -> c64 {
-        let away = |pair: &&Eigenpair| (pair.0 - lambda).norm();
-        let nearest = pairs.iter().min_by(|x, y| away(x).total_cmp(&away(y)));
-        nearest.unwrap().0
-    }
-
-    /// Reference: difference quotients of the eigenvalues at two nearby speeds.
-    #[test]
-    fn slopes_of_all_eigenvalues_are_their_differences_over_the_speed() {
-        let (system, speed, step) = (system(), rad_per_s(1000.0), 1e-3);
-        let pairs = companion_eigenpairs(&system, speed).unwrap();
-        let modes: Vec<(c64, &Col<c64>)> = pairs.iter().map(|(z, x)| (*z, x)).collect();
-        let slopes = of_all_with_speed(&system, speed, &modes).unwrap();
-        let beside = [speed - step, speed + step];
-        let beside = beside.map(|speed| companion_eigenpairs(&system, speed).unwrap());
-        assert_eq!(slopes.len(), system.order());
-        for ((lambda, x), slope) in pairs.iter().zip(slopes) {
-            let [before, after] = [-step, step].map(|d| lambda + slope * d);
-            let difference =
-                (nearest(&beside[1], after) - nearest(&beside[0], before)) / 2.0 / step;
-            assert!(
-                (slope - difference).norm() < 1e-5,
-                "{lambda}: {slope} {difference}"
-            );
-            let one = with_speed(&system, speed, *lambda, x);
-            assert!((slope - one).norm() < 1e-7, "{lambda}: {slope} {one}");
-        }
     }
 
     /// The start differs by a thousandth from the eigenvalue. Reference: all eigenvalues of the companion

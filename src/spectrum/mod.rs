@@ -52,6 +52,8 @@ mod standing_waves;
 mod structured;
 mod vectors;
 mod wave;
+#[doc(hidden)]
+pub mod waves;
 mod work;
 
 pub(crate) use argument::turn_along;

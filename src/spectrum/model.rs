@@ -20,7 +20,7 @@ use super::error::SpectrumError;
 use super::full_model::FullModel;
 use super::guided_reduction::{Guided, of_guided};
 use super::interval::{interval_at, states_at};
-use super::mode::{Mode, ModeKind, classify, is_seen, pairs_of};
+use super::mode::{Mode, ModeKind, classify, is_seen};
 use super::mode_name::ModeName;
 use super::projection::Projection;
 use super::scale::frequency_scale;
@@ -295,35 +295,6 @@ impl SpectralModel {
         derivative::with_speed(system, speed_rad_per_s, mode.lambda, &mode.coordinates)
     }
 
-    /// dλ/dΩ of every mode of one component at a speed.
-    pub(crate) fn eigenvalue_slopes(
-        &self,
-        component: usize,
-        speed_rad_per_s: f64,
-        modes: &[Mode],
-    ) -> Vec<c64> {
-        let system = &self.components[component].at(speed_rad_per_s).reduced;
-        let all = derivative::of_all_with_speed(system, speed_rad_per_s, &pairs_of(modes));
-        all.unwrap_or_else(|| {
-            let modes = modes.iter();
-            let slopes = modes.map(|mode| self.eigenvalue_slope(speed_rad_per_s, mode));
-            slopes.collect()
-        })
-    }
-
-    /// The eigenvalue of a component nearest to an expected one, and dλ/dΩ, by Newton's method. `None` if it
-    /// does not converge.
-    pub(crate) fn eigenvalue_next_to(
-        &self,
-        component: usize,
-        speed_rad_per_s: f64,
-        expected: c64,
-    ) -> Option<(c64, c64)> {
-        let system = &self.components[component].at(speed_rad_per_s).reduced;
-        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
-        derivative::next_to(system, speed_rad_per_s, expected)
-    }
-
     /// Relative change of a frequency at rest that rounding may cause: a backward stable solver changes ω² by
     /// ε times the largest ω². The inverse used for the waves of a free blade gives low frequencies with a small
     /// relative error; then rounding only changes each entry of the matrix by ε times its size.
@@ -342,18 +313,6 @@ impl SpectralModel {
             _ => stiffness.norm_l2(),
         };
         0.5 * f64::EPSILON * size / square
-    }
-
-    /// Every mode of one component of the reduced model; those above `complete_to` are inaccurate.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub(crate) fn modes_of(
-        &self,
-        component: usize,
-        speed_rad_per_s: f64,
-    ) -> Result<Vec<Mode>, SpectrumError> {
-        self.solve_component(component, speed_rad_per_s, f64::INFINITY)
     }
 
     fn solve_component(

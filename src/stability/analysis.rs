@@ -315,7 +315,7 @@ impl Analysis {
         }
         let modes = self.model.modes(speed_rad_per_s)?;
         self.chart
-            .compare_with_modes(&self.model, speed_rad_per_s, &modes)?;
+            .compare_with_modes(&self.model, speed_rad_per_s, &modes);
         let growing = modes
             .iter()
             .map(|m| c64::new(m.growth_per_s(), m.lambda.im));

@@ -9,7 +9,7 @@ use super::options::AnalysisOptions;
 use super::signature::Signature;
 use super::undamped;
 use crate::campbell::{Campbell, Progress};
-use crate::spectrum::{Mode, SpectralModel, SpectrumError};
+use crate::spectrum::{Mode, SpectralModel};
 
 /// Number of even speeds of a chart, without those added at events.
 pub(super) const CHART_SPEEDS: usize = 51;
@@ -27,15 +27,12 @@ pub struct StabilityChart {
 
 impl StabilityChart {
     /// Compares the bands with the modes at one more speed, and adds contradictions to the certificate.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
     pub(super) fn compare_with_modes(
         &mut self,
         model: &SpectralModel,
         speed_rad_per_s: f64,
         modes: &[Mode],
-    ) -> Result<(), SpectrumError> {
+    ) {
         let (bands, certificate) = (&self.instabilities, &mut self.certificate);
         match model.is_conservative() {
             true => {
@@ -44,11 +41,10 @@ impl StabilityChart {
                 certificate.mismatches.extend(wrong);
             }
             false => {
-                let wrong = damped::contradicted(model, bands, speed_rad_per_s)?;
+                let wrong = damped::contradicted(model, bands, (speed_rad_per_s, modes));
                 certificate.violations_rad_per_s.extend(wrong);
             }
         }
-        Ok(())
     }
 }
 

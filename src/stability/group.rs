@@ -10,7 +10,7 @@
 
 use faer::{Mat, c64};
 
-use crate::linalg::complex_eigenvalues;
+use crate::linalg::{complex_eigenvalues, real_eigenvalues};
 
 use super::interpolation::{self, sign_changes};
 use super::root::place_of_zero;
@@ -77,6 +77,12 @@ fn monic(eigenvalues: &[Sloped]) -> Vec<Sloped> {
     product.split_off(1)
 }
 
+/// Whether each number is real or has its conjugate beside it.
+fn are_conjugates(eigenvalues: &[Sloped]) -> bool {
+    let mut numbers = eigenvalues.iter().map(|(z, _)| z);
+    numbers.all(|z| eigenvalues.iter().any(|(other, _)| *other == z.conj()))
+}
+
 fn mean(eigenvalues: &[Sloped]) -> Sloped {
     let share = 1.0 / eigenvalues.len() as f64;
     let sum = |part: fn(&Sloped) -> c64| eigenvalues.iter().map(part).sum::<c64>() * share;
@@ -91,7 +97,14 @@ impl Group {
             values: [first.0, last.0],
             rises: [first.1 * width_rad_per_s, last.1 * width_rad_per_s],
         };
-        let means = ends.map(mean);
+        // Of real numbers and conjugates all coefficients are real, so that its numbers between the ends are real or
+        // conjugates, too.
+        let is_real = ends.iter().all(|end| are_conjugates(end));
+        let exact = |(z, slope): Sloped| match is_real {
+            true => (c64::from(z.re), c64::from(slope.re)),
+            false => (z, slope),
+        };
+        let means = ends.map(|end| exact(mean(end)));
         let coefficients = [0, 1].map(|end| {
             let (centre, drift) = means[end];
             let around = ends[end]
@@ -99,6 +112,7 @@ impl Group {
                 .map(|(z, slope)| (z - centre, slope - drift));
             monic(&around.collect::<Vec<_>>())
         });
+        let coefficients = coefficients.map(|all| all.into_iter().map(exact).collect::<Vec<_>>());
         let [first, last] = coefficients;
         let pairs = first.into_iter().zip(last).skip(1);
         Group {
@@ -246,7 +260,12 @@ fn roots(coefficients: &[c64]) -> Vec<c64> {
         (0, k) => -coefficients[k - 1] / unit.powi(k as i32 + 1),
         (i, k) => c64::new(f64::from(u8::from(i == k + 1)), 0.0),
     });
-    match complex_eigenvalues(companion.as_ref()) {
+    let is_real = coefficients.iter().all(|c| c.im == 0.0);
+    let values = match is_real {
+        true => real_eigenvalues(Mat::from_fn(size, size, |i, k| companion[(i, k)].re).as_ref()),
+        false => complex_eigenvalues(companion.as_ref()),
+    };
+    match values {
         Ok(values) => values.into_iter().map(|z| z * unit).collect(),
         Err(_) => vec![c64::new(f64::NAN, 0.0); size],
     }
@@ -296,6 +315,20 @@ mod tests {
             vec![(root, 0.5 / root), (-root, -0.5 / root)]
         };
         assert_interpolated(pair, (0.45, 1.7));
+    }
+
+    /// Three real numbers with different slopes: none gets an imaginary part by rounding.
+    #[test]
+    fn real_numbers_stay_real_next_to_their_crossing() {
+        let crossing = |speed: f64| {
+            let numbers = [-1.0, 0.3, 2.0].map(|slope| (c64::from(7.0 + slope * speed), slope));
+            numbers.map(|(z, slope)| (z, c64::from(slope)))
+        };
+        let group = Group::new((-1.0, 1.1), [&crossing(-1.0), &crossing(1.1)]);
+        for k in 0..50 {
+            let numbers = group.at(0.1 + 0.02 * f64::from(k));
+            assert!(numbers.iter().all(|z| z.im == 0.0), "{k}: {numbers:?}");
+        }
     }
 
     /// i plus the three cube roots of Ω − 1.

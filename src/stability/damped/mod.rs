@@ -1,7 +1,8 @@
 //! Bands of a damped blade: intervals of speed in which an eigenvalue has Re λ > 0.
 //!
 //! A damped blade has no Krein signs to count. Instead, every low eigenvalue is followed over speed as λ(Ω)
-//! ([`curve`]), on pieces each of which predicted the eigenvalues of a further speed. A band begins and ends
+//! ([`curve`]), by the reduced model of its waves ([`spectrum`]), on pieces each of which predicted the
+//! eigenvalues of a further speed. A band begins and ends
 //! where Re λ = 0, where a complex pair turns into two real eigenvalues or back, and at the smallest growth
 //! between two humps ([`hump`]).
 
@@ -21,11 +22,11 @@ use super::partition::Plane;
 use super::pieces::{Piece, Search};
 use super::undamped::with_critical_speeds;
 use crate::campbell::{self, SpeedSample};
-use crate::spectrum::{SpectralModel, SpectrumError, clear_range};
+use crate::spectrum::{Mode, SpectralModel, SpectrumError, clear_range};
 use crate::tuned::Tuned;
 use counts::Counts;
 pub(super) use counts::counted_in_window;
-use spectrum::{Solver, Spectrum};
+use spectrum::{Solver, Spectrum, noise};
 
 /// Allowed distance of straight lines from a drawn curve of growth, as a share of its peak, both on a
 /// square-root scale, which shows slow growth beside fast growth.
@@ -110,17 +111,17 @@ fn bands(
     range: (f64, f64),
     closeness: Closeness,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
-    let solver = Solver::new(model);
+    let solver = Solver::new(model, range)?;
     let speeds = campbell::even_speeds(range, SEARCH_SPEEDS);
-    let searched: Vec<(Vec<Piece>, Vec<Instability>)> = (0..model.components.len())
+    let searched: Vec<(Vec<Piece>, Vec<Instability>)> = (0..solver.parts())
         .into_par_iter()
-        .map(|component| searched(&solver, component, &speeds, closeness.tolerance))
+        .map(|part| searched(&solver, part, &speeds, closeness.tolerance))
         .collect::<Result<_, _>>()?;
     let mut instabilities = Vec::new();
     let mut spectra: Vec<Spectrum> = Vec::new();
     for (pieces, bands) in &searched {
         instabilities.extend(bands.iter().cloned());
-        // With several components, the spectrum of one component is not that of the saw.
+        // With several parts, the spectrum of one part is not that of the saw.
         if searched.len() == 1 {
             spectra = solver.spectra(pieces);
         }
@@ -134,8 +135,8 @@ fn bands(
         true => Counts::new(model, &solver, &instabilities, range)?,
         false => Counts::default(),
     };
-    let mut violations = mismatches(&solver, &spectra, &instabilities);
-    violations.extend(mismatches(&solver, &counts.spectra, &instabilities));
+    let mut violations = mismatches(model, &spectra, &instabilities);
+    violations.extend(mismatches(model, &counts.spectra, &instabilities));
     let certificate = Certificate {
         speeds_checked: spectra.len() + counts.spectra.len(),
         violations_rad_per_s: violations,
@@ -148,14 +149,14 @@ fn bands(
     Ok((instabilities, certificate))
 }
 
-/// Pieces of one component of the saw, and its bands.
+/// Pieces of one part of the saw, and its bands.
 fn searched(
     solver: &Solver<'_>,
-    component: usize,
+    part: usize,
     speeds: &[f64],
     tolerance: f64,
 ) -> Result<(Vec<Piece>, Vec<Instability>), SpectrumError> {
-    let solve = |speed: f64| solver.sample(speed, component);
+    let solve = |speed: f64| solver.sample(speed, part);
     let search = Search {
         plane: Plane::Eigenvalues,
         top_rad_per_s: solver.highest(),
@@ -171,27 +172,23 @@ fn searched(
     let curves = curve::curves(&pieces, solver.highest(), solver.noise());
     let found: Result<Vec<Vec<Instability>>, SpectrumError> = curves
         .par_iter()
-        .map(|curve| hump::bands(solver, component, curve, (first, last)))
+        .map(|curve| hump::bands(solver, part, curve, (first, last), tolerance))
         .collect();
     Ok((pieces, found?.into_iter().flatten().collect()))
 }
 
 /// The speed, if the number of growing modes differs from the number of bands there; otherwise empty.
-///
-/// # Errors
-/// [`SpectrumError`] when an eigenproblem fails.
 pub(super) fn contradicted(
     model: &SpectralModel,
     bands: &[Instability],
-    speed_rad_per_s: f64,
-) -> Result<Vec<f64>, SpectrumError> {
-    let solver = Solver::new(model);
-    let spectrum = solver.at(speed_rad_per_s)?;
-    Ok(mismatches(&solver, &[spectrum], bands))
+    (speed, modes): (f64, &[Mode]),
+) -> Vec<f64> {
+    let values = modes.iter().map(|mode| mode.lambda).collect();
+    mismatches(model, &[Spectrum { speed, values }], bands)
 }
 
 /// Speeds at which the number of growing modes differs from the number of bands.
-fn mismatches(solver: &Solver<'_>, spectra: &[Spectrum], bands: &[Instability]) -> Vec<f64> {
+fn mismatches(model: &SpectralModel, spectra: &[Spectrum], bands: &[Instability]) -> Vec<f64> {
     const EDGE: f64 = 1e-9;
     let at_edge = |speed: f64, edge: f64| (speed - edge).abs() <= EDGE * speed;
     let differs = |spectrum: &&Spectrum| {
@@ -206,13 +203,10 @@ fn mismatches(solver: &Solver<'_>, spectra: &[Spectrum], bands: &[Instability]) 
         // number of growing modes.
         let growing = |least: f64| {
             let values = spectrum.values.iter();
-            let sound = values.filter(|l| l.im <= solver.highest());
+            let sound = values.filter(|l| l.im <= model.complete_to_rad_per_s);
             sound.filter(|l| l.re > least).count()
         };
-        let (least, most) = (
-            growing(10.0 * solver.noise()),
-            growing(-10.0 * solver.noise()),
-        );
+        let (least, most) = (growing(10.0 * noise(model)), growing(-10.0 * noise(model)));
         !ends.any(|edge| at_edge(speed, edge)) && !(least..=most).contains(&covering.count())
     };
     let differing = spectra.iter().filter(differs);

@@ -4,7 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
-use crate::spectrum::{ModeKind, SpectralModel, SpectrumError, smallest};
+use crate::spectrum::waves::{self, WaveModel};
+use crate::spectrum::{SpectralModel, SpectrumError, smallest};
 use crate::stability::group::Sloped;
 use crate::stability::partition::{BESIDES, Sample};
 use crate::stability::pieces::Piece;
@@ -13,8 +14,13 @@ use crate::stability::pieces::Piece;
 const NOISE: f64 = 1e-10;
 /// Largest number of spectra in one chart, a hundred times as many as usual saws need.
 const MOST_SPECTRA: usize = 12_000;
-/// An eigenvalue at more than this share of its size from the expected one may be another eigenvalue.
+/// An eigenvalue at more than this share of its size, or of a tenth of the highest accurate frequency, from the expected one
+/// may be another eigenvalue.
 const SAME: f64 = 1e-5;
+/// Distance of eigenvalues beyond all others of a sample, in multiples of the reach. One ends the search above the window, where
+/// a part of a saw may have none. One on the negative axis takes the place of a real eigenvalue beyond the reach, so that the
+/// middle by frequency stays between conjugates.
+const FENCE: f64 = 3.0;
 
 /// Eigenvalues at one speed.
 #[derive(Debug, Clone)]
@@ -25,33 +31,48 @@ pub struct Spectrum {
     pub values: Vec<c64>,
 }
 
-/// Computes the spectra of a model, and counts them.
+/// Computes the spectra of a saw on its reduced model by waves, and counts them.
 pub struct Solver<'a> {
     model: &'a SpectralModel,
+    /// Parts of the saw that do not act on one another.
+    parts: Vec<WaveModel>,
     spent: AtomicUsize,
 }
 
 impl<'a> Solver<'a> {
-    /// A solver for a model.
-    pub fn new(model: &'a SpectralModel) -> Self {
-        Solver {
+    /// A solver for a range of speeds, in rad/s.
+    ///
+    /// # Errors
+    /// [`SpectrumError::Cancelled`].
+    pub fn new(model: &'a SpectralModel, range: (f64, f64)) -> Result<Self, SpectrumError> {
+        let SpectralModel {
+            plate, components, ..
+        } = model;
+        let parts = waves::parts(plate, components, range, model.complete_to_rad_per_s)?;
+        Ok(Solver {
             model,
+            parts,
             spent: AtomicUsize::new(0),
-        }
+        })
+    }
+
+    /// Number of parts of the saw that do not act on one another.
+    pub fn parts(&self) -> usize {
+        self.parts.len()
     }
 
     /// Computes the eigenvalues at a speed.
     pub fn at(&self, speed: f64) -> Result<Spectrum, SpectrumError> {
         let mut values = Vec::new();
-        for component in 0..self.model.components.len() {
-            let sloped = self.eigenvalues(speed, component)?;
+        for part in 0..self.parts.len() {
+            let sloped = self.eigenvalues(speed, part)?;
             values.extend(sloped.into_iter().map(|(lambda, _)| lambda));
         }
         values.retain(|lambda| lambda.im <= self.highest());
         Ok(Spectrum { speed, values })
     }
 
-    /// The spectra at the speeds of a search, for a saw of one component.
+    /// The spectra at the speeds of a search, for a saw of one part.
     pub fn spectra(&self, pieces: &[Piece]) -> Vec<Spectrum> {
         let of = |sample: &Sample| {
             let all = sample.eigenvalues.iter().map(|(lambda, _)| *lambda);
@@ -66,43 +87,64 @@ impl<'a> Solver<'a> {
         first.into_iter().chain(others).collect()
     }
 
-    /// Computes the low eigenvalues of a component as a sample for a search; `None` once the allowed number of
-    /// spectra is used up.
-    pub fn sample(&self, speed: f64, component: usize) -> Result<Option<Sample>, SpectrumError> {
+    /// Computes the low eigenvalues of a part as a sample for a search; `None` once the allowed number of spectra is used
+    /// up.
+    pub fn sample(&self, speed: f64, part: usize) -> Result<Option<Sample>, SpectrumError> {
         if self.is_exhausted() {
             return Ok(None);
         }
-        let mut values = self.eigenvalues(speed, component)?;
+        let mut values = self.eigenvalues(speed, part)?;
         values.sort_by(|x, y| x.0.im.total_cmp(&y.0.im));
+        let reals = values.iter().filter(|(lambda, _)| lambda.im == 0.0).count();
         let followed = values.partition_point(|(lambda, _)| lambda.im <= self.highest());
         values.truncate(followed + BESIDES);
+        let away = FENCE * self.parts[part].reach_per_s();
+        let mut fences = vec![c64::new(0.0, away)];
+        if reals % 2 == 1 {
+            fences.push(c64::new(-away, 0.0));
+        }
+        values.extend(fences.into_iter().map(|fence| (fence, c64::new(0.0, 0.0))));
         Ok(Some(Sample::new(speed, values.into_iter())))
     }
 
-    /// Eigenvalue of a component at a speed nearest to an expected one, with its slope.
+    /// Eigenvalue of a part at a speed nearest to an expected one, with its slope.
     pub fn nearest(
         &self,
         speed: f64,
-        component: usize,
+        part: usize,
         expected: c64,
     ) -> Result<Option<Sloped>, SpectrumError> {
         let distance = |(lambda, _): &Sloped| (lambda - expected).norm();
-        let found = self.model.eigenvalue_next_to(component, speed, expected);
-        if let Some(found) = found.filter(|found| distance(found) <= SAME * expected.norm()) {
+        let away = SAME * expected.norm().max(0.1 * self.highest());
+        let found = self.next_to(speed, part, expected)?;
+        if let Some(found) = found.filter(|found| distance(found) <= away) {
             return Ok(Some(found));
         }
-        Ok(smallest(self.eigenvalues(speed, component)?, distance))
+        Ok(smallest(self.eigenvalues(speed, part)?, distance))
     }
 
-    /// Eigenvalues of a component with Im λ ≥ 0, without free rigid motions, and their slopes.
-    fn eigenvalues(&self, speed: f64, component: usize) -> Result<Vec<Sloped>, SpectrumError> {
+    /// Eigenvalue to which an iteration from an expected one leads. A real one stays real.
+    pub fn next_to(
+        &self,
+        speed: f64,
+        part: usize,
+        expected: c64,
+    ) -> Result<Option<Sloped>, SpectrumError> {
+        let counters = &self.model.counters;
+        counters.cancellation.check()?;
+        counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        Ok(self.parts[part].next_to(speed, expected))
+    }
+
+    /// Eigenvalues of a part with Im λ ≥ 0, without free rigid motions, and their slopes.
+    fn eigenvalues(&self, speed: f64, part: usize) -> Result<Vec<Sloped>, SpectrumError> {
+        let counters = &self.model.counters;
+        counters.cancellation.check()?;
+        counters.local_solves.fetch_add(1, Ordering::Relaxed);
         self.spent.fetch_add(1, Ordering::Relaxed);
-        let modes = self.model.modes_of(component, speed)?;
-        let slopes = self.model.eigenvalue_slopes(component, speed, &modes);
-        let all = modes.iter().zip(slopes);
-        let elastic = all.filter(|(mode, _)| mode.kind != ModeKind::Rigid);
-        Ok(elastic
-            .map(|(mode, slope)| (mode.lambda, finite(slope)))
+        let found = self.parts[part].eigenvalues(speed)?.into_iter();
+        Ok(found
+            .map(|(lambda, slope)| (lambda, finite(slope)))
             .collect())
     }
 
@@ -111,9 +153,9 @@ impl<'a> Solver<'a> {
         self.model.complete_to_rad_per_s
     }
 
-    /// Growth rate, in 1/s, that is rounding, which is relative to the blade's frequencies and not to a small λ.
+    /// Growth rate, in 1/s, that is rounding.
     pub fn noise(&self) -> f64 {
-        NOISE * self.highest()
+        noise(self.model)
     }
 
     /// Whether the allowed number of spectra is used up.
@@ -122,10 +164,59 @@ impl<'a> Solver<'a> {
     }
 }
 
+/// Growth rate, in 1/s, that is rounding, which is relative to the blade's frequencies and not to a small λ.
+pub fn noise(model: &SpectralModel) -> f64 {
+    NOISE * model.complete_to_rad_per_s
+}
+
 /// A slope, or zero at the coalescence of two eigenvalues, where it is not finite.
 pub fn finite(slope: c64) -> c64 {
     match slope.is_finite() {
         true => slope,
         false => c64::new(0.0, 0.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plate::{Plate, Resolution};
+    use crate::scene::{Scene, rad_per_s};
+    use crate::spectrum::Strategy;
+
+    /// Dampers stronger than their springs: of their real eigenvalues one is within the reach and the next one beyond it, and
+    /// conjugates lie symmetrically about the middle nevertheless.
+    #[test]
+    fn the_middle_of_a_sample_is_between_conjugates() {
+        let range = (0.0, rad_per_s(2600.0));
+        let mut odd = 0;
+        for (stiffness, damping) in [(1e6, 1e4), (0.0, 1e5), (3e5, 3e3)] {
+            let scene = Scene::paper().edited(|saw| {
+                saw.guides[0].stiffness_n_per_m = stiffness;
+                saw.guides[0].damping_n_s_per_m = damping;
+            });
+            let resolution = Resolution {
+                max_diameters: 6,
+                radial_functions: 5,
+            };
+            let plate = Plate::new(&scene.unwrap(), resolution);
+            let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
+            let solver = Solver::new(&model, range).unwrap();
+            for k in 0..12 {
+                let speed = range.1 * (f64::from(k) + 0.3) / 12.0;
+                let all = solver.eigenvalues(speed, 0).unwrap();
+                odd += all.iter().filter(|(z, _)| z.im == 0.0).count() % 2;
+                let sample = solver.sample(speed, 0).unwrap().unwrap().eigenvalues;
+                let count = sample.len();
+                for (k, (z, _)) in sample.iter().enumerate() {
+                    let mirrored = sample[count - 1 - k].0.im;
+                    assert!(
+                        (z.im + mirrored).abs() < 1e-9,
+                        "{stiffness} {damping}: {z} {mirrored}"
+                    );
+                }
+            }
+        }
+        assert!(odd > 0);
     }
 }

@@ -9,12 +9,11 @@
 //! with κ(λ)u = f.
 
 use faer::{Mat, MatRef, Scale};
-use sawflutter::system::GyroscopicSystem;
 
+use super::blade::Saw;
 use super::near::Near;
-use super::series::{Eliminated, MODEL, Series, eliminate};
-use super::stages::{Unknown, split};
-use super::waves::Saw;
+use super::series::{Eliminated, QUADRATIC, Series, TERMS, eliminate};
+use crate::system::GyroscopicSystem;
 
 /// A block in the waves of the middle of an interval.
 struct Turned {
@@ -39,8 +38,8 @@ pub struct Frame {
     blocks: Vec<Turned>,
     /// Strong dampers first.
     forces: Vec<Force>,
-    /// The near waves.
-    waves: Vec<Unknown>,
+    /// Number of near waves, and of strong dampers.
+    waves: usize,
     strong: usize,
     /// Top of the window, in 1/s: the unit of λ.
     window: f64,
@@ -50,7 +49,6 @@ impl Frame {
     /// The frame of a saw for what is near.
     pub fn new(saw: &Saw, near: &Near, window: f64) -> Self {
         let (columns, forces) = gathered(saw, near, window);
-        let mut waves = Vec::new();
         let mut first = 0;
         let mut blocks = Vec::new();
         for (block, part) in saw.blocks.iter().zip(&near.blocks) {
@@ -65,10 +63,6 @@ impl Frame {
             });
             let own = columns.subrows(block.first, copies * radial);
             let count = copies * part.near;
-            for _ in 0..copies {
-                let own = part.squares[..part.near].iter();
-                waves.extend(own.map(|squares| Unknown::Wave(*squares, block.diameters as f64)));
-            }
             blocks.push(Turned {
                 system: block.system.project(turn.as_ref()),
                 columns: turn.transpose() * own,
@@ -80,7 +74,7 @@ impl Frame {
         Frame {
             blocks,
             forces,
-            waves,
+            waves: first,
             strong: near.strong(),
             window,
         }
@@ -88,29 +82,22 @@ impl Frame {
 
     /// Number of unknowns of the reduced model.
     pub fn size(&self) -> usize {
-        self.waves.len() + self.strong
+        self.waves + self.strong
     }
 
-    /// K̃, C̃, M̃ and further terms at a speed, in units of the window; `terms` of them.
-    pub fn reduced(&self, speed: f64, terms: usize) -> Series {
-        let kept: Vec<usize> = (0..self.size()).collect();
-        split(&self.equations(speed, terms), &kept, terms)
-    }
-
-    /// Unknowns of [`Frame::reduced`]: strong dampers, then waves.
-    pub fn unknowns(&self) -> Vec<Unknown> {
-        let mut unknowns = vec![Unknown::Strong; self.strong];
-        unknowns.extend(&self.waves);
-        unknowns
+    /// K̃, C̃, M̃ and further terms at a speed, in units of the window, in the displacements of strong dampers and the near
+    /// waves.
+    pub fn reduced(&self, speed: f64) -> Series {
+        self.equations(speed).onto_first(self.size())
     }
 
     /// The equations of strong dampers z, near waves x and forces f, those of strong dampers first, after the
     /// elimination of the far waves.
-    fn equations(&self, speed: f64, terms: usize) -> Series {
-        let mut all = self.without_far_waves(speed, terms);
+    fn equations(&self, speed: f64) -> Series {
+        let mut all = self.without_far_waves(speed);
         let (first, strong) = (self.size(), self.strong);
         // Rows of weak columns times κ(λ), from the last power down.
-        for power in (0..terms).rev() {
+        for power in (0..TERMS).rev() {
             let earlier = match power {
                 0 => None,
                 _ => all.0[power - 1].clone(),
@@ -141,11 +128,11 @@ impl Frame {
         all
     }
 
-    /// The same before the forces are connected with displacements: P^T q in the rows of forces.
-    fn without_far_waves(&self, speed: f64, terms: usize) -> Series {
+    /// These equations before the forces are connected with displacements: Pᵀq in the rows of forces.
+    fn without_far_waves(&self, speed: f64) -> Series {
         let size = self.size() + self.forces.len();
         let mut total = Series::default();
-        for power in 0..terms {
+        for power in 0..TERMS {
             total.term_mut(power, size, size);
         }
         for block in &self.blocks {
@@ -155,7 +142,7 @@ impl Frame {
                 Scale(self.window.recip()) * block.system.velocity_at(speed),
                 inertia,
             ];
-            let own = block.eliminated(&dynamic, terms);
+            let own = block.eliminated(&dynamic);
             let place = |i: usize| match i < block.near {
                 true => self.strong + block.first + i,
                 false => self.size() + i - block.near,
@@ -174,7 +161,7 @@ impl Frame {
 
 impl Turned {
     /// Series of the near unknowns and of all forces, with the far unknowns of this block eliminated.
-    fn eliminated(&self, dynamic: &[Mat<f64>; 3], terms: usize) -> Series {
+    fn eliminated(&self, dynamic: &[Mat<f64>; QUADRATIC]) -> Series {
         let (near, rank) = (self.near, self.columns.ncols());
         let size = near + rank;
         let near_columns = self.columns.subrows(0, near);
@@ -210,7 +197,7 @@ impl Turned {
         copy(&mut kept, (near, 0), near_columns.transpose());
         copy(&mut by_far, (near, 0), far_columns.transpose());
         copy(&mut by_kept, (0, near), far_columns);
-        for power in MODEL..terms {
+        for power in QUADRATIC..TERMS {
             kept.term_mut(power, size, size);
         }
         let parts = Eliminated {
@@ -218,7 +205,7 @@ impl Turned {
             far_by_kept: &by_kept,
             far: &far,
         };
-        eliminate(&mut kept, &parts, terms);
+        eliminate(&mut kept, &parts);
         kept
     }
 }

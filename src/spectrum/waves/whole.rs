@@ -1,56 +1,47 @@
-//! Stage one for loads at the rim, which couple all waves: a dense elimination.
+//! The reduced model at one speed with forces that couple all waves, such as loads at the rim: a dense elimination.
 //!
-//! In the waves of the middle of the sweep L₀ = K₀ + ΩN + Ω²S and L₁ = C + 2ΩG, exactly. Strong dampers are bordered as
-//! in [`super::reduced`]; everything else fixed in space is part of the dense matrices.
+//! In the waves of the middle of the interval L₀ = K₀ + ΩN + Ω²S and L₁ = C + 2ΩG, exactly. Strong dampers are bordered
+//! as in [`super::frame`]; everything else fixed in space is part of the dense matrices.
 
 use faer::{Mat, Scale};
-use sawflutter::system::GyroscopicSystem;
 
+use super::blade::Saw;
 use super::near::Near;
 use super::series::Series;
-use super::stages::{Unknown, split};
-use super::waves::Saw;
+use crate::system::GyroscopicSystem;
 
-/// The whole saw in waves, those needed most first, followed by the forces of strong dampers.
+/// The whole saw: displacements of strong dampers, near waves, far waves, forces of strong dampers.
 pub struct Whole {
     /// Powers of the speed of each coefficient of λ, in units of the window.
     stiffness: [Mat<f64>; 3],
     velocity: [Mat<f64>; 2],
-    /// Waves by their least distance ω − nΩ over the sweep, in 1/s; zero for reflected ones.
-    waves: Vec<(f64, Unknown)>,
-    /// Number of strong dampers, whose displacements come first.
+    /// Number N of waves, and of strong dampers.
+    order: usize,
     strong: usize,
+    /// Number of displacements and waves that are kept.
+    size: usize,
 }
 
+/// A block of the plate in its waves: the index of its first unknown, and the vectors of the waves.
+type Turned<'a> = (usize, &'a Mat<f64>);
+
 impl Whole {
-    /// A saw over a sweep.
-    pub fn new(
-        saw: &Saw,
-        system: &GyroscopicSystem,
-        near: &Near,
-        sweep: (f64, f64),
-        window: f64,
-    ) -> Self {
+    /// A saw for what is near.
+    pub fn new(saw: &Saw, system: &GyroscopicSystem, near: &Near, window: f64) -> Self {
         let order = saw.order;
-        let mut found: Vec<(f64, usize, Unknown)> = Vec::new();
-        let mut parts: Vec<(usize, &Mat<f64>)> = Vec::new();
+        let mut parts: Vec<Turned<'_>> = Vec::new();
+        let (mut places, mut far) = (Vec::new(), Vec::new());
         for (block, part) in saw.blocks.iter().zip(&near.blocks) {
-            let n = block.diameters as f64;
             for copy in 0..block.copies() {
                 let first = block.first + copy * block.radial;
                 parts.push((first, &part.vectors));
-                for (k, squares) in part.squares.iter().enumerate() {
-                    let distance = |square: f64, speed: f64| {
-                        (square.signum() * square.abs().sqrt() - n * speed).max(0.0)
-                    };
-                    let distance = distance(squares[0], sweep.0).min(distance(squares[1], sweep.1));
-                    found.push((distance, first + k, Unknown::Wave(*squares, n)));
-                }
+                places.extend(first..first + part.near);
+                far.extend(first + part.near..first + block.radial);
             }
         }
-        found.sort_by(|x, y| x.0.total_cmp(&y.0));
-        let places: Vec<usize> = found.iter().map(|f| f.1).collect();
         let strong = near.strong();
+        let size = strong + places.len();
+        places.extend(far);
         let (columns, weights) = strong_columns(saw, near, window);
         let in_waves = |matrix: Option<&Mat<f64>>, unit: f64| {
             let inner = matrix.map_or_else(
@@ -68,6 +59,9 @@ impl Whole {
             in_waves(system.circulatory.as_ref(), squared),
             in_waves(Some(&system.spin), squared),
         ];
+        if let Some(nonconservative) = &system.nonconservative {
+            stiffness[0] += in_waves(Some(nonconservative), squared);
+        }
         let mut velocity = [
             in_waves(system.damping.as_ref(), window.recip()),
             in_waves(Some(&system.gyroscopic), 2.0 / window),
@@ -94,37 +88,29 @@ impl Whole {
         Whole {
             stiffness,
             velocity,
-            waves: found.iter().map(|f| (f.0, f.2)).collect(),
+            order,
             strong,
+            size,
         }
     }
 
-    /// Unknowns of [`Whole::equations`]: strong dampers, and waves up to `wide` away at some speed.
-    pub fn unknowns(&self, wide: f64) -> Vec<Unknown> {
-        let waves = self.waves.iter().filter(|(distance, _)| *distance < wide);
-        let strong = vec![Unknown::Strong; self.strong].into_iter();
-        strong.chain(waves.map(|(_, wave)| *wave)).collect()
-    }
-
-    /// The equations of the first `count` unknowns at a speed, all others eliminated.
-    pub fn equations(&self, speed: f64, terms: usize, count: usize) -> Series {
+    /// K̃, C̃, M̃ and further terms at a speed, in units of the window, in the displacements of strong dampers and the near
+    /// waves.
+    pub fn reduced(&self, speed: f64) -> Series {
         let [a, b, c] = &self.stiffness;
         let [d, e] = &self.velocity;
         let mut inertia = Mat::zeros(a.nrows(), a.nrows());
-        (self.strong..self.strong + self.waves.len()).for_each(|i| inertia[(i, i)] = 1.0);
-        let all = Series([
-            Some(a + Scale(speed) * b + Scale(speed * speed) * c),
-            Some(d + Scale(speed) * e),
-            Some(inertia),
-            None,
-            None,
-        ]);
-        split(&all, &(0..count).collect::<Vec<_>>(), terms)
+        (self.strong..self.strong + self.order).for_each(|i| inertia[(i, i)] = 1.0);
+        let mut all = Series::default();
+        all.0[0] = Some(a + Scale(speed) * b + Scale(speed * speed) * c);
+        all.0[1] = Some(d + Scale(speed) * e);
+        all.0[2] = Some(inertia);
+        all.onto_first(self.size)
     }
 }
 
 /// Vᵀ X with V block by block.
-fn turned(parts: &[(usize, &Mat<f64>)], matrix: &Mat<f64>) -> Mat<f64> {
+fn turned(parts: &[Turned<'_>], matrix: &Mat<f64>) -> Mat<f64> {
     let mut turned = Mat::zeros(matrix.nrows(), matrix.ncols());
     for (first, vectors) in parts {
         let size = vectors.nrows();

@@ -5,9 +5,10 @@
 //! (rule 2): their displacement is a coordinate, and the far waves are eliminated with it held. No far block then
 //! has an eigenvalue inside the cut.
 
-use faer::{Mat, Side};
+use faer::Mat;
 
-use super::waves::{Block, Saw};
+use super::blade::{Block, Saw};
+use crate::linalg::SymmetricEigen;
 
 /// Force of a damper beside the stiffness of the far waves, at the top of the window, above which it is kept.
 pub const STRONG: f64 = 0.1;
@@ -18,8 +19,6 @@ pub struct NearBlock {
     pub vectors: Mat<f64>,
     /// Number of near waves; a cosine and a sine each for n > 0.
     pub near: usize,
-    /// ω² at both ends of the interval.
-    pub squares: Vec<[f64; 2]>,
 }
 
 /// A set of columns P as P R, and P κ Pᵀ = (P R) diag(κ weight) (P R)ᵀ.
@@ -57,16 +56,11 @@ impl Near {
                 let near = squares.iter().filter(|s| is_near(**s, n * speed, cut));
                 near.count()
             };
-            let [(first, _), (inner, vectors), (last, _)] =
-                [from, middle, to].map(|speed| block.waves(speed));
-            let near = count(&inner, middle)
-                .max(count(&first, from))
-                .max(count(&last, to));
-            let squares = first.into_iter().zip(last).map(|(x, y)| [x, y]);
+            let (inner, vectors) = block.waves(middle);
+            let near = [from, to].map(|speed| count(&block.waves(speed).0, speed));
             blocks.push(NearBlock {
                 vectors,
-                near,
-                squares: squares.collect(),
+                near: count(&inner, middle).max(near[0]).max(near[1]),
             });
         }
         let mut near = Near {
@@ -80,10 +74,20 @@ impl Near {
         near
     }
 
-    /// The same waves, with the strong dampers of another choice of waves.
+    /// These waves, with the strong dampers of another choice of waves.
     pub fn with_dampers_of(mut self, other: Near) -> Self {
         self.rotations = other.rotations;
         self
+    }
+
+    /// Number of nodal diameters of each unknown that is kept; `None` for displacements of dampers.
+    pub fn diameters(&self) -> Vec<Option<usize>> {
+        let waves = self.blocks.iter().enumerate();
+        let waves = waves.flat_map(|(n, block)| {
+            let copies = 1 + usize::from(n > 0);
+            vec![Some(n); copies * block.near]
+        });
+        vec![None; self.strong()].into_iter().chain(waves).collect()
     }
 
     /// Number of displacements of columns that are kept.
@@ -113,8 +117,8 @@ impl Near {
                 soft += weighed.transpose() * &weighed;
             }
         }
-        let eigen = soft.self_adjoint_eigen(Side::Lower).expect("finite");
-        let values: Vec<f64> = eigen.S().column_vector().iter().copied().rev().collect();
+        let eigen = SymmetricEigen::or_nan(soft.as_ref());
+        let values: Vec<f64> = eigen.values.iter().copied().rev().collect();
         let is_strong = |value: &f64| window * columns.damping * value > STRONG;
         let strong = values.iter().take_while(|v| is_strong(v)).count();
         if strong == 0 {
@@ -123,7 +127,7 @@ impl Near {
         let weight = |k: usize| if k < strong { values[k] } else { 1.0 };
         let weights: Vec<f64> = (0..rank).map(weight).collect();
         let matrix = Mat::from_fn(rank, rank, |i, k| {
-            eigen.U()[(i, rank - 1 - k)] / weights[k].sqrt()
+            eigen.vectors[(i, rank - 1 - k)] / weights[k].sqrt()
         });
         Some(Rotation {
             matrix,
