@@ -832,7 +832,7 @@ class Heat(Entry):
     buckling."""
 
     flat_from: HeatLimit | None
-    """Peak from which on the blade is flat, if roll tension buckles it when cold."""
+    """Peak above which the blade is flat, if roll tension buckles it when cold."""
 
     buckles_first: bool
     """Whether the blade buckles at rest at a smaller peak than that at which its critical speed
@@ -938,7 +938,7 @@ class CampbellReport(Entry):
     """Onset of the first flutter band, including weak ones."""
 
     flutter_threshold_per_s: float
-    """Growth rate from which on a band counts as flutter."""
+    """Growth rate above which a band counts as flutter."""
 
     in_cut: InCut | None = field(default=None)
     """The forces of the cut in the diagram, and the idling saw, if the scene requests it."""
@@ -999,7 +999,7 @@ class Criterion(Entry):
     """Result in words."""
 
     found_rpm: float | None
-    """Speed that was found: the critical or flutter speed itself, or the speed from which on
+    """Speed that was found: the critical or flutter speed itself, or the speed above which
     another limit is exceeded; null if it exceeds the sweep."""
 
     asked_rpm: float
@@ -1065,7 +1065,7 @@ class CheckReport(Entry):
     """Every band of instability within the sweep."""
 
     flutter_threshold_per_s: float
-    """Growth rate from which on a band counts."""
+    """Growth rate above which a band counts."""
 
     rim_stiffness_at_rest_n_per_m: float
     """Lateral stiffness of a point of the rim at the middle of the cut, at rest."""
@@ -1319,7 +1319,7 @@ class Spline(Entry):
     """Measure of how far the motion is from being settled."""
 
     settled_from: int
-    """Index in the reported orbit from which on the reaction was averaged."""
+    """Index in the reported orbit above which the reaction was averaged."""
 
     time_s: FloatArray
     """Times of the orbit."""
@@ -1453,7 +1453,7 @@ class CutReport(Entry):
     """Size of the basis."""
 
     flutter_threshold_per_s: float
-    """Growth rate from which on a cut is called unstable."""
+    """Growth rate above which a cut is called unstable."""
 
     linear_limit_m: float
     """Largest deflection that is given; beyond it the linear model is not valid."""
@@ -1533,8 +1533,8 @@ class SlowSweep(Entry):
     """Jumps at the ends of all arcs but the last."""
 
     valid_until_rpm: float | None
-    """Speed from which on slopes of the blade exceed 0.1, where the model is not valid; there
-    are no results beyond it. Null if they do not."""
+    """Speed above which slopes of the blade exceed 0.1, where the model is not valid; there are
+    no results beyond it. Null if they do not."""
 
     stopped_at_rpm: float | None = field(default=None)
     """Speed at which the sweep stopped at its largest number of equilibria; there are no
@@ -2279,7 +2279,7 @@ class MapReport(Entry):
     """Last speed of the sweep, the same for every saw; flutter beyond it is unknown."""
 
     flutter_threshold_per_s: float
-    """Growth rate from which on a band counts as flutter."""
+    """Growth rate above which a band counts as flutter."""
 
     saws: tuple[MappedSaw, ...]
     """The saws, row by row: x varies fastest."""
@@ -2499,7 +2499,7 @@ class PlaceReport(Entry):
     """Last speed of the sweep; flutter beyond it is unknown."""
 
     flutter_threshold_per_s: float
-    """Growth rate from which on a band counts as flutter."""
+    """Growth rate above which a band counts as flutter."""
 
     parameters: tuple[Placed, ...]
     """Free numbers and their best values."""
@@ -2741,7 +2741,7 @@ class Stretching(Entry):
     """Largest slope of the blade."""
 
     valid_until_rpm: float | None
-    """Speed from which on slopes exceed 0.1 and the record ends; null if they do not."""
+    """Speed above which slopes exceed 0.1 and the record ends; null if they do not."""
 
     rpm: FloatArray
     """Speeds of the spectrum."""

@@ -200,5 +200,7 @@ fn hanging(text: &str, first: usize, rest: usize) -> String {
         .word_separator(WordSeparator::AsciiSpace)
         .word_splitter(WordSplitter::NoHyphenation)
         .break_words(false);
-    textwrap::fill(text, at_spaces)
+    // A number is not parted from its percent sign.
+    let bound = text.replace(" %", "\u{a0}%");
+    textwrap::fill(&bound, at_spaces).replace('\u{a0}', " ")
 }
