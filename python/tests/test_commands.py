@@ -187,7 +187,8 @@ def test_place_moves_what_is_named_within_its_bounds(draft: sf.Scene) -> None:
     assert worst is not None and worst.outcome is not None and before.outcome is not None
     assert worst.outcome.goal_rpm >= before.outcome.goal_rpm
     # In lines of 80 columns.
-    assert found.certificate.statement in " ".join(found.summary().split())
+    assert found.certificate.statement in " ".join(found.summary(details=True).split())
+    assert found.certificate.statement not in " ".join(found.summary().split())
 
 
 def test_what_cannot_be_placed_is_refused(draft: sf.Scene) -> None:

@@ -50,7 +50,7 @@ def test_every_point_of_the_chart_is_one_of_the_report(report: sf.CampbellResult
         (b.from_rpm, b.to_rpm) for b in report.bands
     )
     assert report.operating is not None and report.operating.safe_window_rpm is not None
-    (window,) = (i for i in upper.items if isinstance(i, Line) and i.name.startswith("window"))
+    (window,) = (i for i in upper.items if isinstance(i, Line) and i.name.startswith("usable speeds"))
     assert window.x.tolist() == list(report.operating.safe_window_rpm) and not window.y.any()
     uprights = [item.x for item in upper.items if isinstance(item, Upright)]
     assert set(report.critical_rpm.tolist()) <= set(uprights)

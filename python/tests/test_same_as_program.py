@@ -25,9 +25,9 @@ def same_report(programs: list[str], found: sf.Result, folder: Path, *arguments:
     name = "report" if found.command == "analyze" else found.command
     for number, program in enumerate(programs):
         out = folder / str(number)
-        done = ran(program, found.command, *arguments, "--accuracy", "draft", "--out", out)
+        done = ran(program, found.command, *arguments, "--accuracy", "draft", "--out", out, "--details")
         assert done.returncode == 0, done.stderr
-        assert done.stdout.decode().startswith(found.summary())
+        assert done.stdout.decode().startswith(found.summary(details=True))
         same(out, f"{name}.json", found.to_json().encode())
         for picture in found.figure_names:
             content = found.figure(picture)
