@@ -9,7 +9,9 @@ mod html;
 mod table;
 mod value;
 
-pub use columns::{WIDTH, shortened, wrapped};
+#[cfg(feature = "cli")]
+pub use columns::wrapped;
+pub use columns::{WIDTH, shortened};
 pub use table::{Column, Row, Table};
 pub use value::{
     FORCE, FREQUENCY, GROWTH, KELVIN, LENGTH, METRES, Measure, PERCENT, PLAIN, SPEED, STIFFNESS,

@@ -7,7 +7,9 @@ mod in_cut;
 mod influences;
 mod whirl;
 
-pub use answer::{Answer, answer, headline};
+#[cfg(feature = "page")]
+pub use answer::headline;
+pub use answer::{Answer, answer};
 
 use crate::outline::{Column, FREQUENCY, Outline, PERCENT, PLAIN, SPEED, Table};
 use crate::report::Report;
