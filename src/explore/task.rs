@@ -104,7 +104,7 @@ fn answer<R: CommandReport + Serialize>(
     let outline = report.outline();
     let facts = outline.main_facts().into_iter().cloned().map(named);
     let answer = Answer {
-        summary: outline.in_columns(true),
+        summary: outline.in_columns(false),
         facts: facts.collect(),
         report,
         figures,

@@ -63,7 +63,7 @@ fn the_answer_is_the_one_that_the_program_prints() {
         let page = Page::open(&["--accuracy", "draft"]).await;
         let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
         for (rpm, class, mark, says) in [
-            ("900", "runs", "✓", "at most 1301 rpm"),
+            ("900", "runs", "✓", "the limit is 85 % (1301 rpm)"),
             ("1800", "past_rule", "!", "usable speeds"),
             ("2400", "flutter", "✗", "inside the band of flutter"),
         ] {

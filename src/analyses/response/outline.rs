@@ -1,7 +1,7 @@
 //! The text of a response.
 
 use super::{ResponseLine, ResponseReport};
-use crate::outline::{Column, FREQUENCY, LENGTH, Outline, SPEED, Table};
+use crate::outline::{Column, FREQUENCY, Fact, LENGTH, Outline, SPEED, Table};
 use crate::text::shown_to;
 
 pub fn outline(report: &ResponseReport) -> Outline {
@@ -11,6 +11,7 @@ pub fn outline(report: &ResponseReport) -> Outline {
         &report.unusual_numbers,
     );
     text.headline(verdict(report));
+    text.facts("", report.lines.iter().map(largest));
     text.table(amplitudes(report));
     for line in &report.lines {
         text.table(resonances(line));
@@ -61,7 +62,14 @@ fn verdict(report: &ResponseReport) -> String {
     }
 }
 
-/// Amplitude of each excitation at the probe, at the first speed, at the operating speed, and the largest.
+/// The largest amplitude of an excitation at the probe.
+fn largest(line: &ResponseLine) -> Fact {
+    let known = line.amplitude_m.iter().flatten().copied();
+    let name = format!("largest at the probe, {}", line.name);
+    Fact::new(name, LENGTH.digits(4, known.reduce(f64::max)).or("none"))
+}
+
+/// Amplitude of each excitation at the probe, at the first speed and at the operating speed.
 fn amplitudes(report: &ResponseReport) -> Table {
     let operating = report.operating.as_ref();
     let columns = [
@@ -71,17 +79,14 @@ fn amplitudes(report: &ResponseReport) -> Table {
             operating.map_or("operating".to_owned(), |o| format!("{:.0} rpm", o.rpm)),
             &LENGTH,
         ),
-        Column::of("largest", &LENGTH),
     ];
     let rows = report.lines.iter().enumerate().map(|(place, line)| {
-        let known = line.amplitude_m.iter().flatten().copied();
         let at_rest = line.amplitude_m.first().copied().flatten();
         let at_operating = operating.and_then(|o| o.amplitude_m.get(place).copied().flatten());
         [
             line.name.clone().into(),
             LENGTH.digits(4, at_rest),
             LENGTH.digits(4, at_operating),
-            LENGTH.digits(4, known.reduce(f64::max)),
         ]
     });
     Table::new("Amplitude at the probe", columns)

@@ -13,8 +13,11 @@ pub fn outline(report: &RunUpReport) -> Outline {
     );
     text.headline(verdict(report));
     let largest = LENGTH.fixed(2, report.largest_deflection_m);
-    let at = format!("at {:.0} rpm", report.largest_deflection_rpm);
-    let mut facts = vec![Fact::new("largest deflection at the probe", largest).with(at)];
+    let at = SPEED.fixed(0, report.largest_deflection_rpm);
+    let mut facts = vec![
+        Fact::new("largest deflection at the probe", largest),
+        Fact::new("at a speed of", at),
+    ];
     if let Some(rpm) = report.first_doubling_rpm {
         let name = "first band that amplifies a vibration more than twofold";
         facts.push(Fact::new(name, SPEED.fixed(0, rpm)));

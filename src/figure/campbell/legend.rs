@@ -14,7 +14,7 @@ use super::waves::measured_source;
 use super::{Chart, HEIGHT, LEGEND_ABOVE_FOOT, NOTES_ABOVE_FOOT, PLOT_LEFT, WIDTH, growth};
 
 /// Largest width of the source of measured frequencies, which leaves all samples on one line.
-const LONGEST_SOURCE: f64 = 180.0;
+const LONGEST_SOURCE: f64 = 215.0;
 
 /// Writes the legend of the colours and styles that the figure contains, and a line of notes.
 pub fn draw(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
@@ -35,7 +35,7 @@ pub fn draw(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
         .collect();
     let reflected = shown.iter().find(|line| line.dashed);
     samples.extend(reflected.map(|line| {
-        let word = "reflected: a backward wave above its critical speed";
+        let word = "reflected: backward above its critical speed";
         Item::line_sample(line.width, true, Hue::Standing, word)
     }));
     let unstable = shown.iter().find(|line| line.width > CURVE);
