@@ -30,6 +30,7 @@ __all__ = [
     "scene",
     "schema",
     "summary",
+    "tradeoff_chart",
     "vtk_files",
 ]
 

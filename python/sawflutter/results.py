@@ -268,7 +268,7 @@ class CampbellResults(Result, CampbellReport):
         >>> import sawflutter as sf
         >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
         >>> r.root_loci_chart().panels[0].x_name
-        'Re λ [1/s]'
+        'Re λ, positive for growth [1/s]'
         """
         return self._described("root-loci", "no two modes meet within the sweep")
 
