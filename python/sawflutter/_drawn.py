@@ -129,7 +129,7 @@ class Drawn:
         >>> import sawflutter as sf
         >>> check = sf.Scene.paper().check(operating_rpm=1250, accuracy="draft")
         >>> check.plot_matplotlib(speed_units="Hz").figure.axes[-1].get_xlabel()
-        'rotation speed [Hz]'
+        'rotation speed Ω [Hz]'
         """
         from .plot import with_matplotlib
         from .plot.look import looking
