@@ -15,7 +15,7 @@ const BESIDES: usize = 8;
 
 /// Pieces of a saw.
 pub struct Searched {
-    /// Pieces, by speed, of each part of the saw.
+    /// Pieces, by speed, of each component of the saw.
     pub pieces: Vec<Vec<Piece>>,
     /// Number of eigenproblems.
     pub eigenproblems: usize,
@@ -68,7 +68,7 @@ fn sample(model: &WaveModel, speed: f64, scope: Scope, plane: Plane) -> Sample {
     roots.sort_by(|x, y| x.lambda.im.total_cmp(&y.lambda.im));
     let followed = roots.partition_point(|root| root.lambda.im <= window);
     roots.truncate(followed + BESIDES);
-    // A part of a saw may have nothing above the window for the search to end in.
+    // A component of a saw may have nothing above the window for the search to end in.
     roots.push(Root {
         lambda: c64::new(0.0, FENCE * model.reach_per_s()),
         slope: c64::new(0.0, 0.0),
@@ -108,17 +108,17 @@ fn is_definite(piece: &Piece, grouped: &Grouped) -> bool {
 }
 
 impl Searched {
-    /// Searches part by part.
+    /// Searches component by component.
     pub fn new(model: &WaveModel, scope: Scope) -> Self {
         let plane = match scope.is_conservative {
             true => Plane::Squares,
             false => Plane::Eigenvalues,
         };
-        let parts = model.parts();
+        let components = model.components();
         let spent = AtomicUsize::new(0);
-        let searched = |part: &WaveModel| {
+        let searched = |component: &WaveModel| {
             let solve = |speed: f64| {
-                let found = sample(part, speed, scope, plane);
+                let found = sample(component, speed, scope, plane);
                 let most = spent.fetch_add(1, Ordering::Relaxed) >= MOST;
                 Ok(Some(found).filter(|_| !most))
             };
@@ -130,14 +130,14 @@ impl Searched {
                 noise_per_s: scope.noise_per_s,
                 solve: &solve,
             };
-            let (from, to) = part.range_rad_per_s();
+            let (from, to) = component.range_rad_per_s();
             let found = search.pieces(
                 &[0, 1, 2, 3, 4, 5, 6, 7, 8].map(|k| from + (to - from) * f64::from(k) / 8.0),
             );
             found.expect("no eigenproblem fails")
         };
         Searched {
-            pieces: parts.iter().map(searched).collect(),
+            pieces: components.iter().map(searched).collect(),
             eigenproblems: spent.load(Ordering::Relaxed),
             plane,
         }

@@ -1,7 +1,7 @@
 //! Contents of a figure, as numbers and text in the units of its axes.
 //!
-//! The live page, the Python package and some figures of this crate draw [`ChartData`]; each of them decides where
-//! labels have room.
+//! `layout` paints [`ChartData`] as PNG and SVG, and the live page and the Python package paint it, too; each of them
+//! decides where labels have room.
 
 use serde::Serialize;
 

@@ -2,8 +2,9 @@
 
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::heat::rgb;
-use super::items::Item;
+use super::items::{Area, Item, Line, Points, Shape};
 use super::paint::{draw_mark, stroke};
+use super::palette::Hue;
 use super::panel::upright_stroke;
 use super::style::{LABEL_SIZE, PAPER, QUIET, label_width, shorten_label, tint};
 
@@ -19,6 +20,52 @@ const BELOW: f64 = 12.0;
 /// Length of the sample of a line, and its largest width.
 const SAMPLE: f64 = 24.0;
 const THICKEST: f64 = 12.0;
+
+impl Item {
+    /// A sample of a line for the key.
+    pub(super) fn line_sample(width: f64, dashed: bool, colour: Hue, name: &str) -> Self {
+        Item::Line(Line {
+            width,
+            dashed,
+            ..Line::new([], colour, name)
+        })
+    }
+
+    /// A sample of marks for the key.
+    pub(super) fn points_sample(size: f64, shape: Shape, colour: Hue, name: &str) -> Self {
+        Item::Points(Points {
+            shape,
+            ..Points::new([], colour, size, name)
+        })
+    }
+
+    /// A sample of an area for the key.
+    pub(super) fn area_sample(colour: Hue, name: &str) -> Self {
+        Item::tinted_sample(colour, 1.0, name)
+    }
+
+    /// A sample of an area in a mixture of a colour with that of the paper, for the key.
+    pub(super) fn tinted_sample(colour: Hue, tint: f64, name: &str) -> Self {
+        Item::Area(Area {
+            tint,
+            ..Area::new([], colour, name)
+        })
+    }
+
+    /// A sample of the item for the key: the item without its points.
+    pub(super) fn sample(&self) -> Self {
+        let mut sample = self.clone();
+        match &mut sample {
+            Item::Line(line) => (line.x, line.y) = (Vec::new(), Vec::new()),
+            Item::Points(points) => (points.x, points.y) = (Vec::new(), Vec::new()),
+            Item::Area(area) => (area.x, area.low, area.high) = Default::default(),
+            Item::Heat(heat) => (heat.x, heat.y, heat.z) = Default::default(),
+            Item::Bars(bars) => (bars.edges, bars.heights) = Default::default(),
+            Item::Band(_) | Item::Upright(_) | Item::Label(_) => {}
+        }
+        sample
+    }
+}
 
 /// Word of a sample, and width of its mark.
 fn measure(sample: &Item) -> (&str, f64) {

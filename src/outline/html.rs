@@ -7,9 +7,8 @@ use crate::text::escaped;
 impl Outline {
     /// The text as elements of a page, with its details; remarks come first.
     pub fn in_html(&self) -> String {
-        let blocks = || self.parts.iter().map(|part| &part.block);
         let mut html = String::new();
-        let remarks = blocks().filter_map(|block| match block {
+        let remarks = self.blocks().filter_map(|block| match block {
             Block::Remark { word, text } => Some(paragraph("", &format!("{word}: {text}"))),
             _ => None,
         });
@@ -17,14 +16,14 @@ impl Outline {
         if !remarks.is_empty() {
             html.push_str(&format!("<div class=\"remarks\">\n{remarks}</div>\n"));
         }
-        for block in blocks() {
+        for block in self.blocks() {
             html.push_str(&match block {
                 Block::Remark { .. } => String::new(),
                 Block::Heading(text) => paragraph("facts", text),
                 Block::Headline(text) => paragraph("answer", text),
                 Block::Reason(text) | Block::Sentence(text) => paragraph("", text),
                 Block::Facts { title, facts } => of_facts(title, facts),
-                Block::Table(table) => of_table(table),
+                Block::Table(table) => table.in_html(),
             });
         }
         html
@@ -64,44 +63,40 @@ fn of_facts(name: &str, facts: &[Fact]) -> String {
 impl Table {
     /// The table with its title.
     pub fn in_html(&self) -> String {
-        of_table(self)
-    }
-}
-
-fn of_table(table: &Table) -> String {
-    let heads = table.columns.iter().map(|column| {
-        let unit = match column.unit {
-            "" => String::new(),
-            unit => format!(" [{unit}]"),
-        };
-        let name = format!("{} {}{unit}", column.group, column.name);
-        format!("<th scope=\"col\">{}</th>", escaped(name.trim_start()))
-    });
-    let columns = table.columns.len();
-    let row = |row: &Row| {
-        let cells = row.cells.iter().map(|value| {
-            let class = match value.is_number() {
-                true => " class=\"number\"",
-                false => "",
+        let heads = self.columns.iter().map(|column| {
+            let unit = match column.unit {
+                "" => String::new(),
+                unit => format!(" [{unit}]"),
             };
-            format!("<td{class}>{}</td>", escaped(&value.in_words()))
+            let name = format!("{} {}{unit}", column.group, column.name);
+            format!("<th scope=\"col\">{}</th>", escaped(name.trim_start()))
         });
-        let remark = row.remark.iter().map(|remark| {
+        let columns = self.columns.len();
+        let row = |row: &Row| {
+            let cells = row.cells.iter().map(|value| {
+                let class = match value.is_number() {
+                    true => " class=\"number\"",
+                    false => "",
+                };
+                format!("<td{class}>{}</td>", escaped(&value.in_words()))
+            });
+            let remark = row.remark.iter().map(|remark| {
+                format!(
+                    "<tr><td colspan=\"{columns}\">{}</td></tr>\n",
+                    escaped(remark)
+                )
+            });
             format!(
-                "<tr><td colspan=\"{columns}\">{}</td></tr>\n",
-                escaped(remark)
+                "<tr>{}</tr>\n{}",
+                cells.collect::<String>(),
+                remark.collect::<String>()
             )
-        });
+        };
         format!(
-            "<tr>{}</tr>\n{}",
-            cells.collect::<String>(),
-            remark.collect::<String>()
+            "{}<table>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n",
+            title(&self.title),
+            heads.collect::<String>(),
+            self.rows.iter().map(row).collect::<String>()
         )
-    };
-    format!(
-        "{}<table>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n",
-        title(&table.title),
-        heads.collect::<String>(),
-        table.rows.iter().map(row).collect::<String>()
-    )
+    }
 }

@@ -159,6 +159,10 @@ impl Outline {
         }
     }
 
+    fn blocks(&self) -> impl Iterator<Item = &Block> {
+        self.parts.iter().map(|part| &part.block)
+    }
+
     fn add(&mut self, block: Block) {
         let is_detail = false;
         self.parts.push(Part { block, is_detail });
@@ -172,8 +176,7 @@ impl Outline {
     /// The answer, its reasons and the sentences, a line each.
     #[cfg(feature = "page")]
     pub fn lines(&self) -> Vec<&str> {
-        let blocks = self.parts.iter().map(|part| &part.block);
-        let lines = blocks.filter_map(|block| match block {
+        let lines = self.blocks().filter_map(|block| match block {
             Block::Headline(text) | Block::Reason(text) | Block::Sentence(text) => {
                 Some(text.as_str())
             }
@@ -185,8 +188,7 @@ impl Outline {
     /// The main facts, which have no title.
     #[cfg(feature = "page")]
     pub fn main_facts(&self) -> Vec<&Fact> {
-        let blocks = self.parts.iter().map(|part| &part.block);
-        let facts = blocks.filter_map(|block| match block {
+        let facts = self.blocks().filter_map(|block| match block {
             Block::Facts { title, facts } if title.is_empty() => Some(facts),
             _ => None,
         });
@@ -196,8 +198,7 @@ impl Outline {
     /// All tables.
     #[cfg(feature = "page")]
     pub fn tables(&self) -> Vec<&Table> {
-        let blocks = self.parts.iter().map(|part| &part.block);
-        let tables = blocks.filter_map(|block| match block {
+        let tables = self.blocks().filter_map(|block| match block {
             Block::Table(table) => Some(table),
             _ => None,
         });

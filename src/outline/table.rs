@@ -57,6 +57,11 @@ impl Column {
         }
     }
 
+    /// The column of words with the unit of the numbers in them.
+    pub fn in_unit(self, unit: &'static str) -> Self {
+        Column { unit, ..self }
+    }
+
     /// The column as one of a group.
     pub fn in_group(self, group: &'static str) -> Self {
         Column { group, ..self }

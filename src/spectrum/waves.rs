@@ -41,12 +41,12 @@ use series::Series;
 /// Waves up to this multiple of the window are kept: the series in λ converges as the inverse powers of it.
 const CUT: f64 = 2.5;
 
-/// The reduced models of the parts of a plate, with these components, that do not act on one another, over a range of speeds,
+/// The reduced models of the components of a plate, or of blocks into which they decouple further, over a range of speeds,
 /// in rad/s, for eigenvalues up to a frequency, in rad/s.
 ///
 /// # Errors
 /// [`SpectrumError::Cancelled`].
-pub fn parts(
+pub fn models(
     plate: &Plate,
     components: &[Component],
     range: (f64, f64),
@@ -60,10 +60,10 @@ pub fn parts(
         let whole = |component| WaveModel::whole(component, range, window_rad_per_s);
         return components.iter().map(whole).collect();
     }
-    Ok(reduced(plate, components, range, window_rad_per_s)?.parts())
+    Ok(reduced(plate, components, range, window_rad_per_s)?.components())
 }
 
-/// The reduced model of a plate as a whole, see [`parts`].
+/// The reduced model of a plate as a whole, see [`models`].
 ///
 /// # Errors
 /// [`SpectrumError::Cancelled`].

@@ -15,10 +15,7 @@ pub fn outline(report: &CompareReport) -> Outline {
         Column::of("critical", &SPEED),
         Column::of("flutter", &SPEED),
         Column::words("bands"),
-        Column {
-            unit: "N/mm",
-            ..Column::words("rim stiff.")
-        },
+        Column::words("rim stiff.").in_unit("N/mm"),
         Column::words("verdict"),
     ];
     let mut table = Table::new("", columns).showing(usize::MAX);

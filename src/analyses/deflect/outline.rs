@@ -135,10 +135,7 @@ fn over_speed(report: &DeflectReport) -> Table {
         deflection("largest", "speed rises"),
         deflection("probe", "speed falls"),
         deflection("largest", "speed falls"),
-        Column {
-            unit: FREQUENCY.unit,
-            ..Column::words("lowest frequencies, speed rises")
-        },
+        Column::words("lowest frequencies, speed rises").in_unit(FREQUENCY.unit),
     ];
     let row = |k: usize| {
         let share = k as f64 / (SPEEDS - 1) as f64;

@@ -110,10 +110,7 @@ fn deviation(text: &mut Outline, report: &GapReport) {
     let columns = [
         Column::of("speed", &SPEED),
         Column::of("deflection", &LENGTH),
-        Column {
-            unit: FORCE.unit,
-            ..Column::words("pad forces")
-        },
+        Column::words("pad forces").in_unit(FORCE.unit),
     ];
     let series = map.speeds_rpm.iter().zip(&map.deflection_over_speed_m);
     let rows = series.enumerate().map(|(k, (rpm, deflection))| {

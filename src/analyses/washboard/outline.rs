@@ -78,10 +78,7 @@ fn modes(report: &WashboardReport) -> Table {
         Column::of("frequency", &FREQUENCY),
         Column::of("growth", &GROWTH),
         Column::of("without", &GROWTH),
-        Column {
-            unit: FREQUENCY.unit,
-            ..Column::words("beside teeth")
-        },
+        Column::words("beside teeth").in_unit(FREQUENCY.unit),
         Column::words("pitch"),
     ];
     let row = |mode: &WashboardMode| {

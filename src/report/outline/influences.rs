@@ -104,14 +104,8 @@ pub fn sensitivity(report: &Report) -> Table {
     let columns = [
         Column::words("change"),
         Column::words("number"),
-        Column {
-            unit: "%",
-            ..Column::words("critical")
-        },
-        Column {
-            unit: "%",
-            ..Column::words("flutter")
-        },
+        Column::words("critical").in_unit("%"),
+        Column::words("flutter").in_unit("%"),
     ];
     let percent = |value: Option<f64>| value.map_or(Value::Missing, |v| format!("{v:+.3}").into());
     let rows = report.sensitivities.iter().map(|entry| {

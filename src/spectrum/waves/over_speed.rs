@@ -12,7 +12,7 @@ use crate::spectrum::work::Cancellation;
 /// Number of nodes of the series: with 10 its error is up to 2e-8 of the window on drawn saws up to 1.9 times the lowest critical
 /// speed, with 12 up to 2e-10.
 const NODES: usize = 12;
-/// Entries below this in every term do not couple two parts, in units of the window.
+/// Entries below this in every term do not couple two components, in units of the window.
 const UNCOUPLED: f64 = 1e-9;
 
 /// The reduced model from one speed to another.
@@ -86,11 +86,11 @@ impl WaveModel {
         self.range
     }
 
-    /// The parts that do not act on one another: a free blade has one for each number of nodal diameters, and saws with
+    /// The components, which do not act on one another: a free blade has one for each number of nodal diameters, and saws with
     /// equal pads have several.
-    pub fn parts(&self) -> Vec<WaveModel> {
+    pub fn components(&self) -> Vec<WaveModel> {
         let size = self.size();
-        let mut part: Vec<usize> = (0..size).collect();
+        let mut component: Vec<usize> = (0..size).collect();
         let coupled = |i: usize, k: usize| {
             let mut entries =
                 (0..self.terms).flat_map(|power| [self.row(power, i, k), self.row(power, k, i)]);
@@ -98,18 +98,18 @@ impl WaveModel {
         };
         for i in 0..size {
             for k in 0..i {
-                if part[i] != part[k] && coupled(i, k) {
-                    let (from, to) = (part[i], part[k]);
-                    let moved = part.iter_mut().filter(|p| **p == from);
+                if component[i] != component[k] && coupled(i, k) {
+                    let (from, to) = (component[i], component[k]);
+                    let moved = component.iter_mut().filter(|p| **p == from);
                     moved.for_each(|p| *p = to);
                 }
             }
         }
-        let mut names = part.clone();
+        let mut names = component.clone();
         names.sort_unstable();
         names.dedup();
         let of = |name: &usize| {
-            let kept: Vec<usize> = (0..size).filter(|k| part[*k] == *name).collect();
+            let kept: Vec<usize> = (0..size).filter(|k| component[*k] == *name).collect();
             let count = kept.len();
             let coefficients = Mat::from_fn(self.terms * count * count, NODES, |row, degree| {
                 let (power, entry) = (row / (count * count), row % (count * count));
@@ -117,7 +117,7 @@ impl WaveModel {
                 self.coefficients[(self.row(power, i, k), degree)]
             });
             let diameters: Vec<Option<usize>> = kept.iter().map(|k| self.diameters[*k]).collect();
-            // Rigid motions are heave and tilts. No other part has them, but at a critical speed it has λ = 0.
+            // Rigid motions are heave and tilts. No other component has them, but at a critical speed it has λ = 0.
             let is_held = diameters.iter().flatten().all(|n| *n > 1);
             WaveModel {
                 diameters,

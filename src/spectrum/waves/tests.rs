@@ -29,8 +29,8 @@ fn error_of(plate: &Plate) -> f64 {
     let system = &components[0].full;
     let to = rad_per_s(TO_RPM);
     let window = 2.0 * to;
-    let [model] = &parts(plate, &components, (0.0, to), window).unwrap()[..] else {
-        panic!("one part");
+    let [model] = &models(plate, &components, (0.0, to), window).unwrap()[..] else {
+        panic!("one component");
     };
     let mut worst = 0.0_f64;
     for k in 0..7 {

@@ -17,7 +17,6 @@ const VALLEY: Tuned = Tuned::new("stability/damped/hump::VALLEY", 0.5);
 /// Smallest width of a band, as a share of its speed. Narrower ones are below the resolution of a complex
 /// pair that turns into two real eigenvalues.
 const LEAST_BAND: f64 = 1e-9;
-
 /// Difference of two slopes of one curve, as a share of the sum of their sizes.
 const ALIKE: f64 = 0.25;
 
@@ -33,13 +32,13 @@ struct Stretch {
 /// Bands of a curve between the first and the last speed of a search with a relative tolerance.
 pub fn bands(
     solver: &Solver<'_>,
-    part: usize,
+    component: usize,
     curve: &[CurvePoint],
     range: (f64, f64),
     tolerance: f64,
 ) -> Result<Vec<Instability>, SpectrumError> {
     let grows = |point: &CurvePoint| point.lambda.re >= 0.0 && point.lambda.im <= solver.highest();
-    let curve = computed(solver, part, curve, tolerance)?;
+    let curve = computed(solver, component, curve, tolerance)?;
     let mut bands = Vec::new();
     let mut first = 0;
     while let Some(start) = (first..curve.len()).find(|&k| grows(&curve[k])) {
@@ -52,15 +51,15 @@ pub fn bands(
         }
         let mut grown = curve[start..end].to_vec();
         if let Some(outside) = start.checked_sub(1) {
-            grown.insert(0, onset(solver, part, curve[outside], curve[start])?);
+            grown.insert(0, onset(solver, component, curve[outside], curve[start])?);
         }
         if let Some(outside) = curve.get(end) {
-            grown.push(onset(solver, part, *outside, curve[end - 1])?);
+            grown.push(onset(solver, component, *outside, curve[end - 1])?);
         }
         // An onset may be at the neighbour inside itself.
         grown.dedup_by_key(|point| point.speed_rad_per_s);
         let ends = [grown[0], grown[grown.len() - 1]].map(|point| point.speed_rad_per_s);
-        let (curve, extrema) = with_extrema(solver, part, grown)?;
+        let (curve, extrema) = with_extrema(solver, component, grown)?;
         let stretch = Stretch {
             curve,
             extrema,
@@ -76,7 +75,7 @@ pub fn bands(
 /// next to a coalescence the slope of the other one is opposite.
 fn computed(
     solver: &Solver<'_>,
-    part: usize,
+    component: usize,
     curve: &[CurvePoint],
     tolerance: f64,
 ) -> Result<Vec<CurvePoint>, SpectrumError> {
@@ -93,7 +92,7 @@ fn computed(
         if fastest == 0.0 || !(may_grow(k) || may_grow(k + 1) || may_grow(k.wrapping_sub(1))) {
             return Ok(point);
         }
-        let found = solver.next_to(point.speed_rad_per_s, part, point.lambda)?;
+        let found = solver.next_to(point.speed_rad_per_s, component, point.lambda)?;
         let size = point.lambda.norm().max(1e-3 * solver.highest());
         let is_same = |(lambda, slope): &(c64, c64)| {
             let off = lambda - point.lambda;
@@ -115,7 +114,7 @@ fn computed(
 /// Speed of Re λ = 0 between a point outside an interval and its neighbour inside.
 fn onset(
     solver: &Solver<'_>,
-    part: usize,
+    component: usize,
     outside: CurvePoint,
     inside: CurvePoint,
 ) -> Result<CurvePoint, SpectrumError> {
@@ -123,13 +122,13 @@ fn onset(
     if outside.lambda.re >= 0.0 {
         return Ok(outside);
     }
-    root(solver, part, [outside, inside], |p| p.lambda.re)
+    root(solver, component, [outside, inside], |p| p.lambda.re)
 }
 
 /// The curve with points added at every extremum of growth, and the speeds of these.
 fn with_extrema(
     solver: &Solver<'_>,
-    part: usize,
+    component: usize,
     curve: Vec<CurvePoint>,
 ) -> Result<(Vec<CurvePoint>, Vec<f64>), SpectrumError> {
     let mut full = Vec::with_capacity(curve.len());
@@ -142,7 +141,7 @@ fn with_extrema(
         let width = next.speed_rad_per_s - curve[k].speed_rad_per_s;
         let turns = (curve[k].slope.re < 0.0) != (next.slope.re < 0.0);
         if turns && width > SPEED_TOLERANCE * next.speed_rad_per_s {
-            let found = root(solver, part, [curve[k], next], |p| p.slope.re)?;
+            let found = root(solver, component, [curve[k], next], |p| p.slope.re)?;
             let ends = [curve[k], next].map(|p| p.speed_rad_per_s);
             if !ends.contains(&found.speed_rad_per_s) {
                 extrema.push(found.speed_rad_per_s);
@@ -156,7 +155,7 @@ fn with_extrema(
 /// Point between two points of a curve at which a number is zero.
 fn root(
     solver: &Solver<'_>,
-    part: usize,
+    component: usize,
     ends: [CurvePoint; 2],
     number: impl Fn(&CurvePoint) -> f64,
 ) -> Result<CurvePoint, SpectrumError> {
@@ -166,7 +165,7 @@ fn root(
         point,
     };
     let found = bracketed(ends.map(look), SPEED_TOLERANCE, |ends, share| {
-        between_points(solver, part, ends, share).map(look)
+        between_points(solver, component, ends, share).map(look)
     })?;
     Ok(found.point)
 }
@@ -174,7 +173,7 @@ fn root(
 /// Point of a curve at a share of the way between two of its points.
 fn between_points(
     solver: &Solver<'_>,
-    part: usize,
+    component: usize,
     points: [CurvePoint; 2],
     share: f64,
 ) -> Result<CurvePoint, SpectrumError> {
@@ -188,7 +187,7 @@ fn between_points(
         .at(share)
     };
     let expected = c64::new(cubic(|z| z.re), cubic(|z| z.im));
-    let found = solver.nearest(speed, part, expected)?;
+    let found = solver.nearest(speed, component, expected)?;
     Ok(CurvePoint {
         speed_rad_per_s: speed,
         lambda: found.map_or(expected, |(lambda, _)| lambda),

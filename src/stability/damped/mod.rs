@@ -113,15 +113,15 @@ fn bands(
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let solver = Solver::new(model, range)?;
     let speeds = campbell::even_speeds(range, SEARCH_SPEEDS);
-    let searched: Vec<(Vec<Piece>, Vec<Instability>)> = (0..solver.parts())
+    let searched: Vec<(Vec<Piece>, Vec<Instability>)> = (0..solver.components())
         .into_par_iter()
-        .map(|part| searched(&solver, part, &speeds, closeness.tolerance))
+        .map(|component| searched(&solver, component, &speeds, closeness.tolerance))
         .collect::<Result<_, _>>()?;
     let mut instabilities = Vec::new();
     let mut spectra: Vec<Spectrum> = Vec::new();
     for (pieces, bands) in &searched {
         instabilities.extend(bands.iter().cloned());
-        // With several parts, the spectrum of one part is not that of the saw.
+        // With several components, the spectrum of one component is not that of the saw.
         if searched.len() == 1 {
             spectra = solver.spectra(pieces);
         }
@@ -149,14 +149,14 @@ fn bands(
     Ok((instabilities, certificate))
 }
 
-/// Pieces of one part of the saw, and its bands.
+/// Pieces of one component of the saw, and its bands.
 fn searched(
     solver: &Solver<'_>,
-    part: usize,
+    component: usize,
     speeds: &[f64],
     tolerance: f64,
 ) -> Result<(Vec<Piece>, Vec<Instability>), SpectrumError> {
-    let solve = |speed: f64| solver.sample(speed, part);
+    let solve = |speed: f64| solver.sample(speed, component);
     let search = Search {
         plane: Plane::Eigenvalues,
         top_rad_per_s: solver.highest(),
@@ -172,7 +172,7 @@ fn searched(
     let curves = curve::curves(&pieces, solver.highest(), solver.noise());
     let found: Result<Vec<Vec<Instability>>, SpectrumError> = curves
         .par_iter()
-        .map(|curve| hump::bands(solver, part, curve, (first, last), tolerance))
+        .map(|curve| hump::bands(solver, component, curve, (first, last), tolerance))
         .collect();
     Ok((pieces, found?.into_iter().flatten().collect()))
 }

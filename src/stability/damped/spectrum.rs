@@ -18,7 +18,7 @@ const MOST_SPECTRA: usize = 12_000;
 /// may be another eigenvalue.
 const SAME: f64 = 1e-5;
 /// Distance of eigenvalues beyond all others of a sample, in multiples of the reach. One ends the search above the window, where
-/// a part of a saw may have none. One on the negative axis takes the place of a real eigenvalue beyond the reach, so that the
+/// a component of a saw may have none. One on the negative axis takes the place of a real eigenvalue beyond the reach, so that the
 /// middle by frequency stays between conjugates.
 const FENCE: f64 = 3.0;
 
@@ -34,8 +34,8 @@ pub struct Spectrum {
 /// Computes the spectra of a saw on its reduced model by waves, and counts them.
 pub struct Solver<'a> {
     model: &'a SpectralModel,
-    /// Parts of the saw that do not act on one another.
-    parts: Vec<WaveModel>,
+    /// Reduced models of the components of the saw.
+    components: Vec<WaveModel>,
     spent: AtomicUsize,
 }
 
@@ -48,31 +48,31 @@ impl<'a> Solver<'a> {
         let SpectralModel {
             plate, components, ..
         } = model;
-        let parts = waves::parts(plate, components, range, model.complete_to_rad_per_s)?;
+        let highest = model.complete_to_rad_per_s;
         Ok(Solver {
             model,
-            parts,
+            components: waves::models(plate, components, range, highest)?,
             spent: AtomicUsize::new(0),
         })
     }
 
-    /// Number of parts of the saw that do not act on one another.
-    pub fn parts(&self) -> usize {
-        self.parts.len()
+    /// Number of components of the saw that do not act on one another.
+    pub fn components(&self) -> usize {
+        self.components.len()
     }
 
     /// Computes the eigenvalues at a speed.
     pub fn at(&self, speed: f64) -> Result<Spectrum, SpectrumError> {
         let mut values = Vec::new();
-        for part in 0..self.parts.len() {
-            let sloped = self.eigenvalues(speed, part)?;
+        for component in 0..self.components.len() {
+            let sloped = self.eigenvalues(speed, component)?;
             values.extend(sloped.into_iter().map(|(lambda, _)| lambda));
         }
         values.retain(|lambda| lambda.im <= self.highest());
         Ok(Spectrum { speed, values })
     }
 
-    /// The spectra at the speeds of a search, for a saw of one part.
+    /// The spectra at the speeds of a search, for a saw of one component.
     pub fn spectra(&self, pieces: &[Piece]) -> Vec<Spectrum> {
         let of = |sample: &Sample| {
             let all = sample.eigenvalues.iter().map(|(lambda, _)| *lambda);
@@ -87,18 +87,18 @@ impl<'a> Solver<'a> {
         first.into_iter().chain(others).collect()
     }
 
-    /// Computes the low eigenvalues of a part as a sample for a search; `None` once the allowed number of spectra is used
+    /// Computes the low eigenvalues of a component as a sample for a search; `None` once the allowed number of spectra is used
     /// up.
-    pub fn sample(&self, speed: f64, part: usize) -> Result<Option<Sample>, SpectrumError> {
+    pub fn sample(&self, speed: f64, component: usize) -> Result<Option<Sample>, SpectrumError> {
         if self.is_exhausted() {
             return Ok(None);
         }
-        let mut values = self.eigenvalues(speed, part)?;
+        let mut values = self.eigenvalues(speed, component)?;
         values.sort_by(|x, y| x.0.im.total_cmp(&y.0.im));
         let reals = values.iter().filter(|(lambda, _)| lambda.im == 0.0).count();
         let followed = values.partition_point(|(lambda, _)| lambda.im <= self.highest());
         values.truncate(followed + BESIDES);
-        let away = FENCE * self.parts[part].reach_per_s();
+        let away = FENCE * self.components[component].reach_per_s();
         let mut fences = vec![c64::new(0.0, away)];
         if reals % 2 == 1 {
             fences.push(c64::new(-away, 0.0));
@@ -107,42 +107,42 @@ impl<'a> Solver<'a> {
         Ok(Some(Sample::new(speed, values.into_iter())))
     }
 
-    /// Eigenvalue of a part at a speed nearest to an expected one, with its slope.
+    /// Eigenvalue of a component at a speed nearest to an expected one, with its slope.
     pub fn nearest(
         &self,
         speed: f64,
-        part: usize,
+        component: usize,
         expected: c64,
     ) -> Result<Option<Sloped>, SpectrumError> {
         let distance = |(lambda, _): &Sloped| (lambda - expected).norm();
         let away = SAME * expected.norm().max(0.1 * self.highest());
-        let found = self.next_to(speed, part, expected)?;
+        let found = self.next_to(speed, component, expected)?;
         if let Some(found) = found.filter(|found| distance(found) <= away) {
             return Ok(Some(found));
         }
-        Ok(smallest(self.eigenvalues(speed, part)?, distance))
+        Ok(smallest(self.eigenvalues(speed, component)?, distance))
     }
 
     /// Eigenvalue to which an iteration from an expected one leads. A real one stays real.
     pub fn next_to(
         &self,
         speed: f64,
-        part: usize,
+        component: usize,
         expected: c64,
     ) -> Result<Option<Sloped>, SpectrumError> {
         let counters = &self.model.counters;
         counters.cancellation.check()?;
         counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
-        Ok(self.parts[part].next_to(speed, expected))
+        Ok(self.components[component].next_to(speed, expected))
     }
 
-    /// Eigenvalues of a part with Im λ ≥ 0, without free rigid motions, and their slopes.
-    fn eigenvalues(&self, speed: f64, part: usize) -> Result<Vec<Sloped>, SpectrumError> {
+    /// Eigenvalues of a component with Im λ ≥ 0, without free rigid motions, and their slopes.
+    fn eigenvalues(&self, speed: f64, component: usize) -> Result<Vec<Sloped>, SpectrumError> {
         let counters = &self.model.counters;
         counters.cancellation.check()?;
         counters.local_solves.fetch_add(1, Ordering::Relaxed);
         self.spent.fetch_add(1, Ordering::Relaxed);
-        let found = self.parts[part].eigenvalues(speed)?.into_iter();
+        let found = self.components[component].eigenvalues(speed)?.into_iter();
         Ok(found
             .map(|(lambda, slope)| (lambda, finite(slope)))
             .collect())
