@@ -7,9 +7,9 @@ mod timing;
 
 use std::hint::black_box;
 
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, Scene, rad_per_s};
-use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Accuracy, Scene, rad_per_s};
+use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::chart;
 
 use timing::time;

@@ -6,9 +6,9 @@ mod timing;
 use std::hint::black_box;
 
 use faer::{Col, Mat};
-use sawflutter::plate::{Plate, ReducedStretching, Resolution, Stretching};
-use sawflutter::scene::{Accuracy, Scene, rad_per_s};
-use sawflutter::stretched::{Extent, StretchedBlade};
+use sawflutter::model::plate::{Plate, ReducedStretching, Resolution, Stretching};
+use sawflutter::model::scene::{Accuracy, Scene, rad_per_s};
+use sawflutter::motion::stretched::{Extent, StretchedBlade};
 
 use timing::time;
 

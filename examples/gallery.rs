@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::Context;
 use sawflutter::analyses::check::{self, CheckReport, Limits};
+use sawflutter::analyses::commands::CommandReport;
 use sawflutter::analyses::compare::{Saw, compare};
 use sawflutter::analyses::cut::{self, CutReport};
 use sawflutter::analyses::deflect::{Options, deflect};
@@ -14,8 +15,7 @@ use sawflutter::analyses::place::{self, Demands, PlaceReport};
 use sawflutter::analyses::response::{self, response};
 use sawflutter::analyses::runup::runup;
 use sawflutter::analyses::study::StudyReport;
-use sawflutter::commands::CommandReport;
-use sawflutter::scene::{
+use sawflutter::model::scene::{
     Accuracy, ContactLaw, Freed, Scene, SceneError, SceneFile, SideForceFile, rad_per_s,
 };
 use sawflutter::stability::Analysis;

@@ -1,7 +1,7 @@
 //! Compares a saw with limits, as in a test: `cargo run --release --example keeps_its_limits`.
 
+use sawflutter::model::scene::rad_per_s;
 use sawflutter::prelude::*;
-use sawflutter::scene::rad_per_s;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let saw = Scene::paper(); // Scene::from_path("saws/edger.json")?

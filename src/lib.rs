@@ -53,11 +53,11 @@
 //! | how do saws differ | [`compare()`] |
 //! | what does accuracy cost | [`tradeoff()`] |
 //!
-//! Below, from the ground upwards: [`scene`] is the input, [`plate`] the blade and its contacts, [`system`] the equation of
-//! motion, [`spectrum`] its eigenvalues at one speed, [`campbell`] branches over the speed, [`stability`] critical speeds, bands
-//! and verdict, [`transient`] time histories, [`stretched`] the blade at large deflections, [`spline`] its motion on the
-//! arbor. [`analyses`] asks them the questions above, [`figure`] draws and [`document`] writes what they find. [`analytical`]
-//! contains closed forms with their sources, with which tests compare all of it.
+//! The library has seven rooms, each of which imports only from those before it: [`page`] is what every face needs (texts,
+//! outlines, figures) and knows no physics; [`model`] leads from the scene to the equation of motion; [`modes`] solves it at one
+//! speed and follows its modes over the speed; [`stability`] finds critical speeds, bands and the verdict; [`motion`] contains
+//! time histories and large deflections; [`analyses`] has one folder for each question above, with computation, report,
+//! text and figures; `app` is the program and the live page.
 
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
@@ -74,31 +74,13 @@
 extern crate self as sawflutter;
 
 pub mod analyses;
-pub mod analytical;
-pub mod campbell;
-#[cfg(feature = "cli")]
 #[doc(hidden)]
-pub mod cli;
-pub mod commands;
-pub mod document;
-#[cfg(feature = "page")]
-#[doc(hidden)]
-pub mod explore;
-pub mod figure;
-mod linalg;
-mod outline;
-pub mod plate;
-pub mod report;
-pub mod scene;
-pub mod spectrum;
-pub mod spline;
+pub mod app;
+pub mod model;
+pub mod modes;
+pub mod motion;
+pub mod page;
 pub mod stability;
-pub mod stretched;
-pub mod system;
-#[doc(hidden)]
-pub mod text;
-pub mod transient;
-mod tuned;
 
 pub use analyses::check::check;
 pub use analyses::compare::compare;
@@ -116,10 +98,10 @@ pub use analyses::washboard::washboard;
 
 /// Items that most programs need.
 pub mod prelude {
+    pub use crate::analyses::campbell::Report;
     pub use crate::analyses::check::Limits;
-    pub use crate::commands::CommandReport;
-    pub use crate::report::Report;
-    pub use crate::scene::{Accuracy, Scene, SceneError};
+    pub use crate::analyses::commands::CommandReport;
+    pub use crate::model::scene::{Accuracy, Scene, SceneError};
     pub use crate::stability::{
         Analysis, AnalysisError, AnalysisOptions, Instability, InstabilityKind, StabilityState,
     };

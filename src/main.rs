@@ -5,5 +5,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    ExitCode::from(sawflutter::cli::run(std::env::args_os()))
+    ExitCode::from(sawflutter::app::cli::run(std::env::args_os()))
 }

@@ -7,10 +7,10 @@ use std::time::Instant;
 
 use sawflutter::analyses::place::{Demands, Options, place};
 use sawflutter::analyses::study::{Study, StudyFile};
-use sawflutter::campbell::even_speeds;
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, Freed, Scene, SceneFile, SweepFile, rad_per_s};
-use sawflutter::spectrum::{Assembled, SpectralModel, Strategy};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Accuracy, Freed, Scene, SceneFile, SweepFile, rad_per_s};
+use sawflutter::modes::branches::even_speeds;
+use sawflutter::modes::{Assembled, SpectralModel, Strategy};
 use sawflutter::stability::{
     Analysis, AnalysisOptions, ChosenBasis, Detail, chart, search_bands, undamped_bands,
 };

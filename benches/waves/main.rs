@@ -1,6 +1,6 @@
 //! The reduced model by waves beside every eigenvalue of the full matrices.
 //!
-//! [`sawflutter::spectrum::waves`] states the equations. The library searches damped saws for bands on it; here undamped
+//! [`sawflutter::modes::waves`] states the equations. The library searches damped saws for bands on it; here undamped
 //! saws are searched too, with their Krein signs ([`vectors`], [`search`]).
 //!
 //! `cargo bench --bench waves [PART OF A NAME]` compares saws with dense eigenvalues, fails where a count of growing

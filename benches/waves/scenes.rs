@@ -1,6 +1,6 @@
 //! Saws of the trial: the paper's blade with one thing after another.
 
-use sawflutter::scene::{Scene, SceneFile};
+use sawflutter::model::scene::{Scene, SceneFile};
 use serde_json::{Value, json};
 
 fn pad(radius_m: f64, angle_deg: f64, side_m: f64, stiffness: f64, damping: f64) -> Value {

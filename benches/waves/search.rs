@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
-use sawflutter::spectrum::waves::WaveModel;
+use sawflutter::modes::waves::WaveModel;
 use sawflutter::stability::{Grouped, Piece, Plane, Sample, Search};
 
 use super::vectors::{REAL, Root, undamped_roots};

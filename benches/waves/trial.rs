@@ -1,11 +1,11 @@
 //! The trial: errors and counts of growing modes beside dense eigenvalues, sizes, and run times by stage.
 
 use faer::{Mat, Scale, c64};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Scene, SceneFile};
-use sawflutter::spectrum::waves::{self, WaveModel};
-use sawflutter::spectrum::{Component, LowestModes};
-use sawflutter::system::GyroscopicSystem;
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Scene, SceneFile};
+use sawflutter::model::system::GyroscopicSystem;
+use sawflutter::modes::waves::{self, WaveModel};
+use sawflutter::modes::{Component, LowestModes};
 
 use super::scenes;
 use super::search::{Scope, Searched, roots};

@@ -4,9 +4,9 @@ use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
 use faer::{Mat, Par, Scale, c64};
-use sawflutter::spectrum::undamped_eigenpairs;
-use sawflutter::spectrum::waves::WaveModel;
-use sawflutter::system::GyroscopicSystem;
+use sawflutter::model::system::GyroscopicSystem;
+use sawflutter::modes::undamped_eigenpairs;
+use sawflutter::modes::waves::WaveModel;
 
 /// Share of |λ| below which a part is rounding of an undamped wave.
 pub const REAL: f64 = 1e-8;

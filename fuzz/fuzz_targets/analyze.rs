@@ -8,7 +8,7 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let mut bytes = draw::Bytes(bytes);
     let file = draw::scene_file(&mut bytes);
     let file = draw::with_details(&mut bytes, file);
-    if let Ok(scene) = sawflutter::scene::Scene::try_from(file) {
+    if let Ok(scene) = sawflutter::model::scene::Scene::try_from(file) {
         draw::survives_two_speeds(&scene);
         draw::survives_chart(&scene);
         draw::survives_analysis(&scene);

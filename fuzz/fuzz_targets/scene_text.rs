@@ -2,5 +2,5 @@
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|text: &str| {
-    let _ = sawflutter::scene::Scene::from_json(text);
+    let _ = sawflutter::model::scene::Scene::from_json(text);
 });

@@ -3,7 +3,7 @@
 use pyo3::conversion::FromPyObjectOwned;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use sawflutter::scene::Scene;
+use sawflutter::model::scene::Scene;
 
 use crate::failure::Failure;
 

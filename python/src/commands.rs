@@ -3,6 +3,7 @@
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use sawflutter::analyses::campbell::{ModeShape, Sensitivity};
 use sawflutter::analyses::check::{self, Limits, LimitsFile};
 use sawflutter::analyses::compare::{Saw, compare as compare_saws};
 use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
@@ -10,9 +11,8 @@ use sawflutter::analyses::gap::{self, Options as GapOptions};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
 use sawflutter::analyses::{cut, deflect, response, runup, washboard};
-use sawflutter::report::{ModeShape, Sensitivity};
-use sawflutter::scene::{Freed, NamedBounds, Scene, SpeedRange};
-use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::model::scene::{Freed, NamedBounds, Scene, SpeedRange};
+use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
 use serde::Serialize;
 

@@ -14,14 +14,14 @@ use sawflutter::analyses::place::PlaceError;
 use sawflutter::analyses::response::ResponseError;
 use sawflutter::analyses::study::{LogError, StudyError};
 use sawflutter::analyses::washboard::WashboardError;
-use sawflutter::figure::FigureError;
+use sawflutter::page::figure::FigureError;
 
-use sawflutter::scene::{RefusedValue, SceneError};
-use sawflutter::spectrum::SpectrumError;
+use sawflutter::model::scene::{RefusedValue, SceneError};
+use sawflutter::modes::SpectrumError;
+use sawflutter::motion::stretched::StretchedError;
+use sawflutter::motion::transient::TransientError;
+use sawflutter::page::text::FileError;
 use sawflutter::stability::{AnalysisError, SensitivityError};
-use sawflutter::stretched::StretchedError;
-use sawflutter::text::FileError;
-use sawflutter::transient::TransientError;
 
 /// Reason of a failed computation.
 #[derive(Debug)]

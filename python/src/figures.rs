@@ -2,10 +2,10 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use sawflutter::analyses::tradeoff::Setting;
-use sawflutter::commands::{Command, CommandReport};
-use sawflutter::figure;
-use sawflutter::report::Report;
+use sawflutter::analyses::campbell::Report;
+use sawflutter::analyses::commands::{Command, CommandReport};
+use sawflutter::analyses::tradeoff::{self, Setting};
+use sawflutter::page::figure;
 
 use crate::failure::Failure;
 
@@ -86,7 +86,7 @@ pub fn chart(command: &str, name: &str, report: &str) -> PyResult<Option<String>
 #[pyfunction]
 pub fn tradeoff_chart(scene: &str, settings: &str) -> PyResult<String> {
     let settings: Vec<Setting> = serde_json::from_str(settings).map_err(Failure::from)?;
-    let chart = figure::tradeoff_chart(scene, &settings);
+    let chart = tradeoff::chart::chart(scene, &settings);
     Ok(serde_json::to_string(&chart).map_err(Failure::from)?)
 }
 

@@ -11,8 +11,8 @@ mod study;
 mod watch;
 
 use pyo3::prelude::*;
-use sawflutter::scene::{MAX_SCENE_BYTES, Quantity, Scene, SceneError, number_of};
-use sawflutter::text::{Kind, OtherEncodings, read_path};
+use sawflutter::model::scene::{MAX_SCENE_BYTES, Quantity, Scene, SceneError, number_of};
+use sawflutter::page::text::{Kind, OtherEncodings, read_path};
 
 use crate::failure::Failure;
 
@@ -93,9 +93,9 @@ fn read_text(path: std::path::PathBuf, table: bool) -> PyResult<String> {
 #[pyfunction]
 fn schema() -> String {
     serde_json::json!({
-        "scene": sawflutter::scene::json_schema(),
+        "scene": sawflutter::model::scene::json_schema(),
         "study": sawflutter::analyses::study::json_schema(),
-        "reports": sawflutter::commands::json_schema(),
+        "reports": sawflutter::analyses::commands::json_schema(),
     })
     .to_string()
 }
@@ -103,7 +103,7 @@ fn schema() -> String {
 /// Runs the program with arguments, the first of which is its name, and gives its exit code.
 #[pyfunction]
 fn program(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
-    py.detach(|| sawflutter::cli::run(arguments))
+    py.detach(|| sawflutter::app::cli::run(arguments))
 }
 
 /// Panics, for the test that a panic becomes an exception.

@@ -3,10 +3,10 @@
 use faer::Mat;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::Scene;
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::Scene;
+use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::stability::ChosenBasis;
-use sawflutter::system::GyroscopicSystem;
 
 use crate::arguments;
 use crate::failure::Failure;

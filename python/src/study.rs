@@ -7,10 +7,10 @@ use std::sync::{Arc, Mutex};
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
+use sawflutter::analyses::commands::CommandReport;
 use sawflutter::analyses::study::{
     self, CsvTable, Log, LogError, Outcome, ParquetTable, Rows, Saw, Shard, StudyFile, Table,
 };
-use sawflutter::commands::CommandReport;
 
 use crate::arguments;
 use crate::failure::Failure;
@@ -238,5 +238,5 @@ impl StudyLog {
 
 /// Gives an error if the computation of this thread was stopped.
 fn stopped() -> Result<(), Failure> {
-    Ok(sawflutter::spectrum::Cancellation::current().check()?)
+    Ok(sawflutter::modes::Cancellation::current().check()?)
 }

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use sawflutter::spectrum::{Cancellation, Progress, Stage};
+use sawflutter::modes::{Cancellation, Progress, Stage};
 
 use crate::failure::Failure;
 

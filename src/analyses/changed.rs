@@ -1,8 +1,8 @@
 //! A number of a scene that a search has changed.
 
-use crate::outline::{Fact, Value};
-use crate::scene::Quantity;
-use crate::text::shown_to;
+use crate::model::scene::Quantity;
+use crate::page::outline::{Fact, Value};
+use crate::page::text::shown_to;
 
 /// A number of the scene before and after a search, with a number of significant digits.
 pub(crate) fn changed(path: &str, before: f64, after: f64, digits: usize) -> Fact {

@@ -4,17 +4,22 @@
 //! [`DeflectReport`](deflect::DeflectReport), in the units of its JSON. States between (matrices, coordinates)
 //! are private to the folder.
 
+pub mod campbell;
 mod changed;
 pub mod check;
+pub mod commands;
 pub mod compare;
 pub mod cut;
 pub mod deflect;
+pub(crate) mod document;
 pub mod fit;
 pub mod gap;
 pub mod map;
 pub mod place;
 pub mod response;
 pub mod runup;
+mod scene_axis;
+pub(crate) mod scene_number;
 pub mod study;
 pub mod tradeoff;
 pub mod washboard;

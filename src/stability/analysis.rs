@@ -19,11 +19,11 @@ use super::options::AnalysisOptions;
 use super::out_of_reach::OutOfReach;
 use super::room::check_room;
 use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
-use crate::campbell::CampbellError;
-use crate::plate::{Resolution, StraightEdgeReading};
-use crate::scene::{Accuracy, Scene, SceneError, rad_per_s, rpm};
-use crate::spectrum::{DescribedMode, SpectralModel, SpectrumError, Strategy};
-use crate::text::rounded_down;
+use crate::model::plate::{Resolution, StraightEdgeReading};
+use crate::model::scene::{Accuracy, Scene, SceneError, rad_per_s, rpm};
+use crate::modes::branches::CampbellError;
+use crate::modes::{DescribedMode, SpectralModel, SpectrumError, Strategy};
+use crate::page::text::rounded_down;
 
 /// Largest share of the lowest critical speed at which saw makers run a saw.
 pub const OPERATING_LIMIT: f64 = 0.85;
@@ -137,9 +137,9 @@ impl Analysis {
     /// Analyses a saw over the speeds of its scene.
     ///
     /// # Errors
-    /// [`AnalysisError`]; [`SpectrumError::Cancelled`](crate::spectrum::SpectrumError::Cancelled)
+    /// [`AnalysisError`]; [`SpectrumError::Cancelled`](crate::modes::SpectrumError::Cancelled)
     /// once the computation that this thread works for is cancelled, see
-    /// [`Cancellation::watched`](crate::spectrum::Cancellation::watched).
+    /// [`Cancellation::watched`](crate::modes::Cancellation::watched).
     pub fn new(scene: &Scene) -> Result<Self, AnalysisError> {
         Self::with_options(scene, AnalysisOptions::default())
     }

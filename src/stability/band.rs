@@ -7,7 +7,7 @@ use faer::c64;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::scene::rpm;
+use crate::model::scene::rpm;
 
 /// Kind of an instability.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -9,12 +9,10 @@
 use super::error::AnalysisError;
 use super::ladder::{DENSE_LADDER, LADDER, ahead, resolution, rung_of, sized};
 use super::reach::{PAST_THE_RANGE, Reach};
-use crate::plate::{Plate, Resolution};
-use crate::scene::Scene;
-use crate::spectrum::{
-    Assembled, Cancellation, LargerBasis, NamedCriticalSpeed, RestingMode, Work,
-};
-use crate::tuned::Tuned;
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::Scene;
+use crate::model::tuned::Tuned;
+use crate::modes::{Assembled, Cancellation, LargerBasis, NamedCriticalSpeed, RestingMode, Work};
 
 /// Factor for the estimated errors, because the larger basis has an error too. On 120 random saws, 60 of
 /// which were not used to choose the factor, the true error was up to 1.9 times the estimate without it for
@@ -218,8 +216,8 @@ fn critical_error(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::rad_per_s;
-    use crate::spectrum::SpectralModel;
+    use crate::model::scene::rad_per_s;
+    use crate::modes::SpectralModel;
 
     /// A blade of an eighth of the thickness has reflected waves of many more than the ten diameters of the
     /// smallest basis below 1600 rpm. The inertia of the stiffness with 70 diameters and as many radial

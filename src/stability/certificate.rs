@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::band::{Instability, InstabilityKind};
 use super::mode_counts::MiscountedModes;
 use super::signature::Signature;
-use crate::scene::rpm;
+use crate::model::scene::rpm;
 
 /// Results of the checks of a list of bands: comparisons of the Krein index with the spectra, mode counts on the
 /// full model, and the part of the range that is proven to contain no unlisted band.

@@ -8,8 +8,8 @@ use super::error::AnalysisError;
 use super::options::AnalysisOptions;
 use super::signature::Signature;
 use super::undamped;
-use crate::campbell::{Campbell, Progress};
-use crate::spectrum::{Mode, SpectralModel};
+use crate::modes::branches::{Campbell, Progress};
+use crate::modes::{Mode, SpectralModel};
 
 /// Number of even speeds of a chart, without those added at events.
 pub(super) const CHART_SPEEDS: usize = 51;

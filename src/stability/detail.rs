@@ -14,7 +14,7 @@ pub enum Detail {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Accuracy, Scene, rpm};
+    use crate::model::scene::{Accuracy, Scene, rpm};
     use crate::stability::{Analysis, AnalysisOptions};
 
     /// A sketch has the critical speeds of the full chart, and its bands to 0.5 rpm and 3 % of their growth,

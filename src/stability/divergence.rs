@@ -6,7 +6,7 @@ use super::found::Found;
 use super::maximum::{Sample, maximize};
 use super::pair_continuation::VICINITY;
 use super::signature::Signature;
-use crate::spectrum::{SpectralModel, SpectrumError, smallest};
+use crate::modes::{SpectralModel, SpectrumError, smallest};
 
 /// Bands of divergence, from signatures in ascending order. They begin and end at critical speeds or at
 /// `coalescences`, speeds at which two real λ coalesce and continue as flutter.

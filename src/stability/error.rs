@@ -1,9 +1,9 @@
 //! Errors of an analysis.
 
-use crate::campbell::CampbellError;
-use crate::plate::MOST_DIAMETERS;
-use crate::scene::SceneError;
-use crate::spectrum::SpectrumError;
+use crate::model::plate::MOST_DIAMETERS;
+use crate::model::scene::SceneError;
+use crate::modes::SpectrumError;
+use crate::modes::branches::CampbellError;
 
 /// Reason why a saw could not be analysed: a failed eigenproblem, or a sweep beyond the validity of the
 /// model.

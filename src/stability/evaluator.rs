@@ -11,10 +11,10 @@ use super::certificate::Certificate;
 use super::partition::{BESIDES, Sample};
 use super::seen::Seen;
 use super::signature::{Signature, SignedMode};
-use crate::spectrum::{
+use crate::model::tuned::Tuned;
+use crate::modes::{
     Mode, ModeKind, ModePair, SearchModel, SpectralModel, SpectrumError, krein_index, smallest,
 };
-use crate::tuned::Tuned;
 
 /// Relative distance of the search from critical speeds: λ² passes through zero there and is accurate only to
 /// 1e-15 of the stiffness.

@@ -9,8 +9,8 @@ use rayon::prelude::*;
 
 use super::chart::StabilityChart;
 use super::root::{Look, bracketed};
-use crate::scene::ExcitationLine;
-use crate::spectrum::{SpectralModel, SpectrumError, smallest};
+use crate::model::scene::ExcitationLine;
+use crate::modes::{SpectralModel, SpectrumError, smallest};
 
 /// A speed at which a mode has the frequency of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]

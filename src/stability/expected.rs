@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::basis::ChosenBasis;
-use crate::scene::{Scene, rpm};
+use crate::model::scene::{Scene, rpm};
 
 /// Work above this number of seconds of processor time is announced to the user before it begins.
 const LONG_S: f64 = 10.0;

@@ -11,7 +11,7 @@ use super::pair_continuation::{Coalescence, Edge, PairContinuation, VICINITY};
 use super::pieces::Piece;
 use super::quadruples::{Bound, Stretch, stretches};
 use super::signature::SignedMode;
-use crate::spectrum::{SpectrumError, smallest};
+use crate::modes::{SpectrumError, smallest};
 
 /// Distance of a peak at the end of a band from that end, as a share of the width.
 const BESIDE_END: f64 = 1e-3;

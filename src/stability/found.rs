@@ -2,7 +2,7 @@
 //! range, so that an event at an end of the range is not at an end of the search.
 
 use super::band::Instability;
-use crate::spectrum::SpectrumError;
+use crate::modes::SpectrumError;
 
 /// A band of a search.
 #[derive(Debug, Clone)]

@@ -10,7 +10,7 @@
 
 use faer::{Mat, c64};
 
-use crate::linalg::{complex_eigenvalues, real_eigenvalues};
+use crate::model::linalg::{complex_eigenvalues, real_eigenvalues};
 
 use super::interpolation::{self, sign_changes};
 use super::root::place_of_zero;

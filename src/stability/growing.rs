@@ -9,12 +9,12 @@ use faer::c64;
 use super::damped::counted_in_window;
 use super::mode_counts::{MiscountedModes, claims, of_claims};
 use super::signature::Signature;
-use crate::plate::Plate;
-use crate::spectrum::{
+use crate::model::plate::Plate;
+use crate::model::system::GyroscopicSystem;
+use crate::modes::{
     FullModel, Growing, LowestModes, Mode, ModeKind, SpectrumError, eigenvalues, grows,
     krein_index, negative_eigenvalues,
 };
-use crate::system::GyroscopicSystem;
 
 /// Growing modes of a plate at a speed, and their checks.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -149,9 +149,9 @@ impl GrowingModes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plate::{Resolution, RimForce};
-    use crate::scene::{Accuracy, Scene, rad_per_s};
-    use crate::spectrum::companion_eigenpairs;
+    use crate::model::plate::{Resolution, RimForce};
+    use crate::model::scene::{Accuracy, Scene, rad_per_s};
+    use crate::modes::companion_eigenpairs;
 
     /// The paper's saw with a force at its rim, idling, and with a damper.
     fn plates() -> [Plate; 3] {

@@ -11,13 +11,13 @@ use std::sync::atomic::Ordering;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use crate::plate::{MembraneStress, membrane_stiffness};
-use crate::scene::{Scene, Temperature};
-use crate::spectrum::{
+use crate::model::plate::{MembraneStress, membrane_stiffness};
+use crate::model::scene::{Scene, Temperature};
+use crate::model::system::spread;
+use crate::modes::{
     AddedStress, EventName, NamedCriticalSpeed, SingularStress, SpectralModel, SpectrumError,
     critical_speeds, first_singular, named,
 };
-use crate::system::spread;
 
 /// Temperature rise at which the blade buckles, or its lowest critical speed falls to the operating speed.
 #[derive(Debug, Clone, PartialEq)]

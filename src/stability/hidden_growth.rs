@@ -1,8 +1,8 @@
 //! Estimated growth rate of an unlisted band in an unproven interval.
 
 use super::chart::StabilityChart;
-use crate::campbell::{Campbell, SpeedSample};
-use crate::spectrum::DescribedMode;
+use crate::modes::DescribedMode;
+use crate::modes::branches::{Campbell, SpeedSample};
 
 impl StabilityChart {
     /// Estimate of the largest growth rate, in 1/s, that an unlisted band could have in the unproven
@@ -82,7 +82,7 @@ fn approach(campbell: &Campbell, from: f64, to: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use crate::scene::{Scene, rad_per_s};
+    use crate::model::scene::{Scene, rad_per_s};
     use crate::stability::{Analysis, InstabilityKind};
 
     /// Reference: the growth and width of the listed bands, for which the same estimate holds.

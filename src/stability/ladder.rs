@@ -1,6 +1,6 @@
 //! Sizes of the basis in ascending order.
 
-use crate::plate::Resolution;
+use crate::model::plate::Resolution;
 
 /// Sizes (n_max, J), each with about 1.5 times as many functions as the previous one. The errors of smaller
 /// sizes cannot be estimated reliably by a larger basis.

@@ -5,7 +5,7 @@ use faer::c64;
 use rayon::prelude::*;
 
 use super::band::Instability;
-use crate::spectrum::{DescribedMode, RefinedPair, SpectralModel, SpectrumError};
+use crate::modes::{DescribedMode, RefinedPair, SpectralModel, SpectrumError};
 
 /// Refinement of listed eigenvalues, with the largest backward error so far.
 pub(super) struct Listed {
@@ -84,11 +84,11 @@ mod tests {
     use faer::{Col, Mat};
 
     use super::*;
-    use crate::plate::{Plate, Resolution};
-    use crate::scene::{Accuracy, Scene, rad_per_s};
-    use crate::spectrum::{Strategy, companion_eigenpairs};
+    use crate::model::plate::{Plate, Resolution};
+    use crate::model::scene::{Accuracy, Scene, rad_per_s};
+    use crate::model::system::{GyroscopicSystem, dynamic_stiffness};
+    use crate::modes::{Strategy, companion_eigenpairs};
     use crate::stability::{InstabilityKind, chart};
-    use crate::system::{GyroscopicSystem, dynamic_stiffness};
 
     /// Inverse iteration with factorizations of the whole matrix, starting at the nearest dense eigenvalue.
     fn exact(system: &GyroscopicSystem, speed: f64, near: c64) -> c64 {

@@ -3,8 +3,8 @@
 use faer::c64;
 
 use super::band::Instability;
-use crate::campbell::{Sighted, match_modes};
-use crate::spectrum::{Mode, ModeKind, SearchModel, SpectralModel, SpectrumError, smallest};
+use crate::modes::branches::{Sighted, match_modes};
+use crate::modes::{Mode, ModeKind, SearchModel, SpectralModel, SpectrumError, smallest};
 
 /// Paths of two eigenvalues over speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -179,9 +179,9 @@ impl Pair {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plate::{Plate, Resolution};
-    use crate::scene::{Accuracy, Scene, rad_per_s};
-    use crate::spectrum::{Strategy, companion_eigenpairs};
+    use crate::model::plate::{Plate, Resolution};
+    use crate::model::scene::{Accuracy, Scene, rad_per_s};
+    use crate::modes::{Strategy, companion_eigenpairs};
     use crate::stability::{InstabilityKind, chart};
 
     /// Reference: all eigenvalues of the whole matrix at the end of a range that cuts a band.

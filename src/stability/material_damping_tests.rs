@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use super::Analysis;
-use crate::plate::{Plate, Resolution};
-use crate::scene::{
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::{
     Accuracy, DampingFile, InPlane, ModeRatioRow, Mount, Scene, SceneFile, SweepFile, rad_per_s,
 };
-use crate::spectrum::{SpectralModel, Strategy};
+use crate::modes::{SpectralModel, Strategy};
 
 fn ratios() -> DampingFile {
     DampingFile {

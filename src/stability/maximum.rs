@@ -1,8 +1,8 @@
 //! Maximum of a smooth function of the speed: the largest growth of a band.
 
 use super::interpolation::Cubic;
-use crate::spectrum::SpectrumError;
-use crate::tuned::Tuned;
+use crate::model::tuned::Tuned;
+use crate::modes::SpectrumError;
 
 /// A value of the function with its slope.
 #[derive(Debug, Clone, Copy, PartialEq)]

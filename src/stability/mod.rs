@@ -1,6 +1,6 @@
 //! Critical speeds, instability bands, flutter speed, and the verdict.
 //!
-//! The input is a [`Scene`](crate::scene::Scene), the result an [`Analysis`]: critical speeds, every band of
+//! The input is a [`Scene`](crate::model::scene::Scene), the result an [`Analysis`]: critical speeds, every band of
 //! divergence and flutter with its edges (rad/s), its largest growth rate (1/s) and frequency (rad/s), the
 //! branches of the Campbell diagram, estimated errors, and a [`Certificate`] with the proven range.
 //! [`Onsets`] gives critical speeds and bands without a chart, for many saws; [`Analysis::verdict`] states
@@ -43,12 +43,13 @@ mod pieces;
 mod proof;
 mod quadruples;
 mod reach;
-mod rise;
 mod room;
 mod root;
 mod seen;
 mod sensitivity;
 mod signature;
+#[cfg(test)]
+mod tuned_tests;
 mod undamped;
 mod verdict;
 
@@ -83,7 +84,6 @@ pub use partition::{Plane, Sample};
 #[doc(hidden)]
 pub use pieces::{Grouped, Piece, Search};
 pub(crate) use reach::{CHARTED, PAST_THE_RANGE, is_cut_short, usual_end};
-pub use rise::{Rise, saturations};
 pub(crate) use root::{Look, bracketed};
 pub use sensitivity::{Sensitivity, SensitivityError};
 #[doc(hidden)]

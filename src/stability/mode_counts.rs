@@ -16,8 +16,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::signature::{Sign, Signature};
-use crate::scene::rpm;
-use crate::spectrum::{AtSpeed, FullModel, SpectralModel, SpectrumError};
+use crate::model::scene::rpm;
+use crate::modes::{AtSpeed, FullModel, SpectralModel, SpectrumError};
 
 /// Mode counts on the full model of an undamped guided blade.
 pub struct ModeCounts<'a> {

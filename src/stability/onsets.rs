@@ -7,9 +7,9 @@ use super::chart::{CHART_SPEEDS, chart};
 use super::error::AnalysisError;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands};
 use super::verdict::flutter_onsets;
-use crate::plate::Resolution;
-use crate::scene::Scene;
-use crate::spectrum::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
+use crate::model::plate::Resolution;
+use crate::model::scene::Scene;
+use crate::modes::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
 
 /// Onset speeds, equal to those of an [`Analysis`](super::Analysis) to nine digits.
 #[derive(Debug)]

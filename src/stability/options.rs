@@ -4,9 +4,9 @@ use super::band::Instability;
 use super::detail::Detail;
 use super::expected::ExpectedWork;
 use super::ladder::{LADDER, resolution};
-use crate::campbell::Progress;
-use crate::plate::Resolution;
-use crate::spectrum::NamedCriticalSpeed;
+use crate::model::plate::Resolution;
+use crate::modes::NamedCriticalSpeed;
+use crate::modes::branches::Progress;
 
 /// Options of an analysis.
 #[derive(Clone, Copy)]

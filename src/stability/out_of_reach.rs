@@ -7,9 +7,9 @@ use super::basis::{MODES_AT_REST, REMAINDER};
 use super::error::AnalysisError;
 use super::estimate::Estimates;
 use super::ladder::{DENSE_LADDER, LADDER, ahead, diameters_beyond, resolution, rung_of, sized};
-use crate::plate::{Contact, ContactTerms, Plate, Resolution};
-use crate::scene::{Guide, Scene};
-use crate::spectrum::{Assembled, LargerBasis};
+use crate::model::plate::{Contact, ContactTerms, Plate, Resolution};
+use crate::model::scene::{Guide, Scene};
+use crate::modes::{Assembled, LargerBasis};
 
 /// Reason why an analysis misses the tolerance of its scene.
 #[derive(Debug, Clone, Copy, PartialEq)]

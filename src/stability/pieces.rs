@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::group::{Group, Sloped};
 use super::partition::{Places, Plane, Sample, partition};
-use crate::spectrum::{SpectrumError, Work, smallest};
+use crate::modes::{SpectrumError, Work, smallest};
 
 /// A group between two samples.
 #[derive(Debug, Clone)]

@@ -6,7 +6,7 @@
 //! k_real + 2 k_flutter ≤ n₋(K) − 2 Σ max(0, n₋(L(iωᵢ)) − n₋(L(iωᵢ₊₁))):
 //!
 //! because the sum counts − modes that must exist. If the counts are constant along lines ωᵢ(Ω), which
-//! [`FullModel`](crate::spectrum::FullModel) decides by two factorizations, and no critical speed changes
+//! [`FullModel`](crate::modes::FullModel) decides by two factorizations, and no critical speed changes
 //! n₋(K), the bound holds at every speed of the interval. The spectra only propose the lines. Next to a
 //! crossing or the edge of a band the gap closes, and intervals are halved down to a least width; the rest is
 //! reported as searched but unproven.
@@ -19,7 +19,7 @@ use super::band::{Instability, InstabilityKind};
 use super::evaluator::SignatureEvaluator;
 use super::mode_counts::{Gap, ModeCounts, gaps};
 use super::signature::Signature;
-use crate::spectrum::{AtSpeed, Cancellation, SpectrumError, Work};
+use crate::modes::{AtSpeed, Cancellation, SpectrumError, Work};
 
 /// Intervals narrower than this share of the highest speed are not halved further.
 const LEAST_WIDTH: f64 = 1e-4;

@@ -4,7 +4,7 @@ use faer::c64;
 
 use super::partition::{Plane, Sample};
 use super::pieces::{Grouped, Piece};
-use crate::spectrum::smallest;
+use crate::modes::smallest;
 
 /// Begin or end of an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]

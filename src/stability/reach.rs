@@ -7,13 +7,13 @@
 
 use super::error::AnalysisError;
 use super::ladder::{DENSE_LADDER, LADDER, resolution};
-use crate::plate::{MOST_DIAMETERS, MOST_UNKNOWNS, Plate, Resolution};
-use crate::scene::{Blade, Material, Scene, rad_per_s, rpm};
-use crate::spectrum::{
+use crate::model::plate::{MOST_DIAMETERS, MOST_UNKNOWNS, Plate, Resolution};
+use crate::model::scene::{Blade, Material, Scene, rad_per_s, rpm};
+use crate::modes::{
     ABOVE_LAST, Assembled, NamedCriticalSpeed, RestingMode, SpectrumError, StandingWaves,
     diameters_within, highest_reflected,
 };
-use crate::text::rounded_down;
+use crate::page::text::rounded_down;
 
 /// Strain of the rim above which a sweep is refused: ten times the yield strain of the strongest steel.
 const LARGEST_STRETCH: f64 = 0.1;
@@ -260,7 +260,7 @@ fn default_top(lowest_rad_per_s: Option<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::SpeedRange;
+    use crate::model::scene::SpeedRange;
     use crate::stability::{Analysis, AnalysisOptions, ChosenBasis};
 
     /// Waves of 73 nodal diameters more than the first critical one stand still below 40 000 rpm.

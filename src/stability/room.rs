@@ -4,8 +4,8 @@ use super::basis::ChosenBasis;
 use super::chart::CHART_SPEEDS;
 use super::error::AnalysisError;
 use super::undamped::with_critical_speeds;
-use crate::campbell::{check_memory, even_speeds};
-use crate::spectrum::{clear_range, highest_reflected, waves_within};
+use crate::modes::branches::{check_memory, even_speeds};
+use crate::modes::{clear_range, highest_reflected, waves_within};
 
 /// A guided saw is assumed to have this share of the modes of its free blade in the window. The paper's saw has 1.2 times as
 /// many at the end of sweeps to 5000 and to 20 000 rpm, because guides lower the frequencies of reflected waves.
@@ -33,9 +33,9 @@ pub(super) fn check_room(chosen: &ChosenBasis) -> Result<(), AnalysisError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campbell::CampbellError;
-    use crate::scene::{Accuracy, Scene, rad_per_s};
-    use crate::spectrum::{SpectralModel, Strategy};
+    use crate::model::scene::{Accuracy, Scene, rad_per_s};
+    use crate::modes::branches::CampbellError;
+    use crate::modes::{SpectralModel, Strategy};
     use crate::stability::{Analysis, AnalysisOptions};
 
     /// The modes of the guided saw at the end of a sweep, by the reduced model of the chart.

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use faer::c64;
 
 use super::signature::Signature;
-use crate::spectrum::{Mode, smallest};
+use crate::modes::{Mode, smallest};
 
 /// Results at the computed speeds of a search.
 #[derive(Debug, Default)]

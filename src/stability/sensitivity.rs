@@ -11,12 +11,12 @@ use serde::{Deserialize, Serialize};
 
 use super::analysis::Analysis;
 use super::band::{Instability, InstabilityKind};
-use crate::plate::Plate;
-use crate::scene::{Parameter, Quantity, Scene, SceneError, SceneFile};
-use crate::spectrum::{
+use crate::model::plate::Plate;
+use crate::model::scene::{Parameter, Quantity, Scene, SceneError, SceneFile};
+use crate::model::system::GyroscopicSystem;
+use crate::modes::{
     Differences, Mode, ModeKind, SpectrumError, complex, derivative, matrix_slopes, smallest,
 };
-use crate::system::GyroscopicSystem;
 
 /// Step of the differences as a share of the change, thus 1e-3 of the number for a change of 1 %: the
 /// truncation error (1e-3)⁴ and the rounding error 1e-16/1e-3 are both below 1e-11.

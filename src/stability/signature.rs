@@ -2,7 +2,7 @@
 
 use faer::c64;
 
-use crate::spectrum::{Mode, ModeKind};
+use crate::modes::{Mode, ModeKind};
 
 /// Kind of a mode, by its eigenvalue and Krein sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,11 +8,9 @@ use super::error::AnalysisError;
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP};
 use super::options::AnalysisOptions;
 use super::signature::Signature;
-use crate::campbell::{self, Closeness, SpeedSample};
-use crate::plate::Plate;
-use crate::spectrum::{
-    NamedCriticalSpeed, SpectralModel, SpectrumError, clear_range, searched_range,
-};
+use crate::model::plate::Plate;
+use crate::modes::branches::{self, Closeness, SpeedSample};
+use crate::modes::{NamedCriticalSpeed, SpectralModel, SpectrumError, clear_range, searched_range};
 
 /// Number of even speeds at the start of the search for bands; the bands do not depend on it.
 pub(super) const SEARCH_SPEEDS: usize = 9;
@@ -31,7 +29,7 @@ pub(super) fn charted(
         detail, progress, ..
     } = options;
     let drawn = clear_range(&model.critical, range);
-    let even = campbell::even_speeds(drawn, count);
+    let even = branches::even_speeds(drawn, count);
     let speeds = match detail {
         Detail::Full => with_critical_speeds((&model.plate, &model.critical), drawn, even),
         // A sketch of a guided blade needs no speeds beside critical ones, because its branches are followed
@@ -48,19 +46,19 @@ pub(super) fn charted(
         Detail::Full => (WITHIN_BANDS.as_slice(), Closeness::FIGURE, Depth::Proof),
         Detail::Sketch => ([].as_slice(), Closeness::SKETCH, Depth::Counts),
     };
-    campbell::check_room(model, &speeds)?;
+    branches::check_room(model, &speeds)?;
     let searched = || {
         let found = bands(model, range, &search, depth)?;
         options.report(&model.critical, range, Some(&found.0));
         Ok::<_, SpectrumError>(found)
     };
-    let (found, samples) = rayon::join(searched, || campbell::sample(model, &speeds, progress));
+    let (found, samples) = rayon::join(searched, || branches::sample(model, &speeds, progress));
     let ((instabilities, mut certificate), mut samples) = (found?, samples?);
-    let room = campbell::room_for_more(model, &samples);
+    let room = branches::room_for_more(model, &samples);
     let between = inside(&instabilities, &samples, (within_bands, room), range);
-    samples.extend(campbell::sample(model, &between, &|_, _| ())?);
+    samples.extend(branches::sample(model, &between, &|_, _| ())?);
     samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
-    let samples = campbell::refined(model, samples, closeness)?;
+    let samples = branches::refined(model, samples, closeness)?;
     let drawn: Vec<Signature> = samples.iter().map(signature_of).collect();
     certificate
         .mismatches
@@ -92,7 +90,7 @@ pub fn undamped_bands(
 /// and the last are slightly outside the range, away from every critical speed.
 pub(super) fn search_speeds(model: &SpectralModel, range: (f64, f64), count: usize) -> Vec<f64> {
     let searched = searched_range(&model.critical, range);
-    let even = campbell::even_speeds(searched, count);
+    let even = branches::even_speeds(searched, count);
     from_lowest_critical(
         model,
         with_critical_speeds((&model.plate, &model.critical), searched, even),

@@ -16,12 +16,12 @@ use serde::{Deserialize, Serialize};
 use super::band::{CurvePoint, Instability, InstabilityKind};
 use super::interpolation::Cubic;
 use super::root::share_of_zero;
-use crate::spectrum::smallest;
+use crate::modes::smallest;
 
 /// Relative distance from a critical speed within which a saw is considered to run at it. Because of K(Ω) =
 /// K₀ − Ω²B, a side force fixed in space deflects the wave of the critical speed Ω_c alone by 1/|1 − (Ω/Ω_c)²|
 /// times its deflection at rest: ten times at this margin. The whole deflection of a saw has its own factor,
-/// [`side_force_factor`](crate::report::OperatingPoint::side_force_factor).
+/// [`side_force_factor`](crate::analyses::campbell::OperatingPoint::side_force_factor).
 pub const CRITICAL_MARGIN: f64 = 0.05;
 
 /// The answer to whether a saw is stable at one speed.

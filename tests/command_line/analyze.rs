@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Output, Stdio};
 use std::sync::OnceLock;
 
-use sawflutter::report::Report;
-use sawflutter::scene::{Accuracy, Scene};
+use sawflutter::analyses::campbell::Report;
+use sawflutter::model::scene::{Accuracy, Scene};
 use tempfile::TempDir;
 
 use super::program::{
@@ -246,7 +246,7 @@ fn schema_prints_the_schema_of_a_scene() {
     let output = sawflutter().arg("schema").output().unwrap();
     assert_eq!(output.status.code(), Some(0));
     let schema: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(schema, sawflutter::scene::json_schema());
+    assert_eq!(schema, sawflutter::model::scene::json_schema());
 }
 
 /// A reader that closes the pipe, like `head -0`, is no failure.

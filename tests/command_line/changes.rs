@@ -2,8 +2,8 @@
 //!
 //! Independent value: the report of the same scene with the numbers typed into its file in SI.
 
-use sawflutter::report::Report;
-use sawflutter::scene::SceneFile;
+use sawflutter::analyses::campbell::Report;
+use sawflutter::model::scene::SceneFile;
 use tempfile::TempDir;
 
 use super::program::{

@@ -3,10 +3,10 @@
 //! Independent values: the report of each saw alone, of the same file with the numbers typed in; the stiffness at the rim that
 //! `check` reports.
 
+use sawflutter::analyses::campbell::Report;
 use sawflutter::analyses::check::CheckReport;
 use sawflutter::analyses::compare::CompareReport;
-use sawflutter::report::Report;
-use sawflutter::scene::{Accuracy, Scene, SceneFile, SweepFile};
+use sawflutter::model::scene::{Accuracy, Scene, SceneFile, SweepFile};
 use tempfile::TempDir;
 
 use super::program::{assert_refused, names_in, out, run, sawflutter, text, written};

@@ -4,7 +4,7 @@
 
 use sawflutter::analyses::cut::{CutReport, CutVerdict};
 use sawflutter::analyses::runup::RunUpReport;
-use sawflutter::scene::{Accuracy, RunUpFile, Scene, SceneFile};
+use sawflutter::model::scene::{Accuracy, RunUpFile, Scene, SceneFile};
 use tempfile::TempDir;
 
 use super::program::{

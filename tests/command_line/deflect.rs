@@ -3,10 +3,10 @@
 //!
 //! Source: `--help`, docs/how-to/deflect.md.
 
+use sawflutter::analyses::campbell::{InstabilityBand, Report};
 use sawflutter::analyses::check::CheckReport;
 use sawflutter::analyses::deflect::DeflectReport;
-use sawflutter::report::{InstabilityBand, Report};
-use sawflutter::scene::{Accuracy, ContactLaw, Scene};
+use sawflutter::model::scene::{Accuracy, ContactLaw, Scene};
 use tempfile::TempDir;
 
 use super::program::{assert_in_80_columns, assert_refused, names_in, out, run, text, written};

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use sawflutter::analyses::check::CheckReport;
 use sawflutter::analyses::fit::FitReport;
 use sawflutter::analyses::place::{Neighbour, PlaceReport};
-use sawflutter::scene::Scene;
+use sawflutter::model::scene::Scene;
 use tempfile::TempDir;
 
 use super::program::{assert_in_80_columns, assert_refused, names_in, out, run, text, written};

@@ -6,8 +6,8 @@ use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use sawflutter::report::Report;
-use sawflutter::scene::{Accuracy, Freed, MAX_SCENE_BYTES, RefusedValue, Scene, SceneError};
+use sawflutter::analyses::campbell::Report;
+use sawflutter::model::scene::{Accuracy, Freed, MAX_SCENE_BYTES, RefusedValue, Scene, SceneError};
 use sawflutter::stability::{Analysis, AnalysisOptions, Detail};
 use serde_json::{Value, json};
 use tempfile::TempDir;

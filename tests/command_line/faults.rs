@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use sawflutter::report::Report;
-use sawflutter::scene::SceneFile;
+use sawflutter::analyses::campbell::Report;
+use sawflutter::model::scene::SceneFile;
 use tempfile::TempDir;
 
 use super::program::{self, program, text};

@@ -4,7 +4,7 @@
 //! Source: `--help`, docs/how-to/guide-gaps.md.
 
 use sawflutter::analyses::gap::GapReport;
-use sawflutter::scene::{Accuracy, ContactLaw, Scene};
+use sawflutter::model::scene::{Accuracy, ContactLaw, Scene};
 use tempfile::TempDir;
 
 use super::program::{assert_in_80_columns, assert_refused, names_in, out, run, text, written};

@@ -2,10 +2,10 @@
 //!
 //! Source: the equations of `cut` and `runup`; the limit of five thicknesses of the blade.
 
+use sawflutter::analyses::campbell::{InstabilityKind, Verdict};
 use sawflutter::analyses::cut::{CutReport, CutVerdict};
 use sawflutter::analyses::runup::RunUpReport;
-use sawflutter::report::{InstabilityKind, Verdict};
-use sawflutter::scene::{Accuracy, CutSpeedFile, Scene, SceneFile};
+use sawflutter::model::scene::{Accuracy, CutSpeedFile, Scene, SceneFile};
 use sawflutter::stability::Analysis;
 use serde_json::Value;
 use tempfile::TempDir;

@@ -4,8 +4,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use sawflutter::report::Report;
-use sawflutter::scene::{Accuracy, SceneFile};
+use sawflutter::analyses::campbell::Report;
+use sawflutter::model::scene::{Accuracy, SceneFile};
 use tempfile::TempDir;
 
 use super::program::{
@@ -441,7 +441,7 @@ fn a_check_with_a_number_of_another_unit_fails() {
 #[test]
 fn the_shipped_program_orders_keys_as_the_tested_one() {
     let output = sawflutter().arg("schema").output().unwrap();
-    let own = serde_json::to_string_pretty(&sawflutter::scene::json_schema()).unwrap();
+    let own = serde_json::to_string_pretty(&sawflutter::model::scene::json_schema()).unwrap();
     assert_eq!(text(&output.stdout).trim_end(), own);
     let declared = [
         "name",
@@ -452,7 +452,7 @@ fn the_shipped_program_orders_keys_as_the_tested_one() {
         "operating_rpm",
         "cut",
     ];
-    let schema = sawflutter::scene::json_schema();
+    let schema = sawflutter::model::scene::json_schema();
     let keys: Vec<&String> = schema["properties"].as_object().unwrap().keys().collect();
     let place = |key: &&str| keys.iter().position(|own| own == key).unwrap();
     assert!(declared.iter().map(place).is_sorted(), "{keys:?}");

@@ -4,8 +4,8 @@
 //! Source: Hermite cubics on 24 equal elements of the radius, n = 0 … 150, with the plane stress of the spinning ring
 //! that does not move at the flange.
 
+use sawflutter::analyses::campbell::Report;
 use sawflutter::analyses::check::CheckReport;
-use sawflutter::report::Report;
 use tempfile::TempDir;
 
 use super::program::{run, text, written};

@@ -3,9 +3,9 @@
 //! Independent values: `analyze` of the scene with the numbers typed in; the critical speed of a blade without guides is
 //! proportional to its thickness.
 
+use sawflutter::analyses::campbell::{Report, StabilityState};
 use sawflutter::analyses::map::{MapReport, Options, Range, map};
-use sawflutter::report::{Report, StabilityState};
-use sawflutter::scene::{Accuracy, Scene, SweepFile, rad_per_s};
+use sawflutter::model::scene::{Accuracy, Scene, SweepFile, rad_per_s};
 use sawflutter::stability::Analysis;
 use tempfile::TempDir;
 

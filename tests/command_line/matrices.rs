@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::DMatrix;
-use sawflutter::report::Report;
+use sawflutter::analyses::campbell::Report;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 

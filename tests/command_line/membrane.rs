@@ -1,8 +1,8 @@
 //! Goal: the user of a heated or rolled saw gets its heat limits in words, numbers and a picture; a blade that buckles
 //! or a table out of balance is refused with the remedy.
 
+use sawflutter::analyses::campbell::Report;
 use sawflutter::analyses::runup::RunUpReport;
-use sawflutter::report::Report;
 
 use super::program::{assert_in_80_columns, sawflutter, text};
 

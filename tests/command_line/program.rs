@@ -5,7 +5,7 @@ use std::process::Output;
 use std::time::Duration;
 
 use assert_cmd::Command;
-use sawflutter::scene::{Accuracy, SceneFile};
+use sawflutter::model::scene::{Accuracy, SceneFile};
 use serde::de::DeserializeOwned;
 use tempfile::TempDir;
 

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use assert_cmd::Command;
-use sawflutter::scene::Scene;
+use sawflutter::model::scene::Scene;
 use tempfile::TempDir;
 
 use super::program::{names_in, program, sawflutter, text};

@@ -4,7 +4,7 @@
 
 use sawflutter::analyses::check::CheckReport;
 use sawflutter::analyses::response::ResponseReport;
-use sawflutter::scene::{Accuracy, ProbeFile, Scene, SideForceFile};
+use sawflutter::model::scene::{Accuracy, ProbeFile, Scene, SideForceFile};
 use tempfile::TempDir;
 
 use super::program::{

@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use sawflutter::analyses::study::{Study, StudyFile, StudyReport};
-use sawflutter::scene::{Scene, SceneFile};
+use sawflutter::model::scene::{Scene, SceneFile};
 
 /// Every file in `scenes/` and in its gallery, by name.
 fn scene_paths() -> Vec<PathBuf> {

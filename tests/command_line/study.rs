@@ -7,7 +7,7 @@ use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use sawflutter::analyses::study::StudyReport;
-use sawflutter::scene::Accuracy;
+use sawflutter::model::scene::Accuracy;
 use tempfile::TempDir;
 
 use super::program::{PATIENCE, program, text};

@@ -2,10 +2,10 @@
 
 use std::sync::LazyLock;
 
+use sawflutter::analyses::campbell::{Report, StabilityState};
 use sawflutter::analyses::check::CheckReport;
-use sawflutter::commands::COMMANDS;
-use sawflutter::report::{Report, StabilityState};
-use sawflutter::scene::{Accuracy, Scene};
+use sawflutter::analyses::commands::COMMANDS;
+use sawflutter::model::scene::{Accuracy, Scene};
 use tempfile::TempDir;
 
 use super::program::{
@@ -227,7 +227,7 @@ fn an_unrestrained_blade_does_not_pass() {
 }
 
 /// The summary of the paper's saw at an operating speed in rpm.
-fn at_operating(operating_rpm: f64) -> sawflutter::report::Report {
+fn at_operating(operating_rpm: f64) -> sawflutter::analyses::campbell::Report {
     let saw = Scene::paper().edited(|saw| {
         saw.accuracy = Accuracy::Draft;
         saw.operating_rpm = Some(operating_rpm);

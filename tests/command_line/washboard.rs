@@ -2,9 +2,9 @@
 //!
 //! Source: `--help` and docs/how-to/washboarding.md.
 
+use sawflutter::analyses::campbell::Verdict;
 use sawflutter::analyses::washboard::WashboardReport;
-use sawflutter::report::Verdict;
-use sawflutter::scene::{Accuracy, DampingFile, Mount, Scene, SceneFile, WashboardingFile};
+use sawflutter::model::scene::{Accuracy, DampingFile, Mount, Scene, SceneFile, WashboardingFile};
 use tempfile::TempDir;
 
 use super::program::{assert_in_80_columns, names_in, out, run, text, write_scene, written};

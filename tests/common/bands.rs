@@ -8,9 +8,9 @@
 
 use faer::{Mat, Scale, c64};
 use rayon::prelude::*;
-use sawflutter::scene::{Accuracy, GuideFile, InPlane, Mount, Scene, SceneFile, rpm};
+use sawflutter::model::scene::{Accuracy, GuideFile, InPlane, Mount, Scene, SceneFile, rpm};
+use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::stability::{Analysis, Instability, InstabilityKind};
-use sawflutter::system::GyroscopicSystem;
 
 /// Growth that a list of bands has to account for, in 1/s: eigenvalues next to a coalescence are accurate to √ε of the
 /// largest frequency of the model only, a few hundredths of 1/s.

@@ -6,10 +6,10 @@
 
 use proptest::strategy::{Strategy as _, ValueTree};
 use proptest::test_runner::TestRunner;
-use sawflutter::campbell::even_speeds;
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{GuideFile, Scene, SceneFile, rpm};
-use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{GuideFile, Scene, SceneFile, rpm};
+use sawflutter::modes::branches::even_speeds;
+use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Instability, InstabilityKind, undamped_bands};
 
 pub fn bands_of(model: &SpectralModel, range: (f64, f64), count: usize) -> Vec<Instability> {

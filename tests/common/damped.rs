@@ -5,10 +5,10 @@ use faer::c64;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
-use sawflutter::campbell::even_speeds;
-use sawflutter::plate::Plate;
-use sawflutter::scene::{DampingFile, SceneFile, rpm};
-use sawflutter::spectrum::{SpectralModel, Strategy as Solver};
+use sawflutter::model::plate::Plate;
+use sawflutter::model::scene::{DampingFile, SceneFile, rpm};
+use sawflutter::modes::branches::even_speeds;
+use sawflutter::modes::{SpectralModel, Strategy as Solver};
 use sawflutter::stability::{Instability, InstabilityKind, chart};
 
 use crate::draws::*;

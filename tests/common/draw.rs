@@ -1,13 +1,13 @@
 //! Valid and absurd scenes from bytes, for the fuzzers: the tests pass random bytes, and `fuzz/` those of libFuzzer.
 
+use sawflutter::analyses::campbell::Report;
 use sawflutter::analyses::washboard::{WashboardReport, washboard};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::report::Report;
-use sawflutter::scene::{
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{
     Accuracy, CutFile, DampingFile, ExcitationFile, GuideFile, InPlane, Mount, RimFile, Scene,
     SceneFile, SweepFile, ThicknessRow, WashboardingFile, WoodFile, rad_per_s,
 };
-use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, chart};
 
 /// Reads numbers from bytes, and zeros after the last byte.

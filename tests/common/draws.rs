@@ -3,10 +3,10 @@
 use faer::c64;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, FileFailurePersistence, RngAlgorithm, TestRng, TestRunner};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{GuideFile, InPlane, Mount, Scene, SceneFile};
-use sawflutter::spectrum::{SpectralModel, Strategy as Solver, companion_eigenpairs};
-use sawflutter::system::GyroscopicSystem;
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{GuideFile, InPlane, Mount, Scene, SceneFile};
+use sawflutter::model::system::GyroscopicSystem;
+use sawflutter::modes::{SpectralModel, Strategy as Solver, companion_eigenpairs};
 
 /// A basis so small that every eigenvalue can be computed: 65 unknowns.
 pub const SMALL: Resolution = Resolution {

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use sawflutter::analyses::fit::{Measurement, Row};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Scene, rad_per_s};
-use sawflutter::spectrum::LowestModes;
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Scene, rad_per_s};
+use sawflutter::modes::LowestModes;
 
 /// The basis of both the measurement and the fit.
 pub const SMALL: Resolution = Resolution {

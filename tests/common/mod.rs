@@ -5,9 +5,9 @@ pub mod limit;
 
 use std::path::{Path, PathBuf};
 
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, Mount, Scene, SceneFile};
-use sawflutter::spectrum::{Mode, SpectralModel, Strategy};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Accuracy, Mount, Scene, SceneFile};
+use sawflutter::modes::{Mode, SpectralModel, Strategy};
 
 /// A file that comes with the crate.
 pub fn path(inside: &str) -> PathBuf {

@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 
 use sawflutter::analyses::cut::{CutCriterion, CutReport, CutVerdict};
-use sawflutter::scene::{CutSpeedFile, Scene, SceneFile};
+use sawflutter::model::scene::{CutSpeedFile, Scene, SceneFile};
 use tempfile::TempDir;
 
 use crate::program::{assert_in_80_columns, run, text, write_scene};

@@ -5,9 +5,9 @@
 #![allow(dead_code)]
 
 use crate::common::Worst;
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{GuideFile, Scene};
-use sawflutter::spectrum::Assembled;
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{GuideFile, Scene};
+use sawflutter::modes::Assembled;
 use sawflutter::stability::ChosenBasis;
 
 pub struct Saw {

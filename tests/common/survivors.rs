@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};
-use sawflutter::scene::{CutFile, Scene};
+use sawflutter::model::scene::{CutFile, Scene};
 
 use crate::common::limit::Limit;
 use crate::draw::{self, Bytes};

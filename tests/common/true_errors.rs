@@ -5,9 +5,9 @@
 
 use crate::common::{AnnulusRoot, Worst, relative_error};
 use crate::promises::Saw;
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, DampingFile, InPlane, Mount, Scene, SweepFile};
-use sawflutter::spectrum::{Assembled, LowestModes, Mode};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Accuracy, DampingFile, InPlane, Mount, Scene, SweepFile};
+use sawflutter::modes::{Assembled, LowestModes, Mode};
 use sawflutter::stability::{Analysis, ChosenBasis, Instability, InstabilityKind, search_bands};
 
 /// A blade without contact, at an accuracy.

@@ -6,8 +6,8 @@
 use crate::common::{AnnulusRoot, Worst, table};
 use crate::promises::drawn_saws;
 use crate::true_errors::{Ratios, Truth, compare, compare_at_rest, compare_damped, damped_saws};
-use sawflutter::plate::Resolution;
-use sawflutter::scene::Accuracy;
+use sawflutter::model::plate::Resolution;
+use sawflutter::model::scene::Accuracy;
 
 /// At `reference`, where 1e-4 is promised, the mode of one diameter and one circle of a free blade of bore ratio 0.1
 /// converges slowly: on a small basis its frequency is 1.1 % too high.

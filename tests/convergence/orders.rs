@@ -6,9 +6,9 @@
 //! 0.02 % from there to (20, 10).
 
 use crate::common::relative_error;
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, Scene, rpm};
-use sawflutter::spectrum::SpectralModel;
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Accuracy, Scene, rpm};
+use sawflutter::modes::SpectralModel;
 
 /// The pairs of two and three diameters.
 const SPEEDS: usize = 4;

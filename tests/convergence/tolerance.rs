@@ -4,8 +4,8 @@
 
 use crate::common::Worst;
 use crate::promises::{Kept, drawn_saws, promises, saws};
-use sawflutter::plate::Resolution;
-use sawflutter::scene::{Scene, SweepFile};
+use sawflutter::model::plate::Resolution;
+use sawflutter::model::scene::{Scene, SweepFile};
 use sawflutter::stability::{Analysis, InstabilityKind};
 
 /// A basis that is large in comparison with that of 1e-2 for saws with soft pads.

@@ -5,8 +5,8 @@
 
 use std::sync::LazyLock;
 
-use sawflutter::report::{Report, SolveCounts};
-use sawflutter::scene::{Accuracy, Scene, SweepFile};
+use sawflutter::analyses::campbell::{Report, SolveCounts};
+use sawflutter::model::scene::{Accuracy, Scene, SweepFile};
 use sawflutter::stability::Analysis;
 
 fn analysis(accuracy: Accuracy, to_rpm: f64) -> (Scene, Analysis) {
@@ -46,7 +46,7 @@ fn the_report_says_how_many_solves_went_by_the_structure_of_the_matrices() {
     let guided = &*DESIGN;
     println!("{guided:?}");
     assert_eq!(guided.structured_solves, guided.full_solves);
-    let changed = |change: fn(&mut sawflutter::scene::SceneFile)| {
+    let changed = |change: fn(&mut sawflutter::model::scene::SceneFile)| {
         let scene = Scene::paper().edited(change).unwrap();
         Analysis::new(&scene).unwrap().report().work
     };

@@ -5,9 +5,9 @@
 
 use crate::common::{assert_close, scene};
 use sawflutter::analyses::fit::{FitError, Measurement, Options, Row, fit};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, Scene};
-use sawflutter::spectrum::LowestModes;
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Accuracy, Scene};
+use sawflutter::modes::LowestModes;
 use std::f64::consts::TAU;
 
 use super::numbers::{freed, with};

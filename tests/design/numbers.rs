@@ -1,6 +1,6 @@
 //! Sets and frees numbers of a scene by their paths.
 
-use sawflutter::scene::{Freed, Parameter, Scene};
+use sawflutter::model::scene::{Freed, Parameter, Scene};
 
 pub fn with(scene: &Scene, numbers: &[(&str, f64)]) -> Scene {
     let named: Vec<(Parameter, f64)> = numbers

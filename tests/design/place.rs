@@ -8,11 +8,11 @@ use sawflutter::analyses::gap;
 use sawflutter::analyses::place::{
     self, Demands, GapDemands, Options, PlaceError, PlaceReport, Tolerances,
 };
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{
     Accuracy, ContactLaw, Freed, Parameter, Scene, SideForceFile, SpeedRange, rad_per_s, rpm,
 };
-use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Instability, InstabilityKind, Onsets, undamped_bands};
 
 use super::numbers::{freed, with};

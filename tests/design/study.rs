@@ -8,7 +8,7 @@ use crate::common::{assert_close, scene};
 use sawflutter::analyses::check::{Limits, check};
 use sawflutter::analyses::gap::{Options, gap};
 use sawflutter::analyses::study::{Outcome, Saw, Study, StudyError, StudyFile};
-use sawflutter::scene::{Accuracy, ContactLaw, Scene, SideForceFile, rad_per_s, rpm};
+use sawflutter::model::scene::{Accuracy, ContactLaw, Scene, SideForceFile, rad_per_s, rpm};
 use sawflutter::stability::{Analysis, Onsets};
 
 fn free_blade() -> Scene {

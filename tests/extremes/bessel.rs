@@ -1,8 +1,8 @@
 //! Bore ratios, Poisson's ratios and nodal diameters against Bessel roots.
 
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{InPlane, Material, Mount, Scene, rad_per_s};
-use sawflutter::spectrum::{ModeKind, SpectralModel, Strategy};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{InPlane, Material, Mount, Scene, rad_per_s};
+use sawflutter::modes::{ModeKind, SpectralModel, Strategy};
 
 use crate::common::{self, AnnulusRoot};
 use crate::row::Row;

@@ -1,11 +1,11 @@
 //! Guides: soft, rigid, tiny, larger than the blade, at one place, evenly spaced.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use sawflutter::analytical::free_wave::{on_a_bed_rad_per_s, space_frequencies_rad_per_s};
-use sawflutter::analytical::point_springs::{StandingWave, critical_speeds_rad_per_s};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, GuideFile, InPlane, Mount, SceneFile, rad_per_s};
-use sawflutter::spectrum::{ModeKind, SpectralModel, Strategy};
+use sawflutter::model::analytical::free_wave::{on_a_bed_rad_per_s, space_frequencies_rad_per_s};
+use sawflutter::model::analytical::point_springs::{StandingWave, critical_speeds_rad_per_s};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Accuracy, GuideFile, InPlane, Mount, SceneFile, rad_per_s};
+use sawflutter::modes::{ModeKind, SpectralModel, Strategy};
 
 use crate::row::Row;
 use crate::saws::{SMALL, critical, paper, scene, signature, unguided};

@@ -1,9 +1,9 @@
 //! Limits of the method: the program warns of unreliable numbers, and refuses problems that would not fit into memory.
 
-use sawflutter::campbell::{CampbellError, even_speeds, sample};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, Scene, SceneFile, rad_per_s, rpm};
-use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Accuracy, Scene, SceneFile, rad_per_s, rpm};
+use sawflutter::modes::branches::{CampbellError, even_speeds, sample};
+use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::Analysis;
 
 use crate::common::relative_error;

@@ -1,8 +1,8 @@
 //! The saws with extreme numbers, and the numbers that are compared.
 
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Scene, SceneFile};
-use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Scene, SceneFile};
+use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::undamped_bands;
 
 pub const SMALL: Resolution = Resolution {

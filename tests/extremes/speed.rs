@@ -1,13 +1,13 @@
 //! Rotation speed: very slow, and so fast that the plate is a membrane.
 
 use nalgebra::{DMatrix, SymmetricEigen};
-use sawflutter::analytical::free_wave::space_frequencies_rad_per_s;
-use sawflutter::analytical::spinning_membrane::{
+use sawflutter::model::analytical::free_wave::space_frequencies_rad_per_s;
+use sawflutter::model::analytical::spinning_membrane::{
     annulus_umbrella_ratio_squared, disk_frequency_ratio_squared,
 };
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, SceneFile, rad_per_s};
-use sawflutter::spectrum::{ModeKind, SpectralModel, Strategy};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Accuracy, SceneFile, rad_per_s};
+use sawflutter::modes::{ModeKind, SpectralModel, Strategy};
 
 use crate::row::Row;
 use crate::saws::{scene, unguided};

@@ -1,7 +1,7 @@
 //! Thickness.
 
-use sawflutter::plate::Resolution;
-use sawflutter::scene::Accuracy;
+use sawflutter::model::plate::Resolution;
+use sawflutter::model::scene::Accuracy;
 
 use crate::row::Row;
 use crate::saws::{critical, paper, scaled, signature, unguided};

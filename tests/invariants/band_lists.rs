@@ -1,7 +1,7 @@
 //! The list of bands, compared with every eigenvalue of the full model: saws that an earlier search got wrong, and
 //! random saws that are computed quickly. `tests/trials/drawn_bands.rs` takes 300.
 
-use sawflutter::scene::{Accuracy, GuideFile, Scene, SceneFile, SweepFile};
+use sawflutter::model::scene::{Accuracy, GuideFile, Scene, SceneFile, SweepFile};
 use sawflutter::stability::Analysis;
 
 use crate::bands;

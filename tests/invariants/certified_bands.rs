@@ -1,8 +1,8 @@
 //! The list of instability bands is a property of the saw, not of the sweep.
 
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, Scene, rad_per_s, rpm};
-use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Accuracy, Scene, rad_per_s, rpm};
+use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::InstabilityKind;
 
 use crate::certified::{self, assert_same, bands_of};

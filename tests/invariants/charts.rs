@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 use proptest::prelude::*;
-use sawflutter::campbell::{Campbell, even_speeds, sample};
-use sawflutter::plate::Plate;
-use sawflutter::scene::{Accuracy, GuideFile, Scene, SceneFile, SweepFile};
-use sawflutter::spectrum::{ModeKind, ModeName, SpectralModel, Strategy as Solver};
+use sawflutter::model::plate::Plate;
+use sawflutter::model::scene::{Accuracy, GuideFile, Scene, SceneFile, SweepFile};
+use sawflutter::modes::branches::{Campbell, even_speeds, sample};
+use sawflutter::modes::{ModeKind, ModeName, SpectralModel, Strategy as Solver};
 use sawflutter::stability::{Analysis, InstabilityKind, chart, undamped_bands};
 
 use crate::draws::*;
@@ -50,7 +50,7 @@ fn projected_modes_are_those_of_the_full_model() {
         let speed = share / 1.6 * top;
         let plate = Plate::new(&scene(&file), SMALL);
         let model = SpectralModel::new(plate, (0.0, top), Solver::Reduced).unwrap();
-        let lambdas = |modes: Vec<sawflutter::spectrum::Mode>| -> Vec<c64> {
+        let lambdas = |modes: Vec<sawflutter::modes::Mode>| -> Vec<c64> {
             modes.iter().map(|mode| mode.lambda).collect()
         };
         let reduced = lambdas(model.modes(speed).unwrap());

@@ -1,14 +1,14 @@
 //! The bands of a range are those of a longer range, cut at its ends, also if an end is at an event or next to it.
 
 use faer::c64;
-use sawflutter::campbell::even_speeds;
-use sawflutter::plate::Plate;
-use sawflutter::scene::{Scene, SceneFile, rpm};
-use sawflutter::spectrum::{
+use sawflutter::model::plate::Plate;
+use sawflutter::model::scene::{Scene, SceneFile, rpm};
+use sawflutter::model::system::GyroscopicSystem;
+use sawflutter::modes::branches::even_speeds;
+use sawflutter::modes::{
     NamedCriticalSpeed, SpectralModel, Strategy as Solver, companion_eigenpairs,
 };
 use sawflutter::stability::{Instability, InstabilityKind, chart, undamped_bands};
-use sawflutter::system::GyroscopicSystem;
 
 use crate::damped_bands::holds;
 use crate::draws::*;

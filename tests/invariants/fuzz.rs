@@ -5,7 +5,7 @@
 
 use proptest::prelude::Rng;
 use rayon::prelude::*;
-use sawflutter::scene::{Scene, SceneFile};
+use sawflutter::model::scene::{Scene, SceneFile};
 
 use crate::draw;
 use crate::survivors::{Keys, assert_survives, rng, sawing_scenes, scenes};

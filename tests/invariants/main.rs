@@ -27,3 +27,4 @@ mod cut_ranges;
 mod damped;
 mod fuzz;
 mod properties;
+mod rooms;

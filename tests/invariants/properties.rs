@@ -8,8 +8,8 @@ use std::f64::consts::TAU;
 use crate::common::{in_units, relative_error};
 use faer::{Mat, c64};
 use proptest::prelude::*;
-use sawflutter::plate::Plate;
-use sawflutter::spectrum::ModeKind;
+use sawflutter::model::plate::Plate;
+use sawflutter::modes::ModeKind;
 
 use crate::draws::*;
 

@@ -4,8 +4,8 @@ use crate::common::{AnnulusRoot, Worst, table};
 use crate::promises::{Kept, Saw, drawn_saws, promises, saws};
 use crate::trial::{Trial, is_whole, mine};
 use crate::true_errors::{Ratios, Truth, compare, compare_at_rest, compare_damped, damped_saws};
-use sawflutter::plate::Resolution;
-use sawflutter::scene::Accuracy;
+use sawflutter::model::plate::Resolution;
+use sawflutter::model::scene::Accuracy;
 
 /// The number of comparisons that a test requires: none if the work is divided between machines.
 fn at_least(count: usize) -> usize {

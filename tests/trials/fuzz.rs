@@ -3,7 +3,7 @@
 use crate::draw;
 use crate::survivors::{Keys, assert_survives, sawing_scenes, scenes};
 use crate::trial::{Trial, mine};
-use sawflutter::scene::Scene;
+use sawflutter::model::scene::Scene;
 
 /// Tries the scenes, and counts those that are not refused.
 fn survive(name: &'static str, scenes: Vec<Scene>, survives: impl Fn(&Scene) -> bool) {

@@ -3,13 +3,13 @@
 //! Source: tests/reference/annulus_exact.csv, roots of the Bessel determinant of the
 //! Kirchhoff annulus to 16 digits, λ² = ωb²√(ρh/D), ν = 0.3; FF: both edges free (a
 //! spline blade), CF: bore clamped (a collar blade); a/b from 0.1 to 0.9, n = 0 … 6. Between
-//! them the same determinant in double precision, `sawflutter::analytical::annular_plate`.
+//! them the same determinant in double precision, `sawflutter::model::analytical::annular_plate`.
 
 use crate::common::{AnnulusRoot, Worst, of_diameters, reference_model, relative_error};
 use proptest::prelude::*;
-use sawflutter::analytical::annular_plate::{AnnularPlate, Bore};
-use sawflutter::scene::{InPlane, Material, Mount, Scene, SceneFile, rad_per_s};
-use sawflutter::spectrum::ModeKind;
+use sawflutter::model::analytical::annular_plate::{AnnularPlate, Bore};
+use sawflutter::model::scene::{InPlane, Material, Mount, Scene, SceneFile, rad_per_s};
+use sawflutter::modes::ModeKind;
 
 fn annulus(bc: &str, nu: f64, ratio: f64) -> Scene {
     let mut file: SceneFile = Scene::paper().file().clone();

@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 
 use crate::common::{Worst, of_diameters, reference_model, relative_error};
 use sawflutter::analyses::check::{Limits, check};
-use sawflutter::scene::{InPlane, Mount, Scene, rad_per_s, rpm};
-use sawflutter::spectrum::SpectralModel;
+use sawflutter::model::scene::{InPlane, Mount, Scene, rad_per_s, rpm};
+use sawflutter::modes::SpectralModel;
 use serde::Deserialize;
 
 #[derive(Deserialize)]

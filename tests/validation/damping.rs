@@ -8,10 +8,12 @@ use std::sync::LazyLock;
 
 use faer::c64;
 use nalgebra::DMatrix;
-use sawflutter::analytical::free_wave::{FreeWave, LightDamping};
-use sawflutter::plate::{HarmonicBlock, Plate, Resolution};
-use sawflutter::scene::{Accuracy, DampingFile, Scene, SceneFile, SweepFile, rad_per_s, rpm};
-use sawflutter::spectrum::{SpectralModel, Strategy};
+use sawflutter::model::analytical::free_wave::{FreeWave, LightDamping};
+use sawflutter::model::plate::{HarmonicBlock, Plate, Resolution};
+use sawflutter::model::scene::{
+    Accuracy, DampingFile, Scene, SceneFile, SweepFile, rad_per_s, rpm,
+};
+use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, InstabilityKind, StabilityState};
 
 const AIR: f64 = 6.3;
@@ -309,7 +311,7 @@ fn one_branch_of_a_chart_has_the_growth_of_a_damped_band() {
     let mut followed = 0;
     for band in &analysis.chart.instabilities {
         for (from, to) in band.counted(0.25) {
-            let follows = |branch: &sawflutter::campbell::Branch| {
+            let follows = |branch: &sawflutter::modes::branches::Branch| {
                 let mut inside = branch.points.iter().filter_map(|&point| {
                     let speed = campbell.samples[point.0].speed_rad_per_s;
                     let growth = campbell.mode(point).mode.lambda.re;
@@ -380,7 +382,7 @@ fn a_heavily_damped_blade_lists_the_modes_that_oscillate() {
     // A thin free blade wobbles at twice its speed without bending: its material does not resist this motion.
     let speed = rad_per_s(1200.0);
     let modes = damped.model.modes(speed).unwrap();
-    let wobbles = |m: &&sawflutter::spectrum::Mode| (m.lambda.im / speed - 2.0).abs() < 1e-6;
+    let wobbles = |m: &&sawflutter::modes::Mode| (m.lambda.im / speed - 2.0).abs() < 1e-6;
     let wobble = modes.iter().find(wobbles).unwrap();
     assert_eq!(wobble.growth_per_s(), 0.0, "{}", wobble.lambda);
     assert!(modes.iter().all(|m| m.growth_per_s() <= 0.0));

@@ -3,10 +3,12 @@
 use std::f64::consts::TAU;
 
 use faer::{Col, Mat, Side};
-use sawflutter::analytical::annulus::Annulus;
-use sawflutter::analytical::tilt;
-use sawflutter::plate::{BoreForce, EdgeStress, Plate, Resolution, RimForce, edge_stiffness};
-use sawflutter::scene::{Blade, Scene};
+use sawflutter::model::analytical::annulus::Annulus;
+use sawflutter::model::analytical::tilt;
+use sawflutter::model::plate::{
+    BoreForce, EdgeStress, Plate, Resolution, RimForce, edge_stiffness,
+};
+use sawflutter::model::scene::{Blade, Scene};
 
 use super::saws::{fastest, paper_cut};
 

@@ -1,19 +1,19 @@
 //! Goal: the verdict on a blade between equal, evenly spaced springs follows Chen's rules, band by
 //! band, with the growth of first-order theory and the eigenvalues of the exact equation.
 //!
-//! Source: `sawflutter::analytical::wave_coupling` and `point_springs`. The 400 mm blade between collars is swept past
+//! Source: `sawflutter::model::analytical::wave_coupling` and `point_springs`. The 400 mm blade between collars is swept past
 //! several critical speeds, with springs so weak that its bands lie apart and first order is valid. The program
 //! computes the unguided waves, one radial eigenproblem for each n; the test computes where they cross and what the
 //! springs do there.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use sawflutter::analytical::point_springs::{BodyWave, EvenSprings};
-use sawflutter::analytical::wave_coupling::{Meeting, SpaceWave};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{GuideFile, Scene};
-use sawflutter::spectrum::{SpectralModel, Strategy, companion_eigenpairs};
+use sawflutter::model::analytical::point_springs::{BodyWave, EvenSprings};
+use sawflutter::model::analytical::wave_coupling::{Meeting, SpaceWave};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{GuideFile, Scene};
+use sawflutter::model::system::GyroscopicSystem;
+use sawflutter::modes::{SpectralModel, Strategy, companion_eigenpairs};
 use sawflutter::stability::{Instability, InstabilityKind, undamped_bands};
-use sawflutter::system::GyroscopicSystem;
 
 use super::saws::collar;
 use crate::common::{Worst, relative_error};

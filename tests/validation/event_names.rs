@@ -1,10 +1,10 @@
 //! Goal: critical speeds and bands are named by the waves that make them. A very soft guide makes bands where the waves
 //! of the blade without guides cross, and they have the names of these waves.
 
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::report::{BranchCurve, InstabilityKind, Report};
-use sawflutter::scene::{Accuracy, Scene};
-use sawflutter::spectrum::{Direction, SpectralModel};
+use sawflutter::analyses::campbell::{BranchCurve, InstabilityKind, Report};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Accuracy, Scene};
+use sawflutter::modes::{Direction, SpectralModel};
 use sawflutter::stability::Analysis;
 
 fn with_pad(stiffness_n_per_m: Option<f64>) -> Report {
@@ -54,7 +54,9 @@ fn events_of_a_weak_pad_have_the_names_of_free_waves() {
     for band in &weak.instabilities {
         let crossing: Vec<(f64, String)> = match band.kind {
             InstabilityKind::Divergence => {
-                let of = |c: &sawflutter::report::CriticalSpeed| (c.rpm - band.peak_rpm).abs();
+                let of = |c: &sawflutter::analyses::campbell::CriticalSpeed| {
+                    (c.rpm - band.peak_rpm).abs()
+                };
                 let near = free
                     .critical_speeds
                     .iter()
@@ -89,7 +91,7 @@ fn events_of_a_weak_pad_have_the_names_of_free_waves() {
     }
     assert!(checked >= 6, "{checked}");
     for critical in &weak.critical_speeds {
-        let of = |c: &sawflutter::report::CriticalSpeed| (c.rpm - critical.rpm).abs();
+        let of = |c: &sawflutter::analyses::campbell::CriticalSpeed| (c.rpm - critical.rpm).abs();
         let near = free
             .critical_speeds
             .iter()

@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{Complex, DMatrix};
-use sawflutter::analytical::free_wave::FreeWave;
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{ExcitationFile, Scene, rad_per_s, rpm};
+use sawflutter::model::analytical::free_wave::FreeWave;
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{ExcitationFile, Scene, rad_per_s, rpm};
+use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::stability::{Analysis, crossings};
-use sawflutter::system::GyroscopicSystem;
 
 use super::saws::dense_analysis;
 

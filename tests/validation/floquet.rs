@@ -5,10 +5,10 @@
 //! Floquet multipliers are exp(λT).
 
 use nalgebra::{Complex, DMatrix};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Scene, rad_per_s};
-use sawflutter::spectrum::companion_eigenpairs;
-use sawflutter::system::GyroscopicSystem;
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Scene, rad_per_s};
+use sawflutter::model::system::GyroscopicSystem;
+use sawflutter::modes::companion_eigenpairs;
 
 fn dense(matrix: &faer::Mat<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, k| matrix[(i, k)])

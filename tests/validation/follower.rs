@@ -4,10 +4,10 @@
 use std::f64::consts::PI;
 
 use faer::{Col, Mat, Scale};
-use sawflutter::plate::{Contact, ContactTerms, Plate, Resolution};
-use sawflutter::scene::GuideFile;
-use sawflutter::spectrum::{ModeKind, SpectralModel, Strategy, fastest_growing};
-use sawflutter::system::GyroscopicSystem;
+use sawflutter::model::plate::{Contact, ContactTerms, Plate, Resolution};
+use sawflutter::model::scene::GuideFile;
+use sawflutter::model::system::GyroscopicSystem;
+use sawflutter::modes::{ModeKind, SpectralModel, Strategy, fastest_growing};
 
 /// A force P at a point of the blade, along the circumference of the deflected blade: its
 /// transverse component is P ∂w/(r ∂θ), so that K_n = −P φ (∂φ/∂θ)ᵀ / r.

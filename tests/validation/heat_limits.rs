@@ -1,9 +1,9 @@
 //! Goal: the temperatures that a blade tolerates agree with a search over whole computations.
 
 use crate::common::assert_close;
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Scene, rad_per_s};
-use sawflutter::spectrum::{SpectralModel, SpectrumError, Strategy};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Scene, rad_per_s};
+use sawflutter::modes::{SpectralModel, SpectrumError, Strategy};
 use sawflutter::stability::HeatLimits;
 
 use super::saws::{collar, heated, rolled, scene_with};

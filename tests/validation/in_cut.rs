@@ -5,15 +5,17 @@ use std::f64::consts::{PI, TAU};
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, c64};
 use nalgebra::DMatrix;
+use sawflutter::analyses::commands::CommandReport;
 use sawflutter::analyses::deflect::{self, deflect};
 use sawflutter::analyses::response::{self, response};
 use sawflutter::analyses::runup::runup;
-use sawflutter::analytical::free_wave::on_a_bed_rad_per_s;
-use sawflutter::commands::CommandReport;
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, Scene, SceneFile, SideForceFile, WoodFile, rad_per_s, rpm};
+use sawflutter::model::analytical::free_wave::on_a_bed_rad_per_s;
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{
+    Accuracy, Scene, SceneFile, SideForceFile, WoodFile, rad_per_s, rpm,
+};
+use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::stability::{Analysis, ChosenBasis, InstabilityKind, Onsets, StabilityState};
-use sawflutter::system::GyroscopicSystem;
 
 use crate::common::relative_error;
 

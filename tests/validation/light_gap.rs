@@ -3,8 +3,8 @@
 //! The factor of the roll tension at which the blade on two points buckles is that at which the analysis of the same blade, free in
 //! space, refuses it as buckled at rest: the two use different bases and eigenproblems.
 
-use sawflutter::scene::Scene;
-use sawflutter::spectrum::SpectrumError;
+use sawflutter::model::scene::Scene;
+use sawflutter::modes::SpectrumError;
 use sawflutter::stability::{Analysis, AnalysisError};
 
 use super::saws::scene_with;
@@ -13,7 +13,7 @@ fn rolled(eigenstrain: f64) -> Scene {
     let free = Scene::paper().edited(|file| {
         file.guides.clear();
         file.cut = None;
-        file.accuracy = sawflutter::scene::Accuracy::Draft;
+        file.accuracy = sawflutter::model::scene::Accuracy::Draft;
     });
     let membrane = serde_json::json!({
         "roll_tension": [{ "radius_m": 0.22, "width_m": 0.02, "eigenstrain": eigenstrain }],

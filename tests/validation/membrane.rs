@@ -9,9 +9,11 @@ use std::f64::consts::TAU;
 use crate::common::{Worst, of_diameters, reference_model, relative_error};
 use proptest::prelude::*;
 use sawflutter::analyses::check::{Limits, check};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{InPlane, Mount, Parameter, Scene, SceneFile, SpeedRange, rad_per_s, rpm};
-use sawflutter::spectrum::{SpectralModel, SpectrumError, Strategy};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{
+    InPlane, Mount, Parameter, Scene, SceneFile, SpeedRange, rad_per_s, rpm,
+};
+use sawflutter::modes::{SpectralModel, SpectrumError, Strategy};
 use sawflutter::stability::{Analysis, AnalysisError, HeatLimits};
 
 use super::saws::{collar, dense_analysis, heated, rolled, scene_with};

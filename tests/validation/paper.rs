@@ -9,8 +9,8 @@ use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
 use crate::common::{Worst, relative_error};
-use sawflutter::scene::{Accuracy, Scene, rad_per_s, rpm};
-use sawflutter::spectrum::{DescribedMode, Direction, ModeKind};
+use sawflutter::model::scene::{Accuracy, Scene, rad_per_s, rpm};
+use sawflutter::modes::{DescribedMode, Direction, ModeKind};
 use sawflutter::stability::{Analysis, InstabilityKind};
 use serde::Deserialize;
 

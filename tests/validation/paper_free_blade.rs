@@ -6,8 +6,8 @@
 use std::f64::consts::TAU;
 
 use crate::common::{Worst, assert_close, of_diameters, reference_model, relative_error, scene};
-use sawflutter::scene::{rad_per_s, rpm};
-use sawflutter::spectrum::{ModeKind, SpectralModel};
+use sawflutter::model::scene::{rad_per_s, rpm};
+use sawflutter::modes::{ModeKind, SpectralModel};
 use sawflutter::stability::Analysis;
 use serde::Deserialize;
 

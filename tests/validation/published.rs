@@ -5,9 +5,9 @@
 
 use serde::Deserialize;
 
-use sawflutter::report::{InstabilityKind, Report};
-use sawflutter::scene::{Accuracy, Scene, SceneFile, rad_per_s};
-use sawflutter::spectrum::{Direction, Mode, ModeKind};
+use sawflutter::analyses::campbell::{InstabilityKind, Report};
+use sawflutter::model::scene::{Accuracy, Scene, SceneFile, rad_per_s};
+use sawflutter::modes::{Direction, Mode, ModeKind};
 use sawflutter::stability::Analysis;
 
 use crate::common::{of_diameters, reference_model, relative_error};

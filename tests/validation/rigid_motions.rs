@@ -7,11 +7,11 @@
 
 use faer::c64;
 use nalgebra::{DMatrix, linalg::Schur};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{GuideFile, Scene, SceneFile, rad_per_s};
-use sawflutter::spectrum::{ModeKind, SpectralModel, Strategy, companion_eigenpairs};
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{GuideFile, Scene, SceneFile, rad_per_s};
+use sawflutter::model::system::GyroscopicSystem;
+use sawflutter::modes::{ModeKind, SpectralModel, Strategy, companion_eigenpairs};
 use sawflutter::stability::undamped_bands;
-use sawflutter::system::GyroscopicSystem;
 
 const RESOLUTION: Resolution = Resolution {
     max_diameters: 8,

@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 use sawflutter::analyses::runup::runup;
-use sawflutter::plate::Plate;
-use sawflutter::scene::{Accuracy, RunUpFile, Scene, SideForceFile, rad_per_s};
-use sawflutter::spectrum::LowestModes;
+use sawflutter::model::plate::Plate;
+use sawflutter::model::scene::{Accuracy, RunUpFile, Scene, SideForceFile, rad_per_s};
+use sawflutter::modes::LowestModes;
 use sawflutter::stability::ChosenBasis;
 
 const SPEEDS_RPM: [f64; 2] = [2540.0, 2630.0];

@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use faer::Mat;
-use sawflutter::plate::{Plate, Resolution, RimForce};
-use sawflutter::scene::{MembraneFile, Scene, rad_per_s};
-use sawflutter::spectrum::{SpectralModel, Strategy, companion_eigenpairs};
+use sawflutter::model::plate::{Plate, Resolution, RimForce};
+use sawflutter::model::scene::{MembraneFile, Scene, rad_per_s};
+use sawflutter::model::system::GyroscopicSystem;
+use sawflutter::modes::{SpectralModel, Strategy, companion_eigenpairs};
 use sawflutter::stability::{Analysis, chart};
-use sawflutter::system::GyroscopicSystem;
 
 pub fn scene_with(base: &Scene, membrane: serde_json::Value) -> Scene {
     let membrane: MembraneFile = serde_json::from_value(membrane).unwrap();

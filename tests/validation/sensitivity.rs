@@ -3,11 +3,11 @@
 
 use std::f64::consts::TAU;
 
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{
     GuideFile, InPlane, Mount, Parameter, RimFile, Scene, ThicknessRow, rad_per_s,
 };
-use sawflutter::spectrum::SpectralModel;
+use sawflutter::modes::SpectralModel;
 use sawflutter::stability::{Analysis, InstabilityKind};
 
 use super::saws::dense_analysis;

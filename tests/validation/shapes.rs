@@ -6,8 +6,8 @@
 use std::f64::consts::TAU;
 
 use faer::c64;
-use sawflutter::report::{EventShape, ModeHarmonic, Report, ShapeOccasion};
-use sawflutter::scene::{Accuracy, Scene, rad_per_s};
+use sawflutter::analyses::campbell::{EventShape, ModeHarmonic, Report, ShapeOccasion};
+use sawflutter::model::scene::{Accuracy, Scene, rad_per_s};
 use sawflutter::stability::Analysis;
 
 fn charted(scene: &Scene, asked_rpm: &[f64]) -> (Analysis, Report) {

@@ -5,10 +5,10 @@
 //! the usual shapes.
 
 use faer::{Mat, Side};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Scene, SplineFile, rad_per_s};
-use sawflutter::spline::{ReactionEffect, Run, SplineRun, reaction_effect, simulate};
-use sawflutter::system::GyroscopicSystem;
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Scene, SplineFile, rad_per_s};
+use sawflutter::model::spline::{ReactionEffect, Run, SplineRun, reaction_effect, simulate};
+use sawflutter::model::system::GyroscopicSystem;
 
 use super::saws::{fastest, paper_cut};
 

@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 use sawflutter::analyses::check::{Limits, check};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Accuracy, Scene, rad_per_s, rpm};
-use sawflutter::system::GyroscopicSystem;
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Accuracy, Scene, rad_per_s, rpm};
+use sawflutter::model::system::GyroscopicSystem;
 
 use crate::common::assert_close;
 

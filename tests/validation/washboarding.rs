@@ -9,14 +9,14 @@
 use std::f64::consts::{PI, TAU};
 
 use faer::{Mat, c64};
+use sawflutter::analyses::campbell::Verdict;
 use sawflutter::analyses::washboard::{WashboardError, WashboardReport, washboard};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::report::Verdict;
-use sawflutter::scene::{
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{
     Accuracy, DampingFile, Scene, SceneFile, WashboardingFile, WoodFile, rad_per_s,
 };
-use sawflutter::spectrum::companion_eigenpairs;
-use sawflutter::system::GyroscopicSystem;
+use sawflutter::model::system::GyroscopicSystem;
+use sawflutter::modes::companion_eigenpairs;
 
 use crate::common::relative_error;
 

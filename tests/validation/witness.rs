@@ -9,10 +9,10 @@ use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use faer::{Col, Mat, c64};
 use nalgebra::{DMatrix, linalg::Schur};
-use sawflutter::plate::{Plate, Resolution};
-use sawflutter::scene::{Scene, rad_per_s};
-use sawflutter::spectrum::{SpectralModel, Strategy, companion_eigenpairs};
-use sawflutter::system::GyroscopicSystem;
+use sawflutter::model::plate::{Plate, Resolution};
+use sawflutter::model::scene::{Scene, rad_per_s};
+use sawflutter::model::system::GyroscopicSystem;
+use sawflutter::modes::{SpectralModel, Strategy, companion_eigenpairs};
 
 /// Every scene that comes with the program.
 const SCENES: [&str; 4] = ["paper", "free-blade", "collar-400mm", "two-pads"];

@@ -6,8 +6,8 @@
 
 use std::cell::RefCell;
 
-use sawflutter::explore::{Answer, Backend, Question};
-use sawflutter::scene::Scene;
+use sawflutter::app::explore::{Answer, Backend, Question};
+use sawflutter::model::scene::Scene;
 
 #[link(wasm_import_module = "page")]
 unsafe extern "C" {

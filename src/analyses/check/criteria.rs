@@ -3,11 +3,12 @@
 use super::limits::Limits;
 use super::report::Criterion;
 use super::static_deflection::StaticDeflection;
-use crate::plate::Plate;
-use crate::scene::{Scene, rpm};
-use crate::stability::{Analysis, Evidence, Instability, InstabilityKind, Rise, flutter_onsets};
-use crate::text::{shown, shown_to};
-use crate::transient::at_point;
+use crate::model::plate::Plate;
+use crate::model::scene::{Scene, rpm};
+use crate::motion::stretched::Rise;
+use crate::motion::transient::at_point;
+use crate::page::text::{shown, shown_to};
+use crate::stability::{Analysis, Evidence, Instability, InstabilityKind, flutter_onsets};
 
 impl Limits {
     /// Evaluates every limit on critical speeds and bands.

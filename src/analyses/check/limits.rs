@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{RefusedValue, Scene, rpm, speed_rad_per_s, unusual_number};
+use crate::model::scene::{RefusedValue, Scene, rpm, speed_rad_per_s, unusual_number};
+use crate::page::text::shown;
 use crate::stability::OPERATING_LIMIT;
-use crate::text::shown;
 
 /// Limits of a saw, as options of `sawflutter check` and in the block `limits` of a study.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -2,7 +2,7 @@
 //!
 //! ```
 //! use sawflutter::prelude::*;
-//! use sawflutter::scene::rad_per_s;
+//! use sawflutter::model::scene::rad_per_s;
 //!
 //! let scene = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft)?;
 //! let limits = Limits {
@@ -14,6 +14,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub(crate) mod chart;
 mod criteria;
 mod limits;
 mod outline;
@@ -21,12 +22,15 @@ mod report;
 mod rim;
 mod static_deflection;
 
+use crate::analyses::campbell::{
+    InstabilityBand, Numbered, add_amplitudes, lifting_off, side_force_in_words,
+};
 use crate::analyses::deflect::compliance_m_per_n;
-use crate::report::{InstabilityBand, Numbered, add_amplitudes, lifting_off, side_force_in_words};
-use crate::scene::{Scene, SceneError, SpeedRange, rpm};
-use crate::spectrum::SpectrumError;
-use crate::stability::{Analysis, AnalysisError, Rise, saturations};
-use crate::stretched::StretchedError;
+use crate::model::scene::{Scene, SceneError, SpeedRange, rpm};
+use crate::modes::SpectrumError;
+use crate::motion::stretched::StretchedError;
+use crate::motion::stretched::{Rise, saturations};
+use crate::stability::{Analysis, AnalysisError};
 pub(crate) use outline::outline;
 
 use criteria::{of_gaps, without_stiffness};
@@ -187,7 +191,7 @@ fn warnings(analysis: &Analysis, limits: &Limits, compared_gaps: usize) -> Vec<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Accuracy, rad_per_s};
+    use crate::model::scene::{Accuracy, rad_per_s};
 
     /// The program ends the sweep of this saw; limits require much less, and more.
     #[test]

@@ -1,8 +1,8 @@
 //! The text of a check.
 
 use super::{CheckReport, Criterion};
-use crate::outline::Outline;
-use crate::text::shown_to;
+use crate::page::outline::Outline;
+use crate::page::text::shown_to;
 
 pub fn outline(report: &CheckReport) -> Outline {
     let mut text = Outline::of(&report.scene.name, &report.condition, &[]);

@@ -2,8 +2,8 @@
 //! space.
 
 use crate::analyses::deflect::compliance_m_per_n;
-use crate::plate::{Plate, Resolution};
-use crate::scene::Scene;
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::Scene;
 use crate::stability::{Analysis, StabilityState};
 
 /// A point load deforms the rim in waves of all lengths; the contribution of n diameters falls only with n³.
@@ -65,9 +65,9 @@ pub(crate) fn side_force_factor(analysis: &Analysis, speed_rad_per_s: f64) -> Op
 mod tests {
     use super::*;
     use crate::analyses::response::{Options, response};
-    use crate::scene::{Accuracy, ProbeFile, SideForceFile, rpm};
-    use crate::system::GyroscopicSystem;
-    use crate::transient::at_point;
+    use crate::model::scene::{Accuracy, ProbeFile, SideForceFile, rpm};
+    use crate::model::system::GyroscopicSystem;
+    use crate::motion::transient::at_point;
 
     /// A clamped blade at an operating speed, and at a share of its first critical speed.
     fn clamped(operating_rpm: f64) -> Scene {
@@ -89,7 +89,7 @@ mod tests {
         let system = GyroscopicSystem::of_plate(&plate);
         let point = at_point(&plate, rim_at_cut(&saw));
         let at_rest = compliance_m_per_n(&plate, rim_at_cut(&saw), 0.0).unwrap();
-        let waves = crate::spectrum::critical_speeds(&system).unwrap();
+        let waves = crate::modes::critical_speeds(&system).unwrap();
         let critical = waves[0].speed_rad_per_s;
         let waves = waves
             .iter()

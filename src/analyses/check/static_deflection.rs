@@ -6,12 +6,12 @@ use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale};
 
 use super::report::RimStiffness;
-use crate::plate::Plate;
-use crate::scene::{Cut, rpm};
-use crate::spectrum::orthonormal;
+use crate::model::plate::Plate;
+use crate::model::scene::{Cut, rpm};
+use crate::model::system::GyroscopicSystem;
+use crate::modes::orthonormal;
+use crate::motion::transient::{at_point, lateral_load};
 use crate::stability::{Look, bracketed};
-use crate::system::GyroscopicSystem;
-use crate::transient::{at_point, lateral_load};
 
 /// Squared speeds, relative to the squared lowest critical speed, at which the response is solved on the full
 /// model. The response is a rational function of the squared speed, which the reduced model on these responses

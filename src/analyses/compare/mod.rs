@@ -1,15 +1,16 @@
 //! Compares saws with the first of them: over the same speeds, unless their scenes name others.
 
+pub(crate) mod chart;
 mod outline;
 mod report;
 
 pub(crate) use outline::outline;
 use serde_json::Value;
 
+use crate::analyses::campbell::Report;
 use crate::analyses::check::rim_stiffness_at_rest_n_per_m;
-use crate::campbell::Progress;
-use crate::report::Report;
-use crate::scene::{Scene, in_words};
+use crate::model::scene::{Scene, in_words};
+use crate::modes::branches::Progress;
 use crate::stability::{Analysis, AnalysisError, end_of_sweep};
 
 pub use report::{CompareReport, ComparedSaw, Difference};

@@ -1,9 +1,9 @@
 //! The text of a comparison.
 
 use super::{CompareReport, ComparedSaw};
-use crate::outline::{Column, Outline, SPEED, Table, Value, shortened};
-use crate::report::Answer;
-use crate::text::fixed;
+use crate::analyses::campbell::Answer;
+use crate::page::outline::{Column, Outline, SPEED, Table, Value, shortened};
+use crate::page::text::fixed;
 
 /// Number of characters of the name of a saw.
 const NAME: usize = 22;

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::{CampbellDiagram, CriticalSpeed, InstabilityBand, OperatingPoint};
-use crate::scene::SceneFile;
+use crate::analyses::campbell::{CampbellDiagram, CriticalSpeed, InstabilityBand, OperatingPoint};
+use crate::model::scene::SceneFile;
 
 /// Report of a comparison (`compare.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::MiscountedModes;
+use crate::analyses::campbell::MiscountedModes;
 use crate::stability::GrowingModes;
 
 /// Number of growing modes in the cut and without its forces, compared with counts on the full model.
@@ -101,7 +101,7 @@ impl State<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::Growing;
+    use crate::modes::Growing;
 
     #[test]
     fn the_sentence_says_what_agrees_and_what_does_not() {

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::hertz;
 use super::history::{CutHistory, Growth};
 use super::spline::SplineOrbit;
-use crate::report::Verdict;
-use crate::scene::Scene;
+use crate::analyses::campbell::Verdict;
+use crate::model::scene::Scene;
 
 /// Verdict of a cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

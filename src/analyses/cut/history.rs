@@ -2,15 +2,15 @@
 
 use faer::Col;
 
-use crate::plate::Plate;
-use crate::scene::{CutRun, Point};
-use crate::spectrum::{Assembled, Growing, SpectrumError, companion_eigenpairs};
-use crate::stability::{CRITICAL_MARGIN, GrowingModes, critical_at};
-use crate::system::GyroscopicSystem;
-use crate::transient::{
+use crate::model::plate::Plate;
+use crate::model::scene::{CutRun, Point};
+use crate::model::system::GyroscopicSystem;
+use crate::modes::{Assembled, Growing, SpectrumError, companion_eigenpairs};
+use crate::motion::transient::{
     Gauge, Integrator, Propagator, SAMPLES, Sinusoid, State, TransientError, damped_sinusoids,
     finite, fitted_growth, lateral_load,
 };
+use crate::stability::{CRITICAL_MARGIN, GrowingModes, critical_at};
 
 use super::saw::{MODES, SawInCut};
 use super::stretched::{CutStretching, stretched_cut};

@@ -3,7 +3,7 @@
 //!
 //! ```no_run
 //! use sawflutter::analyses::cut::cut;
-//! use sawflutter::scene::Scene;
+//! use sawflutter::model::scene::Scene;
 //!
 //! let scene = Scene::paper();
 //! let runs = scene.needed_cut()?.runs_at(&[1800.0, 2800.0])?;
@@ -14,8 +14,13 @@
 //! ```
 
 mod certificate;
+pub(crate) mod chart;
+#[cfg(test)]
+mod chart_tests;
 mod criteria;
 mod history;
+pub(crate) mod map_chart;
+pub(crate) mod orbit_chart;
 mod outline;
 mod report;
 mod saw;
@@ -30,15 +35,15 @@ mod warnings;
 pub(crate) use outline::outline;
 use std::f64::consts::TAU;
 
-use crate::campbell::{Progress, even_speeds};
-use crate::plate::Plate;
-use crate::report::{Verdict, lifting_off};
-use crate::scene::{
+use crate::analyses::campbell::{Verdict, lifting_off};
+use crate::model::plate::Plate;
+use crate::model::scene::{
     Accuracy, Cut, CutRun, Scene, SceneError, SpeedRange, in_the_cut, rpm, unusual_number,
 };
-use crate::spectrum::Work;
+use crate::modes::Work;
+use crate::modes::branches::{Progress, even_speeds};
+use crate::motion::transient::{TransientError, linear_limit_m};
 use crate::stability::ChosenBasis;
-use crate::transient::{TransientError, linear_limit_m};
 
 pub use certificate::CutCertificate;
 pub use criteria::{CutCriterion, CutFinding, CutVerdict};

@@ -1,12 +1,12 @@
 //! The text of a cut.
 
 use super::{CutAtSpeed, CutCriterion, CutReport, CutVerdict};
-use crate::outline::{Column, FREQUENCY, Fact, GROWTH, LENGTH, Outline, Table, Value};
-use crate::report::Verdict;
+use crate::analyses::campbell::Verdict;
+use crate::motion::stretched::LARGEST_SLOPE;
+use crate::motion::transient::LINEAR_THICKNESSES;
+use crate::page::outline::{Column, FREQUENCY, Fact, GROWTH, LENGTH, Outline, Table, Value};
+use crate::page::text::shown_to;
 use crate::stability::CRITICAL_MARGIN;
-use crate::stretched::LARGEST_SLOPE;
-use crate::text::shown_to;
-use crate::transient::LINEAR_THICKNESSES;
 
 pub fn outline(report: &CutReport) -> Outline {
     let mut text = Outline::of(

@@ -7,8 +7,8 @@ use super::{
     CutCertificate, CutCriterion, CutFinding, CutStretching, CutVerdict, SplineOrbit, ToothPassing,
     VerdictMap,
 };
-use crate::report::Verdict;
-use crate::scene::SceneFile;
+use crate::analyses::campbell::Verdict;
+use crate::model::scene::SceneFile;
 
 /// Report of a cut (`cut.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -2,11 +2,11 @@
 
 use faer::Mat;
 
-use crate::plate::Plate;
-use crate::scene::{Cut, CutRun};
-use crate::spectrum::SpectrumError;
-use crate::system::GyroscopicSystem;
-use crate::transient::{ReducedBlade, Snapshot, lateral_load};
+use crate::model::plate::Plate;
+use crate::model::scene::{Cut, CutRun};
+use crate::model::system::GyroscopicSystem;
+use crate::modes::SpectrumError;
+use crate::motion::transient::{ReducedBlade, Snapshot, lateral_load};
 
 /// The saw with and without the forces at one speed, and its reduced basis.
 #[derive(Debug)]

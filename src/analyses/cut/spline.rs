@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 use super::criteria::growing_hz;
 use super::history::Growth;
 use super::saw::MODES;
-use crate::plate::{Plate, RimForce};
-use crate::report::Verdict;
-use crate::scene::{Cut, CutRun, Scene};
-use crate::spline::{self, reaction_effect};
-use crate::system::GyroscopicSystem;
-use crate::transient::{ReducedBlade, Snapshot, TransientError};
+use crate::analyses::campbell::Verdict;
+use crate::model::plate::{Plate, RimForce};
+use crate::model::scene::{Cut, CutRun, Scene};
+use crate::model::spline::{self, reaction_effect};
+use crate::model::system::GyroscopicSystem;
+use crate::motion::transient::{ReducedBlade, Snapshot, TransientError};
 
 /// The cut with the reaction of the simulated spline teeth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

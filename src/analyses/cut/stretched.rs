@@ -6,11 +6,11 @@ use faer::{Col, Scale};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::scene::Point;
-use crate::spectrum::Cancellation;
-use crate::stretched::StretchedBlade;
-use crate::system::GyroscopicSystem;
-use crate::transient::{
+use crate::model::scene::Point;
+use crate::model::system::GyroscopicSystem;
+use crate::modes::Cancellation;
+use crate::motion::stretched::StretchedBlade;
+use crate::motion::transient::{
     Integrator, Newmark, ReducedBlade, Snapshot, State, StretchedProbe, TransientError, forces,
     lateral_load, reduced_system,
 };
@@ -211,8 +211,8 @@ impl<'a> Samples<'a> {
 mod tests {
     use super::*;
     use crate::analyses::cut::history::cut_history;
-    use crate::plate::{Plate, Resolution};
-    use crate::scene::{Cut, CutRun, Scene, rad_per_s};
+    use crate::model::plate::{Plate, Resolution};
+    use crate::model::scene::{Cut, CutRun, Scene, rad_per_s};
 
     fn plate() -> Plate {
         let resolution = Resolution {

@@ -2,11 +2,11 @@
 //! implementation.
 
 use super::*;
-use crate::plate::Resolution;
-use crate::scene::SceneFile;
-use crate::spectrum::fastest_growing;
-use crate::system::GyroscopicSystem;
-use crate::transient::{Integrator, Propagator, State, at_point};
+use crate::model::plate::Resolution;
+use crate::model::scene::SceneFile;
+use crate::model::system::GyroscopicSystem;
+use crate::modes::fastest_growing;
+use crate::motion::transient::{Integrator, Propagator, State, at_point};
 use faer::Col;
 
 const SMALL: Resolution = Resolution {

@@ -11,12 +11,12 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::linalg::real_eigenvalues;
-use crate::plate::RimForce;
-use crate::scene::{Point, Tooth, rad_per_s};
-use crate::spectrum::{Growing, SpectrumError};
-use crate::system::GyroscopicSystem;
-use crate::transient::{
+use crate::model::linalg::real_eigenvalues;
+use crate::model::plate::RimForce;
+use crate::model::scene::{Point, Tooth, rad_per_s};
+use crate::model::system::GyroscopicSystem;
+use crate::modes::{Growing, SpectrumError};
+use crate::motion::transient::{
     Gauge, Integrator, Propagator, ReducedBlade, State, TransientError, finite, lateral_load,
 };
 

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::*;
-use crate::plate::{Plate, Resolution};
-use crate::scene::{Cut, CutRun, Scene, TeethInCut};
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::{Cut, CutRun, Scene, TeethInCut};
 
 const SMALL: Resolution = Resolution {
     max_diameters: 6,

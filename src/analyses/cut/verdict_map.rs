@@ -7,12 +7,12 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::campbell::Progress;
-use crate::report::Verdict;
-use crate::scene::Scene;
-use crate::spectrum::{Growing, SpectrumError};
-use crate::system::GyroscopicSystem;
-use crate::transient::{ReducedBlade, Snapshot, TransientError, lateral_load};
+use crate::analyses::campbell::Verdict;
+use crate::model::scene::Scene;
+use crate::model::system::GyroscopicSystem;
+use crate::modes::branches::Progress;
+use crate::modes::{Growing, SpectrumError};
+use crate::motion::transient::{ReducedBlade, Snapshot, TransientError, lateral_load};
 
 use super::history::Growth;
 use super::saw::SawInCut;

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use super::{CutAtSpeed, CutCriterion, CutVerdict};
-use crate::report::Verdict;
-use crate::stretched::LARGEST_SLOPE;
-use crate::transient::LINEAR_THICKNESSES;
+use crate::analyses::campbell::Verdict;
+use crate::motion::stretched::LARGEST_SLOPE;
+use crate::motion::transient::LINEAR_THICKNESSES;
 
 /// Beyond this many thicknesses a plate stretches as it bends and is stiffer than the linear model.
 const SMALL_THICKNESSES: f64 = 1.0;

@@ -4,13 +4,13 @@ use faer::Col;
 
 use super::pressed::{steep, under};
 use super::{DeflectError, Options};
-use crate::plate::{Plate, Resolution};
-use crate::scene::{Scene, SideForce, rad_per_s};
-use crate::spectrum::{Cancellation, Work};
-use crate::stability::Analysis;
-use crate::stretched::{
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::{Scene, SideForce, rad_per_s};
+use crate::modes::{Cancellation, Work};
+use crate::motion::stretched::{
     Branch, Equilibrium, Extent, LARGEST_SLOPE, StretchedBlade, StretchedError, Sweep,
 };
+use crate::stability::Analysis;
 
 /// Initial number of modes at rest, in addition to the shapes that diverge and the response to the force.
 /// With 24 the deflection of the paper's saw changes by less than 1 % if more are added.

@@ -1,14 +1,14 @@
 //! Equilibria of a blade that stretches while its speed slowly rises and falls, under a side force.
 //!
 //! The linear model gives the speeds at which the flat blade is unstable, but not the deflection that
-//! results. With the potential of [`stretched`](crate::stretched) the blade deflects to one side and has an
+//! results. With the potential of [`stretched`](crate::motion::stretched) the blade deflects to one side and has an
 //! equilibrium there. [`deflect`] follows the stable equilibria for rising and falling speed, including jumps
 //! from one to another, and computes the unstable ones between them and the frequencies of small motions
 //! about each.
 //!
 //! ```
 //! use sawflutter::analyses::deflect::{Options, deflect};
-//! use sawflutter::scene::{Accuracy, Scene};
+//! use sawflutter::model::scene::{Accuracy, Scene};
 //!
 //! let scene = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft)?;
 //! let options = Options { to_rpm: Some(1800.0) };
@@ -18,6 +18,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub(crate) mod chart;
 mod equilibria;
 mod outline;
 mod point_load;
@@ -32,9 +33,9 @@ pub(crate) use point_load::compliance_m_per_n;
 pub use pressed::Options;
 pub use report::{Arc, DeflectReport, EquilibriumCurve, Jump, SlowSweep, Turn};
 
-use crate::scene::{RefusedValue, Scene, SceneError};
+use crate::model::scene::{RefusedValue, Scene, SceneError};
+use crate::motion::stretched::StretchedError;
 use crate::stability::AnalysisError;
-use crate::stretched::StretchedError;
 
 use equilibria::Equilibria;
 use point_load::basis_error;

@@ -1,10 +1,10 @@
 //! The text of equilibria over speed.
 
 use super::{Arc, DeflectReport, Jump, SlowSweep};
-use crate::outline::{Column, FREQUENCY, LENGTH, Outline, SPEED, Table, Value};
-use crate::scene::ContactLaw;
-use crate::stretched::{LARGEST_SLOPE, TurnKind};
-use crate::text::shown_to;
+use crate::model::scene::ContactLaw;
+use crate::motion::stretched::{LARGEST_SLOPE, TurnKind};
+use crate::page::outline::{Column, FREQUENCY, LENGTH, Outline, SPEED, Table, Value};
+use crate::page::text::shown_to;
 
 /// Number of evenly spaced speeds in the table.
 const SPEEDS: usize = 12;

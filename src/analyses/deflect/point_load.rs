@@ -2,11 +2,11 @@
 
 use faer::linalg::solvers::Solve;
 
-use crate::plate::Plate;
-use crate::scene::Scene;
+use crate::model::plate::Plate;
+use crate::model::scene::Scene;
+use crate::model::system::GyroscopicSystem;
+use crate::motion::transient::at_point;
 use crate::stability::ahead;
-use crate::system::GyroscopicSystem;
-use crate::transient::at_point;
 
 /// φᵀ K(Ω)⁻¹ φ in m/N with the basis functions φ at a place, a radius in m and an angle in rad: deflection over force at a point fixed in space
 /// while the saw turns. `None` if rigid motions are free, and where K(Ω) is singular.
@@ -46,8 +46,8 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
-    use crate::plate::Resolution;
-    use crate::stretched::basis_tests::saws;
+    use crate::model::plate::Resolution;
+    use crate::motion::stretched::basis_tests::saws;
 
     const fn basis(max_diameters: usize, radial_functions: usize) -> Resolution {
         Resolution {

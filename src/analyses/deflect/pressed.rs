@@ -1,9 +1,9 @@
 //! The range of speeds, and a blade under the side force.
 
-use crate::plate::Plate;
-use crate::scene::{RefusedValue, SideForce, speed_rad_per_s};
-use crate::stretched::{LARGEST_SLOPE, StretchedBlade, StretchedError};
-use crate::text::{rounded_down, shown_to};
+use crate::model::plate::Plate;
+use crate::model::scene::{RefusedValue, SideForce, speed_rad_per_s};
+use crate::motion::stretched::{LARGEST_SLOPE, StretchedBlade, StretchedError};
+use crate::page::text::{rounded_down, shown_to};
 
 /// Options of the computation of equilibria.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 
 use super::report::{Arc, EquilibriumCurve, Jump, SlowSweep, Turn};
-use crate::scene::{Point, rpm};
-use crate::stretched::{
+use crate::model::scene::{Point, rpm};
+use crate::motion::stretched::{
     Branch, Equilibrium, LARGEST_SLOPE, Sites, StretchedBlade, StretchedError, Sweep,
 };
 

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::{CampbellDiagram, CriticalSpeed, InstabilityBand};
-use crate::scene::SceneFile;
-use crate::stretched::TurnKind;
+use crate::analyses::campbell::{CampbellDiagram, CriticalSpeed, InstabilityBand};
+use crate::model::scene::SceneFile;
+use crate::motion::stretched::TurnKind;
 
 /// Report of the equilibria over speed (`deflect.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -5,10 +5,10 @@ use faer::Col;
 use super::equilibria::MODES;
 use super::pressed::under;
 use super::*;
-use crate::plate::Plate;
-use crate::scene::{Accuracy, SideForceFile, rad_per_s};
+use crate::model::plate::Plate;
+use crate::model::scene::{Accuracy, SideForceFile, rad_per_s};
+use crate::motion::stretched::Equilibrium;
 use crate::stability::ChosenBasis;
-use crate::stretched::Equilibrium;
 
 /// The paper's saw under a side force.
 fn pressed(force: SideForceFile) -> Scene {
@@ -71,7 +71,7 @@ fn a_small_force_deflects_a_slow_blade_as_the_linear_model_says() {
     };
     let report = deflect(&pressed(force), &options).unwrap();
     let plate = plate(1000.0);
-    let system = crate::system::GyroscopicSystem::of_plate(&plate);
+    let system = crate::model::system::GyroscopicSystem::of_plate(&plate);
     let values = plate.functions_at(plate.blade.outer_radius_m, 90_f64.to_radians());
     let place = Col::from_fn(values.len(), |i| values[i]);
     for arc in &report.up.arcs {

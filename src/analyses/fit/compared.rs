@@ -4,9 +4,9 @@ use rayon::prelude::*;
 
 use super::model::frequencies_hz;
 use super::{Curves, Measurement, Residual};
-use crate::plate::{Plate, Resolution};
-use crate::scene::Scene;
-use crate::spectrum::{LowestModes, SpectrumError};
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::Scene;
+use crate::modes::{LowestModes, SpectrumError};
 
 /// A saw before and after a fit.
 pub struct Compared {

@@ -1,7 +1,7 @@
 //! Errors of a fit.
 
-use crate::scene::SceneError;
-use crate::spectrum::SpectrumError;
+use crate::model::scene::SceneError;
+use crate::modes::SpectrumError;
 use crate::stability::AnalysisError;
 
 /// Reason for which a fit failed.

@@ -1,6 +1,6 @@
 //! Measured frequencies, and their assignment to computed ones.
 
-use crate::scene::{Measured, MeasuredRow, quantity};
+use crate::model::scene::{Measured, MeasuredRow, quantity};
 
 use super::FitError;
 use super::table::{TableRow, read, wrong};

@@ -8,8 +8,8 @@
 //!
 //! ```
 //! use sawflutter::analyses::fit::{Measurement, Options, fit};
-//! use sawflutter::plate::Resolution;
-//! use sawflutter::scene::{Freed, Scene};
+//! use sawflutter::model::plate::Resolution;
+//! use sawflutter::model::scene::{Freed, Scene};
 //!
 //! let scene = Scene::paper();
 //! let measured = scene.file().measured.as_ref().expect("the paper's Table 5");
@@ -22,6 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub(crate) mod chart;
 mod compared;
 mod error;
 mod measurement;
@@ -33,12 +34,12 @@ mod solve;
 mod starts;
 mod table;
 
-use crate::campbell::{Progress, even_speeds};
-use crate::plate::Resolution;
-use crate::scene::{
+use crate::model::plate::Resolution;
+use crate::model::scene::{
     Freed, Scene, SceneError, SceneFile, effective, rad_per_s, scene_at, unusual_number,
 };
-use crate::spectrum::SpectrumError;
+use crate::modes::SpectrumError;
+use crate::modes::branches::{Progress, even_speeds};
 use crate::stability::ChosenBasis;
 pub(crate) use outline::outline;
 

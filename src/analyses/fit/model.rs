@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 
 use basin::DenseMatrix;
 
-use crate::plate::{Plate, Resolution};
-use crate::scene::{Freed, Scene, SceneError, SceneFile, rad_per_s, scene_at};
-use crate::spectrum::{
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::{Freed, Scene, SceneError, SceneFile, rad_per_s, scene_at};
+use crate::model::system::GyroscopicSystem;
+use crate::modes::{
     Component, Differences, LowestModes, Mode, SpectrumError, derivative, matrix_slopes,
 };
-use crate::system::GyroscopicSystem;
 
 use super::Measurement;
 

@@ -1,8 +1,8 @@
 //! Options of a fit.
 
 use super::Measurement;
-use crate::plate::Resolution;
-use crate::scene::RefusedValue;
+use crate::model::plate::Resolution;
+use crate::model::scene::RefusedValue;
 
 /// Confidence, starts and speeds of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,8 +2,8 @@
 
 use super::{FitReport, FittedParameter};
 use crate::analyses::changed::changed;
-use crate::outline::{Column, FREQUENCY, Fact, Outline, SPEED, Table, Value};
-use crate::text::shown_to;
+use crate::page::outline::{Column, FREQUENCY, Fact, Outline, SPEED, Table, Value};
+use crate::page::text::shown_to;
 
 /// Number of speeds of which the text shows the deviations.
 const SPEEDS: usize = 20;

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Measurement;
-use crate::scene::SceneFile;
+use crate::model::scene::SceneFile;
 
 /// Report of a fit (`fit.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -7,8 +7,8 @@ use basin::{
 use faer::Mat;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use crate::linalg::RightSingular;
-use crate::spectrum::SpectrumError;
+use crate::model::linalg::RightSingular;
+use crate::modes::SpectrumError;
 
 use super::model::Model;
 

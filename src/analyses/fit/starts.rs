@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use super::model::Model;
 use super::solve::{Found, minimum};
 use super::{Options, Start};
-use crate::campbell::Progress;
-use crate::scene::spread;
-use crate::spectrum::SpectrumError;
+use crate::model::scene::spread;
+use crate::modes::SpectrumError;
+use crate::modes::branches::Progress;
 
 /// Largest number of starts with different results that are refined.
 const REFINED: usize = 3;

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use crate::report::InstabilityBand;
-use crate::scene::{ContactLaw, GuideFile, GuideSide, Scene, rpm};
-use crate::spectrum::Work;
+use crate::analyses::campbell::InstabilityBand;
+use crate::model::scene::{ContactLaw, GuideFile, GuideSide, Scene, rpm};
+use crate::modes::Work;
 use crate::stability::Analysis;
 
 use super::GapError;

@@ -15,9 +15,9 @@ use std::f64::consts::TAU;
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, c64};
 
-use crate::linalg::real_eigenvalues;
-use crate::system::GyroscopicSystem;
-use crate::transient::Force;
+use crate::model::linalg::real_eigenvalues;
+use crate::model::system::GyroscopicSystem;
+use crate::motion::transient::Force;
 
 /// A force that depends on the displacement.
 #[derive(Clone, Copy)]

@@ -160,7 +160,7 @@ fn one_harmonic_is_the_describing_function() {
 #[test]
 fn the_growth_of_a_linear_motion_is_its_eigenvalue() {
     let system = pair();
-    let expected = crate::spectrum::companion_eigenpairs(&system, SPEED).unwrap();
+    let expected = crate::modes::companion_eigenpairs(&system, SPEED).unwrap();
     let slowest = expected
         .iter()
         .map(|(lambda, _)| *lambda)

@@ -1,8 +1,8 @@
 //! The deflection at the cut, and the forces of the pads, over gap, side force and speed.
 
-use crate::campbell::even_speeds;
-use crate::scene::Scene;
-use crate::spectrum::Work;
+use crate::model::scene::Scene;
+use crate::modes::Work;
+use crate::modes::branches::even_speeds;
 use crate::stability::Analysis;
 
 use super::GapError;
@@ -42,7 +42,7 @@ pub(super) fn deviation_map(
 ) -> Result<DeviationMap, GapError> {
     let scene = &analysis.scene;
     let force_n = scene.file().side_force_n();
-    let end_rpm = crate::scene::rpm(analysis.range_rad_per_s.1);
+    let end_rpm = crate::model::scene::rpm(analysis.range_rad_per_s.1);
     let blade_of = |scene: &Scene, modes: usize| {
         let resolution = analysis.model.plate.resolution;
         PressedBlade::new(scene, resolution, end_rpm.max(rpm), modes)

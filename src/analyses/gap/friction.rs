@@ -5,12 +5,12 @@
 //! the deflection under the side force and the forces of the pads: the loop is repeated until the temperature no longer
 //! changes. The effect of the force of friction on the motion is neglected.
 
-use crate::scene::{
+use crate::model::scene::{
     self, FrictionFile, Guide, Scene, TemperatureFile, TemperatureRow, rad_per_s, typical_value,
 };
-use crate::spectrum::{SpectrumError, Work};
+use crate::modes::{SpectrumError, Work};
+use crate::motion::stretched::StretchedError;
 use crate::stability::Analysis;
-use crate::stretched::StretchedError;
 
 use super::GapError;
 use super::deviation::MODES;

@@ -7,8 +7,8 @@
 
 use std::f64::consts::TAU;
 
-use crate::campbell::even_speeds;
-use crate::scene::Blade;
+use crate::model::scene::Blade;
+use crate::modes::branches::even_speeds;
 
 /// Conduction and convection of a blade.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,8 +76,8 @@ pub(super) fn rises_k(blade: &Blade, cooling: &Cooling, sources: &[(f64, f64)]) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analytical::ring_source::CooledDisk;
-    use crate::scene::Scene;
+    use crate::model::analytical::ring_source::CooledDisk;
+    use crate::model::scene::Scene;
 
     const COOLING: Cooling = Cooling {
         conductivity_w_per_m_k: 45.0,

@@ -6,13 +6,13 @@
 //! * [`AtAmplitude`]: critical speeds, bands and flutter speed with the stiffness that the guides have on average
 //!   over an oscillation of a given amplitude.
 //! * [`DeviationMap`]: the stationary deflection at the cut, and the forces of the pads, over gap, side force and speed,
-//!   from the equilibria of [`stretched`](crate::stretched).
+//!   from the equilibria of [`stretched`](crate::motion::stretched).
 //! * [`Oscillation`], only if something makes the blade oscillate: its periodic motion, at a speed and over the speed.
 //! * [`FrictionHeat`], only for a scene with `friction`: the heat of the pads, and the blade that it deforms.
 //!
 //! ```no_run
 //! use sawflutter::analyses::gap::{Options, gap};
-//! use sawflutter::scene::Scene;
+//! use sawflutter::model::scene::Scene;
 //!
 //! let report = gap(&Scene::from_path("saw.json")?, &Options::default())?;
 //! println!("{:?}", report.half_way_amplitude_m);
@@ -21,12 +21,16 @@
 
 mod amplitude;
 mod balance;
+pub(crate) mod chart;
 mod deviation;
 mod friction;
+pub(crate) mod friction_chart;
 mod heated_disk;
+pub(crate) mod map_chart;
 mod numbers;
 mod oscillating_blade;
 mod oscillation;
+pub(crate) mod oscillation_chart;
 mod oscillation_report;
 mod oscillators;
 mod outline;
@@ -47,13 +51,13 @@ use friction::Heated;
 use oscillation::oscillation;
 use oscillators::Oscillators;
 
-use crate::scene::{
+use crate::model::scene::{
     Blade, Bore, Guide, RefusedValue, Scene, SceneError, rad_per_s, rpm, speed_rad_per_s,
 };
-use crate::spectrum::SpectrumError;
+use crate::modes::SpectrumError;
+use crate::motion::stretched::{LARGEST_SLOPE, StretchedError};
+use crate::page::text::shown_to;
 use crate::stability::{Analysis, AnalysisError};
-use crate::stretched::{LARGEST_SLOPE, StretchedError};
-use crate::text::shown_to;
 
 /// Reason for which the guides of a saw could not be evaluated.
 #[derive(Debug, thiserror::Error)]

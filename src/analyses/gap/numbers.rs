@@ -1,8 +1,8 @@
 //! Numbers of one saw with guides with a gap, for studies and placements of many.
 
-use crate::plate::{Plate, Resolution};
-use crate::scene::{RefusedValue, Scene, rpm, speed_rad_per_s};
-use crate::spectrum::Assembled;
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::{RefusedValue, Scene, rpm, speed_rad_per_s};
+use crate::modes::Assembled;
 
 use super::amplitude::at_amplitude;
 use super::deviation::MODES;

@@ -5,12 +5,12 @@ use std::f64::consts::TAU;
 use faer::{Col, Mat, c64};
 
 use crate::analyses::response::{Load, State, loads, rigid, solution};
-use crate::plate::{Plate, Resolution};
-use crate::scene::{Scene, rpm};
-use crate::spectrum::Cancellation;
-use crate::stretched::{Sites, StretchedBlade};
-use crate::system::GyroscopicSystem;
-use crate::transient::reduced_system;
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::{Scene, rpm};
+use crate::model::system::GyroscopicSystem;
+use crate::modes::Cancellation;
+use crate::motion::stretched::{Sites, StretchedBlade};
+use crate::motion::transient::reduced_system;
 
 use super::GapError;
 use super::balance::{Balance, Growth, Periodic, Term};

@@ -7,8 +7,8 @@
 
 use rayon::prelude::*;
 
-use crate::scene::rpm;
-use crate::spectrum::Work;
+use crate::model::scene::rpm;
+use crate::modes::Work;
 use crate::stability::Analysis;
 
 use super::GapError;

@@ -7,12 +7,12 @@ use faer::{Col, Mat, c64};
 use super::*;
 use crate::analyses::gap::{Options, OscillationPlace, gap};
 use crate::analyses::response::{Options as ResponseOptions, response};
-use crate::plate::Resolution;
-use crate::scene::{
+use crate::model::plate::Resolution;
+use crate::model::scene::{
     Accuracy, ContactLaw, DampingFile, GuideFile, ResponseFile, Scene, SideForceFile, SweepFile,
     rad_per_s,
 };
-use crate::transient::{Force, Integrator, Newmark, State as MovingState};
+use crate::motion::transient::{Force, Integrator, Newmark, State as MovingState};
 
 /// The built-in saw with damping and a lack of flatness.
 fn saw(change: impl FnOnce(&mut GuideFile)) -> Scene {

@@ -1,6 +1,6 @@
 //! Causes of an oscillation: a side force, and a shape or an imbalance that turns with the blade.
 
-use crate::scene::{OscillatingForce, RefusedValue, ResponseFile, Scene};
+use crate::model::scene::{OscillatingForce, RefusedValue, ResponseFile, Scene};
 
 /// Causes of an oscillation.
 #[derive(Debug, Clone, Copy, PartialEq)]

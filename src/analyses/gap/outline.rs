@@ -1,10 +1,10 @@
 //! The text of guides with a gap.
 
 use super::{AtAmplitude, DeviationMap, FrictionHeat, GapReport, Oscillation, OscillationAt};
-use crate::outline::{
+use crate::page::outline::{
     Column, FORCE, FREQUENCY, Fact, KELVIN, LENGTH, Outline, PERCENT, SPEED, Table, Value,
 };
-use crate::text::shown_to;
+use crate::page::text::shown_to;
 
 /// The tables list every third force and gap; the report contains all of them.
 const EVERY: usize = 3;

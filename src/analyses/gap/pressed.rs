@@ -1,9 +1,9 @@
 //! Stationary deflection of a blade under a side force.
 
-use crate::plate::{Plate, Resolution};
-use crate::scene::{Scene, rad_per_s};
-use crate::spectrum::Cancellation;
-use crate::stretched::{Equilibrium, LARGEST_SLOPE, Sites, StretchedBlade};
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::{Scene, rad_per_s};
+use crate::modes::Cancellation;
+use crate::motion::stretched::{Equilibrium, LARGEST_SLOPE, Sites, StretchedBlade};
 
 use super::GapError;
 

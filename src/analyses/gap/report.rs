@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use super::oscillation_report::Oscillation;
 
-use crate::report::InstabilityBand;
-use crate::scene::SceneFile;
-use crate::text::shown_to;
+use crate::analyses::campbell::InstabilityBand;
+use crate::model::scene::SceneFile;
+use crate::page::text::shown_to;
 
 /// Report of a saw whose guides have a gap (`gap.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

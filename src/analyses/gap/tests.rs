@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 
 use super::pressed::Deviation;
 use super::*;
-use crate::scene::{Accuracy, ContactLaw, FrictionFile, Scene, SideForceFile};
+use crate::model::scene::{Accuracy, ContactLaw, FrictionFile, Scene, SideForceFile};
 
 fn lifting(gap_m: f64) -> Scene {
     let scene = Scene::paper().edited(|file| {
         (file.accuracy, file.operating_rpm) = (Accuracy::Draft, Some(1000.0));
-        file.sweep = Some(crate::scene::SweepFile {
+        file.sweep = Some(crate::model::scene::SweepFile {
             from_rpm: 0.0,
             to_rpm: 2000.0,
         });
@@ -151,9 +151,9 @@ fn what_cannot_be_answered_is_refused() {
 fn a_gap_that_the_blade_cannot_cross_is_refused_before_any_work() {
     let clamped = |gap_m: f64| {
         let scene = lifting(gap_m).edited(|file| {
-            file.mount = crate::scene::Mount::Collar {
+            file.mount = crate::model::scene::Mount::Collar {
                 diameter_m: 0.2,
-                in_plane: crate::scene::InPlane::Free,
+                in_plane: crate::model::scene::InPlane::Free,
             };
             file.guides[0].radius_m = 0.2;
             (
@@ -176,7 +176,7 @@ fn a_gap_that_the_blade_cannot_cross_is_refused_before_any_work() {
     let study = GapCase::new(&clamped(0.02), &options, None).unwrap_err();
     assert_eq!(study.to_string(), message);
     // A cancelled computation ends before its first eigenproblem.
-    let cancelled = crate::spectrum::Cancellation::default();
+    let cancelled = crate::modes::Cancellation::default();
     cancelled.cancel();
     let answer = cancelled.watched(|| gap(&clamped(0.02), &options));
     assert_eq!(answer.unwrap().unwrap_err().to_string(), message);
@@ -192,7 +192,7 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
     let scene = Scene::from_json(json).unwrap().edited(|file| {
         file.accuracy = Accuracy::Draft;
         file.side_force = Some(SideForceFile::of(30.0));
-        file.guides = vec![crate::scene::GuideFile {
+        file.guides = vec![crate::model::scene::GuideFile {
             radius_m: 0.17,
             angle_deg: 0.0,
             radial_length_m: 0.0,
@@ -218,7 +218,7 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
         heat.power_w
     );
     let blade = analysis.scene.blade();
-    let disk = crate::analytical::ring_source::CooledDisk {
+    let disk = crate::model::analytical::ring_source::CooledDisk {
         inner_radius_m: blade.inner_radius_m,
         outer_radius_m: blade.outer_radius_m,
         thickness_m: blade.thickness_m,
@@ -247,7 +247,7 @@ fn pads_with_one_offset_move_the_blade_by_it() {
         let scene = lifting(4e-5).edited(|file| {
             let pad = file.guides[0];
             file.guides = [-55.0, 65.0, 185.0]
-                .map(|angle_deg| crate::scene::GuideFile {
+                .map(|angle_deg| crate::model::scene::GuideFile {
                     angle_deg,
                     offset_m,
                     ..pad
@@ -255,7 +255,7 @@ fn pads_with_one_offset_move_the_blade_by_it() {
                 .to_vec();
         });
         let scene = scene.unwrap();
-        let resolution = crate::plate::Resolution {
+        let resolution = crate::model::plate::Resolution {
             max_diameters: 8,
             radial_functions: 4,
         };
@@ -281,7 +281,7 @@ fn an_offset_changes_the_mean_stiffness() {
             sin * ((w - 1.0).max(0.0) - (-w - 1.0).max(0.0))
         };
         let harmonic = 2.0 / count as f64 * (0..count).map(force).sum::<f64>() / amplitude;
-        let guide = crate::scene::GuideFile {
+        let guide = crate::model::scene::GuideFile {
             stiffness_n_per_m: 1.0,
             gap_m: Some(1.0),
             offset_m: offset,

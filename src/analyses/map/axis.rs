@@ -2,8 +2,8 @@
 
 use super::{MapAxis, Range};
 use crate::analyses::study::{DistributionFile, ParameterFile, StudyError, check_varies};
-use crate::scene::{Freed, Quantity, Scene, is_logarithmic};
-use crate::text::shown;
+use crate::model::scene::{Freed, Quantity, Scene, is_logarithmic};
+use crate::page::text::shown;
 
 impl MapAxis {
     /// `points` values of a range, whose ends are exact; `key` names the axis in errors.

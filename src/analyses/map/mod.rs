@@ -7,7 +7,7 @@
 //!
 //! ```
 //! use sawflutter::analyses::map::{Options, Range, map};
-//! use sawflutter::scene::{Accuracy, Scene};
+//! use sawflutter::model::scene::{Accuracy, Scene};
 //!
 //! let scene = Scene::paper().edited(|saw| {
 //!     saw.accuracy = Accuracy::Draft;
@@ -23,6 +23,7 @@
 //! ```
 
 mod axis;
+pub(crate) mod chart;
 mod contour;
 mod outline;
 mod report;
@@ -32,8 +33,8 @@ pub(crate) use outline::outline;
 pub use report::{Contour, Contoured, MapAxis, MapReport, MappedSaw};
 
 use crate::analyses::study::{Study, StudyError, StudyFile};
-use crate::campbell::Progress;
-use crate::scene::{RefusedValue, Scene, rpm, speed_rad_per_s};
+use crate::model::scene::{RefusedValue, Scene, rpm, speed_rad_per_s};
+use crate::modes::branches::Progress;
 use crate::stability::end_of_sweep;
 
 /// Numbers of points along an axis, of a map over the speed and of a map over two numbers, if none is given.

@@ -2,9 +2,9 @@
 
 use super::{MapAxis, MapReport, MappedSaw};
 use crate::analyses::study::accuracy_of_saws;
-use crate::outline::{Column, Outline, PLAIN, SPEED, Table, Value};
+use crate::page::outline::{Column, Outline, PLAIN, SPEED, Table, Value};
+use crate::page::text::{shown, shown_to};
 use crate::stability::{CRITICAL_MARGIN, StabilityState};
-use crate::text::{shown, shown_to};
 
 /// Number of evenly spaced saws in the table.
 const SAWS: usize = 12;

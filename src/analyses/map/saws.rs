@@ -2,9 +2,9 @@
 
 use super::contour::contours;
 use super::{Contour, Contoured, Map, MapReport, MappedSaw};
+use crate::analyses::campbell::InstabilityBand;
 use crate::analyses::study::{Found, LogError, Rows, Saw};
-use crate::report::InstabilityBand;
-use crate::scene::rpm;
+use crate::model::scene::rpm;
 use crate::stability::{StabilityState, critical_at};
 
 impl Map {

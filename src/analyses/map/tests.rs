@@ -1,7 +1,7 @@
 use super::contour::contours;
 use super::saws::state_at;
 use super::{Contour, Contoured};
-use crate::report::InstabilityBand;
+use crate::analyses::campbell::InstabilityBand;
 use crate::stability::{InstabilityKind, StabilityState};
 
 fn grid(size: usize, value: impl Fn(f64, f64) -> f64) -> Vec<Vec<Option<f64>>> {

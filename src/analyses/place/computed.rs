@@ -1,8 +1,8 @@
 //! Result of a saw in a placement.
 
 use crate::analyses::gap::GapError;
-use crate::plate::Resolution;
-use crate::scene::{Scene, rpm};
+use crate::model::plate::Resolution;
+use crate::model::scene::{Scene, rpm};
 use crate::stability::{
     Certificate, Evidence, Instability, flutter_onsets, resolved, search_bands,
 };

@@ -2,9 +2,11 @@
 
 use super::Goal;
 use crate::analyses::gap::{self, GapCase};
-use crate::plate::Resolution;
-use crate::scene::{Kind, Parameter, Quantity, RefusedValue, Scene, rad_per_s, speed_rad_per_s};
-use crate::text::shown;
+use crate::model::plate::Resolution;
+use crate::model::scene::{
+    Kind, Parameter, Quantity, RefusedValue, Scene, rad_per_s, speed_rad_per_s,
+};
+use crate::page::text::shown;
 
 /// The goal of a placement, and its limits.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,8 +1,8 @@
 //! Errors of a placement.
 
 use crate::analyses::gap::GapError;
-use crate::scene::SceneError;
-use crate::spectrum::SpectrumError;
+use crate::model::scene::SceneError;
+use crate::modes::SpectrumError;
 use crate::stability::AnalysisError;
 
 /// Reason for which a placement failed.

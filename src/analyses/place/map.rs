@@ -1,7 +1,7 @@
 //! Map of the goal over two of the freed numbers.
 
-use crate::campbell::even_speeds;
-use crate::scene::Quantity;
+use crate::model::scene::Quantity;
+use crate::modes::branches::even_speeds;
 
 use super::search::{Search, Tried};
 use super::{GoalMap, Outcome, Progress};

@@ -12,8 +12,8 @@
 //!
 //! ```
 //! use sawflutter::analyses::place::{Demands, Options, place};
-//! use sawflutter::plate::Resolution;
-//! use sawflutter::scene::{Freed, Scene};
+//! use sawflutter::model::plate::Resolution;
+//! use sawflutter::model::scene::{Freed, Scene};
 //!
 //! let scene = Scene::paper();
 //! let radius = Freed::new(scene.file(), "guides[0].radius_m", 0.18, 0.28)?;
@@ -25,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub(crate) mod chart;
 mod computed;
 mod demands;
 mod error;
@@ -41,9 +42,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use crate::report::{InstabilityBand, statement};
-use crate::scene::{Freed, Scene, SceneError, effective, rpm};
-use crate::spectrum::Cancellation;
+use crate::analyses::campbell::{InstabilityBand, statement};
+use crate::model::scene::{Freed, Scene, SceneError, effective, rpm};
+use crate::modes::Cancellation;
 use crate::stability::ChosenBasis;
 
 use computed::{Computed, Question, REFUSED};

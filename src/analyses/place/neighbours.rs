@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::scene::{rpm, scene_at};
+use crate::model::scene::{rpm, scene_at};
 use crate::stability::{Instability, InstabilityKind};
 
 use super::Neighbour;

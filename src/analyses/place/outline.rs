@@ -2,8 +2,8 @@
 
 use super::{FragileOptimum, Goal, Neighbour, Outcome, PlaceReport, PlacedParameter};
 use crate::analyses::changed::changed;
-use crate::outline::{Column, Fact, LENGTH, Outline, SPEED, Table};
-use crate::text::shown_to;
+use crate::page::outline::{Column, Fact, LENGTH, Outline, SPEED, Table};
+use crate::page::text::shown_to;
 
 pub fn outline(report: &PlaceReport) -> Outline {
     let mut text = Outline::of(

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::InstabilityBand;
-use crate::scene::{Kind, Quantity, SceneFile};
-use crate::text::shown_to;
+use crate::analyses::campbell::InstabilityBand;
+use crate::model::scene::{Kind, Quantity, SceneFile};
+use crate::page::text::shown_to;
 
 /// Report of a placement (`place.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -19,7 +19,7 @@ use basin::{
 };
 use rayon::prelude::*;
 
-use crate::scene::{Freed, SceneFile, scene_at, spread};
+use crate::model::scene::{Freed, SceneFile, scene_at, spread};
 
 use super::computed::{Computed, Question, REFUSED};
 use super::neighbours::worst_cost;

@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use crate::plate::Resolution;
-use crate::scene::{Freed, Scene, SceneError, scene_at};
+use crate::model::plate::Resolution;
+use crate::model::scene::{Freed, Scene, SceneError, scene_at};
 use crate::stability::ChosenBasis;
 
 use super::computed::Computed;

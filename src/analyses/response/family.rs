@@ -8,8 +8,8 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Col, Mat, Par, Scale, Side, c64};
 use rayon::prelude::*;
 
-use crate::spectrum::{Cancellation, SpectrumError};
-use crate::system::{GyroscopicSystem, dynamic_stiffness};
+use crate::model::system::{GyroscopicSystem, dynamic_stiffness};
+use crate::modes::{Cancellation, SpectrumError};
 
 /// A speed and a frequency, in rad/s.
 #[derive(Debug, Clone, Copy, PartialEq)]

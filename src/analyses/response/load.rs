@@ -11,9 +11,9 @@
 use faer::{Col, c64};
 
 use super::report::Cause;
-use crate::linalg::SymmetricEigen;
-use crate::plate::Plate;
-use crate::scene::Scene;
+use crate::model::linalg::SymmetricEigen;
+use crate::model::plate::Plate;
+use crate::model::scene::Scene;
 
 /// A load f e^{ikΩt}.
 #[derive(Debug, Clone)]

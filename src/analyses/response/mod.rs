@@ -8,6 +8,7 @@
 //! No steady state exists where the saw is unstable, and without damping none exists at a resonance: amplitudes beyond the
 //! linear model are not reported.
 
+pub(crate) mod chart;
 mod family;
 mod load;
 mod options;
@@ -28,8 +29,8 @@ pub use report::{
     Cause, FrequencyResponse, OperatingResponse, Resonance, ResponseLine, ResponseReport,
 };
 
-use crate::scene::{RefusedValue, Scene, SceneError, USUAL_SIDE_FORCE_N, rpm};
-use crate::spectrum::SpectrumError;
+use crate::model::scene::{RefusedValue, Scene, SceneError, USUAL_SIDE_FORCE_N, rpm};
+use crate::modes::SpectrumError;
 use crate::stability::{Analysis, AnalysisError};
 use solver::Solver;
 use speeds::{resonances, speeds};

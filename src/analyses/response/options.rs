@@ -1,7 +1,7 @@
 //! The speed and the range of the frequency response.
 
-use crate::scene::{RefusedValue, rad_per_s, rpm, speed_rad_per_s};
-use crate::text::shown;
+use crate::model::scene::{RefusedValue, rad_per_s, rpm, speed_rad_per_s};
+use crate::page::text::shown;
 
 /// Options of [`response`](super::response()).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -1,8 +1,8 @@
 //! The text of a response.
 
 use super::{ResponseLine, ResponseReport};
-use crate::outline::{Column, FREQUENCY, Fact, LENGTH, Outline, SPEED, Table};
-use crate::text::shown_to;
+use crate::page::outline::{Column, FREQUENCY, Fact, LENGTH, Outline, SPEED, Table};
+use crate::page::text::shown_to;
 
 pub fn outline(report: &ResponseReport) -> Outline {
     let mut text = Outline::of(

@@ -7,9 +7,9 @@ use faer::{Col, c64};
 use super::family::{State, readings};
 use super::report::FrequencyResponse;
 use super::solver::Solver;
-use crate::campbell::even_speeds;
-use crate::scene::rpm;
-use crate::spectrum::SpectrumError;
+use crate::model::scene::rpm;
+use crate::modes::SpectrumError;
+use crate::modes::branches::even_speeds;
 use crate::stability::{Analysis, StabilityState};
 
 /// Number of evenly spaced frequencies.

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::InstabilityBand;
-use crate::scene::SceneFile;
+use crate::analyses::campbell::InstabilityBand;
+use crate::model::scene::SceneFile;
 
 /// Report of steady-state responses (`response.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

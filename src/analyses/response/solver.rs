@@ -7,12 +7,12 @@ use faer::{Col, c64};
 use super::family::{State, readings};
 use super::load::Load;
 use super::report::{Cause, Resonance, ResponseLine};
-use crate::plate::Plate;
-use crate::scene::{Scene, rpm};
-use crate::spectrum::SpectrumError;
+use crate::model::plate::Plate;
+use crate::model::scene::{Scene, rpm};
+use crate::model::system::GyroscopicSystem;
+use crate::modes::SpectrumError;
+use crate::motion::transient::{at_point, linear_limit_m};
 use crate::stability::{Analysis, StabilityState};
-use crate::system::GyroscopicSystem;
-use crate::transient::{at_point, linear_limit_m};
 
 /// Complex amplitudes w of deflections w e^{ikΩt}.
 #[derive(Debug, Clone, Copy, PartialEq)]

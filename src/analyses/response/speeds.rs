@@ -1,8 +1,8 @@
 //! Speeds at which the response is computed.
 
-use crate::campbell::even_speeds;
-use crate::scene::ExcitationLine;
-use crate::spectrum::SpectrumError;
+use crate::model::scene::ExcitationLine;
+use crate::modes::SpectrumError;
+use crate::modes::branches::even_speeds;
 use crate::stability::{Analysis, crossings};
 
 /// Number of evenly spaced speeds.

@@ -5,14 +5,14 @@ use std::f64::consts::TAU;
 
 use super::family::{reading, readings, solution};
 use super::*;
-use crate::campbell::even_speeds;
-use crate::plate::{Plate, Resolution};
-use crate::scene::{
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::{
     Accuracy, DampingFile, GuideFile, InPlane, Mount, ResponseFile, SideForceFile, SweepFile,
     rad_per_s,
 };
+use crate::model::system::GyroscopicSystem;
+use crate::modes::branches::even_speeds;
 use crate::stability::{ChosenBasis, StabilityState};
-use crate::system::GyroscopicSystem;
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, c64};
 
@@ -20,7 +20,7 @@ use faer::{Col, Mat, c64};
 fn scene(
     force: SideForceFile,
     response: ResponseFile,
-    edit: impl FnOnce(&mut crate::scene::SceneFile),
+    edit: impl FnOnce(&mut crate::model::scene::SceneFile),
 ) -> Scene {
     let scene = Scene::paper().edited(|saw| {
         saw.accuracy = Accuracy::Draft;
@@ -37,7 +37,7 @@ fn plate(scene: &Scene) -> Plate {
     chosen.unwrap().saw.plate
 }
 
-fn clamped_free_blade(saw: &mut crate::scene::SceneFile) {
+fn clamped_free_blade(saw: &mut crate::model::scene::SceneFile) {
     saw.guides.clear();
     saw.cut = None;
     saw.spline = None;
@@ -50,7 +50,7 @@ fn clamped_free_blade(saw: &mut crate::scene::SceneFile) {
 /// Independent value: the solution of the full matrices at each state, also beside resonances.
 #[test]
 fn states_on_few_solutions_are_those_of_the_full_matrices() {
-    let damping = |saw: &mut crate::scene::SceneFile| {
+    let damping = |saw: &mut crate::model::scene::SceneFile| {
         saw.damping = Some(DampingFile {
             material_retardation_time_s: 2e-6,
             air_n_s_per_m3: 3.0,

@@ -1,9 +1,9 @@
 //! Remarks on the validity of the result.
 
 use super::report::ResponseLine;
-use crate::scene::rad_per_s;
+use crate::model::scene::rad_per_s;
+use crate::page::text::shown;
 use crate::stability::{Analysis, StabilityState};
-use crate::text::shown;
 
 /// Remarks of the chart, and on the lines; `assumed_force_n` is the side force of a scene without an excitation.
 pub(super) fn warnings(

@@ -1,9 +1,11 @@
 //! The saw during a run-up: its deflection over the speed, the growth in each band, and the response to a harmonic force.
 //!
 //! [`runup`](runup()) integrates the motion of the blade under the constant side force while its speed rises, see
-//! [`transient`](crate::transient), and reports it beside the bands over the same speeds, each with the growth that its
+//! [`transient`](crate::motion::transient), and reports it beside the bands over the same speeds, each with the growth that its
 //! eigenvalue explains.
 
+pub(crate) mod chart;
+pub(crate) mod map_chart;
 mod outline;
 mod report;
 
@@ -12,17 +14,17 @@ pub use report::{ResponseMap, RunUpBand, RunUpReport, RunUpStretching};
 
 use std::f64::consts::{LN_2, TAU};
 
-use crate::campbell::Progress;
-use crate::plate::Plate;
-use crate::report::InstabilityBand;
-use crate::scene::{Point, RunUpFile, Scene, SceneError, SceneFile, SideForce, rpm};
-use crate::spectrum::Mode;
-use crate::stability::Analysis;
-use crate::text::shown;
-use crate::transient::{
+use crate::analyses::campbell::InstabilityBand;
+use crate::model::plate::Plate;
+use crate::model::scene::{Point, RunUpFile, Scene, SceneError, SceneFile, SideForce, rpm};
+use crate::modes::Mode;
+use crate::modes::branches::Progress;
+use crate::motion::transient::{
     StretchedRunUp, TransientError, band_exponents, linear_limit_m, response_map, run_up,
     stretched_run_up,
 };
+use crate::page::text::shown;
+use crate::stability::Analysis;
 
 /// Number of speeds and of frequencies of the response map.
 const MAP_SIZE: (usize, usize) = (200, 150);

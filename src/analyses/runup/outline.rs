@@ -1,9 +1,9 @@
 //! The text of a run-up.
 
 use super::RunUpReport;
-use crate::outline::{Column, Fact, LENGTH, Outline, PLAIN, SPEED, TIME, Table, Value};
-use crate::stretched::LARGEST_SLOPE;
-use crate::transient::LINEAR_THICKNESSES;
+use crate::motion::stretched::LARGEST_SLOPE;
+use crate::motion::transient::LINEAR_THICKNESSES;
+use crate::page::outline::{Column, Fact, LENGTH, Outline, PLAIN, SPEED, TIME, Table, Value};
 
 pub fn outline(report: &RunUpReport) -> Outline {
     let mut text = Outline::of(

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::{CampbellDiagram, CriticalSpeed, InstabilityBand};
-use crate::scene::SceneFile;
+use crate::analyses::campbell::{CampbellDiagram, CriticalSpeed, InstabilityBand};
+use crate::model::scene::SceneFile;
 
 /// Report of a run-up (`runup.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

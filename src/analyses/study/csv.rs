@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use super::plan::Study;
 use super::saw::{Found, Outcome, STATUS, Saw};
 use super::table::Table;
-use crate::report::InstabilityBand;
+use crate::analyses::campbell::InstabilityBand;
 use crate::stability::InstabilityKind;
 
 /// A table of saws as comma-separated values.

@@ -3,8 +3,8 @@
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::file::{DistributionFile, StudyError};
-use crate::scene::RefusedValue;
-use crate::text::shown;
+use crate::model::scene::RefusedValue;
+use crate::page::text::shown;
 
 /// Range of the truncation, in standard deviations: a smaller one makes a normal distribution nearly uniform, a larger
 /// one has no effect.

@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::analyses::check::LimitsFile;
-use crate::scene::{RefusedValue, SceneError};
+use crate::model::scene::{RefusedValue, SceneError};
+use crate::page::text::{KeyedError, from_keyed_json};
 use crate::stability::AnalysisError;
-use crate::text::{KeyedError, from_keyed_json};
 
 /// Numbers of a scene that vary, their distributions, and limits of the saws.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::file::StudyFile;
 use super::plan::Study;
-use crate::scene::SceneFile;
+use crate::model::scene::SceneFile;
 
 /// The scene, the study and the version of the program, on which the result of a saw depends.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -75,7 +75,7 @@ fn brief(value: &Value) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
+    use crate::model::scene::Scene;
 
     #[test]
     fn the_number_that_differs_is_named() {

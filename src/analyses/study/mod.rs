@@ -5,7 +5,7 @@
 //! finished, from which a stopped study is resumed.
 //!
 //! ```
-//! use sawflutter::scene::{Accuracy, Scene};
+//! use sawflutter::model::scene::{Accuracy, Scene};
 //! use sawflutter::analyses::study::{StudyFile, study};
 //!
 //! let scene = Scene::paper().edited(|saw| {
@@ -22,6 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub(crate) mod chart;
 mod counts;
 mod csv;
 mod distribution;
@@ -69,8 +70,8 @@ pub use report::{
 };
 pub use saw::{Found, Outcome, Saw};
 
-use crate::campbell::Progress;
-use crate::scene::Scene;
+use crate::model::scene::Scene;
+use crate::modes::branches::Progress;
 
 /// Analyses the saws of a study on all threads, in memory, and returns their statistics.
 ///

@@ -3,10 +3,10 @@
 use super::{
     GapStatistics, Group, NumberStatistics, Passing, Reliability, SpeedStatistics, StudyReport,
 };
-use crate::outline::{
+use crate::page::outline::{
     Column, Fact, LENGTH, Outline, PERCENT, PLAIN, SPEED, Table, Value, shortened,
 };
-use crate::text::{shown, shown_to};
+use crate::page::text::{shown, shown_to};
 
 /// Number of rows of the table of a grid that a text shows.
 const POINTS: usize = 24;
@@ -20,7 +20,7 @@ const REASON: usize = 68;
 pub fn outline(report: &StudyReport) -> Outline {
     let mut text = Outline::default();
     let saws = format!("{} saws of {}", report.all.saws, report.scene.name);
-    text.sentence(shortened(&report.study.name, crate::outline::WIDTH));
+    text.sentence(shortened(&report.study.name, crate::page::outline::WIDTH));
     text.heading(&saws, &report.condition);
     for entry in &report.study.parameters {
         text.reason(entry.to_string());
@@ -84,7 +84,7 @@ fn quantiles(text: &mut Outline, report: &StudyReport) {
 type NamedNumber<'a> = (
     &'static str,
     &'a NumberStatistics,
-    &'static crate::outline::Measure,
+    &'static crate::page::outline::Measure,
 );
 
 /// Deflection, pad force and critical speed of guides with a gap.

@@ -13,9 +13,11 @@ use super::file::{GapFile, StudyError, StudyFile};
 use super::sequence::{DIMENSIONS, even};
 use crate::analyses::check::{Criterion, Limits, LimitsFile};
 use crate::analyses::gap::{self, GapCase};
-use crate::plate::Resolution;
-use crate::scene::{Given, Parameter, RefusedValue, Scene, SceneError, SceneFile, speed_rad_per_s};
-use crate::spectrum::SpectrumError;
+use crate::model::plate::Resolution;
+use crate::model::scene::{
+    Given, Parameter, RefusedValue, Scene, SceneError, SceneFile, speed_rad_per_s,
+};
+use crate::modes::SpectrumError;
 use crate::stability::{AnalysisError, ChosenBasis, Evidence, end_of_sweep};
 
 /// Largest number of saws; their log has a size of about 600 GB.

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::file::StudyFile;
-use crate::scene::SceneFile;
+use crate::model::scene::SceneFile;
 
 /// Quantiles and probabilities of a study, and its inputs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::plan::Study;
 use super::saw::Saw;
-use crate::spectrum::Cancellation;
+use crate::modes::Cancellation;
 
 impl Study {
     /// Analyses all saws on all threads of the current pool, and returns them in the order of their numbers. Calls

@@ -5,9 +5,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use serde::{Deserialize, Serialize};
 
 use super::plan::Study;
+use crate::analyses::campbell::InstabilityBand;
 use crate::analyses::gap::{GapError, GapNumbers};
-use crate::report::InstabilityBand;
-use crate::scene::{Scene, rpm};
+use crate::model::scene::{Scene, rpm};
 use crate::stability::{CRITICAL_MARGIN, Evidence, Onsets};
 
 /// A saw and its result.

@@ -14,7 +14,7 @@ use super::report::{
 use super::rows::Rows;
 use super::saw::{Found, Saw};
 use super::table::Table;
-use crate::scene::rpm;
+use crate::model::scene::rpm;
 use crate::stability::OPERATING_LIMIT;
 
 /// Largest number of saws that were not analysed in the list of the report; the table contains all.

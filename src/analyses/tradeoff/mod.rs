@@ -1,15 +1,16 @@
 //! Measured run time against true error, for several methods and sizes of the basis.
 
+pub mod chart;
 mod setting;
 
 use std::time::Instant;
 
 pub use setting::{Method, Setting};
 
-use crate::campbell::Progress;
-use crate::plate::{Plate, Resolution};
-use crate::scene::Scene;
-use crate::spectrum::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::Scene;
+use crate::modes::branches::Progress;
+use crate::modes::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
 use crate::stability::{
     AnalysisError, ChosenBasis, InstabilityKind, LADDER, PAST_THE_RANGE, chart, diameters_beyond,
     resolution,

@@ -8,12 +8,12 @@ use nalgebra::DMatrix;
 
 use super::WashboardError;
 use super::delayed::DelayedSaw;
-use crate::linalg::{SymmetricEigen, symmetric_eigenvalues};
-use crate::plate::{Contact, ContactTerms, Plate, Resolution};
-use crate::scene::{Cut, CutRun, Scene, SpeedRange, Washboarding, rpm};
-use crate::spectrum::SpectrumError;
+use crate::model::linalg::{SymmetricEigen, symmetric_eigenvalues};
+use crate::model::plate::{Contact, ContactTerms, Plate, Resolution};
+use crate::model::scene::{Cut, CutRun, Scene, SpeedRange, Washboarding, rpm};
+use crate::model::system::GyroscopicSystem;
+use crate::modes::SpectrumError;
 use crate::stability::{ChosenBasis, DENSE_LADDER};
-use crate::system::GyroscopicSystem;
 
 /// The saw in the cut, reduced to its lower modes.
 #[derive(Debug)]

@@ -3,7 +3,7 @@
 use faer::c64;
 use std::f64::consts::PI;
 
-use crate::spectrum::turn_along;
+use crate::modes::turn_along;
 
 use super::delayed::{Boundary, DelayedSaw};
 

@@ -3,7 +3,7 @@
 
 use faer::c64;
 
-use crate::scene::Washboarding;
+use crate::model::scene::Washboarding;
 
 /// h(λ) = 1 − μ/p Σ e^(−λτ_j) over the p pitches that repeat around the blade: every tooth passes a given
 /// place of the wood once a turn.

@@ -6,10 +6,10 @@
 use faer::{Mat, c64};
 use nalgebra::DMatrix;
 
-use crate::linalg::{complex_eigenvalues, view};
-use crate::scene::Washboarding;
-use crate::spectrum::SpectrumError;
-use crate::system::GyroscopicSystem;
+use crate::model::linalg::{complex_eigenvalues, view};
+use crate::model::scene::Washboarding;
+use crate::model::system::GyroscopicSystem;
+use crate::modes::SpectrumError;
 
 use super::delay::Delay;
 use super::transfer::Transfer;

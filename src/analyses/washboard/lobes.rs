@@ -9,9 +9,9 @@ use super::WashboardError;
 use super::count::LoopGains;
 use super::delayed::{Boundary, DelayedSaw};
 use super::report::Lobes;
-use crate::campbell::{Progress, even_speeds};
-use crate::scene::rpm;
-use crate::spectrum::Cancellation;
+use crate::model::scene::rpm;
+use crate::modes::Cancellation;
+use crate::modes::branches::{Progress, even_speeds};
 
 /// The boundary at one speed.
 #[derive(Debug, Clone, Copy)]

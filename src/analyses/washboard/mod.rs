@@ -18,6 +18,7 @@
 //! for teeth that are not evenly spaced, and for the mean over the passing teeth.
 
 mod basis;
+pub(crate) mod chart;
 mod count;
 mod delay;
 mod delayed;
@@ -41,10 +42,10 @@ use self::count::LoopGains;
 use self::lobes::{DIAGRAM, lobe_points};
 use self::modes::described;
 use self::warnings::{unusual_numbers, warnings};
-use crate::campbell::Progress;
-use crate::report::Verdict;
-use crate::scene::{CutRun, MAX_CUTTING_STIFFNESS, Scene, SceneError, in_the_cut};
-use crate::spectrum::SpectrumError;
+use crate::analyses::campbell::Verdict;
+use crate::model::scene::{CutRun, MAX_CUTTING_STIFFNESS, Scene, SceneError, in_the_cut};
+use crate::modes::SpectrumError;
+use crate::modes::branches::Progress;
 use crate::stability::AnalysisError;
 
 /// Reason for which an analysis of washboarding failed.
@@ -94,7 +95,7 @@ pub enum WashboardError {
 const CEILING: f64 = 1e3;
 
 /// Analyses the washboarding of a saw at and around one speed of the scene's cut, see
-/// [`Cut::at_rpm`](crate::scene::Cut::at_rpm).
+/// [`Cut::at_rpm`](crate::model::scene::Cut::at_rpm).
 ///
 /// # Errors
 /// [`WashboardError`].

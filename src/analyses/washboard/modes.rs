@@ -9,8 +9,8 @@ use super::basis::Motions;
 use super::delayed::DelayedSaw;
 use super::report::WashboardMode;
 use super::roots::{Root, roots_with_all_growing};
-use crate::scene::{CutRun, Washboarding};
-use crate::spectrum::{ModeName, classify, split};
+use crate::model::scene::{CutRun, Washboarding};
+use crate::modes::{ModeName, classify, split};
 
 /// Waves that a motion leaves on the board.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,11 +1,11 @@
 //! The text of a washboarding analysis.
 
 use super::{WashboardMode, WashboardReport};
-use crate::outline::{
+use crate::analyses::campbell::Verdict;
+use crate::page::outline::{
     Column, FREQUENCY, Fact, GROWTH, LENGTH, METRES, Outline, STIFFNESS, Table, Value,
 };
-use crate::report::Verdict;
-use crate::text::shown_to;
+use crate::page::text::shown_to;
 
 pub fn outline(report: &WashboardReport) -> Outline {
     let mut text = Outline::of(

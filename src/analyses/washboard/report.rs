@@ -4,9 +4,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::report::Verdict;
-use crate::scene::SceneFile;
-use crate::spectrum::Direction;
+use crate::analyses::campbell::Verdict;
+use crate::model::scene::SceneFile;
+use crate::modes::Direction;
 
 /// Report of a washboarding analysis (`washboard.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

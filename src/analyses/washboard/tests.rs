@@ -9,10 +9,10 @@ use super::count::LoopGains;
 use super::delayed::DelayedSaw;
 use super::modes::Pattern;
 use super::roots::{right_of_axis, roots_with_all_growing};
-use crate::analytical::regenerative::OneMode;
-use crate::scene::{TeethInCut, Washboarding, WashboardingFile};
-use crate::spectrum::companion_eigenpairs;
-use crate::system::GyroscopicSystem;
+use crate::model::analytical::regenerative::OneMode;
+use crate::model::scene::{TeethInCut, Washboarding, WashboardingFile};
+use crate::model::system::GyroscopicSystem;
+use crate::modes::companion_eigenpairs;
 
 const MODE: OneMode = OneMode {
     frequency_rad_per_s: 300.0,

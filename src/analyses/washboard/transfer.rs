@@ -4,9 +4,9 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 use nalgebra::DMatrix;
 
-use crate::scene::rpm;
-use crate::spectrum::{SpectrumError, companion_eigenpairs, time_scale};
-use crate::system::GyroscopicSystem;
+use crate::model::scene::rpm;
+use crate::model::system::GyroscopicSystem;
+use crate::modes::{SpectrumError, companion_eigenpairs, time_scale};
 
 /// G(λ) = Bᵀ L(λ)⁻¹ B = F + Σ_k b_k c_k/(λ − λ_k) over all 2m eigenvalues of the saw without delay, with the
 /// flexibility F of the omitted shapes; r × r, in m/N if P = BBᵀ is that of 1 N/m.
@@ -150,9 +150,9 @@ impl States {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plate::{Plate, Resolution};
-    use crate::scene::{DampingFile, Scene, rad_per_s};
-    use crate::system::dynamic_stiffness;
+    use crate::model::plate::{Plate, Resolution};
+    use crate::model::scene::{DampingFile, Scene, rad_per_s};
+    use crate::model::system::dynamic_stiffness;
 
     /// Reference: a factorization of L(λ) at each λ.
     #[test]

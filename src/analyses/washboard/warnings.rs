@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use super::basis::Motions;
 use super::report::WashboardReport;
-use crate::scene::{SceneFile, unusual_number};
-use crate::text::shown_to;
+use crate::model::scene::{SceneFile, unusual_number};
+use crate::page::text::shown_to;
 
 /// Unusual numbers of the scene, and of a speed of the cut that it does not list.
 pub(super) fn unusual_numbers(scene: &SceneFile, rpm: f64) -> Vec<String> {

@@ -1,9 +1,9 @@
 use std::sync::LazyLock;
 
 use super::*;
-use crate::plate::{Plate, Resolution};
-use crate::scene::{Accuracy, Scene, rad_per_s, rpm};
-use crate::spectrum::Strategy;
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::{Accuracy, Scene, rad_per_s, rpm};
+use crate::modes::Strategy;
 use crate::stability::undamped::search_speeds;
 
 fn paper(accuracy: Accuracy) -> (SpectralModel, Vec<f64>) {

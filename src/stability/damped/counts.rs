@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use faer::c64;
 
 use super::spectrum::{Solver, Spectrum};
-use crate::spectrum::{FullModel, SpectralModel, SpectrumError};
+use crate::modes::{FullModel, SpectralModel, SpectrumError};
 use crate::stability::band::Instability;
 use crate::stability::certified::drawn_share;
 use crate::stability::mode_counts::MiscountedModes;
@@ -117,9 +117,9 @@ fn window(listed: &[c64], highest: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plate::{Plate, Resolution};
-    use crate::scene::{Accuracy, Scene, rad_per_s};
-    use crate::spectrum::Strategy;
+    use crate::model::plate::{Plate, Resolution};
+    use crate::model::scene::{Accuracy, Scene, rad_per_s};
+    use crate::modes::Strategy;
 
     /// A count detects a growing eigenvalue that is absent from a list, and a listed one that does not exist.
     #[test]

@@ -7,7 +7,7 @@
 use faer::c64;
 
 use super::spectrum::finite;
-use crate::spectrum::smallest;
+use crate::modes::smallest;
 use crate::stability::band::CurvePoint;
 use crate::stability::group::Sloped;
 use crate::stability::pieces::{Grouped, Piece};

@@ -6,8 +6,8 @@ use super::super::band::{CurvePoint, Instability, InstabilityKind};
 use super::super::interpolation::Cubic;
 use super::super::root::{Look, bracketed};
 use super::spectrum::Solver;
-use crate::spectrum::SpectrumError;
-use crate::tuned::Tuned;
+use crate::model::tuned::Tuned;
+use crate::modes::SpectrumError;
 
 /// Relative accuracy in speed of onsets, peaks and minima of growth.
 const SPEED_TOLERANCE: f64 = 1e-12;

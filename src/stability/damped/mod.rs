@@ -21,9 +21,9 @@ use super::options::AnalysisOptions;
 use super::partition::Plane;
 use super::pieces::{Piece, Search};
 use super::undamped::with_critical_speeds;
-use crate::campbell::{self, SpeedSample};
-use crate::spectrum::{Mode, SpectralModel, SpectrumError, clear_range};
-use crate::tuned::Tuned;
+use crate::model::tuned::Tuned;
+use crate::modes::branches::{self, SpeedSample};
+use crate::modes::{Mode, SpectralModel, SpectrumError, clear_range};
 use counts::Counts;
 pub(super) use counts::counted_in_window;
 use spectrum::{Solver, Spectrum, noise};
@@ -46,7 +46,7 @@ pub(super) fn charted(
     let speeds = with_critical_speeds(
         (&model.plate, &model.critical),
         drawn,
-        campbell::even_speeds(drawn, count),
+        branches::even_speeds(drawn, count),
     );
     let closeness = Closeness::of(options.detail);
     let searched = || {
@@ -54,7 +54,7 @@ pub(super) fn charted(
         options.report(&model.critical, range, Some(&found.0));
         Ok::<_, AnalysisError>(found)
     };
-    let sampled = || campbell::sample(model, &speeds, options.progress);
+    let sampled = || branches::sample(model, &speeds, options.progress);
     let (found, samples) = rayon::join(searched, sampled);
     let ((instabilities, certificate), mut samples) = (found?, samples?);
     let drawn = instabilities.iter();
@@ -63,7 +63,7 @@ pub(super) fn charted(
     drawn.sort_by(f64::total_cmp);
     drawn.dedup();
     drawn.retain(|s| samples.iter().all(|sample| sample.speed_rad_per_s != *s));
-    samples.extend(campbell::sample(model, &drawn, &|_, _| ())?);
+    samples.extend(branches::sample(model, &drawn, &|_, _| ())?);
     Ok((samples, instabilities, certificate))
 }
 
@@ -112,7 +112,7 @@ fn bands(
     closeness: Closeness,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let solver = Solver::new(model, range)?;
-    let speeds = campbell::even_speeds(range, SEARCH_SPEEDS);
+    let speeds = branches::even_speeds(range, SEARCH_SPEEDS);
     let searched: Vec<(Vec<Piece>, Vec<Instability>)> = (0..solver.components())
         .into_par_iter()
         .map(|component| searched(&solver, component, &speeds, closeness.tolerance))

@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
-use crate::spectrum::waves::{self, WaveModel};
-use crate::spectrum::{SpectralModel, SpectrumError, smallest};
+use crate::modes::waves::{self, WaveModel};
+use crate::modes::{SpectralModel, SpectrumError, smallest};
 use crate::stability::group::Sloped;
 use crate::stability::partition::{BESIDES, Sample};
 use crate::stability::pieces::Piece;
@@ -180,9 +180,9 @@ pub fn finite(slope: c64) -> c64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plate::{Plate, Resolution};
-    use crate::scene::{Scene, rad_per_s};
-    use crate::spectrum::Strategy;
+    use crate::model::plate::{Plate, Resolution};
+    use crate::model::scene::{Scene, rad_per_s};
+    use crate::modes::Strategy;
 
     /// Dampers stronger than their springs: of their real eigenvalues one is within the reach and the next one beyond it, and
     /// conjugates lie symmetrically about the middle nevertheless.

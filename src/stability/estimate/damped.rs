@@ -2,9 +2,9 @@
 
 use faer::c64;
 
-use crate::spectrum::{DescribedMode, SpectrumError, companion_eigenpairs};
+use crate::model::system::GyroscopicSystem;
+use crate::modes::{DescribedMode, SpectrumError, companion_eigenpairs};
 use crate::stability::band::Instability;
-use crate::system::GyroscopicSystem;
 
 /// Number of subdivisions of twice the width of a damped band in the search for its largest growth. On random
 /// saws the true error was up to 0.9 times the estimate; with half as many subdivisions, or with two modes

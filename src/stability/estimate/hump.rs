@@ -1,9 +1,9 @@
 //! Flutter of two coalesced modes in small systems: changes of onset and growth by a larger basis.
 
 use super::{BandError, magnitude};
-use crate::spectrum::{HamiltonianReduction, State};
+use crate::model::system::GyroscopicSystem;
+use crate::modes::{HamiltonianReduction, State};
 use crate::stability::band::Instability;
-use crate::system::GyroscopicSystem;
 
 /// Relative changes of onset and growth between two systems, in which σ² of the pair is nearly a parabola in
 /// speed.

@@ -7,8 +7,8 @@
 mod ring;
 
 use nalgebra::DMatrix;
-use sawflutter::plate::{Plate, Resolution, RimForce};
-use sawflutter::scene::{
+use sawflutter::model::plate::{Plate, Resolution, RimForce};
+use sawflutter::model::scene::{
     InPlane, MembraneFile, Mount, RimFile, Scene, SceneFile, TemperatureFile, ThicknessRow,
 };
 
@@ -245,7 +245,7 @@ fn finite_elements_give_the_edge_stiffness_of_the_series() {
     let buckled = |profile: Vec<ThicknessRow>| {
         let plate = Plate::new(&saw(|saw| saw.blade.profile = profile), RESOLUTION);
         let plate = plate.with_edge_loads(&loads);
-        let system = sawflutter::system::GyroscopicSystem::of_plate(&plate);
+        let system = sawflutter::model::system::GyroscopicSystem::of_plate(&plate);
         let k = DMatrix::from_fn(system.order(), system.order(), |i, j| {
             system.stiffness[(i, j)]
         });

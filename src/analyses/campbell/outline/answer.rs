@@ -1,0 +1,247 @@
+//! The answer whether a saw can run at its operating speed.
+
+use super::is_damped;
+use crate::analyses::campbell::{
+    InstabilityBand, InstabilityKind, OperatingPoint, Report, StabilityState, side_force_in_words,
+};
+use crate::page::outline::{Outline, SPEED};
+use crate::page::text::shown_to;
+use crate::stability::CRITICAL_MARGIN;
+
+/// Whether a saw can run at its operating speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "page", derive(serde::Serialize))]
+#[cfg_attr(feature = "page", serde(rename_all = "snake_case"))]
+pub enum Answer {
+    /// The saw is stable and keeps the 85 % rule, or has no critical speed.
+    Runs,
+    /// The saw is stable but breaks the 85 % rule.
+    PastRule,
+    /// The saw is stable, but its speed is within 5 % of a critical speed.
+    AtCritical,
+    /// The saw diverges.
+    Divergence,
+    /// The saw flutters.
+    Flutter,
+    /// The sweep does not include the operating speed.
+    OutsideSweep,
+}
+
+impl Answer {
+    /// Derives the answer from the verdict at the operating speed.
+    pub fn new(operating: &OperatingPoint) -> Self {
+        match operating.verdict {
+            StabilityState::Divergence => Answer::Divergence,
+            StabilityState::Flutter => Answer::Flutter,
+            StabilityState::OutsideSweep => Answer::OutsideSweep,
+            StabilityState::Stable if operating.at_critical_rpm.is_some() => Answer::AtCritical,
+            StabilityState::Stable if operating.within_limit == Some(false) => Answer::PastRule,
+            StabilityState::Stable => Answer::Runs,
+        }
+    }
+
+    /// The answer in few words, for tables.
+    pub fn in_few_words(self) -> &'static str {
+        match self {
+            Answer::Runs => "stable",
+            Answer::PastRule => "past the limit",
+            Answer::AtCritical => "at critical",
+            Answer::Divergence => "divergence",
+            Answer::Flutter => "flutter",
+            Answer::OutsideSweep => "outside sweep",
+        }
+    }
+
+    fn in_words(self) -> &'static str {
+        match self {
+            Answer::Runs => "YES",
+            Answer::PastRule => "STABLE, but above the usual limit",
+            Answer::AtCritical => "STABLE, but within 5 % of a critical speed",
+            Answer::Divergence => "NO, UNSTABLE: divergence",
+            Answer::Flutter => "NO, UNSTABLE: flutter",
+            Answer::OutsideSweep => "UNKNOWN: outside the sweep",
+        }
+    }
+}
+
+/// The answer whether a saw can run at its operating speed, its reasons, and the speeds at which it can.
+pub fn answer(report: &Report) -> Outline {
+    let mut text = Outline::default();
+    match &report.operating {
+        Some(operating) => at_operating_speed(&mut text, report, operating),
+        None => up_to(&mut text, report),
+    }
+    flutter(&mut text, report);
+    text
+}
+
+/// The answer for an operating speed, with its question.
+pub fn headline(operating: &OperatingPoint) -> String {
+    let answer = Answer::new(operating).in_words();
+    format!("Can it run at {:.0} rpm? {answer}", operating.rpm)
+}
+
+fn at_operating_speed(text: &mut Outline, report: &Report, operating: &OperatingPoint) {
+    text.headline(headline(operating));
+    let around = operating.inside_instability;
+    let band = around.and_then(|index| report.instabilities.get(index));
+    if let Some(band) = band {
+        text.reason(inside(band));
+    }
+    if Answer::new(operating) == Answer::OutsideSweep {
+        text.reason("widen `sweep` so that it includes operating_rpm");
+    }
+    if let (Some(growth), Some(hz)) = (operating.growth_per_s, operating.frequency_hz) {
+        text.reason(fastest(report, growth, hz, band.is_some()));
+    }
+    if let Some([from, to]) = operating.safe_window_rpm {
+        let end = end_of_window(report, to);
+        let from = SPEED.fixed(usize::from(from > 0.0), from).in_words();
+        text.reason(format!("usable speeds: {from} to {to:.1} rpm{end}"));
+    }
+    if let Some(words) = at_critical_speed(report, operating) {
+        text.reason(words);
+    }
+    if let Some(words) = rule(operating) {
+        text.reason(words);
+    }
+}
+
+/// Describes the band that makes the saw unstable at its operating speed.
+fn inside(band: &InstabilityBand) -> String {
+    let waves = band.name.as_ref();
+    let waves = waves.map_or(String::new(), |name| format!(", {name}"));
+    format!(
+        "inside the band of {} from {:.1} to {:.1} rpm{waves}",
+        band.kind, band.from_rpm, band.to_rpm
+    )
+}
+
+/// Describes the motion with the largest growth rate, in 1/s, at the operating speed, which may be inside a band.
+fn fastest(report: &Report, growth: f64, hz: f64, is_inside: bool) -> String {
+    let threshold = report.flutter_threshold_per_s;
+    if is_inside && growth <= 0.0 {
+        return "the speed is an edge of this band, where the growth is zero".to_owned();
+    }
+    if growth > 0.0 {
+        let compared = match growth >= threshold {
+            true => "reaches",
+            false => "is below",
+        };
+        return format!(
+            "fastest growth {} 1/s at {hz:.2} Hz {compared} the threshold of {threshold} 1/s",
+            shown_to(3, growth)
+        );
+    }
+    match growth < 0.0 {
+        true => format!(
+            "every vibration decays, the slowest by {} 1/s at {hz:.2} Hz",
+            shown_to(3, -growth)
+        ),
+        false if is_damped(report) => {
+            format!("no vibration grows; the one at {hz:.2} Hz does not decay either")
+        }
+        false => "no vibration grows (nor decays: the model has no damping)".to_owned(),
+    }
+}
+
+/// Warns of the critical speed close to the operating speed, if there is one.
+fn at_critical_speed(report: &Report, operating: &OperatingPoint) -> Option<String> {
+    let rpm = operating.at_critical_rpm?;
+    let critical = report.critical_speeds.iter().find(|c| c.rpm == rpm);
+    let name = critical.map_or(String::new(), |c| format!(" ({})", c.name));
+    let deflection = side_force_in_words(operating.rpm, operating.side_force_factor);
+    let deflection = deflection.map_or(String::new(), |words| format!(": {words}"));
+    Some(format!(
+        "within {:.0} % of the critical speed {rpm:.1} rpm{name}{deflection}",
+        100.0 * CRITICAL_MARGIN
+    ))
+}
+
+/// Compares the operating speed with the 85 % rule; `None` without a critical speed.
+fn rule(operating: &OperatingPoint) -> Option<String> {
+    let (ratio, lowest_rpm) = operating
+        .of_lowest_critical
+        .zip(operating.lowest_critical_rpm)?;
+    Some(format!(
+        "{:.0} rpm is {:.0} % of the first critical speed; the limit is {:.0} % ({:.0} rpm)",
+        operating.rpm,
+        100.0 * ratio,
+        100.0 * operating.limit,
+        operating.limit * lowest_rpm
+    ))
+}
+
+/// Adds the answer for a scene without operating speed: the speed up to which the saw is stable.
+fn up_to(text: &mut Outline, report: &Report) {
+    let counted = report.instabilities.iter().flat_map(|b| &b.counted_rpm);
+    let first = counted.map(|stretch| stretch[0]).reduce(f64::min);
+    let from = report.campbell.from_rpm;
+    text.headline(match first {
+        Some(first) if first > from => {
+            format!("No instability from {from:.0} to {first:.1} rpm")
+        }
+        Some(first) => format!("Unstable above {first:.1} rpm"),
+        None => format!(
+            "No instability from {from:.0} to {:.0} rpm, the end of the sweep",
+            report.campbell.to_rpm
+        ),
+    });
+    if let Some(critical) = report.critical_speeds.first() {
+        text.reason(format!(
+            "first critical speed {:.1} rpm ({})",
+            critical.rpm, critical.name
+        ));
+    }
+    text.reason("(the scene has no operating_rpm to compare with it)");
+}
+
+/// Adds the flutter speed, and the onset of weak flutter below it.
+fn flutter(text: &mut Outline, report: &Report) {
+    let threshold = report.flutter_threshold_per_s;
+    text.sentence(match report.flutter_speed_rpm {
+        Some(rpm) => {
+            let is_its = |band: &&InstabilityBand| {
+                band.kind == InstabilityKind::Flutter
+                    && band.counted_rpm.iter().any(|counted| counted[0] == rpm)
+            };
+            let band = report.instabilities.iter().find(is_its);
+            let error = band.and_then(|band| band.estimated_relative_error);
+            let error = error.map_or(String::new(), |share| format!(" ± {:.1}", share * rpm));
+            format!("Flutter speed: {rpm:.0} rpm{error} (growth of {threshold} 1/s or more)")
+        }
+        None => format!(
+            "No flutter of {threshold} 1/s or more up to {:.0} rpm",
+            report.campbell.to_rpm
+        ),
+    });
+    let weak = report.first_merge_rpm;
+    let weak = weak.filter(|first| Some(*first) != report.flutter_speed_rpm);
+    if let Some(rpm) = weak {
+        text.sentence(format!(
+            "Weak flutter (below {threshold} 1/s) from {rpm:.0} rpm"
+        ));
+    }
+}
+
+/// States why the window without instability ends at a speed; empty if a band begins there.
+fn end_of_window(report: &Report, rpm: f64) -> String {
+    let counted = |band: &InstabilityBand| band.counted_rpm.iter().any(|[from, _]| *from == rpm);
+    if rpm >= report.campbell.to_rpm {
+        return ", where the sweep ends".to_owned();
+    }
+    if report.instabilities.iter().any(counted) {
+        return String::new();
+    }
+    let share = 1.0 - CRITICAL_MARGIN;
+    // A report may have been rounded.
+    let margin = |critical: f64| (critical * share - rpm).abs() <= 1e-5 * rpm;
+    let critical = report.critical_speeds.iter().find(|c| margin(c.rpm));
+    critical.map_or(String::new(), |critical| {
+        let percent = 100.0 * share;
+        format!(
+            " ({percent:.0} % of the critical speed {:.1} rpm)",
+            critical.rpm
+        )
+    })
+}

@@ -1,0 +1,21 @@
+//! The table of the numbers of a scene.
+
+use crate::model::scene::{Quantity, SceneFile, in_words};
+use crate::page::outline::{Column, Table, Value};
+use crate::page::text::shown;
+
+/// A table with the key, the meaning, and the value with its unit, of each number that the scene contains.
+pub fn inputs(scene: &SceneFile) -> Table {
+    let columns = ["key", "meaning", "value"].map(Column::words);
+    let rows = scene.inputs().into_iter().map(|(path, value)| {
+        let quantity = Quantity::of(&path);
+        let meaning = quantity.map_or("", |quantity| quantity.name);
+        let shown = match (value.as_f64(), quantity.map(|quantity| quantity.unit)) {
+            (Some(number), None | Some("")) => shown(number),
+            (Some(number), Some(unit)) => format!("{} {unit}", shown(number)),
+            (None, _) => in_words(&value),
+        };
+        [path.into(), meaning.into(), Value::from(shown)]
+    });
+    Table::new("", columns).with_rows(rows)
+}

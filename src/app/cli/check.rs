@@ -1,0 +1,109 @@
+//! `sawflutter check`.
+
+use std::path::PathBuf;
+
+use crate::analyses::check::{CheckReport, Limits, LimitsFile, RIM_LIMIT_M_PER_S, check};
+use crate::model::scene::Scene;
+use clap::Args;
+
+use super::common::{Input, number, of_option, say};
+use super::output::OutputFolder;
+use super::page::Page;
+use super::pictures::drawn;
+use super::progress::watched;
+
+pub const EXAMPLES: &str = "\
+Examples:
+  sawflutter check my-saw.json --operating-rpm 2400
+  sawflutter check my-saw.json --min-flutter-rpm 2000 --min-critical-rpm 1500
+  sawflutter check --operating-rpm 1250 --json | jq .passed
+  sawflutter check my-saw.json --max-amplitude-mm 0.5
+  sawflutter check my-saw.json --out checked # with a picture
+
+Exit code: 0 every limit is kept, 1 one is not, 2 the input was refused.";
+
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    input: Input,
+    /// Speed at which the saw is run; the scene's by default
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    operating_rpm: Option<f64>,
+    /// Largest share of the lowest critical speed that the operating speed may be
+    #[arg(
+        long,
+        value_name = "SHARE",
+        default_value_t = 0.85,
+        allow_negative_numbers = true, value_parser = number)]
+    margin: f64,
+    /// Lower limit of the flutter speed
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    min_flutter_rpm: Option<f64>,
+    /// Lower limit of the first critical speed
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    min_critical_rpm: Option<f64>,
+    /// Largest speed of the rim
+    #[arg(
+        long,
+        value_name = "M/S",
+        default_value_t = RIM_LIMIT_M_PER_S,
+        allow_negative_numbers = true, value_parser = number)]
+    max_rim_m_per_s: f64,
+    /// Largest deflection in millimetres that flutter may rise to in any band up to the operating speed
+    #[arg(long, alias = "max-amplitude", value_name = "MM", allow_negative_numbers = true, value_parser = number)]
+    max_amplitude_mm: Option<f64>,
+    /// Let a saw pass that has numbers no saw has
+    #[arg(long)]
+    accept_unusual: bool,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+    /// Write check.json and a picture, check.png and check.svg, to this folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    page: Page,
+}
+
+/// Compares a saw with limits, and prints the result. Returns whether the saw keeps all of them.
+pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
+    let scene = arguments.input.scene()?;
+    let limits = limits(arguments, &scene)?;
+    arguments.page.tried()?;
+    let folder = arguments
+        .out
+        .as_deref()
+        .map(OutputFolder::open)
+        .transpose()?;
+    let report = watched(|_| check(&scene, &limits))??;
+    arguments.page.write(&report)?;
+    let json = serde_json::to_string_pretty(&report)?;
+    if let Some(folder) = folder {
+        let mut files = drawn(&report, true)?;
+        files.push((CheckReport::COMMAND.file, json.clone().into_bytes()));
+        folder.write_together(&files, &[])?;
+    }
+    match arguments.json {
+        true => say(&format!("{json}\n"))?,
+        false => say(&report.summary())?,
+    }
+    Ok(report.passed)
+}
+
+/// The limits of the options, with the operating speed of the scene by default.
+fn limits(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Limits> {
+    let asked = LimitsFile {
+        operating_rpm: arguments.operating_rpm,
+        margin: arguments.margin,
+        min_flutter_rpm: arguments.min_flutter_rpm,
+        min_critical_rpm: arguments.min_critical_rpm,
+    };
+    let limits = asked.limits(scene);
+    let limits = limits.and_then(|limits| limits.with_rim_speed(arguments.max_rim_m_per_s));
+    let limits = limits.and_then(|limits| limits.with_amplitude(arguments.max_amplitude_mm));
+    let limits = limits.map_err(of_option)?;
+    Ok(Limits {
+        accept_unusual: arguments.accept_unusual,
+        ..limits
+    })
+}

@@ -1,0 +1,99 @@
+//! `sawflutter fit`.
+
+use std::path::PathBuf;
+
+use crate::analyses::fit::{Measurement, Options, fit};
+use crate::model::scene::{Freed, Scene};
+use crate::page::text::{Kind, OtherEncodings};
+use clap::Args;
+
+use super::common::{Common, count, number, of_option, read_text, refused};
+use super::free::named_bounds;
+use super::page::Page;
+use super::progress::watched;
+
+pub const EXAMPLES: &str = "\
+Examples:
+  sawflutter fit --to-rpm 1250            # the built-in saw to its own table
+  sawflutter fit my-saw.json measured.csv # radius and stiffness of every guide
+  sawflutter fit my-saw.json measured.csv \\
+    --free \"guides[0].radius_m=0.15..0.3\" \\
+    --free blade.material.density_kg_per_m3
+
+measured.csv: a speed in rpm, then frequencies in Hz, ascending; blank where a
+mode was not seen. They are compared with the lowest computed ones. A first line
+like rpm,f1,f2 names the columns, in any order; semicolons with decimal commas
+and tabs are read too.
+The calibrated scene is fitted-scene.json.";
+
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    /// Table of measured frequencies; the scene's own without it
+    measured: Option<PathBuf>,
+    /// A number to fit, by its path in the scene, and its bounds; more than once for more.
+    /// Without any: radius and stiffness of every guide, and angles between several
+    #[arg(long, value_name = "PATH[=FROM..TO]")]
+    free: Vec<String>,
+    /// Leave out measurements above this speed
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    to_rpm: Option<f64>,
+    /// Probability with which the intervals cover the truth
+    #[arg(
+        long,
+        value_name = "SHARE",
+        default_value_t = 0.95,
+        allow_negative_numbers = true, value_parser = number)]
+    confidence: f64,
+    /// Starts: the scene's numbers, and others spread between the bounds
+    #[arg(long, value_name = "COUNT", default_value_t = 12, value_parser = count::<usize>)]
+    starts: usize,
+    /// Spreads the starts in another way
+    #[arg(long, value_name = "NUMBER", default_value_t = 0, value_parser = count::<u64>)]
+    seed: u64,
+    #[command(flatten)]
+    page: Page,
+}
+
+/// Largest size and encodings of a table of frequencies, which usually has the length of a page.
+const TABLE: Kind = Kind {
+    limit: 1 << 20,
+    other_encodings: OtherEncodings::AsLatin1,
+};
+
+/// Fits a saw to measured frequencies, writes the files and prints the table.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let scene = arguments.common.scene()?;
+    let measurement = measurement(arguments, &scene)?;
+    let options = Options {
+        confidence: arguments.confidence,
+        starts: arguments.starts,
+        seed: arguments.seed,
+        to_rpm: arguments.to_rpm.unwrap_or(f64::INFINITY),
+        ..Options::default()
+    };
+    let options = options.checked(&measurement).map_err(of_option)?;
+    let freed = Freed::to_fit(&scene, &named_bounds(&arguments.free)?)?;
+    arguments.page.tried()?;
+    let folder = arguments.common.folder()?;
+    let report = watched(|progress| {
+        let starts = |done, of| progress.show("starts", done, of);
+        fit(&scene, &measurement, &freed, &options, &starts)
+    })??;
+    let fitted = serde_json::to_string_pretty(&report.scene)?;
+    let others = vec![("fitted-scene.json", fitted.into_bytes())];
+    let output = &arguments.common.output;
+    output.report(&folder, &arguments.page, &report, others)
+}
+
+/// The frequencies of the table, or those of the scene.
+fn measurement(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Measurement> {
+    let Some(path) = &arguments.measured else {
+        return Ok(Measurement::of_scene(scene.needed_measured()?));
+    };
+    let text = read_text(path, TABLE)?;
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    Measurement::from_csv(&name.to_string_lossy(), &text)
+        .map_err(|error| refused(path, error.into()))
+}

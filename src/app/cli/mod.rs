@@ -1,0 +1,281 @@
+//! The command line: arguments become calls of the library, and their results files and text.
+
+mod analyze;
+mod assumed;
+mod check;
+mod common;
+mod compare;
+mod cut;
+mod deflect;
+#[cfg(feature = "explore")]
+mod explore;
+mod export;
+mod fit;
+mod free;
+mod gap;
+mod keys;
+mod map;
+mod output;
+mod page;
+mod paint;
+mod paste;
+mod pictures;
+mod place;
+mod progress;
+mod response;
+mod runup;
+mod scheduler;
+mod schema;
+mod several;
+mod study;
+mod tradeoff;
+mod washboard;
+
+use std::ffi::OsString;
+use std::path::Path;
+
+use crate::page::text::{printable, printable_line};
+use clap::{CommandFactory, Parser, Subcommand};
+
+/// Stability of thin, fast, guided circular saws: Campbell diagram, critical
+/// speeds, divergence and flutter bands, and a plain verdict.
+#[derive(Parser)]
+#[command(version, after_help = EXAMPLES)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Chart a saw: report.json, campbell.csv, and figures as PNG and SVG
+    #[command(after_help = analyze::EXAMPLES)]
+    Analyze(analyze::Arguments),
+    /// Cut wood: is the saw stable before, during and after? cut.json and figures
+    #[command(after_help = cut::EXAMPLES)]
+    Cut(cut::Arguments),
+    /// Run up under a lateral force: deflection and response; runup.json and figures
+    #[command(after_help = runup::EXAMPLES)]
+    Runup(runup::Arguments),
+    /// Amplitude over speed: side force, a blade not flat or not balanced, teeth; response.json, figures
+    #[command(after_help = response::EXAMPLES)]
+    Response(response::Arguments),
+    /// How far does the blade lean, and at which speeds does it jump? deflect.json and a figure
+    #[command(after_help = deflect::EXAMPLES)]
+    Deflect(deflect::Arguments),
+    /// How tight may the guides be? Chart over the amplitude, deflection over the gap; gap.json, a figure
+    #[command(after_help = gap::EXAMPLES)]
+    Gap(gap::Arguments),
+    /// Does washboarding grow: teeth that cut the wavy surface of the last passage?
+    #[command(after_help = washboard::EXAMPLES)]
+    Washboard(washboard::Arguments),
+    /// Compare a saw with limits: exit code 0 if it keeps them, 1 if not
+    #[command(after_help = check::EXAMPLES)]
+    Check(check::Arguments),
+    /// Change a saw by hand on a page in the browser, which computes its chart again
+    #[cfg(feature = "explore")]
+    #[command(after_help = explore::EXAMPLES)]
+    Explore(explore::Arguments),
+    /// Fit guides, density or other numbers to measured frequencies; fit.json, a scene, figures
+    #[command(after_help = fit::EXAMPLES)]
+    Fit(fit::Arguments),
+    /// Put the guides where flutter comes latest; place.json, a scene, a map
+    #[command(after_help = place::EXAMPLES)]
+    Place(place::Arguments),
+    /// Vary a saw within tolerances or over a grid: quantiles and probability of passing
+    #[command(after_help = study::EXAMPLES)]
+    Study(study::Arguments),
+    /// Chart stability over one number and the speed, or over two numbers; map.json and a figure
+    #[command(after_help = map::EXAMPLES)]
+    Map(map::Arguments),
+    /// Compare saws: Campbell diagrams one over the other, a table; compare.json and a figure
+    #[command(after_help = compare::EXAMPLES)]
+    Compare(compare::Arguments),
+    /// Measure run time against true error; tradeoff.json, a figure
+    #[command(after_help = tradeoff::EXAMPLES)]
+    Tradeoff(tradeoff::Arguments),
+    /// Write the matrices of a saw as NumPy files
+    #[command(after_help = export::EXAMPLES)]
+    Export(export::Arguments),
+    /// Print the keys of a scene, or of a study: units, defaults, what saws have
+    #[command(after_help = keys::EXAMPLES)]
+    Keys(keys::Arguments),
+    /// Print the JSON schema of a scene, or of a study
+    Schema(schema::Arguments),
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sawflutter                            # chart the built-in guided spline saw
+  sawflutter my-saw.json                # chart your own saw
+  sawflutter saws/*.json                # chart many, and put them in a table
+  sawflutter cut                        # is it stable in the wood?
+  sawflutter check --operating-rpm 1250 # does it keep the 85 % rule?
+  sawflutter explore --open             # drag the guides in your browser
+  sawflutter runup                      # how does it vibrate as it speeds up?
+  sawflutter deflect                    # how far does it lean?
+  sawflutter schema > scene.schema.json # let your editor complete scene keys
+
+Exit code: 0 done, 1 a check failed, 2 the input was refused or the run failed.";
+
+/// Runs the command given by the arguments, the first of which is the name of the program. Returns the exit code:
+/// 0 done, 1 a check failed, 2 refused or failed.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let arguments = match Arguments::try_parse_from(with_command(arguments)) {
+        Ok(arguments) => arguments,
+        // The message repeats the user's words, and control characters in them could control the terminal:
+        // they are made visible.
+        Err(refusal) if refusal.use_stderr() => {
+            eprint!("{}", printable(&refusal.render().to_string()));
+            return 2;
+        }
+        // A request for the help or the version is no failure.
+        Err(help) => {
+            let _ = help.print();
+            return 0;
+        }
+    };
+    match command(arguments.command) {
+        Ok(true) => 0,
+        Ok(false) => 1,
+        Err(error) if is_closed_pipe(&error) => 0,
+        Err(error) => {
+            eprintln!("error: {}", printable_line(&in_words(&error)));
+            2
+        }
+    }
+}
+
+/// The arguments, with `analyze` before an option or a file if no command is named. A word with a dot or a slash
+/// counts as a file even if it does not exist; another word is left to be refused as a misspelt command.
+fn with_command(arguments: impl IntoIterator<Item = OsString>) -> Vec<OsString> {
+    let mut arguments: Vec<OsString> = arguments.into_iter().collect();
+    let Some(first) = arguments.get(1) else {
+        return arguments;
+    };
+    let text = first.to_string_lossy();
+    let of_program = ["-h", "--help", "-V", "--version", "help"].contains(&&*text)
+        || Arguments::command().find_subcommand(first).is_some();
+    let option = text.starts_with('-');
+    let file = text.contains(['.', '/', '\\']) || Path::new(first).exists();
+    if !of_program && (option || file) {
+        arguments.insert(1, "analyze".into());
+    }
+    arguments
+}
+
+/// Runs a command; without one, `analyze`. Returns false if a limit of the command is not kept.
+fn command(command: Option<Command>) -> anyhow::Result<bool> {
+    match command {
+        None => analyze::run(&analyze::Arguments::default()),
+        Some(Command::Analyze(arguments)) => analyze::run(&arguments),
+        Some(Command::Cut(arguments)) => cut::run(&arguments),
+        Some(Command::Runup(arguments)) => runup::run(&arguments),
+        Some(Command::Response(arguments)) => response::run(&arguments),
+        Some(Command::Deflect(arguments)) => deflect::run(&arguments),
+        Some(Command::Gap(arguments)) => gap::run(&arguments),
+        Some(Command::Washboard(arguments)) => washboard::run(&arguments),
+        #[cfg(feature = "explore")]
+        Some(Command::Explore(arguments)) => explore::run(&arguments),
+        Some(Command::Fit(arguments)) => fit::run(&arguments),
+        Some(Command::Map(arguments)) => map::run(&arguments),
+        Some(Command::Compare(arguments)) => compare::run(&arguments),
+        Some(Command::Tradeoff(arguments)) => tradeoff::run(&arguments),
+        Some(Command::Export(arguments)) => export::run(&arguments),
+        Some(Command::Place(arguments)) => return place::run(&arguments),
+        Some(Command::Check(arguments)) => return check::run(&arguments),
+        Some(Command::Study(arguments)) => study::run(&arguments),
+        Some(Command::Keys(arguments)) => keys::run(&arguments),
+        Some(Command::Schema(arguments)) => schema::run(&arguments),
+    }
+    .map(|()| true)
+}
+
+/// The text of an error and of its causes, except causes that the text already contains.
+fn in_words(error: &anyhow::Error) -> String {
+    let mut words = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        if words.is_empty() {
+            words = cause;
+        } else if !words.contains(&cause) {
+            words += &format!(": {cause}");
+        }
+    }
+    words
+}
+
+/// Whether the reader of the output has closed it, like `head`, which is no failure.
+fn is_closed_pipe(error: &anyhow::Error) -> bool {
+    error
+        .chain()
+        .filter_map(|cause| cause.downcast_ref::<std::io::Error>())
+        .any(|cause| cause.kind() == std::io::ErrorKind::BrokenPipe)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The commands of examples, in words: continued lines are joined, pipes are split, and comments and
+    /// redirections are removed.
+    fn commands(examples: &str) -> Vec<Vec<String>> {
+        let joined = examples.replace("\\\n", "");
+        let lines = joined.lines().filter(|line| line.starts_with("  "));
+        let bare = lines.filter_map(|line| line.split(" # ").next());
+        let parts = bare.flat_map(|line| line.split('|'));
+        let called = parts.filter_map(|part| part.split('>').next().map(str::trim));
+        let ours = called.filter(|part| part.split(' ').next() == Some("sawflutter"));
+        let words = |part: &str| {
+            let words = part.split_whitespace().map(|word| word.replace('"', ""));
+            words
+                .map(|word| word.replace("$SLURM_ARRAY_TASK_ID", "3"))
+                .collect()
+        };
+        ours.map(words).collect()
+    }
+
+    /// The arguments of each example in `--help` are accepted.
+    #[test]
+    fn every_example_of_help_is_a_command() {
+        let program = Arguments::command();
+        let mut helps = vec![program.get_after_help().map(ToString::to_string)];
+        helps.extend(
+            program
+                .get_subcommands()
+                .map(|c| c.get_after_help().map(ToString::to_string)),
+        );
+        let found: Vec<Vec<String>> = helps
+            .iter()
+            .flatten()
+            .flat_map(|help| commands(help))
+            .collect();
+        assert!(found.len() > 35, "{}", found.len());
+        for words in found {
+            let asked = with_command(words.iter().map(OsString::from));
+            let parsed = Arguments::try_parse_from(asked);
+            assert!(parsed.is_ok(), "{words:?}: {}", parsed.err().unwrap());
+        }
+    }
+
+    #[test]
+    fn a_text_that_is_no_number_is_refused_in_plain_words() {
+        let refused = |words: &[&str]| {
+            let words = std::iter::once(&"sawflutter")
+                .chain(words)
+                .map(OsString::from);
+            Arguments::try_parse_from(words).err().unwrap().to_string()
+        };
+        let fast = refused(&["check", "--operating-rpm", "fast"]);
+        assert!(fast.contains("it must be a number, like 1250"), "{fast}");
+        let comma = refused(&["check", "--margin", "0,85"]);
+        assert!(comma.contains("a decimal point"), "{comma}");
+        let count = refused(&["place", "--samples", "2.5"]);
+        assert!(count.contains("a whole number"), "{count}");
+        for said in [fast, comma, count] {
+            assert!(
+                !said.contains("literal") && !said.contains("digit"),
+                "{said}"
+            );
+        }
+    }
+}

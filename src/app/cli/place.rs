@@ -1,0 +1,142 @@
+//! `sawflutter place`.
+
+use crate::analyses::place::{Demands, GapDemands, Options, Tolerances, place};
+use crate::model::scene::{Freed, RefusedValue, Scene};
+use clap::{Args, ValueEnum};
+
+use super::common::{Common, count, number, of_option, with_shorthands};
+use super::free::named_bounds;
+use super::page::Page;
+use super::progress::watched;
+
+pub const EXAMPLES: &str = "\
+Examples:
+  sawflutter place my-saw.json   # radius, angle, stiffness of guides[0]
+  sawflutter place my-saw.json --free \"guides[0].radius_m=0.2..0.3\" \\
+    --free \"guides[0].angle_deg=-90..-20\" --min-critical-rpm 1500
+  sawflutter place --goal window # widest window around operating_rpm
+  sawflutter place --radius-tolerance-m 0.0005 --angle-tolerance-deg 0.2
+The best saw is placed-scene.json; try it with `check` and `cut`.
+
+Every saw counts as the worst of those whose numbers are off by the tolerances
+of production, by default 2 mm of a radius, 1 degree of an angle, 10 % of a
+stiffness, damping or gap, 1 % of other numbers.
+
+Exit code: 0 done, 1 no tried saw keeps the limit within all its tolerances,
+2 the input was refused or the run failed.";
+
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    /// A number to move, by its path in the scene, and its bounds; more than once for more.
+    /// Without any: radius, angle and stiffness of the first guide
+    #[arg(long, value_name = "PATH[=FROM..TO]")]
+    free: Vec<String>,
+    /// The quantity to maximize
+    #[arg(long, value_name = "NAME", default_value = "flutter")]
+    goal: GoalName,
+    /// Lower limit of the lowest critical speed
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
+    min_critical_rpm: Option<f64>,
+    /// Amplitude at guides with a gap, with whose mean stiffness bands and critical speeds are computed; without it
+    /// guides have their full stiffness
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
+    amplitude_mm: Option<f64>,
+    /// Upper limit of the deflection at the cut at the operating speed, with the gaps of one-sided guides
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
+    max_deviation_mm: Option<f64>,
+    /// Constant side force for this limit, as `--set side_force.force_n=N`; 1 N in a scene without one
+    #[arg(
+        long,
+        value_name = "N",
+        allow_hyphen_values = true,
+        requires = "max_deviation_mm"
+    )]
+    force_n: Option<String>,
+    /// Saws spread over the bounds at first
+    #[arg(long, value_name = "COUNT", default_value_t = 64, value_parser = count::<usize>)]
+    samples: usize,
+    /// Steps that the refinement of each of the best places may take, each a saw and those around it
+    #[arg(long, value_name = "COUNT", default_value_t = 60, value_parser = count::<u64>)]
+    refine: u64,
+    /// Tolerance of a radius
+    #[arg(long, value_name = "M", default_value_t = Tolerances::USUAL.radius_m, allow_negative_numbers = true, value_parser = number)]
+    radius_tolerance_m: f64,
+    /// Tolerance of an angle
+    #[arg(long, value_name = "DEG", default_value_t = Tolerances::USUAL.angle_deg, allow_negative_numbers = true, value_parser = number)]
+    angle_tolerance_deg: f64,
+    /// Tolerance of a guide's stiffness, damping or gap, as a share of it
+    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.guide_share, allow_negative_numbers = true, value_parser = number)]
+    guide_tolerance_share: f64,
+    /// Tolerance of other numbers, as a share of each
+    #[arg(long, value_name = "SHARE", default_value_t = Tolerances::USUAL.other_share, allow_negative_numbers = true, value_parser = number)]
+    other_tolerance_share: f64,
+    /// Points of the map along each axis; 0 for none
+    #[arg(long, value_name = "COUNT", default_value_t = 17, value_parser = count::<usize>)]
+    map: usize,
+    #[command(flatten)]
+    page: Page,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum GoalName {
+    /// The flutter speed
+    Flutter,
+    /// The stable window around the operating speed
+    Window,
+}
+
+/// Searches for the best place, writes the files and prints the summary. Returns whether the limit is kept.
+pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
+    let given = [("--force-n", "side_force.force_n", &arguments.force_n)];
+    let scene = with_shorthands(arguments.common.scene()?, &given)?;
+    let demands = demands(arguments, &scene)?;
+    let options = Options {
+        samples: arguments.samples,
+        refine: arguments.refine.max(1),
+        map: arguments.map,
+        tolerances: Tolerances {
+            radius_m: arguments.radius_tolerance_m,
+            angle_deg: arguments.angle_tolerance_deg,
+            guide_share: arguments.guide_tolerance_share,
+            other_share: arguments.other_tolerance_share,
+        },
+        ..Options::default()
+    };
+    let options = options.checked().map_err(of_option)?;
+    let freed = Freed::to_place(&scene, &named_bounds(&arguments.free)?)?;
+    arguments.page.tried()?;
+    let folder = arguments.common.folder()?;
+    let report = watched(|progress| {
+        let steps = |what, done, of| progress.show(what, done, of);
+        place(&scene, &freed, &demands, &options, &steps)
+    })??;
+    let placed = serde_json::to_string_pretty(&report.scene)?;
+    let others = vec![("placed-scene.json", placed.into_bytes())];
+    let output = &arguments.common.output;
+    output.report(&folder, &arguments.page, &report, others)?;
+    Ok(report.kept)
+}
+
+fn demands(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Demands> {
+    let around_rpm = match arguments.goal {
+        GoalName::Flutter => None,
+        GoalName::Window => Some(scene.needed_operating_rpm(None)?),
+    };
+    let demands = Demands::new(around_rpm, arguments.min_critical_rpm).map_err(of_option)?;
+    let Arguments {
+        amplitude_mm,
+        max_deviation_mm,
+        ..
+    } = *arguments;
+    let gap = GapDemands::new(scene, amplitude_mm, max_deviation_mm);
+    let refused = |refused: RefusedValue| match refused.key.ends_with("_mm") {
+        true => of_option(refused),
+        false => refused.into(),
+    };
+    Ok(Demands {
+        gap: gap.map_err(refused)?,
+        ..demands
+    })
+}

@@ -1,0 +1,98 @@
+//! `sawflutter runup`.
+
+use crate::analyses::runup::runup;
+use crate::model::scene::{Scene, typical};
+use clap::Args;
+
+use super::assumed::{Block, Given};
+use super::common::Common;
+use super::page::Page;
+use super::paste::pasted;
+use super::progress::watched;
+
+pub const EXAMPLES: &str = "\
+Examples:
+  sawflutter runup                         # the built-in saw, 0 to 4000 rpm
+  sawflutter runup my-saw.json --out runup # your own saw
+  sawflutter runup my-saw.json --to 4000 --seconds 60 --force 5N
+  sawflutter runup --stretching            # past five thicknesses
+  sawflutter runup --json | jq '.bands[]'  # for scripts
+
+Speeds and duration are the scene's `runup`, the force its `side_force` or 1 N,\nthe probe its `probe`.";
+
+#[derive(Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    common: Common,
+    /// Let the blade stretch where it bends by more than a part of its thickness, as `runup.stretching` does
+    #[arg(long)]
+    stretching: bool,
+    #[command(flatten)]
+    course: Course,
+    #[command(flatten)]
+    page: Page,
+}
+
+/// Numbers of the scene's `runup` and `side_force`, with or without a unit. If the scene has no run-up, the others are assumed and
+/// printed.
+#[derive(Args)]
+#[command(next_help_heading = "Numbers of the run-up, with or without a unit")]
+struct Course {
+    /// First speed, in rpm
+    #[arg(long, value_name = "SPEED")]
+    from: Option<String>,
+    /// Last speed, in rpm
+    #[arg(long, value_name = "SPEED")]
+    to: Option<String>,
+    /// Time it takes, in s, or like 2min
+    #[arg(long, value_name = "TIME")]
+    seconds: Option<String>,
+    /// Constant side force, in N
+    #[arg(long, value_name = "FORCE", allow_hyphen_values = true)]
+    force: Option<String>,
+    /// Angle of the force, in degrees, positive with the rotation
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
+    angle: Option<String>,
+}
+
+impl Course {
+    fn applied(&self, scene: Scene) -> anyhow::Result<Scene> {
+        let given = |option, path, text| Given { option, path, text };
+        let given = [
+            given("from", "runup.from_rpm", self.from.as_ref()),
+            given("to", "runup.to_rpm", self.to.as_ref()),
+            given("seconds", "runup.duration_s", self.seconds.as_ref()),
+            given("force", "side_force.force_n", self.force.as_ref()),
+            given("angle", "side_force.angle_deg", self.angle.as_ref()),
+        ];
+        let block = Block {
+            name: "runup",
+            is_missing: scene.file().runup.is_none(),
+            usual: typical::runup,
+            given: &given,
+            wins: &[],
+        };
+        block.applied(scene)
+    }
+}
+
+/// Computes a run-up, writes the files and prints the summary.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let mut scene = arguments.course.applied(arguments.common.scene()?)?;
+    if arguments.stretching {
+        scene = scene.edited(|file| {
+            file.runup
+                .iter_mut()
+                .for_each(|runup| runup.stretching = true)
+        })?;
+    }
+    pasted(&scene, scene.needed_runup())?;
+    arguments.page.tried()?;
+    let folder = arguments.common.folder()?;
+    let report = watched(|progress| {
+        let steps = |done, of| progress.show("steps", done, of);
+        runup(&scene, &steps)
+    })??;
+    let output = &arguments.common.output;
+    output.report(&folder, &arguments.page, &report, Vec::new())
+}

@@ -1,0 +1,168 @@
+//! Results of a saw that are known before its diagram: critical speeds, and later bands with the verdict.
+
+use serde::Serialize;
+
+use super::charts::{Charts, Fidelity, drafted};
+use super::refusal::Refusal;
+use super::told::{Fact, of_bands, of_critical};
+use crate::analyses::campbell::{Answer, InstabilityBand, OperatingPoint, headline};
+use crate::model::scene::{Scene, rpm};
+use crate::page::figure::{Band, Item, Upright};
+use crate::stability::{ChosenBasis, Evidence, Instability, Interim, flutter_onsets};
+
+/// Results before the diagram, equal to those of the diagram.
+#[derive(Debug, Serialize)]
+pub struct Ahead {
+    /// Lines of the critical speeds in the diagram.
+    critical: Vec<Item>,
+    /// Shaded bands in the diagram; null before they are known.
+    bands: Option<Vec<Item>>,
+    /// Numbers that follow from the critical speeds and the bands.
+    facts: Vec<Fact>,
+    /// Verdict at the operating speed; null before the bands are known, and without an operating speed.
+    verdict: Option<Verdict>,
+}
+
+#[derive(Debug, Serialize)]
+struct Verdict {
+    answer: Answer,
+    /// The answer in one line, without its reasons.
+    lines: [String; 1],
+}
+
+impl Ahead {
+    /// Results of an analysis that is not complete.
+    pub fn new(scene: &Scene, interim: Interim<'_>) -> Self {
+        let critical: Vec<f64> = interim.critical.iter().map(|c| c.speed_rad_per_s).collect();
+        let (_, to) = interim.range_rad_per_s;
+        let uprights = interim.critical.iter();
+        let uprights = uprights.take_while(|c| c.speed_rad_per_s <= to);
+        let uprights =
+            uprights.map(|c| Upright::critical(rpm(c.speed_rad_per_s), &c.name.in_words()));
+        let uprights: Vec<Upright> = uprights.collect();
+        let first = uprights.first().map(|upright| upright.x);
+        let operating = scene.operating_rad_per_s();
+        let share = operating.zip(critical.first());
+        let mut ahead = Ahead {
+            facts: of_critical(first, share.map(|(speed, lowest)| speed / lowest)).into(),
+            critical: uprights.into_iter().map(Item::Upright).collect(),
+            bands: None,
+            verdict: None,
+        };
+        if let Some(bands) = interim.bands {
+            let evidence = Evidence {
+                bands,
+                critical_rad_per_s: &critical,
+                threshold_per_s: scene.flutter_threshold_per_s(),
+                range_rad_per_s: interim.range_rad_per_s,
+            };
+            ahead.add_bands(&evidence, operating);
+        }
+        ahead
+    }
+
+    fn add_bands(&mut self, evidence: &Evidence<'_>, operating_rad_per_s: Option<f64>) {
+        let (threshold, (from, to)) = (evidence.threshold_per_s, evidence.range_rad_per_s);
+        let shaded = |band: &Instability| {
+            let entry = InstabilityBand::new(band, threshold);
+            Item::Band(Band::new(&entry, [from, to].map(rpm)))
+        };
+        self.bands = Some(evidence.bands.iter().map(shaded).collect());
+        let onsets = flutter_onsets(evidence.bands, threshold);
+        let growths = evidence.bands.iter().map(|band| band.peak_growth_per_s);
+        let onsets = onsets.map(|onset| onset.map(rpm));
+        self.facts.extend(of_bands(onsets, growths));
+        self.verdict = operating_rad_per_s.map(|speed| {
+            let operating = OperatingPoint::from_evidence(evidence, speed);
+            Verdict {
+                answer: Answer::new(&operating),
+                lines: [headline(&operating)],
+            }
+        });
+    }
+}
+
+/// Critical speeds of a page's scene with the accuracy of a draft.
+///
+/// # Errors
+/// [`Refusal`] if the scene is refused or the computation fails or is cancelled.
+pub fn critical_speeds(charts: &Charts, page: &str, scene: &str) -> Result<Ahead, Refusal> {
+    let scene = drafted(&Scene::from_json(scene)?)?;
+    let least = charts.least_size(page, Fidelity::Draft);
+    let chosen = ChosenBasis::at_least(&scene, scene.tolerance(), least)?;
+    let interim = Interim {
+        critical: &chosen.critical,
+        range_rad_per_s: chosen.range_rad_per_s,
+        bands: None,
+    };
+    Ok(Ahead::new(&scene, interim))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+
+    use serde_json::Value;
+
+    use super::*;
+
+    /// Items of the first panel of a diagram whose `key` has this value, without their names.
+    fn drawn(chart: &Value, key: &str, value: &str) -> Vec<Value> {
+        let items = chart["figure"]["panels"][0]["items"].as_array().unwrap();
+        let items = items.iter().filter(|item| item[key] == value);
+        unnamed(items)
+    }
+
+    fn unnamed<'a>(items: impl Iterator<Item = &'a Value>) -> Vec<Value> {
+        let items = items.cloned().map(|mut item| {
+            item.as_object_mut().unwrap().remove("name");
+            item
+        });
+        items.collect()
+    }
+
+    /// Critical speeds, bands, numbers and verdict that come before a diagram equal those of the diagram, also if the
+    /// first critical speed is beyond the sweep, and with damping.
+    #[test]
+    fn results_before_a_diagram_are_its_own() {
+        let paper = Scene::paper();
+        let slow = paper.edited(|file| {
+            file.operating_rpm = Some(900.0);
+            file.sweep.as_mut().unwrap().to_rpm = 1000.0;
+        });
+        let damped = paper.edited(|file| file.guides[0].damping_n_s_per_m = 50.0);
+        for scene in [paper, slow.unwrap(), damped.unwrap()] {
+            let scene = serde_json::to_string(scene.file()).unwrap();
+            let charts = Charts::new(|| 0.0);
+            let alone = critical_speeds(&charts, "one", &scene).unwrap();
+            let alone = serde_json::to_value(alone).unwrap();
+            let lines = Mutex::new(Vec::new());
+            let tell = |line: String| lines.lock().unwrap().push(line);
+            let chart = charts.chart("one", &scene, Fidelity::Draft, &tell);
+            let chart: Value = serde_json::from_str(&chart.unwrap()).unwrap();
+            let lines = lines.into_inner().unwrap();
+            let stages: Vec<Value> = lines
+                .iter()
+                .map(|line| serde_json::from_str::<Value>(line).unwrap()["ahead"].take())
+                .collect();
+            let [first, second] = stages.as_slice() else {
+                panic!("{stages:?}");
+            };
+            assert_eq!(alone, *first);
+            assert!(first["bands"].is_null() && first["verdict"].is_null());
+            for stage in &stages {
+                let critical = unnamed(stage["critical"].as_array().unwrap().iter());
+                assert_eq!(critical, drawn(&chart, "role", "critical"));
+                for fact in stage["facts"].as_array().unwrap() {
+                    let all = chart["told"]["facts"].as_array().unwrap();
+                    assert!(all.contains(fact), "{fact} {all:?}");
+                }
+            }
+            let bands = unnamed(second["bands"].as_array().unwrap().iter());
+            assert_eq!(bands, drawn(&chart, "item", "band"));
+            assert_eq!(second["facts"].as_array().unwrap().len(), 5);
+            assert_eq!(second["verdict"]["answer"], chart["told"]["answer"]);
+            assert_eq!(second["verdict"]["lines"][0], chart["told"]["lines"][0]);
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! Influence of the numbers of a scene on its speeds, in words, for the fields of the form.
+
+use serde::Serialize;
+
+use crate::analyses::campbell::{Report, Sensitivity};
+
+/// Influence of a number.
+#[derive(Debug, Serialize)]
+pub struct Influence {
+    /// JSON path of the number.
+    path: String,
+    /// Ratio to the largest influence.
+    share: f64,
+    /// Changes of the speeds; empty if there are none.
+    words: String,
+}
+
+/// Returns the influences on the first critical speed and the flutter speed.
+pub fn influences(entries: &[Sensitivity], report: &Report) -> Vec<Influence> {
+    let critical = report.critical_speeds.first().map(|critical| critical.rpm);
+    let flutter = report.flutter_speed_rpm;
+    let band = flutter.and_then(|rpm| {
+        let begins = |[from, _]: &[f64; 2]| *from == rpm;
+        let mut bands = report.instabilities.iter();
+        bands.position(|band| band.counted_rpm.iter().any(begins))
+    });
+    let changes = entries.iter().map(|entry| {
+        let of_critical = entry.critical_speeds_percent.first().copied();
+        let of_flutter = band.and_then(|band| entry.onsets_percent.get(band).copied().flatten());
+        let rpm = |percent: Option<f64>, speed: Option<f64>| Some(0.01 * percent? * speed?);
+        [rpm(of_critical, critical), rpm(of_flutter, flutter)]
+    });
+    let changes: Vec<[Option<f64>; 2]> = changes.collect();
+    let size = |change: &[Option<f64>; 2]| {
+        let sizes = change.iter().flatten().map(|rpm| rpm.abs());
+        sizes.fold(0.0, f64::max)
+    };
+    let largest = changes.iter().map(size).fold(f64::MIN_POSITIVE, f64::max);
+    let influences = entries
+        .iter()
+        .zip(&changes)
+        .map(|(entry, change)| Influence {
+            path: entry.parameter.clone(),
+            share: size(change) / largest,
+            words: words(entry, change),
+        });
+    influences.collect()
+}
+
+fn words(entry: &Sensitivity, change: &[Option<f64>; 2]) -> String {
+    let named = ["critical", "flutter"].into_iter().zip(change);
+    let parts: Vec<String> = named
+        .filter_map(|(name, rpm)| Some(format!("{name} {}", signed((*rpm)?))))
+        .collect();
+    match parts.is_empty() {
+        true => String::new(),
+        false => {
+            let step = entry.change.replace("1 degree", "1°");
+            format!("+{step}: {} rpm", parts.join(", "))
+        }
+    }
+}
+
+fn signed(rpm: f64) -> String {
+    let size = match rpm.abs() < 9.95 {
+        true => format!("{:.1}", rpm.abs()),
+        false => format!("{:.0}", rpm.abs()),
+    };
+    match (size.as_str(), rpm < 0.0) {
+        ("0.0", _) => "±0".to_owned(),
+        (_, true) => format!("−{size}"),
+        (_, false) => format!("+{size}"),
+    }
+}

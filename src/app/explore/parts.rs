@@ -1,0 +1,298 @@
+//! Parts of a scene that the page adds, with values that compute and that a designer would begin with.
+
+use serde::Deserialize;
+
+use super::refusal::Refusal;
+use super::usual::{SPLINE, between, guide, inner, mount, next_row, rim, side_force, usual_teeth};
+use crate::model::scene::typical::rounded;
+use crate::model::scene::{
+    CutFile, CutSpeedFile, DampingFile, ExcitationFile, FrictionFile, ModeRatioRow, ProbeFile,
+    ResidualStressRow, ResponseFile, RimFile, RollBandFile, Scene, SceneFile, StraightEdgeFile,
+    SweepFile, TemperatureFile, TemperatureRow, ThicknessRow, WoodFile, typical, typical_value,
+};
+
+/// A request for a part.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Asked {
+    scene: serde_json::Value,
+    /// Path of the part, with `[]` at its end for another entry of a list.
+    path: String,
+    /// Kind of the mount: `collar` or `spline`. It is only used if the part is the mount.
+    #[serde(default)]
+    kind: String,
+}
+
+/// Returns the scene of a request with one more part.
+///
+/// # Errors
+/// [`Refusal`] if the scene cannot be read, or the path is not that of a part.
+pub fn with_part(asked: &str) -> Result<SceneFile, Refusal> {
+    let asked: Asked = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
+    let mut scene = Scene::file_from_json(&asked.scene.to_string())?;
+    match add(&mut scene, &asked.path, &asked.kind) {
+        Some(()) => Ok(scene),
+        None => Err(Refusal::with_message(format!(
+            "{} {} is not a part that can be added",
+            asked.path, asked.kind
+        ))),
+    }
+}
+
+/// Adds a part, the block that it belongs to, and other values that it needs.
+fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
+    match path {
+        "mount" => scene.mount = mount(scene, kind)?,
+        "guides[]" => scene.guides.push(guide(scene)),
+        "damping" => scene.damping = Some(DampingFile::default()),
+        "friction" => {
+            let coefficient = const { typical_value("friction.coefficient") };
+            scene.friction = Some(FrictionFile::of(coefficient));
+        }
+        "excitation" => scene.excitation = Some(ExcitationFile::default()),
+        "spline" => scene.spline = Some(SPLINE),
+        "probe" => {
+            scene.probe = Some(ProbeFile {
+                radius_m: None,
+                angle_deg: 90.0,
+            });
+        }
+        "sweep" => {
+            scene.sweep = Some(SweepFile {
+                from_rpm: 0.0,
+                to_rpm: rounded(2.0 * typical::operating_rpm(scene), 2),
+            });
+        }
+        "side_force" => scene.side_force = Some(side_force(scene)),
+        "runup" => {
+            scene.runup = serde_json::from_value(typical::runup(scene)).ok()?;
+            let usual = side_force(scene);
+            scene.side_force.get_or_insert(usual);
+        }
+        "response" => {
+            scene.response = Some(ResponseFile::default());
+        }
+        "damping.mode_ratios[]" => {
+            let rows = &mut scene.damping.get_or_insert_default().mode_ratios;
+            let next = rows.iter().map(|row| row.diameters + 1).max();
+            rows.push(ModeRatioRow {
+                diameters: next.unwrap_or(0),
+                damping_ratio: const { typical_value("damping.mode_ratios[].damping_ratio") },
+            });
+        }
+        _ => match path.split_once('.').unwrap_or((path, "")) {
+            ("blade", part) => add_to_blade(scene, part)?,
+            ("cut", part) => add_to_cut(scene, part)?,
+            ("membrane", part) => add_to_membrane(scene, part)?,
+            _ => return None,
+        },
+    }
+    Some(())
+}
+
+fn add_to_blade(scene: &mut SceneFile, part: &str) -> Option<()> {
+    match part {
+        "rim" => {
+            let teeth = *scene.blade.teeth.get_or_insert(usual_teeth(scene));
+            // The tooth is assumed to be a triangle as thick as the blade, with the pitch as base and half
+            // the pitch as height.
+            let pitch = std::f64::consts::TAU * rim(scene) / f64::from(teeth.max(1));
+            let per_area = scene.blade.material.density_kg_per_m3 * scene.blade.thickness_m;
+            scene.blade.rim = Some(RimFile {
+                mass_per_tooth_kg: rounded(per_area * 0.25 * pitch * pitch, 1),
+                radius_m: None,
+            });
+        }
+        "profile[]" => {
+            let rows = scene.blade.profile.iter();
+            let rows: Vec<_> = rows.map(|row| (row.radius_m, row.thickness_m)).collect();
+            let (radius_m, thickness_m) = next_row(scene, &rows, scene.blade.thickness_m);
+            let profile = &mut scene.blade.profile;
+            profile.push(ThicknessRow {
+                radius_m,
+                thickness_m,
+            });
+            profile.sort_by(|x, y| x.radius_m.total_cmp(&y.radius_m));
+        }
+        _ => return None,
+    }
+    Some(())
+}
+
+fn add_to_cut(scene: &mut SceneFile, part: &str) -> Option<()> {
+    let speed = CutSpeedFile {
+        rpm: typical::operating_rpm(scene),
+        ..CutSpeedFile::default()
+    };
+    if scene.cut.is_none() {
+        scene.blade.teeth.get_or_insert(usual_teeth(scene));
+        scene.cut = Some(CutFile {
+            speeds: vec![speed.clone()],
+            ..serde_json::from_value(typical::cut(scene)).ok()?
+        });
+    }
+    let cut = scene.cut.as_mut()?;
+    match part {
+        "" => (),
+        "speeds[]" => cut.speeds.push(speed),
+        "wood" => cut.wood = Some(WoodFile::default()),
+        "washboarding" => {
+            cut.washboarding = serde_json::from_value(typical::washboarding()).ok()?;
+            scene.operating_rpm = Some(typical::operating_rpm(scene));
+            // Without damping even the smallest delayed force makes some mode grow.
+            scene.damping.get_or_insert(DampingFile {
+                material_retardation_time_s: const {
+                    typical_value("damping.material_retardation_time_s")
+                },
+                ..DampingFile::default()
+            });
+        }
+        _ => return None,
+    }
+    Some(())
+}
+
+fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
+    let mut membrane = scene.membrane.clone().unwrap_or_default();
+    let heat = || TemperatureFile {
+        expansion_per_k: const { typical_value("membrane.temperature.expansion_per_k") },
+        rim_rise_k: Some(0.0),
+        from_radius_m: None,
+        exponent: None,
+        table: Vec::new(),
+    };
+    match part {
+        "" => (),
+        "temperature" => membrane.temperature = Some(heat()),
+        "temperature.table[]" => {
+            let temperature = membrane.temperature.get_or_insert_with(heat);
+            let rows = temperature.table.iter();
+            let rows: Vec<_> = rows.map(|row| (row.radius_m, row.rise_k)).collect();
+            let (radius_m, rise_k) = next_row(scene, &rows, 0.0);
+            // A scene must not have both a temperature table and a rise at the rim.
+            (temperature.rim_rise_k, temperature.from_radius_m) = (None, None);
+            temperature.exponent = None;
+            temperature.table.push(TemperatureRow { radius_m, rise_k });
+            let in_order =
+                |x: &TemperatureRow, y: &TemperatureRow| x.radius_m.total_cmp(&y.radius_m);
+            temperature.table.sort_by(in_order);
+        }
+        "roll_tension[]" => membrane.roll_tension.push(RollBandFile {
+            radius_m: between(scene, 0.5),
+            width_m: rounded(0.1 * (rim(scene) - inner(scene)), 2),
+            eigenstrain: Some(const { typical_value("membrane.roll_tension[].eigenstrain") }),
+            groove_depth_m: None,
+        }),
+        "straight_edge" => membrane.straight_edge = Some(StraightEdgeFile::default()),
+        "residual_stress[]" => {
+            let rows = membrane.residual_stress.iter();
+            let rows: Vec<_> = rows.map(|row| (row.radius_m, row.hoop_pa)).collect();
+            let (radius_m, hoop_pa) = next_row(scene, &rows, 0.0);
+            let stress = &mut membrane.residual_stress;
+            stress.push(ResidualStressRow {
+                radius_m,
+                hoop_pa,
+                radial_pa: None,
+            });
+            stress.sort_by(|x, y| x.radius_m.total_cmp(&y.radius_m));
+        }
+        _ => return None,
+    }
+    scene.membrane = Some(membrane);
+    Some(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::explore::examples::examples;
+    use crate::app::explore::needs::NEEDS;
+
+    const PARTS: [&str; 25] = [
+        "response",
+        "damping.mode_ratios[]",
+        "guides[]",
+        "damping",
+        "excitation",
+        "friction",
+        "spline",
+        "probe",
+        "sweep",
+        "side_force",
+        "runup",
+        "blade.rim",
+        "blade.profile[]",
+        "cut",
+        "cut.speeds[]",
+        "cut.wood",
+        "cut.washboarding",
+        "membrane",
+        "membrane.temperature",
+        "membrane.temperature.table[]",
+        "membrane.roll_tension[]",
+        "membrane.residual_stress[]",
+        "membrane.straight_edge",
+        "mount collar",
+        "mount spline",
+    ];
+
+    fn lacks(scene: &SceneFile, path: &str) -> bool {
+        let json = serde_json::to_value(scene).unwrap();
+        let Some(need) = NEEDS.iter().find(|need| need.of == path) else {
+            return false;
+        };
+        !need.any.iter().any(|condition| {
+            let pointer = format!("/{}", condition.path.replace('.', "/"));
+            let value = json.pointer(&pointer);
+            value.is_some_and(|value| condition.is.is_none_or(|is| value == is))
+        })
+    }
+
+    /// Each part, and two parts one after the other, are accepted in each saw of the gallery.
+    #[test]
+    fn a_saw_of_the_gallery_with_a_part_more_is_a_saw() {
+        let with = |scene: &SceneFile, part: &str| {
+            let (path, kind) = part.split_once(' ').unwrap_or((part, ""));
+            let mut made = scene.clone();
+            add(&mut made, path, kind).expect(part);
+            made
+        };
+        for scene in examples() {
+            for first in PARTS {
+                // A spline or a residual stress of the scene excludes another mount.
+                let residual = scene
+                    .membrane
+                    .as_ref()
+                    .map(|m| !m.residual_stress.is_empty());
+                let is_bound = scene.spline.is_some() || residual == Some(true);
+                if lacks(&scene, first) || first.starts_with("mount") && is_bound {
+                    continue;
+                }
+                let made = with(&scene, first);
+                if let Err(error) = Scene::try_from(made.clone()) {
+                    panic!("{}: {first}: {error}", scene.name);
+                }
+                for second in PARTS.iter().filter(|part| part.ends_with("[]")) {
+                    let error = Scene::try_from(with(&made, second)).err();
+                    assert!(
+                        error.is_none(),
+                        "{}: {first}, {second}: {error:?}",
+                        scene.name
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_new_guide_is_far_from_the_others() {
+        let mut scene = Scene::paper().file().clone();
+        for _ in 0..2 {
+            add(&mut scene, "guides[]", "").unwrap();
+        }
+        let angles: Vec<f64> = scene.guides.iter().map(|pad| pad.angle_deg).collect();
+        assert_eq!(angles, [-55.0, 125.0, -145.0]);
+        assert_eq!(scene.guides[2].radius_m, scene.guides[0].radius_m);
+        assert_eq!(add(&mut scene, "guides", ""), None);
+    }
+}

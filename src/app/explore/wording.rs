@@ -1,0 +1,297 @@
+//! Messages about refused numbers, in the units of their fields and with usual ranges.
+
+use serde_json::Value;
+
+use super::fields::{Field, FieldUnit, Units};
+use crate::model::scene::Quantity;
+use crate::page::text::shown_to;
+
+/// Number of significant digits of a bound.
+const DIGITS: usize = 6;
+/// Units whose fields have labels, such as "from" and "idle", that are not clear without the form around them.
+const UNCLEAR: [&str; 4] = ["rpm", "s", "1/s", "N per tooth"];
+
+/// Message about the number at a path. `typed` is the value in the scene, or the text that could not be read as a
+/// number. `None` if the path is not that of a number, or nothing is known about its range.
+pub fn in_field_units(
+    path: &str,
+    typed: Option<&Value>,
+    allowed: Option<&str>,
+    units: Units,
+) -> Option<String> {
+    let field = Field::of(path)?;
+    let unit = field.unit(units);
+    let of = match unit.unit {
+        "" => String::new(),
+        unit => format!(", in {unit}"),
+    };
+    let text = typed.and_then(Value::as_str);
+    if let Some(question) = text.and_then(which_number) {
+        return Some(question + &of);
+    }
+    let subject = capital(match UNCLEAR.contains(&unit.unit) {
+        true => field.name,
+        false => &field.label,
+    });
+    let number = typed.and_then(Value::as_f64);
+    let is_count = |number: f64| number >= 0.0 && number.fract() == 0.0;
+    if field.whole && !number.is_some_and(is_count) {
+        return Some(format!("{subject} must be a whole number"));
+    }
+    if number.is_none() {
+        return Some(format!("{subject} must be a number{of}"));
+    }
+    Some(format!("{subject} {}", range(path, allowed?, &field, unit)))
+}
+
+/// Description of an allowed range: "must be …", or "is too large" for a bound that only prevents overflow.
+fn range(path: &str, allowed: &str, field: &Field, unit: FieldUnit) -> String {
+    let with_unit = |text: String| format!("{text} {}", unit.unit).trim_end().to_owned();
+    let between = |(from, to): (f64, f64), word, digits| {
+        let [from, to] = [from, to].map(|value| shown_to(digits, value * unit.scale));
+        with_unit(format!("{from} {word} {to}"))
+    };
+    if let Some(ends) = ends(allowed) {
+        return format!("must be between {}", between(ends, "and", DIGITS));
+    }
+    let Some((word, bound)) = bound(allowed) else {
+        return format!("must be {}", converted(path, allowed, unit));
+    };
+    let usual = between(field.usual, "to", 3);
+    match (word, bound == 0.0) {
+        (_, true) => format!("must be {}; usual: {usual}", with_unit(format!("{word} 0"))),
+        ("at most", _) => format!("is too large; usual: {usual}"),
+        _ => format!("is too small; usual: {usual}"),
+    }
+}
+
+/// Reads both ends from a text such as "between 0 and 600".
+fn ends(allowed: &str) -> Option<(f64, f64)> {
+    let (from, to) = allowed.strip_prefix("between ")?.split_once(" and ")?;
+    Some((from.parse().ok()?, to.parse().ok()?))
+}
+
+/// Reads the word and the number from a text such as "above 0; saws have 0.0001 to 0.04 m".
+fn bound(allowed: &str) -> Option<(&'static str, f64)> {
+    let (bound, _) = allowed.split_once(';').unwrap_or((allowed, ""));
+    ["above", "at least", "at most"]
+        .into_iter()
+        .find_map(|word| Some((word, bound.strip_prefix(word)?.trim().parse().ok()?)))
+}
+
+/// A word, separated from the brackets and punctuation around it.
+struct Word<'a> {
+    before: &'a str,
+    core: &'a str,
+    after: &'a str,
+}
+
+impl<'a> Word<'a> {
+    fn new(word: &'a str) -> Self {
+        let core = word.trim_start_matches('(');
+        let before = &word[..word.len() - core.len()];
+        let short = core.trim_end_matches([')', ',', ';', ':', '.']);
+        Word {
+            before,
+            core: short,
+            after: &core[short.len()..],
+        }
+    }
+
+    fn number(&self) -> Option<f64> {
+        let digits = self.core.trim_start_matches('-');
+        let number = self.core.parse().ok();
+        number.filter(|_| digits.starts_with(|c: char| c.is_ascii_digit()))
+    }
+
+    fn with(&self, core: &str) -> String {
+        format!("{}{core}{}", self.before, self.after)
+    }
+}
+
+/// Converts numbers in a text to the unit of the field and replaces paths by names. A number that is followed by a word
+/// other than the unit of the key, "and", "to" or "or", as in "30 diameters", is not converted.
+fn converted(path: &str, allowed: &str, unit: FieldUnit) -> String {
+    let si = Quantity::of(path).map_or("", |quantity| quantity.unit);
+    let words: Vec<Word<'_>> = allowed.split(' ').map(Word::new).collect();
+    let mut told: Vec<String> = Vec::new();
+    // `last` contains the position of the last number without a unit, and its text with the unit.
+    let mut last: Option<(usize, String)> = None;
+    let mut words = words.iter().peekable();
+    while let Some(word) = words.next() {
+        let Some(number) = word.number() else {
+            told.push(word.with(&named(path, word.core)));
+            continue;
+        };
+        let number = shown_to(DIGITS, number * unit.scale);
+        let is_end = |next: &&&Word<'_>| word.after.is_empty() && next.core == si && !si.is_empty();
+        if let Some(end) = words.peek().filter(is_end) {
+            told.push(format!(
+                "{}{number} {}{}",
+                word.before, unit.unit, end.after
+            ));
+            last = None;
+            words.next();
+            continue;
+        }
+        let joins = |next: &&Word<'_>| ["and", "to", "or"].contains(&next.core);
+        if word.after.is_empty() && !words.peek().is_none_or(joins) {
+            told.push(word.with(word.core));
+            continue;
+        }
+        let with_unit = format!("{number} {}", unit.unit);
+        last = Some((told.len(), word.with(with_unit.trim_end())));
+        told.push(word.with(&number));
+    }
+    // The last of several numbers without a unit gets the unit.
+    if let Some((at, number)) = last {
+        told[at] = number;
+    }
+    told.join(" ")
+}
+
+/// Returns the name of the quantity to which `word` is the path, which may be relative to the block of `path`. A word
+/// that is not a path is returned unchanged.
+fn named(path: &str, word: &str) -> String {
+    let is_path = word.contains(['.', '_'])
+        && word.starts_with(|c: char| c.is_ascii_lowercase())
+        && word
+            .bytes()
+            .all(|c| c.is_ascii_alphanumeric() || b"._[]".contains(&c));
+    if !is_path {
+        return word.to_owned();
+    }
+    let block = path.rfind('.').map_or("", |end| &path[..=end]);
+    let quantity = Quantity::of(word).or_else(|| Quantity::of(&format!("{block}{word}")));
+    quantity.map_or_else(
+        || word.replace('_', " "),
+        |found| format!("the {}", found.name),
+    )
+}
+
+/// Message with both numbers that a text may mean, because a mark before three digits is decimal or separates
+/// thousands; `None` if the text has one meaning.
+pub fn which_number(text: &str) -> Option<String> {
+    let plain = text.trim().replace('−', "-");
+    let digits = plain.trim_start_matches(['+', '-']);
+    let (whole, rest) = digits.split_once(['.', ','])?;
+    let is_digits = |text: &str| text.bytes().all(|c| c.is_ascii_digit());
+    let is_group = (1..=3).contains(&whole.len()) && !whole.starts_with('0') && rest.len() == 3;
+    if !is_group || !is_digits(whole) || !is_digits(rest) {
+        return None;
+    }
+    let sign = if plain.starts_with('-') { "-" } else { "" };
+    let decimal: f64 = format!("{whole}.{rest}").parse().ok()?;
+    Some(format!(
+        "“{}” may be {sign}{whole}{rest} or {sign}{decimal}; write one of these",
+        text.trim()
+    ))
+}
+
+fn capital(text: &str) -> String {
+    let mut characters = text.chars();
+    let first = characters.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + characters.as_str()
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+    use crate::app::explore::refusal::Refusal;
+    use crate::model::scene::Scene;
+
+    /// Returns the message about a scene in which one number is replaced.
+    fn told(path: &str, typed: &Value, units: Units) -> String {
+        let mut scene = serde_json::to_value(Scene::paper().file()).unwrap();
+        let mut place = &mut scene;
+        for step in path.split(['.', '[']).map(|s| s.trim_end_matches(']')) {
+            place = match step.parse::<usize>() {
+                Ok(index) => &mut place[index],
+                Err(_) => &mut place[step],
+            };
+        }
+        *place = typed.clone();
+        let text = scene.to_string();
+        let refusal = Refusal::from(Scene::from_json(&text).unwrap_err());
+        assert_eq!(refusal.key.as_deref(), Some(path));
+        let refusal = refusal.in_field(&text, units);
+        refusal
+            .told
+            .unwrap_or_else(|| panic!("{path}: {}", refusal.message))
+    }
+
+    #[test]
+    fn numbers_are_refused_in_the_unit_of_their_field() {
+        let cases = [
+            (
+                "blade.outer_diameter_m",
+                json!(1e25),
+                "Outer diameter is too large; usual: 40 to 5000 mm",
+            ),
+            (
+                "blade.thickness_m",
+                json!(-1.0),
+                "Thickness must be above 0 mm; usual: 0.1 to 40 mm",
+            ),
+            ("blade.teeth", json!(2.5), "Teeth must be a whole number"),
+            (
+                "blade.material.poisson_ratio",
+                json!(0.7),
+                "Poisson ratio must be above -1 and below 0.5",
+            ),
+            (
+                "guides[0].radius_m",
+                json!(0.9),
+                "Radius must be such that the pad lies on the blade, which reaches from r = 100 to 355 mm",
+            ),
+            (
+                "guides[0].stiffness_n_per_m",
+                json!("stiff"),
+                "Stiffness must be a number, in MN/m",
+            ),
+            (
+                "guides[0].tangential_length_m",
+                json!(0.0),
+                "Tangential length must be zero exactly when the radial length of the guide is",
+            ),
+            (
+                "cut.depth_m",
+                json!(0.8),
+                "Depth must be at most the blade's diameter (710 mm)",
+            ),
+            (
+                "cut.idle_s",
+                json!(601.0),
+                "Time before and after the cut must be between 0 and 600 s",
+            ),
+            (
+                "operating_rpm",
+                json!("1,800"),
+                "“1,800” may be 1800 or 1.8; write one of these, in rpm",
+            ),
+        ];
+        for (path, typed, wanted) in cases {
+            assert_eq!(told(path, &typed, Units::Metric), wanted);
+        }
+        assert_eq!(
+            told("guides[0].radius_m", &json!(0.9), Units::Inches),
+            "Radius must be such that the pad lies on the blade, which reaches from r = 3.93701 to 13.9764 in"
+        );
+    }
+
+    #[test]
+    fn a_mark_before_three_digits_is_asked_about() {
+        let which = |text| which_number(text);
+        assert_eq!(
+            which(" −2.850 ").unwrap(),
+            "“−2.850” may be -2850 or -2.85; write one of these"
+        );
+        for plain in [
+            "1800", "0,800", "1,80", "1,8000", "1,80a", "a,800", ",800", "1234,800",
+        ] {
+            assert_eq!(which(plain), None, "{plain}");
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! The scene, which describes a saw, in two stages: [`SceneFile`] as typed, and [`Scene`], validated and in
+//! SI units and radians.
+//!
+//! JSON text becomes a [`Scene`] or a [`SceneError`] that names the key, the value, what is allowed and the
+//! remedy. The name of a key contains its unit. [`Scene::edited`] is the only way to change a scene, and it
+//! validates again, so that every scene is valid.
+
+mod blade;
+mod check;
+mod cut;
+mod cut_file;
+mod damping;
+mod entries;
+mod excitation;
+mod file;
+mod freed;
+mod friction;
+mod guide;
+mod membrane;
+mod needed;
+mod parameter;
+mod point;
+mod profile;
+mod quantities;
+mod quantity;
+mod read;
+#[cfg(test)]
+mod refusal_tests;
+mod refused;
+mod residual;
+mod response;
+mod roll_band;
+mod runup;
+mod schema;
+mod setting;
+mod side_force;
+mod span;
+mod speed_range;
+mod spline;
+mod straight_edge;
+mod teeth_in_cut;
+mod thickness;
+#[cfg(any(feature = "cli", feature = "page"))]
+pub(crate) mod typical;
+mod unit;
+mod unusual;
+mod validate;
+mod validated;
+mod washboarding;
+mod wood;
+
+pub use crate::page::text::FileError;
+pub(crate) use blade::RimMass;
+pub use blade::{Blade, BladeFile, Bore, InPlane, Material, Mount, RimFile};
+pub(crate) use cut::in_words as in_the_cut;
+pub use cut::{Cut, CutRun};
+pub use cut_file::{CutFile, CutSpeedFile};
+pub use damping::{DampingFile, ModeRatioRow};
+pub(crate) use entries::in_words;
+pub use excitation::{ExcitationFile, ExcitationLine};
+pub use file::{
+    Accuracy, ContactLaw, GuideFile, GuideShape, GuideSide, Measured, MeasuredRow, SceneFile,
+    SweepFile,
+};
+#[doc(hidden)]
+pub use freed::spread;
+pub use freed::{Freed, NamedBounds};
+pub(crate) use freed::{effective, is_logarithmic, scene_at};
+pub use friction::FrictionFile;
+pub(crate) use guide::{Guide, Lifting};
+pub(crate) use membrane::{Membrane, Temperature, TemperatureShape};
+pub use membrane::{MembraneFile, TemperatureFile, TemperatureRow};
+pub use parameter::Parameter;
+pub(crate) use point::Point;
+pub(crate) use profile::Profile;
+#[cfg(any(test, feature = "page"))]
+pub(crate) use quantities::QUANTITIES;
+pub(crate) use quantities::{quantity, typical_value};
+pub use quantity::{Kind, Quantity, Typical};
+pub use read::MAX_SCENE_BYTES;
+#[cfg(feature = "cli")]
+pub(crate) use read::SCENE_TEXT;
+pub(crate) use refused::Given;
+pub use refused::{RefusedValue, SceneError};
+pub(crate) use residual::ResidualStress;
+pub use residual::ResidualStressRow;
+pub use response::ResponseFile;
+pub use roll_band::RollBandFile;
+pub(crate) use roll_band::{Groove, RollBand};
+pub use runup::{ProbeFile, RunUpFile};
+pub use schema::json_schema;
+#[cfg(feature = "cli")]
+pub(crate) use schema::{Key, keys};
+pub use setting::{Setting, number_of};
+pub use side_force::SideForceFile;
+pub(crate) use side_force::{OscillatingForce, SideForce, USUAL_SIDE_FORCE_N};
+pub use span::Span;
+pub use speed_range::SpeedRange;
+pub(crate) use speed_range::speed_rad_per_s;
+pub use spline::SplineFile;
+pub(crate) use straight_edge::StraightEdge;
+pub use straight_edge::StraightEdgeFile;
+pub use teeth_in_cut::{TeethInCut, Tooth};
+pub use thickness::ThicknessRow;
+pub(crate) use unusual::unusual_number;
+pub use validated::Scene;
+pub use washboarding::WashboardingFile;
+pub(crate) use washboarding::{MAX_CUTTING_STIFFNESS, Washboarding};
+pub(crate) use wood::Wood;
+pub use wood::WoodFile;
+
+/// Standard acceleration of gravity (CGPM 1901).
+pub(crate) const GRAVITY_M_PER_S2: f64 = 9.80665;
+
+/// Rotation speed in rad/s from revolutions per minute.
+pub fn rad_per_s(rpm: f64) -> f64 {
+    rpm * std::f64::consts::PI / 30.0
+}
+
+/// Rotation speed in revolutions per minute from rad/s.
+pub fn rpm(rad_per_s: f64) -> f64 {
+    rad_per_s * 30.0 / std::f64::consts::PI
+}

@@ -1,0 +1,145 @@
+//! What is refused is named by its key, with its value and what is allowed.
+
+use serde_json::{Value, json};
+
+use super::quantities::QUANTITIES;
+use super::{Kind, Quantity, Scene};
+use crate::page::text::shown;
+
+/// Puts a value at a path like `guides.0.gap_m`.
+fn put(scene: &mut Value, path: &str, value: Value) {
+    let (parent, key) = path.rsplit_once('.').unwrap_or(("", path));
+    let parent = scene.pointer_mut(&pointer(parent)).unwrap();
+    match key.parse::<usize>() {
+        Ok(index) => parent[index] = value,
+        Err(_) => parent[key] = value,
+    }
+}
+
+/// JSON pointer of a path, `/guides/0` for `guides.0` or `guides[]`.
+fn pointer(path: &str) -> String {
+    let keys = path.replace("[]", ".0").replace('.', "/");
+    if keys.is_empty() {
+        keys
+    } else {
+        format!("/{keys}")
+    }
+}
+
+fn refusal(scene: &Value) -> String {
+    let found = Scene::from_json(&scene.to_string());
+    found
+        .err()
+        .map_or("accepted".to_owned(), |error| error.to_string())
+}
+
+/// Parts of the paper's scene, each with its path, that together have every number of the table.
+const COMPLETE: &str = include_str!("../../../tests/refusals/complete.json");
+/// Numbers that contradict others: the changes of the scene, and the key that is refused.
+const CONTRADICTIONS: &str = include_str!("../../../tests/refusals/contradictions.json");
+
+/// The paper's scene with other values at some paths.
+fn with(changes: impl IntoIterator<Item = (String, Value)>) -> Value {
+    let mut scene = serde_json::to_value(Scene::paper().file()).unwrap();
+    for (path, value) in changes {
+        put(&mut scene, &path, value);
+    }
+    scene
+}
+
+/// Ends of a range, each with a number just inside and one just outside.
+fn ends(quantity: &Quantity) -> [(f64, f64); 2] {
+    let allowed = quantity.allowed;
+    if quantity.kind == Kind::Count {
+        return [
+            (allowed.from, allowed.from - 1.0),
+            (allowed.to, allowed.to + 1.0),
+        ];
+    }
+    let below = if allowed.is_open_below {
+        (allowed.from.next_up(), allowed.from)
+    } else {
+        (allowed.from, allowed.from.next_down())
+    };
+    let above = if allowed.is_open_above {
+        (allowed.to.next_down(), allowed.to)
+    } else {
+        (allowed.to, allowed.to.next_up())
+    };
+    [below, above]
+}
+
+/// A number just inside of its range is refused at most by a rule that joins it with other keys.
+#[test]
+fn every_number_out_of_its_range_is_refused_by_its_key() {
+    let parts: Vec<(String, Value)> = serde_json::from_str(COMPLETE).unwrap();
+    let scenes: Vec<Value> = parts.into_iter().map(|part| with([part])).collect();
+    for scene in &scenes {
+        assert_eq!(refusal(scene), "accepted", "{scene}");
+    }
+    let mut wrong = Vec::new();
+    for quantity in &QUANTITIES {
+        let place = pointer(quantity.path);
+        let is_there = |scene: &&Value| scene.pointer(&place).is_some_and(Value::is_number);
+        let own = scenes.iter().find(is_there);
+        let scene = own.unwrap_or_else(|| panic!("no scene has {}", quantity.path));
+        let key = quantity.path.replace("[]", "[0]");
+        let put_there = |value: f64| {
+            let mut scene = scene.clone();
+            *scene.pointer_mut(&place).unwrap() = match quantity.kind {
+                Kind::Count => json!(value as i64),
+                _ => json!(value),
+            };
+            scene
+        };
+        for (inside, outside) in ends(quantity) {
+            let file = Scene::file_from_json(&put_there(inside).to_string()).unwrap();
+            if let Err(error) = file.check_numbers() {
+                wrong.push(format!("{inside}: {error}"));
+            }
+            let bound = if outside > inside {
+                quantity.allowed.to
+            } else {
+                quantity.allowed.from
+            };
+            let message = refusal(&put_there(outside));
+            let is_negative_count = quantity.kind == Kind::Count && outside < 0.0;
+            let words = match is_negative_count {
+                true => format!("{key}: must be a whole number, 0 or more, but is -1"),
+                false => format!("{key} is {}, but must be ", shown(outside)),
+            };
+            let range = message.strip_prefix(&words);
+            let names = |range: &str| range.contains(&shown(bound)) || range.starts_with("above 0");
+            if !range.is_some_and(|range| is_negative_count || names(range)) {
+                wrong.push(format!("{words}{bound}: {message}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn numbers_that_contradict_others_are_refused_by_their_keys() {
+    let cases: Vec<(serde_json::Map<String, Value>, String)> =
+        serde_json::from_str(CONTRADICTIONS).unwrap();
+    let mut wrong = Vec::new();
+    for (changes, key) in cases {
+        let message = refusal(&with(changes));
+        if !message.starts_with(&format!("{key} is ")) {
+            wrong.push(format!("{key}: {message}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Numbers that JSON does not have, from the library.
+#[test]
+fn what_is_no_number_is_refused_by_its_key() {
+    let thick = Scene::paper().edited(|file| file.blade.thickness_m = f64::NAN);
+    let off = Scene::paper().edited(|file| file.guides[0].offset_m = f64::INFINITY);
+    for (key, edited) in [("blade.thickness_m", thick), ("guides[0].offset_m", off)] {
+        let refused = edited.unwrap_err().to_string();
+        let words = format!("{key} is no finite number, but must be ");
+        assert!(refused.starts_with(&words), "{refused}");
+    }
+}

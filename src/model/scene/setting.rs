@@ -1,0 +1,332 @@
+//! A number of a scene as given on a command line: `blade.thickness_m=2.6mm`.
+
+use std::str::FromStr;
+
+use serde_json::{Map, Number, Value};
+
+use super::quantities::{QUANTITIES, general};
+use super::quantity::Quantity;
+use super::unit::Unit;
+use super::{RefusedValue, Scene, SceneError, SceneFile};
+
+/// A value for the number of a scene at a path, in the unit of its key.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting {
+    path: String,
+    value: f64,
+}
+
+/// Smallest Jaro–Winkler similarity of a known path that an error suggests.
+const LIKENESS: f64 = 0.8;
+
+impl Setting {
+    /// A setting from a value in the unit of the key.
+    #[cfg(feature = "cli")]
+    pub(crate) fn new(path: String, value: f64) -> Self {
+        Setting { path, value }
+    }
+}
+
+impl FromStr for Setting {
+    type Err = RefusedValue;
+
+    /// Parses a text like `guides[0].stiffness_n_per_m=20 kN/mm`.
+    fn from_str(text: &str) -> Result<Self, RefusedValue> {
+        let Some((path, value)) = text.split_once('=') else {
+            let allowed = "a path, =, and a number with or without a unit";
+            let remedy = "write it like blade.thickness_m=2.6mm";
+            return Err(RefusedValue::new(
+                "the setting",
+                format!("{text:?}"),
+                allowed,
+                remedy,
+            ));
+        };
+        let path = path.trim().to_owned();
+        let value = number_of(&path, value)?;
+        Ok(Setting { path, value })
+    }
+}
+
+/// Parses a number in the unit of a key: `2.6mm` for `blade.thickness_m` is 0.0026.
+///
+/// # Errors
+/// [`RefusedValue`] if scenes have no such number, or the text is no number in its unit.
+pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
+    let quantity = Quantity::of(path).ok_or_else(|| unknown(path))?;
+    let refused = |remedy| {
+        let allowed = match quantity.unit {
+            "" => "a number without a unit".to_owned(),
+            unit => format!("a number in {unit}, or with a unit of the same kind"),
+        };
+        RefusedValue::new(path, format!("{:?}", text.trim()), allowed, remedy)
+    };
+    let text = text.trim();
+    if text.contains(',') {
+        return Err(refused("write it with a decimal point"));
+    }
+    let (digits, unit) = split(text);
+    let value = digits.parse();
+    let value: f64 = value.map_err(|_| refused("write it like 0.0026 or 2.6mm"))?;
+    if unit.is_empty() {
+        return Ok(value);
+    }
+    // A change in percent needs the present number, which is not known here. Without this check, +5% of a
+    // dimensionless number would be read as 0.05.
+    if unit == "%" && (text.starts_with('+') || !quantity.unit.is_empty()) {
+        return Err(refused(
+            "give the new number itself, not its change in percent",
+        ));
+    }
+    let given = Unit::parse(unit).ok_or_else(|| {
+        refused("write units like mm, kN/mm, g/cm^3 or rad/s, or leave the unit out")
+    })?;
+    let own = Unit::parse(quantity.unit).filter(|own| own.is_of(&given));
+    let own = own.ok_or_else(|| refused("give a unit of this quantity, or leave the unit out"))?;
+    let factor = given.factor / own.factor;
+    // Division by a whole number is correctly rounded, unlike multiplication by its reciprocal, so that
+    // 2.6 mm give the same number as 0.0026 m.
+    Ok(match factor < 1.0 {
+        true => value / (own.factor / given.factor),
+        false => value * factor,
+    })
+}
+
+/// Splits a text into its leading number and the rest.
+fn split(text: &str) -> (&str, &str) {
+    let is_digit = |c: char| c.is_ascii_digit() || c == '.';
+    let exponent = |at: usize| {
+        let rest = text[at..].strip_prefix(['e', 'E']);
+        let rest = rest.map(|rest| rest.strip_prefix(['+', '-']).unwrap_or(rest));
+        rest.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    let mut end = text.len() - text.trim_start_matches(['+', '-']).len();
+    end += text[end..]
+        .find(|c| !is_digit(c))
+        .unwrap_or(text.len() - end);
+    if exponent(end) {
+        end += 1;
+        end += usize::from(text[end..].starts_with(['+', '-']));
+        let rest = &text[end..];
+        end += rest
+            .find(|c: char| !c.is_ascii_digit())
+            .unwrap_or(rest.len());
+    }
+    (&text[..end], text[end..].trim())
+}
+
+fn unknown(path: &str) -> RefusedValue {
+    let general = general(path);
+    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
+    let likeness = |own: &str| {
+        let whole = strsim::jaro_winkler(&general, own);
+        whole.max(strsim::jaro_winkler(&last(&general), &last(own)))
+    };
+    let near = QUANTITIES.iter().rev().map(|q| (likeness(q.path), q.path));
+    let near = near.max_by(|x, y| x.0.total_cmp(&y.0));
+    let near = near.filter(|(likeness, _)| *likeness > LIKENESS);
+    let meant = near.map_or(String::new(), |(_, near)| format!(", perhaps {near}"));
+    RefusedValue::new(
+        "the path",
+        format!("{path:?}"),
+        format!("that of a number of a scene, like guides[0].radius_m{meant}"),
+        "`sawflutter keys` prints them all",
+    )
+}
+
+impl SceneFile {
+    /// The scene with other numbers, by their paths. Creates a missing block, such as `cut` for
+    /// `cut.power_w`, but no entry of a list.
+    ///
+    /// ```
+    /// use sawflutter::model::scene::{Scene, Setting};
+    ///
+    /// let thinner: Setting = "blade.thickness_m=2.6mm".parse()?;
+    /// let saw = Scene::paper().file().set(&[thinner])?;
+    /// assert_eq!(saw.blade().thickness_m, 0.0026);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SceneError`] if the scene has no place for a number, or a value is refused.
+    pub fn set(&self, settings: &[Setting]) -> Result<Scene, SceneError> {
+        let mut json = super::entries::value(self);
+        for setting in settings {
+            put(&mut json, setting)?;
+        }
+        let set = Scene::from_json(&json.to_string());
+        set.map_err(|error| match error {
+            // The text is a single generated line, so its line number is meaningless to the user.
+            SceneError::Syntax { key, message } => SceneError::Syntax {
+                key,
+                message: message.trim_end_matches(" (line 1)").to_owned(),
+            },
+            other => other,
+        })
+    }
+}
+
+/// Writes a number at its path.
+fn put(json: &mut Value, setting: &Setting) -> Result<(), RefusedValue> {
+    let number = number(setting)?;
+    let mut place = json;
+    let mut reached = String::new();
+    // `Quantity::of` has checked that the path consists of keys and indices.
+    for step in setting
+        .path
+        .split('.')
+        .flat_map(|part| part.split_inclusive('['))
+    {
+        let step = step.trim_end_matches('[');
+        if let Some(index) = step.strip_suffix(']') {
+            let entries = place
+                .as_array_mut()
+                .map(Vec::as_mut_slice)
+                .unwrap_or_default();
+            let count = entries.len();
+            let entry = index.parse().ok().and_then(|at: usize| entries.get_mut(at));
+            place = entry.ok_or_else(|| no_entry(&setting.path, &reached, count))?;
+            reached += &format!("[{index}]");
+            continue;
+        }
+        if place.is_null() {
+            *place = Value::Object(Map::new());
+        }
+        let block = place.as_object_mut();
+        let block = block.ok_or_else(|| no_entry(&setting.path, &reached, 0))?;
+        place = block.entry(step).or_insert(Value::Null);
+        reached += if reached.is_empty() { "" } else { "." };
+        reached += step;
+    }
+    *place = Value::Number(number);
+    Ok(())
+}
+
+/// Writes a whole number without a decimal point, which counts need and other numbers accept.
+fn number(setting: &Setting) -> Result<Number, RefusedValue> {
+    const EXACT: f64 = 9e15;
+    let value = setting.value;
+    if value.fract() == 0.0 && (0.0..EXACT).contains(&value) {
+        return Ok(Number::from(value as u64));
+    }
+    Number::from_f64(value)
+        .ok_or_else(|| RefusedValue::new(&setting.path, value, "finite", "give a number"))
+}
+
+fn no_entry(path: &str, list: &str, count: usize) -> RefusedValue {
+    let allowed = match count {
+        0 => format!("an index that the scene has, but its {list} has no entries"),
+        _ => format!(
+            "an index that the scene has: {list}[0] to {list}[{}]",
+            count - 1
+        ),
+    };
+    RefusedValue::new(
+        "the path",
+        format!("{path:?}"),
+        allowed,
+        "write the entry into the scene first",
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::DampingFile;
+    use super::*;
+
+    fn set(texts: &[&str]) -> Result<Scene, String> {
+        let settings = texts.iter().map(|text| text.parse());
+        let settings = settings.collect::<Result<Vec<Setting>, RefusedValue>>();
+        let settings = settings.map_err(|error| error.to_string())?;
+        let set = Scene::paper().file().set(&settings);
+        set.map_err(|error| error.to_string())
+    }
+
+    /// The result equals a scene with these numbers typed in the units of their keys.
+    #[test]
+    fn numbers_with_units_are_those_typed_in_si() {
+        let texts = [
+            "blade.thickness_m=2.6mm",
+            "guides[0].stiffness_n_per_m = 20 kN/mm",
+            "guides[0].angle_deg=-0.5rad",
+            "blade.teeth=80",
+            "operating_rpm=30 rev/s",
+            "damping.air_n_s_per_m3=40",
+            "blade.material.poisson_ratio=30%",
+            "cut.power_w=2.5e1kW",
+        ];
+        let found = set(&texts).unwrap();
+        let typed = Scene::paper().edited(|file| {
+            file.blade.thickness_m = 0.0026;
+            file.guides[0].stiffness_n_per_m = 2e7;
+            file.guides[0].angle_deg = (-0.5_f64).to_degrees();
+            file.blade.teeth = Some(80);
+            file.operating_rpm = Some(1800.0);
+            file.blade.material.poisson_ratio = 0.3;
+            file.cut.as_mut().unwrap().power_w = Some(25e3);
+            file.damping = Some(DampingFile {
+                air_n_s_per_m3: 40.0,
+                ..DampingFile::default()
+            });
+        });
+        assert_eq!(found, typed.unwrap());
+    }
+
+    #[test]
+    fn refusals_name_path_value_and_remedy() {
+        let cases = [
+            ("blade.thickness_m", &["path, =, and a number"][..]),
+            (
+                "blade.thicknes_m=2",
+                &[
+                    "\"blade.thicknes_m\"",
+                    "perhaps blade.thickness_m",
+                    "sawflutter keys",
+                ],
+            ),
+            ("thickness_m=2", &["perhaps blade.thickness_m"]),
+            (
+                "guides[7].radius_m=0.2",
+                &["guides[7]", "guides[0] to guides[0]"],
+            ),
+            ("guides[].radius_m=0.2", &["guides[0] to guides[0]"]),
+            (
+                "blade.thickness_m=2.6 N",
+                &["\"2.6 N\"", "a number in m", "a unit of this quantity"],
+            ),
+            (
+                "blade.thickness_m=2.6 furlong",
+                &["\"2.6 furlong\"", "write units like mm"],
+            ),
+            (
+                "blade.thickness_m=-5%",
+                &["\"-5%\"", "a number in m", "not its change in percent"],
+            ),
+            (
+                "blade.material.poisson_ratio=+5%",
+                &["\"+5%\"", "not its change in percent"],
+            ),
+            ("blade.thickness_m=2,6mm", &["decimal point"]),
+            (
+                "blade.thickness_m=thin",
+                &["\"thin\"", "like 0.0026 or 2.6mm"],
+            ),
+            ("blade.thickness_m=", &["blade.thickness_m is \"\""]),
+            ("blade.thickness_m=-1mm", &["blade.thickness_m", "-0.001"]),
+            ("blade.teeth=80.5", &["blade.teeth", "whole number"]),
+            ("blade.teeth=80 mm", &["without a unit"]),
+            ("operating_rpm=30Hz", &["a number in rpm"]),
+            (
+                "blade.profile[0].thickness_m=2mm",
+                &["blade.profile", "no entries"],
+            ),
+            ("operating_rpm=1e999", &["finite"]),
+        ];
+        for (text, expected) in cases {
+            let error = set(&[text]).unwrap_err();
+            for words in expected {
+                assert!(error.contains(words), "{text}: {error}");
+            }
+        }
+    }
+}

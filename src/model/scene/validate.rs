@@ -1,0 +1,158 @@
+//! Validates a [`SceneFile`]: the [`Scene`] that results is in SI units and radians.
+
+use super::blade::RimMass;
+use super::check::{MAX_GUIDES, refuse};
+use super::cut::Cut;
+use super::guide::guide;
+use super::membrane::Membrane;
+use super::speed_range::check_rise;
+use super::thickness::ThicknessProfile;
+use super::{Blade, Bore, ExcitationLine, Mount, RefusedValue, Scene, SceneError, SceneFile};
+use crate::page::text::shown;
+
+impl TryFrom<SceneFile> for Scene {
+    type Error = SceneError;
+
+    fn try_from(file: SceneFile) -> Result<Self, SceneError> {
+        file.check_numbers()?;
+        let blade = blade(&file)?;
+        if file.guides.len() > MAX_GUIDES {
+            let remedy = "join pads that lie side by side";
+            let (count, allowed) = (file.guides.len(), format!("at most {MAX_GUIDES} pads"));
+            return Err(refuse("guides", count as f64, allowed, remedy));
+        }
+        let guides = file
+            .guides
+            .iter()
+            .enumerate()
+            .map(|(index, pad)| guide(index, pad, &blade))
+            .collect::<Result<Vec<_>, _>>()?;
+        check_measured(&file)?;
+        if let Some(damping) = &file.damping {
+            damping.checked()?;
+        }
+        if let Some(sweep) = &file.sweep {
+            let remedy = "a sweep runs from a lower to a higher speed";
+            check_rise("sweep", sweep.from_rpm, sweep.to_rpm, remedy)?;
+        }
+        if let Some(runup) = &file.runup {
+            runup.checked()?;
+        }
+        if let Some(probe) = &file.probe {
+            probe.checked(&blade)?;
+        }
+        if let Some(spline) = &file.spline {
+            spline.checked(&file.mount, &blade)?;
+        }
+        if let Some(force) = &file.side_force {
+            force.checked(&blade)?;
+        }
+        Ok(Scene {
+            cut: file
+                .cut
+                .as_ref()
+                .map(|cut| Cut::new(cut, file.operating_rpm, file.blade.teeth, &blade))
+                .transpose()?,
+            membrane: file
+                .membrane
+                .as_ref()
+                .map(|membrane| Membrane::new(membrane, &blade, 0.5 * file.blade.inner_diameter_m))
+                .transpose()?,
+            blade,
+            guides: guides.into_iter().filter(|pad| pad.typed.acts()).collect(),
+            excitation: ExcitationLine::of(file.excitation, file.blade.teeth)?,
+            file,
+        })
+    }
+}
+
+fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
+    let typed = &file.blade;
+    let (outer, bore) = (typed.outer_diameter_m, typed.inner_diameter_m);
+    let thickness_m = typed.thickness_m;
+    if bore >= outer {
+        let allowed = format!("less than blade.outer_diameter_m ({})", shown(outer));
+        let remedy = "a bore is smaller than its blade; were the two exchanged?";
+        return Err(refuse("blade.inner_diameter_m", bore, allowed, remedy));
+    }
+    let (inner, bore) = match file.mount {
+        Mount::Spline {} => (bore, Bore::Free),
+        Mount::Collar {
+            diameter_m,
+            in_plane,
+        } => {
+            if !(bore..outer).contains(&diameter_m) {
+                let allowed = format!(
+                    "from the bore ({}) to below the rim ({})",
+                    shown(bore),
+                    shown(outer)
+                );
+                let remedy = "give the outer diameter of the collar";
+                return Err(refuse("mount.diameter_m", diameter_m, allowed, remedy));
+            }
+            (diameter_m, Bore::Clamped(in_plane))
+        }
+    };
+    if inner > 0.999 * outer {
+        let allowed = format!("at most 0.999 of blade.outer_diameter_m ({})", shown(outer));
+        let remedy = "a narrower ring is a wire, which plate theory does not describe";
+        let key = match bore {
+            Bore::Free => "blade.inner_diameter_m",
+            Bore::Clamped(_) => "mount.diameter_m",
+        };
+        return Err(refuse(key, inner, allowed, remedy));
+    }
+    let width = 0.5 * (outer - inner);
+    if thickness_m > width {
+        let allowed = format!("at most the width of the moving ring ({} m)", shown(width));
+        let remedy = "a body thicker than wide is no plate; is the thickness in metres?";
+        return Err(refuse("blade.thickness_m", thickness_m, allowed, remedy));
+    }
+    let plain = Blade {
+        inner_radius_m: 0.5 * inner,
+        outer_radius_m: 0.5 * outer,
+        thickness_m,
+        profile: None,
+        rim: None,
+        material: typed.material,
+        bore,
+    };
+    Ok(Blade {
+        profile: ThicknessProfile::new(
+            &typed.profile,
+            thickness_m,
+            plain.inner_radius_m,
+            plain.outer_radius_m,
+        )?,
+        rim: RimMass::new(typed, &plain)?,
+        ..plain
+    })
+}
+
+/// Refuses a measured frequency that is not finite. JSON has null in its place, which means that it was not measured.
+fn check_measured(file: &SceneFile) -> Result<(), SceneError> {
+    for (index, row) in file.measured.iter().flat_map(|m| m.rows.iter()).enumerate() {
+        let lost = |hz: &Option<f64>| hz.is_some_and(|hz| !hz.is_finite());
+        if let Some(column) = row.frequencies_hz.iter().position(lost) {
+            let key = format!("measured.rows[{index}].frequencies_hz[{column}]");
+            let remedy = "give none where it was not measured";
+            return Err(RefusedValue::new(key, "no finite number", "a frequency", remedy).into());
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with(change: impl FnOnce(&mut SceneFile)) -> Result<Scene, SceneError> {
+        Scene::paper().edited(change)
+    }
+
+    #[test]
+    fn a_guide_without_stiffness_is_not_in_the_scene() {
+        let scene = with(|f| f.guides[0].stiffness_n_per_m = 0.0).unwrap();
+        assert!(scene.guides.is_empty());
+    }
+}

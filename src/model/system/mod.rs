@@ -1,0 +1,406 @@
+//! The equation of motion at a rotation speed.
+//!
+//! A [`Plate`] gives a [`GyroscopicSystem`], its assembled matrices, and from that K(Ω) and the factor of q̇
+//! at any speed:
+//!
+//! q̈ + (2ΩG + C) q̇ + [K₀ + Ω²(K_σ − N) + Ω K_circ + K_n] q = 0 with the identity as mass matrix and K₀ =
+//! K_b + K_m + K_g + K_e. Terms that the scene does not contain are absent.
+//!
+//! This is the equation ρh D²w/Dt² + … = 0 of the plate with the convective derivative D/Dt = ∂t + Ω∂θ: D²
+//! gives ∂t², the gyroscopic 2Ω ∂t∂θ and Ω² ∂θ², which is −N. Material damping resists the strain rate of the
+//! turning blade by C_i Dq/Dt, with C_i in proportion to K_b or to its square root; hence the part C_i of C, and
+//! K_circ = C_i G. Air that turns with the share s of the speed resists w_t + sΩw_θ.
+//!
+//! References: W. D. Iwan & T. L. Moeller, J. Appl. Mech. 43 (1976), 485–490; P. Lancaster, *Strongly stable
+//! gyroscopic systems*, Electron. J. Linear Algebra 5 (1999), 53–66, for Krein signs as a consequence of
+//! symmetry and skewness.
+
+use faer::{Col, Mat, MatRef, Scale, c64};
+use nalgebra::DMatrix;
+
+use crate::model::linalg::SymmetricEigen;
+use crate::model::plate::{HarmonicBlock, Plate};
+
+/// L(λ) = λ² + λD + K from K(Ω) and D = 2ΩG + C, in 1/s².
+pub(crate) fn dynamic_stiffness(
+    stiffness: &Mat<f64>,
+    velocity: &Mat<f64>,
+    lambda: c64,
+) -> Mat<c64> {
+    let order = stiffness.nrows();
+    let mut dynamic = Mat::from_fn(order, order, |i, k| {
+        lambda * velocity[(i, k)] + stiffness[(i, k)]
+    });
+    (0..order).for_each(|i| dynamic[(i, i)] += lambda * lambda);
+    dynamic
+}
+
+/// Matrices of the equation of motion, N × N; their projection on fewer vectors is a system of the same kind.
+#[derive(Debug, Clone)]
+pub struct GyroscopicSystem {
+    /// K₀ = K_b + K_m + K_g + K_e, in 1/s², symmetric: bending, membrane stress, guides, edge loads.
+    pub stiffness: Mat<f64>,
+    /// K_σ − N, dimensionless, symmetric: centrifugal tension minus the convective term, N = n² for the waves
+    /// of n nodal diameters.
+    pub spin: Mat<f64>,
+    /// G = ∂θ in the basis, dimensionless, skew: ±n between the cosines and the sines of n nodal diameters.
+    pub gyroscopic: Mat<f64>,
+    /// C, in 1/s, symmetric: pads, air and material.
+    pub damping: Option<Mat<f64>>,
+    /// K_circ = C_i G + s C_a G, in 1/s: material damping C_i turns with the blade, and air, with the part C_a
+    /// of C, with the share s of its speed.
+    pub circulatory: Option<Mat<f64>>,
+    /// K_n, in 1/s², without symmetry: contact forces that have no potential.
+    pub nonconservative: Option<Mat<f64>>,
+    /// Rigid motions z without stiffness, orthonormal: K(Ω) z = 0 at every speed.
+    pub free_rigid: Vec<Col<f64>>,
+    /// Contribution of free rigid motions to K_σ − N for a wave that stands still, see
+    /// [`GyroscopicSystem::standing_spin`]; dimensionless.
+    pub drift: Option<Mat<f64>>,
+}
+
+impl GyroscopicSystem {
+    /// The system of the whole plate, N × N.
+    pub fn of_plate(plate: &Plate) -> Self {
+        let mut system = Self::of_harmonics(plate, 0..=plate.max_diameters());
+        let fixed_in_space = [plate.contact.stiffness(), plate.edge_stiffness.as_ref()];
+        for term in fixed_in_space.into_iter().flatten() {
+            system.stiffness += term;
+        }
+        if let Some(contact) = plate.contact.damping() {
+            system.damping = Some(match system.damping.take() {
+                Some(damping) => damping + contact,
+                None => contact.clone(),
+            });
+        }
+        system.nonconservative = plate.contact.nonconservative_stiffness().cloned();
+        system.find_free_rigid_motions(plate, 0);
+        system
+    }
+
+    /// The system of the whole plate inside the gaps of its pads. Its rigid motions without stiffness do not
+    /// count as free, because the pads hold them beyond the gaps. `None` if no pad lifts off.
+    pub(crate) fn of_released(plate: &Plate) -> Option<Self> {
+        let mut system = Self::of_plate(&plate.released()?);
+        system.free_rigid.clear();
+        system.drift = None;
+        Some(system)
+    }
+
+    /// The block of n nodal diameters, which is decoupled from others if the plate is axisymmetric.
+    pub fn of_harmonic(plate: &Plate, n: usize) -> Self {
+        let mut system = Self::of_harmonics(plate, n..=n);
+        system.find_free_rigid_motions(plate, plate.offset(n));
+        system
+    }
+
+    fn of_harmonics(plate: &Plate, range: std::ops::RangeInclusive<usize>) -> Self {
+        let (first, radial) = (plate.offset(*range.start()), plate.basis.count());
+        let size = plate.offset(range.end() + 1) - first;
+        let blocks = |of: fn(&HarmonicBlock) -> &DMatrix<f64>| -> Mat<f64> {
+            let blocks: Vec<_> = plate.harmonics.iter().map(of).collect();
+            spread(plate, range.clone(), &blocks)
+        };
+        let mut gyroscopic = Mat::zeros(size, size);
+        for n in range.clone().filter(|n| *n > 0) {
+            let cosine = plate.offset(n) - first;
+            for j in 0..radial {
+                // The elements follow from ∂ sin nθ/∂θ = n cos nθ and ∂ cos nθ/∂θ = −n sin nθ.
+                gyroscopic[(cosine + j, cosine + radial + j)] = n as f64;
+                gyroscopic[(cosine + radial + j, cosine + j)] = -(n as f64);
+            }
+        }
+        let mut system = Self::undamped(blocks(|h| &h.bending), blocks(|h| &h.spin), gyroscopic);
+        system.add_blade_damping(plate, range.clone());
+        if plate.membrane.is_some() {
+            let blocks = plate.harmonics.iter().filter_map(|h| h.membrane.as_ref());
+            system.stiffness += spread(plate, range, &blocks.collect::<Vec<_>>());
+        }
+        system
+    }
+
+    fn add_blade_damping(&mut self, plate: &Plate, range: std::ops::RangeInclusive<usize>) {
+        let Some(damping) = &plate.damping else {
+            return;
+        };
+        let size = self.order();
+        let mut total: Mat<f64> = Mat::zeros(size, size);
+        // `turning` is the damping by material and air that rotate: the material with the blade, the air with
+        // a share of its speed.
+        let mut turning: Option<Mat<f64>> = None;
+        let material = plate.harmonics.iter().map(|h| h.material_damping.as_ref());
+        if let Some(blocks) = material.collect::<Option<Vec<_>>>() {
+            let material = spread(plate, range.clone(), &blocks);
+            total += &material;
+            turning = Some(material);
+        }
+        let air = damping.air_n_s_per_m3 / plate.blade.mass_per_area_kg_per_m2();
+        let area = air_area(plate, range);
+        match &area {
+            Some(area) => total += Scale(air) * area,
+            None => (0..size).for_each(|i| total[(i, i)] += air),
+        }
+        let turning_air = air * damping.air_rotation_share;
+        if turning_air > 0.0 {
+            let area = area.unwrap_or_else(|| Mat::identity(size, size));
+            let air = Scale(turning_air) * area;
+            turning = Some(turning.map_or_else(|| air.clone(), |material| material + &air));
+        }
+        self.circulatory = turning.map(|turning| turning * &self.gyroscopic);
+        self.damping = Some(total);
+    }
+
+    /// Finds free heave and tilt, and their drift. `first` is the index of the first unknown in the basis of the
+    /// plate.
+    fn find_free_rigid_motions(&mut self, plate: &Plate, first: usize) {
+        // A force without a potential does work on a rigid motion without stiffness, so that the momentum of
+        // this motion is not conserved.
+        if !plate.basis.has_rigid_motions() || self.nonconservative.is_some() {
+            return;
+        }
+        let tilt = plate.offset(1);
+        let rigid: Vec<usize> = [0, tilt, tilt + plate.basis.count()]
+            .into_iter()
+            .filter_map(|index| index.checked_sub(first))
+            .filter(|index| *index < self.order())
+            .collect();
+        if rigid.is_empty() {
+            return;
+        }
+        let held = Mat::from_fn(rigid.len(), rigid.len(), |i, j| {
+            self.stiffness[(rigid[i], rigid[j])]
+        });
+        // A stiffness that is not finite holds every motion here, and is refused by every eigenproblem.
+        let eigen = SymmetricEigen::or_nan(held.as_ref());
+        let stiffest = eigen
+            .values
+            .iter()
+            .fold(0.0_f64, |most, x| most.max(x.abs()));
+        let largest = self.stiffness.norm_max();
+        for k in (0..rigid.len()).filter(|&k| eigen.values[k] <= ROUNDING * stiffest) {
+            let mut z = Col::zeros(self.order());
+            for (i, &index) in rigid.iter().enumerate() {
+                z[index] = eigen.vectors[(i, k)];
+            }
+            if (&self.stiffness * &z).norm_max() <= ROUNDING * largest {
+                self.free_rigid.push(z);
+            }
+        }
+        if !self.free_rigid.is_empty() {
+            self.drift = self.drift_of_free_motions();
+        }
+    }
+
+    /// 4 GᵀZ₀Z₀ᵀG with the free rigid motions Z₀ that G does not couple with each other.
+    fn drift_of_free_motions(&self) -> Option<Mat<f64>> {
+        let turned: Vec<Col<f64>> = self
+            .free_rigid
+            .iter()
+            .map(|z| &self.gyroscopic * z)
+            .collect();
+        let count = turned.len();
+        // The matrix `coupled` is Ĝ = ZᵀGZ with the free rigid motions as columns of Z. The null vectors of
+        // ĜᵀĜ are those of Ĝ.
+        let coupled = Mat::from_fn(count, count, |i, j| {
+            self.free_rigid[i].transpose() * &turned[j]
+        });
+        let eigen = SymmetricEigen::or_nan((coupled.transpose() * &coupled).as_ref());
+        let mut drift: Option<Mat<f64>> = None;
+        for k in (0..count).filter(|&k| eigen.values[k] <= ROUNDING) {
+            let mut g = Col::<f64>::zeros(self.order());
+            for (i, column) in turned.iter().enumerate() {
+                g += Scale(eigen.vectors[(i, k)]) * column;
+            }
+            if g.norm_max() > ROUNDING {
+                let order = self.order();
+                *drift.get_or_insert_with(|| Mat::zeros(order, order)) +=
+                    Scale(4.0) * &g * g.transpose();
+            }
+        }
+        drift
+    }
+
+    /// Matrix S for which K₀ + Ω²S is singular at the speeds at which a wave stands still: K_σ − N, plus 4GᵀzzᵀG
+    /// for every free rigid motion z. The momentum zᵀ(q̇ + 2ΩGq) is constant, and zero in every motion that
+    /// oscillates or grows: displaced by q the blade drifts at −2ΩzᵀGq, and 2ΩG times that drift is a force
+    /// proportional to q, as that of a spring.
+    ///
+    /// Two free motions that G couples (zᵀGz′ ≠ 0) have no such term: each is displaced until the momentum of
+    /// the other vanishes.
+    pub fn standing_spin(&self) -> Mat<f64> {
+        match &self.drift {
+            Some(drift) => &self.spin + drift,
+            None => self.spin.clone(),
+        }
+    }
+
+    /// Number N of unknowns.
+    pub fn order(&self) -> usize {
+        self.stiffness.nrows()
+    }
+
+    /// Whether eigenvalues come in quadruples and modes have Krein signs.
+    pub fn is_conservative(&self) -> bool {
+        self.damping.is_none() && self.circulatory.is_none() && self.nonconservative.is_none()
+    }
+
+    /// The system without damping and without forces that have no potential.
+    pub fn conservative(&self) -> Self {
+        GyroscopicSystem {
+            damping: None,
+            circulatory: None,
+            nonconservative: None,
+            ..self.clone()
+        }
+    }
+
+    /// K(Ω) = K₀ + Ω²(K_σ − N) + Ω K_circ, in 1/s²; symmetric without K_circ.
+    pub fn stiffness_at(&self, speed_rad_per_s: f64) -> Mat<f64> {
+        let mut stiffness = &self.stiffness + Scale(speed_rad_per_s.powi(2)) * &self.spin;
+        if let Some(circulatory) = &self.circulatory {
+            stiffness += Scale(speed_rad_per_s) * circulatory;
+        }
+        if let Some(nonconservative) = &self.nonconservative {
+            stiffness += nonconservative;
+        }
+        stiffness
+    }
+
+    /// 2ΩG + C, in 1/s.
+    pub fn velocity_at(&self, speed_rad_per_s: f64) -> Mat<f64> {
+        let mut velocity = Scale(2.0 * speed_rad_per_s) * &self.gyroscopic;
+        if let Some(damping) = &self.damping {
+            velocity += damping;
+        }
+        velocity
+    }
+
+    /// Galerkin projection on the orthonormal columns of V, which must span the free rigid motions. It preserves
+    /// symmetry and skewness, so that Krein's theory applies to the small system too.
+    pub fn project(&self, basis: MatRef<'_, f64>) -> Self {
+        self.times(basis).onto(basis)
+    }
+
+    /// The matrices times the columns of V, N × r.
+    pub fn times(&self, basis: MatRef<'_, f64>) -> Self {
+        let times = |matrix: &Mat<f64>| matrix * basis;
+        GyroscopicSystem {
+            stiffness: times(&self.stiffness),
+            spin: times(&self.spin),
+            gyroscopic: times(&self.gyroscopic),
+            damping: self.damping.as_ref().map(times),
+            circulatory: self.circulatory.as_ref().map(times),
+            nonconservative: self.nonconservative.as_ref().map(times),
+            free_rigid: self.free_rigid.clone(),
+            drift: self.drift.as_ref().map(times),
+        }
+    }
+
+    /// K₀, K_σ − N and G without other terms, or their products with vectors.
+    pub(crate) fn undamped(stiffness: Mat<f64>, spin: Mat<f64>, gyroscopic: Mat<f64>) -> Self {
+        GyroscopicSystem {
+            stiffness,
+            spin,
+            gyroscopic,
+            damping: None,
+            circulatory: None,
+            nonconservative: None,
+            free_rigid: Vec::new(),
+            drift: None,
+        }
+    }
+
+    /// Vᵀ times the products that [`GyroscopicSystem::times`] gives: the projection on V.
+    pub(crate) fn onto(&self, basis: MatRef<'_, f64>) -> Self {
+        let onto = |product: &Mat<f64>| basis.transpose() * product;
+        GyroscopicSystem {
+            stiffness: symmetric(onto(&self.stiffness)),
+            spin: symmetric(onto(&self.spin)),
+            gyroscopic: skew(onto(&self.gyroscopic)),
+            damping: self.damping.as_ref().map(|c| symmetric(onto(c))),
+            circulatory: self.circulatory.as_ref().map(onto),
+            nonconservative: self.nonconservative.as_ref().map(onto),
+            free_rigid: self
+                .free_rigid
+                .iter()
+                .map(|z| basis.transpose() * z)
+                .collect(),
+            drift: self.drift.as_ref().map(|d| symmetric(onto(d))),
+        }
+    }
+
+    /// Σ weight · system, term by term, for derivatives of the matrices. `None` without systems.
+    pub(crate) fn combination(terms: &[(f64, GyroscopicSystem)]) -> Option<Self> {
+        let (_, first) = terms.first()?;
+        let order = first.order();
+        let sum = |matrix: fn(&GyroscopicSystem) -> Option<&Mat<f64>>| {
+            let mut sum: Option<Mat<f64>> = None;
+            for (weight, system) in terms {
+                if let Some(matrix) = matrix(system) {
+                    *sum.get_or_insert_with(|| Mat::zeros(order, order)) += Scale(*weight) * matrix;
+                }
+            }
+            sum
+        };
+        Some(GyroscopicSystem {
+            stiffness: sum(|s| Some(&s.stiffness))?,
+            spin: sum(|s| Some(&s.spin))?,
+            gyroscopic: sum(|s| Some(&s.gyroscopic))?,
+            damping: sum(|s| s.damping.as_ref()),
+            circulatory: sum(|s| s.circulatory.as_ref()),
+            nonconservative: sum(|s| s.nonconservative.as_ref()),
+            free_rigid: Vec::new(),
+            drift: sum(|s| s.drift.as_ref()),
+        })
+    }
+}
+
+/// ∫ φᵢφⱼ dA, area relative to mass, for the resistance of air; `None` if it is the identity.
+fn air_area(plate: &Plate, range: std::ops::RangeInclusive<usize>) -> Option<Mat<f64>> {
+    let blocks: Option<Vec<_>> = plate.harmonics.iter().map(|h| h.area.as_ref()).collect();
+    Some(spread(plate, range, &blocks?))
+}
+
+/// Numbers below this share of the largest are rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// A matrix that couples no harmonics, in the unknowns of the harmonics of `range`, from its blocks of n = 0 …
+/// n_max. Cosines and sines have the same block.
+pub(crate) fn spread(
+    plate: &Plate,
+    range: std::ops::RangeInclusive<usize>,
+    blocks: &[&DMatrix<f64>],
+) -> Mat<f64> {
+    let first = plate.offset(*range.start());
+    let size = plate.offset(range.end() + 1) - first;
+    let mut matrix = Mat::zeros(size, size);
+    for n in range {
+        let cosine = plate.offset(n) - first;
+        put(&mut matrix, cosine, blocks[n]);
+        if n > 0 {
+            put(&mut matrix, cosine + plate.basis.count(), blocks[n]);
+        }
+    }
+    matrix
+}
+
+fn put(matrix: &mut Mat<f64>, offset: usize, block: &DMatrix<f64>) {
+    for j in 0..block.nrows() {
+        for k in 0..block.ncols() {
+            matrix[(offset + j, offset + k)] = block[(j, k)];
+        }
+    }
+}
+
+/// Removes the rounding of a product that is symmetric in exact arithmetic.
+pub(crate) fn symmetric(matrix: Mat<f64>) -> Mat<f64> {
+    Scale(0.5) * (&matrix + matrix.transpose())
+}
+
+/// Removes the rounding of a product that is skew in exact arithmetic.
+fn skew(matrix: Mat<f64>) -> Mat<f64> {
+    Scale(0.5) * (&matrix - matrix.transpose())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,133 @@
+//! Additional speeds of a chart where a branch bends, turns into another, or leaves the chart.
+
+use rayon::prelude::*;
+
+use super::matching::{Match, Sighted, match_modes};
+use super::{CampbellError, SpeedSample, room_for_more, sample};
+use crate::modes::{DescribedMode, ModeKind, SpectralModel};
+
+/// Accuracy of the lines of a chart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Closeness {
+    /// Allowed distance of a line from its branch, as a share of the chart's height.
+    pub chord: f64,
+    /// Distance below the top of the chart at which a line may end, as a share of its height.
+    pub end: f64,
+    /// Smallest likeness of the shapes of one branch at two neighbouring speeds.
+    pub alike: f64,
+    /// Number of times that a step may be halved.
+    pub halvings: usize,
+}
+
+impl Closeness {
+    /// Accuracy of a figure of some hundred pixels.
+    pub const FIGURE: Closeness = Closeness {
+        chord: 0.003,
+        end: 0.01,
+        alike: 0.7,
+        halvings: 6,
+    };
+    /// Accuracy of a preview: branches are followed but drawn with corners.
+    pub const SKETCH: Closeness = Closeness {
+        chord: 0.02,
+        end: 0.1,
+        alike: 0.3,
+        halvings: 3,
+    };
+}
+
+/// Allowed distance of a squared growth rate from the line between its neighbours, as a share of the larger
+/// neighbour: five points on a parabola are enough.
+const GROWTH_CHORD: f64 = 0.13;
+
+/// Adds speeds to samples at ascending speeds until the lines between them are accurate, the allowed halvings
+/// are used up, or the allowed memory is full.
+///
+/// # Errors
+/// [`CampbellError`] of a speed that fails.
+pub fn refined(
+    model: &SpectralModel,
+    mut samples: Vec<SpeedSample>,
+    closeness: Closeness,
+) -> Result<Vec<SpeedSample>, CampbellError> {
+    let mut open: Vec<f64> = samples.iter().map(|s| s.speed_rad_per_s).collect();
+    for _ in 0..closeness.halvings {
+        let doubtful: Vec<(f64, f64)> = samples
+            .par_windows(2)
+            .filter(|pair| {
+                open.binary_search_by(|s| s.total_cmp(&pair[0].speed_rad_per_s))
+                    .is_ok()
+            })
+            .filter(|pair| is_doubtful(model, [&pair[0], &pair[1]], closeness))
+            .map(|pair| (pair[0].speed_rad_per_s, pair[1].speed_rad_per_s))
+            .collect();
+        if doubtful.is_empty() || doubtful.len() > room_for_more(model, &samples) {
+            break;
+        }
+        let middle: Vec<f64> = doubtful
+            .iter()
+            .map(|(from, to)| 0.5 * (from + to))
+            .collect();
+        samples.extend(sample(model, &middle, &|_, _| ())?);
+        samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+        open = doubtful
+            .iter()
+            .zip(&middle)
+            .flat_map(|((from, _), middle)| [*from, *middle])
+            .collect();
+    }
+    Ok(samples)
+}
+
+/// Whether a line from one speed to the next would misrepresent the modes.
+fn is_doubtful(
+    model: &SpectralModel,
+    [before, after]: [&SpeedSample; 2],
+    closeness: Closeness,
+) -> bool {
+    let height = model.complete_to_rad_per_s;
+    let step = after.speed_rad_per_s - before.speed_rad_per_s;
+    let seen = [before, after].map(|sample| Sighted::of_described(&sample.modes));
+    let matches = match_modes([&seen[0], &seen[1]], step, height);
+    let ends_inside = |modes: &[DescribedMode], matched: &dyn Fn(usize) -> bool| {
+        let left = modes.iter().enumerate().filter(|(i, _)| !matched(*i));
+        let mut frequencies = left.map(|(_, m)| m.mode.frequency_rad_per_s());
+        frequencies.any(|f| f < (1.0 - closeness.end) * height)
+    };
+    let doubtful = |m: &Match| {
+        let ends = [&before.modes[m.before], &after.modes[m.after]];
+        m.likeness < closeness.alike
+            || bend(ends, step) > closeness.chord * height
+            || growth_bends(model, ends, [before.speed_rad_per_s, after.speed_rad_per_s])
+    };
+    ends_inside(&before.modes, &|i| matches.iter().any(|m| m.before == i))
+        || ends_inside(&after.modes, &|i| matches.iter().any(|m| m.after == i))
+        || matches.iter().any(doubtful)
+}
+
+/// Distance, in rad/s, in the middle of a step between the cubic through two frequencies with their slopes
+/// and the line; 0 if a mode is not a wave.
+fn bend(ends: [&DescribedMode; 2], step: f64) -> f64 {
+    let is_wave = |m: &DescribedMode| m.mode.krein_sign() != 0 || m.mode.kind == ModeKind::Damped;
+    if !ends.into_iter().all(is_wave) {
+        return 0.0;
+    }
+    let slope = |m: &DescribedMode| f64::from(m.mode.action) * m.mode.frequency_slope;
+    0.125 * (slope(ends[0]) - slope(ends[1])).abs() * step
+}
+
+/// Whether the squared growth rates of a growing mode, nearly a parabola over a band, deviate too far from a
+/// line.
+fn growth_bends(model: &SpectralModel, ends: [&DescribedMode; 2], speeds: [f64; 2]) -> bool {
+    let grows = |m: &DescribedMode| matches!(m.mode.kind, ModeKind::Flutter | ModeKind::Divergent);
+    if !ends.into_iter().all(grows) {
+        return false;
+    }
+    let squares = ends.map(|m| m.mode.lambda.re.powi(2));
+    let slope = |k: usize| {
+        let mode = &ends[k].mode;
+        2.0 * mode.lambda.re * model.eigenvalue_slope(speeds[k], mode).re
+    };
+    let bend = 0.125 * (slope(0) - slope(1)).abs() * (speeds[1] - speeds[0]);
+    bend > GROWTH_CHORD * squares[0].max(squares[1])
+}

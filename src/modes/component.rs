@@ -1,0 +1,109 @@
+//! The decoupled components of a blade, with their reduced models.
+
+use std::sync::OnceLock;
+
+use faer::{Col, c64};
+
+use crate::model::plate::Plate;
+use crate::model::system::GyroscopicSystem;
+
+use super::error::SpectrumError;
+use super::free_wave;
+use super::half_order;
+use super::interval::{Interval, interval_at};
+use super::projection::Projection;
+use super::residual::MatrixNorms;
+use super::vectors::{Eigenpair, real_times};
+
+/// An independent component of the blade: one harmonic, or all of them coupled by guides.
+#[derive(Debug)]
+pub struct Component {
+    /// Index of the first unknown of the component in the basis of the plate.
+    pub first: usize,
+    /// Equation of motion in all unknowns of the component.
+    pub full: GyroscopicSystem,
+    /// Method by which the modes are computed.
+    pub(super) solution: Solution,
+    norms: OnceLock<MatrixNorms>,
+}
+
+/// Method by which the modes of a component are computed.
+#[derive(Debug)]
+pub(super) enum Solution {
+    /// All eigenpairs of the whole component.
+    Whole(OnceLock<Projection>),
+    /// Modes of one harmonic of an undamped free blade, a symmetric problem.
+    FreeWaves(Projection),
+    /// Modes of projections on the low modes at a few speeds, by ascending speed.
+    Projected(Vec<Interval>),
+}
+
+impl Component {
+    /// The independent components of a plate, without reduced models.
+    pub(crate) fn of(plate: &Plate) -> Vec<Component> {
+        if !plate.is_axisymmetric() {
+            return vec![Component::new(GyroscopicSystem::of_plate(plate), 0)];
+        }
+        (0..=plate.max_diameters())
+            .map(|n| Component::new(GyroscopicSystem::of_harmonic(plate, n), plate.offset(n)))
+            .collect()
+    }
+
+    fn new(full: GyroscopicSystem, first: usize) -> Self {
+        Component {
+            first,
+            solution: Solution::Whole(OnceLock::new()),
+            norms: OnceLock::new(),
+            full,
+        }
+    }
+
+    /// Norms of the matrices, for backward errors.
+    pub(super) fn norms(&self) -> &MatrixNorms {
+        self.norms.get_or_init(|| MatrixNorms::new(&self.full))
+    }
+
+    /// The unknowns of this component, from a vector in the basis of the plate.
+    pub fn coordinates(&self, shape: &Col<c64>) -> Col<c64> {
+        Col::from_fn(self.full.order(), |i| shape[self.first + i])
+    }
+
+    /// A mode in the unknowns of this component, from its coordinates in the projection for a speed.
+    pub fn lifted(&self, speed_rad_per_s: f64, coordinates: &Col<c64>) -> Col<c64> {
+        real_times(&self.at(speed_rad_per_s).basis, coordinates)
+    }
+
+    /// The projection for a speed; beyond the range, that of the last interval.
+    pub(super) fn at(&self, speed_rad_per_s: f64) -> &Projection {
+        match &self.solution {
+            Solution::Whole(whole) => whole.get_or_init(|| Projection::whole(&self.full)),
+            Solution::FreeWaves(whole) => whole,
+            Solution::Projected(intervals) => &interval_at(intervals, speed_rad_per_s).projection,
+        }
+    }
+
+    /// The vectors of all projections; none for a component that is solved as a whole.
+    pub(super) fn spanned(&self) -> Vec<Col<f64>> {
+        let Solution::Projected(intervals) = &self.solution else {
+            return Vec::new();
+        };
+        let bases = intervals.iter().map(|interval| &interval.projection.basis);
+        let vectors = bases.flat_map(|basis| basis.col_iter().map(|vector| vector.to_owned()));
+        vectors.collect()
+    }
+
+    /// Eigenpairs at a speed in the coordinates of [`Component::at`]; `index` is that of the component, which
+    /// for a free blade is the number of nodal diameters.
+    pub(super) fn eigenpairs(
+        &self,
+        plate: &Plate,
+        index: usize,
+        speed_rad_per_s: f64,
+    ) -> Result<Vec<Eigenpair>, SpectrumError> {
+        let system = &self.at(speed_rad_per_s).reduced;
+        match self.solution {
+            Solution::FreeWaves(_) => free_wave::eigenpairs(plate, index, system, speed_rad_per_s),
+            _ => half_order::eigenpairs(system, speed_rad_per_s),
+        }
+    }
+}

@@ -1,0 +1,350 @@
+//! The reduced models of a guided blade, one for each interval of speeds.
+//!
+//! Within an interval a blade is projected on real vectors: its low modes at both ends, and the modes that
+//! the search for bands follows at all speeds. For an undamped blade the states of the modes at both ends,
+//! projected once more, give every mode in between from half as many unknowns; these results are corrected on
+//! the real vectors.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use faer::{Col, c64};
+use rayon::prelude::*;
+
+use super::component::{Component, Solution};
+use super::derivative;
+use super::error::SpectrumError;
+use super::half_order;
+use super::hamiltonian::{HamiltonianReduction, State};
+use super::mode::{Mode, classify};
+use super::mode_pair::{ModePair, standing_states};
+use super::model::SpectralModel;
+use super::projection::Projection;
+use super::vectors::{Eigenpair, real_times, smallest};
+use super::work::WorkCounters;
+use crate::model::tuned::Tuned;
+
+/// Modes up to this multiple of the window are included, because some of them enter it between two speeds.
+pub(super) const SPAN_MARGIN: Tuned = Tuned::new("modes/interval::SPAN_MARGIN", 1.5);
+
+/// If the growth rates by the projection and by the states differ by more than this share, they belong to
+/// different modes: the states are accurate to 1e-5 of the height.
+const SAME_GROWTH: f64 = 0.01;
+
+/// Eigenpairs at a speed, in the coordinates of a projection.
+#[derive(Debug, Clone)]
+pub struct KnownModes {
+    pub speed_rad_per_s: f64,
+    pub pairs: Vec<Eigenpair>,
+}
+
+impl KnownModes {
+    /// All eigenpairs of a projection at a speed.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub(super) fn of(
+        projection: &Projection,
+        speed_rad_per_s: f64,
+        counters: &WorkCounters,
+    ) -> Result<Self, SpectrumError> {
+        counters.cancellation.check()?;
+        counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
+        Ok(KnownModes {
+            speed_rad_per_s,
+            pairs: half_order::eigenpairs(&projection.reduced, speed_rad_per_s)?,
+        })
+    }
+}
+
+/// A critical speed, in rad/s, and the wave that stands still there, in the unknowns of the component.
+pub(super) type StandingWave<'a> = (f64, &'a Col<f64>);
+
+/// The reduced model of an interval of speeds.
+#[derive(Debug, Clone)]
+pub struct Interval {
+    /// End of the interval, which begins at the end of the one before.
+    pub(super) to_rad_per_s: f64,
+    pub(super) projection: Arc<Projection>,
+    /// Projection on the states of the modes at both ends up to the height of the diagram, if it represents the
+    /// modes in between.
+    pub(super) drawn: Option<HamiltonianReduction>,
+    /// As `drawn`, up to the height of the search for bands.
+    pub(super) searched: Option<HamiltonianReduction>,
+}
+
+/// Projection on the states of the modes at two speeds up to slightly above a frequency, and of the waves that
+/// stand still between the two. Its error falls with the fourth power of the distance of the speeds, and
+/// vanishes at both and where a wave stands still. `None` for a blade with damping or free rigid motions, and if
+/// the symplectic form is singular on the states.
+pub(super) fn states_between(
+    projection: &Projection,
+    ends: [&KnownModes; 2],
+    standing: &[StandingWave<'_>],
+    window_rad_per_s: f64,
+) -> Option<HamiltonianReduction> {
+    let system = &projection.reduced;
+    // The modes at two speeds do not represent the momentum of free rigid motions, which depends on the
+    // speed.
+    if !system.is_conservative() || !system.free_rigid.is_empty() {
+        return None;
+    }
+    let [from, to] = ends.map(|end| end.speed_rad_per_s);
+    let mut states: Vec<State> = Vec::new();
+    let inside = |(speed, _): &&StandingWave<'_>| (from..=to).contains(speed);
+    for (speed, shape) in standing.iter().filter(inside) {
+        let shape = projection.basis.transpose() * *shape;
+        states.extend(standing_states(system, *speed, &shape, window_rad_per_s));
+    }
+    let height = SPAN_MARGIN.get() * window_rad_per_s;
+    let low = |pair: &&Eigenpair| pair.0.im <= height && pair.0.norm() <= 2.0 * height;
+    for end in ends {
+        let low = end.pairs.iter().filter(low).cloned();
+        states.extend(low.map(|pair| State::new(system, end.speed_rad_per_s, pair)));
+    }
+    HamiltonianReduction::new(system, window_rad_per_s, &states)
+}
+
+impl Interval {
+    /// Eigenpairs of the interval's projection at a speed.
+    pub(super) fn projected_pairs(
+        &self,
+        speed_rad_per_s: f64,
+        counters: &WorkCounters,
+    ) -> Result<Vec<Eigenpair>, SpectrumError> {
+        KnownModes::of(&self.projection, speed_rad_per_s, counters).map(|known| known.pairs)
+    }
+}
+
+/// Eigenpairs of a projection on states at a speed.
+pub(super) fn states_at(
+    states: &HamiltonianReduction,
+    speed_rad_per_s: f64,
+    counters: &WorkCounters,
+) -> Result<Vec<Eigenpair>, SpectrumError> {
+    counters.cancellation.check()?;
+    counters.local_solves.fetch_add(1, Ordering::Relaxed);
+    states.eigenpairs(speed_rad_per_s)
+}
+
+/// The interval that contains a speed; the last one beyond the end.
+pub(super) fn interval_at(intervals: &[Interval], speed_rad_per_s: f64) -> &Interval {
+    let place = intervals.partition_point(|interval| interval.to_rad_per_s < speed_rad_per_s);
+    &intervals[place.min(intervals.len() - 1)]
+}
+
+/// The reduced models that the search for bands of an undamped blade uses.
+#[derive(Debug, Clone)]
+pub struct SearchModel<'a> {
+    intervals: Cow<'a, [Interval]>,
+    standing: Vec<StandingWave<'a>>,
+    height_rad_per_s: f64,
+    counters: &'a WorkCounters,
+}
+
+impl<'a> SearchModel<'a> {
+    /// The search model of an undamped blade's reduced model. `None` for a damped blade, and for one without a
+    /// reduced model.
+    pub(crate) fn new(model: &'a SpectralModel) -> Option<Self> {
+        let (component, standing) = guided(model)?;
+        let Solution::Projected(intervals) = &component.solution else {
+            return None;
+        };
+        Some(SearchModel {
+            intervals: Cow::Borrowed(intervals),
+            standing,
+            height_rad_per_s: model.reflected_to_rad_per_s,
+            counters: &model.counters,
+        })
+    }
+
+    /// The search model of the full model; the modes at some ascending speeds are the ends of the intervals.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub(crate) fn of_full_model(
+        model: &'a SpectralModel,
+        speeds: &[f64],
+    ) -> Result<Option<Self>, SpectrumError> {
+        let Some((component, standing)) = guided(model) else {
+            return Ok(None);
+        };
+        let counters = &model.counters;
+        let whole = Arc::new(Projection::whole(&component.full));
+        let known = speeds.par_iter();
+        let known = known.map(|speed| KnownModes::of(&whole, *speed, counters));
+        let mut known: Vec<KnownModes> = known.collect::<Result<_, _>>()?;
+        if let [only] = known.as_slice() {
+            known.push(only.clone());
+        }
+        let height_rad_per_s = model.reflected_to_rad_per_s;
+        let between = known.windows(2).map(|ends| {
+            let ends = [&ends[0], &ends[1]];
+            Interval {
+                to_rad_per_s: ends[1].speed_rad_per_s,
+                projection: whole.clone(),
+                drawn: None,
+                searched: states_between(&whole, ends, &standing, height_rad_per_s),
+            }
+        });
+        let intervals: Vec<Interval> = between.collect();
+        Ok((!intervals.is_empty()).then_some(SearchModel {
+            intervals: Cow::Owned(intervals),
+            standing,
+            height_rad_per_s,
+            counters,
+        }))
+    }
+
+    /// The search model with a single interval between two close speeds.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn narrowed(self, from_rad_per_s: f64, to_rad_per_s: f64) -> Result<Self, SpectrumError> {
+        let interval = self.at(0.5 * (from_rad_per_s + to_rad_per_s));
+        let projection = &interval.projection;
+        let known = |speed| KnownModes::of(projection, speed, self.counters);
+        let ends = [known(from_rad_per_s)?, known(to_rad_per_s)?];
+        let height = self.height_rad_per_s;
+        let narrowed = Interval {
+            searched: states_between(projection, ends.each_ref(), &self.standing, height),
+            ..interval.clone()
+        };
+        Ok(SearchModel {
+            intervals: Cow::Owned(vec![narrowed]),
+            ..self
+        })
+    }
+
+    /// Frequency up to which the modes are complete and accurate.
+    pub fn height_rad_per_s(&self) -> f64 {
+        self.height_rad_per_s
+    }
+
+    /// Ends of the intervals, in speed.
+    pub fn ends_rad_per_s(&self) -> impl Iterator<Item = f64> {
+        self.intervals.iter().map(|interval| interval.to_rad_per_s)
+    }
+
+    fn at(&self, speed_rad_per_s: f64) -> &Interval {
+        interval_at(&self.intervals, speed_rad_per_s)
+    }
+
+    fn pairs(&self, interval: &Interval, speed: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
+        match &interval.searched {
+            Some(states) => states_at(states, speed, self.counters),
+            None => interval.projected_pairs(speed, self.counters),
+        }
+    }
+
+    /// Modes at a speed, in the coordinates of a projection. Those above [`SearchModel::height_rad_per_s`] are
+    /// inaccurate; they show where the frequencies continue.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let interval = self.at(speed_rad_per_s);
+        let pairs = self.pairs(interval, speed_rad_per_s)?;
+        let system = &interval.projection.reduced;
+        Ok(classify(system, speed_rad_per_s, 0, pairs))
+    }
+
+    /// The modes of [`SearchModel::modes`] by the projection, without the error of the states.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn projected_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let interval = self.at(speed_rad_per_s);
+        let pairs = interval.projected_pairs(speed_rad_per_s, self.counters)?;
+        let system = &interval.projection.reduced;
+        Ok(classify(system, speed_rad_per_s, 0, pairs))
+    }
+
+    /// The real eigenvalue of the projection next to an expected one, without an eigenproblem. `None` if
+    /// Newton's method ends elsewhere.
+    pub fn growth_next_to(&self, speed_rad_per_s: f64, expected_per_s: f64) -> Option<f64> {
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        let system = &self.at(speed_rad_per_s).projection.reduced;
+        let expected = c64::new(expected_per_s, 0.0);
+        let (found, _) = derivative::next_to(system, speed_rad_per_s, expected)?;
+        ((found - expected).norm() <= SAME_GROWTH * expected_per_s).then_some(found.re)
+    }
+
+    /// The modes of [`SearchModel::modes`] in the coordinates of the component, which are common to all speeds.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn lifted_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let basis = &self.at(speed_rad_per_s).projection.basis;
+        let mut modes = self.modes(speed_rad_per_s)?;
+        for mode in &mut modes {
+            mode.coordinates = real_times(basis, &mode.coordinates);
+        }
+        Ok(modes)
+    }
+
+    /// Whether modes have as many coordinates as the projection for a speed.
+    pub fn has(&self, speed_rad_per_s: f64, modes: &[Mode]) -> bool {
+        let order = self.at(speed_rad_per_s).projection.reduced.order();
+        modes.iter().all(|mode| mode.coordinates.nrows() == order)
+    }
+
+    /// Two modes in the coordinates of the projection, refined on it.
+    pub fn pair_of(&self, speed_rad_per_s: f64, modes: &[Mode; 2]) -> Option<ModePair> {
+        let pairs = modes
+            .each_ref()
+            .map(|mode| (mode.lambda, mode.coordinates.clone()));
+        self.refined(speed_rad_per_s, pairs.each_ref())
+    }
+
+    fn refined(&self, speed_rad_per_s: f64, pairs: [&Eigenpair; 2]) -> Option<ModePair> {
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        let projection = &self.at(speed_rad_per_s).projection;
+        ModePair::new(projection, speed_rad_per_s, self.height_rad_per_s, pairs)
+    }
+
+    /// The two modes at a speed nearest to two eigenvalues, refined on the projection.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn pair(
+        &self,
+        speed_rad_per_s: f64,
+        lambdas: [c64; 2],
+    ) -> Result<Option<ModePair>, SpectrumError> {
+        let interval = self.at(speed_rad_per_s);
+        let mut pairs = self.pairs(interval, speed_rad_per_s)?;
+        let mut chosen = Vec::new();
+        for lambda in lambdas {
+            let distance = |place: &usize| (pairs[*place].0 - lambda).norm();
+            let Some(nearest) = smallest(0..pairs.len(), distance) else {
+                return Ok(None);
+            };
+            chosen.push(pairs.swap_remove(nearest));
+        }
+        let [first, second] = chosen.as_slice() else {
+            return Ok(None);
+        };
+        Ok(self.refined(speed_rad_per_s, [first, second]))
+    }
+
+    /// The pair at another speed, by a factorization instead of an eigenproblem. `None` if it is lost.
+    pub fn moved(&self, pair: &ModePair, speed_rad_per_s: f64) -> Option<ModePair> {
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        let projection = &self.at(speed_rad_per_s).projection;
+        pair.moved(projection, speed_rad_per_s, self.height_rad_per_s)
+    }
+}
+
+/// The only component of an undamped guided blade, and the standing waves of its critical speeds.
+fn guided(model: &SpectralModel) -> Option<(&Component, Vec<StandingWave<'_>>)> {
+    let ([component], true) = (model.components.as_slice(), model.is_conservative()) else {
+        return None;
+    };
+    let standing = model.critical.iter();
+    Some((
+        component,
+        standing.map(|c| (c.speed_rad_per_s, &c.shape)).collect(),
+    ))
+}

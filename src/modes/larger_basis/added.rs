@@ -1,0 +1,184 @@
+//! The functions that a component lacks, and their flexibility.
+
+use faer::linalg::solvers::Llt;
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Col, Mat, Par, Scale, Side};
+
+use crate::model::plate::Plate;
+use crate::model::system::GyroscopicSystem;
+use crate::modes::error::SpectrumError;
+use crate::modes::generalized::stiffened;
+use crate::modes::structured::{LARGE, StructuredStiffness};
+use crate::modes::work::Cancellation;
+
+/// Functions that a component lacks.
+#[derive(Debug)]
+pub enum AddedFunctions {
+    /// For a small blade, and for one without such a structure.
+    Dense(DenseFunctions),
+    /// For a large guided blade: S⁻¹ is the block of K₀⁻¹ of the larger basis between the new functions.
+    Structured {
+        larger: Box<StructuredStiffness>,
+        /// Indices of the old functions.
+        kept: Vec<usize>,
+    },
+}
+
+/// Blocks of the matrices of the larger basis.
+#[derive(Debug)]
+pub struct DenseFunctions {
+    /// K₀ between the new functions and those of the component.
+    stiffness: Mat<f64>,
+    /// K_σ − N between the new functions and those of the component.
+    spin: Mat<f64>,
+    /// Factor of S = K_nn − K_nc K_cc⁻¹ K_cn.
+    factor: Llt<f64>,
+}
+
+impl AddedFunctions {
+    pub fn of_harmonic(plate: &Plate, larger: &Plate, n: usize) -> Result<Self, SpectrumError> {
+        let system = GyroscopicSystem::of_harmonic(larger, n);
+        DenseFunctions::new(&system, &kept(plate, larger, n..=n)).map(AddedFunctions::Dense)
+    }
+
+    pub fn of_coupled(plate: &Plate, larger: &Plate) -> Result<Self, SpectrumError> {
+        let kept = kept(plate, larger, 0..=plate.max_diameters());
+        Cancellation::current().check()?;
+        let is_large = larger.degrees_of_freedom() >= LARGE;
+        let structured = is_large
+            .then(|| StructuredStiffness::nearly(larger))
+            .flatten();
+        // The dense method reports a blade that is unstable at rest, so it is used unless the structured
+        // model proves that the stiffness at rest has no negative eigenvalue.
+        let structured =
+            structured.filter(|larger| larger.full.critical_speeds_below(0.0) == Some(0));
+        if let Some(larger) = structured {
+            return Ok(AddedFunctions::Structured {
+                larger: Box::new(larger),
+                kept,
+            });
+        }
+        Cancellation::current().check()?;
+        let system = GyroscopicSystem::of_plate(larger);
+        DenseFunctions::new(&system, &kept).map(AddedFunctions::Dense)
+    }
+
+    /// QᵀK_cn S⁻¹ K_nc Q, in 1/s², for the columns Q.
+    pub fn softening(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Mat<f64> {
+        match self {
+            AddedFunctions::Dense(dense) => {
+                let force = dense.whitened_force(speed_rad_per_s, columns);
+                force.transpose() * &force
+            }
+            AddedFunctions::Structured { larger, kept } => {
+                let force = force_on_new(larger, kept, speed_rad_per_s, columns);
+                force.transpose() * larger.at_rest.solve(force.as_ref())
+            }
+        }
+    }
+
+    /// Diagonal of [`AddedFunctions::softening`].
+    pub fn softened(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Vec<f64> {
+        let places = 0..columns.ncols();
+        match self {
+            AddedFunctions::Dense(dense) => {
+                let force = dense.whitened_force(speed_rad_per_s, columns);
+                places.map(|k| force.col(k).squared_norm_l2()).collect()
+            }
+            AddedFunctions::Structured { larger, kept } => {
+                let force = force_on_new(larger, kept, speed_rad_per_s, columns);
+                let response = larger.at_rest.solve(force.as_ref());
+                places
+                    .map(|k| force.col(k).transpose() * response.col(k))
+                    .collect()
+            }
+        }
+    }
+
+    /// The value of [`AddedFunctions::softened`] for one column and one part of K_nc, given on the larger basis.
+    /// `None` for a saw without the structure of a guided blade.
+    pub fn softening_by(&self, part: &Mat<f64>, shape: &Mat<f64>) -> Option<f64> {
+        let AddedFunctions::Structured { larger, kept } = self else {
+            return None;
+        };
+        let mut force = part * widened(larger, kept, shape);
+        kept.iter().for_each(|&place| force[(place, 0)] = 0.0);
+        Some((force.transpose() * larger.at_rest.solve(force.as_ref()))[(0, 0)])
+    }
+}
+
+/// K_nc Q in the unknowns of the larger basis, zero on the old functions.
+fn force_on_new(
+    larger: &StructuredStiffness,
+    kept: &[usize],
+    speed_rad_per_s: f64,
+    columns: &Mat<f64>,
+) -> Mat<f64> {
+    let wide = widened(larger, kept, columns);
+    let product = larger.full.times(wide.as_ref());
+    let mut force = product.map_or(wide, |product| product.stiffness_at(speed_rad_per_s));
+    for k in 0..columns.ncols() {
+        kept.iter().for_each(|&place| force[(place, k)] = 0.0);
+    }
+    force
+}
+
+/// Columns of the old functions in the unknowns of the larger basis.
+fn widened(larger: &StructuredStiffness, kept: &[usize], columns: &Mat<f64>) -> Mat<f64> {
+    let mut wide = Mat::zeros(larger.at_rest.order(), columns.ncols());
+    for k in 0..columns.ncols() {
+        for (row, &place) in kept.iter().enumerate() {
+            wide[(place, k)] = columns[(row, k)];
+        }
+    }
+    wide
+}
+
+impl DenseFunctions {
+    fn new(larger: &GyroscopicSystem, kept: &[usize]) -> Result<Self, SpectrumError> {
+        let order = larger.order();
+        let unstable = |_| SpectrumError::UnstableAtRest { order };
+        let added: Vec<usize> = (0..order)
+            .filter(|i| kept.binary_search(i).is_err())
+            .collect();
+        let block = |matrix: &Mat<f64>, rows: &[usize], columns: &[usize]| {
+            Mat::from_fn(rows.len(), columns.len(), |i, k| {
+                matrix[(rows[i], columns[k])]
+            })
+        };
+        // Free rigid motions have no component on the added functions.
+        let on_old = |z: &Col<f64>| Col::from_fn(kept.len(), |i| z[kept[i]]);
+        let free: Vec<Col<f64>> = larger.free_rigid.iter().map(on_old).collect();
+        let old = stiffened(&block(&larger.stiffness, kept, kept), &free);
+        let old = old.llt(Side::Lower).map_err(unstable)?;
+        let mut whitened = block(&larger.stiffness, kept, &added);
+        solve_lower_triangular_in_place(old.L(), whitened.as_mut(), Par::Seq);
+        let schur = block(&larger.stiffness, &added, &added) - whitened.transpose() * &whitened;
+        Ok(DenseFunctions {
+            stiffness: block(&larger.stiffness, &added, kept),
+            spin: block(&larger.spin, &added, kept),
+            factor: schur.llt(Side::Lower).map_err(unstable)?,
+        })
+    }
+
+    /// L⁻¹K_nc Q with the Cholesky factor L of S = LLᵀ.
+    fn whitened_force(&self, speed_rad_per_s: f64, columns: &Mat<f64>) -> Mat<f64> {
+        let mut force =
+            &self.stiffness * columns + Scale(speed_rad_per_s.powi(2)) * &self.spin * columns;
+        solve_lower_triangular_in_place(self.factor.L(), force.as_mut(), Par::Seq);
+        force
+    }
+}
+
+/// Indices of the functions of some harmonics of a plate in a larger basis, ascending.
+fn kept(plate: &Plate, larger: &Plate, range: std::ops::RangeInclusive<usize>) -> Vec<usize> {
+    let (few, many) = (plate.basis.count(), larger.basis.count());
+    let first = larger.offset(*range.start());
+    range
+        .flat_map(|n| {
+            let cosine = larger.offset(n) - first;
+            let phases = if n == 0 { 1 } else { 2 };
+            (0..phases).flat_map(move |phase| (0..few).map(move |j| cosine + phase * many + j))
+        })
+        .collect()
+}

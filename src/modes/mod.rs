@@ -1,0 +1,106 @@
+//! Eigenvalues, modes, Krein signs and names at one rotation speed.
+//!
+//! A [`Plate`](crate::model::plate::Plate) gives a [`SpectralModel`], which computes the modes of
+//!
+//! L(λ) q = (λ² + λ D(Ω) + K(Ω)) q = 0
+//!
+//! at any speed Ω of its range: λ in 1/s, q in the plate's basis with ‖q‖ = 1, the [`ModeKind`] with its
+//! Krein sign, the [`ModeName`] and the backward error on the full model. For an undamped blade D is skew and
+//! K symmetric, so λ occur in quadruples ±σ ± iω, and L(iω) is Hermitian.
+//!
+//! References: F. Tisseur & K. Meerbergen, *The quadratic eigenvalue problem*, SIAM Review 43 (2001),
+//! 235–286, for the eigenproblem; R. S. MacKay, *Stability of equilibria of Hamiltonian systems*
+//! (1986), for Krein signs.
+
+pub(crate) mod derivative;
+
+mod argument;
+mod arnoldi;
+mod assembled;
+mod at_rest;
+pub mod branches;
+mod buckling;
+mod canonical;
+mod companion;
+mod component;
+mod critical;
+mod deflation;
+mod error;
+mod event_name;
+mod free_wave;
+mod full_model;
+mod generalized;
+mod growth;
+mod guided_reduction;
+mod half_order;
+mod hamiltonian;
+mod hermitian;
+mod interval;
+mod larger_basis;
+mod lowest;
+mod matrix_slope;
+mod mode;
+mod mode_name;
+mod mode_pair;
+mod model;
+mod pencil;
+mod progress;
+mod projection;
+mod refined;
+mod residual;
+mod scale;
+mod standing_waves;
+mod structured;
+mod vectors;
+mod wave;
+#[doc(hidden)]
+pub mod waves;
+mod work;
+
+pub(crate) use argument::turn_along;
+pub(crate) use arnoldi::lowest_eigenpairs;
+#[doc(hidden)]
+pub use assembled::{Assembled, SpeedLimit};
+pub(crate) use at_rest::RestingMode;
+pub(crate) use buckling::{AddedStress, SingularStress, first_singular};
+#[doc(hidden)]
+pub use companion::companion_eigenpairs;
+pub(crate) use companion::time_scale;
+#[doc(hidden)]
+pub use component::Component;
+pub use critical::NamedCriticalSpeed;
+#[doc(hidden)]
+pub use critical::{CriticalSpeed, critical_speeds};
+pub(crate) use critical::{clear_range, named, searched_range};
+pub use error::SpectrumError;
+pub use event_name::{EventName, EventWaves};
+pub(crate) use full_model::{AtSpeed, FullModel};
+#[doc(hidden)]
+pub use growth::fastest_growing;
+pub(crate) use growth::{Growing, eigenvalues, grows};
+#[doc(hidden)]
+pub use half_order::eigenpairs as undamped_eigenpairs;
+pub(crate) use hamiltonian::{HamiltonianReduction, State};
+pub(crate) use hermitian::negative_eigenvalues;
+pub(crate) use interval::SearchModel;
+pub(crate) use larger_basis::LargerBasis;
+#[doc(hidden)]
+pub use lowest::LowestModes;
+pub(crate) use matrix_slope::{Differences, matrix_slopes};
+pub use mode::{Mode, ModeKind};
+pub(crate) use mode::{classify, krein_index};
+pub use mode_name::{Direction, ModeName};
+pub(crate) use mode_name::{HarmonicShare, in_words};
+pub(crate) use mode_pair::ModePair;
+pub(crate) use model::ABOVE_LAST;
+pub use model::{DescribedMode, SpectralModel, Strategy};
+pub(crate) use progress::Work;
+pub use progress::{Progress, Stage};
+pub(crate) use refined::RefinedPair;
+pub(crate) use scale::frequency_scale;
+pub use standing_waves::StandingWaves;
+pub(crate) use standing_waves::{diameters_within, highest_reflected, waves_within};
+pub(crate) use vectors::{complex, halves, orthonormal, smallest, split};
+pub use work::Cancellation;
+#[doc(hidden)]
+pub use work::WorkCounters;

@@ -1,0 +1,359 @@
+//! The spectrum of a saw as a function of speed.
+//!
+//! Decoupled components are solved separately. Each component is projected on the lowest modes at a few
+//! speeds, which are chosen until the residuals on the full model show that every mode up to `complete_to` is
+//! accurate at every speed.
+
+use std::sync::OnceLock;
+use std::sync::atomic::Ordering;
+
+use faer::{Col, Mat, c64};
+
+use crate::model::plate::Plate;
+
+use super::assembled::Assembled;
+use super::companion::companion_eigenpairs;
+use super::component::{Component, Solution};
+use super::critical::{NamedCriticalSpeed, searched_range};
+use super::derivative;
+use super::error::SpectrumError;
+use super::full_model::FullModel;
+use super::guided_reduction::{Guided, of_guided};
+use super::interval::{interval_at, states_at};
+use super::mode::{Mode, ModeKind, classify, is_seen};
+use super::mode_name::ModeName;
+use super::projection::Projection;
+use super::scale::frequency_scale;
+use super::structured::LARGE;
+use super::work::{Cancellation, WorkCounters};
+
+mod described;
+#[cfg(test)]
+mod planted;
+
+/// Method by which the modes at a speed are computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Strategy {
+    /// Projection on the low modes at a few speeds.
+    #[default]
+    Reduced,
+    /// Projection as in [`Strategy::Reduced`] with larger errors, for a preview.
+    Sketch,
+    /// Projection on those modes alone that can form bands; no diagram is possible.
+    Bands,
+    /// Every eigenvalue of the full model at every speed: slow, a reference for tests.
+    Dense,
+}
+
+/// A mode with its name, shape and backward error.
+#[derive(Debug, Clone)]
+pub struct DescribedMode {
+    /// Eigenvalue and kind of the mode.
+    pub mode: Mode,
+    /// q in the basis of the plate.
+    pub shape: Col<c64>,
+    /// Waves that make the mode.
+    pub name: ModeName,
+    /// ‖L(λ)q‖ / ((|λ|² + |λ|‖D‖ + ‖K‖)‖q‖) of the full model.
+    pub backward_error: f64,
+}
+
+/// Modes of a saw at any speed of a range.
+#[derive(Debug)]
+pub struct SpectralModel {
+    /// Blade, guides and basis.
+    pub plate: Plate,
+    /// Decoupled components of its equation of motion.
+    pub components: Vec<Component>,
+    /// Critical speeds, ascending, at least those of the range; the double ones of a free blade are listed
+    /// twice.
+    pub critical: Vec<NamedCriticalSpeed>,
+    /// Frequency up to which the modes are complete and accurate.
+    pub complete_to_rad_per_s: f64,
+    /// Frequency up to which bands are searched for.
+    pub reflected_to_rad_per_s: f64,
+    /// Largest estimated error of a frequency of the reduced models that exceeds their tolerance, in rad/s; 0
+    /// unless these models needed more speeds than allowed.
+    pub unsettled_rad_per_s: f64,
+    /// Work done so far.
+    pub counters: WorkCounters,
+    full: OnceLock<FullModel>,
+}
+
+/// Number of modes that a diagram shows at the lowest speed.
+pub(super) const CHART_MODES: usize = 12;
+/// Height of a diagram, relative to the highest of these modes.
+pub(crate) const ABOVE_LAST: f64 = 1.02;
+
+/// A frequency slightly above that of the twelfth mode, or of the last one if there are fewer, from the
+/// eigenvalues of one speed in ascending order. For a damped blade only oscillating modes count; if there are
+/// none, |λ| replaces the frequency.
+pub(super) fn chart_height(lambdas: &[c64], is_conservative: bool) -> Option<f64> {
+    let last = |sizes: Vec<f64>| sizes.get(CHART_MODES - 1).or(sizes.last()).copied();
+    let of_seen = lambdas
+        .iter()
+        .filter(|lambda| is_conservative || is_seen(**lambda))
+        .map(|lambda| lambda.im.abs());
+    let of_all = lambdas.iter().map(|lambda| lambda.norm());
+    last(of_seen.collect())
+        .or_else(|| last(of_all.collect()))
+        .map(|frequency| ABOVE_LAST * frequency)
+}
+
+/// At rest the two waves of equal n are degenerate. A rotation by this share of the blade's frequency scale
+/// separates them into forward and backward waves, as at any other speed, and changes frequencies by no more
+/// than itself.
+pub(super) const SPLITTING: f64 = 1e-9;
+
+impl SpectralModel {
+    /// Prepares the modes for a range of speeds, (from, to) in rad/s, and for the search for bands within that
+    /// range.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn new(plate: Plate, range: (f64, f64), strategy: Strategy) -> Result<Self, SpectrumError> {
+        let critical = Self::critical_speeds(&plate)?;
+        Self::with_critical(plate, critical, range, strategy)
+    }
+
+    /// Prepares the modes as [`SpectralModel::new`], with known critical speeds, at least those of the range.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn with_critical(
+        saw: impl Into<Assembled>,
+        critical: Vec<NamedCriticalSpeed>,
+        range: (f64, f64),
+        strategy: Strategy,
+    ) -> Result<Self, SpectrumError> {
+        let counters = WorkCounters {
+            cancellation: Cancellation::current(),
+            ..WorkCounters::default()
+        };
+        let Assembled {
+            plate,
+            components,
+            structure,
+        } = saw.into();
+        let full = structure.into_inner().flatten().map(|found| found.full);
+        let mut model = SpectralModel {
+            components,
+            plate,
+            critical,
+            complete_to_rad_per_s: f64::INFINITY,
+            reflected_to_rad_per_s: 0.0,
+            unsettled_rad_per_s: 0.0,
+            counters,
+            full: full.map_or_else(OnceLock::new, OnceLock::from),
+        };
+        match (strategy, model.plate.is_axisymmetric()) {
+            (Strategy::Dense, _) => (),
+            // Decoupled harmonics are small enough to be solved without a reduced model.
+            (_, true) if model.is_conservative() => model.use_free_waves(),
+            (_, true) => (),
+            (_, false) => model.reduce(range, strategy)?,
+        }
+        if model.complete_to_rad_per_s.is_infinite() {
+            model.complete_to_rad_per_s = model.twelfth_frequency(range)?;
+        }
+        if model.reflected_to_rad_per_s == 0.0 {
+            model.reflected_to_rad_per_s = model.complete_to_rad_per_s;
+        }
+        Ok(model)
+    }
+
+    /// Selects the symmetric eigenproblem in the body frame for every component.
+    fn use_free_waves(&mut self) {
+        for component in &mut self.components {
+            component.solution = Solution::FreeWaves(Projection::whole(&component.full));
+        }
+    }
+
+    /// Projects each component on the low modes at a few speeds.
+    fn reduce(&mut self, range: (f64, f64), strategy: Strategy) -> Result<(), SpectrumError> {
+        let range = searched_range(&self.critical, range);
+        let scale = frequency_scale(&self.plate);
+        let (critical, counters) = (&self.critical, &self.counters);
+        let is_large = self.plate.degrees_of_freedom() >= LARGE;
+        let structure = is_large.then(|| self.full.get_or_init(|| FullModel::new(&self.plate)));
+        for component in &mut self.components {
+            let guided = Guided {
+                system: &component.full,
+                structure,
+                scale,
+                critical,
+            };
+            let found = of_guided(guided, range, strategy, counters)?;
+            component.solution = Solution::Projected(found.intervals);
+            self.complete_to_rad_per_s = found.complete_to_rad_per_s;
+            self.reflected_to_rad_per_s = found.reflected_to_rad_per_s;
+            self.unsettled_rad_per_s = found.unsettled_rad_per_s;
+        }
+        Ok(())
+    }
+
+    /// Every critical speed of a plate, ascending, without preparing anything else.
+    ///
+    /// # Errors
+    /// [`SpectrumError::UnstableAtRest`], or [`SpectrumError::Buckled`] where membrane stress is
+    /// the reason.
+    pub fn critical_speeds(plate: &Plate) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
+        Assembled::from(plate.clone()).critical_speeds(None)
+    }
+
+    /// Frequency of the twelfth mode at the lowest speed, the height of a diagram.
+    fn twelfth_frequency(&self, range: (f64, f64)) -> Result<f64, SpectrumError> {
+        let modes = self.all_modes(range.0)?;
+        let lambdas: Vec<c64> = modes.iter().map(|mode| mode.lambda).collect();
+        Ok(chart_height(&lambdas, self.is_conservative()).unwrap_or(0.0))
+    }
+
+    /// Every mode of the reduced model, ordered by |Im λ|; those above `complete_to` are inaccurate.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn all_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        self.solve(speed_rad_per_s, f64::INFINITY)
+    }
+
+    /// Modes up to `complete_to`, without free rigid motions, ordered by |Im λ|. For a damped blade modes with
+    /// −Re λ above `complete_to` are omitted: the reduced model does not represent them, and no diagram shows
+    /// them.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let highest = self.complete_to_rad_per_s;
+        let mut modes = self.solve(speed_rad_per_s, highest)?;
+        let is_spanned = |m: &Mode| m.kind != ModeKind::Damped || m.lambda.re >= -highest;
+        modes.retain(|m| m.kind != ModeKind::Rigid && is_spanned(m));
+        Ok(modes)
+    }
+
+    /// The modes of [`SpectralModel::modes`] for a diagram: for an undamped guided blade they are computed from
+    /// few states, and their frequencies are accurate to 1e-5 of `complete_to`.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn drawn_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let speed = speed_rad_per_s.max(SPLITTING * frequency_scale(&self.plate));
+        let ([component], true) = (self.components.as_slice(), speed_rad_per_s > 0.0) else {
+            return self.modes(speed_rad_per_s);
+        };
+        let Solution::Projected(intervals) = &component.solution else {
+            return self.modes(speed_rad_per_s);
+        };
+        let interval = interval_at(intervals, speed_rad_per_s);
+        let Some(states) = &interval.drawn else {
+            return self.modes(speed_rad_per_s);
+        };
+        let mut pairs = states_at(states, speed, &self.counters)?;
+        pairs.retain(|(lambda, _)| lambda.im <= self.complete_to_rad_per_s);
+        let mut modes = classify(&interval.projection.reduced, speed, 0, pairs);
+        modes.retain(|m| m.kind != ModeKind::Rigid);
+        modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
+        Ok(modes)
+    }
+
+    /// Every mode of the full model, by a dense solver.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn full_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
+        let mut modes = Vec::new();
+        for (index, component) in self.components.iter().enumerate() {
+            self.counters.cancellation.check()?;
+            self.counters.full_solves.fetch_add(1, Ordering::Relaxed);
+            let pairs = companion_eigenpairs(&component.full, speed_rad_per_s)?;
+            modes.extend(classify(&component.full, speed_rad_per_s, index, pairs));
+        }
+        Ok(modes)
+    }
+
+    /// The full model by its structure, computed when first needed.
+    pub(crate) fn full_model(&self) -> &FullModel {
+        self.full.get_or_init(|| FullModel::new(&self.plate))
+    }
+
+    /// Whether every force has a potential or is gyroscopic: then modes have Krein signs.
+    pub fn is_conservative(&self) -> bool {
+        self.components
+            .iter()
+            .all(|component| component.full.is_conservative())
+    }
+
+    /// Whether some damping turns with the blade: it strains under a wave that stands still in space, so that
+    /// no eigenvalue is zero at the critical speeds, which are those of the blade without damping.
+    pub(crate) fn has_turning_damping(&self) -> bool {
+        let mut components = self.components.iter();
+        components.any(|component| component.full.circulatory.is_some())
+    }
+
+    /// dλ/dΩ of a mode at a speed, dimensionless.
+    pub(crate) fn eigenvalue_slope(&self, speed_rad_per_s: f64, mode: &Mode) -> c64 {
+        let system = &self.components[mode.component].at(speed_rad_per_s).reduced;
+        derivative::with_speed(system, speed_rad_per_s, mode.lambda, &mode.coordinates)
+    }
+
+    /// Relative change of a frequency at rest that rounding may cause: a backward stable solver changes ω² by
+    /// ε times the largest ω². The inverse used for the waves of a free blade gives low frequencies with a small
+    /// relative error; then rounding only changes each entry of the matrix by ε times its size.
+    pub(crate) fn relative_rounding(&self, mode: &Mode) -> f64 {
+        let component = &self.components[mode.component];
+        let stiffness = &component.at(0.0).reduced.stiffness;
+        let square = mode.frequency_rad_per_s().powi(2);
+        let size = match component.solution {
+            Solution::FreeWaves(_) => {
+                let q = &mode.coordinates;
+                let sizes = Col::from_fn(q.nrows(), |i| q[i].norm());
+                let entries = stiffness.nrows();
+                let absolute = Mat::from_fn(entries, entries, |i, k| f64::abs(stiffness[(i, k)]));
+                sizes.transpose() * absolute * &sizes
+            }
+            _ => stiffness.norm_l2(),
+        };
+        0.5 * f64::EPSILON * size / square
+    }
+
+    fn solve_component(
+        &self,
+        index: usize,
+        speed_rad_per_s: f64,
+        highest_rad_per_s: f64,
+    ) -> Result<Vec<Mode>, SpectrumError> {
+        self.counters.cancellation.check()?;
+        self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
+        let component = &self.components[index];
+        let speed = speed_rad_per_s.max(SPLITTING * frequency_scale(&self.plate));
+        let mut pairs = component.eigenpairs(&self.plate, index, speed)?;
+        pairs.retain(|(lambda, _)| lambda.im <= highest_rad_per_s);
+        Ok(classify(
+            &component.at(speed_rad_per_s).reduced,
+            speed,
+            index,
+            pairs,
+        ))
+    }
+
+    /// Modes of all components up to a frequency, ordered by |Im λ|.
+    fn solve(
+        &self,
+        speed_rad_per_s: f64,
+        highest_rad_per_s: f64,
+    ) -> Result<Vec<Mode>, SpectrumError> {
+        let mut modes = Vec::new();
+        for index in 0..self.components.len() {
+            modes.extend(self.solve_component(index, speed_rad_per_s, highest_rad_per_s)?);
+        }
+        modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
+        Ok(modes)
+    }
+
+    /// Number of negative eigenvalues of K(Ω) of an undamped blade. K₀ is positive definite and K(Ω) = K₀ −
+    /// Ω²(N − K_σ), so by Sylvester's law of inertia it is the number of critical speeds below Ω; no
+    /// factorization is needed.
+    pub(crate) fn negative_stiffness_directions(&self, speed_rad_per_s: f64) -> usize {
+        self.critical
+            .partition_point(|c| c.speed_rad_per_s < speed_rad_per_s)
+    }
+}

@@ -1,0 +1,205 @@
+//! Equilibria at one speed, and small motions about them.
+
+use faer::linalg::solvers::Solve;
+use faer::{Col, Scale, c64};
+
+use crate::model::scene::rpm;
+use crate::modes::{companion_eigenpairs, critical_speeds};
+
+use super::{ROUNDING, StretchedBlade, StretchedError, angles, finite};
+
+/// An equilibrium of the blade.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equilibrium {
+    /// Rotation speed Ω.
+    pub speed_rad_per_s: f64,
+    /// Coordinates p of the r shapes, in √kg·m.
+    pub coordinates: Col<f64>,
+    /// Number of negative eigenvalues of ∂²V/∂p²; zero at a minimum of V, which is stable.
+    pub negative_eigenvalues: usize,
+}
+
+/// Largest number of iterations of Newton's method.
+pub(super) const ITERATIONS: usize = 30;
+/// Relative size of the last correction; that of the next would be its square.
+pub(super) const LAST: f64 = 1e-8;
+
+impl StretchedBlade {
+    /// Deflection of an equilibrium at a point of the blade.
+    pub fn deflection_m(&self, equilibrium: &Equilibrium, radius_m: f64, angle_rad: f64) -> f64 {
+        self.shapes_at((radius_m, angle_rad)).transpose() * &equilibrium.coordinates
+    }
+
+    /// Force of each pad that lifts off on the blade beyond its gap, in the order of the scene's guides.
+    pub fn pad_forces_n(&self, equilibrium: &Equilibrium) -> Vec<f64> {
+        let gaps = self.gaps.as_ref();
+        gaps.map_or_else(Vec::new, |gaps| gaps.forces_n(&equilibrium.coordinates))
+    }
+
+    /// Smallest distance between the blade and a face of each pad that lifts off; negative where a face is
+    /// compressed.
+    pub(crate) fn distances_left_m(&self, equilibrium: &Equilibrium) -> Vec<f64> {
+        let gaps = self.gaps.as_ref();
+        gaps.map_or_else(Vec::new, |gaps| {
+            gaps.distances_left_m(&equilibrium.coordinates)
+        })
+    }
+
+    /// Radius, in m, and magnitude of the force, in N, at each point at which a pad that lifts off touches the blade.
+    pub(crate) fn contacts(&self, equilibrium: &Equilibrium) -> Vec<(f64, f64)> {
+        let gaps = self.gaps.as_ref();
+        gaps.map_or_else(Vec::new, |gaps| gaps.contacts(&equilibrium.coordinates))
+    }
+
+    /// Largest slope |∇w| of an equilibrium. The potential of stretching is valid up to about 0.1.
+    pub fn largest_slope(&self, equilibrium: &Equilibrium) -> f64 {
+        let q = &self.shapes * &equilibrium.coordinates;
+        let at_radius = |radius_m: f64| {
+            let waves = self.slopes_at(&q, radius_m);
+            let at_angle = |angle_rad: f64| {
+                let mut slope = [0.0; 2];
+                for (n, [radial, hoop]) in waves.iter().enumerate() {
+                    let (sin, cos) = (n as f64 * angle_rad).sin_cos();
+                    slope[0] += radial[0] * cos + radial[1] * sin;
+                    slope[1] += n as f64 * (hoop[1] * cos - hoop[0] * sin);
+                }
+                slope[0].hypot(slope[1])
+            };
+            angles().map(at_angle).fold(0.0, f64::max)
+        };
+        self.plate
+            .sampled_radii_m()
+            .map(at_radius)
+            .fold(0.0, f64::max)
+    }
+
+    /// Factors of cos nθ and sin nθ of w′ and of w/r at a radius.
+    fn slopes_at(&self, q: &Col<f64>, radius_m: f64) -> Vec<[[f64; 2]; 2]> {
+        let plate = &self.plate;
+        let size = plate.radial_functions();
+        let of_wave = |n: usize| {
+            let values = plate.basis.evaluate(n, radius_m);
+            let sum = |part: usize, of: &[f64]| match (n, part) {
+                (0, 1) => 0.0,
+                _ => {
+                    let first = plate.offset(n) + part * size;
+                    let terms = of.iter().enumerate().map(|(j, value)| q[first + j] * value);
+                    terms.sum::<f64>() / plate.angular_norm(n)
+                }
+            };
+            [
+                [0, 1].map(|part| sum(part, &values.slope)),
+                [0, 1].map(|part| sum(part, &values.value) / radius_m),
+            ]
+        };
+        (0..=plate.max_diameters()).map(of_wave).collect()
+    }
+
+    /// The equilibrium to which Newton's method converges from a guess, or, for `None`, from the flat blade.
+    ///
+    /// # Errors
+    /// [`StretchedError::NotFound`] if it does not converge, [`StretchedError::Value`].
+    pub fn equilibrium(
+        &self,
+        speed_rad_per_s: f64,
+        guess: Option<&Col<f64>>,
+    ) -> Result<Equilibrium, StretchedError> {
+        finite("the speed in rad/s", speed_rad_per_s)?;
+        let mut p = guess.cloned().unwrap_or_else(|| self.flat());
+        for _ in 0..ITERATIONS {
+            let rest = self.residual(&p, speed_rad_per_s)?;
+            let step = self
+                .hessian(&p, speed_rad_per_s)?
+                .partial_piv_lu()
+                .solve(&rest);
+            p -= &step;
+            if step.norm_l2() <= LAST * p.norm_l2() {
+                return self.at(p, speed_rad_per_s);
+            }
+        }
+        Err(self.not_found(&p, speed_rad_per_s))
+    }
+
+    /// The eigenvalues of small motions about an equilibrium, with Im λ ≥ 0, by magnitude.
+    ///
+    /// # Errors
+    /// [`StretchedError::Spectrum`].
+    pub fn small_motions(&self, equilibrium: &Equilibrium) -> Result<Vec<c64>, StretchedError> {
+        let mut system = self.system.clone();
+        system.stiffness += self.added_stiffness(&equilibrium.coordinates)?;
+        let pairs = companion_eigenpairs(&system, equilibrium.speed_rad_per_s)?;
+        Ok(pairs.into_iter().map(|(lambda, _)| lambda).collect())
+    }
+
+    /// The speeds at which equilibria branch from the flat blade, ascending, each with the shape of the
+    /// branch, ‖v‖ = 1: the critical speeds of the reduced model. The side force is ignored.
+    ///
+    /// # Errors
+    /// [`StretchedError::Spectrum`].
+    pub fn pitchforks(&self) -> Result<Vec<(f64, Col<f64>)>, StretchedError> {
+        let critical = critical_speeds(&self.system)?;
+        let pairs = critical.into_iter().map(|c| (c.speed_rad_per_s, c.shape));
+        Ok(pairs.collect())
+    }
+
+    /// The deflected equilibrium slightly above a pitchfork: p = εv with ε² = −vᵀK(Ω)v/4U₄(v), corrected by
+    /// Newton's method. The other equilibrium is −p.
+    ///
+    /// # Errors
+    /// [`StretchedError::Axisymmetric`]; [`StretchedError::NotFound`], also if vᵀK(Ω)v is not negative,
+    /// because the speed is not just above the pitchfork.
+    pub fn leaned(
+        &self,
+        speed_rad_per_s: f64,
+        shape: &Col<f64>,
+    ) -> Result<Equilibrium, StretchedError> {
+        finite("the speed in rad/s", speed_rad_per_s)?;
+        self.directed(shape)?;
+        let near = self.leaned_near(speed_rad_per_s, shape)?;
+        self.equilibrium(speed_rad_per_s, Some(&near))
+    }
+
+    /// The deflection εv of [`StretchedBlade::leaned`] without correction.
+    ///
+    /// # Errors
+    /// [`StretchedError::NotFound`] if vᵀK(Ω)v is not negative.
+    pub fn leaned_near(
+        &self,
+        speed_rad_per_s: f64,
+        shape: &Col<f64>,
+    ) -> Result<Col<f64>, StretchedError> {
+        let stiffness = self.system.stiffness_at(speed_rad_per_s);
+        let elastic = shape.transpose() * &stiffness * shape;
+        let square = -elastic / (4.0 * self.stretching.energy_j(shape)?);
+        if !(square > 0.0 && square.is_finite()) {
+            return Err(self.not_found(shape, speed_rad_per_s));
+        }
+        Ok(Scale(square.sqrt()) * shape)
+    }
+
+    /// The equilibrium at known coordinates, with its number of negative eigenvalues.
+    pub(super) fn at(
+        &self,
+        p: Col<f64>,
+        speed_rad_per_s: f64,
+    ) -> Result<Equilibrium, StretchedError> {
+        let values = self.stiffnesses(&p, speed_rad_per_s)?;
+        let zero = -ROUNDING * values.last().copied().unwrap_or_default().abs();
+        Ok(Equilibrium {
+            negative_eigenvalues: values.iter().filter(|value| **value < zero).count(),
+            coordinates: p,
+            speed_rad_per_s,
+        })
+    }
+
+    pub(super) fn not_found(&self, p: &Col<f64>, speed_rad_per_s: f64) -> StretchedError {
+        let elastic = (self.system.stiffness_at(speed_rad_per_s) * p).norm_max();
+        let rest = self
+            .residual(p, speed_rad_per_s)
+            .map_or(f64::NAN, |rest| rest.norm_max());
+        StretchedError::NotFound {
+            rpm: rpm(speed_rad_per_s),
+            residual: rest / elastic.max(self.force.norm_max()),
+        }
+    }
+}

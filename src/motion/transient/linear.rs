@@ -1,0 +1,55 @@
+//! Validity of the linear model.
+//!
+//! A plate whose deflection exceeds its thickness also stretches, which makes it stiffer; the linear model
+//! neglects this. Its growth rates are those of small motions; its large amplitudes are not valid.
+
+use faer::Col;
+
+use crate::model::plate::Plate;
+use crate::model::scene::{Blade, Point};
+
+use super::TransientError;
+use super::reduced::{ReducedBlade, at_point};
+
+/// Deflections beyond this many thicknesses of the blade are not reported.
+pub const LINEAR_THICKNESSES: f64 = 5.0;
+
+/// Largest deflection that is reported: [`LINEAR_THICKNESSES`] times the smallest thickness of the blade.
+pub fn linear_limit_m(blade: &Blade) -> f64 {
+    LINEAR_THICKNESSES * blade.thickness_range_m().0
+}
+
+/// Deflection at the probe of a motion on a reduced basis, and the limit of the linear model.
+#[derive(Debug)]
+pub(crate) struct Gauge {
+    probe: Col<f64>,
+    limit_m: f64,
+}
+
+impl Gauge {
+    pub fn new(plate: &Plate, blade: &ReducedBlade, probe: Point) -> Self {
+        Gauge {
+            probe: blade.vector(&at_point(plate, probe.polar())),
+            limit_m: linear_limit_m(&plate.blade),
+        }
+    }
+
+    /// Deflection at the probe in m, from the coordinates on the basis.
+    pub fn at_probe(&self, displacement: &Col<f64>) -> f64 {
+        let pairs = self.probe.iter().zip(displacement.iter());
+        pairs.map(|(c, q)| c * q).sum()
+    }
+
+    /// Whether a deflection is outside the linear model.
+    pub fn beyond(&self, deflection_m: f64) -> bool {
+        deflection_m.abs() > self.limit_m
+    }
+}
+
+/// Refuses a deflection that has overflowed at a time.
+pub(crate) fn finite(value: f64, rpm: f64, time_s: f64) -> Result<f64, TransientError> {
+    match value.is_finite() {
+        true => Ok(value),
+        false => Err(TransientError::Overflow { rpm, time_s }),
+    }
+}

@@ -1,0 +1,50 @@
+//! Figures: charts as data, their layout on a sheet, and the sheet as PNG or SVG.
+//!
+//! An analysis describes its chart as [`ChartData`]: panels with axes and items ([`items`]). [`layout`] arranges axes, key and
+//! labels on a sheet of marks in figure units, and a [`Figure`] renders the sheet to PNG bytes or to SVG text. The same
+//! data are painted by the live page, matplotlib and plotly. This module knows no physics and writes no files.
+
+pub(crate) mod axis;
+pub(crate) mod bands;
+pub(crate) mod canvas;
+pub(crate) mod chart_data;
+pub(crate) mod clip;
+pub(crate) mod declutter;
+pub(crate) mod drawn;
+pub(crate) mod heading;
+pub(crate) mod heat;
+pub(crate) mod items;
+pub(crate) mod key;
+pub(crate) mod labels;
+pub(crate) mod layout;
+pub(crate) mod letters;
+pub(crate) mod paint;
+pub(crate) mod palette;
+pub(crate) mod panel;
+pub(crate) mod raster;
+pub(crate) mod style;
+pub(crate) mod svg;
+#[cfg(test)]
+pub(crate) mod tidy;
+
+pub use axis::Spread;
+pub use chart_data::{AxisData, ChartData, PanelData};
+pub(crate) use drawn::Drawing;
+pub use drawn::Figure;
+pub use items::{Area, Band, Bars, Heat, Item, Label, Line, Points, Role, Shape, Upright};
+pub use palette::Hue;
+#[doc(hidden)]
+pub use palette::{PALETTE, Palette};
+#[cfg(test)]
+pub(crate) use tidy::assert_tidy;
+
+/// Error of rendering a figure.
+#[derive(Debug, thiserror::Error)]
+pub enum FigureError {
+    /// The drawing library plotters returned an error for a mark.
+    #[error("a figure cannot be drawn")]
+    Draw(#[source] Box<dyn std::error::Error + Send + Sync>),
+    /// The picture could not be encoded as PNG.
+    #[error("a figure cannot be packed as PNG")]
+    Png(#[from] png::EncodingError),
+}

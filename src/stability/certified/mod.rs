@@ -1,0 +1,304 @@
+//! Search for the bands of an undamped blade, with their checks.
+
+use super::band::{Instability, InstabilityKind};
+use super::certificate::{Certificate, ContradictedBands, mismatches};
+use super::divergence::{close_pairs, divergence};
+use super::evaluator::SignatureEvaluator;
+use super::flutter::{Quadruple, flutter, quadruples};
+use super::found::Found;
+use super::mode_counts::{MiscountedModes, ModeCounts};
+use super::partition::Plane;
+use super::pieces::{Piece, Search};
+use super::proof::Proof;
+use super::signature::Signature;
+use crate::modes::{SpectralModel, SpectrumError};
+
+/// Depth of the checks of a list of bands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Depth {
+    /// Krein index and bands at every speed, and counts on the full model at a few: for studies of many saws.
+    Counts,
+    /// The checks of `Counts`, further counts beside and within every band, and a proof for the speeds between.
+    Proof,
+}
+
+/// Relative error allowed for the square of an eigenvalue between two speeds of the search, which only
+/// locates the bands.
+const SQUARE_TOLERANCE: f64 = 1e-3;
+/// Relative error allowed for a growth rate between two speeds of the search.
+const GROWTH_TOLERANCE: f64 = 0.05;
+/// Share of |ω| + Ω below which a growth rate is rounding.
+const GROWTH_NOISE: f64 = 1e-7;
+/// Number of evenly spaced speeds of the search at which modes are counted on the full model.
+const ANCHORS: usize = 12;
+/// Number of further speeds of counts, drawn at random from a fixed seed, so that they do not depend on the
+/// rules of the search.
+const DRAWN: u64 = 8;
+/// [`ANCHORS`] if a count needs a dense factorization, which takes a hundred times as long as one by blocks.
+const DENSE_ANCHORS: usize = 3;
+/// Distance from the edges of a band at which its modes are counted, as a share of the band's width.
+const BESIDE: f64 = 0.02;
+/// Smallest such distance, as a share of the speed of the edge.
+const LEAST_BESIDE: f64 = 6e-5;
+/// Relative distance from a critical speed below which eigenvalues next to zero are rounding.
+const NEXT_TO_CRITICAL: f64 = 1e-4;
+
+/// Finds every band within a range by a search between the first and the last of `speeds`, which should cover
+/// the range from the lowest critical speed on. Searches again on the full model if counts contradict the
+/// modes.
+pub(super) fn bands(
+    model: &SpectralModel,
+    range: (f64, f64),
+    speeds: &[f64],
+    depth: Depth,
+) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+    let full = ModeCounts::new(model);
+    let mut found = searched(
+        model,
+        SignatureEvaluator::new(model, speeds)?,
+        &full,
+        (range, speeds),
+        depth,
+    )?;
+    if found.1.miscounts.is_empty() {
+        return Ok(found);
+    }
+    if !SignatureEvaluator::has_full_model_within_reach(model) {
+        found.1.gave_up = true;
+        return Ok(found);
+    }
+    let whole = SignatureEvaluator::on_full_model(model, speeds)?;
+    let (instabilities, mut certificate) = searched(model, whole, &full, (range, speeds), depth)?;
+    certificate.searched_again = true;
+    Ok((instabilities, certificate))
+}
+
+/// Bands and certificate by one search.
+fn searched(
+    model: &SpectralModel,
+    evaluator: SignatureEvaluator<'_>,
+    full: &Option<ModeCounts<'_>>,
+    (range, speeds): ((f64, f64), &[f64]),
+    depth: Depth,
+) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+    let Some(full) = full else {
+        evaluator.at_all(speeds)?;
+        // `full` is `None` for a free blade. Its waves are uncoupled, so they cross and never coalesce.
+        let certificate = Certificate {
+            unproven_rad_per_s: (depth == Depth::Proof).then(Vec::new),
+            ..evaluator.certificate()
+        };
+        return Ok((Vec::new(), certificate));
+    };
+    let pieces = searched_pieces(&evaluator, speeds)?;
+    let signatures = evaluator.signatures();
+    let quadruples = quadruples(&evaluator, &pieces)?;
+    let real: Vec<f64> = quadruples.iter().flat_map(Quadruple::real_ends).collect();
+    let mut found = divergence(model, &evaluator, &signatures, &real, range)?;
+    found.extend(close_pairs(model, &evaluator, speeds, range)?);
+    found.extend(flutter(&evaluator, &quadruples, range)?);
+    let (mut bands, mut within) = (Vec::new(), Vec::new());
+    for Found {
+        whole,
+        within: part,
+    } in found
+    {
+        bands.push(whole);
+        within.extend(part);
+    }
+    let by_onset = |x: &Instability, y: &Instability| x.from_rad_per_s.total_cmp(&y.from_rad_per_s);
+    bands.sort_by(by_onset);
+    within.sort_by(by_onset);
+    let checks = Checks {
+        evaluator: &evaluator,
+        full,
+        bands: &bands,
+        signatures: &signatures,
+    };
+    let mut certificate = checks.certificate(depth)?;
+    if let Some(unproven) = &mut certificate.unproven_rad_per_s {
+        unproven.extend(unsearched(model, range, speeds));
+        *unproven = clipped(unproven, range);
+    }
+    Ok((within, certificate))
+}
+
+/// Pieces of a search between the first and the last of some speeds.
+fn searched_pieces(
+    evaluator: &SignatureEvaluator<'_>,
+    speeds: &[f64],
+) -> Result<Vec<Piece>, SpectrumError> {
+    let top_rad_per_s = evaluator.height_rad_per_s();
+    let last = speeds.last().copied().unwrap_or(0.0);
+    let search = Search {
+        plane: Plane::Squares,
+        top_rad_per_s,
+        tolerance: SQUARE_TOLERANCE,
+        growth_tolerance: GROWTH_TOLERANCE,
+        noise_per_s: GROWTH_NOISE * (top_rad_per_s + last),
+        solve: &|speed| evaluator.sample(speed),
+    };
+    search.pieces(&evaluator.with_ends_of_intervals(speeds))
+}
+
+/// Parts of a range outside the speeds of a search, except below the lowest critical speed, where nothing is
+/// unstable. A part that ends before it begins is empty.
+fn unsearched(
+    model: &SpectralModel,
+    (from, to): (f64, f64),
+    speeds: &[f64],
+) -> impl Iterator<Item = (f64, f64)> + use<> {
+    let lowest = model.critical.first();
+    let lowest = lowest.map_or(f64::INFINITY, |c| c.speed_rad_per_s);
+    let (first, last) = match speeds {
+        [first, .., last] => (*first, *last),
+        [only] => (*only, *only),
+        [] => (f64::INFINITY, f64::NEG_INFINITY),
+    };
+    [(from.max(lowest), first.min(to)), (last.max(from), to)].into_iter()
+}
+
+/// Intervals clipped to a range, ascending and merged where they touch.
+fn clipped(stretches: &[(f64, f64)], range: (f64, f64)) -> Vec<(f64, f64)> {
+    let mut clipped: Vec<(f64, f64)> = stretches
+        .iter()
+        .map(|(from, to)| (from.max(range.0), to.min(range.1)))
+        .filter(|(from, to)| from < to)
+        .collect();
+    clipped.sort_by(|x, y| x.0.total_cmp(&y.0));
+    clipped.dedup_by(|next, last| {
+        let touches = next.0 <= last.1;
+        if touches {
+            last.1 = last.1.max(next.1);
+        }
+        touches
+    });
+    clipped
+}
+
+/// A list of bands with the data for the checks of it.
+pub(super) struct Checks<'a> {
+    pub evaluator: &'a SignatureEvaluator<'a>,
+    pub full: &'a ModeCounts<'a>,
+    pub bands: &'a [Instability],
+    pub signatures: &'a [Signature],
+}
+
+impl Checks<'_> {
+    /// Results of the checks.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn certificate(&self, depth: Depth) -> Result<Certificate, SpectrumError> {
+        let mut contradicted = contradictions(self.bands, self.signatures, GROWTH_FLOOR);
+        let mut miscounts = self.at_anchors()?;
+        let mut unproven = None;
+        let gave_up = self.evaluator.is_exhausted();
+        let height = self.evaluator.height_rad_per_s();
+        if depth == Depth::Proof {
+            let extra = self.evaluator.at_all(&self.chosen_speeds())?;
+            contradicted.extend(contradictions(self.bands, &extra, GROWTH_FLOOR));
+            if !self.full.is_dense() {
+                miscounts.extend(
+                    self.full
+                        .miscounts(&extra.iter().collect::<Vec<_>>(), height)?,
+                );
+            }
+            let proof = Proof {
+                full: self.full,
+                evaluator: self.evaluator,
+                bands: self.bands,
+            };
+            unproven = Some(proof.unproven(self.signatures)?);
+        }
+        Ok(Certificate {
+            mismatches: contradicted,
+            miscounts,
+            full_basis_counts: self.full.counted(),
+            unproven_rad_per_s: unproven,
+            gave_up,
+            ..self.evaluator.certificate()
+        })
+    }
+
+    /// Contradictions of counts at some speeds of the search.
+    fn at_anchors(&self) -> Result<Vec<MiscountedModes>, SpectrumError> {
+        let signatures = self.signatures;
+        let count = match self.full.is_dense() {
+            true => DENSE_ANCHORS,
+            false => ANCHORS,
+        };
+        let (Some(first), Some(last)) = (signatures.first(), signatures.last()) else {
+            return Ok(Vec::new());
+        };
+        let (from, to) = (first.speed_rad_per_s, last.speed_rad_per_s);
+        let at = |k: usize| {
+            let speed = from + (to - from) * (k as f64 + 1.0) / count as f64;
+            let place = signatures.partition_point(|s| s.speed_rad_per_s < speed);
+            place.min(signatures.len() - 1)
+        };
+        let mut places: Vec<usize> = (0..count).map(at).collect();
+        places.dedup();
+        let anchors: Vec<&Signature> = places.into_iter().map(|k| &signatures[k]).collect();
+        self.full
+            .miscounts(&anchors, self.evaluator.height_rad_per_s())
+    }
+
+    /// Speeds on both sides and at the peak of every flutter band, and random speeds.
+    fn chosen_speeds(&self) -> Vec<f64> {
+        let signatures = self.signatures;
+        let (Some(first), Some(last)) = (signatures.first(), signatures.last()) else {
+            return Vec::new();
+        };
+        let (from, to) = (first.speed_rad_per_s, last.speed_rad_per_s);
+        let drawn = (0..DRAWN).map(|k| from + drawn_share(k) * (to - from));
+        let flutter = self
+            .bands
+            .iter()
+            .filter(|b| b.kind == InstabilityKind::Flutter);
+        let beside = flutter.flat_map(|band| {
+            let (begin, end) = (band.from_rad_per_s, band.to_rad_per_s);
+            let away = (BESIDE * (end - begin)).max(LEAST_BESIDE * end);
+            [begin - away, band.peak_rad_per_s, end + away]
+        });
+        let mut speeds: Vec<f64> = beside.chain(drawn).collect();
+        let is_reflected = |speed: f64| self.full.negative_stiffness(speed) > 0;
+        let spans = |speed: f64| {
+            let away = NEXT_TO_CRITICAL * speed;
+            self.evaluator.spans_critical(speed - away, speed + away)
+        };
+        speeds
+            .retain(|speed| (from..=to).contains(speed) && is_reflected(*speed) && !spans(*speed));
+        speeds
+    }
+}
+
+/// Number k of a pseudo-random sequence between 0 and 1 that is the same on every machine (Steele, Lea and
+/// Flood, OOPSLA 2014).
+pub(super) fn drawn_share(k: u64) -> f64 {
+    let mut z = (k + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Share of |ω| + Ω below which growth is not compared with the bands: next to a coalescence eigenvalues are
+/// accurate to √ε of the largest frequency of the reduced model.
+pub(super) const GROWTH_FLOOR: f64 = 1e-5;
+
+/// Contradictions between bands and modes at some speeds.
+pub(super) fn contradictions(
+    bands: &[Instability],
+    signatures: &[Signature],
+    floor: f64,
+) -> Vec<ContradictedBands> {
+    let of = |signature: &Signature| {
+        let highest = signature.highest_rad_per_s();
+        let floor = floor * (signature.speed_rad_per_s + highest);
+        mismatches(bands, signature, floor)
+    };
+    signatures.iter().flat_map(of).collect()
+}
+
+#[cfg(test)]
+mod tests;
