@@ -123,9 +123,10 @@ pub(crate) fn statement(
     let checked = certificate.speeds_checked;
     let mut agree = Vec::new();
     if checked > 0 {
-        agree.push(match is_undamped {
-            true => format!("Krein index matches at {checked} of {checked} speeds"),
-            false => format!("growing modes match the bands at {checked} of {checked} speeds"),
+        agree.push(if is_undamped {
+            format!("Krein index matches at {checked} of {checked} speeds")
+        } else {
+            format!("growing modes match the bands at {checked} of {checked} speeds")
         });
     }
     let (certain, uncertain) = (certificate.full_basis_counts, certificate.uncertain_counts);
@@ -141,29 +142,32 @@ pub(crate) fn statement(
         )),
     }
     if let Some(share) = proven_share {
-        agree.push(match share == 1.0 {
-            true => "the whole sweep is proven free of unlisted bands".to_owned(),
-            false => format!(
+        agree.push(if share == 1.0 {
+            "the whole sweep is proven free of unlisted bands".to_owned()
+        } else {
+            format!(
                 "{} % of the sweep proven free of unlisted bands",
                 (1e3 * share).floor() / 10.0
-            ),
+            )
         });
     }
     if certificate.searched_again {
         agree.push("after a second search on the full model".to_owned());
     }
-    match agree.is_empty() {
-        true => "no speed was checked".to_owned(),
-        false => agree.join(", "),
+    if agree.is_empty() {
+        "no speed was checked".to_owned()
+    } else {
+        agree.join(", ")
     }
 }
 
 /// Descriptions of all disagreements.
 fn contradictions(certificate: &Certificate, is_undamped: bool) -> Vec<String> {
     let checked = certificate.speeds_checked;
-    let differs = match is_undamped {
-        true => "Krein index does not match",
-        false => "growing modes do not match the bands",
+    let differs = if is_undamped {
+        "Krein index does not match"
+    } else {
+        "growing modes do not match the bands"
     };
     let violations = certificate.violations_rad_per_s.iter().copied().map(rpm);
     let contradicted = certificate.mismatches.iter().map(|m| m.rpm);
@@ -204,9 +208,10 @@ fn contradictions(certificate: &Certificate, is_undamped: bool) -> Vec<String> {
 fn span(speeds_rpm: &[f64]) -> String {
     let least = speeds_rpm.iter().copied().fold(f64::INFINITY, f64::min);
     let most = speeds_rpm.iter().copied().fold(0.0, f64::max);
-    match least < most {
-        true => format!("{least:.1} to {most:.1} rpm"),
-        false => format!("{least:.1} rpm"),
+    if least < most {
+        format!("{least:.1} to {most:.1} rpm")
+    } else {
+        format!("{least:.1} rpm")
     }
 }
 

@@ -20,9 +20,10 @@ const CALIBRATED_N_PER_M: f64 = 1e9;
 /// [`OperatingPoint::side_force_factor`](super::OperatingPoint::side_force_factor); `None` without a factor.
 pub fn side_force_in_words(rpm: f64, factor: Option<f64>) -> Option<String> {
     let factor = factor?;
-    let direction = match factor < 0.0 {
-        true => ", in the opposite direction",
-        false => "",
+    let direction = if factor < 0.0 {
+        ", in the opposite direction"
+    } else {
+        ""
     };
     Some(format!(
         "at {} rpm a side force at the cut deflects the blade {} times as far as at rest{direction}",
@@ -131,9 +132,10 @@ fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
             "the tolerance {tolerance} is out of reach of {functions} functions; reached: {error}"
         ));
     };
-    let most = match found.is_dense {
-        true => " (the most for a saw with damping, forces at the rim or many stiff guides)",
-        false => "",
+    let most = if found.is_dense {
+        " (the most for a saw with damping, forces at the rim or many stiff guides)"
+    } else {
+        ""
     };
     let guide = found.guide.map_or(String::new(), |guide| {
         format!("; guides[{guide}] causes the sharpest bending: more area or less stiffness helps")
@@ -153,11 +155,10 @@ fn ended_early(scene: &Scene, analysis: &Analysis) -> Option<String> {
     let usual = usual_end(scene, critical.first().copied());
     let end = analysis.range_rad_per_s.1;
     let is_early = scene.sweep().is_none() && end < 0.99 * usual;
-    let reason = match is_cut_short(scene, &critical) {
-        true => format!(
-            "{CHARTED} critical speeds are below its end; name sweep.to_rpm for a longer one"
-        ),
-        false => "the modes of so many speeds would not fit into the memory allowed; a coarser accuracy permits a longer sweep".to_owned(),
+    let reason = if is_cut_short(scene, &critical) {
+        format!("{CHARTED} critical speeds are below its end; name sweep.to_rpm for a longer one")
+    } else {
+        "the modes of so many speeds would not fit into the memory allowed; a coarser accuracy permits a longer sweep".to_owned()
     };
     is_early.then(|| {
         format!(

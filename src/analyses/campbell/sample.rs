@@ -300,9 +300,10 @@ pub fn root_loci(drift: f64) -> RootLoci {
         let turned = |rpm: f64| if rpm < middle { side } else { -side };
         let hz = |&rpm: &f64| {
             let mean = 6.0 + drift * (rpm - middle);
-            match inside(rpm) {
-                true => mean,
-                false => mean + turned(rpm) * apart(rpm) / std::f64::consts::TAU,
+            if inside(rpm) {
+                mean
+            } else {
+                mean + turned(rpm) * apart(rpm) / std::f64::consts::TAU
             }
         };
         let growth = |&rpm: &f64| if inside(rpm) { side * apart(rpm) } else { 0.0 };

@@ -156,9 +156,10 @@ fn stiffness(report: &CheckReport, speed: &AxisData) -> PanelData {
     let points = curve.rpm.iter().zip(&curve.n_per_m);
     let points = points.map(|(rpm, k)| [*rpm, 1e-3 * k]);
     let name = "lateral stiffness of the rim";
-    let note = match largest > 0.0 {
-        true => "",
-        false => "no lateral stiffness: nothing holds the blade",
+    let note = if largest > 0.0 {
+        ""
+    } else {
+        "no lateral stiffness: nothing holds the blade"
     };
     let operating = speeds(report, last_shown_rpm(report)).into_iter().take(1);
     let operating = operating.map(|item| match item {

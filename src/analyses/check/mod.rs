@@ -141,9 +141,10 @@ fn analysed(scene: &Scene, least_end_rad_per_s: f64) -> Result<Analysis, CheckEr
         return to(to_rad_per_s);
     }
     let analysis = Analysis::new(scene)?;
-    match analysis.range_rad_per_s.1 >= least_end_rad_per_s {
-        true => Ok(analysis),
-        false => to(least_end_rad_per_s),
+    if analysis.range_rad_per_s.1 >= least_end_rad_per_s {
+        Ok(analysis)
+    } else {
+        to(least_end_rad_per_s)
     }
 }
 

@@ -8,11 +8,10 @@ pub fn outline(report: &CheckReport) -> Outline {
     let mut text = Outline::of(&report.scene.name, &report.condition, &[]);
     text.headline(verdict(report));
     for number in &report.unusual_numbers {
-        text.sentence(match report.accept_unusual {
-            true => format!("Unusual number, accepted: {number}"),
-            false => format!(
-                "FAIL unusual number: {number}. Correct it, or accept it by --accept-unusual"
-            ),
+        text.sentence(if report.accept_unusual {
+            format!("Unusual number, accepted: {number}")
+        } else {
+            format!("FAIL unusual number: {number}. Correct it, or accept it by --accept-unusual")
         });
     }
     for Criterion {
@@ -41,9 +40,10 @@ fn verdict(report: &CheckReport) -> String {
         1 => format!("1 of {} limits is not kept", report.criteria.len()),
         _ => format!("{failed} of {} limits are not kept", report.criteria.len()),
     };
-    let numbers = match report.unusual_numbers.is_empty() || report.accept_unusual {
-        true => "",
-        false => ", with numbers that no saw has",
+    let numbers = if report.unusual_numbers.is_empty() || report.accept_unusual {
+        ""
+    } else {
+        ", with numbers that no saw has"
     };
     format!("FAILED {speed}: {limits}{numbers}")
 }

@@ -76,9 +76,10 @@ impl State<'_> {
     fn checks(&self) -> Vec<String> {
         let mut checks = Vec::new();
         if let Some([stiffness, modes]) = self.found.krein {
-            checks.push(match stiffness == modes {
-                true => "Krein index matches".to_owned(),
-                false => format!("Krein index {modes} does not match {stiffness} of the stiffness"),
+            checks.push(if stiffness == modes {
+                "Krein index matches".to_owned()
+            } else {
+                format!("Krein index {modes} does not match {stiffness} of the stiffness")
             });
         }
         for miscount in &self.found.miscounts {

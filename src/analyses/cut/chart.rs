@@ -40,10 +40,11 @@ impl Scale {
     fn of(runs: &[CutAtSpeed]) -> Self {
         let largest_m = runs.iter().map(largest_m).fold(0.0, f64::max);
         let (unit, per_metre) = unit_of(largest_m);
-        let reach = match largest_m > 0.0 {
+        let reach = if largest_m > 0.0 {
             // Deflections below a nanometre have no meaning, and their ticks would have too many digits.
-            true => 1.12 * per_metre * largest_m.max(1e-9),
-            false => 1.0,
+            1.12 * per_metre * largest_m.max(1e-9)
+        } else {
+            1.0
         };
         Scale {
             unit,

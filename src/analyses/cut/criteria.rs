@@ -103,9 +103,10 @@ pub(super) fn criteria(
 /// The worst verdict, and the criterion of fastest growth that gives it (the first of equals).
 pub(super) fn worst(criteria: &[CutFinding]) -> (Verdict, CutCriterion) {
     let unstable = |entry: &CutFinding| entry.verdict == Verdict::Unstable;
-    let verdict = match criteria.iter().any(unstable) {
-        true => Verdict::Unstable,
-        false => Verdict::Stable,
+    let verdict = if criteria.iter().any(unstable) {
+        Verdict::Unstable
+    } else {
+        Verdict::Stable
     };
     let mut fastest: Option<&CutFinding> = None;
     for entry in criteria.iter().filter(|entry| entry.verdict == verdict) {
@@ -138,9 +139,10 @@ impl Verdict {
     pub(super) fn of(scene: &Scene, growth: Growth) -> Self {
         let rate = growth.growth_per_s;
         let is_slow = rate < scene.flutter_threshold_per_s() || rate <= 0.0;
-        match is_slow && !growth.diverges {
-            true => Verdict::Stable,
-            false => Verdict::Unstable,
+        if is_slow && !growth.diverges {
+            Verdict::Stable
+        } else {
+            Verdict::Unstable
         }
     }
 }

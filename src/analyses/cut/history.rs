@@ -156,12 +156,11 @@ pub(super) fn cut_history(saw: &SawInCut<'_>, probe: Point) -> Result<CutHistory
     ];
     let [idle, in_cut] = growing.each_ref().map(|found| Growth::from(found.growing));
     let gauge = Gauge::new(plate, &saw.blade, probe);
-    let (record, stretched) = match cut.stretching {
-        false => (record(saw, &gauge, [idle, in_cut])?, None),
-        true => {
-            let (record, found) = stretched_cut(saw, probe, [idle, in_cut])?;
-            (record, Some(found))
-        }
+    let (record, stretched) = if cut.stretching {
+        let (record, found) = stretched_cut(saw, probe, [idle, in_cut])?;
+        (record, Some(found))
+    } else {
+        (record(saw, &gauge, [idle, in_cut])?, None)
     };
     let sinusoids = sinusoids_in_cut(saw, &gauge, in_cut)?;
     let critical = [
@@ -216,9 +215,10 @@ fn record(
         }
         // A flat saw without a force remains flat, even if it is unstable.
         let moves = force_n != 0.0 || state != State::rest(saw.blade.order());
-        let longest_s = match moves {
-            true => sample_s.min(longest_step_s(growth)),
-            false => sample_s,
+        let longest_s = if moves {
+            sample_s.min(longest_step_s(growth))
+        } else {
+            sample_s
         };
         let count = (duration_s / longest_s).ceil();
         let step_s = duration_s / count;

@@ -21,9 +21,10 @@ const LESS: f64 = 0.9;
 /// The growth over angle and load, or over the load alone for a saw without guides, as numbers.
 pub fn chart(report: &CutReport) -> ChartData {
     let has_guides = !report.scene.guides.is_empty();
-    let title = match has_guides {
-        true => "Growth in the cut over the angle of the guides and the load",
-        false => "Growth in the cut over the load",
+    let title = if has_guides {
+        "Growth in the cut over the angle of the guides and the load"
+    } else {
+        "Growth in the cut over the load"
     };
     let panels = report.runs.iter().map(|run| match has_guides {
         true => map(report, run),

@@ -101,13 +101,14 @@ pub fn cut(
         scene,
         cut,
         plate: chosen_plate(scene, runs)?,
-        turns_rad: match scene.guides().is_empty() {
+        turns_rad: if scene.guides().is_empty() {
             // Without guides the map has no guide angle to vary.
-            true => vec![0.0],
-            false => even(-MAP_TURN_DEG, MAP_TURN_DEG, turn_deg)
+            vec![0.0]
+        } else {
+            even(-MAP_TURN_DEG, MAP_TURN_DEG, turn_deg)
                 .into_iter()
                 .map(f64::to_radians)
-                .collect(),
+                .collect()
         },
         load_levels: even(0.0, MAP_LOAD, level),
         stages: STAGES.max(stage_count),

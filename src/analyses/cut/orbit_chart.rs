@@ -44,9 +44,10 @@ impl Scale {
     fn of<'a>(splines: impl Iterator<Item = &'a SplineOrbit>) -> Self {
         let all = splines.flat_map(|spline| spline.x_m.iter().chain(&spline.y_m));
         let largest_m = all.fold(1e-9_f64, |max, value| max.max(value.abs()));
-        let (unit, per_metre) = match largest_m < 1e-4 {
-            true => ("µm", 1e6),
-            false => ("mm", 1e3),
+        let (unit, per_metre) = if largest_m < 1e-4 {
+            ("µm", 1e6)
+        } else {
+            ("mm", 1e3)
         };
         Scale {
             unit,
@@ -120,9 +121,10 @@ fn clearance(radius: f64) -> Line {
 
 fn key(clearance_m: f64, scale: &Scale) -> Vec<Item> {
     let size = format!("clearance {} mm", tick_label(1e3 * clearance_m));
-    let name = match scale.per_metre * clearance_m <= scale.reach {
-        true => size,
-        false => format!("{size}, outside the picture"),
+    let name = if scale.per_metre * clearance_m <= scale.reach {
+        size
+    } else {
+        format!("{size}, outside the picture")
     };
     let before = Line {
         tint: BEFORE,

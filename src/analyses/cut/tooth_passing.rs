@@ -211,9 +211,10 @@ fn largest_multiplier_ln(
         real_eigenvalues(product.as_ref()).map_err(SpectrumError::at(rad_per_s(rpm)))?;
     let largest = multipliers.iter().fold(0.0_f64, |max, z| max.max(z.norm()));
     let logarithm = largest.ln() + doublings * std::f64::consts::LN_2;
-    match logarithm.is_finite() {
-        true => Ok(logarithm),
-        false => Err(not_finite),
+    if logarithm.is_finite() {
+        Ok(logarithm)
+    } else {
+        Err(not_finite)
     }
 }
 

@@ -93,9 +93,10 @@ fn moving_loads_alone(run: &CutAtSpeed) -> Option<String> {
 }
 
 fn seconds(seconds: f64) -> String {
-    match seconds >= 1e-3 {
-        true => format!("{seconds:.3} s"),
-        false => "less than a millisecond".into(),
+    if seconds >= 1e-3 {
+        format!("{seconds:.3} s")
+    } else {
+        "less than a millisecond".into()
     }
 }
 
@@ -125,9 +126,10 @@ fn moving_loads_deflect(run: &CutAtSpeed, thickness_m: f64) -> Option<String> {
 
 /// Time after the start or the end of the forces, as text.
 fn moment(run: &CutAtSpeed, until_s: f64) -> String {
-    match until_s > run.forces_to_s {
-        true => format!("{} after the cut", seconds(until_s - run.forces_to_s)),
-        false => format!("{} into the cut", seconds(until_s - run.forces_from_s)),
+    if until_s > run.forces_to_s {
+        format!("{} after the cut", seconds(until_s - run.forces_to_s))
+    } else {
+        format!("{} into the cut", seconds(until_s - run.forces_from_s))
     }
 }
 

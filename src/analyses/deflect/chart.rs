@@ -146,9 +146,10 @@ fn curve_lines(curve: &EquilibriumCurve) -> Vec<Item> {
     let lines = found.into_iter().map(|(stable, samples)| {
         let at = |k: usize| [curve.rpm[k], 1e3 * curve.deflection_m[k]];
         let points = samples.into_iter().map(|k| k.map_or([f64::NAN; 2], at));
-        let (width, name) = match stable {
-            true => (NARROWER, "stable, not reached"),
-            false => (HAIRLINE, "unstable"),
+        let (width, name) = if stable {
+            (NARROWER, "stable, not reached")
+        } else {
+            (HAIRLINE, "unstable")
         };
         Item::Line(Line {
             width,

@@ -130,9 +130,10 @@ fn gentler(
     };
     for _ in 0..HALVINGS {
         let middle_n = steep_n.signum() * (steep_n * gentle_n).sqrt();
-        match is_gentle(middle_n)? {
-            true => gentle_n = middle_n,
-            false => steep_n = middle_n,
+        if is_gentle(middle_n)? {
+            gentle_n = middle_n
+        } else {
+            steep_n = middle_n
         }
     }
     Ok(Some(gentle_n))

@@ -109,11 +109,12 @@ fn jumps(text: &mut Outline, sweep: &SlowSweep, word: &str, thickness_m: f64) {
     let table = Table::new(title, columns)
         .in_file("deflect.json")
         .with_rows(rows);
-    match table.rows.is_empty() {
-        true => text.sentence(format!(
+    if table.rows.is_empty() {
+        text.sentence(format!(
             "While the speed {word} slowly the blade does not jump"
-        )),
-        false => text.table(table),
+        ))
+    } else {
+        text.table(table)
     }
 }
 
@@ -241,8 +242,9 @@ fn accuracy(report: &DeflectReport) -> String {
 
 /// A share in percent with one decimal; "less than 0.1 %" below.
 fn at_most(share: f64) -> String {
-    match share < 1e-3 {
-        true => "less than 0.1 %".to_owned(),
-        false => format!("{:.1} %", 1e2 * share),
+    if share < 1e-3 {
+        "less than 0.1 %".to_owned()
+    } else {
+        format!("{:.1} %", 1e2 * share)
     }
 }

@@ -82,9 +82,10 @@ fn deviations(report: &FitReport) -> Table {
         };
         let mut row = vec![SPEED.digits(6, rpm)];
         row.extend(places.clone().map(at));
-        let fitted: Value = match own().all(|r| r.fitted) {
-            true => "".into(),
-            false => "not fitted".into(),
+        let fitted: Value = if own().all(|r| r.fitted) {
+            "".into()
+        } else {
+            "not fitted".into()
         };
         row.extend(is_partly.then_some(fitted));
         table.row(row);

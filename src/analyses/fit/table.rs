@@ -314,10 +314,7 @@ fn row(record: Record, header: Option<&Header>, comma: bool) -> Result<TableRow,
     };
     let text = |column: &usize| {
         let text = cells.get(*column).cloned().unwrap_or_default();
-        match comma {
-            true => text.replace(',', "."),
-            false => text,
-        }
+        if comma { text.replace(',', ".") } else { text }
     };
     let mut ordered: Vec<(usize, String)> = order.iter().map(|k| (k + 1, text(k))).collect();
     while ordered.last().is_some_and(|(_, text)| text.is_empty()) {

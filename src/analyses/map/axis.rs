@@ -43,9 +43,10 @@ impl MapAxis {
         let below = (place.max(0.0) as usize).min(last.saturating_sub(1));
         let (from, to) = (self.values[below], self.values[(below + 1).min(last)]);
         let share = place - below as f64;
-        match is_logarithmic(self.values[0], self.values[last]) {
-            true => from * (to / from).powf(share),
-            false => from + share * (to - from),
+        if is_logarithmic(self.values[0], self.values[last]) {
+            from * (to / from).powf(share)
+        } else {
+            from + share * (to - from)
         }
     }
 

@@ -85,10 +85,7 @@ fn cell(corners: [f64; 4], [x, y]: [f64; 2], level: f64, segments: &mut Vec<Segm
         if above[k] != above[next] {
             // The two cells at an edge compute the crossing from the same corner, so that both obtain the
             // same bits.
-            let (from, to) = match k < 2 {
-                true => (k, next),
-                false => (next, k),
-            };
+            let (from, to) = if k < 2 { (k, next) } else { (next, k) };
             let share = (level - corners[from]) / (corners[to] - corners[from]);
             let at =
                 |axis: usize| AROUND[from][axis] + share * (AROUND[to][axis] - AROUND[from][axis]);
@@ -100,9 +97,10 @@ fn cell(corners: [f64; 4], [x, y]: [f64; 2], level: f64, segments: &mut Vec<Segm
         // At a saddle, the mean of the corner values decides which crossings are joined.
         [a, b, c, d] => {
             let mean = 0.25 * corners.iter().sum::<f64>();
-            match (mean > level) == above[0] {
-                true => segments.extend([[a, b], [c, d]]),
-                false => segments.extend([[d, a], [b, c]]),
+            if (mean > level) == above[0] {
+                segments.extend([[a, b], [c, d]])
+            } else {
+                segments.extend([[d, a], [b, c]])
             }
         }
         _ => {}

@@ -108,9 +108,10 @@ impl Computed {
     /// The cost to minimize: the negative goal in rad/s if the limits are kept, otherwise the share by which they are
     /// missed, which is positive.
     pub fn cost(&self) -> f64 {
-        match self.outcome.kept {
-            true => -self.value_rad_per_s,
-            false => self.short,
+        if self.outcome.kept {
+            -self.value_rad_per_s
+        } else {
+            self.short
         }
     }
 }

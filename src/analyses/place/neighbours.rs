@@ -136,9 +136,10 @@ impl Neighbours {
         Neighbours {
             offsets,
             along_rpm,
-            worst_share: match own.value_rad_per_s > 0.0 {
-                true => worst.value_rad_per_s / own.value_rad_per_s,
-                false => 1.0,
+            worst_share: if own.value_rad_per_s > 0.0 {
+                worst.value_rad_per_s / own.value_rad_per_s
+            } else {
+                1.0
             },
             worst_cost: worst.cost,
             worst: worst.saw,

@@ -38,12 +38,13 @@ pub fn outline(report: &PlaceReport) -> Outline {
         ));
     }
     let certificate = &report.certificate;
-    match certificate.is_clean {
-        true => text.sentence(format!(
+    if certificate.is_clean {
+        text.sentence(format!(
             "Best saw: all {} independent checks agree",
             certificate.speeds_checked + certificate.full_basis_counts
-        )),
-        false => text.sentence(format!("Checks of the best saw: {}", certificate.statement)),
+        ))
+    } else {
+        text.sentence(format!("Checks of the best saw: {}", certificate.statement))
     }
     text.details(|text| {
         let statement = &certificate.statement;

@@ -280,13 +280,10 @@ impl PlaceReport {
 
     fn not_improved(&self) -> &'static str {
         let within = |p: &PlacedParameter| (p.bound_from..=p.bound_to).contains(&p.start);
-        match self.parameters.iter().all(within) {
-            true => {
-                "no saw between the bounds is better than the original one in the worst case of the tolerances; the scene was kept"
-            }
-            false => {
-                "the original saw, which lies outside the bounds, is in the worst case of its tolerances at least as good as the best one between them; widen the bounds, or keep it"
-            }
+        if self.parameters.iter().all(within) {
+            "no saw between the bounds is better than the original one in the worst case of the tolerances; the scene was kept"
+        } else {
+            "the original saw, which lies outside the bounds, is in the worst case of its tolerances at least as good as the best one between them; widen the bounds, or keep it"
         }
     }
 }

@@ -46,16 +46,15 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
     let modes = model.modes(speeds.from_rad_per_s)?;
     let shown = modes.iter().take(SHOWN_MODES);
     let highest = shown.map(Mode::frequency_rad_per_s).fold(0.0, f64::max);
-    let (history, stretching) = match runup.stretching {
-        false => (
+    let (history, stretching) = if runup.stretching {
+        let found = stretched_run_up(plate, (runup, &force), probe, highest, progress)?;
+        let stretching = RunUpStretching::new(&found);
+        (found.history, Some(stretching))
+    } else {
+        (
             run_up(plate, (runup, &force), probe, highest, progress)?,
             None,
-        ),
-        true => {
-            let found = stretched_run_up(plate, (runup, &force), probe, highest, progress)?;
-            let stretching = RunUpStretching::new(&found);
-            (found.history, Some(stretching))
-        }
+        )
     };
     let rate = runup.acceleration_rad_per_s2();
     let exponents = band_exponents(model, &analysis.chart.instabilities, rate)?;
@@ -69,9 +68,10 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
         .map(|(band, growth_exponent)| RunUpBand {
             time_s: (band.to_rpm - band.from_rpm) / rpm(rate),
             growth_exponent,
-            seen_amplification: match ends_rpm.is_none_or(|end| band.to_rpm < end) {
-                true => seen_amplification(&record_rpm, &history.deflection_m, &band),
-                false => None,
+            seen_amplification: if ends_rpm.is_none_or(|end| band.to_rpm < end) {
+                seen_amplification(&record_rpm, &history.deflection_m, &band)
+            } else {
+                None
             },
             band,
         })

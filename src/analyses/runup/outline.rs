@@ -100,8 +100,9 @@ fn bands(report: &RunUpReport) -> Table {
 const MOST_TIMES: f64 = 1e3;
 
 fn times(factor: f64) -> Value {
-    match factor <= MOST_TIMES {
-        true => format!("{factor:.2} x").into(),
-        false => format!("> {MOST_TIMES:.0} x").into(),
+    if factor <= MOST_TIMES {
+        format!("{factor:.2} x").into()
+    } else {
+        format!("> {MOST_TIMES:.0} x").into()
     }
 }

@@ -129,9 +129,10 @@ impl Speed<'_> {
                 name: "saws in a bar".to_owned(),
             })
         });
-        let note = match found.histogram.is_none() {
-            true => format!("no saw has one up to {:.0} rpm", self.swept_to_rpm),
-            false => String::new(),
+        let note = if found.histogram.is_none() {
+            format!("no saw has one up to {:.0} rpm", self.swept_to_rpm)
+        } else {
+            String::new()
         };
         PanelData {
             title: self.name.to_owned(),

@@ -53,9 +53,10 @@ pub(super) fn columns(study: &Study) -> Vec<String> {
         "passed",
     ];
     let after = ["functions", "estimated_relative_error", "krein_violations"];
-    let listed: &[&str] = match study.file().bands {
-        true => &["critical_rpm", "bands"],
-        false => &[],
+    let listed: &[&str] = if study.file().bands {
+        &["critical_rpm", "bands"]
+    } else {
+        &[]
     };
     let owned = |names: &[&str]| names.iter().map(|n| (*n).to_owned()).collect::<Vec<_>>();
     std::iter::once("saw".to_owned())

@@ -149,9 +149,10 @@ impl Log {
         };
         file.set_len(end).map_err(io(&path))?;
         file.seek(SeekFrom::End(0)).map_err(io(&path))?;
-        let others = match shard == Shard::WHOLE {
-            true => Self::all_in(folder)?,
-            false => Vec::new(),
+        let others = if shard == Shard::WHOLE {
+            Self::all_in(folder)?
+        } else {
+            Vec::new()
         };
         for other in others.iter().filter(|other| **other != path) {
             read(other, study, &mut |_, line| keep(false, line))?;
@@ -321,9 +322,10 @@ fn scan(
     if begun != header.as_bytes() {
         // A log that contains only the beginning of the header belongs to a run that stopped while it wrote
         // the header.
-        return match header.as_bytes().starts_with(&begun) {
-            true => Ok(None),
-            false => Err(differing(path, study)),
+        return if header.as_bytes().starts_with(&begun) {
+            Ok(None)
+        } else {
+            Err(differing(path, study))
         };
     }
     let (mut from, mut text) = (header.len() as u64, Vec::new());
@@ -373,16 +375,15 @@ pub fn rows_of(study: &Study, saws: &[Saw]) -> Vec<u8> {
 /// The saw of a complete line; `None` if it does not belong to this study.
 pub(super) fn row(line: &[u8], study: &Study) -> Option<Saw> {
     let line = line.strip_suffix(b"\n")?;
-    let saw = match line.contains(&b'"') {
+    let saw = if line.contains(&b'"') {
+        let mut reader = csv::ReaderBuilder::new();
+        let mut reader = reader.has_headers(false).from_reader(line);
+        let mut record = csv::StringRecord::new();
+        reader.read_record(&mut record).ok()?;
+        saw(study, &mut record.iter())?
+    } else {
         // Splitting at commas is faster and suffices for lines without quotes.
-        false => saw(study, &mut std::str::from_utf8(line).ok()?.split(','))?,
-        true => {
-            let mut reader = csv::ReaderBuilder::new();
-            let mut reader = reader.has_headers(false).from_reader(line);
-            let mut record = csv::StringRecord::new();
-            reader.read_record(&mut record).ok()?;
-            saw(study, &mut record.iter())?
-        }
+        saw(study, &mut std::str::from_utf8(line).ok()?.split(','))?
     };
     (saw.values == study.values(saw.index)).then_some(saw)
 }

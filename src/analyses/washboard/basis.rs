@@ -144,9 +144,10 @@ fn withstood_n_per_m(plate: &Plate, omega: f64, fed: f64) -> f64 {
     let air = damping.air_n_s_per_m3 / plate.blade.mass_per_area_kg_per_m2();
     let material = damping.material_retardation_time_s * omega * omega;
     let decay = 0.5 * (air + material) + damping.smallest_ratio() * omega;
-    match fed > 0.0 {
-        true => 2.0 * omega * decay / fed,
-        false => f64::INFINITY,
+    if fed > 0.0 {
+        2.0 * omega * decay / fed
+    } else {
+        f64::INFINITY
     }
 }
 

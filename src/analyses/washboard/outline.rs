@@ -103,8 +103,9 @@ fn modes(report: &WashboardReport) -> Table {
 
 /// A length below a metre in millimetres, otherwise in metres.
 fn length(metres: f64) -> Value {
-    match metres < 1.0 {
-        true => LENGTH.fixed(1, metres),
-        false => METRES.fixed(2, metres),
+    if metres < 1.0 {
+        LENGTH.fixed(1, metres)
+    } else {
+        METRES.fixed(2, metres)
     }
 }

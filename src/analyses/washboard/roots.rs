@@ -142,9 +142,10 @@ fn first_guess(saw: &DelayedSaw, stiffness: f64, pole: usize) -> c64 {
     let beside = c64::new(BESIDE * lambda.norm().max(1.0), 0.0);
     // First-order perturbation is valid only for a step shorter than the distance to the next mode, which is
     // taken as a tenth of |λ|.
-    match moved.is_finite() && moved.norm() < 0.1 * lambda.norm() {
-        true => lambda + moved + beside,
-        false => lambda + beside,
+    if moved.is_finite() && moved.norm() < 0.1 * lambda.norm() {
+        lambda + moved + beside
+    } else {
+        lambda + beside
     }
 }
 

@@ -81,9 +81,10 @@ fn exact_boundary(delay_s: f64) -> [f64; 2] {
             }
             for _ in 0..60 {
                 let middle = 0.5 * (low + high);
-                match late(low) * late(middle) > 0.0 {
-                    true => low = middle,
-                    false => high = middle,
+                if late(low) * late(middle) > 0.0 {
+                    low = middle
+                } else {
+                    high = middle
                 }
             }
             let stiffness = MODE.lobe(low, lobe).unwrap().stiffness;

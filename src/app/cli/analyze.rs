@@ -127,12 +127,13 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
                 "--report is given with several scenes, but a page is one saw's; name one scene, or use `sawflutter compare`"
             );
             let scenes = paths.iter().map(read);
-            let scenes: Vec<anyhow::Result<Scene>> = match arguments.keep_going {
-                true => scenes.collect(),
+            let scenes: Vec<anyhow::Result<Scene>> = if arguments.keep_going {
+                scenes.collect()
+            } else {
                 // Without `--keep-going`, no scene is computed if one of them is refused.
-                false => scenes
+                scenes
                     .map(|scene| scene.map(Ok))
-                    .collect::<anyhow::Result<_>>()?,
+                    .collect::<anyhow::Result<_>>()?
             };
             several::run(&arguments.output, paths, scenes, |scene, folder| {
                 into_folder(arguments, scene, folder)

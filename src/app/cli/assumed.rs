@@ -45,9 +45,10 @@ impl Block<'_> {
             settings.push(Setting::new(given.path.to_owned(), number(given)?));
         }
         let mut file = scene.file().clone();
-        let assumed = match self.is_missing {
-            true => self.usual_beside_given(scene.file()),
-            false => Map::new(),
+        let assumed = if self.is_missing {
+            self.usual_beside_given(scene.file())
+        } else {
+            Map::new()
         };
         for (key, value) in &assumed {
             match value.as_f64() {

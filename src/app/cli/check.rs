@@ -83,9 +83,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
         files.push((CheckReport::COMMAND.file, json.clone().into_bytes()));
         folder.write_together(&files, &[])?;
     }
-    match arguments.json {
-        true => say(&format!("{json}\n"))?,
-        false => say(&report.summary())?,
+    if arguments.json {
+        say(&format!("{json}\n"))?
+    } else {
+        say(&report.summary())?
     }
     Ok(report.passed)
 }

@@ -114,9 +114,10 @@ pub fn read_scene(path: &Path) -> anyhow::Result<Scene> {
 
 /// Reads the text of a file, or of standard input where the path is `-`.
 pub fn read_text(path: &Path, kind: Kind) -> Result<String, FileError> {
-    match is_standard_input(path) {
-        true => read_stream(std::io::stdin().lock(), Path::new(STANDARD_INPUT), kind),
-        false => read_path(path, kind),
+    if is_standard_input(path) {
+        read_stream(std::io::stdin().lock(), Path::new(STANDARD_INPUT), kind)
+    } else {
+        read_path(path, kind)
     }
 }
 
@@ -128,9 +129,10 @@ pub fn is_standard_input(path: &Path) -> bool {
 
 /// Adds the name of a file to the error of its content.
 pub fn refused(path: &Path, error: anyhow::Error) -> anyhow::Error {
-    let name = match is_standard_input(path) {
-        true => STANDARD_INPUT.into(),
-        false => path.display().to_string(),
+    let name = if is_standard_input(path) {
+        STANDARD_INPUT.into()
+    } else {
+        path.display().to_string()
     };
     error.context(format!("{name} was refused"))
 }
@@ -169,9 +171,10 @@ pub fn with_shorthands(
 
 /// Parses the number of an option.
 pub fn number(text: &str) -> Result<f64, String> {
-    let point = match text.contains(',') {
-        true => "; write it with a decimal point",
-        false => "",
+    let point = if text.contains(',') {
+        "; write it with a decimal point"
+    } else {
+        ""
     };
     let refused = |_| format!("it must be a number, like 1250 or 0.85{point}");
     text.trim().parse().map_err(refused)

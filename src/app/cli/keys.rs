@@ -29,9 +29,10 @@ pub struct Arguments {
 
 /// Prints the keys of a scene, or of a study, each with its unit, default, usual range and meaning.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let schema = match arguments.study {
-        true => study::json_schema(),
-        false => scene::json_schema(),
+    let schema = if arguments.study {
+        study::json_schema()
+    } else {
+        scene::json_schema()
     };
     let word = arguments.word.as_deref().unwrap_or_default();
     let mut text = String::new();

@@ -15,9 +15,10 @@ pub struct Arguments {
 
 /// Prints the JSON schema of a scene, or of a study.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let schema = match arguments.study {
-        true => study::json_schema(),
-        false => scene::json_schema(),
+    let schema = if arguments.study {
+        study::json_schema()
+    } else {
+        scene::json_schema()
     };
     writeln!(
         std::io::stdout(),

@@ -73,9 +73,10 @@ pub fn run(
 fn folders(paths: &[PathBuf]) -> Vec<String> {
     let mut taken: Vec<String> = Vec::new();
     for path in paths {
-        let stem = match is_standard_input(path) {
-            true => "standard-input".into(),
-            false => path.file_stem().unwrap_or_default().to_string_lossy(),
+        let stem = if is_standard_input(path) {
+            "standard-input".into()
+        } else {
+            path.file_stem().unwrap_or_default().to_string_lossy()
         };
         let numbered = (2..).map(|k| format!("{stem}-{k}"));
         let mut names = std::iter::once(stem.to_string()).chain(numbered);

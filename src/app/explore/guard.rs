@@ -33,11 +33,12 @@ impl OwnHosts {
         }
         let origin = headers.get(header::ORIGIN)?;
         let ours = |origin: &str| origin.strip_prefix("http://").is_some_and(own);
-        match origin.to_str().is_ok_and(ours) {
-            true => None,
-            false => Some(format!(
+        if origin.to_str().is_ok_and(ours) {
+            None
+        } else {
+            Some(format!(
                 "Origin is {origin:?}, but only pages of this program may ask"
-            )),
+            ))
         }
     }
 }

@@ -52,19 +52,19 @@ fn words(entry: &Sensitivity, change: &[Option<f64>; 2]) -> String {
     let parts: Vec<String> = named
         .filter_map(|(name, rpm)| Some(format!("{name} {}", signed((*rpm)?))))
         .collect();
-    match parts.is_empty() {
-        true => String::new(),
-        false => {
-            let step = entry.change.replace("1 degree", "1°");
-            format!("+{step}: {} rpm", parts.join(", "))
-        }
+    if parts.is_empty() {
+        String::new()
+    } else {
+        let step = entry.change.replace("1 degree", "1°");
+        format!("+{step}: {} rpm", parts.join(", "))
     }
 }
 
 fn signed(rpm: f64) -> String {
-    let size = match rpm.abs() < 9.95 {
-        true => format!("{:.1}", rpm.abs()),
-        false => format!("{:.0}", rpm.abs()),
+    let size = if rpm.abs() < 9.95 {
+        format!("{:.1}", rpm.abs())
+    } else {
+        format!("{:.0}", rpm.abs())
     };
     match (size.as_str(), rpm < 0.0) {
         ("0.0", _) => "±0".to_owned(),

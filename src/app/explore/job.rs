@@ -67,9 +67,10 @@ impl Jobs {
         let count = self.count.clone();
         let done = tokio::task::spawn_blocking(move || {
             let done = stop.watched(work).ok();
-            let tally = match stop.is_cancelled() {
-                true => &count.stopped,
-                false => &count.finished,
+            let tally = if stop.is_cancelled() {
+                &count.stopped
+            } else {
+                &count.finished
             };
             tally.fetch_add(1, Ordering::Relaxed);
             done

@@ -164,9 +164,10 @@ fn fit(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
 const NO_LIMIT: &str = "The lower limit of the first critical speed must be above 0 rpm";
 
 fn place(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
-    let around_rpm = match asked.window {
-        false => None,
-        true => Some(scene.needed_operating_rpm(None)?),
+    let around_rpm = if asked.window {
+        Some(scene.needed_operating_rpm(None)?)
+    } else {
+        None
     };
     let limit = asked.min_critical_rpm.as_ref().map(Typed::number);
     let demands = Demands::new(around_rpm, limit.transpose()?);

@@ -54,9 +54,10 @@ pub fn mount(scene: &SceneFile, kind: &str) -> Option<Mount> {
 /// Diameter of a collar: 35 % of that of the blade, but larger than the bore and inside the guides.
 fn collar_diameter(scene: &SceneFile) -> f64 {
     let (bore, outer) = (scene.blade.inner_diameter_m, scene.blade.outer_diameter_m);
-    let usual = match 0.35 * outer > bore {
-        true => 0.35 * outer,
-        false => bore + 0.2 * (outer - bore),
+    let usual = if 0.35 * outer > bore {
+        0.35 * outer
+    } else {
+        bore + 0.2 * (outer - bore)
     };
     let edges = scene.guides.iter();
     let edges = edges.map(|pad| 2.0 * pad.radius_m - pad.radial_length_m);
@@ -114,9 +115,10 @@ pub fn next_row(scene: &SceneFile, rows: &[(f64, f64)], value: f64) -> (f64, f64
         return (rounded(inner(scene), 3), value);
     };
     let widest = || (0..=last).max_by(|x, y| gap(x).total_cmp(&gap(y)));
-    let at = match gap(&last) > 1e-3 * rim {
-        true => last,
-        false => widest().unwrap_or(last),
+    let at = if gap(&last) > 1e-3 * rim {
+        last
+    } else {
+        widest().unwrap_or(last)
     };
     let next = rows.get(at + 1).unwrap_or(&rows[at]);
     (

@@ -29,9 +29,10 @@ pub fn in_field_units(
     if let Some(question) = text.and_then(which_number) {
         return Some(question + &of);
     }
-    let subject = capital(match UNCLEAR.contains(&unit.unit) {
-        true => field.name,
-        false => &field.label,
+    let subject = capital(if UNCLEAR.contains(&unit.unit) {
+        field.name
+    } else {
+        &field.label
     });
     let number = typed.and_then(Value::as_f64);
     let is_count = |number: f64| number >= 0.0 && number.fract() == 0.0;

@@ -85,9 +85,10 @@ struct Sought {
 impl Sought {
     fn finite(self, is_finite: bool) -> Result<(), LinalgError> {
         let Sought { order, .. } = self;
-        match is_finite {
-            true => Ok(()),
-            false => Err(LinalgError::NotFinite { order }),
+        if is_finite {
+            Ok(())
+        } else {
+            Err(LinalgError::NotFinite { order })
         }
     }
 
@@ -99,13 +100,14 @@ impl Sought {
     /// Refuses an error above `most` and one that is not a number.
     fn within(self, error: f64, most: f64) -> Result<(), LinalgError> {
         let Sought { values, order } = self;
-        match error <= most {
-            true => Ok(()),
-            false => Err(LinalgError::Inaccurate {
+        if error <= most {
+            Ok(())
+        } else {
+            Err(LinalgError::Inaccurate {
                 values,
                 order,
                 error,
-            }),
+            })
         }
     }
 

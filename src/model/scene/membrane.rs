@@ -144,9 +144,10 @@ impl Temperature {
     fn new(typed: &TemperatureFile, blade: &Blade) -> Result<Self, SceneError> {
         let has_table = !typed.table.is_empty();
         if typed.rim_rise_k.is_some() == has_table {
-            let given = match has_table {
-                true => "given by rim_rise_k and by table",
-                false => "without rim_rise_k and table",
+            let given = if has_table {
+                "given by rim_rise_k and by table"
+            } else {
+                "without rim_rise_k and table"
             };
             let remedy = "give rim_rise_k (with from_radius_m and exponent) or a table";
             let allowed = "given by one of the two";
@@ -173,9 +174,10 @@ impl Temperature {
             } => {
                 let width = blade.outer_radius_m - from_radius_m;
                 let share = (radius_m - from_radius_m) / width;
-                match share < 0.0 {
-                    true => 0.0,
-                    false => self.peak_rise_k * share.powf(*exponent),
+                if share < 0.0 {
+                    0.0
+                } else {
+                    self.peak_rise_k * share.powf(*exponent)
                 }
             }
         }

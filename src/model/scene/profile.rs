@@ -56,11 +56,12 @@ impl Profile {
             .map(|[low, high]| {
                 let (start, end) = (self.at(low), self.at(high));
                 let signs_differ = start * end < 0.0;
-                let mean = match signs_differ {
+                let mean = if signs_differ {
                     // The profile f changes its sign between the ends, so that the area under |f| consists of
                     // two triangles.
-                    true => (start * start + end * end) / (start - end).abs(),
-                    false => (start + end).abs(),
+                    (start * start + end * end) / (start - end).abs()
+                } else {
+                    (start + end).abs()
                 };
                 0.5 * (high - low) * mean
             })

@@ -113,21 +113,23 @@ impl Quantity {
     /// # Errors
     /// [`RefusedValue`] if it is not.
     pub(crate) fn checked(&self, key: &str, value: f64) -> Result<f64, RefusedValue> {
-        match self.allowed.contains(value) {
-            true => Ok(value),
-            false => Err(self.refused(key, value, value)),
+        if self.allowed.contains(value) {
+            Ok(value)
+        } else {
+            Err(self.refused(key, value, value))
         }
     }
 
     /// The error of a number outside the allowed range, given as `words`.
     pub(super) fn refused(&self, key: &str, value: f64, words: impl super::Given) -> RefusedValue {
-        let allowed = match self.allowed.is_far() {
-            true => format!(
+        let allowed = if self.allowed.is_far() {
+            format!(
                 "{}; {}",
                 self.allowed.end_in_words(value),
                 self.usual_in_words()
-            ),
-            false => format!("{} {}", self.allowed.in_words(), self.unit),
+            )
+        } else {
+            format!("{} {}", self.allowed.in_words(), self.unit)
         };
         let remedy = match (self.unit, self.kind) {
             ("", Kind::Count) => "give a whole number in this range",

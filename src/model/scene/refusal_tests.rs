@@ -104,9 +104,10 @@ fn every_number_out_of_its_range_is_refused_by_its_key() {
             };
             let message = refusal(&put_there(outside));
             let is_negative_count = quantity.kind == Kind::Count && outside < 0.0;
-            let words = match is_negative_count {
-                true => format!("{key}: must be a whole number, 0 or more, but is -1"),
-                false => format!("{key} is {}, but must be ", shown(outside)),
+            let words = if is_negative_count {
+                format!("{key}: must be a whole number, 0 or more, but is -1")
+            } else {
+                format!("{key} is {}, but must be ", shown(outside))
             };
             let range = message.strip_prefix(&words);
             let names = |range: &str| range.contains(&shown(bound)) || range.starts_with("above 0");

@@ -86,9 +86,10 @@ pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
     let factor = given.factor / own.factor;
     // Division by a whole number is correctly rounded, unlike multiplication by its reciprocal, so that
     // 2.6 mm give the same number as 0.0026 m.
-    Ok(match factor < 1.0 {
-        true => value / (own.factor / given.factor),
-        false => value * factor,
+    Ok(if factor < 1.0 {
+        value / (own.factor / given.factor)
+    } else {
+        value * factor
     })
 }
 

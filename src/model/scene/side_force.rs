@@ -91,9 +91,10 @@ impl SceneFile {
         };
         let angle_deg = typed.angle_deg.unwrap_or(self.cut_angle_deg());
         let is_in_cut = self.cut.is_some() && angle_deg == self.cut_angle_deg();
-        match typed.radius_m.is_none() && is_in_cut {
-            true => "at the cut".to_owned(),
-            false => format!("at {radius} at {}°", shown_to(4, angle_deg)),
+        if typed.radius_m.is_none() && is_in_cut {
+            "at the cut".to_owned()
+        } else {
+            format!("at {radius} at {}°", shown_to(4, angle_deg))
         }
     }
 

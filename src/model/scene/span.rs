@@ -65,9 +65,10 @@ impl Span {
 
     /// Whether the ends are so far from each other that they only prevent overflow.
     pub(crate) fn is_far(&self) -> bool {
-        match self.from > 0.0 {
-            true => self.to / self.from >= FAR,
-            false => self.to - self.from >= FAR,
+        if self.from > 0.0 {
+            self.to / self.from >= FAR
+        } else {
+            self.to - self.from >= FAR
         }
     }
 
@@ -84,9 +85,10 @@ impl Span {
         } else {
             "at most"
         };
-        match self.is_open_below || self.is_open_above {
-            true => format!("{below} {from} and {above} {to}"),
-            false => format!("between {from} and {to}"),
+        if self.is_open_below || self.is_open_above {
+            format!("{below} {from} and {above} {to}")
+        } else {
+            format!("between {from} and {to}")
         }
     }
 

@@ -50,9 +50,10 @@ pub(crate) fn runup(scene: &SceneFile) -> Value {
 
 /// JSON number, without decimals if it is whole.
 fn short(value: f64) -> Value {
-    match value.fract() == 0.0 {
-        true => json!(value as i64),
-        false => json!(value),
+    if value.fract() == 0.0 {
+        json!(value as i64)
+    } else {
+        json!(value)
     }
 }
 

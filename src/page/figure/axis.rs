@@ -133,9 +133,10 @@ impl Axis {
     fn decades(&self, apart: f64) -> Vec<f64> {
         let [from, to] = self.values.map(|value| self.spread.of(value));
         let decade = (self.places[1] - self.places[0]).abs() / (to - from);
-        let digits: &[f64] = match decade * 2f64.log10() >= apart {
-            true => &[1.0, 2.0, 5.0],
-            false => &[1.0],
+        let digits: &[f64] = if decade * 2f64.log10() >= apart {
+            &[1.0, 2.0, 5.0]
+        } else {
+            &[1.0]
         };
         let stride = (apart / decade).ceil().max(1.0) as usize;
         let exponents = (from.floor() as i32..=to.ceil() as i32).step_by(stride);

@@ -75,9 +75,10 @@ impl Grid {
                 .map(|(panel, [left, right])| Frame {
                     left: *left,
                     top,
-                    right: match panel.equal {
-                        true => right.min(left + bottom - top),
-                        false => *right,
+                    right: if panel.equal {
+                        right.min(left + bottom - top)
+                    } else {
+                        *right
                     },
                     bottom,
                 });
@@ -128,9 +129,10 @@ impl Grid {
 
 /// Left and right edges of the columns of panels.
 fn sides(panels: &[PanelData], columns: usize) -> Vec<[f64; 2]> {
-    let right = match panels.iter().any(|panel| scaled(panel).is_some()) {
-        true => RIGHT - SCALE,
-        false => RIGHT,
+    let right = if panels.iter().any(|panel| scaled(panel).is_some()) {
+        RIGHT - SCALE
+    } else {
+        RIGHT
     };
     let beside = panels
         .chunks(columns)
@@ -170,9 +172,10 @@ fn space_above(panel: &PanelData, width: f64) -> f64 {
 
 /// The facts of a panel in lines of its width.
 pub fn lines_of_facts(panel: &PanelData, width: f64) -> Vec<String> {
-    match panel.facts.is_empty() {
-        true => Vec::new(),
-        false => broken(&panel.facts.join("; "), width),
+    if panel.facts.is_empty() {
+        Vec::new()
+    } else {
+        broken(&panel.facts.join("; "), width)
     }
 }
 

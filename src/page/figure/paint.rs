@@ -51,9 +51,10 @@ impl Ground<'_> {
             .map(|(x, y)| [self.x.at(*x), self.y.at(*y)])
             .collect();
         let columns = self.frame.right - self.frame.left;
-        match places.len() as f64 > DENSE * columns {
-            true => clip(&strokes(&places), self.frame),
-            false => clip(&places, self.frame),
+        if places.len() as f64 > DENSE * columns {
+            clip(&strokes(&places), self.frame)
+        } else {
+            clip(&places, self.frame)
         }
     }
 

@@ -35,9 +35,10 @@ pub struct Named {
 pub fn draw(sheet: &mut Sheet, panel: &PanelData, frame: &Frame, named: Named) {
     let x = panel.x.placed(frame.across());
     // Names are listed downwards.
-    let y = match panel.y.names.is_empty() {
-        true => panel.y.placed(frame.upwards()),
-        false => panel.y.placed([frame.top, frame.bottom]),
+    let y = if panel.y.names.is_empty() {
+        panel.y.placed(frame.upwards())
+    } else {
+        panel.y.placed([frame.top, frame.bottom])
     };
     let ground = Ground {
         x: &x,
@@ -84,9 +85,10 @@ fn draw_upwards(sheet: &mut Sheet, data: &AxisData, axis: &Axis, frame: &Frame, 
     if data.name.is_empty() {
         return;
     }
-    let ticks = match data.ticks.is_empty() {
-        true => axis.ticks(axis.apart()),
-        false => data.ticks.clone(),
+    let ticks = if data.ticks.is_empty() {
+        axis.ticks(axis.apart())
+    } else {
+        data.ticks.clone()
     };
     draw_vertical_at(sheet, axis, frame, &ticks);
     if is_named {
@@ -96,12 +98,11 @@ fn draw_upwards(sheet: &mut Sheet, data: &AxisData, axis: &Axis, frame: &Frame, 
 
 /// Draws the horizontal axis, with numbers or names and the name of the quantity if `is_named`.
 fn draw_across(sheet: &mut Sheet, data: &AxisData, axis: &Axis, frame: &Frame, is_named: bool) {
-    match data.names.is_empty() {
-        true => draw_horizontal(sheet, axis, frame.bottom, is_named),
-        false => {
-            let ticks = data.ticks.iter().copied().zip(&data.names);
-            draw_horizontal_at(sheet, axis, frame.bottom, ticks, is_named);
-        }
+    if data.names.is_empty() {
+        draw_horizontal(sheet, axis, frame.bottom, is_named)
+    } else {
+        let ticks = data.ticks.iter().copied().zip(&data.names);
+        draw_horizontal_at(sheet, axis, frame.bottom, ticks, is_named);
     }
     if is_named {
         name_below(sheet, axis.places(), frame.bottom + 42.0, &data.title());
@@ -211,8 +212,9 @@ fn name_rows(sheet: &mut Sheet, panel: &PanelData, y: &Axis, frame: &Frame) {
 
 /// Style of a vertical line.
 pub fn upright_stroke(line: &Upright) -> Stroke {
-    match line.dashed {
-        true => Stroke::dashed(line.colour.colour(), HAIRLINE, FINE_DASH),
-        false => Stroke::solid(line.colour.colour(), 1.5 * HAIRLINE),
+    if line.dashed {
+        Stroke::dashed(line.colour.colour(), HAIRLINE, FINE_DASH)
+    } else {
+        Stroke::solid(line.colour.colour(), 1.5 * HAIRLINE)
     }
 }

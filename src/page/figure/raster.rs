@@ -117,9 +117,10 @@ fn write(picture: &mut Pixmap, [x, y]: [f64; 2], lettering: &Lettering, text: &s
         Anchor::End => width,
     };
     let (x, y, before) = (x as f32, y as f32, before as f32);
-    let place = match lettering.upright {
-        false => Transform::from_translate(x - before, y),
-        true => Transform::from_row(0.0, -1.0, 1.0, 0.0, x, y + before),
+    let place = if lettering.upright {
+        Transform::from_row(0.0, -1.0, 1.0, 0.0, x, y + before)
+    } else {
+        Transform::from_translate(x - before, y)
     };
     if let Some(letters) = outlines(text, lettering.em, lettering.weight) {
         picture.fill_path(
@@ -194,9 +195,10 @@ mod tests {
             let frame = crate::page::figure::canvas::text_frame([40.0, 50.0], &lettering, "a b");
             let picture = drawn(&[text]);
             let [x, y] = frame.centre();
-            let (first, second) = match upright {
-                false => (Frame { right: x, ..frame }, Frame { left: x, ..frame }),
-                true => (Frame { top: y, ..frame }, Frame { bottom: y, ..frame }),
+            let (first, second) = if upright {
+                (Frame { top: y, ..frame }, Frame { bottom: y, ..frame })
+            } else {
+                (Frame { right: x, ..frame }, Frame { left: x, ..frame })
             };
             assert!(is_marked(&picture, first) && is_marked(&picture, second));
             let beside = Frame {

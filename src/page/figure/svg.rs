@@ -98,9 +98,10 @@ fn draw_text(
         Anchor::Middle => HPos::Center,
         Anchor::End => HPos::Right,
     };
-    let (font, corner) = match lettering.upright {
-        false => (FontTransform::None, [x, y - above]),
-        true => (FontTransform::Rotate270, [x - above, y]),
+    let (font, corner) = if lettering.upright {
+        (FontTransform::Rotate270, [x - above, y])
+    } else {
+        (FontTransform::None, [x, y - above])
     };
     let written = Written {
         text,

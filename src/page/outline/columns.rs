@@ -113,16 +113,15 @@ impl Grid {
     }
 
     fn continued(&self, line: &str, words: &str) -> String {
-        match WIDTH.saturating_sub(self.before_last) < LEAST_ROOM {
-            true => format!(
+        if WIDTH.saturating_sub(self.before_last) < LEAST_ROOM {
+            format!(
                 "{}\n{}\n",
                 line.trim_end(),
                 hanging(words, 2 * INDENT, 3 * INDENT)
-            ),
-            false => {
-                let whole = format!("{line}{words}");
-                format!("{}\n", hanging(&whole, 0, self.before_last))
-            }
+            )
+        } else {
+            let whole = format!("{line}{words}");
+            format!("{}\n", hanging(&whole, 0, self.before_last))
         }
     }
 

@@ -74,9 +74,10 @@ impl Table {
         let columns = self.columns.len();
         let row = |row: &Row| {
             let cells = row.cells.iter().map(|value| {
-                let class = match value.is_number() {
-                    true => " class=\"number\"",
-                    false => "",
+                let class = if value.is_number() {
+                    " class=\"number\""
+                } else {
+                    ""
                 };
                 format!("<td{class}>{}</td>", escaped(&value.in_words()))
             });

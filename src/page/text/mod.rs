@@ -22,10 +22,11 @@ pub fn printable(text: &str) -> String {
     for character in text.chars() {
         let controls = character.is_control() && character != '\n';
         let turns = matches!(character, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-        match controls || turns {
+        if controls || turns {
             // JSON has the same escape, so that printed JSON keeps its meaning.
-            true => shown.push_str(&format!("\\u{:04x}", u32::from(character))),
-            false => shown.push(character),
+            shown.push_str(&format!("\\u{:04x}", u32::from(character)))
+        } else {
+            shown.push(character)
         }
     }
     shown

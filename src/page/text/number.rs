@@ -21,9 +21,10 @@ pub fn shown_to(digits: usize, value: f64) -> String {
         return plain;
     }
     let with_exponent = format!("{rounded:e}");
-    match plain.len() <= with_exponent.len() {
-        true => plain,
-        false => with_exponent,
+    if plain.len() <= with_exponent.len() {
+        plain
+    } else {
+        with_exponent
     }
 }
 

@@ -28,11 +28,10 @@ pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
 
 /// Message for a text that does not begin with a brace.
 fn no_object(text: &str) -> String {
-    match text.trim_start().starts_with('[') {
-        true => "it is a list in brackets [ ], but must be an object in braces { }".into(),
-        false => {
-            "it is no JSON, which begins with a brace, a key and a value, like {\"name\": …}".into()
-        }
+    if text.trim_start().starts_with('[') {
+        "it is a list in brackets [ ], but must be an object in braces { }".into()
+    } else {
+        "it is no JSON, which begins with a brace, a key and a value, like {\"name\": …}".into()
     }
 }
 
@@ -135,9 +134,10 @@ fn of_type(found: &str, expected: &str) -> String {
         _ => expected,
     };
     let comma = kind == "string" && first == "f64" && value.contains(',');
-    let remedy = match comma {
-        true => "; write it with a decimal point and without quotation marks",
-        false => "",
+    let remedy = if comma {
+        "; write it with a decimal point and without quotation marks"
+    } else {
+        ""
     };
     format!("must be {must}, but is {is}{remedy}")
 }

@@ -14,10 +14,7 @@ pub fn draw(sheet: &mut Sheet, report: &Report) {
         sheet.text([PLOT_LEFT, f64::from(HEIGHT) - above_foot], letters, &text);
     };
     let certificate = &report.certificate;
-    let colour = match certificate.is_clean() {
-        true => QUIET,
-        false => ALARM,
-    };
+    let colour = if certificate.is_clean() { QUIET } else { ALARM };
     if certificate.speeds_checked > 0 {
         write(
             sheet,
@@ -52,14 +49,16 @@ fn power_of_ten_above(value: f64) -> Option<String> {
     }
     let exponent = value.log10().floor();
     let digit = (value / 10f64.powf(exponent) - 1e-9).ceil();
-    let (digit, exponent) = match digit >= 10.0 {
-        true => (1.0, exponent + 1.0),
-        false => (digit.max(1.0), exponent),
+    let (digit, exponent) = if digit >= 10.0 {
+        (1.0, exponent + 1.0)
+    } else {
+        (digit.max(1.0), exponent)
     };
     let raised = raised(&exponent.to_string());
-    Some(match digit == 1.0 {
-        true => format!("10{raised}"),
-        false => format!("{digit}·10{raised}"),
+    Some(if digit == 1.0 {
+        format!("10{raised}")
+    } else {
+        format!("{digit}·10{raised}")
     })
 }
 

@@ -173,9 +173,10 @@ fn branches(report: &Report, said: bool) -> Vec<Item> {
                     _ => CURVE,
                 },
                 dashed: stretch == Stretch::Reflected,
-                end: match last == Some(of) {
-                    true => branch.label.clone(),
-                    false => String::new(),
+                end: if last == Some(of) {
+                    branch.label.clone()
+                } else {
+                    String::new()
                 },
                 ..line_through(branch, &branch.frequency_hz, &samples, colour, said)
             }));
@@ -202,9 +203,10 @@ fn excitation(report: &Report, shown: &Shown) -> Vec<Item> {
                 said: ends
                     .map(|rpm| format!("{}\n{rpm:.1} rpm", line.name))
                     .into(),
-                end: match end == last {
-                    true => line.name.clone(),
-                    false => String::new(),
+                end: if end == last {
+                    line.name.clone()
+                } else {
+                    String::new()
                 },
                 ..Line::new(ends.map(|rpm| [rpm, per_rpm * rpm]), Hue::Quiet, &line.name)
             })

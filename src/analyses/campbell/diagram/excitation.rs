@@ -27,9 +27,10 @@ fn label_line(sheet: &mut Sheet, chart: &Chart, line: &Line, [from, to]: [[f64; 
     let name = &line.name;
     let letters = Lettering::regular(LABEL_SIZE, INK, Anchor::End);
     // A steep line ends at the upper edge, a flat one at the right edge.
-    let wanted = match to[0] < chart.upper.right - 1.0 {
-        true => to[1] + LABEL_DROP,
-        false => to[1].max(chart.upper.top + LABEL_DROP),
+    let wanted = if to[0] < chart.upper.right - 1.0 {
+        to[1] + LABEL_DROP
+    } else {
+        to[1].max(chart.upper.top + LABEL_DROP)
     };
     let slope = (to[0] - from[0]) / (to[1] - from[1]).min(-f64::MIN_POSITIVE);
     let x = (to[0] + slope * (wanted - to[1])).min(chart.upper.right) - LABEL_INSET;

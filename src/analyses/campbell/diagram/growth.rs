@@ -29,11 +29,10 @@ fn is_damped(report: &Report) -> bool {
 /// deflects the blade without bound there.
 fn no_growth(report: &Report, [from, to]: [f64; 2]) -> &'static str {
     let mut critical = report.critical_speeds.iter();
-    match critical.any(|entry| from <= entry.rpm && entry.rpm <= to) {
-        true => {
-            "no motion grows; at a critical speed (dashed) a constant force deflects the blade without bound"
-        }
-        false => "no growth: stable at every speed shown",
+    if critical.any(|entry| from <= entry.rpm && entry.rpm <= to) {
+        "no motion grows; at a critical speed (dashed) a constant force deflects the blade without bound"
+    } else {
+        "no growth: stable at every speed shown"
     }
 }
 
@@ -99,9 +98,10 @@ fn range(report: &Report, shown: [f64; 2]) -> Option<([f64; 2], Spread)> {
     let decay = greatest_decay(report);
     let least = NEGLIGIBLE_PER_S.max(0.02 * growth.max(decay));
     let growth = growth.max(least);
-    let decay = match is_damped(report) {
-        true => decay.max(least),
-        false => 0.0,
+    let decay = if is_damped(report) {
+        decay.max(least)
+    } else {
+        0.0
     };
     Some(([-decay, growth], spread(report, growth.max(decay))))
 }
@@ -118,9 +118,10 @@ pub fn axis(chart: &Chart, labels_height: f64) -> Option<Axis> {
 fn spread(report: &Report, greatest: f64) -> Spread {
     const VISIBLE: f64 = 0.12;
     let invisible = |band: &InstabilityBand| band.peak_growth_per_s < VISIBLE * greatest;
-    match report.instabilities.iter().any(invisible) {
-        true => Spread::SignedRoot,
-        false => Spread::Linear,
+    if report.instabilities.iter().any(invisible) {
+        Spread::SignedRoot
+    } else {
+        Spread::Linear
     }
 }
 
@@ -176,9 +177,10 @@ pub fn describe(report: &Report, shown: [f64; 2], speed: AxisData, said: bool) -
     let ([low, high], spread) = range(report, shown).unwrap_or(([0.0, 1.0], Spread::Linear));
     let y = AxisData::new("Re λ", "1/s").within([HEADROOM * low, HEADROOM * high]);
     PanelData {
-        note: match grows(report) {
-            true => String::new(),
-            false => no_growth(report, shown).to_owned(),
+        note: if grows(report) {
+            String::new()
+        } else {
+            no_growth(report, shown).to_owned()
         },
         ..PanelData::new(speed, y.spread(spread), items)
     }
@@ -192,9 +194,10 @@ fn lines(report: &Report, branch: &BranchCurve, growing: bool, said: bool) -> Ve
         let highest = if growth[i] > growth[i + 1] { i } else { i + 1 };
         let grows = growth[highest] > NEGLIGIBLE_PER_S;
         let decays = growth[i].min(growth[i + 1]) < -NEGLIGIBLE_PER_S;
-        match growing {
-            true => grows.then(|| growth_hue(report, branch, highest)),
-            false => (decays && !grows).then(|| Hue::of_direction(direction_at(branch, highest))),
+        if growing {
+            grows.then(|| growth_hue(report, branch, highest))
+        } else {
+            (decays && !grows).then(|| Hue::of_direction(direction_at(branch, highest)))
         }
     };
     let (width, tint) = if growing { (WIDE, 1.0) } else { (CURVE, 0.55) };

@@ -104,9 +104,10 @@ impl<'a> Chart<'a> {
     fn new(report: &'a Report, view: CampbellView) -> Self {
         let shown = view.of(report);
         let right = f64::from(WIDTH) - MARGIN - waves::end_label_room(report);
-        let growth_height = match growth::is_worth_showing(report) {
-            true => GROWTH_HEIGHT,
-            false => EMPTY_GROWTH_HEIGHT,
+        let growth_height = if growth::is_worth_showing(report) {
+            GROWTH_HEIGHT
+        } else {
+            EMPTY_GROWTH_HEIGHT
         };
         let between = PLOT_BOTTOM - growth_height;
         let panel = |top, bottom| Frame {
@@ -196,9 +197,10 @@ fn facts(report: &Report) -> Vec<String> {
     let blade = &report.scene.blade;
     let (least, largest) = blade.thickness_range_m();
     let [diameter, least, largest] = [blade.outer_diameter_m, least, largest].map(millimetres);
-    let size = match least == largest {
-        true => format!("{diameter} mm diameter, {largest} mm thick"),
-        false => format!("{diameter} mm diameter, {least} to {largest} mm thick"),
+    let size = if least == largest {
+        format!("{diameter} mm diameter, {largest} mm thick")
+    } else {
+        format!("{diameter} mm diameter, {least} to {largest} mm thick")
     };
     let guides = count(report.scene.guides.len(), "guide", "guides");
     let critical = match report.critical_speeds.first() {

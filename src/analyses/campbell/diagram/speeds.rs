@@ -56,9 +56,10 @@ fn label_critical(sheet: &mut Sheet, chart: &Chart, speeds: &[f64]) {
     let Some(first) = clusters.first() else {
         return;
     };
-    let of_speeds = match chart.report.critical_speeds_without_damping {
-        true => "undamped critical [rpm]",
-        false => "critical [rpm]",
+    let of_speeds = if chart.report.critical_speeds_without_damping {
+        "undamped critical [rpm]"
+    } else {
+        "critical [rpm]"
     };
     let captions = [of_speeds, "nodal diameters"];
     if MARGIN + width(captions[0]).max(width(captions[1]))

@@ -98,13 +98,15 @@ fn draw_tile(sheet: &mut Sheet, tile: &[Corner; 4]) {
     for level in -LEVELS..LEVELS {
         let ends = [level, level + 1].map(|level| f64::from(level) / f64::from(LEVELS));
         // The lowest and the highest interval of levels are unbounded, so that rounding errors leave no hole.
-        let from = match level == -LEVELS {
-            true => f64::NEG_INFINITY,
-            false => ends[0],
+        let from = if level == -LEVELS {
+            f64::NEG_INFINITY
+        } else {
+            ends[0]
         };
-        let to = match level + 1 == LEVELS {
-            true => f64::INFINITY,
-            false => ends[1],
+        let to = if level + 1 == LEVELS {
+            f64::INFINITY
+        } else {
+            ends[1]
         };
         if high < from || low > to {
             continue;

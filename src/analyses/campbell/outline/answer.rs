@@ -124,9 +124,10 @@ fn fastest(report: &Report, growth: f64, hz: f64, is_inside: bool) -> String {
         return "the speed is an edge of this band, where the growth is zero".to_owned();
     }
     if growth > 0.0 {
-        let compared = match growth >= threshold {
-            true => "reaches",
-            false => "is below",
+        let compared = if growth >= threshold {
+            "reaches"
+        } else {
+            "is below"
         };
         return format!(
             "fastest growth {} 1/s at {hz:.2} Hz {compared} the threshold of {threshold} 1/s",

@@ -64,15 +64,17 @@ fn numbers(report: &Report, band: &InstabilityBand) -> Vec<Value> {
     };
     let growth = band.peak_growth_per_s;
     vec![
-        match band.counted_rpm.is_empty() {
-            true => format!("({})", band.kind).into(),
-            false => band.kind.to_string().into(),
+        if band.counted_rpm.is_empty() {
+            format!("({})", band.kind).into()
+        } else {
+            band.kind.to_string().into()
         },
         speed(band.from_rpm, first, "before"),
         speed(band.to_rpm, last, "beyond"),
-        match growth < SMALL {
-            true => format!("{growth:.0e}").into(),
-            false => GROWTH.fixed(2, growth),
+        if growth < SMALL {
+            format!("{growth:.0e}").into()
+        } else {
+            GROWTH.fixed(2, growth)
         },
         FREQUENCY.fixed(2, band.frequency_hz),
     ]

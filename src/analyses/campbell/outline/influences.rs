@@ -86,9 +86,10 @@ pub fn heat(text: &mut Outline, report: &Report) {
     }
     text.reason(match &heat.buckling {
         Some(limit) => {
-            let first = match heat.buckles_first {
-                true => ", before a critical speed is that low",
-                false => "",
+            let first = if heat.buckles_first {
+                ", before a critical speed is that low"
+            } else {
+                ""
             };
             let (rise_k, name) = (limit.rise_k, &limit.name);
             format!("{rise_k:+.1} K buckles the blade at rest{first} ({name})")

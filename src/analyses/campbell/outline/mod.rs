@@ -63,9 +63,10 @@ fn size(report: &Report) -> String {
 fn thickness(blade: &BladeFile) -> String {
     let (least, largest) = blade.thickness_range_m();
     let [least, largest] = [least, largest].map(|thickness_m| 1e3 * thickness_m);
-    match least == largest {
-        true => format!("{largest:.2} mm"),
-        false => format!("{least:.2} to {largest:.2} mm"),
+    if least == largest {
+        format!("{largest:.2} mm")
+    } else {
+        format!("{least:.2} to {largest:.2} mm")
     }
 }
 
@@ -114,9 +115,10 @@ fn critical_speeds(text: &mut Outline, report: &Report) {
             report.campbell.to_rpm
         ));
     }
-    let title = match report.critical_speeds_without_damping {
-        true => "Critical speeds of the saw without its damping",
-        false => "Critical speeds",
+    let title = if report.critical_speeds_without_damping {
+        "Critical speeds of the saw without its damping"
+    } else {
+        "Critical speeds"
     };
     let columns = [
         Column::of("speed", &SPEED),

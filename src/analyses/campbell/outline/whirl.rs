@@ -25,12 +25,11 @@ pub fn whirl(text: &mut Outline, report: &Report) {
         Column::of("frequency", &FREQUENCY),
         Column::of("Re λ", &GROWTH),
     ];
-    match is_damped {
-        true => {
-            columns.push(Column::of("ratio", &PERCENT));
-            columns.push(Column::words("decrement"));
-        }
-        false => columns.push(Column::words("Krein")),
+    if is_damped {
+        columns.push(Column::of("ratio", &PERCENT));
+        columns.push(Column::words("decrement"));
+    } else {
+        columns.push(Column::words("Krein"))
     }
     columns.push(Column::words("mode"));
     let mut table = Table::new(title, columns).showing(usize::MAX);
@@ -39,12 +38,11 @@ pub fn whirl(text: &mut Outline, report: &Report) {
             FREQUENCY.fixed(3, mode.frequency_hz),
             GROWTH.digits(3, mode.growth_per_s),
         ];
-        match is_damped {
-            true => {
-                row.push(PERCENT.digits(3, mode.damping_ratio));
-                row.push(PLAIN.digits(4, mode.logarithmic_decrement).or("none"));
-            }
-            false => row.push(krein_sign(mode)),
+        if is_damped {
+            row.push(PERCENT.digits(3, mode.damping_ratio));
+            row.push(PLAIN.digits(4, mode.logarithmic_decrement).or("none"));
+        } else {
+            row.push(krein_sign(mode))
         }
         row.push(mode.name.clone().into());
         table.row(row);

@@ -47,9 +47,10 @@ impl Banded {
                 let right = &other[start + width - 1 - j..width - 1];
                 let sum: f64 = left.iter().zip(right).map(|(x, y)| x * y).sum();
                 let rest = own[j + width - 1 - i] - sum;
-                self.rows[i][j + width - 1 - i] = match i == j {
-                    true => rest.sqrt(),
-                    false => rest / other[width - 1],
+                self.rows[i][j + width - 1 - i] = if i == j {
+                    rest.sqrt()
+                } else {
+                    rest / other[width - 1]
                 };
             }
         }

@@ -187,9 +187,10 @@ impl LyingBlade {
         let (mut low, mut high) = (0.0, last);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
-            match (gap_at(middle) < gap_m) == (none < most) {
-                true => low = middle,
-                false => high = middle,
+            if (gap_at(middle) < gap_m) == (none < most) {
+                low = middle
+            } else {
+                high = middle
             }
         }
         Ok(0.5 * (low + high))

@@ -64,9 +64,10 @@ impl Eigenstrain {
                 exponent,
             } => {
                 let share = (r - from_radius_m) / (to_radius_m - from_radius_m);
-                match share < 0.0 {
-                    true => 0.0,
-                    false => at_rim * share.powf(*exponent),
+                if share < 0.0 {
+                    0.0
+                } else {
+                    at_rim * share.powf(*exponent)
                 }
             }
             Eigenstrain::Table { factor, profile } => factor * profile.at(r),

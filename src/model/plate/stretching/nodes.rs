@@ -80,9 +80,10 @@ impl Nodes {
     /// strains; otherwise one part for every `half_waves` half-waves, narrower towards the ends, as
     /// half-waves of a polynomial are.
     pub fn divisions_m(&self, degree: usize, half_waves: usize) -> Vec<f64> {
-        let parts = match self.degree() <= degree {
-            true => 1,
-            false => self.degree().div_ceil(half_waves),
+        let parts = if self.degree() <= degree {
+            1
+        } else {
+            self.degree().div_ceil(half_waves)
         };
         let within = self.edges_m.windows(2).flat_map(|ends| {
             let (middle, half) = (0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0]));

@@ -140,9 +140,10 @@ impl Usual {
         } else {
             to
         };
-        let words = match is_run {
-            true => format!("saws of this diameter run at {from:.0} to {to:.0} rpm"),
-            false => format!("saws of this diameter run at {from:.0} rpm or more"),
+        let words = if is_run {
+            format!("saws of this diameter run at {from:.0} to {to:.0} rpm")
+        } else {
+            format!("saws of this diameter run at {from:.0} rpm or more")
         };
         Usual {
             from,
