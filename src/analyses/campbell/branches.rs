@@ -76,8 +76,11 @@ impl<'a> Numbered<'a> {
     /// Number of the branch that begins at a mode at rest, if the sweep begins at rest; `index` counts the
     /// oscillating modes from 0.
     pub fn of_mode_at_rest(&self, index: usize) -> Option<usize> {
-        let first = self.campbell().samples.first();
-        let first = first.filter(|sample| sample.speed_rad_per_s == 0.0)?;
+        let first = self
+            .campbell()
+            .samples
+            .first()
+            .filter(|sample| sample.speed_rad_per_s == 0.0)?;
         let modes = first.modes.iter().enumerate();
         let mut oscillating = modes.filter(|(_, mode)| !mode.mode.is_overdamped());
         self.at((0, oscillating.nth(index)?.0))
@@ -141,8 +144,10 @@ impl<'a> Numbered<'a> {
         let samples = &self.campbell().samples;
         let above = samples.partition_point(|s| s.speed_rad_per_s < critical.speed_rad_per_s);
         let model = &self.analysis.model;
-        let beside = [above.checked_sub(1), Some(above)].into_iter().flatten();
-        let beside = beside.filter(|index| *index < samples.len());
+        let beside = [above.checked_sub(1), Some(above)]
+            .into_iter()
+            .flatten()
+            .filter(|index| *index < samples.len());
         let candidates = beside.flat_map(|index| {
             let modes = samples[index].modes.iter().enumerate();
             let own = modes.filter(|(_, m)| m.mode.component == critical.component);

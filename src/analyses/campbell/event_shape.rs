@@ -138,8 +138,10 @@ fn of_band(analysis: &Analysis, band: &Instability) -> Result<Option<EventShape>
         InstabilityKind::Flutter => mode.lambda.im != 0.0,
     };
     let distance = |mode: &Mode| (mode.growth_per_s() - band.peak_growth_per_s).abs();
-    let modes = model.modes(speed)?.into_iter();
-    let modes = modes.filter(|mode| is_of_band(mode) && mode.growth_per_s() > 0.0);
+    let modes = model
+        .modes(speed)?
+        .into_iter()
+        .filter(|mode| is_of_band(mode) && mode.growth_per_s() > 0.0);
     let Some(mode) = modes.min_by(|x, y| distance(x).total_cmp(&distance(y))) else {
         return Ok(None);
     };

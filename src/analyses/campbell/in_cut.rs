@@ -61,8 +61,10 @@ impl InCut {
 impl Idling {
     fn new(onsets: &Onsets, to_rad_per_s: f64, threshold_per_s: f64) -> Self {
         let bands = onsets.instabilities.iter();
-        let critical = onsets.critical_rad_per_s.iter();
-        let critical = critical.take_while(|speed| **speed <= to_rad_per_s);
+        let critical = onsets
+            .critical_rad_per_s
+            .iter()
+            .take_while(|speed| **speed <= to_rad_per_s);
         Idling {
             critical_speeds_rpm: critical.map(|speed| rpm(*speed)).collect(),
             instabilities: bands

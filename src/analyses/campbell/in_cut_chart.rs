@@ -39,8 +39,11 @@ pub fn chart(report: &Report) -> Option<ChartData> {
             flutter_rpm: report.flutter_speed_rpm,
         },
     ];
-    let panels = rows.iter().enumerate();
-    let panels = panels.map(|(k, row)| row.panel(report, k == 0)).collect();
+    let panels = rows
+        .iter()
+        .enumerate()
+        .map(|(k, row)| row.panel(report, k == 0))
+        .collect();
     let mut chart = ChartData::new(&report.scene.name, facts(report, in_cut), panels);
     chart.key = vec![
         Item::area_sample(Hue::DivergenceShade, "divergence"),
@@ -73,8 +76,10 @@ fn flutter_speed(rpm: f64) -> Upright {
 impl Row<'_> {
     fn panel(&self, report: &Report, is_first: bool) -> PanelData {
         let speeds = [report.campbell.from_rpm, report.campbell.to_rpm];
-        let bands = self.bands.iter();
-        let bands = bands.map(|band| Item::Band(Band::new(band, speeds)));
+        let bands = self
+            .bands
+            .iter()
+            .map(|band| Item::Band(Band::new(band, speeds)));
         let critical = self.critical_rpm.iter().map(|rpm| [*rpm, CRITICAL]);
         let critical = Points::new(critical, Hue::Ink, CRITICAL_SIZE, "critical speed");
         let operating = report.scene.operating_rpm.map(|rpm| {
@@ -88,8 +93,12 @@ impl Row<'_> {
                 label: if is_first { label } else { String::new() },
             }
         });
-        let uprights = self.flutter_rpm.map(flutter_speed).into_iter();
-        let uprights = uprights.chain(operating).map(Item::Upright);
+        let uprights = self
+            .flutter_rpm
+            .map(flutter_speed)
+            .into_iter()
+            .chain(operating)
+            .map(Item::Upright);
         PanelData {
             share: ROW,
             ..PanelData::new(

@@ -70,8 +70,11 @@ fn speeds(heat: &ToleratedHeat, operating_rpm: Option<f64>) -> PanelData {
     let top = curves().flat_map(|curve| &curve.rpm);
     let top = top.fold(operating_rpm.unwrap_or(0.0), |top, rpm| top.max(*rpm));
     let lines = curves().map(|curve| {
-        let points = curve.rise_k.iter().zip(&curve.rpm);
-        let points = points.map(|(k, rpm)| [*k, *rpm]);
+        let points = curve
+            .rise_k
+            .iter()
+            .zip(&curve.rpm)
+            .map(|(k, rpm)| [*k, *rpm]);
         Item::Line(Line {
             end: curve.name.clone(),
             ..Line::new(points, Hue::Forward, &curve.name)

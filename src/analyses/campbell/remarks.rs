@@ -261,8 +261,10 @@ fn left_free(analysis: &Analysis) -> Option<String> {
 
 /// Remark on the linear treatment of pads that lift off.
 pub(crate) fn lifting_off(scene: &Scene) -> Option<String> {
-    let lifting = scene.guides().iter();
-    let lifting = lifting.filter_map(|guide| Some((guide, guide.lifting?)));
+    let lifting = scene
+        .guides()
+        .iter()
+        .filter_map(|guide| Some((guide, guide.lifting?)));
     let each: Vec<String> = lifting
         .map(|(guide, law)| {
             let within = match law.film_stiffness_n_per_m {

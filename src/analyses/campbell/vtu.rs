@@ -52,8 +52,7 @@ impl Report {
             (title(number + 1, shape), rows.flatten().collect())
         });
         let shapes: Vec<Titled> = shapes.collect();
-        let grids = VTK_NAMES[1..].iter().enumerate();
-        let grids = grids.map(|(phase, name)| {
+        let grids = VTK_NAMES[1..].iter().enumerate().map(|(phase, name)| {
             let mut text = String::new();
             // Writing to a string cannot fail.
             let _ = grid(&mut text, (&radii, &angles), &shapes, phase);

@@ -78,8 +78,10 @@ fn speeds(report: &CheckReport, last: f64) -> Vec<Item> {
 
 fn limits(report: &CheckReport, speed: &AxisData) -> PanelData {
     let last = last_shown_rpm(report);
-    let bands = report.instabilities.iter();
-    let bands = bands.map(|band| Item::Band(Band::new(band, [0.0, last])));
+    let bands = report
+        .instabilities
+        .iter()
+        .map(|band| Item::Band(Band::new(band, [0.0, last])));
     let rows = (1..).map(f64::from).zip(&report.criteria);
     let names = rows.clone().map(|(row, criterion)| {
         let word = if criterion.passed { "PASS" } else { "FAIL" };
@@ -153,22 +155,27 @@ fn stiffness(report: &CheckReport, speed: &AxisData) -> PanelData {
     } else {
         1.0
     };
-    let points = curve.rpm.iter().zip(&curve.n_per_m);
-    let points = points.map(|(rpm, k)| [*rpm, 1e-3 * k]);
+    let points = curve
+        .rpm
+        .iter()
+        .zip(&curve.n_per_m)
+        .map(|(rpm, k)| [*rpm, 1e-3 * k]);
     let name = "lateral stiffness of the rim";
     let note = if largest > 0.0 {
         ""
     } else {
         "no lateral stiffness: nothing holds the blade"
     };
-    let operating = speeds(report, last_shown_rpm(report)).into_iter().take(1);
-    let operating = operating.map(|item| match item {
-        Item::Upright(line) => Item::Upright(Upright {
-            label: String::new(),
-            ..line
-        }),
-        other => other,
-    });
+    let operating = speeds(report, last_shown_rpm(report))
+        .into_iter()
+        .take(1)
+        .map(|item| match item {
+            Item::Upright(line) => Item::Upright(Upright {
+                label: String::new(),
+                ..line
+            }),
+            other => other,
+        });
     let curve = Item::Line(Line::new(points, Hue::Ink, name));
     PanelData {
         share: STIFFNESS,
@@ -232,14 +239,15 @@ mod tests {
     /// The lowest critical speed of this saw lies beyond its sweep.
     #[test]
     fn a_speed_found_beyond_the_sweep_is_on_the_axis() {
-        let scene = Scene::paper().edited(|file| {
-            file.accuracy = Accuracy::Draft;
-            file.sweep = Some(SweepFile {
-                from_rpm: 0.0,
-                to_rpm: 1400.0,
-            });
-        });
-        let scene = scene.unwrap();
+        let scene = Scene::paper()
+            .edited(|file| {
+                file.accuracy = Accuracy::Draft;
+                file.sweep = Some(SweepFile {
+                    from_rpm: 0.0,
+                    to_rpm: 1400.0,
+                });
+            })
+            .unwrap();
         let limits = Limits::at(rad_per_s(1250.0));
         let report = check(&scene, &limits).unwrap();
         let found = report.criteria.iter().filter_map(|c| c.found_rpm);

@@ -166,8 +166,8 @@ fn warnings(analysis: &Analysis, limits: &Limits, compared_gaps: usize) -> Vec<S
     let operating = limits.operating_rad_per_s;
     if let Some(critical_rpm) = analysis.critical_rpm_at(operating) {
         let factor = side_force_factor(analysis, operating);
-        let deflection = side_force_in_words(rpm(operating), factor);
-        let deflection = deflection.map_or(String::new(), |words| format!("; {words}"));
+        let deflection = side_force_in_words(rpm(operating), factor)
+            .map_or(String::new(), |words| format!("; {words}"));
         warnings.push(format!(
             "the operating speed is within 5 % of the critical speed {critical_rpm:.1} rpm{deflection}"
         ));
@@ -198,10 +198,11 @@ mod tests {
     #[test]
     #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
     fn a_check_finds_what_an_analysis_finds() {
-        let scene = Scene::paper().edited(|saw| {
-            (saw.accuracy, saw.sweep) = (Accuracy::Draft, None);
-        });
-        let scene = scene.unwrap();
+        let scene = Scene::paper()
+            .edited(|saw| {
+                (saw.accuracy, saw.sweep) = (Accuracy::Draft, None);
+            })
+            .unwrap();
         let analysis = Analysis::new(&scene).unwrap();
         let limits = |asked_rpm: f64| Limits {
             min_flutter_rad_per_s: Some(rad_per_s(asked_rpm)),

@@ -96,8 +96,11 @@ impl CheckReport {
     /// Unusual numbers, unless they are accepted, and limits that are not kept, for assertions.
     pub fn failures(&self) -> Vec<String> {
         let refused = self.unusual_numbers.iter().filter(|_| !self.accept_unusual);
-        let failed = self.criteria.iter().filter(|criterion| !criterion.passed);
-        let failed = failed.map(|criterion| format!("{}: {}", criterion.name, criterion.finding));
+        let failed = self
+            .criteria
+            .iter()
+            .filter(|criterion| !criterion.passed)
+            .map(|criterion| format!("{}: {}", criterion.name, criterion.finding));
         refused.cloned().chain(failed).collect()
     }
 

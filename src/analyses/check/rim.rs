@@ -119,15 +119,16 @@ mod tests {
         let analysis = Analysis::new(&clamped(3800.0)).unwrap();
         let critical = analysis.model.critical[0].speed_rad_per_s;
         for ratio in [0.96, 1.045] {
-            let saw = clamped(rpm(ratio * critical)).edited(|saw| {
-                let angle_deg = clamped(3800.0).cut_angle_rad().to_degrees();
-                saw.side_force = Some(SideForceFile::of(1e-3));
-                saw.probe = Some(ProbeFile {
-                    radius_m: None,
-                    angle_deg,
-                });
-            });
-            let saw = saw.unwrap();
+            let saw = clamped(rpm(ratio * critical))
+                .edited(|saw| {
+                    let angle_deg = clamped(3800.0).cut_angle_rad().to_degrees();
+                    saw.side_force = Some(SideForceFile::of(1e-3));
+                    saw.probe = Some(ProbeFile {
+                        radius_m: None,
+                        angle_deg,
+                    });
+                })
+                .unwrap();
             let report = response(&saw, &Options::default()).unwrap();
             let at = |speed: f64| {
                 let limit = rpm(speed) * (1.0 - 1e-12);

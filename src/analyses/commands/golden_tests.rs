@@ -221,8 +221,9 @@ fn no_curve_of_a_committed_report_is_drawn_where_its_data_is_null() {
         let lists = interrupted(&serde_json::from_str(&text).unwrap());
         let report = read(&name);
         let figures = report.command().figures.iter();
-        let charts = figures.filter_map(|[png, _]| report.chart(png.trim_end_matches(".png")));
-        let charts = charts.map(|chart| serde_json::to_value(chart).unwrap());
+        let charts = figures
+            .filter_map(|[png, _]| report.chart(png.trim_end_matches(".png")))
+            .map(|chart| serde_json::to_value(chart).unwrap());
         let mut shown = Vec::new();
         for curve in charts.flat_map(|chart| curves(&chart)) {
             // The first row of a table may be left out, which is that of linear guides.

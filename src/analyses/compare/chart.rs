@@ -45,8 +45,10 @@ pub fn chart(report: &CompareReport) -> ChartData {
         .flat_map(|(_, saw, hue)| curves(saw, hue));
     let speeds = drawn(report).flat_map(|(row, saw, hue)| events(row, saw, hue));
     let labels: Vec<String> = drawn(report).map(|(_, saw, _)| saw.label.clone()).collect();
-    let names = labels.iter().enumerate();
-    let names = names.map(|(row, label)| (1.0 + row as f64, label.clone()));
+    let names = labels
+        .iter()
+        .enumerate()
+        .map(|(row, label)| (1.0 + row as f64, label.clone()));
     let names = AxisData::new("", "").named(names);
     let count = labels.len() as f64;
     let shown = labels.join(", ");

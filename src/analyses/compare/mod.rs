@@ -47,11 +47,13 @@ pub fn compare(
     saws: Vec<(String, Saw)>,
     progress: Progress<'_>,
 ) -> Result<CompareReport, CompareError> {
-    let ends = saws.iter().filter_map(|(_, saw)| match saw {
-        Saw::Scene(scene) if scene.sweep().is_none() => Some(end_of_sweep(scene)),
-        _ => None,
-    });
-    let ends = ends.collect::<Result<Vec<_>, _>>()?;
+    let ends = saws
+        .iter()
+        .filter_map(|(_, saw)| match saw {
+            Saw::Scene(scene) if scene.sweep().is_none() => Some(end_of_sweep(scene)),
+            _ => None,
+        })
+        .collect::<Result<Vec<_>, _>>()?;
     let end_rad_per_s = ends.into_iter().fold(0.0, f64::max);
     let of = saws.len();
     let mut compared = Vec::new();

@@ -83,11 +83,15 @@ fn differences(text: &mut Outline, report: &CompareReport) {
     }
     let columns = [Column::words("key"), Column::words("values")];
     let rows = report.differences.iter().map(|entry| {
-        let values = entry.values.iter().map(|value| match value.as_str() {
-            "" => "none",
-            value => value,
-        });
-        let values = values.collect::<Vec<_>>().join(" | ");
+        let values = entry
+            .values
+            .iter()
+            .map(|value| match value.as_str() {
+                "" => "none",
+                value => value,
+            })
+            .collect::<Vec<_>>()
+            .join(" | ");
         [entry.path.clone().into(), values.into()]
     });
     let table = Table::new("Differences of the scenes", columns).in_file("compare.json");

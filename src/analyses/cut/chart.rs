@@ -203,8 +203,10 @@ fn key(runs: &[CutAtSpeed]) -> Vec<Item> {
     });
     let is_linear = |run: &&CutAtSpeed| run.stretching.is_none();
     let scale = Scale::of(runs);
-    let envelopes = runs.iter().filter(is_linear);
-    let envelopes = envelopes.flat_map(|run| envelope(run, &scale));
+    let envelopes = runs
+        .iter()
+        .filter(is_linear)
+        .flat_map(|run| envelope(run, &scale));
     for item in areas.chain(envelopes).chain(ends) {
         let sample = item.sample();
         if !samples.contains(&sample) {

@@ -50,8 +50,11 @@ fn speeds_of_any_size_keep_their_labels_apart() {
         let sheet = layout::sheet(&map_chart::chart(&report));
         assert_tidy(&sheet);
         assert!(!texts(&sheet).iter().any(|(_, text)| text.contains("angle")));
-        let marks = sheet.marks().iter();
-        let marks = marks.filter(|mark| matches!(mark, Mark::Disc(..))).count();
+        let marks = sheet
+            .marks()
+            .iter()
+            .filter(|mark| matches!(mark, Mark::Disc(..)))
+            .count();
         assert_eq!(marks, 2 * factors.len());
     }
 }
@@ -65,12 +68,13 @@ fn stiffnesses_that_were_not_searched_look_unknown() {
     let scene = include_str!("../../../scenes/gallery/washboarding.json");
     let scene = Scene::from_json(scene).unwrap();
     let report = |stiffness: f64| {
-        let scene = scene.edited(|saw| {
-            coarse(saw);
-            let delayed = saw.cut.as_mut().unwrap().washboarding.as_mut().unwrap();
-            delayed.stiffness_n_per_m = stiffness;
-        });
-        let scene = scene.unwrap();
+        let scene = scene
+            .edited(|saw| {
+                coarse(saw);
+                let delayed = saw.cut.as_mut().unwrap().washboarding.as_mut().unwrap();
+                delayed.stiffness_n_per_m = stiffness;
+            })
+            .unwrap();
         let run = scene.cut().unwrap().at_rpm(2400.0).unwrap();
         washboard(&scene, &run, &|_, _| ()).unwrap()
     };
@@ -115,14 +119,15 @@ fn the_lobe_diagram_is_tidy_and_says_the_verdict() {
         (3e4, 0.0, 15e3, "2400 rpm: stable"),
         (3e4, 1.0, 15e6, "2400 rpm: unstable at"),
     ] {
-        let scene = scene.edited(|saw| {
-            coarse(saw);
-            let cut = saw.cut.as_mut().unwrap();
-            cut.power_w = Some(power_w);
-            let delayed = cut.washboarding.as_mut().unwrap();
-            (delayed.stiffness_n_per_m, delayed.overlap) = (stiffness, overlap);
-        });
-        let scene = scene.unwrap();
+        let scene = scene
+            .edited(|saw| {
+                coarse(saw);
+                let cut = saw.cut.as_mut().unwrap();
+                cut.power_w = Some(power_w);
+                let delayed = cut.washboarding.as_mut().unwrap();
+                (delayed.stiffness_n_per_m, delayed.overlap) = (stiffness, overlap);
+            })
+            .unwrap();
         let run = scene.cut().unwrap().at_rpm(2400.0).unwrap();
         let report = washboard(&scene, &run, &|_, _| ()).unwrap();
         let sheet = layout::sheet(&washboard::chart::chart(&report));

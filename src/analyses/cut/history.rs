@@ -276,8 +276,8 @@ fn sinusoids_in_cut(
         return Ok(Vec::new());
     }
     let system = saw.blade.system(&saw.cutting_system);
-    let fastest = fastest_mode_rad_per_s(&system, run.speed_rad_per_s, MODES)?;
-    let fastest = fastest.max(in_cut.frequency_rad_per_s);
+    let fastest = fastest_mode_rad_per_s(&system, run.speed_rad_per_s, MODES)?
+        .max(in_cut.frequency_rad_per_s);
     let longest_s = (std::f64::consts::TAU / (SAMPLES_A_PERIOD * fastest))
         .min(longest_step_s(in_cut))
         .min(run.duration_s / (SAMPLES - 1) as f64);

@@ -26,14 +26,17 @@ pub fn chart(report: &CutReport) -> ChartData {
     } else {
         "Growth in the cut over the load"
     };
-    let panels = report.runs.iter().map(|run| match has_guides {
-        true => map(report, run),
-        false => over_load(report, run),
-    });
-    let panels = panels.map(|panel| PanelData {
-        share: 0.84,
-        ..panel
-    });
+    let panels = report
+        .runs
+        .iter()
+        .map(|run| match has_guides {
+            true => map(report, run),
+            false => over_load(report, run),
+        })
+        .map(|panel| PanelData {
+            share: 0.84,
+            ..panel
+        });
     let stable = has_guides.then(|| Item::tinted_sample(Hue::Forward, STABLE_TINT, "stable"));
     let facts = vec![of_saw(&report.scene.name, &report.condition)];
     let panels: Vec<PanelData> = panels
@@ -83,8 +86,8 @@ fn slowest_growth(report: &CutReport) -> f64 {
 /// The verdict over guide angle and load: the growth where a motion grows.
 fn map(report: &CutReport, run: &CutAtSpeed) -> PanelData {
     let found = &run.map;
-    let angle = AxisData::new("angle of the first guide, the cut at its own", "°");
-    let angle = angle.within(proper_range(ends(&found.guide_angle_deg)));
+    let angle = AxisData::new("angle of the first guide, the cut at its own", "°")
+        .within(proper_range(ends(&found.guide_angle_deg)));
     let load = load(run);
     let [low, high] = load.range.unwrap_or([0.0, 1.0]);
     let stable = angle.range.unwrap_or([0.0, 1.0]).map(|x| [x, low, high]);
@@ -92,15 +95,20 @@ fn map(report: &CutReport, run: &CutAtSpeed) -> PanelData {
         tint: STABLE_TINT,
         ..Area::new(stable, Hue::Forward, "stable")
     };
-    let rows = found.growth_per_s.iter().zip(&found.verdict);
-    let rows = rows.map(|(growth, verdict)| {
-        let cells = growth.iter().zip(verdict);
-        let cells = cells.map(|(growth, verdict)| match verdict {
-            Verdict::Stable => f64::NAN,
-            _ => *growth,
+    let rows = found
+        .growth_per_s
+        .iter()
+        .zip(&found.verdict)
+        .map(|(growth, verdict)| {
+            let cells = growth
+                .iter()
+                .zip(verdict)
+                .map(|(growth, verdict)| match verdict {
+                    Verdict::Stable => f64::NAN,
+                    _ => *growth,
+                });
+            cells.collect()
         });
-        cells.collect()
-    });
     let heat = Heat {
         x: found.guide_angle_deg.clone(),
         y: found.load_level.clone(),
@@ -121,11 +129,12 @@ fn own_points(report: &CutReport, run: &CutAtSpeed) -> Vec<Item> {
     let guide = report.scene.guides.first();
     let own_deg = guide.map_or(0.0, |guide| guide.angle_deg);
     let by_power = run.by_power.as_ref();
-    let by_power = by_power.map(|by_power| {
-        let share = by_power.tangential_n_per_tooth / run.tangential_n_per_tooth;
-        (share, Hue::Quiet, POWER_SIZE, "force that the power allows")
-    });
-    let by_power = by_power.filter(|(share, ..)| *share < LESS);
+    let by_power = by_power
+        .map(|by_power| {
+            let share = by_power.tangential_n_per_tooth / run.tangential_n_per_tooth;
+            (share, Hue::Quiet, POWER_SIZE, "force that the power allows")
+        })
+        .filter(|(share, ..)| *share < LESS);
     let own = (1.0, Hue::Ink, OWN_SIZE, "this saw");
     let marks = [own].into_iter().chain(by_power);
     let items = marks.flat_map(|(load, hue, size, name)| ring([own_deg, load], hue, size, name));
@@ -152,8 +161,12 @@ fn over_load(report: &CutReport, run: &CutAtSpeed) -> PanelData {
         label: "unstable above".to_owned(),
         ..Line::guide(ends.map(|x| [x, threshold]), Hue::Quiet, "unstable above")
     };
-    let points = run.map.load_level.iter().zip(&run.map.growth_per_s);
-    let points = points.map(|(load, row)| [*load, row.first().copied().unwrap_or(f64::NAN)]);
+    let points = run
+        .map
+        .load_level
+        .iter()
+        .zip(&run.map.growth_per_s)
+        .map(|(load, row)| [*load, row.first().copied().unwrap_or(f64::NAN)]);
     let items = [
         Item::Line(threshold),
         Item::Line(Line::new(points, Hue::Forward, "growth")),

@@ -242,8 +242,10 @@ fn chosen_plate(scene: &Scene, runs: &[CutRun]) -> Result<Plate, TransientError>
 fn unusual_numbers(scene: &Scene, cut: &Cut, runs: &[CutRun]) -> Vec<String> {
     let file = scene.file();
     let is_named = |rpm: f64| cut.runs.iter().any(|run| run.rpm == rpm);
-    let asked = runs.iter().map(|run| run.rpm).filter(|rpm| !is_named(*rpm));
-    let asked = asked
+    let asked = runs
+        .iter()
+        .map(|run| run.rpm)
+        .filter(|rpm| !is_named(*rpm))
         .filter_map(|rpm| unusual_number(file, "the speed of the cut", "cut.speeds[].rpm", rpm));
     file.unusual_numbers().into_iter().chain(asked).collect()
 }

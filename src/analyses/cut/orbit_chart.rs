@@ -16,8 +16,10 @@ const END_SIZE: f64 = 7.0;
 
 /// A panel for each speed, as numbers; `None` for a saw without spline.
 pub fn chart(report: &CutReport) -> Option<ChartData> {
-    let runs = report.runs.iter();
-    let runs = runs.filter_map(|run| Some((run, run.spline.as_ref()?)));
+    let runs = report
+        .runs
+        .iter()
+        .filter_map(|run| Some((run, run.spline.as_ref()?)));
     let runs: Vec<(&CutAtSpeed, &SplineOrbit)> = runs.collect();
     let clearance_m = runs.first()?.1.clearance_m;
     let scale = Scale::of(runs.iter().map(|(_, spline)| *spline));
@@ -59,8 +61,11 @@ impl Scale {
 
 fn panel(run: &CutAtSpeed, spline: &SplineOrbit, scale: &Scale) -> PanelData {
     let reach = [-scale.reach, scale.reach];
-    let points = spline.x_m.iter().zip(&spline.y_m);
-    let points = points.map(|(x, y)| [x, y].map(|m| scale.per_metre * m));
+    let points = spline
+        .x_m
+        .iter()
+        .zip(&spline.y_m)
+        .map(|(x, y)| [x, y].map(|m| scale.per_metre * m));
     let points: Vec<[f64; 2]> = points.collect();
     let (before, settled) = points.split_at(spline.settled_from.min(points.len()));
     let zero = |ends: [[f64; 2]; 2]| {

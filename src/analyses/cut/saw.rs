@@ -40,16 +40,18 @@ impl<'a> SawInCut<'a> {
     pub fn new(plate: &'a Plate, cut: &'a Cut, run: &'a CutRun) -> Result<Self, SpectrumError> {
         let cutting = plate.in_cut(cut, run);
         let order = plate.degrees_of_freedom();
-        let edge_stiffness = cutting.edge_stiffness.clone();
-        let edge_stiffness = edge_stiffness.unwrap_or_else(|| Mat::zeros(order, order));
+        let edge_stiffness = cutting
+            .edge_stiffness
+            .clone()
+            .unwrap_or_else(|| Mat::zeros(order, order));
         let systems = [plate, &cutting].map(GyroscopicSystem::of_plate);
         let snapshots = systems.each_ref().map(|system| Snapshot {
             system,
             speed_rad_per_s: run.speed_rad_per_s,
         });
         let load = lateral_load(plate, &cut.teeth.standing());
-        let blade = ReducedBlade::new(plate, &snapshots, MODES, &[load]);
-        let blade = blade.with_buckled_shapes(&systems[1])?;
+        let blade = ReducedBlade::new(plate, &snapshots, MODES, &[load])
+            .with_buckled_shapes(&systems[1])?;
         let [idle_system, cutting_system] = systems;
         Ok(SawInCut {
             plate,

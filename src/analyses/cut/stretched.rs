@@ -170,8 +170,8 @@ impl<'a> Samples<'a> {
         let stride = ((sample_s / step_s) as usize).max(1);
         let forces = forces(self.blade);
         let loads = [phase.load.clone()];
-        let newmark = Newmark::new(phase.system, (self.speed_rad_per_s, 0.0), &loads, step_s);
-        let newmark = newmark.with_forces(&forces);
+        let newmark = Newmark::new(phase.system, (self.speed_rad_per_s, 0.0), &loads, step_s)
+            .with_forces(&forces);
         let stop = Cancellation::current();
         for step in 1..=count {
             // A flat saw without a force remains flat, even if it is unstable.

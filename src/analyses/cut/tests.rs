@@ -86,8 +86,12 @@ fn few_motions_make_the_record_of_the_full_model() {
         Propagator::new(&system, run.speed_rad_per_s, &[load], run.duration_s).unwrap();
     let force = [run.lateral_n];
     let rest = State::rest(system.order());
-    let whole = propagator.step(&rest, [&force, &force]).unwrap();
-    let whole = whole.displacement.transpose() * &read;
+    let whole = propagator
+        .step(&rest, [&force, &force])
+        .unwrap()
+        .displacement
+        .transpose()
+        * &read;
     let (record, end_s) = (&history.record, cut.idle_s + run.duration_s);
     let end = record.time_s.partition_point(|t| *t < end_s - 1e-9);
     let few = record.deflection_m[end];
@@ -151,8 +155,9 @@ fn the_map_holds_what_moved_guides_and_scaled_loads_do() {
             };
             let cutting = moved.in_cut(&cut, &scaled);
             let system = GyroscopicSystem::of_plate(&cutting);
-            let exact = fastest_growing(&system, run.speed_rad_per_s).unwrap();
-            let exact = exact.map_or(0.0, |lambda| lambda.re);
+            let exact = fastest_growing(&system, run.speed_rad_per_s)
+                .unwrap()
+                .map_or(0.0, |lambda| lambda.re);
             let mapped = map.growth_per_s[row][column];
             let scale = exact.max(0.1);
             assert!(

@@ -25,8 +25,10 @@ const SHOWN: usize = 6;
 pub fn chart(report: &DeflectReport) -> ChartData {
     let speeds = proper_range([report.from_rpm, report.to_rpm]);
     let speed = AxisData::speed().within(speeds);
-    let bands = report.instabilities.iter();
-    let bands = bands.map(|band| Item::Band(Band::new(band, speeds)));
+    let bands = report
+        .instabilities
+        .iter()
+        .map(|band| Item::Band(Band::new(band, speeds)));
     let bands: Vec<Item> = bands.collect();
     ChartData {
         title: report.scene.name.clone(),
@@ -88,8 +90,10 @@ fn facts(report: &DeflectReport) -> Vec<String> {
 fn reach_mm(report: &DeflectReport) -> [f64; 2] {
     let of_curves = report.curves.iter().flat_map(|curve| &curve.deflection_m);
     let sweeps = [&report.up, &report.down];
-    let of_sweeps = sweeps.iter().flat_map(|sweep| &sweep.arcs);
-    let of_sweeps = of_sweeps.flat_map(|arc| &arc.deflection_m);
+    let of_sweeps = sweeps
+        .iter()
+        .flat_map(|sweep| &sweep.arcs)
+        .flat_map(|arc| &arc.deflection_m);
     let most = of_curves
         .chain(of_sweeps)
         .fold(0.0_f64, |most, m| most.max(m.abs()));
@@ -102,8 +106,11 @@ fn leans(report: &DeflectReport) -> Vec<Item> {
     let mut items: Vec<Item> = report.curves.iter().flat_map(curve_lines).collect();
     for (sweep, colour, width, _, name) in sweeps(report) {
         for arc in &sweep.arcs {
-            let points = arc.rpm.iter().zip(&arc.deflection_m);
-            let points = points.map(|(rpm, m)| [*rpm, 1e3 * m]);
+            let points = arc
+                .rpm
+                .iter()
+                .zip(&arc.deflection_m)
+                .map(|(rpm, m)| [*rpm, 1e3 * m]);
             let say = |[rpm, mm]: [f64; 2]| format!("{rpm:.1} rpm\n{} mm", shown_to(4, mm));
             items.push(Item::Line(Line {
                 width,
@@ -130,8 +137,11 @@ fn leans(report: &DeflectReport) -> Vec<Item> {
             })
         }));
     }
-    let turns = report.curves.iter().flat_map(|curve| &curve.turns);
-    let turns = turns.map(|turn| [turn.rpm, 1e3 * turn.deflection_m]);
+    let turns = report
+        .curves
+        .iter()
+        .flat_map(|curve| &curve.turns)
+        .map(|turn| [turn.rpm, 1e3 * turn.deflection_m]);
     items.push(Item::Points(Points {
         shape: Shape::Ring,
         ..Points::new(turns, Hue::Ink, TURN_SIZE, "fold or bifurcation")
@@ -173,8 +183,11 @@ fn shown_hz(report: &DeflectReport) -> [f64; 2] {
 /// Frequencies of the flat blade, and about the equilibria.
 fn frequencies(report: &DeflectReport) -> Vec<Item> {
     let branches = report.campbell.branches.iter().map(|branch| {
-        let samples = branch.rpm.iter().zip(&branch.frequency_hz);
-        let samples = samples.map(|(rpm, hz)| [*rpm, *hz]);
+        let samples = branch
+            .rpm
+            .iter()
+            .zip(&branch.frequency_hz)
+            .map(|(rpm, hz)| [*rpm, *hz]);
         Item::Line(Line {
             tint: FLAT_TINT,
             width: NARROWER,

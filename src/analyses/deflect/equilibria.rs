@@ -65,8 +65,11 @@ impl Equilibria {
         }
         let (blade, up, relative_error) = resolved(force, plate, blade, range)?;
         parts.advance();
-        let top = up.arcs.last().and_then(|arc| arc.last());
-        let top = top.map_or_else(|| blade.flat(), |e| e.coordinates.clone());
+        let top = up
+            .arcs
+            .last()
+            .and_then(|arc| arc.last())
+            .map_or_else(|| blade.flat(), |e| e.coordinates.clone());
         let down = blade.sweep(&top, false, range)?;
         parts.advance();
         let curves = curves(&blade, range, [(&up, true), (&down, false)])?;

@@ -139,8 +139,10 @@ impl<'a> Reader<'a> {
             .par_iter()
             .filter(|e| !self.is_steep(e))
             .collect();
-        let turns = curve.turns.iter();
-        let turns = turns.filter(|turn| !self.is_steep(&turn.equilibrium));
+        let turns = curve
+            .turns
+            .iter()
+            .filter(|turn| !self.is_steep(&turn.equilibrium));
         EquilibriumCurve {
             rpm: gentle.iter().map(|e| rpm(e.speed_rad_per_s)).collect(),
             deflection_m: gentle.iter().map(|e| self.at_probe_m(e)).collect(),

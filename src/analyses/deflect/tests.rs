@@ -47,8 +47,10 @@ fn without_a_force_the_blade_deflects_from_its_first_critical_speed_on() {
         assert!(arc().all(|e| e.negative_eigenvalues == 0));
         let flat = |e: &Equilibrium| sites.largest_m(&e.coordinates) < 1e-9;
         let leaned = arc().filter(|e| !flat(e));
-        let edge = leaned.map(|e| e.speed_rad_per_s).min_by(f64::total_cmp);
-        let edge = edge.unwrap();
+        let edge = leaned
+            .map(|e| e.speed_rad_per_s)
+            .min_by(f64::total_cmp)
+            .unwrap();
         assert!((edge / critical - 1.0).abs() < 1e-4, "{edge} {critical}");
         let below = arc().filter(|e| e.speed_rad_per_s < 0.999 * critical);
         assert!(below.clone().count() > 3 && below.clone().all(flat));

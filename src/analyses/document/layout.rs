@@ -24,9 +24,11 @@ figure{margin:1em 0;break-inside:avoid}figure svg{width:100%;height:auto}tr{brea
 /// # Errors
 /// [`FigureError`] if a figure cannot be drawn.
 pub fn page<R: CommandReport + ?Sized>(report: &R) -> Result<String, FigureError> {
-    let figures = report.figures();
-    let figures = figures.iter().map(|figure| figure.svg());
-    let figures = figures.collect::<Result<Vec<String>, _>>()?;
+    let figures = report
+        .figures()
+        .iter()
+        .map(|figure| figure.svg())
+        .collect::<Result<Vec<String>, _>>()?;
     let mut text = String::new();
     // Writing to a string cannot fail, so that the result is ignored.
     let _ = write_page(&mut text, report, &figures);

@@ -64,8 +64,7 @@ fn off(r: &Residual) -> f64 {
 }
 
 fn facts(report: &FitReport) -> Vec<String> {
-    let found = report.parameters.iter();
-    let found = found.map(|p| in_words(&p.path, p.value));
+    let found = report.parameters.iter().map(|p| in_words(&p.path, p.value));
     let rms = format!(
         "{:.3} Hz rms over {} frequencies",
         report.rms_hz, report.measured_frequencies

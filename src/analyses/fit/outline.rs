@@ -24,8 +24,10 @@ pub fn outline(report: &FitReport) -> Outline {
     let rms = FREQUENCY.fixed(3, report.rms_hz);
     let before = FREQUENCY.fixed(3, report.rms_before_hz);
     let deviation = Fact::new("deviation (rms)", rms).after(before);
-    let fitted = report.parameters.iter();
-    let fitted = fitted.map(|found| number(found, report.confidence));
+    let fitted = report
+        .parameters
+        .iter()
+        .map(|found| number(found, report.confidence));
     text.facts("", std::iter::once(deviation).chain(fitted));
     text.table(deviations(report));
     let reached = report.starts.iter().filter_map(|start| start.rms_hz);

@@ -41,12 +41,15 @@ pub fn search(
         let pairs = freed.iter().zip(shares);
         pairs.map(|(freed, share)| freed.value(*share)).collect()
     };
-    let starts = from.iter().zip(&found).map(|(from, found)| Start {
-        from: values(from),
-        to: found.as_ref().map(|f| values(&f.shares)),
-        rms_hz: found.as_ref().map(|f| f.rms_hz),
-    });
-    let starts = starts.collect();
+    let starts = from
+        .iter()
+        .zip(&found)
+        .map(|(from, found)| Start {
+            from: values(from),
+            to: found.as_ref().map(|f| values(&f.shares)),
+            rms_hz: found.as_ref().map(|f| f.rms_hz),
+        })
+        .collect();
     let mut reached: Vec<Found> = found.into_iter().flatten().collect();
     reached.sort_by(|x, y| x.rms_hz.total_cmp(&y.rms_hz));
     let mut distinct: Vec<Found> = Vec::new();

@@ -120,8 +120,11 @@ impl Map {
         }
         let axis = |key, range| MapAxis::new(&scene, key, range, points);
         let x = axis("x", &options.x)?;
-        let y = options.y.as_ref().map(|range| axis("y", range));
-        let y = y.transpose()?;
+        let y = options
+            .y
+            .as_ref()
+            .map(|range| axis("y", range))
+            .transpose()?;
         if y.as_ref().is_some_and(|y| y.path == x.path) {
             let given = format!("{} again", x.path);
             let remedy = "leave it out for a map over the speed";

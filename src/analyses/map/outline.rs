@@ -120,13 +120,14 @@ fn speeds(text: &mut Outline, report: &MapReport) {
 /// The numbers of a saw of the map.
 fn place(report: &MapReport, saw: &MappedSaw) -> String {
     let y = report.y.as_ref().zip(saw.y);
-    let all = std::iter::once((&report.x, saw.x)).chain(y);
-    let all = all.map(|(axis, value)| {
-        let key = axis.path.rsplit('.').next().unwrap_or(&axis.path);
-        format!("{key} = {} {}", shown_to(5, value), axis.unit)
-            .trim_end()
-            .to_owned()
-    });
+    let all = std::iter::once((&report.x, saw.x))
+        .chain(y)
+        .map(|(axis, value)| {
+            let key = axis.path.rsplit('.').next().unwrap_or(&axis.path);
+            format!("{key} = {} {}", shown_to(5, value), axis.unit)
+                .trim_end()
+                .to_owned()
+        });
     all.collect::<Vec<_>>().join(", ")
 }
 

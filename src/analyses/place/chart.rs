@@ -58,8 +58,7 @@ fn facts(report: &PlaceReport) -> Vec<String> {
         "best: {goal} {beyond}{:.0} rpm (before {:.0} rpm)",
         report.best.goal_rpm, report.before.goal_rpm
     );
-    let values = report.parameters.iter();
-    let values = values.map(|p| in_words(&p.path, p.value));
+    let values = report.parameters.iter().map(|p| in_words(&p.path, p.value));
     let worst = format!(
         "{}worst within tolerances: {:.0} %",
         if report.fragile { "fragile, " } else { "" },
@@ -92,8 +91,7 @@ fn range(rows: &[Vec<f64>]) -> [f64; 2] {
 fn over_two(report: &PlaceReport, map: &GoalMap, x: Along, y: Along) -> PanelData {
     let z: Vec<Vec<f64>> = (0..map.y.len()).map(|row| goals(map, row)).collect();
     let [low, high] = y.axis.range.unwrap_or([0.0, 1.0]);
-    let ground = x.axis.range.unwrap_or([0.0, 1.0]);
-    let ground = ground.map(|x| [x, low, high]);
+    let ground = x.axis.range.unwrap_or([0.0, 1.0]).map(|x| [x, low, high]);
     let heat = Heat {
         x: x.values.clone(),
         y: y.values.clone(),

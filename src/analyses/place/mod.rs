@@ -179,8 +179,9 @@ fn path(freed: &Freed) -> String {
 
 /// Shares of the original numbers, which may lie outside the bounds.
 fn exact_shares(scene: &Scene, freed: &[Freed]) -> Result<Vec<f64>, SceneError> {
-    let shares = freed.iter();
-    let shares = shares.map(|f| Ok(f.share(f.parameter.get(scene.file())?)));
+    let shares = freed
+        .iter()
+        .map(|f| Ok(f.share(f.parameter.get(scene.file())?)));
     shares.collect()
 }
 

@@ -120,8 +120,12 @@ impl Neighbours {
         let mut around: Vec<Option<Rated>> = directions.par_iter().map(of).collect();
         let alone = around.split_off(directions.len() - 2 * numbers);
         let values = search.values(shares);
-        let offsets = search.freed.iter().zip(&values);
-        let offsets = offsets.map(|(f, v)| search.tolerance(f, *v)).collect();
+        let offsets = search
+            .freed
+            .iter()
+            .zip(&values)
+            .map(|(f, v)| search.tolerance(f, *v))
+            .collect();
         let goal_rpm = |saw: &Option<Rated>| Some(saw.as_ref()?.saw.outcome?.goal_rpm);
         let pairs = alone.chunks(2);
         let along_rpm = pairs

@@ -134,8 +134,11 @@ fn fragile_optimum(report: &PlaceReport, fragile: &FragileOptimum, goal: &str) -
         let goal = saw.outcome.map(|outcome| outcome.goal_rpm);
         goal.map_or("unknown".to_owned(), |rpm| format!("{rpm:.0} rpm"))
     };
-    let numbers = report.parameters.iter().zip(&fragile.saw.values);
-    let numbers = numbers.map(|(p, value)| format!("{} = {}", p.path, short(*value)));
+    let numbers = report
+        .parameters
+        .iter()
+        .zip(&fragile.saw.values)
+        .map(|(p, value)| format!("{} = {}", p.path, short(*value)));
     let place = numbers.collect::<Vec<_>>().join(", ");
     let (itself, worst) = (rpm(&fragile.saw), rpm(&fragile.worst));
     format!(

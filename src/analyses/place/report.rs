@@ -255,9 +255,7 @@ impl PlaceReport {
             .as_ref()
             .and_then(|worst| worst.outcome);
         let critical = worst.and_then(|worst| worst.critical_rpm);
-        let short = self.min_critical_rpm.zip(critical);
-        let short = short.filter(|(asked, found)| found < asked);
-        let short = short.map(|(asked, found)| {
+        let short = self.min_critical_rpm.zip(critical).filter(|(asked, found)| found < asked).map(|(asked, found)| {
             format!(
                 "no saw tried keeps the limit of the critical speed in the worst case of its tolerances; this one misses it by the smallest amount, {:.0} rpm",
                 asked - found
@@ -265,8 +263,7 @@ impl PlaceReport {
         });
         let deflection = worst.and_then(|worst| worst.deflection_m);
         let limit = self.max_deflection_m;
-        let beyond = limit.filter(|limit| deflection.is_none_or(|found| found > *limit));
-        let beyond = beyond.map(|_| {
+        let beyond = limit.filter(|limit| deflection.is_none_or(|found| found > *limit)).map(|_| {
             let found = deflection.map_or("more than the model is valid for".to_owned(), |m| {
                 format!("{} mm", shown_to(3, 1e3 * m))
             });

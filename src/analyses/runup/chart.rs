@@ -12,8 +12,11 @@ use crate::page::figure::style::CURVE;
 pub fn chart(report: &RunUpReport) -> ChartData {
     let speeds = [report.from_rpm, report.to_rpm];
     let reach = 1.1e3 * report.largest_deflection_m.max(1e-9);
-    let bands = report.bands.iter().map(|entry| &entry.band);
-    let bands = bands.map(|band| Item::Band(Band::new(band, speeds)));
+    let bands = report
+        .bands
+        .iter()
+        .map(|entry| &entry.band)
+        .map(|band| Item::Band(Band::new(band, speeds)));
     let critical = report.critical_speeds.iter();
     let critical = critical.map(|entry| Item::Upright(Upright::critical(entry.rpm, &entry.name)));
     let record = report.rpm.iter().zip(&report.deflection_m);

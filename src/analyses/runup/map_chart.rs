@@ -117,8 +117,10 @@ impl Map<'_> {
 /// Rings at the measured frequencies.
 fn measured(report: &RunUpReport) -> Option<Item> {
     let measured = report.scene.measured.as_ref()?;
-    let points = measured.rows.iter();
-    let points = points.flat_map(|row| row.seen_hz().map(|hz| [row.rpm, hz]));
+    let points = measured
+        .rows
+        .iter()
+        .flat_map(|row| row.seen_hz().map(|hz| [row.rpm, hz]));
     Some(Item::Points(Points {
         shape: Shape::Ring,
         ..Points::new(points, Hue::Ink, MEASURED_SIZE, &measured.source)

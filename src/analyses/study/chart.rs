@@ -175,10 +175,12 @@ impl Speed<'_> {
 
 /// The share of saws that can run, over the operating speed.
 fn runs(reliability: &Reliability) -> PanelData {
-    let points = reliability.curve.iter();
-    let points = points.map(|point| [point.operating_rpm, 100.0 * point.share]);
-    let ends = [reliability.curve.first(), reliability.curve.last()];
-    let ends = ends.map(|point| point.map_or(0.0, |point| point.operating_rpm));
+    let points = reliability
+        .curve
+        .iter()
+        .map(|point| [point.operating_rpm, 100.0 * point.share]);
+    let ends = [reliability.curve.first(), reliability.curve.last()]
+        .map(|point| point.map_or(0.0, |point| point.operating_rpm));
     let name = format!(
         "Saws that can run at up to {:.0} % of their lowest critical speed, without flutter",
         100.0 * reliability.margin

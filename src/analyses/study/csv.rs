@@ -43,8 +43,10 @@ impl<W: Write> Table for CsvTable<'_, W> {
 /// Names of the columns.
 pub(super) fn columns(study: &Study) -> Vec<String> {
     let paths = study.varying.iter().map(|(p, _)| p.path().to_owned());
-    let kept = study.criteria_of_nothing().into_iter();
-    let kept = kept.map(|criterion| format!("keeps_{}", criterion.key));
+    let kept = study
+        .criteria_of_nothing()
+        .into_iter()
+        .map(|criterion| format!("keeps_{}", criterion.key));
     let before = [
         "status",
         "lowest_critical_rpm",

@@ -272,8 +272,8 @@ fn is_shard(name: &str) -> bool {
 }
 
 fn header(study: &Study) -> String {
-    let inputs = serde_json::to_string(&Inputs::of(study));
-    let inputs = inputs.expect("keys are strings, and numbers of a scene finite");
+    let inputs = serde_json::to_string(&Inputs::of(study))
+        .expect("keys are strings, and numbers of a scene finite");
     let names = line(&columns(study));
     format!("{inputs}\n{}", String::from_utf8_lossy(&names))
 }

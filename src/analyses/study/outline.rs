@@ -56,8 +56,12 @@ pub fn outline(report: &StudyReport) -> Outline {
 /// Adds the quantiles of the lowest critical speed and of the flutter speed, and of guides with a gap.
 fn quantiles(text: &mut Outline, report: &StudyReport) {
     let all = &report.all;
-    let heads = all.lowest_critical.quantiles.iter().take(QUANTILES);
-    let heads = heads.map(|quantile| Column::words(format!("{} %", shown(100.0 * quantile.share))));
+    let heads = all
+        .lowest_critical
+        .quantiles
+        .iter()
+        .take(QUANTILES)
+        .map(|quantile| Column::words(format!("{} %", shown(100.0 * quantile.share))));
     let columns = std::iter::once(Column::words("")).chain(heads);
     let mut table = Table::new("Share of saws below", columns).showing(usize::MAX);
     let mut speeds = |name: &str, speed: &SpeedStatistics| {

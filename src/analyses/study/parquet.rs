@@ -43,8 +43,8 @@ impl<'a, W: Write + Send> ParquetTable<'a, W> {
             .set_key_value_metadata(Some(vec![KeyValue::new("sawflutter".to_owned(), inputs)]))
             .build();
         let schema = schema(study).map_err(io::Error::other)?;
-        let writer = SerializedFileWriter::new(out, schema, Arc::new(properties));
-        let writer = writer.map_err(io::Error::other)?;
+        let writer = SerializedFileWriter::new(out, schema, Arc::new(properties))
+            .map_err(io::Error::other)?;
         Ok(ParquetTable { study, writer })
     }
 

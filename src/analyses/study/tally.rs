@@ -166,14 +166,17 @@ impl<'a> Tally<'a> {
             }
         })?;
         let mut running = analysed;
-        let curve = speeds.iter().zip(&below).map(|(speed, count)| {
-            running -= count;
-            ReliabilityPoint {
-                operating_rpm: *speed,
-                share: running as f64 / saws as f64,
-            }
-        });
-        let curve = curve.collect();
+        let curve = speeds
+            .iter()
+            .zip(&below)
+            .map(|(speed, count)| {
+                running -= count;
+                ReliabilityPoint {
+                    operating_rpm: *speed,
+                    share: running as f64 / saws as f64,
+                }
+            })
+            .collect();
         let mut fastest = Vec::new();
         for share in RELIABLE {
             // `out` is the number of saws that may fail. The margin is needed because the computed

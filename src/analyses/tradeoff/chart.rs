@@ -29,8 +29,7 @@ pub fn figure(scene: &str, settings: &[Setting]) -> Figure {
 
 /// Returns the run time of settings over their true error as numbers, see [`figure`].
 pub fn chart(scene: &str, settings: &[Setting]) -> ChartData {
-    let errors = decades(settings.iter().map(|s| s.error));
-    let errors = errors.map(|share| 100.0 * share);
+    let errors = decades(settings.iter().map(|s| s.error)).map(|share| 100.0 * share);
     // The factor leaves room for a number above the slowest setting.
     let [least, most] = decades(settings.iter().map(|s| s.seconds));
     let error = AxisData::new("true error of critical speeds and onsets", "%").within(errors);

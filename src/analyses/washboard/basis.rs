@@ -185,8 +185,8 @@ impl Shapes {
         let gyroscopic = &system.gyroscopic;
         let tension = &system.spin + gyroscopic.transpose() * gyroscopic;
         let stiffness = &system.stiffness + Scale(speed_rad_per_s.powi(2)) * tension;
-        let eigen = SymmetricEigen::new(stiffness.as_ref());
-        let eigen = eigen.map_err(SpectrumError::at(speed_rad_per_s))?;
+        let eigen =
+            SymmetricEigen::new(stiffness.as_ref()).map_err(SpectrumError::at(speed_rad_per_s))?;
         Ok(Shapes {
             squares: eigen.values,
             vectors: eigen.vectors,
@@ -259,8 +259,10 @@ fn complete_plate(scene: &Scene, plate: Plate, fastest: f64, needed: f64) -> Pla
         radial_functions,
     } = plate.resolution;
     let mut plate = plate;
-    let larger = DENSE_LADDER.iter().copied();
-    let larger = larger.filter(|(n, j)| *n > max_diameters && *j >= radial_functions);
+    let larger = DENSE_LADDER
+        .iter()
+        .copied()
+        .filter(|(n, j)| *n > max_diameters && *j >= radial_functions);
     for (max_diameters, radial_functions) in larger {
         if complete_to(&plate, fastest) >= needed {
             break;

@@ -50,8 +50,8 @@ pub fn chart(report: &WashboardReport) -> ChartData {
     let teeth = [
         (0.5, "half the tooth passing frequency"),
         (1.0, "tooth passing frequency"),
-    ];
-    let teeth = teeth.map(|(share, name)| {
+    ]
+    .map(|(share, name)| {
         let points = ends.map(|rpm| [rpm, share * per_rpm * rpm]);
         Item::Line(Line {
             width: HAIRLINE,
@@ -59,8 +59,11 @@ pub fn chart(report: &WashboardReport) -> ChartData {
             ..Line::new(points, Hue::Quiet, name)
         })
     });
-    let at = lobes.rpm.iter().zip(&lobes.frequency_hz);
-    let at = at.map(|(rpm, hz)| [*rpm, hz.unwrap_or(f64::NAN)]);
+    let at = lobes
+        .rpm
+        .iter()
+        .zip(&lobes.frequency_hz)
+        .map(|(rpm, hz)| [*rpm, hz.unwrap_or(f64::NAN)]);
     let dots = Points {
         said: said(report),
         ..Points::new(at, Hue::Flutter, DOT_SIZE, "frequency there")
@@ -94,8 +97,11 @@ pub fn chart(report: &WashboardReport) -> ChartData {
 /// it is interrupted, and where motions grow at any stiffness it is below the panel.
 fn boundary(report: &WashboardReport, [least, _]: [f64; 2]) -> Line {
     let lobes = &report.lobes;
-    let points = lobes.rpm.iter().zip(&lobes.critical_stiffness_n_per_m);
-    let points = points.map(|(rpm, k)| [*rpm, k.map_or(f64::NAN, |k| k.max(0.1 * least))]);
+    let points = lobes
+        .rpm
+        .iter()
+        .zip(&lobes.critical_stiffness_n_per_m)
+        .map(|(rpm, k)| [*rpm, k.map_or(f64::NAN, |k| k.max(0.1 * least))]);
     Line {
         said: said(report),
         ..Line::new(points, Hue::Flutter, "a motion grows above")
@@ -161,8 +167,10 @@ fn facts(report: &WashboardReport) -> Vec<String> {
         None if report.verdict == Verdict::Unstable => format!("{:.0} rpm: unstable", report.rpm),
         None => format!("{:.0} rpm: stable", report.rpm),
     };
-    let pitch = report.growing_mode().and_then(|mode| mode.pattern_pitch_m);
-    let pitch = pitch.map(|metres| format!("waves of {:.1} mm along the feed", 1e3 * metres));
+    let pitch = report
+        .growing_mode()
+        .and_then(|mode| mode.pattern_pitch_m)
+        .map(|metres| format!("waves of {:.1} mm along the feed", 1e3 * metres));
     let teeth = format!("{:.0} teeth pass in a second", report.tooth_passing_hz);
     let all = [
         Some(report.condition.clone()),
@@ -175,8 +183,13 @@ fn facts(report: &WashboardReport) -> Vec<String> {
 
 /// Ends of the axis of stiffness in N/m: whole decades that include the boundary and the stiffness of the cut.
 fn decades(report: &WashboardReport) -> [f64; 2] {
-    let known = report.lobes.critical_stiffness_n_per_m.iter();
-    let known = known.flatten().filter(|k| **k > 0.0).map(|k| k.log10());
+    let known = report
+        .lobes
+        .critical_stiffness_n_per_m
+        .iter()
+        .flatten()
+        .filter(|k| **k > 0.0)
+        .map(|k| k.log10());
     let own = report.stiffness_n_per_m.log10();
     let least = known.clone().fold(f64::INFINITY, f64::min);
     let highest = own.max(if least.is_finite() { least } else { own }) + DECADES;
@@ -211,8 +224,9 @@ fn own_hue(report: &WashboardReport) -> Hue {
 fn key(report: &WashboardReport) -> Vec<Item> {
     let [_, most] = decades(report);
     let is_unknown = |k: usize| unknown(report, k)[0] < unknown(report, k)[1].min(most);
-    let open = (0..report.lobes.rpm.len()).any(is_unknown);
-    let open = open.then(|| Item::area_sample(Hue::Blank, "not searched, or not confirmed"));
+    let open = (0..report.lobes.rpm.len())
+        .any(is_unknown)
+        .then(|| Item::area_sample(Hue::Blank, "not searched, or not confirmed"));
     let others = [
         Item::points_sample(OWN_SIZE, Shape::Ring, own_hue(report), "this cut"),
         Item::line_sample(

@@ -111,8 +111,9 @@ pub fn washboard(
     let (speed, stiffness) = (run.speed_rad_per_s, washboarding.typed.stiffness_n_per_m);
     let saw = at(speed)?;
     let safe_beyond_n_per_m = motions.safe_beyond_n_per_m(washboarding);
-    let ceiling = (CEILING * stiffness).min(MAX_CUTTING_STIFFNESS);
-    let ceiling = ceiling.min(safe_beyond_n_per_m.max(stiffness));
+    let ceiling = (CEILING * stiffness)
+        .min(MAX_CUTTING_STIFFNESS)
+        .min(safe_beyond_n_per_m.max(stiffness));
     let gains = LoopGains::new(&saw, ceiling);
     let growing = gains.as_ref().and_then(|gains| gains.growing(stiffness));
     let modes = described(&motions, &saw, washboarding, run, growing);

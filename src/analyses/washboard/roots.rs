@@ -82,8 +82,11 @@ fn roots(saw: &DelayedSaw, stiffness: f64) -> Vec<Root> {
             break;
         }
     }
-    let found = own.iter().zip(found).zip(done);
-    let found = found.filter(|((_, lambda), done)| *done && is_root(saw, stiffness, *lambda));
+    let found = own
+        .iter()
+        .zip(found)
+        .zip(done)
+        .filter(|((_, lambda), done)| *done && is_root(saw, stiffness, *lambda));
     let root = |(k, lambda): (&usize, c64)| Root {
         lambda: upper(lambda),
         without: Some(all[*k]),

@@ -178,8 +178,10 @@ fn without_overlap_it_is_a_spring() {
     let found = roots_with_all_growing(&saw, stiffness, None);
     assert_eq!(found.len(), exact.len());
     for (lambda, _) in &exact {
-        let nearest = found.iter().map(|root| (root.lambda - lambda).norm());
-        let nearest = nearest.fold(f64::INFINITY, f64::min);
+        let nearest = found
+            .iter()
+            .map(|root| (root.lambda - lambda).norm())
+            .fold(f64::INFINITY, f64::min);
         assert!(nearest < 1e-9 * lambda.norm(), "{lambda}: {nearest}");
     }
     let gains = LoopGains::new(&saw, CEILING).unwrap();

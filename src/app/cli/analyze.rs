@@ -150,8 +150,7 @@ fn in_cut(scene: &Scene, rpm: Option<f64>) -> anyhow::Result<Scene> {
     )?;
     let rpm = rpm
         .or(scene.file().operating_rpm)
-        .or(cut.runs.first().map(|run| run.rpm));
-    let rpm = rpm.context(
+        .or(cut.runs.first().map(|run| run.rpm)).context(
         "--in-cut has no speed, and the scene neither operating_rpm nor cut.speeds; name one, like --in-cut 1800",
     )?;
     let charted = scene.edited(|file| {
@@ -210,8 +209,10 @@ fn watched_report(
     let analysis = Analysis::with_options(scene, options)?;
     let mut report = analysis.report();
     let range = SpeedRange::from(analysis.range_rad_per_s);
-    let asked = arguments.at_rpm.map(|rpm| range.speed_at("--at-rpm", rpm));
-    let asked = asked.transpose()?;
+    let asked = arguments
+        .at_rpm
+        .map(|rpm| range.speed_at("--at-rpm", rpm))
+        .transpose()?;
     if let Some(speed) = asked {
         report.whirl = Some(Whirl::new(&analysis, speed)?);
     }

@@ -56,16 +56,20 @@ impl Block<'_> {
                 None => file = with_list(&file, self.name, key, value)?,
             }
         }
-        let options = given().map(|given| format!("--{}", given.option));
-        let options = options.collect::<Vec<_>>().join(", ");
+        let options = given()
+            .map(|given| format!("--{}", given.option))
+            .collect::<Vec<_>>()
+            .join(", ");
         let verb = if given().count() > 1 { "were" } else { "was" };
-        let set = file.set(&settings);
-        let set = set.with_context(|| format!("{options} {verb} refused"))?;
+        let set = file
+            .set(&settings)
+            .with_context(|| format!("{options} {verb} refused"))?;
         if !assumed.is_empty() {
             let assumed = assumed
                 .iter()
-                .map(|(key, value)| format!("{} = {value}", path(key)));
-            let assumed = assumed.collect::<Vec<_>>().join(", ");
+                .map(|(key, value)| format!("{} = {value}", path(key)))
+                .collect::<Vec<_>>()
+                .join(", ");
             eprintln!(
                 "The scene has no {}; assumed beside {options}: {assumed}. These are typical values, whose sources `sawflutter schema` states.",
                 self.name

@@ -101,8 +101,9 @@ fn limits(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Limits> {
     };
     let limits = asked.limits(scene);
     let limits = limits.and_then(|limits| limits.with_rim_speed(arguments.max_rim_m_per_s));
-    let limits = limits.and_then(|limits| limits.with_amplitude(arguments.max_amplitude_mm));
-    let limits = limits.map_err(of_option)?;
+    let limits = limits
+        .and_then(|limits| limits.with_amplitude(arguments.max_amplitude_mm))
+        .map_err(of_option)?;
     Ok(Limits {
         accept_unusual: arguments.accept_unusual,
         ..limits

@@ -150,8 +150,10 @@ pub fn with_settings<'a>(
     option: &str,
 ) -> anyhow::Result<Scene> {
     let refused = || format!("{option} was refused");
-    let settings = texts.map(str::parse).collect::<Result<Vec<Setting>, _>>();
-    let settings = settings.with_context(refused)?;
+    let settings = texts
+        .map(str::parse)
+        .collect::<Result<Vec<Setting>, _>>()
+        .with_context(refused)?;
     scene.file().set(&settings).with_context(refused)
 }
 

@@ -49,8 +49,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     options.checked().map_err(of_option)?;
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;
-    let report = watched(|_| deflect(&scene, &options))?;
-    let report = report.map_err(|error| match error {
+    let report = watched(|_| deflect(&scene, &options))?.map_err(|error| match error {
         DeflectError::Refused(refused) if refused.key.contains('.') => refused.into(),
         DeflectError::Refused(refused) => of_option(refused),
         other => other.into(),

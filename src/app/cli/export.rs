@@ -30,8 +30,7 @@ pub struct Arguments {
 
 /// Parses nodal diameters and radial functions, like `16,8`.
 fn basis(text: &str) -> Result<(usize, usize), String> {
-    let numbers = text.split_once(',');
-    let numbers = numbers.and_then(|(diameters, radial)| {
+    let numbers = text.split_once(',').and_then(|(diameters, radial)| {
         Some((diameters.trim().parse().ok()?, radial.trim().parse().ok()?))
     });
     numbers.ok_or_else(|| "give two numbers, such as 16,8".to_owned())
@@ -44,8 +43,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let scene = arguments.common.scene()?;
     let of_size = |(diameters, radial)| Resolution::new(diameters, radial, scene.blade());
-    let asked = arguments.basis.map(of_size).transpose();
-    let asked = asked.map_err(of_option)?;
+    let asked = arguments
+        .basis
+        .map(of_size)
+        .transpose()
+        .map_err(of_option)?;
     let folder = arguments.common.folder()?;
     let plate = match asked {
         Some(resolution) => Plate::new(&scene, resolution),

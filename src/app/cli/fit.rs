@@ -72,8 +72,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         seed: arguments.seed,
         to_rpm: arguments.to_rpm.unwrap_or(f64::INFINITY),
         ..Options::default()
-    };
-    let options = options.checked(&measurement).map_err(of_option)?;
+    }
+    .checked(&measurement)
+    .map_err(of_option)?;
     let freed = Freed::to_fit(&scene, &named_bounds(&arguments.free)?)?;
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;

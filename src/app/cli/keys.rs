@@ -134,8 +134,8 @@ mod tests {
         let schema = scene::json_schema();
         let key = scene::keys(&schema)
             .into_iter()
-            .find(|key| key.path == path);
-        let key = key.expect(path);
+            .find(|key| key.path == path)
+            .expect(path);
         (heading(&key, &schema), lines(&key, &schema).join("\n"))
     }
 

@@ -53,8 +53,8 @@ impl Page {
 fn begun(path: &Path) -> anyhow::Result<tempfile::NamedTempFile> {
     let folder = path
         .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
-    let folder = folder.unwrap_or(Path::new("."));
+        .filter(|folder| !folder.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
     let refused = || {
         format!(
             "cannot write the page {}; name a file in an existing folder with --report",

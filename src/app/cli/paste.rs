@@ -36,7 +36,8 @@ fn cut_block(scene: &SceneFile) -> String {
 /// `"key": { … },` indented like a key of a scene.
 fn block(key: &str, value: &Value) -> String {
     // Writing JSON fails only for keys that are not strings, and a `Value` has no such keys.
-    let text = serde_json::to_string_pretty(value).unwrap_or_default();
-    let text = text.replace('\n', "\n  ");
+    let text = serde_json::to_string_pretty(value)
+        .unwrap_or_default()
+        .replace('\n', "\n  ");
     format!("  \"{key}\": {text},")
 }

@@ -103,8 +103,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
             other_share: arguments.other_tolerance_share,
         },
         ..Options::default()
-    };
-    let options = options.checked().map_err(of_option)?;
+    }
+    .checked()
+    .map_err(of_option)?;
     let freed = Freed::to_place(&scene, &named_bounds(&arguments.free)?)?;
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;

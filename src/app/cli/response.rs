@@ -44,8 +44,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     options.checked().map_err(of_option)?;
     arguments.page.tried()?;
     let folder = arguments.common.folder()?;
-    let report = watched(|_| response(&scene, &options))?;
-    let report = report.map_err(|error| match error {
+    let report = watched(|_| response(&scene, &options))?.map_err(|error| match error {
         // The key of a value of the scene contains a dot behind the name of its block; the name of an option
         // contains no dot.
         ResponseError::Refused(refused) if !refused.key.contains('.') => of_option(refused),

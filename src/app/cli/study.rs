@@ -139,8 +139,11 @@ pub fn compute(study: &Study, shard: Shard, folder: &OutputFolder) -> anyhow::Re
         return Ok(());
     }
     log.append_processor(&study::processor())?;
-    let missing = log.finished().clone().into_missing();
-    let missing = missing.filter(|index| shard.holds(*index));
+    let missing = log
+        .finished()
+        .clone()
+        .into_missing()
+        .filter(|index| shard.holds(*index));
     let bar = progress_bar(done, of);
     let log = Arc::new(Mutex::new(log));
     #[cfg(feature = "explore")]

@@ -35,8 +35,10 @@ impl Ahead {
     pub fn new(scene: &Scene, interim: Interim<'_>) -> Self {
         let critical: Vec<f64> = interim.critical.iter().map(|c| c.speed_rad_per_s).collect();
         let (_, to) = interim.range_rad_per_s;
-        let uprights = interim.critical.iter();
-        let uprights = uprights.take_while(|c| c.speed_rad_per_s <= to);
+        let uprights = interim
+            .critical
+            .iter()
+            .take_while(|c| c.speed_rad_per_s <= to);
         let uprights =
             uprights.map(|c| Upright::critical(rpm(c.speed_rad_per_s), &c.name.in_words()));
         let uprights: Vec<Upright> = uprights.collect();
@@ -108,8 +110,11 @@ mod tests {
 
     /// Items of the first panel of a diagram whose `key` has this value, without their names.
     fn drawn(chart: &Value, key: &str, value: &str) -> Vec<Value> {
-        let items = chart["figure"]["panels"][0]["items"].as_array().unwrap();
-        let items = items.iter().filter(|item| item[key] == value);
+        let items = chart["figure"]["panels"][0]["items"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter(|item| item[key] == value);
         unnamed(items)
     }
 

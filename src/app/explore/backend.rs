@@ -216,7 +216,6 @@ fn last_line(asked: &Question, result: Result<String, Refusal>) -> Answer {
 /// Reads a table of measured frequencies as `sawflutter fit` does; returns the block of a scene.
 fn measured(body: &str) -> Result<crate::model::scene::Measured, Refusal> {
     let Table { name, table } = serde_json::from_str(body).map_err(|error| Refusal::of(&error))?;
-    let measurement = Measurement::from_csv(&name, &table);
-    let measurement = measurement.map_err(|error| Refusal::of(&error))?;
+    let measurement = Measurement::from_csv(&name, &table).map_err(|error| Refusal::of(&error))?;
     Ok(measurement.as_scene_block())
 }

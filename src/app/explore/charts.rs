@@ -336,8 +336,8 @@ mod tests {
         assert!(kept.0 == computed.0);
         assert!(kept.1 == 0 && computed.1 > 0, "{} {}", kept.1, computed.1);
         // A diagram of another scene is not used.
-        let other = Scene::paper().edited(|file| file.blade.thickness_m = 3e-3);
-        let other = other
+        let other = Scene::paper()
+            .edited(|file| file.blade.thickness_m = 3e-3)
             .unwrap()
             .edited(|file| file.accuracy = Accuracy::Draft);
         let other = serde_json::to_string(other.unwrap().file()).unwrap();

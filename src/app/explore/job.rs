@@ -74,8 +74,10 @@ impl Jobs {
             };
             tally.fetch_add(1, Ordering::Relaxed);
             done
-        });
-        let done = done.await.ok().flatten();
+        })
+        .await
+        .ok()
+        .flatten();
         guard.done = true;
         done
     }

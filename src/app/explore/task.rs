@@ -96,11 +96,14 @@ fn answer<R: CommandReport + Serialize>(
     report: &R,
     scene: Option<&SceneFile>,
 ) -> Result<String, Refusal> {
-    let figures = report.figures().into_iter().map(|figure| {
-        let [_, name] = figure.names();
-        Ok((name, figure.svg().map_err(|error| Refusal::of(&error))?))
-    });
-    let figures = figures.collect::<Result<_, Refusal>>()?;
+    let figures = report
+        .figures()
+        .into_iter()
+        .map(|figure| {
+            let [_, name] = figure.names();
+            Ok((name, figure.svg().map_err(|error| Refusal::of(&error))?))
+        })
+        .collect::<Result<_, Refusal>>()?;
     let outline = report.outline();
     let facts = outline.main_facts().into_iter().cloned().map(named);
     let answer = Answer {
@@ -146,8 +149,8 @@ fn washboard(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refus
     let cut = scene.needed_washboarding()?;
     let run = cut.at_rpm(scene.needed_operating_rpm(None)?)?;
     let progress = |done, of| meter.show("speeds", done, of);
-    let report = washboard::washboard(&scene, &run, &progress);
-    let report = report.map_err(|error: WashboardError| Refusal::of(&error))?;
+    let report = washboard::washboard(&scene, &run, &progress)
+        .map_err(|error: WashboardError| Refusal::of(&error))?;
     answer(&report, None)
 }
 
@@ -156,8 +159,8 @@ fn fit(scene: Scene, _: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
     let options = fit::Options::default().checked(&measurement)?;
     let freed = Freed::to_fit(&scene, &[])?;
     let progress = |done, of| meter.show("starts", done, of);
-    let report = fit::fit(&scene, &measurement, &freed, &options, &progress);
-    let report = report.map_err(|error| Refusal::of(&error))?;
+    let report = fit::fit(&scene, &measurement, &freed, &options, &progress)
+        .map_err(|error| Refusal::of(&error))?;
     answer(&report, Some(&report.scene))
 }
 
@@ -170,13 +173,13 @@ fn place(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
         None
     };
     let limit = asked.min_critical_rpm.as_ref().map(Typed::number);
-    let demands = Demands::new(around_rpm, limit.transpose()?);
-    let demands = demands.map_err(|_| Refusal::with_message(NO_LIMIT))?;
+    let demands = Demands::new(around_rpm, limit.transpose()?)
+        .map_err(|_| Refusal::with_message(NO_LIMIT))?;
     let freed = Freed::to_place(&scene, &[])?;
     let progress = |what: &'static str, done, of| meter.show(what, done, of);
     let options = place::Options::default();
-    let report = place::place(&scene, &freed, &demands, &options, &progress);
-    let report = report.map_err(|error| Refusal::of(&error))?;
+    let report = place::place(&scene, &freed, &demands, &options, &progress)
+        .map_err(|error| Refusal::of(&error))?;
     answer(&report, Some(&report.scene))
 }
 
@@ -196,11 +199,11 @@ fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
 }
 
 fn response(scene: Scene, _: &Asked, _: &Meter<'_>) -> Result<String, Refusal> {
-    let report = response::response(&scene, &response::Options::default());
-    let report = report.map_err(|error| match error {
-        ResponseError::Refused(refused) => refused.into(),
-        other => Refusal::of(&other),
-    })?;
+    let report =
+        response::response(&scene, &response::Options::default()).map_err(|error| match error {
+            ResponseError::Refused(refused) => refused.into(),
+            other => Refusal::of(&other),
+        })?;
     answer(&report, None)
 }
 

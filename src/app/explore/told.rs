@@ -100,8 +100,11 @@ fn known(name: &'static str, words: Option<String>, unit: &'static str) -> Fact 
 /// Temperature rise in K at which the lowest critical speed equals the operating speed or the blade buckles, whichever
 /// is smaller; `None` if the operating speed exceeds a critical speed of the cold blade.
 fn tolerated_rise_k(heat: &ToleratedHeat) -> Option<f64> {
-    let limit = heat.operating_limit.as_ref().or(heat.buckling.as_ref());
-    let limit = limit.filter(|_| !heat.past_critical_when_cold);
+    let limit = heat
+        .operating_limit
+        .as_ref()
+        .or(heat.buckling.as_ref())
+        .filter(|_| !heat.past_critical_when_cold);
     limit.map(|limit| limit.rise_k)
 }
 

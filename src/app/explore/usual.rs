@@ -59,8 +59,10 @@ fn collar_diameter(scene: &SceneFile) -> f64 {
     } else {
         bore + 0.2 * (outer - bore)
     };
-    let edges = scene.guides.iter();
-    let edges = edges.map(|pad| 2.0 * pad.radius_m - pad.radial_length_m);
+    let edges = scene
+        .guides
+        .iter()
+        .map(|pad| 2.0 * pad.radius_m - pad.radial_length_m);
     let widest = edges.fold(outer, f64::min);
     rounded(usual.min(0.9 * widest), 2).max(bore)
 }

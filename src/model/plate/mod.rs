@@ -165,8 +165,9 @@ fn harmonics(
     membrane: Option<&MembraneStress>,
     diameters: RangeInclusive<usize>,
 ) -> Vec<HarmonicBlock> {
-    let blocks = diameters.clone();
-    let blocks = blocks.map(|n| HarmonicBlock::new(blade, spinning, basis, n));
+    let blocks = diameters
+        .clone()
+        .map(|n| HarmonicBlock::new(blade, spinning, basis, n));
     let mut blocks: Vec<HarmonicBlock> = blocks.collect();
     if let Some(stress) = membrane {
         let stiffness = membrane_stiffness(basis, stress, diameters);
@@ -182,8 +183,9 @@ impl Plate {
     pub fn new(scene: &Scene, resolution: Resolution) -> Self {
         let basis = RadialBasis::new(scene.blade(), resolution.radial_functions);
         let spinning = CentrifugalStress::new(scene.blade());
-        let membrane = scene.membrane();
-        let membrane = membrane.and_then(|named| MembraneStress::new(scene.blade(), named));
+        let membrane = scene
+            .membrane()
+            .and_then(|named| MembraneStress::new(scene.blade(), named));
         let all = 0..=resolution.max_diameters;
         let mut harmonics = harmonics(scene.blade(), &basis, &spinning, membrane.as_ref(), all);
         let damping = scene.damping();

@@ -68,15 +68,16 @@ mod tests {
     use crate::model::scene::Scene;
 
     fn lines(orders: u32, tooth_passing: u32, teeth: Option<u32>) -> Result<Vec<u32>, String> {
-        let scene = Scene::paper().edited(|saw| {
-            saw.cut = None;
-            saw.blade.teeth = teeth;
-            saw.excitation = Some(ExcitationFile {
-                orders,
-                tooth_passing,
-            });
-        });
-        let scene = scene.map_err(|error| error.to_string())?;
+        let scene = Scene::paper()
+            .edited(|saw| {
+                saw.cut = None;
+                saw.blade.teeth = teeth;
+                saw.excitation = Some(ExcitationFile {
+                    orders,
+                    tooth_passing,
+                });
+            })
+            .map_err(|error| error.to_string())?;
         Ok(scene.excitation().iter().map(|line| line.order).collect())
     }
 

@@ -235,8 +235,10 @@ pub fn effective<A, E: Send>(
         }
         Ok(false)
     };
-    let moving = (0..freed.len()).into_par_iter().map(moves);
-    let moving = moving.collect::<Result<Vec<bool>, E>>()?;
+    let moving = (0..freed.len())
+        .into_par_iter()
+        .map(moves)
+        .collect::<Result<Vec<bool>, E>>()?;
     let pairs = freed.iter().cloned().zip(moving);
     let (moving, idle): (Vec<_>, Vec<_>) = pairs.partition(|(_, moves)| *moves);
     let freed = |pairs: Vec<(Freed, bool)>| pairs.into_iter().map(|(freed, _)| freed).collect();
@@ -302,11 +304,12 @@ mod tests {
     /// A fifth above 0.9 and 0.45 are not allowed.
     #[test]
     fn usual_bounds_are_allowed() {
-        let scene = Scene::paper().edited(|file| {
-            file.blade.material.poisson_ratio = 0.45;
-            file.damping.get_or_insert_default().loss_factor = 0.9;
-        });
-        let scene = scene.unwrap();
+        let scene = Scene::paper()
+            .edited(|file| {
+                file.blade.material.poisson_ratio = 0.45;
+                file.damping.get_or_insert_default().loss_factor = 0.9;
+            })
+            .unwrap();
         let bound = |path| Freed::with_usual_bounds(&scene, path).unwrap().to;
         assert_eq!(bound("damping.loss_factor"), 1.0);
         let poisson = bound("blade.material.poisson_ratio");

@@ -125,8 +125,8 @@ impl Membrane {
         let straight_edge = typed
             .straight_edge
             .as_ref()
-            .map(|edge| StraightEdge::new(edge, blade, bore_radius_m, &roll_tension));
-        let straight_edge = straight_edge.transpose()?;
+            .map(|edge| StraightEdge::new(edge, blade, bore_radius_m, &roll_tension))
+            .transpose()?;
         Ok(Membrane {
             temperature: typed
                 .temperature

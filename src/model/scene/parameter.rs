@@ -70,8 +70,9 @@ impl SceneFile {
         let mut json = value(self);
         for (parameter, number) in numbers {
             parameter.check_varies()?;
-            let place = json.pointer_mut(&parameter.pointer);
-            let place = place.filter(|v| v.is_number());
+            let place = json
+                .pointer_mut(&parameter.pointer)
+                .filter(|v| v.is_number());
             let number = Number::from_f64(*number).ok_or_else(|| {
                 RefusedValue::new(
                     &parameter.path,

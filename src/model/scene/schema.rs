@@ -63,8 +63,11 @@ fn describe(quantity: &Quantity, node: &mut Map<String, Value>) {
     node.insert("x-usual".to_owned(), json!(quantity.usual));
     if let Some(typical) = quantity.typical {
         node.insert("x-typical".to_owned(), json!(typical));
-        let known = node.get("description").and_then(Value::as_str);
-        let known = known.unwrap_or_default().to_owned();
+        let known = node
+            .get("description")
+            .and_then(Value::as_str)
+            .unwrap_or_default()
+            .to_owned();
         let description = json!(format!("{known} {}", typical.sentence()));
         node.insert("description".to_owned(), description);
         if typical.is_number() {

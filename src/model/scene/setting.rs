@@ -81,8 +81,9 @@ pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
     let given = Unit::parse(unit).ok_or_else(|| {
         refused("write units like mm, kN/mm, g/cm^3 or rad/s, or leave the unit out")
     })?;
-    let own = Unit::parse(quantity.unit).filter(|own| own.is_of(&given));
-    let own = own.ok_or_else(|| refused("give a unit of this quantity, or leave the unit out"))?;
+    let own = Unit::parse(quantity.unit)
+        .filter(|own| own.is_of(&given))
+        .ok_or_else(|| refused("give a unit of this quantity, or leave the unit out"))?;
     let factor = given.factor / own.factor;
     // Division by a whole number is correctly rounded, unlike multiplication by its reciprocal, so that
     // 2.6 mm give the same number as 0.0026 m.
@@ -123,9 +124,12 @@ fn unknown(path: &str) -> RefusedValue {
         let whole = strsim::jaro_winkler(&general, own);
         whole.max(strsim::jaro_winkler(&last(&general), &last(own)))
     };
-    let near = QUANTITIES.iter().rev().map(|q| (likeness(q.path), q.path));
-    let near = near.max_by(|x, y| x.0.total_cmp(&y.0));
-    let near = near.filter(|(likeness, _)| *likeness > LIKENESS);
+    let near = QUANTITIES
+        .iter()
+        .rev()
+        .map(|q| (likeness(q.path), q.path))
+        .max_by(|x, y| x.0.total_cmp(&y.0))
+        .filter(|(likeness, _)| *likeness > LIKENESS);
     let meant = near.map_or(String::new(), |(_, near)| format!(", perhaps {near}"));
     RefusedValue::new(
         "the path",
@@ -193,8 +197,9 @@ fn put(json: &mut Value, setting: &Setting) -> Result<(), RefusedValue> {
         if place.is_null() {
             *place = Value::Object(Map::new());
         }
-        let block = place.as_object_mut();
-        let block = block.ok_or_else(|| no_entry(&setting.path, &reached, 0))?;
+        let block = place
+            .as_object_mut()
+            .ok_or_else(|| no_entry(&setting.path, &reached, 0))?;
         place = block.entry(step).or_insert(Value::Null);
         reached += if reached.is_empty() { "" } else { "." };
         reached += step;
@@ -236,9 +241,11 @@ mod tests {
     use super::*;
 
     fn set(texts: &[&str]) -> Result<Scene, String> {
-        let settings = texts.iter().map(|text| text.parse());
-        let settings = settings.collect::<Result<Vec<Setting>, RefusedValue>>();
-        let settings = settings.map_err(|error| error.to_string())?;
+        let settings = texts
+            .iter()
+            .map(|text| text.parse())
+            .collect::<Result<Vec<Setting>, RefusedValue>>()
+            .map_err(|error| error.to_string())?;
         let set = Scene::paper().file().set(&settings);
         set.map_err(|error| error.to_string())
     }

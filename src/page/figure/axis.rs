@@ -319,8 +319,10 @@ pub fn draw_horizontal(sheet: &mut Sheet, axis: &Axis, y: f64, numbered: bool) {
     let [left, right] = axis.places();
     // A short axis has ticks closer to each other.
     let apart = ((right - left) / 6.0).min(100.0);
-    let ticks = axis.ticks(apart).into_iter();
-    let ticks = ticks.map(|tick| (tick, axis.label(tick)));
+    let ticks = axis
+        .ticks(apart)
+        .into_iter()
+        .map(|tick| (tick, axis.label(tick)));
     draw_horizontal_at(sheet, axis, y, ticks, numbered);
 }
 

@@ -36,8 +36,8 @@ pub fn draw<'a>(
             band.shaded.iter().map(move |range| (range, hue))
         });
         for (range, hue) in shaded {
-            let ends = places(speed, *range);
-            let ends = ends.filter(|[left, right]| (right - left < NARROW) == narrow);
+            let ends =
+                places(speed, *range).filter(|[left, right]| (right - left < NARROW) == narrow);
             if let Some(ends) = ends {
                 for panel in panels {
                     sheet.fill(panel.between(ends), hue.colour());

@@ -147,8 +147,9 @@ impl<'a> Labels<'a> {
 
     /// Labels keep off vertical lines, and off the marks if there are few.
     fn avoid_marks(&mut self, panel: &PanelData) {
-        let lines = uprights(panel).map(|line| self.ground.x.at(line.x));
-        let lines = lines.map(|x| self.ground.frame.between([x - 1.0, x + 1.0]));
+        let lines = uprights(panel)
+            .map(|line| self.ground.x.at(line.x))
+            .map(|x| self.ground.frame.between([x - 1.0, x + 1.0]));
         self.shunned.extend(lines);
         let place = |(x, y): (&f64, &f64)| [self.ground.x.at(*x), self.ground.y.at(*y)];
         for item in &panel.items {
@@ -222,9 +223,10 @@ impl<'a> Labels<'a> {
         let places = filled(&places.collect::<Vec<_>>());
         let letters = Lettering::regular(LABEL_SIZE, line.colour.colour(), Anchor::Middle);
         let middle = places.len() / 2;
-        let tried = (0..=middle).flat_map(|off| [middle + off, middle - off]);
-        let tried = tried.filter_map(|k| places.get(k));
-        let tried = tried.map(|[x, y]| ([*x, y + 0.36 * LABEL_SIZE], letters));
+        let tried = (0..=middle)
+            .flat_map(|off| [middle + off, middle - off])
+            .filter_map(|k| places.get(k))
+            .map(|[x, y]| ([*x, y + 0.36 * LABEL_SIZE], letters));
         self.write(&line.label, tried);
     }
 }

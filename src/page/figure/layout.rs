@@ -64,8 +64,10 @@ impl Grid {
         let sides = sides(panels, columns);
         let mut top = TOP;
         for (row, beside) in panels.chunks(columns).enumerate() {
-            let above = beside.iter().zip(&sides);
-            let above = above.map(|(panel, [left, right])| space_above(panel, right - left));
+            let above = beside
+                .iter()
+                .zip(&sides)
+                .map(|(panel, [left, right])| space_above(panel, right - left));
             top += above.fold(0.0, f64::max);
             let share = beside.iter().fold(0.0, |most, panel| panel.share.max(most));
             let bottom = top + HEIGHT * share;
@@ -140,8 +142,8 @@ fn sides(panels: &[PanelData], columns: usize) -> Vec<[f64; 2]> {
         .map(|pair| match pair[0].y == pair[1].y {
             true => NUMBERS,
             false => NUMBERS_AND_NAME,
-        });
-    let beside = beside.fold(0.0, f64::max);
+        })
+        .fold(0.0, f64::max);
     let width = (right - LEFT - beside * (columns - 1) as f64) / columns as f64;
     let ends = |column: usize| {
         let of_column = panels.iter().skip(column).step_by(columns);
@@ -165,8 +167,10 @@ fn scaled(panel: &PanelData) -> Option<&Heat> {
 /// Space above a panel for its title, the facts below it, and the labels of vertical lines.
 fn space_above(panel: &PanelData, width: f64) -> f64 {
     let has_labels = uprights(panel).any(|line| !line.label.is_empty());
-    let parts = [!panel.title.is_empty(), has_labels];
-    let parts = parts.into_iter().filter(|part| *part).count() as f64;
+    let parts = [!panel.title.is_empty(), has_labels]
+        .into_iter()
+        .filter(|part| *part)
+        .count() as f64;
     ABOVE * parts + panel::FACT * lines_of_facts(panel, width).len() as f64
 }
 

@@ -166,8 +166,10 @@ fn draw_area(sheet: &mut Sheet, area: &Area, ground: &Ground) {
         let (low, high) = (side(&area.low), side(&area.high));
         let thickest = low.iter().zip(&high).map(|(low, high)| low[1] - high[1]);
         if !area.stepped && thickest.fold(0.0, f64::max) < THINNEST {
-            let middle = low.iter().zip(&high);
-            let middle = middle.map(|(low, high)| [low[0], 0.5 * (low[1] + high[1])]);
+            let middle = low
+                .iter()
+                .zip(&high)
+                .map(|(low, high)| [low[0], 0.5 * (low[1] + high[1])]);
             sheet.line(middle, Stroke::solid(colour, THINNEST));
         } else {
             sheet.polygon(high.into_iter().chain(low.into_iter().rev()), colour);

@@ -92,8 +92,9 @@ fn of_data(path: &str, said: &str, line: usize) -> (String, String) {
     } else if begins("unknown variant") {
         format!("{subject:?} is not known; {}", meant(subject, known))
     } else {
-        let found = said.strip_prefix("invalid type: ");
-        let found = found.or_else(|| said.strip_prefix("invalid value: "));
+        let found = said
+            .strip_prefix("invalid type: ")
+            .or_else(|| said.strip_prefix("invalid value: "));
         match found.and_then(|rest| rest.split_once(", expected ")) {
             Some((found, expected)) => of_type(found, expected),
             None => said.to_owned(),
@@ -206,8 +207,10 @@ fn meant(subject: &str, known: &[&str]) -> String {
         let part = if whole { 1.0 } else { 0.0 };
         strsim::jaro_winkler(&small, name).max(part)
     };
-    let nearest = known.iter().map(|name| (likeness(name), *name));
-    let nearest = nearest.max_by(|x, y| x.0.total_cmp(&y.0));
+    let nearest = known
+        .iter()
+        .map(|name| (likeness(name), *name))
+        .max_by(|x, y| x.0.total_cmp(&y.0));
     match nearest.filter(|(likeness, _)| *likeness > LIKENESS) {
         Some((_, name)) => format!("did you mean {name}?"),
         None if known.is_empty() => "leave it out: nothing can be given here".into(),

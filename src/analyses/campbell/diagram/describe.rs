@@ -23,8 +23,10 @@ const DOT_SIZE: f64 = 4.0 * CURVE;
 /// Frequencies over speed, and growth rates below. Descriptions of the points are included only if `said`.
 pub fn describe(report: &Report, shown: &Shown, said: bool) -> ChartData {
     let speed = AxisData::speed().within(shown.rpm);
-    let bands = report.instabilities.iter();
-    let bands = bands.map(|band| Item::Band(Band::new(band, shown.rpm)));
+    let bands = report
+        .instabilities
+        .iter()
+        .map(|band| Item::Band(Band::new(band, shown.rpm)));
     let marks: Vec<Item> = bands.chain(uprights(report)).collect();
     let mut upper = marks.clone();
     upper.extend(safe_window(report));

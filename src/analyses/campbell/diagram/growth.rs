@@ -39,8 +39,10 @@ fn no_growth(report: &Report, [from, to]: [f64; 2]) -> &'static str {
 /// Largest growth rate at the speeds shown, in 1/s, at least zero.
 fn greatest_growth(report: &Report, [from, to]: [f64; 2]) -> f64 {
     let shown = |rpm: f64| from <= rpm && rpm <= to;
-    let bands = report.instabilities.iter();
-    let bands = bands.filter(|band| band.from_rpm <= to && from <= band.to_rpm);
+    let bands = report
+        .instabilities
+        .iter()
+        .filter(|band| band.from_rpm <= to && from <= band.to_rpm);
     let peaks = bands.map(|band| band.peak_growth_per_s);
     let branches = report.campbell.branches.iter();
     let values = branches.flat_map(|branch| {
@@ -74,8 +76,11 @@ fn greatest_decay(report: &Report) -> f64 {
     };
     let decays: Vec<f64> = report.campbell.branches.iter().map(decay).collect();
     let most = decays.iter().copied().fold(0.0, f64::max);
-    let least = decays.iter().copied().filter(|d| *d > NEGLIGIBLE_PER_S);
-    let least = least.fold(f64::INFINITY, f64::min);
+    let least = decays
+        .iter()
+        .copied()
+        .filter(|d| *d > NEGLIGIBLE_PER_S)
+        .fold(f64::INFINITY, f64::min);
     most.min(4.0 * greatest_growth(report, sweep(report)).max(least))
 }
 

@@ -27,9 +27,9 @@ pub fn draw(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
         (Hue::Forward, "forward wave"),
         (Hue::Backward, "backward wave"),
         (Hue::Standing, "standing or mixed"),
-    ];
-    let hues = hues.into_iter();
-    let hues = hues.filter(|(hue, _)| shown.iter().any(|line| line.colour == *hue));
+    ]
+    .into_iter()
+    .filter(|(hue, _)| shown.iter().any(|line| line.colour == *hue));
     let mut samples: Vec<Item> = hues
         .map(|(hue, word)| Item::line_sample(CURVE, false, hue, word))
         .collect();

@@ -129,14 +129,16 @@ pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
     };
     let above = ([x, chart.upper.top - 6.0], Anchor::Middle);
     let sides = [(x + 6.0, Anchor::Start), (x - 6.0, Anchor::End)];
-    let rows = (0..).map(|row| chart.upper.top + 16.0 + 4.0 * f64::from(row));
-    let rows = rows.take_while(|baseline| *baseline < chart.upper.bottom - 6.0);
+    let rows = (0..)
+        .map(|row| chart.upper.top + 16.0 + 4.0 * f64::from(row))
+        .take_while(|baseline| *baseline < chart.upper.bottom - 6.0);
     let candidates = rows.flat_map(|baseline| sides.map(|(x, anchor)| ([x, baseline], anchor)));
-    let candidates = std::iter::once(above).chain(candidates);
-    let candidates = candidates.map(|(at, anchor)| {
-        let letters = Lettering::regular(LABEL_SIZE, INK, anchor);
-        (at, letters, text_frame(at, &letters, label))
-    });
+    let candidates = std::iter::once(above)
+        .chain(candidates)
+        .map(|(at, anchor)| {
+            let letters = Lettering::regular(LABEL_SIZE, INK, anchor);
+            (at, letters, text_frame(at, &letters, label))
+        });
     let cost = |frame: &Frame| {
         let outside = frame.left < chart.upper.left || frame.right > chart.upper.right;
         let crossed = waves::is_crossed(chart, frame);
@@ -165,10 +167,13 @@ fn hides_text(sheet: &Sheet, frame: &Frame) -> bool {
 fn is_on_upright(chart: &Chart, frame: &Frame) -> bool {
     // Bands extend up to the upper edge of the panel, the lines of critical speeds beyond it.
     let within = frame.bottom > chart.upper.top;
-    let bands = chart.bands().filter(|_| within);
-    let bands = bands.filter_map(|band| places(&chart.speed, [band.from, band.to]));
-    let critical = critical_shown(chart).into_iter();
-    let critical = critical.map(|rpm| [chart.speed.at(rpm); 2]);
+    let bands = chart
+        .bands()
+        .filter(|_| within)
+        .filter_map(|band| places(&chart.speed, [band.from, band.to]));
+    let critical = critical_shown(chart)
+        .into_iter()
+        .map(|rpm| [chart.speed.at(rpm); 2]);
     bands
         .chain(critical)
         .any(|[left, right]| left < frame.right + 2.0 && frame.left - 2.0 < right)

@@ -38,8 +38,9 @@ impl CampbellView {
             .to_rpm
             .map_or_else(|| last_readable(report, from), |rpm| rpm.min(sweep[1]));
         let [from, to] = proper_range([from, to]);
-        let hz = self.to_hz;
-        let hz = hz.unwrap_or_else(|| waves::highest_shown_hz(report, [from, to]));
+        let hz = self
+            .to_hz
+            .unwrap_or_else(|| waves::highest_shown_hz(report, [from, to]));
         let [_, hz] = proper_range([0.0, hz]);
         Shown {
             rpm: [from, to],
@@ -58,8 +59,10 @@ fn last_readable(report: &Report, from_rpm: f64) -> f64 {
     let Some(onset) = onsets.get(MOST_BANDS) else {
         return end;
     };
-    let marks = [report.scene.operating_rpm, report.flutter_speed_rpm];
-    let marks = marks.into_iter().flatten().map(|rpm| BEYOND * rpm);
+    let marks = [report.scene.operating_rpm, report.flutter_speed_rpm]
+        .into_iter()
+        .flatten()
+        .map(|rpm| BEYOND * rpm);
     marks.fold(*onset, f64::max).min(end)
 }
 

@@ -62,18 +62,27 @@ pub fn highest_shown_hz(report: &Report, [from, to]: [f64; 2]) -> f64 {
     first.sort_by(f64::total_cmp);
     let lowest = first.into_iter().take(LOWEST_BRANCHES);
     let reflected = branches.iter().flat_map(|branch| {
-        let samples = branch.rpm.iter().zip(&branch.frequency_hz);
-        let samples = samples.zip(&branch.krein_sign);
+        let samples = branch
+            .rpm
+            .iter()
+            .zip(&branch.frequency_hz)
+            .zip(&branch.krein_sign);
         samples
             .filter(|((rpm, _), sign)| **sign < 0 && shown(**rpm))
             .map(|((_, hz), _)| *hz)
     });
-    let bands = report.instabilities.iter();
-    let bands = bands.filter(|band| shown(band.peak_rpm));
-    let bands = bands.map(|band| band.frequency_hz);
-    let measured = report.scene.measured.iter().flat_map(|m| &m.rows);
-    let measured = measured.filter(|row| shown(row.rpm));
-    let measured = measured.flat_map(MeasuredRow::seen_hz);
+    let bands = report
+        .instabilities
+        .iter()
+        .filter(|band| shown(band.peak_rpm))
+        .map(|band| band.frequency_hz);
+    let measured = report
+        .scene
+        .measured
+        .iter()
+        .flat_map(|m| &m.rows)
+        .filter(|row| shown(row.rpm))
+        .flat_map(MeasuredRow::seen_hz);
     let wanted = HEADROOM * greatest(lowest.chain(reflected).chain(bands).chain(measured));
 
     let complete = report.campbell.complete_to_hz;

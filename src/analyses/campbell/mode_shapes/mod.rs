@@ -200,8 +200,8 @@ mod tests {
         let flutter = report
             .shapes
             .iter()
-            .find(|s| s.occasion == ShapeOccasion::Flutter);
-        let flutter = flutter.unwrap();
+            .find(|s| s.occasion == ShapeOccasion::Flutter)
+            .unwrap();
         let written = all.join(" ");
         assert!(
             written.contains(&flutter.name),

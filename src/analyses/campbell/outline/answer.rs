@@ -109,8 +109,10 @@ fn at_operating_speed(text: &mut Outline, report: &Report, operating: &Operating
 
 /// Describes the band that makes the saw unstable at its operating speed.
 fn inside(band: &InstabilityBand) -> String {
-    let waves = band.name.as_ref();
-    let waves = waves.map_or(String::new(), |name| format!(", {name}"));
+    let waves = band
+        .name
+        .as_ref()
+        .map_or(String::new(), |name| format!(", {name}"));
     format!(
         "inside the band of {} from {:.1} to {:.1} rpm{waves}",
         band.kind, band.from_rpm, band.to_rpm
@@ -151,8 +153,8 @@ fn at_critical_speed(report: &Report, operating: &OperatingPoint) -> Option<Stri
     let rpm = operating.at_critical_rpm?;
     let critical = report.critical_speeds.iter().find(|c| c.rpm == rpm);
     let name = critical.map_or(String::new(), |c| format!(" ({})", c.name));
-    let deflection = side_force_in_words(operating.rpm, operating.side_force_factor);
-    let deflection = deflection.map_or(String::new(), |words| format!(": {words}"));
+    let deflection = side_force_in_words(operating.rpm, operating.side_force_factor)
+        .map_or(String::new(), |words| format!(": {words}"));
     Some(format!(
         "within {:.0} % of the critical speed {rpm:.1} rpm{name}{deflection}",
         100.0 * CRITICAL_MARGIN
@@ -207,8 +209,9 @@ fn flutter(text: &mut Outline, report: &Report) {
                     && band.counted_rpm.iter().any(|counted| counted[0] == rpm)
             };
             let band = report.instabilities.iter().find(is_its);
-            let error = band.and_then(|band| band.estimated_relative_error);
-            let error = error.map_or(String::new(), |share| format!(" ± {:.1}", share * rpm));
+            let error = band
+                .and_then(|band| band.estimated_relative_error)
+                .map_or(String::new(), |share| format!(" ± {:.1}", share * rpm));
             format!("Flutter speed: {rpm:.0} rpm{error} (growth of {threshold} 1/s or more)")
         }
         None => format!(
@@ -216,8 +219,9 @@ fn flutter(text: &mut Outline, report: &Report) {
             report.campbell.to_rpm
         ),
     });
-    let weak = report.first_merge_rpm;
-    let weak = weak.filter(|first| Some(*first) != report.flutter_speed_rpm);
+    let weak = report
+        .first_merge_rpm
+        .filter(|first| Some(*first) != report.flutter_speed_rpm);
     if let Some(rpm) = weak {
         text.sentence(format!(
             "Weak flutter (below {threshold} 1/s) from {rpm:.0} rpm"

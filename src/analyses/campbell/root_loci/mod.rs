@@ -120,13 +120,18 @@ fn items(path: &[Sample], name: &str, place: impl Fn(&Sample) -> [f64; 2]) -> Ve
 /// The eigenvalues of a path without values that are not finite or larger than [`LARGEST`].
 fn samples(entry: &RootLoci, path: &RootPath) -> Vec<Sample> {
     let numbers = path.growth_per_s.iter().zip(&path.frequency_hz);
-    let all = entry.rpm.iter().zip(numbers).zip(&path.krein_sign);
-    let all = all.map(|((rpm, (growth, hz)), sign)| Sample {
-        rpm: *rpm,
-        growth: *growth,
-        hz: *hz,
-        sign: *sign,
-    });
+    let all =
+        entry
+            .rpm
+            .iter()
+            .zip(numbers)
+            .zip(&path.krein_sign)
+            .map(|((rpm, (growth, hz)), sign)| Sample {
+                rpm: *rpm,
+                growth: *growth,
+                hz: *hz,
+                sign: *sign,
+            });
     all.filter(|s| [s.rpm, s.growth, s.hz].iter().all(|v| v.abs() < LARGEST))
         .collect()
 }
@@ -190,8 +195,9 @@ impl Paths {
 
     fn over_speed(&self, entry: &RootLoci) -> Vec<Item> {
         let [first, last] = self.rpm;
-        let band = [entry.onset_rpm, entry.end_rpm].map(|rpm| rpm.clamp(first, last));
-        let band = band.map(|rpm| [rpm, self.hz[0], self.hz[1]]);
+        let band = [entry.onset_rpm, entry.end_rpm]
+            .map(|rpm| rpm.clamp(first, last))
+            .map(|rpm| [rpm, self.hz[0], self.hz[1]]);
         let band = Item::Area(Area::new(band, Hue::FlutterShade, "flutter"));
         let paths = self.drawn(entry, |s| [s.rpm, s.hz]);
         [band].into_iter().chain(paths).collect()
@@ -199,13 +205,16 @@ impl Paths {
 
     /// Names at the beginnings of the paths, the largest growth, and a note on its mirror image.
     fn labels(&self, entry: &RootLoci) -> Vec<Item> {
-        let begins = self.paths.iter().zip(&entry.paths);
-        let begins = begins.filter_map(|(path, own)| {
-            let sample = path.first().filter(|s| s.sign != 0)?;
-            let sign = if sample.sign > 0 { "+" } else { "\u{2212}" };
-            let text = format!("({sign}) {}", shorten_label(&own.name, LONGEST));
-            Some(Item::label(self.in_plane(sample), hue(sample).0, text))
-        });
+        let begins = self
+            .paths
+            .iter()
+            .zip(&entry.paths)
+            .filter_map(|(path, own)| {
+                let sample = path.first().filter(|s| s.sign != 0)?;
+                let sign = if sample.sign > 0 { "+" } else { "\u{2212}" };
+                let text = format!("({sign}) {}", shorten_label(&own.name, LONGEST));
+                Some(Item::label(self.in_plane(sample), hue(sample).0, text))
+            });
         let all = self.paths.iter().flatten();
         let peak = all.max_by(|a, b| a.growth.total_cmp(&b.growth));
         let peak = peak.filter(|s| s.growth > 0.0).map(|peak| {

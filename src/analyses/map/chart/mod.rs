@@ -23,8 +23,10 @@ pub fn chart(report: &MapReport) -> ChartData {
 
 fn facts(report: &MapReport) -> Vec<String> {
     let count = report.saws.len();
-    let judged = report.rpm.map(|rpm| format!("areas at {rpm:.0} rpm"));
-    let judged = judged.filter(|_| report.y.is_some());
+    let judged = report
+        .rpm
+        .map(|rpm| format!("areas at {rpm:.0} rpm"))
+        .filter(|_| report.y.is_some());
     let lost = report.saws.iter().filter(|saw| saw.not_analysed.is_some());
     let lost = match lost.count() {
         0 => None,

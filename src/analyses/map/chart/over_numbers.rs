@@ -85,8 +85,10 @@ pub fn panel(report: &MapReport, y: &MapAxis) -> PanelData {
         let grid = [&across.values[..], &up.values];
         Item::Heat(Heat::class(grid, is_in, state.colour(), &state.name()))
     });
-    let contours = report.contours.iter();
-    let contours = contours.map(|contour| Item::Line(line(contour, &across, &up)));
+    let contours = report
+        .contours
+        .iter()
+        .map(|contour| Item::Line(line(contour, &across, &up)));
     let scene = Points {
         shape: Shape::Ring,
         ..Points::new(
@@ -96,8 +98,11 @@ pub fn panel(report: &MapReport, y: &MapAxis) -> PanelData {
             "the scene",
         )
     };
-    let items = areas.into_iter().chain(contours);
-    let items = items.chain([Item::Points(scene)]).collect();
+    let items = areas
+        .into_iter()
+        .chain(contours)
+        .chain([Item::Points(scene)])
+        .collect();
     PanelData {
         share: SHARE,
         ..PanelData::new(across.axis, up.axis, items)
@@ -125,14 +130,16 @@ fn line(contour: &Contour, x: &Along, y: &Along) -> Line {
 /// Samples of the areas, the contours and the mark of the scene.
 pub fn key(report: &MapReport) -> Vec<Item> {
     let is_blank = report.saws.iter().any(|saw| saw.not_analysed.is_some());
-    let states = State::ALL.iter().filter(|state| match state {
-        State::NotAnalysed => is_blank,
-        _ => report.rpm.is_some(),
-    });
-    let states = states.map(|state| {
-        let class = Heat::class([&[], &[]], |_, _| false, state.colour(), &state.name());
-        Item::Heat(class)
-    });
+    let states = State::ALL
+        .iter()
+        .filter(|state| match state {
+            State::NotAnalysed => is_blank,
+            _ => report.rpm.is_some(),
+        })
+        .map(|state| {
+            let class = Heat::class([&[], &[]], |_, _| false, state.colour(), &state.name());
+            Item::Heat(class)
+        });
     let contours = [Contoured::FlutterSpeed, Contoured::LowestCriticalSpeed].map(|quantity| {
         let (hue, dashed, name) = look(quantity);
         Item::Line(Line {

@@ -12,11 +12,12 @@ use crate::model::scene::Scene;
 
 /// A plate without guides, with n ≤ 5.
 fn free_plate(radial_functions: usize) -> Plate {
-    let scene = Scene::paper().edited(|saw| {
-        saw.blade.inner_diameter_m = 0.3 * saw.blade.outer_diameter_m;
-        saw.guides.clear();
-    });
-    let scene = scene.unwrap();
+    let scene = Scene::paper()
+        .edited(|saw| {
+            saw.blade.inner_diameter_m = 0.3 * saw.blade.outer_diameter_m;
+            saw.guides.clear();
+        })
+        .unwrap();
     let resolution = Resolution {
         max_diameters: 5,
         radial_functions,

@@ -194,19 +194,20 @@ mod tests {
             (0.01, Bore::Free),
             (0.52, Bore::Clamped(InPlane::Fixed)),
         ] {
-            let scene = Scene::paper().edited(|saw| {
-                let diameter_m = ratio * saw.blade.outer_diameter_m;
-                saw.blade.inner_diameter_m = diameter_m;
-                saw.mount = match bore {
-                    Bore::Free => Mount::Spline {},
-                    Bore::Clamped(in_plane) => Mount::Collar {
-                        diameter_m,
-                        in_plane,
-                    },
-                };
-                saw.guides.clear();
-            });
-            let scene = scene.unwrap();
+            let scene = Scene::paper()
+                .edited(|saw| {
+                    let diameter_m = ratio * saw.blade.outer_diameter_m;
+                    saw.blade.inner_diameter_m = diameter_m;
+                    saw.mount = match bore {
+                        Bore::Free => Mount::Spline {},
+                        Bore::Clamped(in_plane) => Mount::Collar {
+                            diameter_m,
+                            in_plane,
+                        },
+                    };
+                    saw.guides.clear();
+                })
+                .unwrap();
             let resolution = Resolution {
                 max_diameters: 24,
                 radial_functions: 12,

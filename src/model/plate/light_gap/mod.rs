@@ -69,11 +69,13 @@ impl StraightEdgeReading {
                 .at(factor)
                 .filter(|_| buckling_factor.is_none_or(|b| factor < b))
         };
-        let measured = edge.measured_gap_m.map(|gap_m| {
-            let last = buckling_factor.map_or(1.0, |factor| BEFORE_BUCKLING * factor);
-            lying.factor_of(gap_m, last)
-        });
-        let measured = measured.transpose()?;
+        let measured = edge
+            .measured_gap_m
+            .map(|gap_m| {
+                let last = buckling_factor.map_or(1.0, |factor| BEFORE_BUCKLING * factor);
+                lying.factor_of(gap_m, last)
+            })
+            .transpose()?;
         Ok(StraightEdgeReading {
             rolled: flat(1.0),
             plain: lying.at(0.0).unwrap_or_default(),

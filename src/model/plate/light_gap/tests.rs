@@ -8,11 +8,12 @@ fn edge(
     membrane: &str,
     change: impl FnOnce(&mut crate::model::scene::SceneFile),
 ) -> (StraightEdge, Vec<RollBand>) {
-    let scene = Scene::paper().edited(|file| {
-        file.membrane = Some(serde_json::from_str(membrane).unwrap());
-        change(file);
-    });
-    let scene = scene.unwrap_or_else(|error| panic!("{error}"));
+    let scene = Scene::paper()
+        .edited(|file| {
+            file.membrane = Some(serde_json::from_str(membrane).unwrap());
+            change(file);
+        })
+        .unwrap_or_else(|error| panic!("{error}"));
     let membrane = scene.membrane().unwrap().clone();
     (membrane.straight_edge.unwrap(), membrane.roll_tension)
 }

@@ -12,17 +12,18 @@ const BORES: [Bore; 3] = [
 ];
 
 fn paper_with(membrane: &str, bore: Bore) -> (Blade, Membrane) {
-    let scene = Scene::paper().edited(|file| {
-        file.membrane = Some(serde_json::from_str(membrane).unwrap());
-        if let Bore::Clamped(in_plane) = bore {
-            let diameter_m = file.blade.inner_diameter_m;
-            file.mount = Mount::Collar {
-                diameter_m,
-                in_plane,
-            };
-        }
-    });
-    let scene = scene.unwrap_or_else(|error| panic!("{error}"));
+    let scene = Scene::paper()
+        .edited(|file| {
+            file.membrane = Some(serde_json::from_str(membrane).unwrap());
+            if let Bore::Clamped(in_plane) = bore {
+                let diameter_m = file.blade.inner_diameter_m;
+                file.mount = Mount::Collar {
+                    diameter_m,
+                    in_plane,
+                };
+            }
+        })
+        .unwrap_or_else(|error| panic!("{error}"));
     (*scene.blade(), scene.membrane().unwrap().clone())
 }
 
@@ -83,8 +84,7 @@ fn a_groove_in_a_taper_refers_to_the_thickness_at_its_radius() {
             )
             .unwrap(),
         );
-    });
-    let scene = scene.unwrap();
+    }).unwrap();
     let band = scene.membrane().unwrap().roll_tension[0];
     assert!((band.eigenstrain - 1e-3).abs() < 1e-15);
     let depth_m = Groove::at(scene.blade(), band.middle_m()).depth_m(band.eigenstrain);
@@ -138,8 +138,10 @@ fn strains_are_compatible() {
             blade.material.poisson_ratio,
         );
         let eigen = |r: f64| -> f64 {
-            let heat = named.temperature.as_ref();
-            let heat = heat.map_or(0.0, |t| t.expansion_per_k * t.rise_k(&blade, r));
+            let heat = named
+                .temperature
+                .as_ref()
+                .map_or(0.0, |t| t.expansion_per_k * t.rise_k(&blade, r));
             let inside = |band: &&RollBand| (band.from_radius_m..=band.to_radius_m).contains(&r);
             let rolled = named.roll_tension.iter().filter(inside);
             heat + rolled.map(|band| band.eigenstrain).sum::<f64>()
