@@ -20,7 +20,7 @@ _POWERS = {"m2": "m**2", "m3": "m**3", "s2": "s**2"}
 def whole(name: str, value: SupportsIndex) -> int:
     """A whole number within the range of the library, from an argument."""
     if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
-        raise TypeError(f"{name} is {value!r}, but must be a whole number, like 3")
+        raise TypeError(f"{name} must be a whole number, like 3 (you gave {value!r})")
     number = index(value)
     if not 0 <= number < 2**64:
         allowed, remedy = "0 or more and below 2**64", "give such a number, or leave it out"
@@ -42,7 +42,7 @@ def plain(value: Any, key: str) -> Any:
     if isinstance(value, (list, tuple)):
         return [plain(inner, key) for inner in value]
     if hasattr(value, "m_as"):
-        value = value.m_as(_needed_unit(key))
+        value = _in_unit(value, key)
     if isinstance(value, (np.generic, np.ndarray)):
         return value.tolist()
     if hasattr(value, "__float__"):
@@ -73,6 +73,21 @@ def _unit(word: str) -> str | None:
     base, _, power = word.partition("^")
     found = _POWERS.get(base, _UNITS.get(base))
     return found if not power or found is None else f"{found}**{power}"
+
+
+def _in_unit(value: Any, key: str) -> Any:
+    """The number of a quantity of pint in the unit of its key.
+
+    To pint an angle has no dimension, so that 40 Hz would be 382 rpm and 0.3 would be 17.2 degrees.
+    """
+    needed = _needed_unit(key)
+    own, other = (quantity.to_root_units().units for quantity in (type(value)(1, needed), value))
+    if own != other and own.dimensionality == other.dimensionality:
+        raise TypeError(
+            f"{key} must be in {needed} (you gave {value}): turns, angles and plain numbers are not "
+            "converted into each other; give it in the unit of the key"
+        )
+    return value.m_as(needed)
 
 
 def _needed_unit(key: str) -> str:

@@ -170,28 +170,6 @@ def test_a_guide_is_added_with_what_the_last_one_has() -> None:
         saw.replace({"guides": []}).add_guide(radius_m=0.2, angle_deg=0.0)
 
 
-class Quantity:
-    """A quantity with the methods of pint that the package uses: its size in a unit."""
-
-    def __init__(self, **sizes: float) -> None:
-        self.sizes = sizes
-
-    def m_as(self, unit: str) -> float:
-        return self.sizes[unit]
-
-
-def test_quantities_have_the_unit_of_their_key() -> None:
-    saw = sf.Scene.paper()
-    thin = saw.replace(
-        {"blade.thickness_m": Quantity(m=2.6e-3), "guides": [{**saw.guides[0], "angle_deg": 90}]}
-    )
-    assert thin["blade.thickness_m"] == 2.6e-3 and thin["guides[0].angle_deg"] == 90
-    stiff = saw.replace({"guides[0].stiffness_n_per_m": Quantity(**{"N/m": 1e7})})
-    assert stiff["guides[0].stiffness_n_per_m"] == 1e7
-    with pytest.raises(TypeError, match="poisson_ratio has no unit"):
-        saw.replace({"blade.material.poisson_ratio": Quantity(m=0.3)})
-
-
 def test_texts_with_a_unit_are_numbers() -> None:
     saw = sf.Scene.paper()
     paths = ("blade.thickness_m", "guides[0].stiffness_n_per_m", "operating_rpm")
@@ -226,6 +204,22 @@ def test_pint_understands_every_unit() -> None:
     # A length is not a pressure.
     with pytest.raises(pint.DimensionalityError):
         saw.replace({"blade.material.youngs_modulus_pa": units.Quantity(1.0, "m")})
+    with pytest.raises(TypeError, match="poisson_ratio has no unit"):
+        saw.replace({"blade.material.poisson_ratio": units.Quantity(0.3, "m")})
+
+
+def test_turns_and_radians_are_not_mistaken_for_each_other() -> None:
+    pint = pytest.importorskip("pint")
+    units = pint.UnitRegistry()
+    saw = sf.Scene.paper()
+    for speed in (units.Quantity(1200.0, "rpm"), units.Quantity(20.0, "turn/s")):
+        assert saw.replace({"operating_rpm": speed})["operating_rpm"] == pytest.approx(1200.0)
+    for key, value in (
+        ("operating_rpm", units.Quantity(20.0, "Hz")),
+        ("guides[0].angle_deg", units.Quantity(0.3)),
+    ):
+        with pytest.raises(TypeError, match=r"must be in (rpm|deg) \(you gave"):
+            saw.replace({key: value})
 
 
 def test_the_end_of_every_key_is_a_unit_or_none() -> None:
