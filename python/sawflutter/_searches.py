@@ -69,7 +69,6 @@ class Searches(SceneData):
         to_rpm: Number = None,
         confidence: SupportsFloat = 0.95,
         starts: SupportsIndex = 12,
-        seed: SupportsIndex = 0,
         accuracy: Accuracy | None = None,
         tolerance: Number = None,
         progress: Progress = None,
@@ -92,8 +91,8 @@ class Searches(SceneData):
             Leaves out measurements above this speed.
         confidence : float
             Confidence level of the intervals.
-        starts, seed : int
-            Number of starting points, and seed of their random choice.
+        starts : int
+            Number of starting points: the numbers of the scene, and others between the bounds.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
 
@@ -127,7 +126,6 @@ class Searches(SceneData):
             to_rpm=to_rpm,
             confidence=confidence,
             starts=whole("starts", starts),
-            seed=whole("seed", seed),
         )
 
     def place(

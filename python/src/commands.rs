@@ -231,7 +231,6 @@ fn fit(options: &Options<'_>) -> PyResult<Work> {
     let options = FitOptions {
         confidence: options.get("confidence")?,
         starts: options.get("starts")?,
-        seed: options.get("seed")?,
         to_rpm: to_rpm.unwrap_or(f64::INFINITY),
         ..FitOptions::default()
     };

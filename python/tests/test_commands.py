@@ -263,7 +263,6 @@ def test_a_saw_that_cannot_be_analysed_says_why(draft: sf.Scene) -> None:
         (lambda saw, number: saw.place(samples=number), "samples"),
         (lambda saw, number: saw.place(refine=number), "refine"),
         (lambda saw, number: saw.fit([7.9], starts=number), "starts"),
-        (lambda saw, number: saw.fit([7.9], seed=number), "seed"),
         (lambda saw, number: saw.matrices(basis=(number, 4)), "basis"),
         (lambda saw, number: saw.matrices(basis=(6, number)), "basis"),
         (lambda saw, number: saw.run_stiffness_map([1e5], guide=number), "guide"),

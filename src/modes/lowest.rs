@@ -17,6 +17,8 @@ use super::work::Cancellation;
 pub struct LowestModes {
     /// Independent components of the plate, without reduced models.
     pub components: Vec<Component>,
+    /// Number of nodal diameters of each unknown of the plate.
+    diameters: Vec<usize>,
     scale_rad_per_s: f64,
 }
 
@@ -29,8 +31,17 @@ const SMALL: usize = 40;
 impl LowestModes {
     /// Assembles the equation of motion of a plate.
     pub fn new(plate: &Plate) -> Self {
+        let order = plate.degrees_of_freedom();
+        let ends = (1..=plate.max_diameters())
+            .map(|n| plate.offset(n))
+            .chain([order]);
+        let mut diameters = Vec::with_capacity(order);
+        for (n, end) in ends.enumerate() {
+            diameters.resize(end, n);
+        }
         LowestModes {
             components: Component::of(plate),
+            diameters,
             scale_rad_per_s: frequency_scale(plate),
         }
     }
@@ -61,6 +72,17 @@ impl LowestModes {
         modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
         modes.truncate(count);
         Ok(modes)
+    }
+
+    /// The number of nodal diameters with the largest share of the kinetic energy of a mode.
+    pub fn diameters_of(&self, mode: &Mode) -> usize {
+        let first = self.components[mode.component].first;
+        let mut shares = vec![0.0; self.diameters.last().map_or(1, |most| most + 1)];
+        for (n, coordinate) in self.diameters[first..].iter().zip(mode.coordinates.iter()) {
+            shares[*n] += coordinate.norm_sqr();
+        }
+        let largest = (0..shares.len()).max_by(|n, m| shares[*n].total_cmp(&shares[*m]));
+        largest.unwrap_or(0)
     }
 }
 

@@ -63,7 +63,6 @@ fn covered() -> [usize; 2] {
     let options = Options {
         confidence: 0.9,
         starts: 1,
-        seed: 0,
         resolution: Some(SMALL),
         ..Options::default()
     };

@@ -2,11 +2,19 @@
 
 use rayon::prelude::*;
 
-use super::model::frequencies_hz;
+use super::matching::matched;
+use super::model::{frequencies_hz, tones};
 use super::{Curves, Measurement, Residual};
 use crate::model::plate::{Plate, Resolution};
-use crate::model::scene::Scene;
+use crate::model::scene::{Scene, rad_per_s};
 use crate::modes::{LowestModes, SpectrumError};
+
+/// A computed frequency, with its rank at this speed from 1.
+#[derive(Debug, Clone, Copy)]
+struct Computed {
+    place: usize,
+    hz: f64,
+}
 
 /// A saw before and after a fit.
 pub struct Compared {
@@ -43,19 +51,29 @@ impl Compared {
         measured: &Measurement,
         to_rpm: f64,
     ) -> Result<Vec<Residual>, SpectrumError> {
-        let speeds = measured.rows.iter().map(|row| row.rpm).collect();
-        let computed = self.curves(speeds, measured.depth())?;
-        let computed = computed.before_hz.iter().zip(&computed.fitted_hz);
         let mut residuals = Vec::new();
-        for (row, (before, after)) in measured.rows.iter().zip(computed) {
-            for (place, measured_hz) in &row.pairs {
-                let at = |computed: &[f64]| computed.get(*place).copied().unwrap_or(0.0);
+        for row in &measured.rows {
+            let computed = |lowest: &LowestModes| -> Result<Vec<Option<Computed>>, SpectrumError> {
+                let modes = lowest.at(rad_per_s(row.rpm), row.modes_needed())?;
+                let tones = tones(lowest, &modes);
+                let of_tone = |index: usize| Computed {
+                    place: index + 1,
+                    hz: tones[index].hz,
+                };
+                let found = matched(row, &tones).into_iter();
+                Ok(found.map(|index| index.map(of_tone)).collect())
+            };
+            let pairs = computed(&self.before)?
+                .into_iter()
+                .zip(computed(&self.fitted)?);
+            for ((before, after), (column, measured_hz)) in pairs.zip(&row.pairs) {
+                let hz = |computed: Option<Computed>| computed.map_or(0.0, |computed| computed.hz);
                 residuals.push(Residual {
                     rpm: row.rpm,
-                    place: place + 1,
+                    place: after.map_or(column + 1, |computed| computed.place),
                     measured_hz: *measured_hz,
-                    before_hz: at(before),
-                    fitted_hz: at(after),
+                    before_hz: hz(before),
+                    fitted_hz: hz(after),
                     fitted: row.rpm <= to_rpm,
                 });
             }

@@ -3,7 +3,7 @@
 use crate::model::scene::{Measured, MeasuredRow, quantity};
 
 use super::FitError;
-use super::table::{TableRow, read, wrong};
+use super::table::{Table, TableRow, read, wrong};
 
 /// Frequencies measured over speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,8 +19,19 @@ pub struct Measurement {
 pub struct Row {
     /// Rotation speed.
     pub rpm: f64,
-    /// Pairs (k, measured frequency in Hz), each compared with the k-th lowest computed frequency, k from 0.
+    /// Meaning of the columns.
+    pub columns: Columns,
+    /// Pairs (k, measured frequency in Hz) of the number k of a column, from 0, or of its nodal diameters.
     pub pairs: Vec<(usize, f64)>,
+}
+
+/// Meaning of the columns of measured frequencies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Columns {
+    /// Frequencies in ascending order; at rest one for each pair of equal frequencies, or two.
+    Ranks,
+    /// The lowest frequency of each number of nodal diameters, at rest.
+    Diameters,
 }
 
 /// Largest numbers of rows and of frequencies in a row; larger tables are not measured by a person.
@@ -41,13 +52,33 @@ impl Row {
         numbers.sort_by(f64::total_cmp);
         Row {
             rpm,
+            columns: Columns::Ranks,
             pairs: places.map(|(place, _)| place).zip(numbers).collect(),
         }
     }
 
-    /// Number of lowest computed frequencies with which the row is compared.
-    pub fn depth(&self) -> usize {
+    /// Pairs (nodal diameters, frequency in Hz), each compared with the lowest mode of so many nodal diameters.
+    pub fn by_diameters(rpm: f64, pairs: &[(usize, f64)]) -> Self {
+        Row {
+            rpm,
+            columns: Columns::Diameters,
+            pairs: pairs.to_vec(),
+        }
+    }
+
+    /// Number of columns up to the last one that contains a number.
+    pub(super) fn depth(&self) -> usize {
         self.pairs.last().map_or(0, |(place, _)| place + 1)
+    }
+
+    /// Number of lowest modes among which those of the row are expected; at rest every wave but the umbrella mode is one of
+    /// a pair, and modes with nodal circles may lie below those of many diameters.
+    pub(super) fn modes_needed(&self) -> usize {
+        match self.columns {
+            Columns::Ranks if self.rpm > 0.0 => self.depth(),
+            Columns::Ranks => 2 * self.depth(),
+            Columns::Diameters => 4 * self.depth(),
+        }
     }
 }
 
@@ -68,8 +99,14 @@ impl Measurement {
     /// # Errors
     /// [`FitError::Table`] with line, column and description, and [`FitError::Empty`].
     pub fn from_csv(source: &str, text: &str) -> Result<Self, FitError> {
-        let typed = read(text)?;
-        let rows: Vec<Row> = typed.iter().map(row).collect::<Result<_, _>>()?;
+        let Table {
+            rows: typed,
+            diameters,
+        } = read(text)?;
+        let rows: Vec<Row> = typed
+            .iter()
+            .map(|typed| row(typed, diameters.as_deref()))
+            .collect::<Result<_, _>>()?;
         if let Some(beyond) = typed.get(MAX_ROWS) {
             let problem = format!(
                 "it is row {} of {}, but at most {MAX_ROWS} are allowed; leave out some speeds",
@@ -116,21 +153,21 @@ impl Measurement {
         }
     }
 
-    /// Largest number of lowest computed frequencies with which a row is compared.
-    pub fn depth(&self) -> usize {
-        self.rows.iter().map(Row::depth).max().unwrap_or(0)
-    }
-
-    /// The block `measured` of a scene with these data: rows in ascending speed, without empty ones.
+    /// The block `measured` of a scene with these data: rows in ascending speed, without empty ones. A scene has its
+    /// frequencies in ascending order, so that those by nodal diameters are sorted.
     pub fn as_scene_block(&self) -> Measured {
         let row = |row: &Row| {
             let mut frequencies_hz = vec![None; row.depth()];
             for &(place, hz) in &row.pairs {
                 frequencies_hz[place] = Some(hz);
             }
-            let rpm = row.rpm;
+            if row.columns == Columns::Diameters {
+                let mut sorted: Vec<f64> = frequencies_hz.iter().copied().flatten().collect();
+                sorted.sort_by(f64::total_cmp);
+                frequencies_hz = sorted.into_iter().map(Some).collect();
+            }
             MeasuredRow {
-                rpm,
+                rpm: row.rpm,
                 frequencies_hz,
             }
         };
@@ -144,14 +181,15 @@ impl Measurement {
     }
 }
 
-fn row(typed: &TableRow) -> Result<Row, FitError> {
+/// Reads a line of a table whose columns are ascending frequencies, or have the given numbers of nodal diameters.
+fn row(typed: &TableRow, diameters: Option<&[usize]>) -> Result<Row, FitError> {
     let number = |(column, text): &(usize, String), most: f64, unit: &str| match text.parse::<f64>()
     {
         Ok(value) if (0.0..=most).contains(&value) => Ok(value),
         _ => Err(wrong(
             typed.line,
             format!(
-                "column {column} is {text:?}, but must be a number between 0 and {most:e}; give it in {unit}"
+                "column {column} must be a number between 0 and {most:e} (you gave {text:?}); give it in {unit}"
             ),
         )),
     };
@@ -175,7 +213,20 @@ fn row(typed: &TableRow) -> Result<Row, FitError> {
             _ => number(cell, MAX_HZ, "Hz, or leave it blank").map(Some),
         })
         .collect::<Result<Vec<_>, _>>()?;
-    Ok(Row::new(rpm, &columns))
+    let Some(diameters) = diameters else {
+        return Ok(Row::new(rpm, &columns));
+    };
+    if rpm != 0.0 {
+        let problem = "columns by nodal diameters (n0, n1, …) hold frequencies at rest, but its speed is not 0; name \
+                       the columns f1, f2, … in ascending order, since rotation splits every pair";
+        return Err(wrong(typed.line, problem.into()));
+    }
+    let pairs: Vec<(usize, f64)> = diameters
+        .iter()
+        .zip(columns)
+        .filter_map(|(diameters, hz)| Some((*diameters, hz?)))
+        .collect();
+    Ok(Row::by_diameters(rpm, &pairs))
 }
 
 #[cfg(test)]
@@ -188,10 +239,7 @@ mod tests {
         let table = Measurement::from_csv("here", text).unwrap();
         assert_eq!(table.rows[0].pairs, [(0, 9.0), (1, 10.5), (3, 43.0)]);
         assert_eq!(table.rows[1].pairs, [(0, 0.0), (1, 4.0), (2, 9.0)]);
-        assert_eq!(
-            (table.count(), table.depth(), table.top_rpm()),
-            (6, 4, 2000.0)
-        );
+        assert_eq!((table.count(), table.top_rpm()), (6, 2000.0));
         let block = table.as_scene_block();
         let first = [Some(9.0), Some(10.5), None, Some(43.0)];
         assert_eq!(block.rows[0].frequencies_hz, first);
@@ -203,9 +251,9 @@ mod tests {
     fn what_is_no_number_is_refused_with_its_place() {
         for (text, expected) in [
             ("rpm,f\n0,9\n10,x\n", "line 3"),
-            ("0,9\n-5,9\n", "column 1 is \"-5\""),
-            ("0,NaN\n", "column 2 is \"NaN\""),
-            ("0,inf\n", "column 2 is \"inf\""),
+            ("0,9\n-5,9\n", "(you gave \"-5\")"),
+            ("0,NaN\n", "(you gave \"NaN\")"),
+            ("0,inf\n", "(you gave \"inf\")"),
         ] {
             let error = Measurement::from_csv("t", text).unwrap_err().to_string();
             assert!(error.contains(expected), "{error}");

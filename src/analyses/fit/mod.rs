@@ -25,6 +25,7 @@
 pub(crate) mod chart;
 mod compared;
 mod error;
+mod matching;
 mod measurement;
 mod model;
 mod options;
@@ -45,7 +46,7 @@ pub(crate) use outline::outline;
 
 use compared::Compared;
 pub use error::FitError;
-pub use measurement::{Measurement, Row};
+pub use measurement::{Columns, Measurement, Row};
 use model::Model;
 pub use options::Options;
 pub use report::{Curves, FitReport, FittedParameter, Residual, Start};
@@ -110,6 +111,8 @@ pub fn fit(
     let before = fine.residuals_of_saw_hz(scene)?;
     let fitted = calibrated(scene, measurement, &freed, &best)?;
     let compared = Compared::new(scene, &fitted, resolution);
+    let residuals = compared.residuals(measured, options.to_rpm)?;
+    let deepest = residuals.iter().map(|r| r.place).max().unwrap_or(0);
     let end_rpm = BEYOND * measurement.end_of_range_rpm();
     let mut report = FitReport {
         sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
@@ -125,11 +128,8 @@ pub fn fit(
         degrees_of_freedom: spread.degrees_of_freedom,
         rms_hz: best.rms_hz,
         rms_before_hz: rms(&before),
-        residuals: compared.residuals(measured, options.to_rpm)?,
-        curves: compared.curves(
-            even_speeds((0.0, end_rpm), CURVE_SPEEDS),
-            measurement.depth(),
-        )?,
+        curves: compared.curves(even_speeds((0.0, end_rpm), CURVE_SPEEDS), deepest)?,
+        residuals,
         starts,
         max_diameters: resolution.max_diameters,
         radial_functions: resolution.radial_functions_on(fitted.blade()),

@@ -12,6 +12,7 @@ use crate::modes::{
 };
 
 use super::Measurement;
+use super::matching::{Tone, matched};
 
 /// A saw with freed numbers, on one basis.
 pub struct Model<'a> {
@@ -86,9 +87,10 @@ impl Model<'_> {
         let mut residuals = Vec::new();
         for row in &self.measurement.rows {
             let speed = rad_per_s(row.rpm);
-            let modes = lowest.at(speed, row.depth())?;
-            for (place, measured_hz) in &row.pairs {
-                let mode = modes.get(*place);
+            let modes = lowest.at(speed, row.modes_needed())?;
+            let found = matched(row, &tones(lowest, &modes));
+            for (index, (_, measured_hz)) in found.iter().zip(&row.pairs) {
+                let mode = index.map(|index| &modes[index]);
                 residuals.push(mode.map_or(0.0, frequency_hz) - measured_hz);
                 visit(speed, mode);
             }
@@ -114,6 +116,17 @@ impl Model<'_> {
             self.plate(&shares)
         })
     }
+}
+
+/// Frequencies and nodal diameters of modes.
+pub fn tones(lowest: &LowestModes, modes: &[Mode]) -> Vec<Tone> {
+    modes
+        .iter()
+        .map(|mode| Tone {
+            hz: frequency_hz(mode),
+            diameters: lowest.diameters_of(mode),
+        })
+        .collect()
 }
 
 /// The `count` lowest frequencies of a saw at a speed in rpm, in Hz.

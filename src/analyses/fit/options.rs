@@ -11,8 +11,6 @@ pub struct Options {
     pub confidence: f64,
     /// Number of starts: the original values, and others spread over the bounds.
     pub starts: usize,
-    /// Seed of the other starts.
-    pub seed: u64,
     /// Speed in rpm up to which rows are fitted.
     pub to_rpm: f64,
     /// A basis to use instead of the one that the tolerance of the scene requires.
@@ -24,7 +22,6 @@ impl Default for Options {
         Options {
             confidence: 0.95,
             starts: 12,
-            seed: 0,
             to_rpm: f64::INFINITY,
             resolution: None,
         }

@@ -13,6 +13,8 @@ use crate::modes::branches::Progress;
 
 /// Largest number of starts with different results that are refined.
 const REFINED: usize = 3;
+/// Seed of the starts that are spread between the bounds.
+const SEED: u64 = 0;
 
 /// Minimizes from every start. Returns all starts, and the best few of different results, best first.
 ///
@@ -26,7 +28,7 @@ pub fn search(
     let freed = model.freed;
     let count = options.starts.max(1);
     let own: Vec<f64> = freed.iter().map(|f| f.share_of(model.scene)).collect();
-    let others = (0..count - 1).map(|index| spread(freed.len(), options.seed, index));
+    let others = (0..count - 1).map(|index| spread(freed.len(), SEED, index));
     let from: Vec<Vec<f64>> = std::iter::once(own).chain(others).collect();
     let done = AtomicUsize::new(0);
     let found: Vec<Option<Found>> = from

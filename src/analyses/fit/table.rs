@@ -12,6 +12,13 @@ pub struct TableRow {
     pub cells: Vec<(usize, String)>,
 }
 
+/// The lines of a table, and the nodal diameters of its columns if their names are `n0`, `n1` and so on.
+#[derive(Debug)]
+pub struct Table {
+    pub rows: Vec<TableRow>,
+    pub diameters: Option<Vec<usize>>,
+}
+
 /// The error of a line, numbered from 1.
 pub fn wrong(line: u64, problem: String) -> FitError {
     FitError::Table { line, problem }
@@ -21,7 +28,7 @@ pub fn wrong(line: u64, problem: String) -> FitError {
 ///
 /// # Errors
 /// [`FitError::Table`] with line and description.
-pub fn read(text: &str) -> Result<Vec<TableRow>, FitError> {
+pub fn read(text: &str) -> Result<Table, FitError> {
     let separator = Separator::of(text);
     let mut records = separator.records(text)?;
     let header = Header::take(&mut records)?;
@@ -29,9 +36,14 @@ pub fn read(text: &str) -> Result<Vec<TableRow>, FitError> {
         .iter()
         .flat_map(|r| r.cells.iter().map(|cell| (r.line, cell)));
     let comma = has_decimal_comma(numbers, separator)?;
-    let rows = records.into_iter();
-    rows.map(|record| row(record, header.as_ref(), comma))
-        .collect()
+    let rows = records
+        .into_iter()
+        .map(|record| row(record, header.as_ref(), comma))
+        .collect::<Result<_, _>>()?;
+    Ok(Table {
+        rows,
+        diameters: header.and_then(|header| header.diameters),
+    })
 }
 
 /// Separator between cells.
@@ -130,6 +142,8 @@ struct Header {
     names: usize,
     speed: usize,
     frequencies: Vec<usize>,
+    /// Nodal diameters of the frequencies, if the columns are named by them.
+    diameters: Option<Vec<usize>>,
 }
 
 impl Header {
@@ -203,10 +217,15 @@ impl Header {
         if frequencies.iter().all(|column| place(column).is_some()) {
             frequencies.sort_by_key(place);
         }
+        let diameters = frequencies
+            .iter()
+            .map(|column| nodal_diameters(&names[*column]))
+            .collect();
         Ok(Header {
             names: names.len(),
             speed,
             frequencies,
+            diameters,
         })
     }
 }
@@ -232,8 +251,20 @@ fn is_frequency(small: &str) -> bool {
         rest.is_some_and(|rest| rest.chars().all(|c| c.is_ascii_digit()))
     };
     words.iter().any(|word| small.contains(word))
-        || ["f", "fn", "m", ""].iter().any(|prefix| numbered(prefix))
+        || ["f", "fn", "m", "n", "n=", ""]
+            .iter()
+            .any(|prefix| numbered(prefix))
         || small.starts_with('(')
+}
+
+/// The number of nodal diameters by which a column is named: 2 of `n2`, `n = 2`, `2 diameters`.
+fn nodal_diameters(name: &str) -> Option<usize> {
+    let small = name.split(['(', '[']).next()?.trim().to_lowercase();
+    let number = small
+        .strip_prefix('n')
+        .map(|rest| rest.trim_start_matches([' ', '_', '=']))
+        .or_else(|| small.split_once(" diameter").map(|(number, _)| number))?;
+    number.trim().parse().ok()
 }
 
 /// Whether a cell contains only a unit.

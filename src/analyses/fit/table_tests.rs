@@ -4,12 +4,12 @@ use super::*;
 
 /// Speed and frequencies of every row.
 fn numbers(text: &str) -> Vec<Vec<Option<f64>>> {
-    let rows = read(text).unwrap_or_else(|error| panic!("{text:?}: {error}"));
+    let table = read(text).unwrap_or_else(|error| panic!("{text:?}: {error}"));
     let row = |row: &TableRow| {
         let cells = row.cells.iter();
         cells.map(|(_, text)| text.parse().ok()).collect()
     };
-    rows.iter().map(row).collect()
+    table.rows.iter().map(row).collect()
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn what_could_mean_two_things_is_refused_with_its_line() {
 /// A row that contains a number is data: its other cells are typing mistakes.
 #[test]
 fn a_first_row_with_a_typing_mistake_is_no_header() {
-    let rows = read("O,7.68,9.5\n1000,7,9\n").unwrap();
+    let rows = read("O,7.68,9.5\n1000,7,9\n").unwrap().rows;
     assert_eq!(rows.len(), 2);
     assert_eq!(rows[0].cells[0], (1, "O".to_owned()));
 }

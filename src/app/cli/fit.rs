@@ -49,9 +49,6 @@ pub struct Arguments {
     /// Starts: the scene's numbers, and others spread between the bounds
     #[arg(long, value_name = "COUNT", default_value_t = 12, value_parser = count::<usize>)]
     starts: usize,
-    /// Spreads the starts in another way
-    #[arg(long, value_name = "NUMBER", default_value_t = 0, value_parser = count::<u64>)]
-    seed: u64,
     #[command(flatten)]
     page: Page,
 }
@@ -69,7 +66,6 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let options = Options {
         confidence: arguments.confidence,
         starts: arguments.starts,
-        seed: arguments.seed,
         to_rpm: arguments.to_rpm.unwrap_or(f64::INFINITY),
         ..Options::default()
     }
