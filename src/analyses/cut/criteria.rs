@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::hertz;
-use super::history::{CutHistory, Growth};
+use super::history::CutHistory;
+use super::record::Growth;
 use super::spline::SplineOrbit;
 use crate::analyses::campbell::Verdict;
 use crate::model::scene::Scene;
@@ -13,14 +13,14 @@ use crate::model::scene::Scene;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CutVerdict {
-    /// No motion grows as fast as the threshold, and the deflection stays within the model.
+    /// No vibration grows as fast as the threshold, and the deflection stays within the model.
     Stable,
     /// The same, but the speed is within 5 % of a critical speed of the saw, in the cut or out of it.
     AtCritical,
-    /// No motion grows as fast, but the forces alone deflect the blade beyond the linear model and any kerf,
+    /// No vibration grows as fast, but the forces alone deflect the blade beyond the linear model and any kerf,
     /// or with stretching to slopes beyond 0.1.
     LeavesModel,
-    /// Some motion grows.
+    /// Some vibration grows.
     Unstable,
 }
 
@@ -51,7 +51,7 @@ pub struct CutFinding {
     pub verdict: Verdict,
     /// Its largest growth.
     pub growth_per_s: f64,
-    /// Frequency of that motion, if it is known and the motion grows.
+    /// Frequency of that motion, if it is known and the vibration grows.
     pub frequency_hz: Option<f64>,
 }
 
@@ -69,12 +69,13 @@ pub(super) fn criteria(
         criterion,
         verdict: Verdict::of(scene, growth),
         growth_per_s: growth.growth_per_s,
-        frequency_hz: growing_hz(growth),
+        frequency_hz: growth.growing_hz(),
     };
     let fitted = history.fitted.map(|fitted| CutFinding {
         // The frequency is given only if the growth rate reaches the threshold, because a smaller one may be
         // rounding.
-        frequency_hz: growing_hz(fitted)
+        frequency_hz: fitted
+            .growing_hz()
             .filter(|_| Verdict::of(scene, fitted) == Verdict::Unstable),
         ..entry(CutCriterion::TimeHistory, fitted)
     });
@@ -127,11 +128,6 @@ pub(super) fn agree(scene: &Scene, fitted: Growth, eigenvalue: Growth) -> bool {
     let of = |growth: Growth| Verdict::of(scene, growth);
     let apart = (fitted.growth_per_s / eigenvalue.growth_per_s - 1.0).abs();
     of(fitted) == of(eigenvalue) && (of(fitted) == Verdict::Stable || apart <= AGREEMENT)
-}
-
-/// Frequency of a motion, in Hz; `None` if it does not grow.
-pub(super) fn growing_hz(growth: Growth) -> Option<f64> {
-    (growth.growth_per_s > 0.0).then(|| hertz(growth.frequency_rad_per_s))
 }
 
 impl Verdict {

@@ -5,61 +5,18 @@ use faer::Col;
 use crate::model::plate::Plate;
 use crate::model::scene::{CutRun, Point};
 use crate::model::system::GyroscopicSystem;
-use crate::modes::{Assembled, Growing, SpectrumError, companion_eigenpairs};
+use crate::modes::{Assembled, SpectrumError};
 use crate::motion::transient::{
     Gauge, Integrator, Propagator, SAMPLES, Sinusoid, State, TransientError, damped_sinusoids,
     finite, fitted_growth, lateral_load,
 };
 use crate::stability::{CRITICAL_MARGIN, GrowingModes, critical_at};
 
+use super::record::{
+    Growth, MAX_SAMPLES, Record, SAMPLE_S, fastest_mode_rad_per_s, longest_step_s,
+};
 use super::saw::{MODES, SawInCut};
 use super::stretched::{CutStretching, stretched_cut};
-
-/// Growth rate and frequency of the fastest growing motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Growth {
-    /// Re λ; zero for a stable undamped saw, negative for a stable damped one.
-    pub growth_per_s: f64,
-    /// Im λ of this motion.
-    pub frequency_rad_per_s: f64,
-    /// Whether a motion grows without oscillation, this one or another.
-    pub diverges: bool,
-}
-
-impl Growth {
-    /// Growth from the eigenvalues of the full model.
-    ///
-    /// # Errors
-    /// [`TransientError::Spectrum`].
-    pub fn of_plate(plate: &Plate, speed_rad_per_s: f64) -> Result<Self, TransientError> {
-        Ok(GrowingModes::of_plate(plate, speed_rad_per_s)?
-            .growing
-            .into())
-    }
-}
-
-impl From<Growing> for Growth {
-    /// An undamped saw without growing mode has a growth rate of zero.
-    fn from(found: Growing) -> Self {
-        let lambda = found.fastest.unwrap_or_default();
-        Growth {
-            growth_per_s: lambda.re,
-            frequency_rad_per_s: lambda.im,
-            diverges: found.diverges,
-        }
-    }
-}
-
-impl From<Sinusoid> for Growth {
-    /// A static response has a growth rate that is rounding, and does not diverge.
-    fn from(fitted: Sinusoid) -> Self {
-        Growth {
-            growth_per_s: fitted.lambda.re,
-            frequency_rad_per_s: fitted.lambda.im,
-            diverges: fitted.moves && fitted.lambda.im == 0.0 && fitted.lambda.re > 0.0,
-        }
-    }
-}
 
 /// One speed of a cut: eigenvalues and time history.
 #[derive(Debug)]
@@ -78,17 +35,6 @@ pub(super) struct CutHistory {
     pub record: Record,
     /// Results with stretching; `None` unless the scene has `cut.stretching`.
     pub stretched: Option<CutStretching>,
-}
-
-/// The record of the probe.
-#[derive(Debug)]
-pub(super) struct Record {
-    /// Times of the record.
-    pub time_s: Vec<f64>,
-    /// Deflection at these times.
-    pub deflection_m: Vec<f64>,
-    /// Time at which the deflection exceeds the linear model, and the record ends; `None` if it does not.
-    pub linear_until_s: Option<f64>,
 }
 
 impl CutHistory {
@@ -125,13 +71,6 @@ impl CutHistory {
         [in_cut, after]
     }
 }
-
-/// Sampling interval of a record, which is short enough for a figure.
-pub(super) const SAMPLE_S: f64 = 1e-3;
-/// Largest number of samples of a record; longer ones have a longer sampling interval.
-pub(super) const MAX_SAMPLES: f64 = 20_000.0;
-/// Largest exponent by which a motion grows between two samples.
-const GROWTH_A_SAMPLE: f64 = 0.1;
 
 /// Computes eigenvalues and time history at one speed of a cut.
 ///
@@ -241,11 +180,6 @@ fn record(
     Ok(record)
 }
 
-/// Length of a step that resolves a growth rate.
-pub(super) fn longest_step_s(growth: Growth) -> f64 {
-    GROWTH_A_SAMPLE / growth.growth_per_s.max(f64::MIN_POSITIVE)
-}
-
 /// The propagator under the lateral force of the teeth.
 fn propagator(
     saw: &SawInCut<'_>,
@@ -300,18 +234,4 @@ fn sinusoids_in_cut(
         }
     }
     Ok(damped_sinusoids(&record, step_s)?)
-}
-
-/// The highest frequency among the `modes` lowest modes of a reduced system, which represent its motion. The
-/// shapes that represent static deflections are not excited.
-pub(super) fn fastest_mode_rad_per_s(
-    system: &GyroscopicSystem,
-    speed_rad_per_s: f64,
-    modes: usize,
-) -> Result<f64, TransientError> {
-    let pairs = companion_eigenpairs(system, speed_rad_per_s)?;
-    let mut frequencies: Vec<f64> = pairs.iter().map(|(lambda, _)| lambda.im.abs()).collect();
-    frequencies.sort_by(f64::total_cmp);
-    let highest = frequencies.get(modes - 1).or(frequencies.last());
-    Ok(highest.copied().unwrap_or_default())
 }

@@ -83,7 +83,7 @@ fn slowest_growth(report: &CutReport) -> f64 {
     1.2 * all.fold(0.0, f64::min)
 }
 
-/// The verdict over guide angle and load: the growth where a motion grows.
+/// The verdict over guide angle and load: the growth where a vibration grows.
 fn map(report: &CutReport, run: &CutAtSpeed) -> PanelData {
     let found = &run.map;
     let angle = AxisData::new("angle of the first guide, the cut at its own", "°")

@@ -22,6 +22,7 @@ mod history;
 pub(crate) mod map_chart;
 pub(crate) mod orbit_chart;
 mod outline;
+mod record;
 mod report;
 mod saw;
 mod spline;
@@ -53,8 +54,9 @@ pub use stretched::CutStretching;
 pub use tooth_passing::ToothPassing;
 pub use verdict_map::VerdictMap;
 
-use criteria::{agree, criteria, growing_hz, worst};
-use history::{Growth, cut_history};
+use criteria::{agree, criteria, worst};
+use history::cut_history;
+use record::Growth;
 use saw::SawInCut;
 use spline::on_spline;
 use tooth_passing::tooth_passing;
@@ -179,7 +181,7 @@ impl Cutting<'_> {
             None => linear_until_s.is_some() || tooth_passing.passing_deflection_m.is_none(),
         };
         let at_critical_rpm = history.critical_rad_per_s.map(rpm);
-        let dominant_hz = history.dominant_rad_per_s.map(hertz);
+        let dominant_hz = history.dominant_rad_per_s.map(|speed| speed / TAU);
         let forces_to_s = cut.idle_s + run.duration_s;
         let [in_cut_m, after_m] = history.largest_deflections_m(forces_to_s);
         let by_power = run.tangential_of_power_n.zip(history.in_cut_by_power);
@@ -193,13 +195,13 @@ impl Cutting<'_> {
             decided_by,
             criteria,
             growth_per_s: in_cut.growth_per_s,
-            frequency_hz: growing_hz(in_cut).or(dominant_hz),
+            frequency_hz: in_cut.growing_hz().or(dominant_hz),
             agree: fitted.map(|fitted| agree(scene, fitted, in_cut)),
             transient_verdict: fitted.map(of),
             transient_growth_per_s: fitted.map(|fitted| fitted.growth_per_s),
             transient_frequency_hz: fitted
                 .filter(|fitted| of(*fitted) == Verdict::Unstable)
-                .map(|fitted| hertz(fitted.frequency_rad_per_s)),
+                .map(|fitted| fitted.frequency_rad_per_s / TAU),
             dominant_frequency_hz: dominant_hz,
             idle_verdict: of(idle),
             idle_growth_per_s: idle.growth_per_s,
@@ -253,8 +255,4 @@ fn unusual_numbers(scene: &Scene, cut: &Cut, runs: &[CutRun]) -> Vec<String> {
 /// Evenly spaced values over a range with its ends, a step apart.
 fn even(from: f64, to: f64, step: f64) -> Vec<f64> {
     even_speeds((from, to), 1 + ((to - from) / step).round() as usize)
-}
-
-fn hertz(rad_per_s: f64) -> f64 {
-    rad_per_s / TAU
 }

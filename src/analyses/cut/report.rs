@@ -55,7 +55,7 @@ pub struct CutAtSpeed {
     pub radial_n_per_tooth: f64,
     /// Force across the blade on each tooth.
     pub lateral_n_per_tooth: f64,
-    /// The worst of the criteria; if no motion grows, whether the deflection stays within the model, and the speed
+    /// The worst of the criteria; if no vibration grows, whether the deflection stays within the model, and the speed
     /// away from critical speeds.
     pub verdict: CutVerdict,
     /// Critical speed within 5 % of this speed, of the saw in the cut or out of it; null if there is none.
@@ -75,7 +75,7 @@ pub struct CutAtSpeed {
     pub transient_growth_per_s: Option<f64>,
     /// Frequency of this growth, if it is unstable.
     pub transient_frequency_hz: Option<f64>,
-    /// Whether both verdicts are equal and, if a motion grows, growth rates agree within 2 %.
+    /// Whether both verdicts are equal and, if a vibration grows, growth rates agree within 2 %.
     pub agree: Option<bool>,
     /// Frequency of the largest oscillation in the cut.
     pub dominant_frequency_hz: Option<f64>,

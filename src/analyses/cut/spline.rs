@@ -3,8 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::criteria::growing_hz;
-use super::history::Growth;
+use super::record::Growth;
 use super::saw::MODES;
 use crate::analyses::campbell::Verdict;
 use crate::model::plate::{Plate, RimForce};
@@ -88,7 +87,7 @@ pub(super) fn on_spline(
     Ok(Some(SplineOrbit {
         verdict: Verdict::of(scene, in_cut),
         growth_per_s: in_cut.growth_per_s,
-        frequency_hz: growing_hz(in_cut),
+        frequency_hz: in_cut.growing_hz(),
         stiffness_change,
         force_n: reaction.force_n,
         torque_n_m: reaction.torque_n_m,

@@ -15,7 +15,7 @@ use crate::motion::transient::{
     lateral_load, reduced_system,
 };
 
-use super::history::{
+use super::record::{
     Growth, MAX_SAMPLES, Record, SAMPLE_S, fastest_mode_rad_per_s, longest_step_s,
 };
 use super::saw::SawInCut;

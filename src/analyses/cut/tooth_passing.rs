@@ -6,6 +6,8 @@
 //! this product exceeds one in magnitude, and ln|μ|/T is its growth rate. A tooth that enters or leaves within a step acts
 //! with its mean force over the step, so that the mean over all steps is that of the loads for any number of steps.
 
+use std::f64::consts::TAU;
+
 use faer::{Mat, Scale};
 use rayon::prelude::*;
 use schemars::JsonSchema;
@@ -20,8 +22,7 @@ use crate::motion::transient::{
     Gauge, Integrator, Propagator, ReducedBlade, State, TransientError, finite, lateral_load,
 };
 
-use super::hertz;
-use super::history::Growth;
+use super::record::Growth;
 use super::saw::SawInCut;
 
 /// The effect of loads that move with the teeth, compared with stationary loads.
@@ -75,7 +76,7 @@ pub(super) fn tooth_passing(
     let few = MovingLoads::new(saw, &saw.blade, stages);
     let gauge = Gauge::new(saw.plate, &saw.blade, probe);
     let found = ToothPassing {
-        tooth_frequency_hz: hertz(tooth_frequency_rad_per_s),
+        tooth_frequency_hz: tooth_frequency_rad_per_s / TAU,
         standing_growth_per_s: growth(&standing)?.growth_per_s,
         mean_growth_per_s: mean.growth_per_s,
         passing_growth_per_s: loads.floquet_growth()?,

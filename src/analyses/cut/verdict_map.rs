@@ -14,7 +14,7 @@ use crate::modes::branches::Progress;
 use crate::modes::{Growing, SpectrumError};
 use crate::motion::transient::{ReducedBlade, Snapshot, TransientError, lateral_load};
 
-use super::history::Growth;
+use super::record::Growth;
 use super::saw::SawInCut;
 
 /// Growth rates over guide angle and load.

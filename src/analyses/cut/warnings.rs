@@ -53,8 +53,8 @@ fn against_power(run: &CutAtSpeed) -> Option<String> {
             run.tangential_n_per_tooth,
             by_power.tangential_n_per_tooth,
             match by_power.verdict {
-                Verdict::Stable => "no motion grows".to_owned(),
-                Verdict::Unstable => format!("a motion grows by {:.2} 1/s", by_power.growth_per_s),
+                Verdict::Stable => "no vibration grows".to_owned(),
+                Verdict::Unstable => format!("a vibration grows by {:.2} 1/s", by_power.growth_per_s),
             }
         )
     })

@@ -225,7 +225,7 @@ fn marks(report: &PlaceReport, place: impl Fn(&Saw) -> Option<[f64; 2]>) -> Vec<
 /// Meaning of cells without a goal.
 fn limit(report: &PlaceReport) -> String {
     report.min_critical_rpm.map_or("no saw".into(), |rpm| {
-        format!("lowest critical speed below {rpm:.0} rpm")
+        format!("first critical speed below {rpm:.0} rpm")
     })
 }
 

@@ -33,6 +33,7 @@ mod map;
 mod neighbours;
 mod outline;
 mod report;
+mod robust;
 mod search;
 mod settle;
 

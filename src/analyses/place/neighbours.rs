@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
-use crate::model::scene::{rpm, scene_at};
+use crate::model::scene::rpm;
 use crate::stability::{Instability, InstabilityKind};
 
 use super::Neighbour;
 use super::computed::{Computed, REFUSED};
+use super::robust::directions;
 use super::search::Search;
 
 /// The neighbours of a saw and the worst of them.
@@ -51,69 +52,11 @@ impl Rated {
 const FRAGILE: f64 = 0.05;
 /// Share of the threshold above which the growth of a band is close to it.
 const NEAR: f64 = 0.5;
-/// Largest number of free numbers for which the corners of the tolerances are computed; with more they are too many.
-const MAX_CORNERS: usize = 4;
-/// Number of neighbours that are computed before the worst of them is determined.
-const AT_A_TIME: usize = 4;
-
-/// Directions of the neighbours: first the corners of the tolerances, which usually contain the worst, then
-/// each number alone.
-fn directions(numbers: usize) -> Vec<Vec<f64>> {
-    let mut all: Vec<Vec<f64>> = Vec::new();
-    if (2..=MAX_CORNERS).contains(&numbers) {
-        all.extend((0..1_usize << numbers).map(|corner| {
-            let sign = |k: usize| if corner >> k & 1 == 0 { -1.0 } else { 1.0 };
-            (0..numbers).map(sign).collect()
-        }));
-    }
-    for k in 0..numbers {
-        for sign in [-1.0, 1.0] {
-            let mut alone = vec![0.0; numbers];
-            alone[k] = sign;
-            all.push(alone);
-        }
-    }
-    all
-}
-
-/// Values and shares of the neighbour in a direction. The neighbour may lie outside the bounds of the search.
-/// `None` if it is not a valid saw: a pad cannot be beyond the rim.
-fn moved(search: &Search<'_>, shares: &[f64], direction: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
-    let numbers = search.freed.iter().zip(shares).zip(direction);
-    let values = numbers.map(|((freed, share), direction)| {
-        let value = freed.value(*share);
-        value + direction * search.tolerance(freed, value)
-    });
-    let values: Vec<f64> = values.collect();
-    let pairs = search.freed.iter().zip(&values);
-    let shares: Vec<f64> = pairs.map(|(freed, value)| freed.share(*value)).collect();
-    let exists = scene_at(search.scene, search.freed, &shares).is_ok();
-    exists.then_some((values, shares))
-}
-
-/// Cost of a saw in the worst case of its tolerances; if it exceeds a limit, that of the worst neighbour
-/// computed so far.
-pub fn worst_cost(search: &Search<'_>, shares: &[f64], limit: f64) -> f64 {
-    let mut worst = search.cost(shares);
-    for some in directions(shares.len()).chunks(AT_A_TIME) {
-        if worst > limit {
-            break;
-        }
-        let cost_of = |direction: &Vec<f64>| {
-            let (_, shares) = moved(search, shares, direction)?;
-            Some(search.cost(&shares))
-        };
-        let costs: Vec<Option<f64>> = some.par_iter().map(cost_of).collect();
-        worst = costs.into_iter().flatten().fold(worst, f64::max);
-    }
-    worst
-}
-
 impl Neighbours {
     pub fn new(search: &Search<'_>, shares: &[f64], own: &Computed) -> Self {
         let numbers = shares.len();
         let of = |direction: &Vec<f64>| {
-            let (values, shares) = moved(search, shares, direction)?;
+            let (values, shares) = search.moved(shares, direction)?;
             Some(Rated::new(values, search.computed(&shares).as_ref()))
         };
         let directions = directions(numbers);

@@ -133,7 +133,7 @@ pub struct Outcome {
     pub goal_rpm: f64,
     /// Flutter speed; null if it exceeds the sweep.
     pub flutter_rpm: Option<f64>,
-    /// Lowest critical speed.
+    /// First critical speed.
     pub critical_rpm: Option<f64>,
     /// Window without instability around the operating speed, if it is the goal.
     pub window_rpm: Option<[f64; 2]>,

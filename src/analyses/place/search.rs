@@ -9,20 +9,14 @@
 
 use std::cmp::Ordering;
 use std::collections::HashMap;
-use std::convert::Infallible;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use basin::{
-    BoxBounds, ConstraintDescription, ConstraintSet, Constraints, CostFunction, Executor, Mads,
-    PointState,
-};
 use rayon::prelude::*;
 
 use crate::model::scene::{Freed, SceneFile, scene_at, spread};
 
 use super::computed::{Computed, Question, REFUSED};
-use super::neighbours::worst_cost;
 
 /// The result of a saw, or the reason why it could not be computed (`None` if there is no such saw).
 type Known = Result<Computed, Option<String>>;
@@ -72,7 +66,7 @@ impl Tried {
     }
 
     /// Whether the shares are at a distance from those of some others.
-    fn is_apart(&self, others: &[Tried], distance: f64) -> bool {
+    pub fn is_apart(&self, others: &[Tried], distance: f64) -> bool {
         others.iter().all(|other| {
             let pairs = self.shares.iter().zip(&other.shares);
             pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) > distance
@@ -186,96 +180,5 @@ impl<'a> Search<'a> {
         // The sort is stable, so that the order of equal saws does not depend on the threads.
         tried.sort_by(|x, y| x.cost.total_cmp(&y.cost));
         tried
-    }
-
-    /// The `count` saws of smallest cost in the worst case of their tolerances that are at a distance, in shares,
-    /// from each other. `tried` is sorted by nominal cost.
-    pub fn most_robust(&self, tried: &[Tried], count: usize, distance: f64) -> Vec<Tried> {
-        let mut chosen: Vec<Tried> = Vec::new();
-        while chosen.len() < count {
-            let mut best: Option<Tried> = None;
-            for one in tried.iter().filter(|one| one.is_apart(&chosen, distance)) {
-                let limit = best.as_ref().map_or(f64::INFINITY, |best| best.cost);
-                if one.cost >= limit {
-                    break;
-                }
-                let cost = worst_cost(self, &one.shares, limit);
-                if cost < limit {
-                    let shares = one.shares.clone();
-                    best = Some(Tried { shares, cost });
-                }
-            }
-            match best {
-                Some(best) => chosen.push(best),
-                None => break,
-            }
-        }
-        chosen
-    }
-
-    /// Refines a saw by direct search for the smallest cost in the worst case of its tolerances, with steps between
-    /// two sizes, which are shares of the box. `see` is called after each saw.
-    pub fn refine(
-        &self,
-        start: &Tried,
-        (from, to): (f64, f64),
-        budget: u64,
-        see: &(dyn Fn() + Sync),
-    ) -> Tried {
-        let problem = Boxed {
-            search: self,
-            least: Mutex::new(start.cost),
-            see,
-            lower: vec![0.0; self.freed.len()],
-            upper: vec![1.0; self.freed.len()],
-        };
-        let solver = Mads::new()
-            .bounded()
-            .with_initial_poll_size(from)
-            .with_minimum_poll_size(to);
-        let run = Executor::new(problem, solver, PointState::new(start.shares.clone()))
-            .max_cost_evals(budget)
-            .run();
-        match run {
-            Ok(result) if result.best_cost() < start.cost => Tried {
-                shares: result.best_param().clone(),
-                cost: result.best_cost(),
-            },
-            _ => start.clone(),
-        }
-    }
-}
-
-struct Boxed<'a> {
-    search: &'a Search<'a>,
-    /// Smallest cost so far.
-    least: Mutex<f64>,
-    see: &'a (dyn Fn() + Sync),
-    lower: Vec<f64>,
-    upper: Vec<f64>,
-}
-
-impl Constraints for Boxed<'_> {
-    type Set = ConstraintSet<BoxBounds<Vec<f64>>>;
-
-    fn constraints(&self) -> <Self::Set as ConstraintDescription>::Borrowed<'_> {
-        ConstraintSet::new().with_bounds(BoxBounds::new(Some(&self.lower), Some(&self.upper)))
-    }
-}
-
-impl CostFunction for Boxed<'_> {
-    type Param = Vec<f64>;
-    type Output = f64;
-    type Error = Infallible;
-
-    fn cost(&self, shares: &Vec<f64>) -> Result<f64, Infallible> {
-        let least = || self.least.lock().unwrap_or_else(PoisonError::into_inner);
-        // A cost above `limit`, the smallest cost so far, may be inexact, because the direct search only
-        // compares it with the smallest one.
-        let limit = *least();
-        let cost = worst_cost(self.search, shares, limit);
-        *least() = limit.min(cost);
-        (self.see)();
-        Ok(cost)
     }
 }

@@ -10,7 +10,7 @@ use crate::model::scene::{Freed, Scene, SceneError, scene_at};
 use crate::stability::ChosenBasis;
 
 use super::computed::Computed;
-use super::neighbours::{Neighbours, worst_cost};
+use super::neighbours::Neighbours;
 use super::search::{Search, Tried};
 use super::{IDLE, PlaceError, Progress, cheapest};
 
@@ -123,7 +123,7 @@ pub fn settle(
     let mut starts = search.most_robust(&by_itself, 1, 0.0);
     let peak = by_itself.into_iter().next()?.shares;
     if starts.iter().all(|start| start.shares != peak) {
-        let cost = worst_cost(search, &peak, f64::INFINITY);
+        let cost = search.worst_cost(&peak, f64::INFINITY);
         starts.push(Tried { shares: peak, cost });
     }
     let (done, of) = (AtomicUsize::new(0), budget as usize * starts.len());

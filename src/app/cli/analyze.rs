@@ -9,7 +9,8 @@ use crate::stability::{Analysis, AnalysisOptions, ExpectedWork};
 use anyhow::Context;
 use clap::Args;
 
-use super::common::{Changes, NamedFile, Output, number, read_scene};
+use super::common::{Changes, Output, number, read_scene};
+use super::output::NamedFile;
 use super::output::OutputFolder;
 use super::page::Page;
 use super::pictures;

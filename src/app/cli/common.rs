@@ -12,7 +12,7 @@ use anyhow::Context;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
-use super::output::{OutputFolder, Writing};
+use super::output::{NamedFile, OutputFolder, Writing};
 use super::page::Page;
 use super::paint::Paint;
 use super::pictures::drawn;
@@ -75,9 +75,6 @@ enum AccuracyName {
     Design,
     Reference,
 }
-
-/// Name and content of a file.
-pub type NamedFile = (&'static str, Vec<u8>);
 
 impl Input {
     /// Reads the scene and applies the changes.

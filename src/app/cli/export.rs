@@ -8,7 +8,8 @@ use clap::Args;
 use faer::Mat;
 use serde_json::json;
 
-use super::common::{Common, NamedFile, of_option};
+use super::common::{Common, of_option};
+use super::output::NamedFile;
 
 pub const EXAMPLES: &str = "\
 Examples:

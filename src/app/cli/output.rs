@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 
+/// Name and content of a file.
+pub type NamedFile = (&'static str, Vec<u8>);
+
 /// Prefix of the names of files that are not complete yet.
 const STAGED: &str = ".sawflutter-";
 

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::common::NamedFile;
+use super::output::NamedFile;
 use crate::analyses::commands::CommandReport;
 use crate::page::figure::{Figure, FigureError};
 

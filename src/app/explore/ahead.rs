@@ -2,13 +2,11 @@
 
 use serde::Serialize;
 
-use super::charts::{Charts, Fidelity, drafted};
-use super::refusal::Refusal;
 use super::told::{Fact, of_bands, of_critical};
 use crate::analyses::campbell::{Answer, InstabilityBand, OperatingPoint, headline};
 use crate::model::scene::{Scene, rpm};
 use crate::page::figure::{Band, Item, Upright};
-use crate::stability::{ChosenBasis, Evidence, Instability, Interim, flutter_onsets};
+use crate::stability::{Evidence, Instability, Interim, flutter_onsets};
 
 /// Results before the diagram, equal to those of the diagram.
 #[derive(Debug, Serialize)]
@@ -84,28 +82,13 @@ impl Ahead {
     }
 }
 
-/// Critical speeds of a page's scene with the accuracy of a draft.
-///
-/// # Errors
-/// [`Refusal`] if the scene is refused or the computation fails or is cancelled.
-pub fn critical_speeds(charts: &Charts, page: &str, scene: &str) -> Result<Ahead, Refusal> {
-    let scene = drafted(&Scene::from_json(scene)?)?;
-    let least = charts.least_size(page, Fidelity::Draft);
-    let chosen = ChosenBasis::at_least(&scene, scene.tolerance(), least)?;
-    let interim = Interim {
-        critical: &chosen.critical,
-        range_rad_per_s: chosen.range_rad_per_s,
-        bands: None,
-    };
-    Ok(Ahead::new(&scene, interim))
-}
-
 #[cfg(test)]
 mod tests {
     use std::sync::Mutex;
 
     use serde_json::Value;
 
+    use super::super::charts::{Charts, Fidelity};
     use super::*;
 
     /// Items of the first panel of a diagram whose `key` has this value, without their names.
@@ -139,7 +122,7 @@ mod tests {
         for scene in [paper, slow.unwrap(), damped.unwrap()] {
             let scene = serde_json::to_string(scene.file()).unwrap();
             let charts = Charts::new(|| 0.0);
-            let alone = critical_speeds(&charts, "one", &scene).unwrap();
+            let alone = charts.critical_speeds("one", &scene).unwrap();
             let alone = serde_json::to_value(alone).unwrap();
             let lines = Mutex::new(Vec::new());
             let tell = |line: String| lines.lock().unwrap().push(line);

@@ -4,19 +4,16 @@ use serde::{Deserialize, Serialize};
 
 use super::charts::{Charts, Fidelity};
 use super::fields::Units;
-use super::meter::Meter;
+use super::meter::{Clock, Meter};
 use super::refusal::Refusal;
 #[cfg(feature = "explore")]
 use super::reply::FileNote;
 use super::reply::{SavedFile, Start};
 use super::task::Task;
-use super::{ahead, mode, parts};
+use super::{mode, parts};
 use crate::analyses::fit::Measurement;
 use crate::model::scene::Scene;
 use crate::modes::Stage;
-
-/// Clock that returns milliseconds since an arbitrary time.
-pub type Clock = fn() -> f64;
 
 /// A request of the page.
 #[derive(Debug, Clone, Default, Deserialize)]
@@ -170,7 +167,7 @@ impl Backend {
                 }
                 None => Answer::empty(BAD_REQUEST),
             },
-            "critical" => Answer::json(&ahead::critical_speeds(&self.charts, &asked.page, body)?),
+            "critical" => Answer::json(&self.charts.critical_speeds(&asked.page, body)?),
             "mode" => Answer::json(&mode::answer(&self.charts, body)?),
             "influence" => Answer::json(&self.charts.influence(body)?),
             "save" => match SavedFile::named(name) {

@@ -6,8 +6,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use serde::Serialize;
 
 use super::ahead::Ahead;
-use super::backend::Clock;
 use super::influence::{Influence, influences};
+use super::meter::Clock;
 use super::refusal::Refusal;
 use super::reply::SavedFile;
 use super::told::Told;
@@ -16,7 +16,7 @@ use crate::analyses::campbell::{Report, Sensitivity};
 use crate::model::plate::Resolution;
 use crate::model::scene::{Accuracy, Scene, SceneError};
 use crate::page::figure::ChartData;
-use crate::stability::{Analysis, AnalysisOptions, Detail, Interim};
+use crate::stability::{Analysis, AnalysisOptions, ChosenBasis, Detail, Interim};
 
 /// Accuracy with which a diagram is requested.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,6 +106,22 @@ impl Charts {
     /// Numbers the next diagram `number`.
     pub fn number_from(&self, number: usize) {
         self.kept().made = number.saturating_sub(1);
+    }
+
+    /// Critical speeds of a page's scene with the accuracy of a draft.
+    ///
+    /// # Errors
+    /// [`Refusal`] if the scene is refused or the computation fails or is cancelled.
+    pub fn critical_speeds(&self, page: &str, scene: &str) -> Result<Ahead, Refusal> {
+        let scene = drafted(&Scene::from_json(scene)?)?;
+        let least = self.least_size(page, Fidelity::Draft);
+        let chosen = ChosenBasis::at_least(&scene, scene.tolerance(), least)?;
+        let interim = Interim {
+            critical: &chosen.critical,
+            range_rad_per_s: chosen.range_rad_per_s,
+            bands: None,
+        };
+        Ok(Ahead::new(&scene, interim))
     }
 
     /// Computes a diagram for a page and keeps it for later requests; returns JSON. `tell` receives early results as

@@ -26,7 +26,7 @@ impl OwnHosts {
         let host = text(headers, header::HOST);
         if !host.is_some_and(own) {
             return Some(format!(
-                "Host is {:?}, but must be {}; open the address that the program has printed",
+                "Host must be {1} (it is {0:?}); open the address that the program has printed",
                 host.unwrap_or_default(),
                 self.hosts.join(" or ")
             ));

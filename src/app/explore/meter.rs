@@ -2,8 +2,10 @@
 
 use std::sync::Mutex;
 
-use super::backend::Clock;
 use crate::page::figure::Figure;
+
+/// Clock that returns milliseconds since an arbitrary time.
+pub type Clock = fn() -> f64;
 
 /// Shortest interval between progress messages.
 const PAUSE_MS: f64 = 100.0;

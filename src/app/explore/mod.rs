@@ -35,6 +35,7 @@ mod under_way;
 mod usual;
 mod wording;
 
-pub use backend::{Answer, Backend, Clock, Question};
+pub use backend::{Answer, Backend, Question};
+pub use meter::Clock;
 #[cfg(feature = "explore")]
 pub use server::{ExploreError, Options, serve};

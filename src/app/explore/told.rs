@@ -49,7 +49,7 @@ fn speed(name: &'static str, rpm: Option<f64>) -> Fact {
     }
 }
 
-/// First critical speed of the sweep, and ratio of the operating speed to the lowest critical speed.
+/// First critical speed of the sweep, and ratio of the operating speed to the first critical speed.
 pub fn of_critical(first_rpm: Option<f64>, share: Option<f64>) -> [Fact; 2] {
     let percent = share.map(|share| format!("{:.1}", 100.0 * share));
     [
@@ -97,7 +97,7 @@ fn known(name: &'static str, words: Option<String>, unit: &'static str) -> Fact 
     Fact { name, words, unit }
 }
 
-/// Temperature rise in K at which the lowest critical speed equals the operating speed or the blade buckles, whichever
+/// Temperature rise in K at which the first critical speed equals the operating speed or the blade buckles, whichever
 /// is smaller; `None` if the operating speed exceeds a critical speed of the cold blade.
 fn tolerated_rise_k(heat: &ToleratedHeat) -> Option<f64> {
     let limit = heat

@@ -72,9 +72,9 @@ fn ends(allowed: &str) -> Option<(f64, f64)> {
     Some((from.parse().ok()?, to.parse().ok()?))
 }
 
-/// Reads the word and the number from a text such as "above 0; saws have 0.0001 to 0.04 m".
+/// Reads the word and the number from a text such as "above 0, usual range 0.0001 to 0.04 m".
 fn bound(allowed: &str) -> Option<(&'static str, f64)> {
-    let (bound, _) = allowed.split_once(';').unwrap_or((allowed, ""));
+    let (bound, _) = allowed.split_once(',').unwrap_or((allowed, ""));
     ["above", "at least", "at most"]
         .into_iter()
         .find_map(|word| Some((word, bound.strip_prefix(word)?.trim().parse().ok()?)))

@@ -15,12 +15,9 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, EvdParams, evd_real, evd_scratch};
 use faer::{Auto, Col, Mat, MatMut, MatRef, Par, Spec, c64};
 
-use super::complex::trace_error;
+use super::complex::{TRACE_TOLERANCE, trace_error};
 use super::inverse::{ACCURATE, Hessenberg};
 use super::{LinalgError, Sought, TOLERANCE, relative};
-
-/// Largest error of a trace, relative to the size of the matrix. A backward stable iteration has errors of 1e-13.
-pub(super) const TRACE_TOLERANCE: f64 = 1e-9;
 
 /// Eigenvalues and eigenvectors of a real matrix.
 #[derive(Debug)]

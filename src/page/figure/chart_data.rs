@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use super::axis::{Axis, Spread};
-use super::items::Item;
+use super::items::{Item, Upright};
 use super::palette::Hue;
 
 /// Panels in rows.
@@ -57,7 +57,7 @@ pub struct PanelData {
     /// Whether the panel shows frequencies over the rotation speed, so that multiples of the speed are
     /// straight lines.
     pub harmonics: bool,
-    /// Text inside the panel, for instance that no motion grows; empty if there is none.
+    /// Text inside the panel, for instance that no vibration grows; empty if there is none.
     pub note: String,
     /// Contents in drawing order.
     pub items: Vec<Item>,
@@ -78,6 +78,16 @@ impl PanelData {
             note: String::new(),
             items,
         }
+    }
+}
+
+impl PanelData {
+    /// The vertical lines.
+    pub(crate) fn uprights(&self) -> impl Iterator<Item = &Upright> {
+        self.items.iter().filter_map(|item| match item {
+            Item::Upright(upright) => Some(upright),
+            _ => None,
+        })
     }
 }
 

@@ -3,9 +3,8 @@
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::heat::rgb;
 use super::items::{Area, Item, Line, Points, Shape};
-use super::paint::{draw_mark, stroke};
+use super::paint::{draw_mark, stroke, upright_stroke};
 use super::palette::Hue;
-use super::panel::upright_stroke;
 use super::style::{LABEL_SIZE, PAPER, QUIET, label_width, shorten_label, tint};
 
 /// Space after each word.

@@ -4,7 +4,6 @@ use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::chart_data::PanelData;
 use super::declutter::{Extent, push_apart};
 use super::items::{Item, Label, Line, Upright};
-use super::layout::uprights;
 use super::paint::Ground;
 use super::style::{HAIRLINE, LABEL_SIZE, PAPER, QUIET, label_width, shorten_label, tint};
 
@@ -88,7 +87,9 @@ impl<'a> Labels<'a> {
     /// Draws the labels of the vertical lines above the panel.
     fn draw_uprights(&mut self, panel: &PanelData) -> bool {
         let (x, frame) = (self.ground.x, self.ground.frame);
-        let labelled = uprights(panel).filter(|line| !line.label.is_empty() && x.shows(line.x));
+        let labelled = panel
+            .uprights()
+            .filter(|line| !line.label.is_empty() && x.shows(line.x));
         let labelled: Vec<&Upright> = labelled.collect();
         let extents = labelled
             .iter()
@@ -103,7 +104,7 @@ impl<'a> Labels<'a> {
                     .text([place, frame.top - 17.0], letters, &line.label);
             }
         }
-        uprights(panel).any(|line| !line.label.is_empty())
+        panel.uprights().any(|line| !line.label.is_empty())
     }
 
     /// Draws the labels at the right ends of curves, to the right of the panel.
@@ -147,7 +148,8 @@ impl<'a> Labels<'a> {
 
     /// Labels keep off vertical lines, and off the marks if there are few.
     fn avoid_marks(&mut self, panel: &PanelData) {
-        let lines = uprights(panel)
+        let lines = panel
+            .uprights()
             .map(|line| self.ground.x.at(line.x))
             .map(|x| self.ground.frame.between([x - 1.0, x + 1.0]));
         self.shunned.extend(lines);

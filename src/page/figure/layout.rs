@@ -4,11 +4,11 @@ use super::canvas::{Frame, Sheet};
 use super::chart_data::{ChartData, PanelData};
 use super::heading;
 use super::heat::draw_scale;
-use super::items::{Heat, Item, Upright};
+use super::items::{Heat, Item};
 use super::key;
 use super::labels::end_room;
-use super::panel::{self, Named};
-use super::style::{BETWEEN_FACTS, broken};
+use super::panel::{self, Named, lines_of_facts};
+use super::style::BETWEEN_FACTS;
 
 const WIDTH: u32 = 1200;
 const LEFT: f64 = 104.0;
@@ -166,27 +166,10 @@ fn scaled(panel: &PanelData) -> Option<&Heat> {
 
 /// Space above a panel for its title, the facts below it, and the labels of vertical lines.
 fn space_above(panel: &PanelData, width: f64) -> f64 {
-    let has_labels = uprights(panel).any(|line| !line.label.is_empty());
+    let has_labels = panel.uprights().any(|line| !line.label.is_empty());
     let parts = [!panel.title.is_empty(), has_labels]
         .into_iter()
         .filter(|part| *part)
         .count() as f64;
     ABOVE * parts + panel::FACT * lines_of_facts(panel, width).len() as f64
-}
-
-/// The facts of a panel in lines of its width.
-pub fn lines_of_facts(panel: &PanelData, width: f64) -> Vec<String> {
-    if panel.facts.is_empty() {
-        Vec::new()
-    } else {
-        broken(&panel.facts.join("; "), width)
-    }
-}
-
-/// The vertical lines of a panel.
-pub fn uprights(panel: &PanelData) -> impl Iterator<Item = &Upright> {
-    panel.items.iter().filter_map(|item| match item {
-        Item::Upright(upright) => Some(upright),
-        _ => None,
-    })
 }

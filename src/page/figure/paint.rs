@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::canvas::{Frame, Sheet, Stroke};
 use super::clip::clip;
-use super::items::{Item, Line, Points, Shape};
+use super::items::{Item, Line, Points, Shape, Upright};
 use super::style::{DASH, FINE_DASH, HAIRLINE, tint};
 
 /// Width of the head of an arrow relative to that of its line.
@@ -156,5 +156,14 @@ pub fn stroke(line: &Line) -> Stroke {
     Stroke {
         dash: line.dashed.then_some(dash),
         ..Stroke::solid(tint(line.colour.colour(), line.tint), line.width)
+    }
+}
+
+/// Style of a vertical line.
+pub fn upright_stroke(line: &Upright) -> Stroke {
+    if line.dashed {
+        Stroke::dashed(line.colour.colour(), HAIRLINE, FINE_DASH)
+    } else {
+        Stroke::solid(line.colour.colour(), 1.5 * HAIRLINE)
     }
 }

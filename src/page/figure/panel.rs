@@ -7,12 +7,11 @@ use super::bands;
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::chart_data::{AxisData, PanelData};
 use super::heat::draw_cells;
-use super::items::{Area, Bars, Item, Upright};
+use super::items::{Area, Bars, Item};
 use super::labels::Labels;
-use super::layout::{lines_of_facts, uprights};
-use super::paint::Ground;
+use super::paint::{Ground, upright_stroke};
 use super::style::{
-    FINE_DASH, GRID, HAIRLINE, LABEL_SIZE, QUIET, SUBTITLE_SIZE, Weight, shorten, tint,
+    GRID, HAIRLINE, LABEL_SIZE, QUIET, SUBTITLE_SIZE, Weight, broken, shorten, tint,
 };
 
 /// Height of a line of facts.
@@ -67,7 +66,7 @@ pub fn draw(sheet: &mut Sheet, panel: &PanelData, frame: &Frame, named: Named) {
     }
     draw_across(sheet, &panel.x, &x, frame, named.x);
     ground.draw_lines(sheet, &panel.items);
-    for line in uprights(panel).filter(|line| x.shows(line.x)) {
+    for line in panel.uprights().filter(|line| x.shows(line.x)) {
         sheet.vertical(x.at(line.x), frame, upright_stroke(line));
     }
     ground.draw_points(sheet, &panel.items);
@@ -212,11 +211,11 @@ fn name_rows(sheet: &mut Sheet, panel: &PanelData, y: &Axis, frame: &Frame) {
     }
 }
 
-/// Style of a vertical line.
-pub fn upright_stroke(line: &Upright) -> Stroke {
-    if line.dashed {
-        Stroke::dashed(line.colour.colour(), HAIRLINE, FINE_DASH)
+/// The facts of a panel in lines of its width.
+pub fn lines_of_facts(panel: &PanelData, width: f64) -> Vec<String> {
+    if panel.facts.is_empty() {
+        Vec::new()
     } else {
-        Stroke::solid(line.colour.colour(), 1.5 * HAIRLINE)
+        broken(&panel.facts.join("; "), width)
     }
 }

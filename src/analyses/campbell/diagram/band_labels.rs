@@ -1,7 +1,7 @@
 //! Labels of the bands of instability, in rows at the top of the lower panel.
 
+use super::plan::{Chart, WIDTH};
 use super::speeds::operating_place;
-use super::{Chart, WIDTH};
 use crate::page::figure::bands::{NARROW, places};
 use crate::page::figure::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use crate::page::figure::items::Band;

@@ -1,6 +1,6 @@
 //! The lines below the figure on its accuracy.
 
-use super::{CERTIFICATE_ABOVE_FOOT, FACTS_ABOVE_FOOT, HEIGHT, PLOT_LEFT, WIDTH};
+use super::plan::{CERTIFICATE_ABOVE_FOOT, FACTS_ABOVE_FOOT, HEIGHT, PLOT_LEFT, WIDTH};
 use crate::analyses::campbell::Report;
 use crate::page::figure::axis::{raised, two_digits};
 use crate::page::figure::canvas::{Anchor, Lettering, Sheet};

@@ -1,9 +1,11 @@
 //! The contents of the Campbell diagram, as numbers.
 
+use super::branch_line::{line_through, say};
+use super::facts::facts;
+use super::growth;
 use super::view::Shown;
 use super::waves::{Stretch, direction_at, look_of_segment};
-use super::{facts, growth};
-use crate::analyses::campbell::{BranchCurve, Direction, Report};
+use crate::analyses::campbell::Report;
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};
 use crate::page::figure::items::{Band, Item, Line, Points, Role, Shape, Upright, lines_by_look};
 use crate::page::figure::palette::Hue;
@@ -88,55 +90,6 @@ fn safe_window(report: &Report) -> Option<Item> {
         said: vec![name.replace(": ", "\n"); 2],
         ..Line::new(ends.map(|rpm| [rpm, 0.0]), Hue::Ink, &name)
     }))
-}
-
-/// A curve of a branch through the samples with given numbers; `values` are the ordinates of all its samples.
-pub fn line_through(
-    branch: &BranchCurve,
-    values: &[f64],
-    samples: &[Option<usize>],
-    colour: Hue,
-    said: bool,
-) -> Line {
-    let nowhere = [f64::NAN; 2];
-    let points = samples
-        .iter()
-        .map(|sample| sample.map_or(nowhere, |i| [branch.rpm[i], values[i]]));
-    let words = samples
-        .iter()
-        .map(|sample| sample.map_or_else(String::new, |i| say(branch, i)));
-    Line {
-        said: if said { words.collect() } else { Vec::new() },
-        branch: Some(branch.branch),
-        ..Line::new(points, colour, &branch.name)
-    }
-}
-
-/// Description of a branch at one of its samples.
-fn say(branch: &BranchCurve, i: usize) -> String {
-    let hz = branch.frequency_hz.get(i).copied().unwrap_or(f64::NAN);
-    let growth = branch.growth_per_s.get(i).copied().unwrap_or(f64::NAN);
-    let sign = match branch.krein_sign.get(i) {
-        Some(1..) => "+1",
-        Some(..=-1) => "\u{2212}1, reflected",
-        _ => "none",
-    };
-    let lines = [
-        format!("{}, {}", branch.name, way(direction_at(branch, i))),
-        format!("{:.1} rpm", branch.rpm[i]),
-        format!("{hz:.3} Hz"),
-        format!("growth {} 1/s", shown_to(3, growth)),
-        format!("Krein sign {sign}"),
-    ];
-    lines.join("\n")
-}
-
-fn way(direction: Direction) -> &'static str {
-    match direction {
-        Direction::Forward => "forward",
-        Direction::Backward | Direction::Reflected => "backward",
-        Direction::Standing => "standing",
-    }
 }
 
 /// Curves of the branches: solid for waves of Krein sign +1, dashed for reflected waves, thick where unstable.

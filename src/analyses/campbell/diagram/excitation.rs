@@ -1,6 +1,6 @@
 //! Names of the lines at multiples of the rotation speed.
 
-use super::Chart;
+use super::plan::Chart;
 use crate::page::figure::canvas::{Anchor, Lettering, Sheet, text_frame};
 use crate::page::figure::items::Line;
 use crate::page::figure::style::{INK, LABEL_SIZE};

@@ -1,9 +1,9 @@
 //! The lower panel: growth rates.
 
-use super::describe::line_through;
+use super::branch_line::line_through;
 use super::meeting::Coalescence;
+use super::plan::{Chart, NEGLIGIBLE_PER_S};
 use super::waves::direction_at;
-use super::{Chart, NEGLIGIBLE_PER_S};
 use crate::analyses::campbell::{BranchCurve, InstabilityBand, Report};
 use crate::page::figure::axis::{Axis, Spread};
 use crate::page::figure::canvas::{Anchor, Lettering, Sheet, Stroke};
@@ -30,7 +30,7 @@ fn is_damped(report: &Report) -> bool {
 fn no_growth(report: &Report, [from, to]: [f64; 2]) -> &'static str {
     let mut critical = report.critical_speeds.iter();
     if critical.any(|entry| from <= entry.rpm && entry.rpm <= to) {
-        "no motion grows; at a critical speed (dashed) a constant force deflects the blade without bound"
+        "no vibration grows; at a critical speed (dashed) a constant force deflects the blade without bound"
     } else {
         "no growth: stable at every speed shown"
     }
@@ -84,7 +84,7 @@ fn greatest_decay(report: &Report) -> f64 {
     most.min(4.0 * greatest_growth(report, sweep(report)).max(least))
 }
 
-/// Whether the panel shows a curve: a motion grows, or damping makes one decay.
+/// Whether the panel shows a curve: a vibration grows, or damping makes one decay.
 pub fn is_worth_showing(report: &Report) -> bool {
     grows(report) || greatest_decay(report) > NEGLIGIBLE_PER_S
 }
@@ -163,7 +163,7 @@ fn write_note(sheet: &mut Sheet, chart: &Chart, baseline: f64) {
 }
 
 /// The panel with its curves; the caller adds the bands and the lines at critical speeds. The curves of an undamped
-/// saw are the growth rates within the bands, because no motion grows outside of them and decaying eigenvalues are
+/// saw are the growth rates within the bands, because no vibration grows outside of them and decaying eigenvalues are
 /// mirror images of growing ones. A damped saw has curves for all branches, and an estimated curve for each band
 /// without a sample near its largest growth.
 pub fn describe(report: &Report, shown: [f64; 2], speed: AxisData, said: bool) -> PanelData {

@@ -2,9 +2,10 @@
 
 use super::band_labels::BandLabels;
 use super::describe::WINDOW;
+use super::growth;
+use super::plan::{Chart, HEIGHT, LEGEND_ABOVE_FOOT, NOTES_ABOVE_FOOT, PLOT_LEFT, WIDTH};
 use super::view::left_out;
 use super::waves::measured_source;
-use super::{Chart, HEIGHT, LEGEND_ABOVE_FOOT, NOTES_ABOVE_FOOT, PLOT_LEFT, WIDTH, growth};
 use crate::page::figure::canvas::{Anchor, Lettering, Sheet};
 use crate::page::figure::items::{Item, Line, Shape};
 use crate::page::figure::key;

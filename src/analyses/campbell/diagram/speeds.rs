@@ -1,6 +1,7 @@
 //! Lines and labels of the critical speeds and of the operating speed.
 
-use super::{Chart, WIDTH, waves};
+use super::plan::{Chart, WIDTH};
+use super::waves;
 use crate::analyses::campbell::CriticalSpeed;
 use crate::page::figure::bands::places;
 use crate::page::figure::canvas::{Anchor, Frame, Lettering, Mark, Sheet, Stroke, text_frame};

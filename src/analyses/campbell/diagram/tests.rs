@@ -1,8 +1,10 @@
 use super::super::sample::{band, busy_report, empty_report};
 use super::*;
+use crate::analyses::campbell::InstabilityKind;
 use crate::analyses::campbell::{CriticalSpeed, InstabilityBand};
 use crate::page::figure::Hue;
 use crate::page::figure::canvas::Mark;
+use crate::page::figure::items::{Item, Line};
 use crate::page::figure::tidy::{assert_tidy, assert_unstruck, texts};
 
 #[test]
@@ -89,7 +91,7 @@ fn very_many_bands_are_drawn_as_far_as_they_can_be_distinguished() {
     let from = |k: usize| 1500.0 + 44.0 * k as f64;
     let new = |k: usize| band(InstabilityKind::Flutter, from(k), from(k) + 9.0, 1.0, 20.0);
     report.instabilities = (0..193).map(new).collect();
-    let shown = |report: &Report, view| Chart::new(report, view).speed.values();
+    let shown = |report: &Report, view| planned(report, view).speed.values();
     let all = CampbellView::default();
     assert_eq!(shown(&report, all), [0.0, from(40)]);
     let drawn = sheet(&report, all);
@@ -107,7 +109,7 @@ fn very_many_bands_are_drawn_as_far_as_they_can_be_distinguished() {
         to_hz: Some(33.0),
     };
     assert_eq!(shown(&report, asked), [2000.0, 10_000.0]);
-    assert_eq!(Chart::new(&report, asked).frequency.values(), [0.0, 33.0]);
+    assert_eq!(planned(&report, asked).frequency.values(), [0.0, 33.0]);
     assert_tidy(&sheet(&report, asked));
 }
 
@@ -120,7 +122,7 @@ fn a_saw_with_critical_speeds_is_not_called_stable_at_every_speed() {
     }
     let drawn = sheet(&report, CampbellView::default());
     assert!(starting_with(&drawn, "no growth").is_empty());
-    assert_eq!(starting_with(&drawn, "no motion grows;").len(), 1);
+    assert_eq!(starting_with(&drawn, "no vibration grows;").len(), 1);
     assert_unstruck(&drawn);
 }
 
@@ -188,7 +190,7 @@ fn odd_input_is_drawn_without_complaint() {
 #[test]
 fn growth_is_drawn_within_the_bands_and_never_below_zero() {
     let report = busy_report();
-    let chart = Chart::new(&report, CampbellView::default());
+    let chart = planned(&report, CampbellView::default());
     let axis = growth::axis(&chart, 50.0).unwrap();
     assert_eq!(axis.values()[0], 0.0);
     let mut sheet = Sheet::new(WIDTH, HEIGHT);

@@ -1,6 +1,6 @@
 //! The branches of the upper panel with their labels, and measured points.
 
-use super::{Chart, NEGLIGIBLE_PER_S};
+use super::plan::{Chart, NEGLIGIBLE_PER_S};
 use crate::analyses::campbell::{BranchCurve, Direction, Report};
 use crate::model::scene::MeasuredRow;
 use crate::page::figure::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
