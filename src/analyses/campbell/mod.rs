@@ -34,6 +34,7 @@ pub(crate) mod root_loci;
 #[cfg(test)]
 pub(crate) mod sample;
 mod saturated;
+pub(crate) mod sensitivity_chart;
 mod speeds;
 mod verdict;
 mod vtu;

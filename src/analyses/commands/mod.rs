@@ -205,13 +205,13 @@ commands! {
         figures: [
             "campbell" => |report| campbell::diagram::sheet(report, CampbellView::default()),
             "root-loci" => campbell::root_loci::chart,
+            "sensitivity" => campbell::sensitivity_chart::chart,
             "membrane" => campbell::membrane_chart::chart,
             "in-cut" => campbell::in_cut_chart::chart,
             "modes" => campbell::mode_shapes::sheet,
         ],
         charts: [
-            "campbell" => |report| campbell::diagram::chart(report, true),
-            "modes" => |_| None::<ChartData>
+            "campbell" => |report| campbell::diagram::chart(report, true)
         ],
         is_detail: |_, name| name == "root-loci",
     }
