@@ -122,7 +122,7 @@ def table(schema: Schema, keys: Schema, deep: bool) -> str:
         span = choices(value, defs)
         if "x-usual" in number:
             least, largest = number["x-usual"]
-            span = "; ".join(filter(None, [allowed(number), f"saws have {least:g} to {largest:g}"]))
+            span = ", ".join(filter(None, [allowed(number), f"usual range {least:g} to {largest:g}"]))
         if is_block and not span:
             span = "list of blocks" if list_of else "block"
         text = " ".join(value.get("description", "").split())

@@ -14,7 +14,7 @@ def main() -> None:
         lowest = thin.run_campbell().critical_rpm[0]
         passed = thin.check(operating_rpm=1250).passed
         print(
-            f"{1e3 * thickness_m:.1f} mm: lowest critical speed {lowest:.0f} rpm, "
+            f"{1e3 * thickness_m:.1f} mm: first critical speed {lowest:.0f} rpm, "
             f"may be run at {0.85 * lowest:.0f} rpm, {'passes' if passed else 'fails'} at 1250 rpm"
         )
 

@@ -4,7 +4,7 @@
 >>> saw = sf.Scene.paper().replace({"accuracy": "draft"})
 >>> r = saw.run_campbell()
 >>> r
-<CampbellResults 'Guided spline arbor saw': lowest critical speed 1531 rpm, flutter from 2256 rpm, \
+<CampbellResults 'Guided spline arbor saw': first critical speed 1531 rpm, flutter from 2256 rpm, \
 11 bands of instability from 0 to 3000 rpm>
 >>> saw.check(operating_rpm=1250).passed
 True

@@ -166,7 +166,7 @@ class Questions(Searches):
         operating_rpm : float, optional
             Operating speed; by default that of the scene.
         margin : float
-            Largest allowed ratio of operating speed to lowest critical speed.
+            Largest allowed ratio of operating speed to first critical speed.
         min_flutter_rpm, min_critical_rpm : float, optional
             Lowest allowed flutter speed and first critical speed.
         max_rim_m_per_s : float

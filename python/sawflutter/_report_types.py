@@ -273,16 +273,16 @@ class Excitation(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Operating(Entry):
-    """Comparison of the operating speed with the lowest critical speed."""
+    """Comparison of the operating speed with the first critical speed."""
 
     rpm: float
     """The scene's operating speed."""
 
     lowest_critical_rpm: float | None = field(default=None)
-    """Lowest critical speed, also above the sweep; null if the blade has none."""
+    """First critical speed, also above the sweep; null if the blade has none."""
 
     of_lowest_critical: float | None
-    """Ratio of operating speed to lowest critical speed; null if the blade has no critical
+    """Ratio of operating speed to first critical speed; null if the blade has no critical
     speed."""
 
     limit: float
@@ -440,7 +440,7 @@ class AccuracyEntry(Entry):
 
     complete_to_rpm: float
     """Speed up to which no wave with more nodal diameters can stand still in space: at least
-    the end of the sweep and the lowest critical speed. Critical speeds, bands, errors and the
+    the end of the sweep and the first critical speed. Critical speeds, bands, errors and the
     certificate hold up to it."""
 
     radial_functions: int
@@ -772,7 +772,7 @@ class StraightEdge(Entry):
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class HeatLimit(Entry):
-    """A temperature rise at which the blade buckles, or its lowest critical speed equals the
+    """A temperature rise at which the blade buckles, or its first critical speed equals the
     operating speed."""
 
     rise_k: float
@@ -821,7 +821,7 @@ class Heat(Entry):
     """Temperature rises at the radii of the stress."""
 
     operating_limit: HeatLimit | None
-    """Peak at which the lowest critical speed equals the operating speed; null without an
+    """Peak at which the first critical speed equals the operating speed; null without an
     operating speed, or if the blade buckles at a smaller one."""
 
     past_critical_when_cold: bool
@@ -839,7 +839,7 @@ class Heat(Entry):
     equals the operating speed."""
 
     critical_speeds: tuple[HeatCurve, ...]
-    """Lowest critical speeds over the peak, while the blade is flat at rest."""
+    """First critical speeds over the peak, while the blade is flat at rest."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -1053,7 +1053,7 @@ class CheckReport(Entry):
     """Operating speed."""
 
     margin: float
-    """Largest ratio of the operating speed to the lowest critical speed."""
+    """Largest ratio of the operating speed to the first critical speed."""
 
     to_rpm: float
     """Last speed of the sweep; results are limited to it."""
@@ -2213,7 +2213,7 @@ class MappedSaw(Entry):
     """Value of the number along the vertical axis; null for a map over the speed."""
 
     lowest_critical_rpm: float | None
-    """Lowest critical speed; null if the blade has none."""
+    """First critical speed; null if the blade has none."""
 
     flutter_speed_rpm: float | None
     """Flutter speed; null if no flutter counts within the sweep."""
@@ -2374,7 +2374,7 @@ class Outcome(Entry):
     """Flutter speed; null if it exceeds the sweep."""
 
     critical_rpm: float | None
-    """Lowest critical speed."""
+    """First critical speed."""
 
     window_rpm: FloatArray | None
     """Window without instability around the operating speed, if it is the goal."""
@@ -2999,7 +2999,7 @@ class Group(Entry):
     """Number of saws that could not be analysed."""
 
     lowest_critical: Speed
-    """Lowest critical speed of the analysed saws."""
+    """First critical speed of the analysed saws."""
 
     flutter: Speed
     """Flutter speed of the analysed saws."""
@@ -3036,11 +3036,11 @@ class ReliabilityPoint(Entry):
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Reliability(Entry):
     """Share of saws that can run, over the operating speed: at that speed they keep the margin
-    to their lowest critical speed and do not flutter. A saw that was refused or failed cannot
+    to their first critical speed and do not flutter. A saw that was refused or failed cannot
     run."""
 
     margin: float
-    """Largest ratio of the operating speed to the lowest critical speed: that of the limits, or
+    """Largest ratio of the operating speed to the first critical speed: that of the limits, or
     the usual one."""
 
     fastest: tuple[Quantile, ...]
@@ -3059,7 +3059,7 @@ class WorstSaw(Entry):
     """Number of the saw in the study."""
 
     rpm: float
-    """Lowest critical speed or flutter speed of the saw."""
+    """First critical speed or flutter speed of the saw."""
 
     values: FloatArray
     """Values of the varying numbers, in the order of the study."""

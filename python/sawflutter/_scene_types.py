@@ -696,7 +696,7 @@ class SceneDict(_SceneDict, total=False):
     """Lines of the Campbell diagram at multiples of the rotation speed. None by default."""
 
     sweep: SweepDict | None
-    """Range of speeds; by default from rest to twice the lowest critical speed, or to the
+    """Range of speeds; by default from rest to twice the first critical speed, or to the
     fortieth."""
 
     accuracy: Accuracy
@@ -800,7 +800,7 @@ class LimitsDict(TypedDict, total=False):
     """Operating speed; by default that of the scene."""
 
     margin: float
-    """Largest ratio of the operating speed to the lowest critical speed."""
+    """Largest ratio of the operating speed to the first critical speed."""
 
     min_flutter_rpm: float | None
     """Lower limit of the flutter speed."""

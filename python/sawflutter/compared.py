@@ -33,7 +33,7 @@ class CompareResults(Result, CompareReport):
             critical = lowest(entry.rpm for entry in saw.critical_speeds)
             flutter = saw.flutter_speed_rpm
             from_rpm = "no flutter" if flutter is None else f"flutter from {flutter:.0f} rpm"
-            parts.append(f"{saw.label}: lowest critical speed {critical}, {from_rpm}")
+            parts.append(f"{saw.label}: first critical speed {critical}, {from_rpm}")
         return "; ".join(parts)
 
 

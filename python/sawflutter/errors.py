@@ -5,7 +5,7 @@
 ...     sf.Scene.paper().replace({"blade.thickness_m": -1})
 ... except sf.SceneError as error:
 ...     print(error.key, error.value, error.allowed, sep="; ")
-blade.thickness_m; -1; above 0; saws have 0.0001 to 0.04 m
+blade.thickness_m; -1; above 0, usual range 0.0001 to 0.04 m
 """
 
 from __future__ import annotations
@@ -64,9 +64,9 @@ def refused(key: str, value: object, allowed: str, remedy: str) -> ArgumentError
     """The error of an argument.
 
     >>> refused("speeds", 0, "at least 1", "20 is usual")
-    ArgumentError('speeds is 0, but must be at least 1; 20 is usual')
+    ArgumentError('speeds must be at least 1 (you gave 0); 20 is usual')
     """
-    message = f"{key} is {value!r}, but must be {allowed}; {remedy}"
+    message = f"{key} must be {allowed} (you gave {value!r}); {remedy}"
     return ArgumentError(message, key, str(value), allowed, remedy)
 
 

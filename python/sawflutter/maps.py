@@ -41,7 +41,7 @@ class MapResults(Result, MapReport):
 
     @property
     def lowest_critical_rpm(self) -> FloatArray:
-        """Lowest critical speeds in the shape of the map; NaN where a saw has none.
+        """First critical speeds in the shape of the map; NaN where a saw has none.
 
         Examples
         --------

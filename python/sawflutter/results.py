@@ -279,7 +279,7 @@ class CampbellResults(Result, CampbellReport):
         critical = "no critical speed"
         flutter = f"no flutter above {self.flutter_threshold_per_s:g} 1/s"
         if self.critical_speeds:
-            critical = f"lowest critical speed {self.critical_rpm[0]:.0f} rpm"
+            critical = f"first critical speed {self.critical_rpm[0]:.0f} rpm"
         if self.flutter_rpm is not None:
             flutter = f"flutter from {self.flutter_rpm:.0f} rpm"
         first, last = self.campbell.from_rpm, self.campbell.to_rpm

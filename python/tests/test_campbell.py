@@ -155,7 +155,7 @@ def test_a_table_has_a_row_a_branch_and_speed(report: sf.CampbellResults, tmp_pa
 
 
 def test_a_notebook_shows_the_verdict_and_the_chart(report: sf.CampbellResults) -> None:
-    assert "lowest critical speed" in repr(report) and "flutter from" in repr(report)
+    assert "first critical speed" in repr(report) and "flutter from" in repr(report)
     shown = report._repr_html_()
     assert "data:image/svg+xml;base64," in shown
     assert report.saw.name in shown and "<script" not in shown

@@ -10,7 +10,7 @@ import pytest
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 SAID = {
-    "thinner_blade.py": "2.8 mm: lowest critical speed 1531 rpm, may be run at 1301 rpm",
+    "thinner_blade.py": "2.8 mm: first critical speed 1531 rpm, may be run at 1301 rpm",
     "own_eigenvalues.py": "0 rpm: NumPy 7.680, 13.143, 25.569, 42.847 Hz; sawflutter 7.680, 13.143",
     "figures.py": "2 diameters, reflected, at 1.61 Hz",
     "tolerances.py": "of 16 saws keep the 85 % rule",

@@ -195,7 +195,7 @@ def test_a_report_of_another_kind_is_refused(report: sf.CampbellResults, tmp_pat
 
 
 def test_guides_without_stiffness_leave_the_free_blade(draft: sf.Scene) -> None:
-    """Its lowest critical speed is exact, 1476.6 rpm; that of the paper's saw is 1530.7 rpm."""
+    """Its first critical speed is exact, 1476.6 rpm; that of the paper's saw is 1530.7 rpm."""
     own = draft["guides[0].stiffness_n_per_m"]
     found = draft.run_stiffness_map([1e-3, own])
     assert found.critical_rpm[:, 0] == pytest.approx([1476.6, 1530.7], rel=1e-3)

@@ -21,7 +21,7 @@ pub enum AnalysisError {
     Campbell(CampbellError),
     /// The blade would yield long before the end of the sweep.
     #[error(
-        "sweep.to_rpm is {to_rpm}, but must be at most {limit_rpm:.0}: beyond that the rim would be stretched by more than 10 %, which exceeds the elastic limit of any blade; end the sweep earlier, or check diameter, modulus and density"
+        "sweep.to_rpm must be at most {limit_rpm:.0} (you gave {to_rpm}): beyond that the rim would be stretched by more than 10 %, which exceeds the elastic limit of any blade; end the sweep earlier, or check diameter, modulus and density"
     )]
     Overstretched {
         /// End of the sweep.
@@ -31,7 +31,7 @@ pub enum AnalysisError {
     },
     /// Waves missing from the basis become critical within the sweep.
     #[error(
-        "sweep.to_rpm is {to_rpm}, but must be below {limit_rpm:.1}: waves of {diameters} and more nodal diameters, which the largest basis lacks, are critical there; end the sweep earlier"
+        "sweep.to_rpm must be below {limit_rpm:.1} (you gave {to_rpm}): waves of {diameters} and more nodal diameters, which the largest basis lacks, are critical there; end the sweep earlier"
     )]
     Unresolved {
         /// End of the sweep.

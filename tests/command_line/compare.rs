@@ -122,7 +122,7 @@ fn scenes_without_a_sweep_are_charted_over_the_same_speeds() {
         .map(|saw| saw.campbell.to_rpm)
         .collect();
     assert_eq!(ends[0], ends[1]);
-    // The lowest critical speed is proportional to the thickness, and the range ends at twice that of the faster saw.
+    // The first critical speed is proportional to the thickness, and the range ends at twice that of the faster saw.
     let critical: Vec<f64> = compared
         .saws
         .iter()

@@ -113,7 +113,7 @@ fn a_scene_without_the_forces_is_refused() {
     let cases: [Case<'_>; 7] = [
         (&["cut"], "cut is missing", |file| file.cut = None),
         (&["runup"], "runup is missing", |file| file.runup = None),
-        (&["cut", "--rpm", "-5"], "rpm is -5", |_| ()),
+        (&["cut", "--rpm", "-5"], "rpm must be ", |_| ()),
         (
             &["cut", "--stretching"],
             "nothing holds the blade laterally",
@@ -178,8 +178,8 @@ fn a_check_passes_fails_or_is_refused() {
             0,
             "PASS flutter speed of at least 1400 rpm: 2256 rpm",
         ),
-        (&["--operating-rpm", "-3"], 2, "--operating-rpm is -3"),
-        (&["--margin", "2"], 2, "--margin is 2"),
+        (&["--operating-rpm", "-3"], 2, "--operating-rpm must be "),
+        (&["--margin", "2"], 2, "--margin must be "),
     ];
     for (arguments, code, expected) in cases {
         let output = sawflutter()

@@ -47,9 +47,12 @@ fn a_force_or_a_saw_without_an_answer_is_refused() {
         (&["--force-n", "1e9"][..], "--force-n"),
         (
             &["--force-n", "1e5", "--accuracy", "draft"],
-            "side_force.force_n is 100000",
+            "side_force.force_n must be ",
         ),
-        (&["--angle-deg", "inf"], "--angle-deg"),
+        (
+            &["--set", "side_force.angle_deg=inf"],
+            "side_force.angle_deg",
+        ),
         (&["--to-rpm", "-5"], "--to-rpm"),
     ] {
         assert_refused(&[&["deflect"], options].concat(), said, &folder);
@@ -140,6 +143,6 @@ fn a_limit_of_the_amplitude_of_flutter_applies_to_every_band() {
         assert_eq!(criterion.passed, passed, "{criterion:?}");
         assert_eq!(output.status.code(), Some(1));
     }
-    let negative = ["check", "--max-amplitude", "-1"];
+    let negative = ["check", "--max-amplitude-mm", "-1"];
     assert_refused(&negative, "--max-amplitude-mm", &folder);
 }

@@ -104,7 +104,10 @@ fn a_saw_without_a_gap_and_invalid_numbers_are_refused() {
     let path = saw(&folder);
     for (words, said) in [
         (&["gap"][..], "guides[].contact"),
-        (&["gap", &path, "--force-n", "0"], "side_force.force_n is 0"),
+        (
+            &["gap", &path, "--force-n", "0"],
+            "side_force.force_n must be ",
+        ),
         (&["gap", &path, "--rpm", "-3"], "--rpm"),
         (
             &["gap", &path, "--max-deviation-mm", "0"],

@@ -416,7 +416,7 @@ fn a_check_with_a_number_of_another_unit_fails() {
     assert_eq!(code, Some(1), "{words}");
     for part in [
         "density_kg_per_m3 is 7.85 kg/m³",
-        "saws have 2000 to 20000",
+        "usual range 2000 to 20000",
         "7850 kg/m³",
         "--accept-unusual",
     ] {

@@ -137,7 +137,7 @@ fn a_pad_off_the_blade_is_refused_with_the_radii_of_the_blade() {
     file.guides[0].tangential_length_m = 0.02;
     let message = refused_text(serde_json::to_string(&file).unwrap().as_bytes());
     for part in [
-        "guides[0].radius_m is 0.01",
+        "guides[0].radius_m must be ",
         "off the blade",
         "0.1",
         "0.355",

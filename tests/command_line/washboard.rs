@@ -129,7 +129,7 @@ fn a_missing_key_of_washboarding_is_named() {
         ),
         (
             |saw| delayed(saw).overlap = -0.1,
-            "cut.washboarding.overlap is -0.1",
+            "cut.washboarding.overlap must be ",
         ),
     ];
     for (change, expected) in cases {

@@ -72,7 +72,7 @@ fn work_hardly_depends_on_the_accuracy() {
     assert!(reference.reduced_solves <= 2 * draft.reduced_solves);
 }
 
-/// Below the lowest critical speed no wave is reflected, and no band is searched for.
+/// Below the first critical speed no wave is reflected, and no band is searched for.
 #[test]
 fn a_slow_saw_takes_less_work() {
     let (_, analysis) = analysis(Accuracy::Design, 1400.0);

@@ -262,7 +262,7 @@ fn saws_that_cannot_be_computed_are_counted() {
     );
 }
 
-/// The lowest critical speed increases with the distance between the two pads; the flutter speed is highest at a medium
+/// The first critical speed increases with the distance between the two pads; the flutter speed is highest at a medium
 /// distance. A limit above the critical speed of the best saw changes the result, which then keeps the limit.
 #[test]
 fn a_limit_on_the_critical_speed_is_active_and_kept() {

@@ -73,7 +73,7 @@ fn problems_too_large_for_memory_are_refused_with_the_number() {
     file.guides = vec![file.guides[0]; 257];
     let message = Scene::try_from(file).unwrap_err().to_string();
     assert!(
-        message.contains("guides is 257") && message.contains("256"),
+        message.contains("guides must be ") && message.contains("256"),
         "{message}"
     );
     let plate = Plate::new(&scene(&unguided()), SMALL);

@@ -38,7 +38,7 @@ pub fn critical(file: &SceneFile, resolution: Resolution) -> Vec<f64> {
         .collect()
 }
 
-/// Edges and growth of every band up to 1.6 times the lowest critical speed, then the critical speeds: all results that
+/// Edges and growth of every band up to 1.6 times the first critical speed, then the critical speeds: all results that
 /// have the unit of a frequency.
 pub fn signature(file: &SceneFile) -> Vec<f64> {
     let plate = Plate::new(&scene(file), SMALL);

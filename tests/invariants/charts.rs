@@ -22,7 +22,7 @@ fn charts_of_random_saws_miss_nothing() {
         let plate = Plate::new(&scene(&file), SMALL);
         let model = SpectralModel::new(plate, range, Solver::Reduced).unwrap();
         let chart = chart(&model, range, 21, &|_, _| ()).unwrap();
-        // The certificate checks the even speeds above the lowest critical speed.
+        // The certificate checks the even speeds above the first critical speed.
         prop_assert!(chart.certificate.speeds_checked >= 7);
         prop_assert_eq!(chart.certificate.violations_rad_per_s, Vec::<f64>::new());
         let first = model.critical[0].speed_rad_per_s;
@@ -153,7 +153,7 @@ fn evenly_spaced_pads_merge_only_waves_of_one_class() {
             }
         }
         // The test is meaningful only if waves of different classes and signs have crossed. This occurs above the
-        // lowest critical speed, at which the first wave is reflected.
+        // first critical speed, at which the first wave is reflected.
         let first = model.critical[0].speed_rad_per_s;
         let spectra: Vec<Vec<Class>> = even_speeds((first, range.1), 101)
             .into_iter()

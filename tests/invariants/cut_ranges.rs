@@ -188,7 +188,7 @@ fn ranges(saw: &Saw) -> Vec<(f64, f64)> {
     ranges
 }
 
-/// The paper's saw from rest to a multiple of its lowest critical speed, with damping in its pad.
+/// The paper's saw from rest to a multiple of its first critical speed, with damping in its pad.
 fn paper(multiple: f64, damping_n_s_per_m: f64) -> Saw {
     let mut file = Scene::paper().file().clone();
     file.guides[0].damping_n_s_per_m = damping_n_s_per_m;

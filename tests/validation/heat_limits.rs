@@ -45,7 +45,7 @@ fn bisected(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
     0.5 * (low + high)
 }
 
-/// The reference is a search over the temperatures of whole scenes, until their lowest critical speed is the operating
+/// The reference is a search over the temperatures of whole scenes, until their first critical speed is the operating
 /// speed. The limit does not depend on the temperature of the scene itself.
 #[test]
 fn the_operating_limit_is_the_rise_at_which_the_critical_speed_is_the_operating_speed() {

@@ -293,7 +293,7 @@ fn assert_said(report: &impl CommandReport, condition: &str) {
     }
 }
 
-/// The lowest critical speed is 1/√µ with the largest eigenvalue µ of L⁻¹(−S)L⁻ᵀ, K₀ = LLᵀ.
+/// The first critical speed is 1/√µ with the largest eigenvalue µ of L⁻¹(−S)L⁻ᵀ, K₀ = LLᵀ.
 #[test]
 fn every_command_has_the_same_saw_in_the_cut() {
     let scene = against_wood();

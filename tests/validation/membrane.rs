@@ -153,7 +153,7 @@ fn the_krein_index_holds_under_membrane_stress() {
     assert!((lowest(&analysis) - lowest(&plain)).abs() > 5.0);
 }
 
-/// The sensitivities contain the numbers of the block, with the derivative of the lowest critical speed that central
+/// The sensitivities contain the numbers of the block, with the derivative of the first critical speed that central
 /// differences of whole scenes give.
 #[test]
 fn sensitivities_to_heat_and_tension() {

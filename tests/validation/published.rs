@@ -165,12 +165,12 @@ fn a_compressive_edge_load_moves_frequencies_and_bands_as_chen_found() {
     assert!(divergence < lowest && lowest < flutter);
 }
 
-/// A maker's largest speed is at most the lowest critical speed of the plate between its collars, and not much less: with
+/// A maker's largest speed is at most the first critical speed of the plate between its collars, and not much less: with
 /// the usual rule it is 0.85 of it. Teeth and expansion slots are not in the model.
 #[test]
 fn the_largest_speed_of_a_maker_is_near_the_usual_limit() {
     let report = report(&published("tenryu-305", |_| ()));
     let share = report.operating.unwrap().of_lowest_critical.unwrap();
-    println!("6900 rpm is {share:.3} of the lowest critical speed");
+    println!("6900 rpm is {share:.3} of the first critical speed");
     assert!((0.75..1.0).contains(&share), "{share}");
 }

@@ -27,7 +27,7 @@ def looking(
     for name, given in (("speed_units", speed_units), ("frequency_units", frequency_units)):
         if given not in TURN:
             allowed = ", ".join(map(repr, get_args(Units)))
-            raise ValueError(f"{name} is {given!r}, but must be one of {allowed}")
+            raise ValueError(f"{name} must be one of {allowed} (you gave {given!r})")
     panels = with_harmonics(chart.panels, [float(order) for order in harmonics])
     units: dict[str, str] = {"rpm": speed_units, "Hz": frequency_units}
     return replace(chart, panels=tuple(_in_units(panel, units) for panel in panels))
@@ -37,7 +37,7 @@ def with_harmonics(panels: Sequence[Panel], orders: Sequence[float]) -> Sequence
     """The panels with lines at multiples of the rotation speed."""
     for order in orders:
         if not (isfinite(order) and order > 0.0):
-            raise ValueError(f"harmonics has {order:g}, but a multiple must be positive and finite")
+            raise ValueError(f"a multiple in harmonics must be positive and finite (you gave {order:g})")
     if orders and not any(panel.harmonics for panel in panels):
         raise ValueError(
             "harmonics are lines of frequency over the rotation speed, which this figure does not "

@@ -35,9 +35,9 @@ def animate(
 ) -> Animation:
     """One period of a mode; growth is left out. See :meth:`sawflutter.Scene.animate`."""
     if backend not in ("plotly", "matplotlib"):
-        raise ValueError(f"backend is {backend!r}, but must be 'plotly' or 'matplotlib'")
+        raise ValueError(f"backend must be 'plotly' or 'matplotlib' (you gave {backend!r})")
     if frames < 2:
-        raise ValueError(f"frames is {frames}, but must be at least 2; 48 is usual")
+        raise ValueError(f"frames must be at least 2 (you gave {frames}); 48 is usual")
     radius, theta = grid(mode)
     pictures = deflections(mode, radius, theta, frames)
     title = f"{mode.name}, {mode.direction}<br>{mode.rpm:.0f} rpm, {mode.frequency_hz:.2f} Hz"

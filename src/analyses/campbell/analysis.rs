@@ -97,7 +97,7 @@ pub struct BasisAccuracy {
     /// Largest number of nodal diameters.
     pub max_diameters: usize,
     /// Speed up to which no wave with more nodal diameters can stand still in space: at least the end of the sweep and
-    /// the lowest critical speed. Critical speeds, bands, errors and the certificate hold up to it.
+    /// the first critical speed. Critical speeds, bands, errors and the certificate hold up to it.
     pub complete_to_rpm: f64,
     /// Number of radial functions for each number of nodal diameters, including those that steps and kinks of the
     /// thickness add.

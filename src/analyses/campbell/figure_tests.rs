@@ -87,7 +87,7 @@ fn assert_one_name(report: &Report) {
     }
 }
 
-/// Random saws, the same in every run, and ends of their sweeps relative to the lowest critical speed. Failing cases
+/// Random saws, the same in every run, and ends of their sweeps relative to the first critical speed. Failing cases
 /// are not minimized, because each takes a second.
 fn drawn_saws(count: usize) -> impl Iterator<Item = (SceneFile, f64)> {
     let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);

@@ -103,7 +103,7 @@ pub struct ToleratedHeat {
     pub rise_k: f64,
     /// Temperature rises at the radii of the stress.
     pub profile_k: Vec<f64>,
-    /// Peak at which the lowest critical speed equals the operating speed; null without an operating speed,
+    /// Peak at which the first critical speed equals the operating speed; null without an operating speed,
     /// or if the blade buckles at a smaller one.
     pub operating_limit: Option<ToleratedRise>,
     /// Whether the operating speed exceeds a critical speed of the cold blade.
@@ -115,11 +115,11 @@ pub struct ToleratedHeat {
     /// Whether the blade buckles at rest at a smaller peak than that at which its critical speed equals the
     /// operating speed.
     pub buckles_first: bool,
-    /// Lowest critical speeds over the peak, while the blade is flat at rest.
+    /// First critical speeds over the peak, while the blade is flat at rest.
     pub critical_speeds: Vec<CriticalCurve>,
 }
 
-/// A temperature rise at which the blade buckles, or its lowest critical speed equals the operating speed.
+/// A temperature rise at which the blade buckles, or its first critical speed equals the operating speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "HeatLimitEntry")]

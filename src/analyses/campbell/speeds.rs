@@ -74,17 +74,17 @@ pub struct InstabilityBand {
     pub estimated_relative_growth_error: Option<f64>,
 }
 
-/// Comparison of the operating speed with the lowest critical speed.
+/// Comparison of the operating speed with the first critical speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "OperatingEntry")]
 pub struct OperatingPoint {
     /// The scene's operating speed.
     pub rpm: f64,
-    /// Lowest critical speed, also above the sweep; null if the blade has none.
+    /// First critical speed, also above the sweep; null if the blade has none.
     #[serde(default)]
     pub lowest_critical_rpm: Option<f64>,
-    /// Ratio of operating speed to lowest critical speed; null if the blade has no critical speed.
+    /// Ratio of operating speed to first critical speed; null if the blade has no critical speed.
     pub of_lowest_critical: Option<f64>,
     /// Usual limit of that ratio, 0.85.
     pub limit: f64,

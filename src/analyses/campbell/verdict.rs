@@ -1,15 +1,15 @@
-//! Whether a motion grows.
+//! Whether a vibration grows.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Whether a motion grows.
+/// Whether a vibration grows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
-    /// No motion grows as fast as the threshold.
+    /// No vibration grows as fast as the threshold.
     Stable,
-    /// Some motion grows as fast.
+    /// Some vibration grows as fast.
     Unstable,
 }
 

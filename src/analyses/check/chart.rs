@@ -28,7 +28,7 @@ pub fn chart(report: &CheckReport) -> ChartData {
     }
 }
 
-/// End of the axis in rpm. The axis includes the sweep, every limit and every result; the lowest critical speed may
+/// End of the axis in rpm. The axis includes the sweep, every limit and every result; the first critical speed may
 /// be beyond the sweep.
 fn last_shown_rpm(report: &CheckReport) -> f64 {
     let of_criterion = |c: &Criterion| c.asked_rpm.max(c.found_rpm.unwrap_or(0.0));
@@ -236,7 +236,7 @@ mod tests {
         assert_eq!(with("operating 1250"), 1, "{said:?}");
     }
 
-    /// The lowest critical speed of this saw lies beyond its sweep.
+    /// The first critical speed of this saw lies beyond its sweep.
     #[test]
     fn a_speed_found_beyond_the_sweep_is_on_the_axis() {
         let scene = Scene::paper()

@@ -40,7 +40,7 @@ impl Limits {
         criteria
     }
 
-    /// Criterion of the ratio of the operating speed to the lowest critical speed.
+    /// Criterion of the ratio of the operating speed to the first critical speed.
     fn of_margin(&self, lowest_critical: Option<f64>) -> Criterion {
         let (operating, margin) = (self.operating_rad_per_s, self.margin);
         let asked = operating / margin;
@@ -214,7 +214,7 @@ pub(super) fn without_stiffness(operating: f64) -> Criterion {
 }
 
 /// For every guide with a gap, the criterion that the lateral forces of the cut do not close it up to the operating
-/// speed. The static deflection exists only below the lowest critical speed. Without lateral forces, or if nothing
+/// speed. The static deflection exists only below the first critical speed. Without lateral forces, or if nothing
 /// restrains the blade, there is no criterion.
 pub(super) fn of_gaps(
     scene: &Scene,

@@ -14,7 +14,7 @@ pub struct LimitsFile {
     /// Operating speed; by default that of the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub operating_rpm: Option<f64>,
-    /// Largest ratio of the operating speed to the lowest critical speed.
+    /// Largest ratio of the operating speed to the first critical speed.
     #[serde(default = "default_margin")]
     pub margin: f64,
     /// Lower limit of the flutter speed.
@@ -56,7 +56,7 @@ impl LimitsFile {
 pub struct Limits {
     /// Operating speed.
     pub operating_rad_per_s: f64,
-    /// Largest ratio of the operating speed to the lowest critical speed.
+    /// Largest ratio of the operating speed to the first critical speed.
     pub margin: f64,
     /// Lower limit of the flutter speed.
     pub min_flutter_rad_per_s: Option<f64>,

@@ -30,7 +30,7 @@ pub struct CheckReport {
     pub criteria: Vec<Criterion>,
     /// Operating speed.
     pub operating_rpm: f64,
-    /// Largest ratio of the operating speed to the lowest critical speed.
+    /// Largest ratio of the operating speed to the first critical speed.
     pub margin: f64,
     /// Last speed of the sweep; results are limited to it.
     pub to_rpm: f64,

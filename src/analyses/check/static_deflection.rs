@@ -1,4 +1,4 @@
-//! Static deflection under a lateral force over the speed, up to the lowest critical speed.
+//! Static deflection under a lateral force over the speed, up to the first critical speed.
 
 use std::convert::Infallible;
 
@@ -13,13 +13,13 @@ use crate::modes::orthonormal;
 use crate::motion::transient::{at_point, lateral_load};
 use crate::stability::{Look, bracketed};
 
-/// Squared speeds, relative to the squared lowest critical speed, at which the response is solved on the full
+/// Squared speeds, relative to the squared first critical speed, at which the response is solved on the full
 /// model. The response is a rational function of the squared speed, which the reduced model on these responses
 /// interpolates.
 const SOLVED_AT: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 0.9, 0.97];
 /// Number of evenly spaced speeds of the curve.
 const SPEEDS: usize = 41;
-/// End of the curve relative to the lowest critical speed, at which the deflection is unbounded.
+/// End of the curve relative to the first critical speed, at which the deflection is unbounded.
 const LAST_SHARE: f64 = 0.99;
 /// Directions of the responses that are shorter than this share of the longest are rounding errors.
 const LEAST: f64 = 1e-12;

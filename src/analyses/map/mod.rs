@@ -3,7 +3,7 @@
 //! A [`Map`] is a grid of saws, which the engine of [`study`](crate::analyses::study) computes, logs and resumes; [`map()`]
 //! computes all of them at once. Every saw lists its
 //! bands, from which stable, divergence and flutter areas follow at any speed, and contours of its flutter speed and of its
-//! lowest critical speed.
+//! first critical speed.
 //!
 //! ```
 //! use sawflutter::analyses::map::{Options, Range, map};

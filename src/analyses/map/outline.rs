@@ -86,7 +86,7 @@ fn verdict(report: &MapReport) -> String {
 fn speeds(text: &mut Outline, report: &MapReport) {
     let kinds: [(&str, Speed); 2] = [
         ("Flutter speed", |saw| saw.flutter_speed_rpm),
-        ("Lowest critical speed", |saw| saw.lowest_critical_rpm),
+        ("First critical speed", |saw| saw.lowest_critical_rpm),
     ];
     for (name, of) in kinds {
         let known = report.saws.iter().filter_map(|saw| Some((of(saw)?, saw)));

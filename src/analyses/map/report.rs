@@ -69,7 +69,7 @@ pub struct MappedSaw {
     pub x: f64,
     /// Value of the number along the vertical axis; null for a map over the speed.
     pub y: Option<f64>,
-    /// Lowest critical speed; null if the blade has none.
+    /// First critical speed; null if the blade has none.
     pub lowest_critical_rpm: Option<f64>,
     /// Flutter speed; null if no flutter counts within the sweep.
     pub flutter_speed_rpm: Option<f64>,
@@ -92,7 +92,7 @@ pub struct MappedSaw {
 pub enum Contoured {
     /// The flutter speed.
     FlutterSpeed,
-    /// The lowest critical speed.
+    /// The first critical speed.
     LowestCriticalSpeed,
 }
 

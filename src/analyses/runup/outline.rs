@@ -24,7 +24,7 @@ pub fn outline(report: &RunUpReport) -> Outline {
     }
     text.facts("", facts);
     match (report.bands.is_empty(), report.first_doubling_rpm) {
-        (true, _) => text.sentence("No instability: nothing grows at any speed of the run-up"),
+        (true, _) => text.sentence("No instability: no vibration grows at any speed of the run-up"),
         (false, None) => text.sentence(format!(
             "At {:.1} rpm/s no band amplifies a vibration more than twofold",
             report.rate_rpm_per_s

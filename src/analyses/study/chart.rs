@@ -1,4 +1,4 @@
-//! Distributions of the lowest critical speed and of the flutter speed of many saws.
+//! Distributions of the first critical speed and of the flutter speed of many saws.
 
 use super::{Passing, Reliability, SpeedStatistics, StudyReport};
 use crate::page::figure::axis::proper_range;
@@ -20,7 +20,7 @@ pub fn chart(report: &StudyReport) -> ChartData {
     let facts = [report.condition.clone(), count].into_iter().chain(passing);
     let all = &report.all;
     let critical = Speed {
-        name: "Lowest critical speed",
+        name: "First critical speed",
         statistics: &all.lowest_critical,
         bars: (Hue::Forward, 0.45),
         limits: limits(
@@ -182,7 +182,7 @@ fn runs(reliability: &Reliability) -> PanelData {
     let ends = [reliability.curve.first(), reliability.curve.last()]
         .map(|point| point.map_or(0.0, |point| point.operating_rpm));
     let name = format!(
-        "Saws that can run at up to {:.0} % of their lowest critical speed, without flutter",
+        "Saws that can run at up to {:.0} % of their first critical speed, without flutter",
         100.0 * reliability.margin
     );
     let curve = Line::new(points, Hue::Forward, &name);

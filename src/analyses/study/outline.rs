@@ -43,7 +43,7 @@ pub fn outline(report: &StudyReport) -> Outline {
     if let Some(reliability) = &report.reliability {
         text.table(fastest(reliability));
         text.sentence(format!(
-            "(at most {} of the lowest critical speed, and no flutter up to there)",
+            "(at most {} of the first critical speed, and no flutter up to there)",
             shown_to(6, reliability.margin)
         ));
     }
@@ -53,7 +53,7 @@ pub fn outline(report: &StudyReport) -> Outline {
     text
 }
 
-/// Adds the quantiles of the lowest critical speed and of the flutter speed, and of guides with a gap.
+/// Adds the quantiles of the first critical speed and of the flutter speed, and of guides with a gap.
 fn quantiles(text: &mut Outline, report: &StudyReport) {
     let all = &report.all;
     let heads = all
@@ -169,7 +169,7 @@ fn groups(report: &StudyReport) -> Table {
         .with_rows(report.groups.iter().map(row))
 }
 
-/// Adds the saws with the lowest critical speed and with the lowest flutter speed.
+/// Adds the saws with the first critical speed and with the lowest flutter speed.
 fn worst(text: &mut Outline, report: &StudyReport) {
     let speeds = [
         ("first critical", &report.worst_lowest_critical),

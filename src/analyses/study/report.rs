@@ -56,7 +56,7 @@ pub struct StudyReport {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Reliability {
-    /// Largest ratio of the operating speed to the lowest critical speed: that of the limits, or the usual
+    /// Largest ratio of the operating speed to the first critical speed: that of the limits, or the usual
     /// one.
     pub margin: f64,
     /// Highest operating speeds for given shares of the saws; null if it exceeds the speeds of the study, or
@@ -82,7 +82,7 @@ pub struct ReliabilityPoint {
 pub struct WorstSaw {
     /// Number of the saw in the study.
     pub saw: usize,
-    /// Lowest critical speed or flutter speed of the saw.
+    /// First critical speed or flutter speed of the saw.
     pub rpm: f64,
     /// Values of the varying numbers, in the order of the study.
     pub values: Vec<f64>,
@@ -100,7 +100,7 @@ pub struct Group {
     pub refused: usize,
     /// Number of saws that could not be analysed.
     pub failed: usize,
-    /// Lowest critical speed of the analysed saws.
+    /// First critical speed of the analysed saws.
     pub lowest_critical: SpeedStatistics,
     /// Flutter speed of the analysed saws.
     pub flutter: SpeedStatistics,

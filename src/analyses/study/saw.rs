@@ -35,7 +35,7 @@ pub enum Outcome {
 /// Speeds of a saw, and the limits that it keeps.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Found {
-    /// Lowest critical speed; `None` if the blade has none.
+    /// First critical speed; `None` if the blade has none.
     pub lowest_critical_rpm: Option<f64>,
     /// Flutter speed; `None` if it exceeds the speeds of the study.
     pub flutter_rpm: Option<f64>,

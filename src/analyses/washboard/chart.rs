@@ -1,4 +1,4 @@
-//! The lobe diagram: smallest cutting stiffness at which a motion grows, over the speed, and its frequency.
+//! The lobe diagram: smallest cutting stiffness at which a vibration grows, over the speed, and its frequency.
 
 use super::WashboardReport;
 use crate::analyses::campbell::Verdict;
@@ -17,9 +17,9 @@ const DOT_SIZE: f64 = 4.4;
 const DECADES: f64 = 2.5;
 /// Space below and above the boundary, in decades.
 const ROOM: f64 = 0.3;
-/// Name of the stiffnesses at which a motion grows.
-const GROWS: &str = "above the smallest stiffness at which a motion grows";
-/// Name of the stiffnesses for which it is not known whether a motion grows.
+/// Name of the stiffnesses at which a vibration grows.
+const GROWS: &str = "above the smallest stiffness at which a vibration grows";
+/// Name of the stiffnesses for which it is not known whether a vibration grows.
 const UNKNOWN: &str = "not searched or not confirmed above";
 
 /// The boundary and its frequencies, as numbers.
@@ -93,8 +93,8 @@ pub fn chart(report: &WashboardReport) -> ChartData {
     }
 }
 
-/// The boundary in a panel from a smallest stiffness on. Where no motion grows up to the largest stiffness of the search
-/// it is interrupted, and where motions grow at any stiffness it is below the panel.
+/// The boundary in a panel from a smallest stiffness on. Where no vibration grows up to the largest stiffness of the search
+/// it is interrupted, and where vibrations grow at any stiffness it is below the panel.
 fn boundary(report: &WashboardReport, [least, _]: [f64; 2]) -> Line {
     let lobes = &report.lobes;
     let points = lobes
@@ -104,11 +104,11 @@ fn boundary(report: &WashboardReport, [least, _]: [f64; 2]) -> Line {
         .map(|(rpm, k)| [*rpm, k.map_or(f64::NAN, |k| k.max(0.1 * least))]);
     Line {
         said: said(report),
-        ..Line::new(points, Hue::Flutter, "a motion grows above")
+        ..Line::new(points, Hue::Flutter, "a vibration grows above")
     }
 }
 
-/// The stiffness above which it is not known whether a motion grows, at speeds where this is below the boundary.
+/// The stiffness above which it is not known whether a vibration grows, at speeds where this is below the boundary.
 fn unknown_from(report: &WashboardReport, [least, _]: [f64; 2]) -> Line {
     let lobes = &report.lobes;
     let points = lobes.rpm.iter().enumerate().map(|(k, rpm)| {
@@ -128,7 +128,7 @@ fn unknown_from(report: &WashboardReport, [least, _]: [f64; 2]) -> Line {
     }
 }
 
-/// Ends of the stiffnesses at the k-th speed for which it is not known whether a motion grows; they are equal if there are
+/// Ends of the stiffnesses at the k-th speed for which it is not known whether a vibration grows; they are equal if there are
 /// none.
 fn unknown(report: &WashboardReport, k: usize) -> [f64; 2] {
     let from = report.lobes.stable_to_n_per_m.get(k);
@@ -146,7 +146,7 @@ fn said(report: &WashboardReport) -> Vec<String> {
     let lobes = &report.lobes;
     let said = lobes.rpm.iter().enumerate().map(|(k, rpm)| {
         let critical =
-            critical(report, k).map(|k| format!("a motion grows above {} N/m", shown_to(3, k)));
+            critical(report, k).map(|k| format!("a vibration grows above {} N/m", shown_to(3, k)));
         let [from, to] = unknown(report, k);
         let unknown = (from < to).then(|| format!("{UNKNOWN} {} N/m", shown_to(3, from)));
         let hz = lobes.frequency_hz.get(k).copied().flatten();
@@ -197,7 +197,7 @@ fn decades(report: &WashboardReport) -> [f64; 2] {
     [(own.min(least) - ROOM).floor(), (most + ROOM).ceil()].map(|log| 10f64.powf(log))
 }
 
-/// The unstable stiffnesses, and those for which it is not known whether a motion grows.
+/// The unstable stiffnesses, and those for which it is not known whether a vibration grows.
 fn areas(report: &WashboardReport, [least, most]: [f64; 2]) -> [Item; 2] {
     let column = |k: usize, [low, high]: [f64; 2]| {
         let rpm = report.lobes.rpm[k];

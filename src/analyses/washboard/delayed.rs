@@ -14,10 +14,10 @@ use crate::modes::SpectrumError;
 use super::delay::Delay;
 use super::transfer::Transfer;
 
-/// The smallest cutting stiffness at which a motion grows.
+/// The smallest cutting stiffness at which a vibration grows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Boundary {
-    /// Cutting stiffness; zero if a motion grows without the delayed force.
+    /// Cutting stiffness; zero if a vibration grows without the delayed force.
     pub stiffness_n_per_m: f64,
     /// Frequency of the motion in space.
     pub frequency_rad_per_s: f64,

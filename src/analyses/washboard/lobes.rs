@@ -1,4 +1,4 @@
-//! The lobe diagram: the smallest cutting stiffness at which a motion grows, over the speed.
+//! The lobe diagram: the smallest cutting stiffness at which a vibration grows, over the speed.
 
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -18,9 +18,9 @@ use crate::modes::branches::{Progress, even_speeds};
 pub(super) struct LobePoint {
     /// Rotation speed.
     pub speed_rad_per_s: f64,
-    /// Smallest cutting stiffness at which a motion grows; `None` if it exceeds the ceiling.
+    /// Smallest cutting stiffness at which a vibration grows; `None` if it exceeds the ceiling.
     pub boundary: Option<Boundary>,
-    /// Whether the count confirms that nothing grows just below it.
+    /// Whether the count confirms that no vibration grows just below it.
     pub confirmed: bool,
 }
 

@@ -1,7 +1,7 @@
 //! Washboarding: vibration of the blade that arises because each tooth cuts the surface left by the preceding
 //! one.
 //!
-//! For a scene whose cut has the block `washboarding`, [`washboard`] reports whether a motion grows at the
+//! For a scene whose cut has the block `washboarding`, [`washboard`] reports whether a vibration grows at the
 //! operating speed, its mode, and the smallest cutting stiffness for growth over the speed.
 //!
 //! The force on a tooth is −k (w(t) − μ w(t − τ)). The wood is fixed in space, and each tooth passes the same
@@ -85,7 +85,7 @@ pub enum WashboardError {
     },
     /// A rigid motion has no stiffness.
     #[error(
-        "guides is empty or too soft, but must hold the blade against every rigid motion; give a guide with a stiffness, cut.wood, or mount the blade on a collar"
+        "the guides must hold the blade against every rigid motion (there are none, or they are too soft); give a guide with a stiffness, cut.wood, or mount the blade on a collar"
     )]
     Loose,
 }

@@ -25,7 +25,7 @@ pub struct WashboardReport {
     pub unusual_numbers: Vec<String>,
     /// Rotation speed of the verdict.
     pub rpm: f64,
-    /// Whether a motion grows at that speed.
+    /// Whether a vibration grows at that speed.
     pub verdict: Verdict,
     /// Number of teeth that pass per second.
     pub tooth_passing_hz: f64,
@@ -39,8 +39,8 @@ pub struct WashboardReport {
     pub arc_deg: f64,
     /// Feed speed of the wood, if given.
     pub feed_m_per_s: Option<f64>,
-    /// Smallest cutting stiffness at which a motion grows at the speed `rpm`; null if it exceeds
-    /// `ceiling_n_per_m`, zero if a motion grows without the delayed force.
+    /// Smallest cutting stiffness at which a vibration grows at the speed `rpm`; null if it exceeds
+    /// `ceiling_n_per_m`, zero if a vibration grows without the delayed force.
     pub critical_stiffness_n_per_m: Option<f64>,
     /// Frequency of this motion.
     pub critical_frequency_hz: Option<f64>,
@@ -51,7 +51,7 @@ pub struct WashboardReport {
     pub growing_eigenvalues_without: usize,
     /// Modes at the speed `rpm`, in descending order of growth.
     pub modes: Vec<WashboardMode>,
-    /// Smallest cutting stiffness at which a motion grows, over the speed.
+    /// Smallest cutting stiffness at which a vibration grows, over the speed.
     pub lobes: Lobes,
     /// Largest cutting stiffness of the search.
     pub ceiling_n_per_m: f64,
@@ -100,15 +100,15 @@ pub struct WashboardMode {
 pub struct Lobes {
     /// Rotation speeds.
     pub rpm: Vec<f64>,
-    /// Smallest cutting stiffness at which a motion grows; null if it exceeds `ceiling_n_per_m`, zero if a
+    /// Smallest cutting stiffness at which a vibration grows; null if it exceeds `ceiling_n_per_m`, zero if a
     /// motion grows without the delayed force.
     pub critical_stiffness_n_per_m: Vec<Option<f64>>,
     /// Frequency of this motion.
     pub frequency_hz: Vec<Option<f64>>,
-    /// Cutting stiffness up to which it is known that no motion grows: the critical one, or the largest of the
+    /// Cutting stiffness up to which it is known that no vibration grows: the critical one, or the largest of the
     /// search; less where only damping prevents the growth of omitted modes, zero where the count does not confirm it.
     pub stable_to_n_per_m: Vec<f64>,
-    /// Whether the argument principle confirms that nothing grows just below this stiffness.
+    /// Whether the argument principle confirms that no vibration grows just below this stiffness.
     pub confirmed: Vec<bool>,
 }
 

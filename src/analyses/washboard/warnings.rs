@@ -44,7 +44,7 @@ fn without_delay(report: &WashboardReport) -> Option<String> {
 
 fn on_the_axis(report: &WashboardReport) -> Option<String> {
     report.growing_eigenvalues.is_none().then(|| {
-        "a motion neither grows nor decays within rounding: the side of the boundary is undetermined, and the saw is called unstable".to_owned()
+        "a vibration neither grows nor decays within rounding: the side of the boundary is undetermined, and the saw is called unstable".to_owned()
     })
 }
 

@@ -29,7 +29,7 @@ pub struct Arguments {
     /// Speed at which the saw is run; the scene's by default
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     operating_rpm: Option<f64>,
-    /// Largest share of the lowest critical speed that the operating speed may be
+    /// Largest share of the first critical speed that the operating speed may be
     #[arg(
         long,
         value_name = "SHARE",
@@ -50,7 +50,7 @@ pub struct Arguments {
         allow_negative_numbers = true, value_parser = number)]
     max_rim_m_per_s: f64,
     /// Largest deflection in millimetres that flutter may rise to in any band up to the operating speed
-    #[arg(long, alias = "max-amplitude", value_name = "MM", allow_negative_numbers = true, value_parser = number)]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = number)]
     max_amplitude_mm: Option<f64>,
     /// Let a saw pass that has numbers no saw has
     #[arg(long)]

@@ -26,9 +26,6 @@ pub struct Arguments {
     /// Constant force across the blade, as `--set side_force.force_n=N`; 1 N in a scene without one
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     force_n: Option<String>,
-    /// Angle of the force, fixed in space, as `--set side_force.angle_deg=DEG`; by default that of the cut
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
-    angle_deg: Option<String>,
     /// Last speed; by default the end of the scene's sweep
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     to_rpm: Option<f64>,
@@ -38,10 +35,7 @@ pub struct Arguments {
 
 /// Follows the equilibria, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let given = [
-        ("--force-n", "side_force.force_n", &arguments.force_n),
-        ("--angle-deg", "side_force.angle_deg", &arguments.angle_deg),
-    ];
+    let given = [("--force-n", "side_force.force_n", &arguments.force_n)];
     let scene = with_shorthands(arguments.common.scene()?, &given)?;
     let options = Options {
         to_rpm: arguments.to_rpm,

@@ -15,7 +15,7 @@ pub fn range(option: &str, text: &str) -> anyhow::Result<NamedBounds> {
     };
     let Some((from, to)) = range.split_once("..") else {
         bail!(
-            "the range of {option} {text} is {range:?}, but must be two numbers; write it like 0.15..0.3"
+            "the range of {option} {text} must be two numbers (you gave {range:?}); write it like 0.15..0.3"
         );
     };
     let path = path.trim();

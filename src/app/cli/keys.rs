@@ -73,7 +73,7 @@ fn heading(key: &Key, schema: &Value) -> String {
         let allowed = quantity.allowed;
         parts.extend((!allowed.is_far()).then(|| allowed.in_words()));
         let (from, to) = quantity.usual;
-        parts.push(format!("saws have {} to {}", shown(from), shown(to)));
+        parts.push(format!("usual range {} to {}", shown(from), shown(to)));
     }
     parts.join("  ")
 }
@@ -146,12 +146,12 @@ mod tests {
             let path = quantity.path.trim_end_matches("[]");
             let (heading, meaning) = printed(path);
             assert!(!meaning.trim().is_empty(), "{path}");
-            assert!(heading.contains("saws have "), "{heading}");
+            assert!(heading.contains("usual range "), "{heading}");
         }
         let (heading, _) = printed("blade.outer_diameter_m");
         assert_eq!(
             heading,
-            "blade.outer_diameter_m  [m]  required in blade  saws have 0.04 to 5"
+            "blade.outer_diameter_m  [m]  required in blade  usual range 0.04 to 5"
         );
         let (heading, _) = printed("mount.diameter_m");
         assert!(

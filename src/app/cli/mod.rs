@@ -97,7 +97,7 @@ enum Command {
     /// Write the matrices of a saw as NumPy files
     #[command(after_help = export::EXAMPLES)]
     Export(export::Arguments),
-    /// Print the keys of a scene, or of a study: units, defaults, what saws have
+    /// Print the keys of a scene, or of a study: units, defaults, usual ranges
     #[command(after_help = keys::EXAMPLES)]
     Keys(keys::Arguments),
     /// Print the JSON schema of a scene, or of a study

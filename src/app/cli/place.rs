@@ -36,7 +36,7 @@ pub struct Arguments {
     /// The quantity to maximize
     #[arg(long, value_name = "NAME", default_value = "flutter")]
     goal: GoalName,
-    /// Lower limit of the lowest critical speed
+    /// Lower limit of the first critical speed
     #[arg(long, value_name = "RPM", allow_negative_numbers = true, value_parser = number)]
     min_critical_rpm: Option<f64>,
     /// Amplitude at guides with a gap, with whose mean stiffness bands and critical speeds are computed; without it

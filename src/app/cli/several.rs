@@ -27,7 +27,7 @@ struct Row {
     lowest_critical_rpm: Option<f64>,
     flutter_speed_rpm: Option<f64>,
     operating_rpm: Option<f64>,
-    /// Operating speed over lowest critical speed.
+    /// Operating speed over first critical speed.
     of_lowest_critical: Option<f64>,
     /// Whether it can run at its operating speed, in words.
     verdict: Option<&'static str>,

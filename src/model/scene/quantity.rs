@@ -6,6 +6,10 @@ use super::RefusedValue;
 use super::span::Span;
 use crate::page::text::shown;
 
+/// Remedy for a negative speed.
+pub(super) const TURNS_THE_OTHER_WAY: &str =
+    "speeds are positive; for a saw that turns the other way change the sign of every angle";
+
 /// Name, unit and ranges of a number of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Quantity {
@@ -124,7 +128,7 @@ impl Quantity {
     pub(super) fn refused(&self, key: &str, value: f64, words: impl super::Given) -> RefusedValue {
         let allowed = if self.allowed.is_far() {
             format!(
-                "{}; {}",
+                "{}, {}",
                 self.allowed.end_in_words(value),
                 self.usual_in_words()
             )
@@ -134,16 +138,17 @@ impl Quantity {
         let remedy = match (self.unit, self.kind) {
             ("", Kind::Count) => "give a whole number in this range",
             ("", _) => "give a number in this range; 1 % is 0.01",
+            ("rpm", _) if value < 0.0 => TURNS_THE_OTHER_WAY,
             _ => "give a number in this range, in this unit",
         };
         let allowed = allowed.trim_end();
         RefusedValue::new(key, words, allowed, remedy)
     }
 
-    /// The usual range for a reader: "saws have 0.04 to 5 m".
+    /// The usual range for a reader: "usual range 0.04 to 5 m".
     pub(crate) fn usual_in_words(&self) -> String {
         let (from, to) = self.usual;
-        let words = format!("saws have {} to {} {}", shown(from), shown(to), self.unit);
+        let words = format!("usual range {} to {} {}", shown(from), shown(to), self.unit);
         words.trim_end().to_owned()
     }
 

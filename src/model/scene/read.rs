@@ -76,7 +76,9 @@ mod tests {
             assert_eq!(with("", teeth), Ok(Scene::paper()), "{teeth}");
         }
         let refused = with("", "42.5").unwrap_err();
-        assert!(refused.starts_with("blade.teeth: must be a whole number, 0 or more, but is 42.5"));
+        assert!(
+            refused.starts_with("blade.teeth: must be a whole number, 0 or more (you gave 42.5)")
+        );
         // The parser reads both as floating point numbers, however they are written.
         assert_eq!(with("", "-0"), with("", "0"));
         assert!(with("", "1e30").unwrap_err().starts_with("blade.teeth: "));

@@ -104,15 +104,19 @@ fn every_number_out_of_its_range_is_refused_by_its_key() {
             };
             let message = refusal(&put_there(outside));
             let is_negative_count = quantity.kind == Kind::Count && outside < 0.0;
-            let words = if is_negative_count {
-                format!("{key}: must be a whole number, 0 or more, but is -1")
+            let is_right = if is_negative_count {
+                let words = "must be a whole number, 0 or more (you gave -1)";
+                message.starts_with(&format!("{key}: {words}"))
             } else {
-                format!("{key} is {}, but must be ", shown(outside))
+                let names =
+                    |range: &str| range.contains(&shown(bound)) || range.starts_with("above 0");
+                let range = message
+                    .strip_prefix(&format!("{key} must be "))
+                    .and_then(|rest| rest.split_once(&format!(" (you gave {}); ", shown(outside))));
+                range.is_some_and(|(range, _)| names(range))
             };
-            let range = message.strip_prefix(&words);
-            let names = |range: &str| range.contains(&shown(bound)) || range.starts_with("above 0");
-            if !range.is_some_and(|range| is_negative_count || names(range)) {
-                wrong.push(format!("{words}{bound}: {message}"));
+            if !is_right {
+                wrong.push(format!("{key} {outside} {bound}: {message}"));
             }
         }
     }
@@ -126,7 +130,10 @@ fn numbers_that_contradict_others_are_refused_by_their_keys() {
     let mut wrong = Vec::new();
     for (changes, key) in cases {
         let message = refusal(&with(changes));
-        if !message.starts_with(&format!("{key} is ")) {
+        let is_by_key = ["must be ", "is missing; "]
+            .iter()
+            .any(|words| message.starts_with(&format!("{key} {words}")));
+        if !is_by_key {
             wrong.push(format!("{key}: {message}"));
         }
     }
@@ -140,7 +147,11 @@ fn what_is_no_number_is_refused_by_its_key() {
     let off = Scene::paper().edited(|file| file.guides[0].offset_m = f64::INFINITY);
     for (key, edited) in [("blade.thickness_m", thick), ("guides[0].offset_m", off)] {
         let refused = edited.unwrap_err().to_string();
-        let words = format!("{key} is no finite number, but must be ");
+        let words = format!("{key} must be ");
         assert!(refused.starts_with(&words), "{refused}");
+        assert!(
+            refused.contains(" (you gave no finite number); "),
+            "{refused}"
+        );
     }
 }

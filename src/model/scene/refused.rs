@@ -5,7 +5,7 @@ use crate::page::text::{FileError, shown};
 /// A value of a scene, a study or an argument that cannot be used. Program, live page and Python package show
 /// this message and add only the name of their option.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{key} is {value}, but must be {allowed}; {remedy}")]
+#[error("{key} {}must be {allowed}{}; {remedy}", self.before_allowed(), self.after_allowed())]
 pub struct RefusedValue {
     /// JSON path of the key, or name of the argument.
     pub key: String,
@@ -41,6 +41,22 @@ impl RefusedValue {
     /// Whether the value is missing.
     pub fn is_missing(&self) -> bool {
         self.value == "missing"
+    }
+
+    fn before_allowed(&self) -> &'static str {
+        if self.is_missing() {
+            "is missing; it "
+        } else {
+            ""
+        }
+    }
+
+    fn after_allowed(&self) -> String {
+        if self.is_missing() {
+            String::new()
+        } else {
+            format!(" (you gave {})", self.value)
+        }
     }
 }
 

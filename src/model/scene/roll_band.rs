@@ -110,12 +110,12 @@ impl RollBand {
             }
             (eigenstrain, _) => {
                 let given = match eigenstrain {
-                    Some(_) => "given by eigenstrain and by groove_depth_m",
-                    None => "without eigenstrain and groove_depth_m",
+                    Some(_) => "both",
+                    None => "neither",
                 };
-                let remedy = "give eigenstrain or groove_depth_m, and null for the other";
+                let remedy = "give one of them, and null for the other";
                 let key = format!("membrane.roll_tension[{index}]");
-                let allowed = "given by one of the two";
+                let allowed = "given by eigenstrain or by groove_depth_m";
                 return Err(RefusedValue::new(key, given, allowed, remedy).into());
             }
         };

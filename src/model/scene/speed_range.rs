@@ -2,6 +2,7 @@
 
 use super::check::refuse;
 use super::quantities::quantity;
+use super::quantity::TURNS_THE_OTHER_WAY;
 use super::{RefusedValue, SceneError, rad_per_s, rpm};
 use crate::page::text::shown;
 
@@ -77,6 +78,10 @@ pub(crate) fn speed_rad_per_s(key: &str, rpm: f64) -> Result<f64, RefusedValue> 
         return Ok(rad_per_s(rpm));
     }
     let allowed = format!("above 0 and at most {}", shown(MAX_RPM));
-    let remedy = "give it in revolutions per minute";
+    let remedy = if rpm < 0.0 {
+        TURNS_THE_OTHER_WAY
+    } else {
+        "give it in revolutions per minute"
+    };
     Err(RefusedValue::new(key, rpm, allowed, remedy))
 }

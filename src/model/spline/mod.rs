@@ -104,13 +104,13 @@ pub enum SplineError {
     #[error("the scene has no `spline` block; give the teeth and their contact to simulate it")]
     NoSpline,
     /// The speed is not positive; at rest no teeth pass.
-    #[error("the speed is {rad_per_s} rad/s, but must be positive; the arbor turns forward")]
+    #[error("the speed must be positive, as the arbor turns forward (you gave {rad_per_s} rad/s)")]
     Speed {
         /// The given speed.
         rad_per_s: f64,
     },
     /// A setting is out of range.
-    #[error("{what} is {value}, but must be {allowed}")]
+    #[error("{what} must be {allowed} (you gave {value})")]
     Run {
         /// Field of [`Run`].
         what: &'static str,

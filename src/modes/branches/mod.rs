@@ -36,7 +36,7 @@ pub enum CampbellError {
     Spectrum(#[from] SpectrumError),
     /// The modes at all speeds of a chart exceed the allowed memory.
     #[error(
-        "the chart would take at least {needed_mb} MiB of memory for {modes} modes at each of {speeds} speeds, but must not take more than {allowed_mb} MiB; {}choose a coarser accuracy", end_in_words(*.largest_end_rpm)
+        "the chart would take at least {needed_mb} MiB of memory for {modes} modes at each of {speeds} speeds; it must not take more than {allowed_mb} MiB; {}choose a coarser accuracy", end_in_words(*.largest_end_rpm)
     )]
     TooLarge {
         /// Memory needed at least, in MiB.

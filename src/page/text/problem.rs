@@ -29,7 +29,7 @@ pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
 /// Message for a text that does not begin with a brace.
 fn no_object(text: &str) -> String {
     if text.trim_start().starts_with('[') {
-        "it is a list in brackets [ ], but must be an object in braces { }".into()
+        "it must be an object in braces { } (you gave a list in brackets [ ])".into()
     } else {
         "it is no JSON, which begins with a brace, a key and a value, like {\"name\": …}".into()
     }
@@ -79,10 +79,7 @@ fn of_data(path: &str, said: &str, line: usize) -> (String, String) {
     let known = known.unwrap_or_default();
     let begins = |kind: &str| said.starts_with(kind);
     let message = if begins("missing field") {
-        return (
-            below(path, subject),
-            "it is missing, but must be given".into(),
-        );
+        return (below(path, subject), "it is missing".into());
     } else if begins("unknown field") {
         let moved = moved(&below(path, subject));
         let meant = moved.map_or_else(|| meant(subject, known), str::to_owned);
@@ -140,7 +137,7 @@ fn of_type(found: &str, expected: &str) -> String {
     } else {
         ""
     };
-    format!("must be {must}, but is {is}{remedy}")
+    format!("must be {must} (you gave {is}){remedy}")
 }
 
 /// Units that users write at the end of a key, the unit of the true key, and the factor between them.

@@ -11,7 +11,7 @@ const SMALL: f64 = 0.005;
 pub fn bands(text: &mut Outline, report: &Report) {
     let bands = &report.instabilities;
     if bands.is_empty() {
-        return text.sentence("No instability: nothing grows at any speed of the sweep");
+        return text.sentence("No instability: no vibration grows at any speed of the sweep");
     }
     let rises = bands
         .iter()

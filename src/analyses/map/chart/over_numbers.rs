@@ -112,7 +112,7 @@ pub fn panel(report: &MapReport, y: &MapAxis) -> PanelData {
 fn look(quantity: Contoured) -> (Hue, bool, &'static str) {
     match quantity {
         Contoured::FlutterSpeed => (Hue::Flutter, false, "flutter speed [rpm]"),
-        Contoured::LowestCriticalSpeed => (Hue::Forward, true, "lowest critical speed [rpm]"),
+        Contoured::LowestCriticalSpeed => (Hue::Forward, true, "first critical speed [rpm]"),
     }
 }
 

@@ -24,7 +24,7 @@ type Speed = fn(&MappedSaw) -> Option<f64>;
 
 /// The speeds that are drawn as curves.
 const SPEEDS: [(Hue, &str, Speed); 2] = [
-    (Hue::Forward, "lowest critical speed", |saw| {
+    (Hue::Forward, "first critical speed", |saw| {
         saw.lowest_critical_rpm
     }),
     (Hue::Alarm, "flutter speed", |saw| saw.flutter_speed_rpm),

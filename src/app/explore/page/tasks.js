@@ -33,7 +33,7 @@ function placeOf(path) {
 const TASKS = [
   { name: "cut", title: "Cut", part: "cut", what: "The blade before, during and after the cut: history at the probe, verdicts over speed and force." },
   { name: "runup", title: "Run-up", part: "runup", what: "The blade run up under a lateral force: deflection at the probe, and what each band of instability adds." },
-  { name: "washboard", title: "Washboard", part: "cut.washboarding", what: "Whether a motion grows from tooth to tooth on the surface that the one before has left, over speed and cutting stiffness." },
+  { name: "washboard", title: "Washboard", part: "cut.washboarding", what: "Whether a vibration grows from tooth to tooth on the surface that the one before has left, over speed and cutting stiffness." },
   { name: "response", title: "Response", what: "Amplitude over the speed at the probe, for the causes in the scene: its side force, constant or oscillating, run-out, flatness, imbalance. Without any, a side force of 1 N." },
   { name: "gap", title: "Gap", what: "Guides with a gap: critical speeds and flutter over the amplitude, and the deflection at the cut over gap and side force." },
   { name: "fit", title: "Fit", what: "Radius and stiffness of every guide from the measured frequencies of the scene; drop a table (rpm, then frequencies in Hz) on the page.", took: "Take the fitted saw" },

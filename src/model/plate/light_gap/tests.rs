@@ -206,7 +206,7 @@ fn a_gap_that_no_rolling_causes_is_refused_with_the_range_of_gaps() {
             .unwrap_err()
             .to_string();
         assert!(
-            refused.contains("membrane.straight_edge.measured_gap_m is")
+            refused.contains("membrane.straight_edge.measured_gap_m must be")
                 && refused.contains("between -0.000748"),
             "{refused}"
         );

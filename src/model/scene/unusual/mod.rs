@@ -124,12 +124,11 @@ impl Usual {
                 typical: (from * to).abs().sqrt(),
                 words: match quantity.typical.filter(Typical::is_number) {
                     Some(typical) => format!(
-                        "saws have {} to {}, typically {}",
-                        shown(from),
-                        shown(to),
+                        "{}, typically {}",
+                        quantity.usual_in_words(),
                         shown(typical.value)
                     ),
-                    None => format!("saws have {} to {}", shown(from), shown(to)),
+                    None => quantity.usual_in_words(),
                 },
             };
         }
@@ -191,10 +190,7 @@ impl Unusual {
             }
             None => "is it in the unit that ends the key's name?".into(),
         };
-        format!(
-            "{path} is {}, but {why}; {remedy}",
-            self.with_unit(self.value)
-        )
+        format!("{path} is {} ({why}); {remedy}", self.with_unit(self.value))
     }
 
     fn with_unit(&self, value: f64) -> String {
@@ -217,7 +213,7 @@ fn together(group: &[Unusual]) -> String {
         let meant = one.meant.map_or(one.value, |(_, meant)| meant);
         let (value, meant) = (shown(one.value), one.with_unit(meant));
         format!(
-            "{} is {value} (that would be {meant}, but {})",
+            "{} is {value} (that would be {meant}; {})",
             one.path, one.why
         )
     });

@@ -14,7 +14,7 @@ fn numbers_in_other_units_are_recognized() {
     assert_eq!(
         density,
         [
-            "blade.material.density_kg_per_m3 is 7.85 kg/m³, but saws have 2000 to 20000; \
+            "blade.material.density_kg_per_m3 is 7.85 kg/m³ (usual range 2000 to 20000 kg/m³); \
              are these g/cm³? That would be 7850 kg/m³"
         ]
     );
@@ -104,7 +104,7 @@ fn a_scene_wholly_in_millimetres_gets_one_remark() {
     assert_eq!(remarks.len(), 1, "{remarks:?}");
     for part in [
         "look like mm",
-        "outer_diameter_m is 710 (that would be 0.71 m, but saws have 0.04 to 5)",
+        "outer_diameter_m is 710 (that would be 0.71 m; usual range 0.04 to 5 m)",
         "thickness_m is 2.8 (that would be 0.0028 m",
     ] {
         assert!(remarks[0].contains(part), "no {part:?} in {remarks:?}");
