@@ -24,7 +24,7 @@ measured.csv: a speed in rpm, then frequencies in Hz, ascending; blank where a
 mode was not seen. They are compared with the lowest computed ones. A first line
 like rpm,f1,f2 names the columns, in any order; semicolons with decimal commas
 and tabs are read too. A tap test is a row at speed 0: a pair of equal
-frequencies counts once, or twice, and rpm,n0,n1 names columns by nodal diameters.
+frequencies counts once, or twice; rpm,n0,n1 names columns by nodal diameters.
 The calibrated scene is fitted-scene.json.";
 
 #[derive(Args)]
