@@ -148,12 +148,13 @@ impl<'a> Numbered<'a> {
             .into_iter()
             .flatten()
             .filter(|index| *index < samples.len());
-        let candidates = beside.flat_map(|index| {
-            let modes = samples[index].modes.iter().enumerate();
-            let own = modes.filter(|(_, m)| m.mode.component == critical.component);
-            own.map(move |(k, m)| (standing_likeness(model, critical, &m.shape), m, (index, k)))
-        });
-        let candidates: Vec<_> = candidates.collect();
+        let candidates: Vec<_> = beside
+            .flat_map(|index| {
+                let modes = samples[index].modes.iter().enumerate();
+                let own = modes.filter(|(_, m)| m.mode.component == critical.component);
+                own.map(move |(k, m)| (standing_likeness(model, critical, &m.shape), m, (index, k)))
+            })
+            .collect();
         let best = candidates.iter().map(|c| c.0).fold(0.0, f64::max);
         // The two waves of a harmonic of a blade without guides have the same shape; near the critical speed
         // the one that stands still has the smaller frequency.

@@ -47,11 +47,15 @@ impl Report {
         let turns = (0..ANGLES).map(|k| TAU * k as f64 / ANGLES as f64);
         let angles: Vec<f64> = turns.collect();
         let radii: Vec<f64> = first.radius_m.iter().step_by(STRIDE).copied().collect();
-        let shapes = self.shapes.iter().enumerate().map(|(number, shape)| {
-            let rows = shape.at(&angles).into_iter().step_by(STRIDE);
-            (title(number + 1, shape), rows.flatten().collect())
-        });
-        let shapes: Vec<Titled> = shapes.collect();
+        let shapes: Vec<Titled> = self
+            .shapes
+            .iter()
+            .enumerate()
+            .map(|(number, shape)| {
+                let rows = shape.at(&angles).into_iter().step_by(STRIDE);
+                (title(number + 1, shape), rows.flatten().collect())
+            })
+            .collect();
         let grids = VTK_NAMES[1..].iter().enumerate().map(|(phase, name)| {
             let mut text = String::new();
             // Writing to a string cannot fail.

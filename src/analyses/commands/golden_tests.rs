@@ -84,17 +84,19 @@ fn difference(expected: &str, found: &str) -> String {
 #[test]
 fn faces_of_committed_reports_are_the_committed_ones() {
     let is_blessed = std::env::var_os("SAWFLUTTER_BLESS").is_some();
-    let differing = cases().into_par_iter().filter_map(|name| {
-        let found = faces(&*read(&name)).unwrap();
-        let path = Path::new(FOLDER).join(format!("expected/{name}.txt"));
-        if is_blessed {
-            std::fs::write(path, found).unwrap();
-            return None;
-        }
-        let expected = std::fs::read_to_string(path).unwrap_or_default();
-        (expected != found).then(|| format!("{name}:\n{}", difference(&expected, &found)))
-    });
-    let differing: String = differing.collect();
+    let differing: String = cases()
+        .into_par_iter()
+        .filter_map(|name| {
+            let found = faces(&*read(&name)).unwrap();
+            let path = Path::new(FOLDER).join(format!("expected/{name}.txt"));
+            if is_blessed {
+                std::fs::write(path, found).unwrap();
+                return None;
+            }
+            let expected = std::fs::read_to_string(path).unwrap_or_default();
+            (expected != found).then(|| format!("{name}:\n{}", difference(&expected, &found)))
+        })
+        .collect();
     assert!(differing.is_empty(), "{differing}If this is meant: {BLESS}");
 }
 
@@ -202,11 +204,14 @@ fn curves(chart: &Value) -> Vec<Vec<Option<f64>>> {
 
 /// Whether a curve is proportional to the numbers of a list where these are known.
 fn shows(curve: &[Option<f64>], list: &[Option<f64>]) -> bool {
-    let ratios = curve.iter().zip(list).filter_map(|(y, value)| {
-        let value = value.filter(|value| *value != 0.0)?;
-        Some(y.map_or(f64::NAN, |y| y.abs() / value.abs()))
-    });
-    let ratios: Vec<f64> = ratios.collect();
+    let ratios: Vec<f64> = curve
+        .iter()
+        .zip(list)
+        .filter_map(|(y, value)| {
+            let value = value.filter(|value| *value != 0.0)?;
+            Some(y.map_or(f64::NAN, |y| y.abs() / value.abs()))
+        })
+        .collect();
     curve.len() == list.len()
         && ratios.len() >= 2
         && ratios.iter().all(|r| (r / ratios[0] - 1.0).abs() < 1e-9)

@@ -87,8 +87,10 @@ pub fn chart(report: &CompareReport) -> ChartData {
 /// Upper end of the frequencies of a saw in Hz.
 fn shown_hz(saw: &ComparedSaw) -> f64 {
     let branches = saw.campbell.branches.iter();
-    let first = branches.filter_map(|branch| branch.frequency_hz.first());
-    let mut first: Vec<f64> = first.copied().collect();
+    let mut first: Vec<f64> = branches
+        .filter_map(|branch| branch.frequency_hz.first())
+        .copied()
+        .collect();
     first.sort_by(f64::total_cmp);
     let top = first.get(SHOWN - 1).or(first.last()).copied();
     let bands = saw.instabilities.iter().map(|band| band.frequency_hz);

@@ -83,8 +83,11 @@ fn stiffnesses_that_were_not_searched_look_unknown() {
     assert_eq!(report.critical_stiffness_n_per_m, None);
     assert!(searched.critical_stiffness_n_per_m.unwrap() > report.ceiling_n_per_m);
     let critical = report.lobes.critical_stiffness_n_per_m.iter();
-    let open = critical.enumerate().filter(|(_, k)| k.is_none());
-    let open: Vec<usize> = open.map(|(k, _)| k).collect();
+    let open: Vec<usize> = critical
+        .enumerate()
+        .filter(|(_, k)| k.is_none())
+        .map(|(k, _)| k)
+        .collect();
     assert!(open.len() > 50, "{open:?}");
     assert!(open.iter().all(|k| known(*k) == report.ceiling_n_per_m));
     let sheet = layout::sheet(&washboard::chart::chart(&report));

@@ -16,11 +16,11 @@ const END_SIZE: f64 = 7.0;
 
 /// A panel for each speed, as numbers; `None` for a saw without spline.
 pub fn chart(report: &CutReport) -> Option<ChartData> {
-    let runs = report
+    let runs: Vec<(&CutAtSpeed, &SplineOrbit)> = report
         .runs
         .iter()
-        .filter_map(|run| Some((run, run.spline.as_ref()?)));
-    let runs: Vec<(&CutAtSpeed, &SplineOrbit)> = runs.collect();
+        .filter_map(|run| Some((run, run.spline.as_ref()?)))
+        .collect();
     let clearance_m = runs.first()?.1.clearance_m;
     let scale = Scale::of(runs.iter().map(|(_, spline)| *spline));
     let panels = runs.iter().map(|(run, spline)| panel(run, spline, &scale));

@@ -25,11 +25,11 @@ const SHOWN: usize = 6;
 pub fn chart(report: &DeflectReport) -> ChartData {
     let speeds = proper_range([report.from_rpm, report.to_rpm]);
     let speed = AxisData::speed().within(speeds);
-    let bands = report
+    let bands: Vec<Item> = report
         .instabilities
         .iter()
-        .map(|band| Item::Band(Band::new(band, speeds)));
-    let bands: Vec<Item> = bands.collect();
+        .map(|band| Item::Band(Band::new(band, speeds)))
+        .collect();
     ChartData {
         title: report.scene.name.clone(),
         facts: facts(report),
@@ -173,8 +173,10 @@ fn curve_lines(curve: &EquilibriumCurve) -> Vec<Item> {
 /// Ends of the axis of frequencies in Hz.
 fn shown_hz(report: &DeflectReport) -> [f64; 2] {
     let branches = report.campbell.branches.iter();
-    let at_rest = branches.filter_map(|branch| branch.frequency_hz.first());
-    let mut at_rest: Vec<f64> = at_rest.copied().collect();
+    let mut at_rest: Vec<f64> = branches
+        .filter_map(|branch| branch.frequency_hz.first())
+        .copied()
+        .collect();
     at_rest.sort_by(f64::total_cmp);
     let top = at_rest.get(SHOWN - 1).or(at_rest.last()).copied();
     [0.0, 1.1 * top.unwrap_or(1.0)]

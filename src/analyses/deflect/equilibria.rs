@@ -177,8 +177,11 @@ fn change(
     sweep: &Sweep,
 ) -> Result<Option<f64>, DeflectError> {
     let stable: Vec<&Equilibrium> = sweep.arcs.iter().flatten().collect();
-    let leaned = stable.iter().filter(|e| e.coordinates.norm_max() > 0.0);
-    let leaned: Vec<&Equilibrium> = leaned.copied().collect();
+    let leaned: Vec<&Equilibrium> = stable
+        .iter()
+        .filter(|e| e.coordinates.norm_max() > 0.0)
+        .copied()
+        .collect();
     let mut largest: Option<f64> = None;
     for k in 0..COMPARED {
         Cancellation::current()

@@ -155,8 +155,12 @@ fn over_speed(report: &DeflectReport) -> Table {
             std::array::from_fn(|i| arc.frequencies_hz[k].get(i).copied().unwrap_or(f64::NAN))
         };
         let frequencies: Option<[f64; FREQUENCIES]> = report.up.at(rpm, lowest);
-        let known = frequencies.iter().flatten().filter(|hz| hz.is_finite());
-        let known: Vec<String> = known.map(|hz| format!("{hz:>6.2}")).collect();
+        let known: Vec<String> = frequencies
+            .iter()
+            .flatten()
+            .filter(|hz| hz.is_finite())
+            .map(|hz| format!("{hz:>6.2}"))
+            .collect();
         let speed = SPEED.fixed(0, rpm);
         [
             speed,

@@ -83,9 +83,11 @@ fn frequencies(report: &FitReport, shown: &[&Residual]) -> Vec<Item> {
         // A curve goes through the lowest frequencies of all speeds, the second through the second ones, and so on.
         let depth = rows.iter().map(Vec::len).max().unwrap_or(0);
         items.extend((0..depth).map(|place| {
-            let points = curves.rpm.iter().zip(rows);
-            let points =
-                points.map(|(rpm, row)| [*rpm, row.get(place).copied().unwrap_or(f64::NAN)]);
+            let points = curves
+                .rpm
+                .iter()
+                .zip(rows)
+                .map(|(rpm, row)| [*rpm, row.get(place).copied().unwrap_or(f64::NAN)]);
             let (x, y) = points.map(|[x, y]| (x, y)).unzip();
             Item::Line(Line {
                 x,
@@ -169,13 +171,15 @@ fn residuals(shown: &[&Residual], last: f64) -> Vec<Item> {
 
 fn key(report: &FitReport, shown: &[&Residual]) -> Vec<Item> {
     let measured = Item::points_sample(MEASURED_SIZE, Shape::Ring, Hue::Ink, &report.source);
-    let others = shown.iter().any(|r| !r.fitted);
-    let others =
-        others.then(|| Item::points_sample(LEFT_OUT_SIZE, Shape::Disc, Hue::Quiet, "not fitted"));
+    let others = shown
+        .iter()
+        .any(|r| !r.fitted)
+        .then(|| Item::points_sample(LEFT_OUT_SIZE, Shape::Disc, Hue::Quiet, "not fitted"));
     let deepest = report.residuals.iter().map(|r| r.place).max().unwrap_or(0);
-    let places = PLACES.into_iter().take(deepest);
-    let places =
-        places.map(|(shape, hue, name)| Item::points_sample(RESIDUAL_SIZE, shape, hue, name));
+    let places = PLACES
+        .into_iter()
+        .take(deepest)
+        .map(|(shape, hue, name)| Item::points_sample(RESIDUAL_SIZE, shape, hue, name));
     [measured]
         .into_iter()
         .chain(others)

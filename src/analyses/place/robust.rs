@@ -42,11 +42,12 @@ impl Search<'_> {
     /// `None` if it is not a valid saw: a pad cannot be beyond the rim.
     pub fn moved(&self, shares: &[f64], direction: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let numbers = self.freed.iter().zip(shares).zip(direction);
-        let values = numbers.map(|((freed, share), direction)| {
-            let value = freed.value(*share);
-            value + direction * self.tolerance(freed, value)
-        });
-        let values: Vec<f64> = values.collect();
+        let values: Vec<f64> = numbers
+            .map(|((freed, share), direction)| {
+                let value = freed.value(*share);
+                value + direction * self.tolerance(freed, value)
+            })
+            .collect();
         let pairs = self.freed.iter().zip(&values);
         let shares: Vec<f64> = pairs.map(|(freed, value)| freed.share(*value)).collect();
         let exists = scene_at(self.scene, self.freed, &shares).is_ok();

@@ -131,8 +131,8 @@ pub fn settle(
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         progress("refinement", done.min(of), of);
     };
-    let refined = starts.par_iter();
-    let refined: Vec<Tried> = refined
+    let refined: Vec<Tried> = starts
+        .par_iter()
         .map(|start| search.refine(start, FINE_STEPS, budget, &see))
         .collect();
     cheapest(&refined)

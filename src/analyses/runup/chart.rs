@@ -17,8 +17,10 @@ pub fn chart(report: &RunUpReport) -> ChartData {
         .iter()
         .map(|entry| &entry.band)
         .map(|band| Item::Band(Band::new(band, speeds)));
-    let critical = report.critical_speeds.iter();
-    let critical = critical.map(|entry| Item::Upright(Upright::critical(entry.rpm, &entry.name)));
+    let critical = report
+        .critical_speeds
+        .iter()
+        .map(|entry| Item::Upright(Upright::critical(entry.rpm, &entry.name)));
     let record = report.rpm.iter().zip(&report.deflection_m);
     let record = Line {
         width: 0.75 * CURVE,

@@ -63,8 +63,10 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
     let linear_until_rpm = history.linear_until_rad_per_s.map(rpm);
     let valid_until_rpm = stretching.as_ref().and_then(|found| found.valid_until_rpm);
     let ends_rpm = linear_until_rpm.or(valid_until_rpm);
-    let bands = chart.instabilities.into_iter().zip(exponents);
-    let bands: Vec<RunUpBand> = bands
+    let bands: Vec<RunUpBand> = chart
+        .instabilities
+        .into_iter()
+        .zip(exponents)
         .map(|(band, growth_exponent)| RunUpBand {
             time_s: (band.to_rpm - band.from_rpm) / rpm(rate),
             growth_exponent,

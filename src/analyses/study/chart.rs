@@ -29,14 +29,14 @@ pub fn chart(report: &StudyReport) -> ChartData {
         ),
         swept_to_rpm: report.swept_to_rpm,
     };
-    let flutter = Speed {
+    let mut flutter = Speed {
         name: "Flutter speed",
         statistics: &all.flutter,
         bars: (Hue::FlutterStreak, 1.0),
         limits: limits(report, &[("min_flutter", "asked")]),
         swept_to_rpm: report.swept_to_rpm,
-    };
-    let mut flutter = flutter.panel();
+    }
+    .panel();
     flutter.facts = beyond(report).into_iter().collect();
     let runs = report.reliability.as_ref().map(runs);
     let panels = [critical.panel(), flutter].into_iter().chain(runs);

@@ -109,8 +109,9 @@ impl<'a> Counts<'a> {
         let (analysed, shares) = (self.analysed(), &self.study.file().quantiles);
         let passing = self.study.limits().map(|_| self.passing());
         let saws_within = self.limit_m().map(|_| self.within);
-        let numbers = self.gap.iter_mut();
-        let numbers: Vec<NumberStatistics> = numbers
+        let numbers: Vec<NumberStatistics> = self
+            .gap
+            .iter_mut()
             .map(|values| number(values, analysed, shares))
             .collect::<io::Result<_>>()?;
         let mut numbers = numbers.into_iter();

@@ -97,11 +97,12 @@ impl Values {
     pub fn quantiles(&mut self, beyond: usize, shares: &[f64]) -> io::Result<Vec<Option<f64>>> {
         let total = self.count + beyond;
         let ranks: Vec<_> = shares.iter().map(|share| rank(total, *share)).collect();
-        let wanted = ranks
+        let mut wanted: Vec<usize> = ranks
             .iter()
             .flatten()
-            .flat_map(|(below, _)| [*below, below + 1]);
-        let mut wanted: Vec<usize> = wanted.filter(|rank| *rank < self.count).collect();
+            .flat_map(|(below, _)| [*below, below + 1])
+            .filter(|rank| *rank < self.count)
+            .collect();
         wanted.sort_unstable();
         wanted.dedup();
         let found = self.ranked(&wanted)?;

@@ -183,9 +183,12 @@ fn worst(text: &mut Outline, report: &StudyReport) {
             "Lowest {name} speed: {:.1} rpm, saw {}",
             first.rpm, first.saw
         );
-        let numbers = report.study.parameters.iter().zip(&first.values);
-        let numbers =
-            numbers.map(|(parameter, value)| Fact::new(parameter.path.clone(), format!("{value}")));
+        let numbers = report
+            .study
+            .parameters
+            .iter()
+            .zip(&first.values)
+            .map(|(parameter, value)| Fact::new(parameter.path.clone(), format!("{value}")));
         text.facts(title, numbers);
     }
 }

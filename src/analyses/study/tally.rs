@@ -148,14 +148,15 @@ impl<'a> Tally<'a> {
         let (saws, analysed) = (self.all.saws, self.all.analysed());
         let step = (to - from) / (CURVE - 1) as f64;
         let points = if to > from { CURVE } else { 1 };
-        let speeds = (0..points).map(|k| {
-            if k + 1 == points {
-                to
-            } else {
-                from + k as f64 * step
-            }
-        });
-        let speeds: Vec<f64> = speeds.collect();
+        let speeds: Vec<f64> = (0..points)
+            .map(|k| {
+                if k + 1 == points {
+                    to
+                } else {
+                    from + k as f64 * step
+                }
+            })
+            .collect();
         // Element k of `below` is the number of saws whose highest operating speed lies between the speeds
         // k − 1 and k; element 0 counts the saws below the first speed.
         let mut below = vec![0_usize; points];

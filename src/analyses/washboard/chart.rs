@@ -151,8 +151,10 @@ fn said(report: &WashboardReport) -> Vec<String> {
         let unknown = (from < to).then(|| format!("{UNKNOWN} {} N/m", shown_to(3, from)));
         let hz = lobes.frequency_hz.get(k).copied().flatten();
         let hz = hz.map(|hz| format!("{hz:.1} Hz"));
-        let lines = [Some(format!("{rpm:.0} rpm")), unknown, critical, hz];
-        let lines: Vec<String> = lines.into_iter().flatten().collect();
+        let lines: Vec<String> = [Some(format!("{rpm:.0} rpm")), unknown, critical, hz]
+            .into_iter()
+            .flatten()
+            .collect();
         lines.join("\n")
     });
     said.collect()

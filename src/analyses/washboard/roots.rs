@@ -172,8 +172,12 @@ fn step(
     lambda: c64,
     others: impl Iterator<Item = c64>,
 ) -> Option<c64> {
-    let poles = saw.transfer.poles.iter();
-    let poles: c64 = poles.map(|pole| (lambda - pole).inv()).sum();
+    let poles: c64 = saw
+        .transfer
+        .poles
+        .iter()
+        .map(|pole| (lambda - pole).inv())
+        .sum();
     let others: c64 = others.map(|other| (lambda - other).inv()).sum();
     let slope = saw.logarithmic_slope(stiffness, lambda)? + poles - others;
     let step = slope.inv();

@@ -36,9 +36,8 @@ impl Ahead {
         let uprights = interim
             .critical
             .iter()
-            .take_while(|c| c.speed_rad_per_s <= to);
-        let uprights =
-            uprights.map(|c| Upright::critical(rpm(c.speed_rad_per_s), &c.name.in_words()));
+            .take_while(|c| c.speed_rad_per_s <= to)
+            .map(|c| Upright::critical(rpm(c.speed_rad_per_s), &c.name.in_words()));
         let uprights: Vec<Upright> = uprights.collect();
         let first = uprights.first().map(|upright| upright.x);
         let operating = scene.operating_rad_per_s();

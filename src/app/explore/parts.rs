@@ -104,8 +104,12 @@ fn add_to_blade(scene: &mut SceneFile, part: &str) -> Option<()> {
             });
         }
         "profile[]" => {
-            let rows = scene.blade.profile.iter();
-            let rows: Vec<_> = rows.map(|row| (row.radius_m, row.thickness_m)).collect();
+            let rows: Vec<_> = scene
+                .blade
+                .profile
+                .iter()
+                .map(|row| (row.radius_m, row.thickness_m))
+                .collect();
             let (radius_m, thickness_m) = next_row(scene, &rows, scene.blade.thickness_m);
             let profile = &mut scene.blade.profile;
             profile.push(ThicknessRow {
@@ -166,8 +170,11 @@ fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
         "temperature" => membrane.temperature = Some(heat()),
         "temperature.table[]" => {
             let temperature = membrane.temperature.get_or_insert_with(heat);
-            let rows = temperature.table.iter();
-            let rows: Vec<_> = rows.map(|row| (row.radius_m, row.rise_k)).collect();
+            let rows: Vec<_> = temperature
+                .table
+                .iter()
+                .map(|row| (row.radius_m, row.rise_k))
+                .collect();
             let (radius_m, rise_k) = next_row(scene, &rows, 0.0);
             // A scene must not have both a temperature table and a rise at the rim.
             (temperature.rim_rise_k, temperature.from_radius_m) = (None, None);
@@ -185,8 +192,11 @@ fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
         }),
         "straight_edge" => membrane.straight_edge = Some(StraightEdgeFile::default()),
         "residual_stress[]" => {
-            let rows = membrane.residual_stress.iter();
-            let rows: Vec<_> = rows.map(|row| (row.radius_m, row.hoop_pa)).collect();
+            let rows: Vec<_> = membrane
+                .residual_stress
+                .iter()
+                .map(|row| (row.radius_m, row.hoop_pa))
+                .collect();
             let (radius_m, hoop_pa) = next_row(scene, &rows, 0.0);
             let stress = &mut membrane.residual_stress;
             stress.push(ResidualStressRow {

@@ -210,15 +210,17 @@ fn response(scene: Scene, _: &Asked, _: &Meter<'_>) -> Result<String, Refusal> {
 const NO_AXIS: &str = "A map needs one or two numbers of the scene";
 
 fn map(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
-    let axes = asked.axes.iter().map(|path| {
-        let freed = Freed::with_usual_bounds(&scene, path)?;
-        Ok(Range {
-            path: path.clone(),
-            from: freed.from,
-            to: freed.to,
+    let mut axes = asked
+        .axes
+        .iter()
+        .map(|path| {
+            let freed = Freed::with_usual_bounds(&scene, path)?;
+            Ok(Range {
+                path: path.clone(),
+                from: freed.from,
+                to: freed.to,
+            })
         })
-    });
-    let mut axes = axes
         .collect::<Result<Vec<Range>, SceneError>>()?
         .into_iter();
     let (Some(x), y, None) = (axes.next(), axes.next(), axes.next()) else {

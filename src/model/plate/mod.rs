@@ -165,10 +165,10 @@ fn harmonics(
     membrane: Option<&MembraneStress>,
     diameters: RangeInclusive<usize>,
 ) -> Vec<HarmonicBlock> {
-    let blocks = diameters
+    let mut blocks: Vec<HarmonicBlock> = diameters
         .clone()
-        .map(|n| HarmonicBlock::new(blade, spinning, basis, n));
-    let mut blocks: Vec<HarmonicBlock> = blocks.collect();
+        .map(|n| HarmonicBlock::new(blade, spinning, basis, n))
+        .collect();
     if let Some(stress) = membrane {
         let stiffness = membrane_stiffness(basis, stress, diameters);
         for (block, stiffness) in blocks.iter_mut().zip(stiffness) {

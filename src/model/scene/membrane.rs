@@ -218,8 +218,11 @@ fn table(typed: &TemperatureFile, blade: &Blade) -> Result<(f64, TemperatureShap
     few(key, typed.table.len())?;
     let radii: Vec<f64> = typed.table.iter().map(|row| row.radius_m).collect();
     ascending(key, &radii, blade.outer_radius_m)?;
-    let rows = typed.table.iter().map(|row| (row.radius_m, row.rise_k));
-    let mut rows: Vec<(f64, f64)> = rows.collect();
+    let mut rows: Vec<(f64, f64)> = typed
+        .table
+        .iter()
+        .map(|row| (row.radius_m, row.rise_k))
+        .collect();
     let peak = Profile::new(&rows).map_or(0.0, |profile| {
         profile.peak(blade.inner_radius_m, blade.outer_radius_m)
     });

@@ -66,8 +66,9 @@ pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
         return Err(refused("write it with a decimal point"));
     }
     let (digits, unit) = split(text);
-    let value = digits.parse();
-    let value: f64 = value.map_err(|_| refused("write it like 0.0026 or 2.6mm"))?;
+    let value: f64 = digits
+        .parse()
+        .map_err(|_| refused("write it like 0.0026 or 2.6mm"))?;
     if unit.is_empty() {
         return Ok(value);
     }

@@ -106,8 +106,10 @@ mod tests {
             let teeth = teeth(mean);
             let mut expected: Vec<Tooth> = Vec::new();
             for count in 1..=mean.ceil() as usize {
-                let places = times([0.0, 1.0]).map(|turned| in_cut(&teeth, turned));
-                let places: Vec<Vec<f64>> = places.filter(|all| all.len() == count).collect();
+                let places: Vec<Vec<f64>> = times([0.0, 1.0])
+                    .map(|turned| in_cut(&teeth, turned))
+                    .filter(|all| all.len() == count)
+                    .collect();
                 expected.extend((0..count).filter(|_| !places.is_empty()).map(|k| Tooth {
                     angle_rad: places.iter().map(|all| all[k]).sum::<f64>() / places.len() as f64,
                     share: places.len() as f64 / f64::from(TIMES),

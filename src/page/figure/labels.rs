@@ -87,10 +87,10 @@ impl<'a> Labels<'a> {
     /// Draws the labels of the vertical lines above the panel.
     fn draw_uprights(&mut self, panel: &PanelData) -> bool {
         let (x, frame) = (self.ground.x, self.ground.frame);
-        let labelled = panel
+        let labelled: Vec<&Upright> = panel
             .uprights()
-            .filter(|line| !line.label.is_empty() && x.shows(line.x));
-        let labelled: Vec<&Upright> = labelled.collect();
+            .filter(|line| !line.label.is_empty() && x.shows(line.x))
+            .collect();
         let extents = labelled
             .iter()
             .map(|line| Extent::of_label(x.at(line.x), &line.label, APART));

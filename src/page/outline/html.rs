@@ -8,11 +8,13 @@ impl Outline {
     /// The text as elements of a page, with its details; remarks come first.
     pub fn in_html(&self) -> String {
         let mut html = String::new();
-        let remarks = self.blocks().filter_map(|block| match block {
-            Block::Remark { word, text } => Some(paragraph("", &format!("{word}: {text}"))),
-            _ => None,
-        });
-        let remarks: String = remarks.collect();
+        let remarks: String = self
+            .blocks()
+            .filter_map(|block| match block {
+                Block::Remark { word, text } => Some(paragraph("", &format!("{word}: {text}"))),
+                _ => None,
+            })
+            .collect();
         if !remarks.is_empty() {
             html.push_str(&format!("<div class=\"remarks\">\n{remarks}</div>\n"));
         }

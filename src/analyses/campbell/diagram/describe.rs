@@ -67,8 +67,10 @@ fn names_of_lines(report: &Report) -> Option<String> {
 }
 
 fn uprights(report: &Report) -> impl Iterator<Item = Item> {
-    let critical = report.critical_speeds.iter();
-    let critical = critical.map(|entry| Upright::critical(entry.rpm, &entry.name));
+    let critical = report
+        .critical_speeds
+        .iter()
+        .map(|entry| Upright::critical(entry.rpm, &entry.name));
     let operating = report.scene.operating_rpm.map(|rpm| Upright {
         x: rpm,
         role: Role::Operating,

@@ -195,11 +195,14 @@ fn growth_is_drawn_within_the_bands_and_never_below_zero() {
     assert_eq!(axis.values()[0], 0.0);
     let mut sheet = Sheet::new(WIDTH, HEIGHT);
     growth::draw(&mut sheet, &chart, &axis);
-    let curves = sheet.marks().iter().filter_map(|mark| match mark {
-        Mark::Line(points, stroke) if stroke.width > 1.0 => Some(points),
-        _ => None,
-    });
-    let curves: Vec<_> = curves.collect();
+    let curves: Vec<_> = sheet
+        .marks()
+        .iter()
+        .filter_map(|mark| match mark {
+            Mark::Line(points, stroke) if stroke.width > 1.0 => Some(points),
+            _ => None,
+        })
+        .collect();
     assert_eq!(curves.len(), report.instabilities.len());
     let zero = axis.at(0.0);
     for (curve, band) in curves.iter().zip(&report.instabilities) {
@@ -234,11 +237,14 @@ fn growth_is_drawn_in_the_band_of_its_branch_where_bands_overlap() {
     };
     report.instabilities = bands.map(new).into();
     let data = chart(&report, false);
-    let drawn = data.panels[1].items.iter().filter_map(|item| match item {
-        Item::Line(line) => Some((line.colour, line.x[0], line.x[line.x.len() - 1])),
-        _ => None,
-    });
-    let drawn: Vec<_> = drawn.collect();
+    let drawn: Vec<_> = data.panels[1]
+        .items
+        .iter()
+        .filter_map(|item| match item {
+            Item::Line(line) => Some((line.colour, line.x[0], line.x[line.x.len() - 1])),
+            _ => None,
+        })
+        .collect();
     let expected = [(Hue::Flutter, 10.0, 30.0), (Hue::Divergence, 20.0, 40.0)];
     assert_eq!(drawn, expected);
 }
@@ -251,11 +257,14 @@ fn the_numbers_of_the_diagram_are_those_of_the_report() {
         branch.branch = k + 1;
     }
     let data = chart(&report, true);
-    let lines = data.panels[0].items.iter().filter_map(|item| match item {
-        Item::Line(line) => Some(line),
-        _ => None,
-    });
-    let lines: Vec<&Line> = lines.collect();
+    let lines: Vec<&Line> = data.panels[0]
+        .items
+        .iter()
+        .filter_map(|item| match item {
+            Item::Line(line) => Some(line),
+            _ => None,
+        })
+        .collect();
     for branch in &report.campbell.branches {
         let own = lines
             .iter()

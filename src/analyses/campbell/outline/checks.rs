@@ -27,8 +27,7 @@ pub fn checks(text: &mut Outline, report: &Report) {
     }
     text.details(|text| {
         text.sentence(format!("Certificate: {}", certificate.statement));
-        let listed = certificate.max_listed_backward_error;
-        let listed = listed.map_or(String::new(), |error| {
+        let listed = certificate.max_listed_backward_error.map_or(String::new(), |error| {
             format!("; of an eigenvalue listed: {error:.0e}")
         });
         text.sentence(format!(

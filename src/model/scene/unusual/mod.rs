@@ -209,15 +209,17 @@ fn together(group: &[Unusual]) -> String {
     if let [one] = group {
         return one.sentence();
     }
-    let each = group.iter().map(|one| {
-        let meant = one.meant.map_or(one.value, |(_, meant)| meant);
-        let (value, meant) = (shown(one.value), one.with_unit(meant));
-        format!(
-            "{} is {value} (that would be {meant}; {})",
-            one.path, one.why
-        )
-    });
-    let each: Vec<String> = each.collect();
+    let each: Vec<String> = group
+        .iter()
+        .map(|one| {
+            let meant = one.meant.map_or(one.value, |(_, meant)| meant);
+            let (value, meant) = (shown(one.value), one.with_unit(meant));
+            format!(
+                "{} is {value} (that would be {meant}; {})",
+                one.path, one.why
+            )
+        })
+        .collect();
     let unit = group[0].unit_meant().unwrap_or_default();
     format!("these numbers look like {unit}: {}", each.join(", "))
 }
