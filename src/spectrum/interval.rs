@@ -9,28 +9,25 @@ use std::borrow::Cow;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-use faer::{Col, c64};
+use faer::{Col, Scale, c64};
 use rayon::prelude::*;
 
 use super::component::{Component, Solution};
 use super::derivative;
+use super::double_eigenvalue::DoubleEigenvalue;
 use super::error::SpectrumError;
 use super::half_order;
 use super::hamiltonian::{HamiltonianReduction, State};
 use super::mode::{Mode, classify};
-use super::mode_pair::{ModePair, standing_states};
 use super::model::SpectralModel;
 use super::projection::Projection;
-use super::vectors::{Eigenpair, real_times, smallest};
+use super::vectors::{Eigenpair, complex, real_times};
 use super::work::WorkCounters;
+use crate::system::GyroscopicSystem;
 use crate::tuned::Tuned;
 
 /// Modes up to this multiple of the window are included, because some of them enter it between two speeds.
 pub(super) const SPAN_MARGIN: Tuned = Tuned::new("spectrum/interval::SPAN_MARGIN", 1.5);
-
-/// If the growth rates by the projection and by the states differ by more than this share, they belong to
-/// different modes: the states are accurate to 1e-5 of the height.
-const SAME_GROWTH: f64 = 0.01;
 
 /// Eigenpairs at a speed, in the coordinates of a projection.
 #[derive(Debug, Clone)]
@@ -104,6 +101,24 @@ pub(super) fn states_between(
         states.extend(low.map(|pair| State::new(system, end.speed_rad_per_s, pair)));
     }
     HamiltonianReduction::new(system, window_rad_per_s, &states)
+}
+
+/// The two states of a wave that stands still at its critical speed: its deflection, and a momentum of the same
+/// shape.
+fn standing_states(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+    shape: &Col<f64>,
+    scale: f64,
+) -> [State; 2] {
+    let q = complex(shape);
+    let still = State::new(system, speed_rad_per_s, (c64::new(0.0, 0.0), q.clone()));
+    let momentum = State {
+        lambda: c64::new(0.0, 0.0),
+        q: Col::zeros(q.nrows()),
+        p: Scale(c64::new(scale, 0.0)) * q,
+    };
+    [still, momentum]
 }
 
 impl Interval {
@@ -261,14 +276,28 @@ impl<'a> SearchModel<'a> {
         Ok(classify(system, speed_rad_per_s, 0, pairs))
     }
 
-    /// The real eigenvalue of the projection next to an expected one, without an eigenproblem. `None` if
-    /// Newton's method ends elsewhere.
-    pub fn growth_next_to(&self, speed_rad_per_s: f64, expected_per_s: f64) -> Option<f64> {
+    /// The eigenvalue of the projection next to an expected one with its slope, without an eigenproblem. `None` if
+    /// Newton's method does not converge.
+    pub fn next_to(&self, speed_rad_per_s: f64, expected: c64) -> Option<(c64, c64)> {
         self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
         let system = &self.at(speed_rad_per_s).projection.reduced;
-        let expected = c64::new(expected_per_s, 0.0);
-        let (found, _) = derivative::next_to(system, speed_rad_per_s, expected)?;
-        ((found - expected).norm() <= SAME_GROWTH * expected_per_s).then_some(found.re)
+        derivative::next_to(system, speed_rad_per_s, expected)
+    }
+
+    /// The coalescence of two modes of the projection next to an expected one, without an eigenproblem. `None` if Newton's
+    /// method does not converge.
+    pub fn coalescence(&self, speed_rad_per_s: f64, expected: c64) -> Option<DoubleEigenvalue> {
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        let on = |interval: &Interval, speed: f64, lambda: c64| {
+            DoubleEigenvalue::next_to(&interval.projection.reduced, speed, lambda)
+        };
+        let interval = self.at(speed_rad_per_s);
+        let found = on(interval, speed_rad_per_s, expected)?;
+        let there = self.at(found.speed_rad_per_s);
+        match Arc::ptr_eq(&interval.projection, &there.projection) {
+            true => Some(found),
+            false => on(there, found.speed_rad_per_s, found.lambda),
+        }
     }
 
     /// The modes of [`SearchModel::modes`] in the coordinates of the component, which are common to all speeds.
@@ -282,58 +311,6 @@ impl<'a> SearchModel<'a> {
             mode.coordinates = real_times(basis, &mode.coordinates);
         }
         Ok(modes)
-    }
-
-    /// Whether modes have as many coordinates as the projection for a speed.
-    pub fn has(&self, speed_rad_per_s: f64, modes: &[Mode]) -> bool {
-        let order = self.at(speed_rad_per_s).projection.reduced.order();
-        modes.iter().all(|mode| mode.coordinates.nrows() == order)
-    }
-
-    /// Two modes in the coordinates of the projection, refined on it.
-    pub fn pair_of(&self, speed_rad_per_s: f64, modes: &[Mode; 2]) -> Option<ModePair> {
-        let pairs = modes
-            .each_ref()
-            .map(|mode| (mode.lambda, mode.coordinates.clone()));
-        self.refined(speed_rad_per_s, pairs.each_ref())
-    }
-
-    fn refined(&self, speed_rad_per_s: f64, pairs: [&Eigenpair; 2]) -> Option<ModePair> {
-        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
-        let projection = &self.at(speed_rad_per_s).projection;
-        ModePair::new(projection, speed_rad_per_s, self.height_rad_per_s, pairs)
-    }
-
-    /// The two modes at a speed nearest to two eigenvalues, refined on the projection.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn pair(
-        &self,
-        speed_rad_per_s: f64,
-        lambdas: [c64; 2],
-    ) -> Result<Option<ModePair>, SpectrumError> {
-        let interval = self.at(speed_rad_per_s);
-        let mut pairs = self.pairs(interval, speed_rad_per_s)?;
-        let mut chosen = Vec::new();
-        for lambda in lambdas {
-            let distance = |place: &usize| (pairs[*place].0 - lambda).norm();
-            let Some(nearest) = smallest(0..pairs.len(), distance) else {
-                return Ok(None);
-            };
-            chosen.push(pairs.swap_remove(nearest));
-        }
-        let [first, second] = chosen.as_slice() else {
-            return Ok(None);
-        };
-        Ok(self.refined(speed_rad_per_s, [first, second]))
-    }
-
-    /// The pair at another speed, by a factorization instead of an eigenproblem. `None` if it is lost.
-    pub fn moved(&self, pair: &ModePair, speed_rad_per_s: f64) -> Option<ModePair> {
-        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
-        let projection = &self.at(speed_rad_per_s).projection;
-        pair.moved(projection, speed_rad_per_s, self.height_rad_per_s)
     }
 }
 

@@ -7,21 +7,20 @@ use super::band::{Instability, InstabilityKind};
 use super::evaluator::SignatureEvaluator;
 use super::found::Found;
 use super::maximum::{Sample, between, maximize};
-use super::pair_continuation::{Coalescence, Edge, PairContinuation, VICINITY};
 use super::pieces::Piece;
 use super::quadruples::{Bound, Stretch, stretches};
 use super::signature::SignedMode;
-use crate::spectrum::{SpectrumError, smallest};
+use crate::spectrum::{DoubleEigenvalue, SpectrumError, smallest};
 
 /// Distance of a peak at the end of a band from that end, as a share of the width.
 const BESIDE_END: f64 = 1e-3;
-/// Distance from the expected end of a quadruple, as a share of the way to its nearest known speed, at which
-/// a second attempt to follow it to its end begins.
-const INSIDE: f64 = 0.02;
-/// An end whose distance from the expected end exceeds this share of the way belongs to another quadruple.
+/// An end whose distance from the expected end exceeds this share of the way to the nearest known speed belongs to another
+/// quadruple.
 const SAME_END: f64 = 0.1;
-/// An end within this share of the way of the expected end is certain.
-const CERTAIN_END: f64 = 0.01;
+/// Allowed shift of an edge in the models of the search, relative to the speed.
+pub(super) const VICINITY: f64 = 3e-5;
+/// Allowed relative error of a growth rate in the models of the search.
+const LIKENESS: f64 = 0.025;
 
 /// A quadruple followed over speed.
 #[derive(Debug, Clone)]
@@ -30,6 +29,16 @@ pub(super) struct Quadruple {
     end: End,
     /// Coalesced modes at ascending speeds.
     points: Vec<(f64, SignedMode)>,
+}
+
+/// Coalescence of a + and a − wave or of two real λ.
+#[derive(Debug, Clone, Copy)]
+struct Edge {
+    speed_rad_per_s: f64,
+    /// λ, imaginary or real, in 1/s.
+    lambda: c64,
+    /// dσ²/dΩ, in 1/s; not finite if unknown.
+    growth_square_slope: f64,
 }
 
 /// Begin or end of a band.
@@ -54,7 +63,11 @@ impl End {
     /// σ² at the end, if it is a coalescence.
     fn sample(&self) -> Option<Sample> {
         match self {
-            End::Edge(edge) => Some(edge.sample()),
+            End::Edge(edge) => Some(Sample {
+                at: edge.speed_rad_per_s,
+                value: edge.lambda.re.powi(2),
+                slope: edge.growth_square_slope,
+            }),
             End::Range(_) | End::Unknown(_) => None,
         }
     }
@@ -154,81 +167,70 @@ impl Quadruple {
         if points.is_empty() {
             return Ok(None);
         }
-        let begin = Self::end(evaluator, stretch, stretch.begin, &points)?;
-        let inwards: Vec<(f64, SignedMode)> = points.iter().rev().copied().collect();
-        let end = Self::end(evaluator, stretch, stretch.end, &inwards)?;
+        let nearest = [points[0], points[points.len() - 1]];
+        let [begin, end] = [(stretch.begin, nearest[0]), (stretch.end, nearest[1])]
+            .map(|(bound, inside)| Self::end(evaluator, stretch, bound, inside));
         Ok(Some(Quadruple { begin, end, points }))
     }
 
-    /// End of an interval whose quadruple is known at the given inner speeds, the nearest to the end first.
+    /// End of an interval whose quadruple is known at an inner speed.
     fn end(
         evaluator: &SignatureEvaluator<'_>,
         stretch: &Stretch<'_>,
         bound: Bound,
-        inwards: &[(f64, SignedMode)],
-    ) -> Result<End, SpectrumError> {
+        (inside, mode): (f64, SignedMode),
+    ) -> End {
         let (expected, outside) = match bound {
             Bound::Coalescence {
                 expected_rad_per_s,
                 outside_rad_per_s,
             } => (expected_rad_per_s, outside_rad_per_s),
-            Bound::Range(speed) => return Ok(End::Range(speed)),
-            Bound::Height(speed) => return Ok(End::Unknown(speed)),
+            Bound::Range(speed) => return End::Range(speed),
+            Bound::Height(speed) => return End::Unknown(speed),
         };
-        let off = |edge: &Edge| (edge.speed_rad_per_s - expected).abs();
-        let followed = |start: f64, mode: &SignedMode| -> Result<Option<Edge>, SpectrumError> {
-            let pair = PairContinuation::of_quadruple(evaluator, start, mode)?;
-            let edge = pair.and_then(|pair| pair.edge(outside));
-            let way = (expected - start).abs();
-            Ok(edge.filter(|edge| off(edge) <= SAME_END * way + VICINITY * expected))
+        let square = stretch.square(expected);
+        let re = square.unwrap_or(mode.lambda * mode.lambda).re;
+        let is_real = re > 0.0;
+        let lambda = match is_real {
+            true => c64::new(re.sqrt(), 0.0),
+            false => c64::new(0.0, (-re).sqrt()),
         };
-        let (inside, mode) = inwards[0];
-        let mut from_inside = followed(inside, &mode)?;
-        let is_certain = |edge: &Edge| off(edge) <= CERTAIN_END * (expected - inside).abs();
-        if let Some(edge) = from_inside.filter(is_certain) {
-            return Ok(End::Edge(edge));
-        }
-        // If the nearest speed is closer to the end than the error of its mode allows, the continuation from
-        // it fails and the next speed is tried.
-        if let (None, Some((speed, mode))) = (from_inside, inwards.get(1)) {
-            from_inside = followed(*speed, mode)?;
-        }
-        // Over a long distance the continuation may change to another pair, which ends nearby, so that it is
-        // repeated from a speed close to the expected end.
-        let beside = expected + INSIDE * (inside - expected);
-        let near = match stretch.square(beside) {
-            Some(square) => evaluator
-                .quadruple(beside, square.sqrt())?
-                .filter(|mode| is_expected(mode, square)),
-            None => None,
+        let direction = (outside - inside).signum();
+        let margin = VICINITY * expected;
+        let is_same = |found: &DoubleEigenvalue| {
+            let off = (found.speed_rad_per_s - expected).abs();
+            let beyond = (found.speed_rad_per_s - outside) * direction;
+            let before = (inside - found.speed_rad_per_s) * direction;
+            // ((λ₁ − λ₂)/2)² is σ² next to a coalescence of waves and −ω² next to one of real λ.
+            let sign = if is_real { 1.0 } else { -1.0 };
+            let is_outwards = found.square_slope * direction * sign > 0.0;
+            let way = (expected - inside).abs();
+            off <= SAME_END * way + margin && before.max(beyond) <= margin && is_outwards
         };
-        let from_beside = near.map_or(Ok(None), |near| followed(beside, &near))?;
-        let both = [from_beside, from_inside].into_iter().flatten();
-        if let Some(edge) = smallest(both, off) {
-            return Ok(End::Edge(edge));
-        }
-        let Some(square) = stretch.square(expected) else {
-            return Ok(End::Unknown(expected));
-        };
-        let is_real = square.re > 0.0;
-        Ok(End::Edge(Edge {
-            speed_rad_per_s: expected,
-            coalescence: if is_real {
-                Coalescence::Real
-            } else {
-                Coalescence::Waves
+        let found = evaluator.coalescence(expected, lambda).filter(is_same);
+        End::Edge(match found {
+            Some(found) => Edge {
+                speed_rad_per_s: found.speed_rad_per_s,
+                lambda: found.lambda,
+                growth_square_slope: if is_real {
+                    f64::NAN
+                } else {
+                    found.square_slope
+                },
             },
-            frequency_rad_per_s: if is_real { 0.0 } else { mode.lambda.im },
-            growth_square: if is_real { mode.lambda.re.powi(2) } else { 0.0 },
-            growth_square_slope: f64::NAN,
-        }))
+            None => Edge {
+                speed_rad_per_s: expected,
+                lambda,
+                growth_square_slope: f64::NAN,
+            },
+        })
     }
 
     /// Ends of the quadruple that are coalescences of two real eigenvalues.
     pub fn real_ends(&self) -> impl Iterator<Item = f64> {
         let ends = [self.begin, self.end].into_iter();
         ends.filter_map(|end| match end {
-            End::Edge(edge) if edge.coalescence == Coalescence::Real => Some(edge.speed_rad_per_s),
+            End::Edge(edge) if edge.lambda.re > 0.0 => Some(edge.speed_rad_per_s),
             _ => None,
         })
     }
@@ -303,47 +305,65 @@ impl Quadruple {
                 && edge.speed_rad_per_s == at
             {
                 let inside = at + BESIDE_END * (other - at);
-                return Ok((
-                    inside,
-                    (edge.growth_square.sqrt(), edge.frequency_rad_per_s),
-                ));
+                return Ok((inside, (edge.lambda.re, edge.lambda.im)));
             }
         }
         let (speed, mode) = nearest(&known, at);
-        // The continued pair is accurate to rounding, whereas the search uses coarser models.
-        let sharp = PairContinuation::of_quadruple(evaluator, speed, &mode)?;
-        let sharp = sharp.and_then(|pair| pair.growth_and_frequency());
-        Ok((speed, sharp.unwrap_or((mode.lambda.re, mode.lambda.im))))
+        let mode = sharp(evaluator, speed, mode);
+        Ok((speed, (mode.lambda.re, mode.lambda.im)))
     }
 
-    /// Quadruple at a speed: followed from the nearest known speed, or else from the cubic between its
-    /// neighbours.
+    /// Quadruple at a speed, or else from the cubic between its neighbours.
     fn cut(
         &self,
         evaluator: &SignatureEvaluator<'_>,
         samples: &[Sample],
         speed: f64,
     ) -> Result<Cut, SpectrumError> {
-        let (known, mode) = nearest(&self.points, speed);
-        let pair = PairContinuation::of_quadruple(evaluator, known, &mode)?;
-        let followed = pair.and_then(|pair| pair.to(speed)).and_then(|pair| {
-            Some(Cut {
-                sample: pair.sample(),
-                growth_and_frequency: pair.growth_and_frequency()?,
-            })
-        });
-        Ok(followed.unwrap_or_else(|| {
-            let value = between(samples, speed).max(0.0);
-            Cut {
-                sample: Sample {
-                    at: speed,
-                    value,
-                    slope: f64::NAN,
-                },
-                growth_and_frequency: (value.sqrt(), mode.lambda.im),
-            }
-        }))
+        if let Some(mode) = continued(evaluator, &self.points, speed)? {
+            let mode = sharp(evaluator, speed, mode);
+            return Ok(Cut {
+                sample: sample(&(speed, mode)),
+                growth_and_frequency: (mode.lambda.re, mode.lambda.im),
+            });
+        }
+        let value = between(samples, speed).max(0.0);
+        let (_, mode) = nearest(&self.points, speed);
+        Ok(Cut {
+            sample: Sample {
+                at: speed,
+                value,
+                slope: f64::NAN,
+            },
+            growth_and_frequency: (value.sqrt(), mode.lambda.im),
+        })
     }
+}
+
+/// The quadruple by the projection, whereas the search uses coarser models.
+fn sharp(evaluator: &SignatureEvaluator<'_>, speed: f64, mode: SignedMode) -> SignedMode {
+    let shift = VICINITY * speed;
+    let near = |found: f64, expected: f64, slope: f64| {
+        (found - expected).abs() <= LIKENESS * mode.lambda.re + slope.abs() * shift
+    };
+    let found = evaluator.next_to(speed, mode.lambda);
+    // The iteration may lead to the mirror image −σ + iω.
+    let found = found.map(|(lambda, slope)| match lambda.re < 0.0 {
+        true => (-lambda.conj(), -slope.conj()),
+        false => (lambda, slope),
+    });
+    let is_same = |(lambda, _): &(c64, c64)| {
+        lambda.re > 0.0
+            && near(lambda.re, mode.lambda.re, mode.slope.re)
+            && near(lambda.im, mode.lambda.im, mode.slope.im)
+    };
+    found
+        .filter(is_same)
+        .map_or(mode, |(lambda, slope)| SignedMode {
+            lambda,
+            slope,
+            ..mode
+        })
 }
 
 /// The quadruple at the known speed nearest to a given one.
