@@ -21,7 +21,7 @@ use super::hamiltonian::{HamiltonianReduction, State};
 use super::mode::{Mode, classify};
 use super::model::SpectralModel;
 use super::projection::Projection;
-use super::vectors::{Eigenpair, complex, real_times};
+use super::vectors::{Eigenpair, complex};
 use super::work::WorkCounters;
 use crate::system::GyroscopicSystem;
 use crate::tuned::Tuned;
@@ -153,7 +153,6 @@ pub(super) fn interval_at(intervals: &[Interval], speed_rad_per_s: f64) -> &Inte
 #[derive(Debug, Clone)]
 pub struct SearchModel<'a> {
     intervals: Cow<'a, [Interval]>,
-    standing: Vec<StandingWave<'a>>,
     height_rad_per_s: f64,
     counters: &'a WorkCounters,
 }
@@ -162,13 +161,12 @@ impl<'a> SearchModel<'a> {
     /// The search model of an undamped blade's reduced model. `None` for a damped blade, and for one without a
     /// reduced model.
     pub(crate) fn new(model: &'a SpectralModel) -> Option<Self> {
-        let (component, standing) = guided(model)?;
+        let component = guided(model)?;
         let Solution::Projected(intervals) = &component.solution else {
             return None;
         };
         Some(SearchModel {
             intervals: Cow::Borrowed(intervals),
-            standing,
             height_rad_per_s: model.reflected_to_rad_per_s,
             counters: &model.counters,
         })
@@ -182,9 +180,12 @@ impl<'a> SearchModel<'a> {
         model: &'a SpectralModel,
         speeds: &[f64],
     ) -> Result<Option<Self>, SpectrumError> {
-        let Some((component, standing)) = guided(model) else {
+        let Some(component) = guided(model) else {
             return Ok(None);
         };
+        let standing = model.critical.iter();
+        let standing: Vec<StandingWave<'_>> =
+            standing.map(|c| (c.speed_rad_per_s, &c.shape)).collect();
         let counters = &model.counters;
         let whole = Arc::new(Projection::whole(&component.full));
         let known = speeds.par_iter();
@@ -206,30 +207,9 @@ impl<'a> SearchModel<'a> {
         let intervals: Vec<Interval> = between.collect();
         Ok((!intervals.is_empty()).then_some(SearchModel {
             intervals: Cow::Owned(intervals),
-            standing,
             height_rad_per_s,
             counters,
         }))
-    }
-
-    /// The search model with a single interval between two close speeds.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn narrowed(self, from_rad_per_s: f64, to_rad_per_s: f64) -> Result<Self, SpectrumError> {
-        let interval = self.at(0.5 * (from_rad_per_s + to_rad_per_s));
-        let projection = &interval.projection;
-        let known = |speed| KnownModes::of(projection, speed, self.counters);
-        let ends = [known(from_rad_per_s)?, known(to_rad_per_s)?];
-        let height = self.height_rad_per_s;
-        let narrowed = Interval {
-            searched: states_between(projection, ends.each_ref(), &self.standing, height),
-            ..interval.clone()
-        };
-        Ok(SearchModel {
-            intervals: Cow::Owned(vec![narrowed]),
-            ..self
-        })
     }
 
     /// Frequency up to which the modes are complete and accurate.
@@ -286,7 +266,11 @@ impl<'a> SearchModel<'a> {
 
     /// The coalescence of two modes of the projection next to an expected one, without an eigenproblem. `None` if Newton's
     /// method does not converge.
-    pub fn coalescence(&self, speed_rad_per_s: f64, expected: c64) -> Option<DoubleEigenvalue> {
+    pub fn double_eigenvalue(
+        &self,
+        speed_rad_per_s: f64,
+        expected: c64,
+    ) -> Option<DoubleEigenvalue> {
         self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
         let on = |interval: &Interval, speed: f64, lambda: c64| {
             DoubleEigenvalue::next_to(&interval.projection.reduced, speed, lambda)
@@ -299,29 +283,12 @@ impl<'a> SearchModel<'a> {
             false => on(there, found.speed_rad_per_s, found.lambda),
         }
     }
-
-    /// The modes of [`SearchModel::modes`] in the coordinates of the component, which are common to all speeds.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn lifted_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        let basis = &self.at(speed_rad_per_s).projection.basis;
-        let mut modes = self.modes(speed_rad_per_s)?;
-        for mode in &mut modes {
-            mode.coordinates = real_times(basis, &mode.coordinates);
-        }
-        Ok(modes)
-    }
 }
 
-/// The only component of an undamped guided blade, and the standing waves of its critical speeds.
-fn guided(model: &SpectralModel) -> Option<(&Component, Vec<StandingWave<'_>>)> {
-    let ([component], true) = (model.components.as_slice(), model.is_conservative()) else {
-        return None;
-    };
-    let standing = model.critical.iter();
-    Some((
-        component,
-        standing.map(|c| (c.speed_rad_per_s, &c.shape)).collect(),
-    ))
+/// The only component of an undamped guided blade.
+fn guided(model: &SpectralModel) -> Option<&Component> {
+    match model.components.as_slice() {
+        [component] if model.is_conservative() => Some(component),
+        _ => None,
+    }
 }

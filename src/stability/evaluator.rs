@@ -307,8 +307,14 @@ impl<'a> SignatureEvaluator<'a> {
     }
 
     /// The coalescence of two modes of the projection next to an expected one.
-    pub fn coalescence(&self, speed_rad_per_s: f64, expected: c64) -> Option<DoubleEigenvalue> {
-        self.low.as_ref()?.coalescence(speed_rad_per_s, expected)
+    pub fn double_eigenvalue(
+        &self,
+        speed_rad_per_s: f64,
+        expected: c64,
+    ) -> Option<DoubleEigenvalue> {
+        self.low
+            .as_ref()?
+            .double_eigenvalue(speed_rad_per_s, expected)
     }
 
     /// Largest growth rate of a divergent mode, in 1/s, without a check by the Krein index, which rounding

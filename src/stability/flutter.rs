@@ -1,76 +1,34 @@
 //! Flutter bands: a quadruple from the speed at which it begins to the speed at which it ends.
 
+mod end;
+
 use faer::c64;
 use rayon::prelude::*;
+
+use self::end::End;
+pub(super) use self::end::VICINITY;
 
 use super::band::{Instability, InstabilityKind};
 use super::evaluator::SignatureEvaluator;
 use super::found::Found;
-use super::maximum::{Sample, between, maximize};
+use super::maximum::{Sample, maximize};
 use super::pieces::Piece;
-use super::quadruples::{Bound, Stretch, stretches};
+use super::quadruples::{Stretch, stretches};
 use super::signature::SignedMode;
-use crate::spectrum::{DoubleEigenvalue, SpectrumError, smallest};
+use crate::spectrum::{SpectrumError, smallest};
 
 /// Distance of a peak at the end of a band from that end, as a share of the width.
 const BESIDE_END: f64 = 1e-3;
-/// An end whose distance from the expected end exceeds this share of the way to the nearest known speed belongs to another
-/// quadruple.
-const SAME_END: f64 = 0.1;
-/// Allowed shift of an edge in the models of the search, relative to the speed.
-pub(super) const VICINITY: f64 = 3e-5;
 /// Allowed relative error of a growth rate in the models of the search.
 const LIKENESS: f64 = 0.025;
 
-/// A quadruple followed over speed.
+/// A quadruple over an interval of speed.
 #[derive(Debug, Clone)]
 pub(super) struct Quadruple {
     begin: End,
     end: End,
     /// Coalesced modes at ascending speeds.
     points: Vec<(f64, SignedMode)>,
-}
-
-/// Coalescence of a + and a − wave or of two real λ.
-#[derive(Debug, Clone, Copy)]
-struct Edge {
-    speed_rad_per_s: f64,
-    /// λ, imaginary or real, in 1/s.
-    lambda: c64,
-    /// dσ²/dΩ, in 1/s; not finite if unknown.
-    growth_square_slope: f64,
-}
-
-/// Begin or end of a band.
-#[derive(Debug, Clone, Copy)]
-enum End {
-    /// Coalescence of two waves or of two real λ.
-    Edge(Edge),
-    /// End of the range inside the band.
-    Range(f64),
-    /// Estimated end of a quadruple that could not be followed to it.
-    Unknown(f64),
-}
-
-impl End {
-    fn speed(&self) -> f64 {
-        match self {
-            End::Edge(edge) => edge.speed_rad_per_s,
-            End::Range(speed) | End::Unknown(speed) => *speed,
-        }
-    }
-
-    /// σ² at the end, if it is a coalescence.
-    fn sample(&self) -> Option<Sample> {
-        match self {
-            End::Edge(edge) => Some(Sample {
-                at: edge.speed_rad_per_s,
-                value: edge.lambda.re.powi(2),
-                slope: edge.growth_square_slope,
-            }),
-            End::Range(_) | End::Unknown(_) => None,
-        }
-    }
 }
 
 /// Quadruples in the pieces of a search, by their begin.
@@ -122,13 +80,6 @@ impl Part {
     }
 }
 
-/// A quadruple at the end of a part that cuts it.
-struct Cut {
-    sample: Sample,
-    /// In 1/s and rad/s.
-    growth_and_frequency: (f64, f64),
-}
-
 /// A quadruple that differs from the expected one by more than this share of the growth is another quadruple.
 const SAME_QUADRUPLE: f64 = 0.7;
 
@@ -139,7 +90,7 @@ fn is_expected(mode: &SignedMode, square: c64) -> bool {
 }
 
 impl Quadruple {
-    /// Follows the quadruple of an interval to both ends; `None` if no eigenproblem confirms it.
+    /// The quadruple of an interval with both ends; `None` if no eigenproblem confirms it.
     fn new(
         evaluator: &SignatureEvaluator<'_>,
         stretch: &Stretch<'_>,
@@ -169,61 +120,8 @@ impl Quadruple {
         }
         let nearest = [points[0], points[points.len() - 1]];
         let [begin, end] = [(stretch.begin, nearest[0]), (stretch.end, nearest[1])]
-            .map(|(bound, inside)| Self::end(evaluator, stretch, bound, inside));
+            .map(|(bound, inside)| End::new(evaluator, stretch, bound, inside));
         Ok(Some(Quadruple { begin, end, points }))
-    }
-
-    /// End of an interval whose quadruple is known at an inner speed.
-    fn end(
-        evaluator: &SignatureEvaluator<'_>,
-        stretch: &Stretch<'_>,
-        bound: Bound,
-        (inside, mode): (f64, SignedMode),
-    ) -> End {
-        let (expected, outside) = match bound {
-            Bound::Coalescence {
-                expected_rad_per_s,
-                outside_rad_per_s,
-            } => (expected_rad_per_s, outside_rad_per_s),
-            Bound::Range(speed) => return End::Range(speed),
-            Bound::Height(speed) => return End::Unknown(speed),
-        };
-        let square = stretch.square(expected);
-        let re = square.unwrap_or(mode.lambda * mode.lambda).re;
-        let is_real = re > 0.0;
-        let lambda = match is_real {
-            true => c64::new(re.sqrt(), 0.0),
-            false => c64::new(0.0, (-re).sqrt()),
-        };
-        let direction = (outside - inside).signum();
-        let margin = VICINITY * expected;
-        let is_same = |found: &DoubleEigenvalue| {
-            let off = (found.speed_rad_per_s - expected).abs();
-            let beyond = (found.speed_rad_per_s - outside) * direction;
-            let before = (inside - found.speed_rad_per_s) * direction;
-            // ((λ₁ − λ₂)/2)² is σ² next to a coalescence of waves and −ω² next to one of real λ.
-            let sign = if is_real { 1.0 } else { -1.0 };
-            let is_outwards = found.square_slope * direction * sign > 0.0;
-            let way = (expected - inside).abs();
-            off <= SAME_END * way + margin && before.max(beyond) <= margin && is_outwards
-        };
-        let found = evaluator.coalescence(expected, lambda).filter(is_same);
-        End::Edge(match found {
-            Some(found) => Edge {
-                speed_rad_per_s: found.speed_rad_per_s,
-                lambda: found.lambda,
-                growth_square_slope: if is_real {
-                    f64::NAN
-                } else {
-                    found.square_slope
-                },
-            },
-            None => Edge {
-                speed_rad_per_s: expected,
-                lambda,
-                growth_square_slope: f64::NAN,
-            },
-        })
     }
 
     /// Ends of the quadruple that are coalescences of two real eigenvalues.
@@ -272,18 +170,14 @@ impl Quadruple {
         part: Part,
     ) -> Result<(f64, (f64, f64)), SpectrumError> {
         let mut known = self.points.clone();
-        let mut samples: Vec<Sample> = self.points.iter().map(sample).collect();
-        samples.extend(
-            [self.begin.sample(), self.end.sample()]
-                .into_iter()
-                .flatten(),
-        );
-        samples.sort_by(|x, y| x.at.total_cmp(&y.at));
-        let cuts = part
-            .cuts()
-            .map(|speed| self.cut(evaluator, &samples, speed));
-        let cuts: Vec<Cut> = cuts.collect::<Result<_, _>>()?;
-        samples.extend(cuts.iter().map(|cut| cut.sample));
+        for speed in part.cuts() {
+            let mode = continued(evaluator, &self.points, speed)?;
+            known.extend(mode.map(|mode| (speed, sharp(evaluator, speed, mode))));
+        }
+        known.sort_by(|x, y| x.0.total_cmp(&y.0));
+        let ends = [&self.begin, &self.end].into_iter();
+        let ends = ends.filter_map(End::sample);
+        let mut samples: Vec<Sample> = known.iter().map(sample).chain(ends).collect();
         samples.retain(|sample| (part.from..=part.to).contains(&sample.at));
         samples.sort_by(|x, y| x.at.total_cmp(&y.at));
         let found = maximize(samples, |speed| {
@@ -295,9 +189,6 @@ impl Quadruple {
             Ok(Some(sample(&known[place])))
         })?;
         let at = found.map_or(self.points[0].0, |sample| sample.at);
-        if let Some(cut) = cuts.iter().find(|cut| cut.sample.at == at) {
-            return Ok((at, cut.growth_and_frequency));
-        }
         // At the coalescence of two real λ the growth is not zero and may be the largest of the band. The
         // peak is then placed slightly inside the band.
         for (end, other) in [(&self.begin, part.to), (&self.end, part.from)] {
@@ -311,32 +202,6 @@ impl Quadruple {
         let (speed, mode) = nearest(&known, at);
         let mode = sharp(evaluator, speed, mode);
         Ok((speed, (mode.lambda.re, mode.lambda.im)))
-    }
-
-    /// Quadruple at a speed, or else from the cubic between its neighbours.
-    fn cut(
-        &self,
-        evaluator: &SignatureEvaluator<'_>,
-        samples: &[Sample],
-        speed: f64,
-    ) -> Result<Cut, SpectrumError> {
-        if let Some(mode) = continued(evaluator, &self.points, speed)? {
-            let mode = sharp(evaluator, speed, mode);
-            return Ok(Cut {
-                sample: sample(&(speed, mode)),
-                growth_and_frequency: (mode.lambda.re, mode.lambda.im),
-            });
-        }
-        let value = between(samples, speed).max(0.0);
-        let (_, mode) = nearest(&self.points, speed);
-        Ok(Cut {
-            sample: Sample {
-                at: speed,
-                value,
-                slope: f64::NAN,
-            },
-            growth_and_frequency: (value.sqrt(), mode.lambda.im),
-        })
     }
 }
 
