@@ -160,16 +160,21 @@ impl Pairs<'_> {
             }
             last = next;
         }
-        let signs = self.signs(&last)?;
-        if let [Some(1), Some(-1)] | [Some(-1), Some(1)] = signs {
-            let is_reversed = signs[0] == Some(-1);
-            rows.extend(beside.into_iter().map(|mut pair| {
-                if is_reversed {
-                    pair.sloped.reverse();
-                }
-                pair.row([1, -1])
-            }));
-        }
+        // Next to a coalescence at either end signs are rounding.
+        let Some(middle) = beside.get(beside.len() / 2) else {
+            return Ok(rows);
+        };
+        let is_reversed = match self.signs(middle)? {
+            [Some(1), Some(-1)] => false,
+            [Some(-1), Some(1)] => true,
+            _ => return Ok(rows),
+        };
+        rows.extend(beside.into_iter().map(|mut pair| {
+            if is_reversed {
+                pair.sloped.reverse();
+            }
+            pair.row([1, -1])
+        }));
         Ok(rows)
     }
 
