@@ -130,7 +130,12 @@ fn stands_still(lambda: c64) -> bool {
 }
 
 /// (∂L/∂Ω)x, with the drift of free motions if the mode is at rest in space.
-fn speed_slope(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>) -> Col<c64> {
+pub(super) fn speed_slope(
+    system: &GyroscopicSystem,
+    speed: f64,
+    lambda: c64,
+    x: &Col<c64>,
+) -> Col<c64> {
     let gyroscopic = real_times(&system.gyroscopic, x);
     let spin = real_times(&system.spin, x);
     let mut slope = Scale(2.0 * lambda) * gyroscopic + Scale(c64::new(2.0 * speed, 0.0)) * spin;
@@ -169,7 +174,7 @@ fn left_vector(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>)
 }
 
 /// A shift slightly beside an eigenvalue, so that L is not exactly singular.
-fn beside(lambda: c64) -> c64 {
+pub(super) fn beside(lambda: c64) -> c64 {
     lambda * (1.0 + 1e-9) + c64::new(1e-9, 0.0)
 }
 

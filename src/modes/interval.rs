@@ -9,28 +9,25 @@ use std::borrow::Cow;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-use faer::{Col, c64};
+use faer::{Col, Scale, c64};
 use rayon::prelude::*;
 
 use super::component::{Component, Solution};
 use super::derivative;
+use super::double_eigenvalue::DoubleEigenvalue;
 use super::error::SpectrumError;
 use super::half_order;
 use super::hamiltonian::{HamiltonianReduction, State};
 use super::mode::{Mode, classify};
-use super::mode_pair::{ModePair, standing_states};
 use super::model::SpectralModel;
 use super::projection::Projection;
-use super::vectors::{Eigenpair, real_times, smallest};
+use super::vectors::{Eigenpair, complex};
 use super::work::WorkCounters;
+use crate::model::system::GyroscopicSystem;
 use crate::model::tuned::Tuned;
 
 /// Modes up to this multiple of the window are included, because some of them enter it between two speeds.
-pub(super) const SPAN_MARGIN: Tuned = Tuned::new("modes/interval::SPAN_MARGIN", 1.5);
-
-/// If the growth rates by the projection and by the states differ by more than this share, they belong to
-/// different modes: the states are accurate to 1e-5 of the height.
-const SAME_GROWTH: f64 = 0.01;
+pub(super) const SPAN_MARGIN: Tuned = Tuned::new("spectrum/interval::SPAN_MARGIN", 1.5);
 
 /// Eigenpairs at a speed, in the coordinates of a projection.
 #[derive(Debug, Clone)]
@@ -106,6 +103,24 @@ pub(super) fn states_between(
     HamiltonianReduction::new(system, window_rad_per_s, &states)
 }
 
+/// The two states of a wave that stands still at its critical speed: its deflection, and a momentum of the same
+/// shape.
+fn standing_states(
+    system: &GyroscopicSystem,
+    speed_rad_per_s: f64,
+    shape: &Col<f64>,
+    scale: f64,
+) -> [State; 2] {
+    let q = complex(shape);
+    let still = State::new(system, speed_rad_per_s, (c64::new(0.0, 0.0), q.clone()));
+    let momentum = State {
+        lambda: c64::new(0.0, 0.0),
+        q: Col::zeros(q.nrows()),
+        p: Scale(c64::new(scale, 0.0)) * q,
+    };
+    [still, momentum]
+}
+
 impl Interval {
     /// Eigenpairs of the interval's projection at a speed.
     pub(super) fn projected_pairs(
@@ -138,7 +153,6 @@ pub(super) fn interval_at(intervals: &[Interval], speed_rad_per_s: f64) -> &Inte
 #[derive(Debug, Clone)]
 pub struct SearchModel<'a> {
     intervals: Cow<'a, [Interval]>,
-    standing: Vec<StandingWave<'a>>,
     height_rad_per_s: f64,
     counters: &'a WorkCounters,
 }
@@ -147,13 +161,12 @@ impl<'a> SearchModel<'a> {
     /// The search model of an undamped blade's reduced model. `None` for a damped blade, and for one without a
     /// reduced model.
     pub(crate) fn new(model: &'a SpectralModel) -> Option<Self> {
-        let (component, standing) = guided(model)?;
+        let component = guided(model)?;
         let Solution::Projected(intervals) = &component.solution else {
             return None;
         };
         Some(SearchModel {
             intervals: Cow::Borrowed(intervals),
-            standing,
             height_rad_per_s: model.reflected_to_rad_per_s,
             counters: &model.counters,
         })
@@ -167,9 +180,12 @@ impl<'a> SearchModel<'a> {
         model: &'a SpectralModel,
         speeds: &[f64],
     ) -> Result<Option<Self>, SpectrumError> {
-        let Some((component, standing)) = guided(model) else {
+        let Some(component) = guided(model) else {
             return Ok(None);
         };
+        let standing = model.critical.iter();
+        let standing: Vec<StandingWave<'_>> =
+            standing.map(|c| (c.speed_rad_per_s, &c.shape)).collect();
         let counters = &model.counters;
         let whole = Arc::new(Projection::whole(&component.full));
         let known = speeds.par_iter();
@@ -191,30 +207,9 @@ impl<'a> SearchModel<'a> {
         let intervals: Vec<Interval> = between.collect();
         Ok((!intervals.is_empty()).then_some(SearchModel {
             intervals: Cow::Owned(intervals),
-            standing,
             height_rad_per_s,
             counters,
         }))
-    }
-
-    /// The search model with a single interval between two close speeds.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn narrowed(self, from_rad_per_s: f64, to_rad_per_s: f64) -> Result<Self, SpectrumError> {
-        let interval = self.at(0.5 * (from_rad_per_s + to_rad_per_s));
-        let projection = &interval.projection;
-        let known = |speed| KnownModes::of(projection, speed, self.counters);
-        let ends = [known(from_rad_per_s)?, known(to_rad_per_s)?];
-        let height = self.height_rad_per_s;
-        let narrowed = Interval {
-            searched: states_between(projection, ends.each_ref(), &self.standing, height),
-            ..interval.clone()
-        };
-        Ok(SearchModel {
-            intervals: Cow::Owned(vec![narrowed]),
-            ..self
-        })
     }
 
     /// Frequency up to which the modes are complete and accurate.
@@ -261,90 +256,39 @@ impl<'a> SearchModel<'a> {
         Ok(classify(system, speed_rad_per_s, 0, pairs))
     }
 
-    /// The real eigenvalue of the projection next to an expected one, without an eigenproblem. `None` if
-    /// Newton's method ends elsewhere.
-    pub fn growth_next_to(&self, speed_rad_per_s: f64, expected_per_s: f64) -> Option<f64> {
+    /// The eigenvalue of the projection next to an expected one with its slope, without an eigenproblem. `None` if
+    /// Newton's method does not converge.
+    pub fn next_to(&self, speed_rad_per_s: f64, expected: c64) -> Option<(c64, c64)> {
         self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
         let system = &self.at(speed_rad_per_s).projection.reduced;
-        let expected = c64::new(expected_per_s, 0.0);
-        let (found, _) = derivative::next_to(system, speed_rad_per_s, expected)?;
-        ((found - expected).norm() <= SAME_GROWTH * expected_per_s).then_some(found.re)
+        derivative::next_to(system, speed_rad_per_s, expected)
     }
 
-    /// The modes of [`SearchModel::modes`] in the coordinates of the component, which are common to all speeds.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn lifted_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        let basis = &self.at(speed_rad_per_s).projection.basis;
-        let mut modes = self.modes(speed_rad_per_s)?;
-        for mode in &mut modes {
-            mode.coordinates = real_times(basis, &mode.coordinates);
-        }
-        Ok(modes)
-    }
-
-    /// Whether modes have as many coordinates as the projection for a speed.
-    pub fn has(&self, speed_rad_per_s: f64, modes: &[Mode]) -> bool {
-        let order = self.at(speed_rad_per_s).projection.reduced.order();
-        modes.iter().all(|mode| mode.coordinates.nrows() == order)
-    }
-
-    /// Two modes in the coordinates of the projection, refined on it.
-    pub fn pair_of(&self, speed_rad_per_s: f64, modes: &[Mode; 2]) -> Option<ModePair> {
-        let pairs = modes
-            .each_ref()
-            .map(|mode| (mode.lambda, mode.coordinates.clone()));
-        self.refined(speed_rad_per_s, pairs.each_ref())
-    }
-
-    fn refined(&self, speed_rad_per_s: f64, pairs: [&Eigenpair; 2]) -> Option<ModePair> {
-        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
-        let projection = &self.at(speed_rad_per_s).projection;
-        ModePair::new(projection, speed_rad_per_s, self.height_rad_per_s, pairs)
-    }
-
-    /// The two modes at a speed nearest to two eigenvalues, refined on the projection.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn pair(
+    /// The coalescence of two modes of the projection next to an expected one, without an eigenproblem. `None` if Newton's
+    /// method does not converge.
+    pub fn double_eigenvalue(
         &self,
         speed_rad_per_s: f64,
-        lambdas: [c64; 2],
-    ) -> Result<Option<ModePair>, SpectrumError> {
-        let interval = self.at(speed_rad_per_s);
-        let mut pairs = self.pairs(interval, speed_rad_per_s)?;
-        let mut chosen = Vec::new();
-        for lambda in lambdas {
-            let distance = |place: &usize| (pairs[*place].0 - lambda).norm();
-            let Some(nearest) = smallest(0..pairs.len(), distance) else {
-                return Ok(None);
-            };
-            chosen.push(pairs.swap_remove(nearest));
-        }
-        let [first, second] = chosen.as_slice() else {
-            return Ok(None);
-        };
-        Ok(self.refined(speed_rad_per_s, [first, second]))
-    }
-
-    /// The pair at another speed, by a factorization instead of an eigenproblem. `None` if it is lost.
-    pub fn moved(&self, pair: &ModePair, speed_rad_per_s: f64) -> Option<ModePair> {
+        expected: c64,
+    ) -> Option<DoubleEigenvalue> {
         self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
-        let projection = &self.at(speed_rad_per_s).projection;
-        pair.moved(projection, speed_rad_per_s, self.height_rad_per_s)
+        let on = |interval: &Interval, speed: f64, lambda: c64| {
+            DoubleEigenvalue::next_to(&interval.projection.reduced, speed, lambda)
+        };
+        let interval = self.at(speed_rad_per_s);
+        let found = on(interval, speed_rad_per_s, expected)?;
+        let there = self.at(found.speed_rad_per_s);
+        match Arc::ptr_eq(&interval.projection, &there.projection) {
+            true => Some(found),
+            false => on(there, found.speed_rad_per_s, found.lambda),
+        }
     }
 }
 
-/// The only component of an undamped guided blade, and the standing waves of its critical speeds.
-fn guided(model: &SpectralModel) -> Option<(&Component, Vec<StandingWave<'_>>)> {
-    let ([component], true) = (model.components.as_slice(), model.is_conservative()) else {
-        return None;
-    };
-    let standing = model.critical.iter();
-    Some((
-        component,
-        standing.map(|c| (c.speed_rad_per_s, &c.shape)).collect(),
-    ))
+/// The only component of an undamped guided blade.
+fn guided(model: &SpectralModel) -> Option<&Component> {
+    match model.components.as_slice() {
+        [component] if model.is_conservative() => Some(component),
+        _ => None,
+    }
 }

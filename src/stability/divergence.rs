@@ -2,9 +2,9 @@
 
 use super::band::{Instability, InstabilityKind};
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
+use super::flutter::VICINITY;
 use super::found::Found;
 use super::maximum::{Sample, maximize};
-use super::pair_continuation::VICINITY;
 use super::signature::Signature;
 use crate::modes::{SpectralModel, SpectrumError, smallest};
 

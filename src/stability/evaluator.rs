@@ -9,11 +9,11 @@ use faer::c64;
 
 use super::certificate::Certificate;
 use super::partition::{BESIDES, Sample};
-use super::seen::Seen;
 use super::signature::{Signature, SignedMode};
 use crate::model::tuned::Tuned;
 use crate::modes::{
-    Mode, ModeKind, ModePair, SearchModel, SpectralModel, SpectrumError, krein_index, smallest,
+    DoubleEigenvalue, Mode, ModeKind, SearchModel, SpectralModel, SpectrumError, krein_index,
+    smallest,
 };
 
 /// Relative distance of the search from critical speeds: λ² passes through zero there and is accurate only to
@@ -46,6 +46,9 @@ const LEAST_FOR_A_SEARCH: usize = 25;
 /// 2e-6 of the speed, this occurred within 1e-9 of the speed of the coalescence.
 const BESIDE_COALESCENCE: f64 = 1e-7;
 
+/// If the growth rates by the projection and by the states differ by more than this share, they belong to
+/// different modes: the states are accurate to 1e-5 of the height.
+const SAME_GROWTH: f64 = 0.01;
 /// Number of speeds at which a search on the full model solves it; between two of them the search uses their
 /// modes.
 const ANCHORS: usize = 13;
@@ -64,7 +67,8 @@ pub struct SignatureEvaluator<'a> {
     /// Projections of the search; without them every speed is solved by the model.
     low: Option<SearchModel<'a>>,
     tally: Tally,
-    seen: Seen,
+    /// Signatures at the speeds of the search.
+    seen: Mutex<Vec<Signature>>,
     /// Whether this search repeats one on an insufficient reduced model; the number of its solves is limited.
     is_second_search: bool,
 }
@@ -104,7 +108,7 @@ impl<'a> SignatureEvaluator<'a> {
             model,
             low,
             tally: Tally::default(),
-            seen: Seen::default(),
+            seen: Mutex::default(),
             is_second_search: false,
         }
     }
@@ -220,12 +224,12 @@ impl<'a> SignatureEvaluator<'a> {
         {
             return Ok(None);
         }
-        let mut modes = self.modes(speed_rad_per_s)?;
-        let signature = Signature::new(speed_rad_per_s, modes.iter());
-        let sample = Sample::of_squares(speed_rad_per_s, self.squares(&modes));
-        modes.retain(|mode| matches!(mode.kind, ModeKind::Flutter | ModeKind::Decaying));
-        self.seen.add(signature, modes);
-        Ok(Some(sample))
+        let modes = self.modes(speed_rad_per_s)?;
+        if let Ok(mut seen) = self.seen.lock() {
+            seen.push(Signature::new(speed_rad_per_s, modes.iter()));
+        }
+        let squares = self.squares(&modes);
+        Ok(Some(Sample::of_squares(speed_rad_per_s, squares)))
     }
 
     /// λ² with slope and Krein sign, for the modes up to the height of the search and [`BESIDES`] above.
@@ -256,7 +260,20 @@ impl<'a> SignatureEvaluator<'a> {
 
     /// Signatures at the sampled speeds, ascending.
     pub fn signatures(&self) -> Vec<Signature> {
-        self.seen.signatures()
+        let mut all = self
+            .seen
+            .lock()
+            .map_or_else(|_| Vec::new(), |seen| seen.clone());
+        all.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+        all
+    }
+
+    /// The signature at a sampled speed.
+    fn seen_at(&self, speed_rad_per_s: f64) -> Option<Signature> {
+        let seen = self.seen.lock().ok()?;
+        let mut seen = seen.iter();
+        seen.find(|signature| signature.speed_rad_per_s == speed_rad_per_s)
+            .cloned()
     }
 
     /// Quadruple at a speed next to an expected eigenvalue.
@@ -268,7 +285,7 @@ impl<'a> SignatureEvaluator<'a> {
         speed_rad_per_s: f64,
         expected: c64,
     ) -> Result<Option<SignedMode>, SpectrumError> {
-        let signature = match self.seen.signature(speed_rad_per_s) {
+        let signature = match self.seen_at(speed_rad_per_s) {
             Some(known) => known,
             None => self.at(speed_rad_per_s)?,
         };
@@ -284,29 +301,20 @@ impl<'a> SignatureEvaluator<'a> {
         )
     }
 
-    /// The growing and the decaying mode of a quadruple at a speed, accurate to rounding.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn pair(
-        &self,
-        speed_rad_per_s: f64,
-        growing: c64,
-    ) -> Result<Option<ModePair>, SpectrumError> {
-        let Some(low) = &self.low else {
-            return Ok(None);
-        };
-        let lambdas = [growing, -growing.conj()];
-        let seen = self.seen.nearest(speed_rad_per_s, lambdas);
-        match seen.filter(|modes| low.has(speed_rad_per_s, modes)) {
-            Some(modes) => Ok(low.pair_of(speed_rad_per_s, &modes)),
-            None => low.pair(speed_rad_per_s, lambdas),
-        }
+    /// The eigenvalue of the projection next to an expected one, and dλ/dΩ. `None` if it is another one or none.
+    pub fn next_to(&self, speed_rad_per_s: f64, expected: c64) -> Option<(c64, c64)> {
+        self.low.as_ref()?.next_to(speed_rad_per_s, expected)
     }
 
-    /// The pair at another speed; `None` if it is lost.
-    pub fn moved(&self, pair: &ModePair, speed_rad_per_s: f64) -> Option<ModePair> {
-        self.low.as_ref()?.moved(pair, speed_rad_per_s)
+    /// The coalescence of two modes of the projection next to an expected one.
+    pub fn double_eigenvalue(
+        &self,
+        speed_rad_per_s: f64,
+        expected: c64,
+    ) -> Option<DoubleEigenvalue> {
+        self.low
+            .as_ref()?
+            .double_eigenvalue(speed_rad_per_s, expected)
     }
 
     /// Largest growth rate of a divergent mode, in 1/s, without a check by the Krein index, which rounding
@@ -333,9 +341,10 @@ impl<'a> SignatureEvaluator<'a> {
         speed_rad_per_s: f64,
         expected_per_s: f64,
     ) -> Result<f64, SpectrumError> {
-        let low = self.low.as_ref();
-        let found = low.and_then(|low| low.growth_next_to(speed_rad_per_s, expected_per_s));
-        found.map_or_else(|| self.divergence(speed_rad_per_s), Ok)
+        let found = self.next_to(speed_rad_per_s, c64::new(expected_per_s, 0.0));
+        let growth = found.map(|(lambda, _)| lambda.re);
+        let growth = growth.filter(|g| (g - expected_per_s).abs() <= SAME_GROWTH * expected_per_s);
+        growth.map_or_else(|| self.divergence(speed_rad_per_s), Ok)
     }
 
     /// Whether a critical speed lies between two speeds.

@@ -3,8 +3,7 @@
 use faer::c64;
 
 use super::band::Instability;
-use crate::modes::branches::{Sighted, match_modes};
-use crate::modes::{Mode, ModeKind, SearchModel, SpectralModel, SpectrumError, smallest};
+use crate::modes::{Mode, SearchModel, SpectralModel, SpectrumError, smallest};
 
 /// Paths of two eigenvalues over speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,9 +15,6 @@ pub struct RootLoci {
     pub paths: [Vec<(c64, i8)>; 2],
 }
 
-/// Largest width of an interval, as a share of its end, over which the modes at both ends represent those
-/// between.
-const NARROW: f64 = 0.04;
 /// Speeds of the loci on each side of the band and within each half of it.
 const SPEEDS: usize = 20;
 
@@ -34,24 +30,14 @@ impl RootLoci {
         band: &Instability,
         range: (f64, f64),
     ) -> Result<Option<Self>, SpectrumError> {
-        let Some(low) = SearchModel::new(model) else {
-            return Ok(None);
-        };
         let width = band.to_rad_per_s - band.from_rad_per_s;
         let (from, to) = (
             (band.from_rad_per_s - width).max(range.0),
             (band.to_rad_per_s + width).min(range.1),
         );
-        let is_narrow = to - from <= NARROW * to;
-        let low = match is_narrow {
-            true => low.narrowed(from, to)?,
-            false => low,
-        };
-        let modes = |speed: f64| match is_narrow {
-            true => low.modes(speed),
-            false => low.lifted_modes(speed),
-        };
-        let Some(peak) = Pair::at_peak(&modes, band)? else {
+        let pairs = SearchModel::new(model).map(Pairs);
+        let peak = pairs.as_ref().and_then(|pairs| pairs.at_peak(band));
+        let Some((pairs, peak)) = pairs.zip(peak) else {
             return Ok(None);
         };
         let outwards = |edge: f64, end: f64| {
@@ -61,10 +47,10 @@ impl RootLoci {
             let last = (end != band.peak_rad_per_s).then_some(end);
             inside.chain(denser_at_ends(edge, end)).chain(last)
         };
-        let mut rows = peak.followed(&modes, band, outwards(band.from_rad_per_s, from))?;
+        let mut rows = pairs.followed(peak, band, outwards(band.from_rad_per_s, from))?;
         rows.reverse();
-        rows.push(peak.row());
-        rows.extend(peak.followed(&modes, band, outwards(band.to_rad_per_s, to))?);
+        rows.push(peak.row([0, 0]));
+        rows.extend(pairs.followed(peak, band, outwards(band.to_rad_per_s, to))?);
         let path = |k: usize| rows.iter().map(|row| row.1[k]).collect();
         Ok(Some(RootLoci {
             speeds: rows.iter().map(|row| row.0).collect(),
@@ -85,93 +71,119 @@ fn denser_at_ends(from: f64, to: f64) -> impl Iterator<Item = f64> {
     })
 }
 
-/// Function that gives the modes at a speed.
-type ModesAt<'a> = &'a dyn Fn(f64) -> Result<Vec<Mode>, SpectrumError>;
-
-/// Number of modes among which a pair is followed.
-const NEIGHBOURS: usize = 32;
-
-/// Lowest modes at a speed, ascending.
-fn lowest_modes(modes_at: ModesAt<'_>, speed: f64) -> Result<Vec<Mode>, SpectrumError> {
-    let mut modes = modes_at(speed)?;
-    modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
-    modes.truncate(NEIGHBOURS);
-    Ok(modes)
-}
-
-/// Two modes at a speed.
+/// Two eigenvalues at a speed, each with its slope.
+#[derive(Debug, Clone, Copy)]
 struct Pair {
     speed: f64,
-    modes: Vec<Mode>,
-    chosen: [usize; 2],
+    sloped: [(c64, c64); 2],
 }
 
+/// Real part of λ, as a share of the distance of the two waves of a pair, that is rounding.
+const ROUNDING: f64 = 1e-3;
+/// Largest error of a predicted eigenvalue, as a share of this distance; one further away belongs to another pair.
+const SAME: f64 = 0.5;
+
 impl Pair {
-    /// The growing and the decaying mode of a band at its peak.
-    fn at_peak(modes_at: ModesAt<'_>, band: &Instability) -> Result<Option<Self>, SpectrumError> {
-        let modes = lowest_modes(modes_at, band.peak_rad_per_s)?;
-        let nearest = |kind: ModeKind, growth: f64| {
-            let wanted = c64::new(growth, band.frequency_rad_per_s);
-            let same = (0..modes.len()).filter(|i| modes[*i].kind == kind);
-            smallest(same, |i| (modes[*i].lambda - wanted).norm())
+    fn row(&self, signs: [i8; 2]) -> Row {
+        (self.speed, [0, 1].map(|k| (self.sloped[k].0, signs[k])))
+    }
+
+    /// Mean and half the difference of the two at another speed: of growing and decaying mode, or of two waves. The mean and
+    /// the square of the difference are smooth through the edge of the band and are continued by their slopes.
+    fn predicted(&self, speed: f64, is_coalesced: bool) -> [c64; 2] {
+        let [(first, first_slope), (second, second_slope)] = self.sloped;
+        let step = speed - self.speed;
+        let mean = 0.5 * (first + second + (first_slope + second_slope) * step);
+        let half = 0.5 * (first - second);
+        let square = half * half + half * (first_slope - second_slope) * step;
+        let half = square.re.abs().sqrt();
+        let half = match is_coalesced {
+            true => c64::new(half, 0.0),
+            false => c64::new(0.0, half),
         };
-        let growth = band.peak_growth_per_s;
-        let growing = nearest(ModeKind::Flutter, growth);
-        let decaying = nearest(ModeKind::Decaying, -growth);
-        Ok(growing.zip(decaying).map(|(growing, decaying)| Pair {
-            speed: band.peak_rad_per_s,
-            modes,
-            chosen: [growing, decaying],
-        }))
+        [c64::new(0.0, mean.im), half]
+    }
+}
+
+/// Pairs of eigenvalues on the reduced model.
+struct Pairs<'a>(SearchModel<'a>);
+
+impl Pairs<'_> {
+    /// The growing and the decaying mode of a band at its peak.
+    fn at_peak(&self, band: &Instability) -> Option<Pair> {
+        let growing = c64::new(band.peak_growth_per_s, 0.0);
+        let mean = c64::new(0.0, band.frequency_rad_per_s);
+        self.at(band.peak_rad_per_s, [mean, growing])
     }
 
-    fn row(&self) -> Row {
-        let of = |i: usize| (self.modes[i].lambda, self.modes[i].krein_sign());
-        (self.speed, self.chosen.map(of))
+    /// The pair at a speed from its expected mean and half difference. `None` if it is not there.
+    fn at(&self, speed: f64, [mean, half]: [c64; 2]) -> Option<Pair> {
+        let next_to = |expected: c64| {
+            let found = self.0.next_to(speed, expected)?;
+            ((found.0 - expected).norm() <= SAME * half.norm()).then_some(found)
+        };
+        let first = next_to(mean + half)?;
+        if half.re > 0.0 {
+            let (lambda, slope) = first;
+            let sloped = [first, (-lambda.conj(), -slope.conj())];
+            return (lambda.re > 0.0).then_some(Pair { speed, sloped });
+        }
+        let sloped = [first, next_to(mean - half)?];
+        let are_waves = sloped
+            .iter()
+            .all(|(lambda, _)| lambda.re.abs() <= ROUNDING * half.norm());
+        let imaginary = |z: c64| c64::new(0.0, z.im);
+        are_waves.then_some(Pair {
+            speed,
+            sloped: sloped.map(|(lambda, slope)| (imaginary(lambda), imaginary(slope))),
+        })
     }
 
-    /// Rows of the pair at successive speeds, as long as its modes are coalesced within the band and waves of
-    /// opposite sign beside it, the one of sign +1 first.
+    /// Rows of a pair at successive speeds, as long as its modes are coalesced within the band and waves of opposite
+    /// sign beside it, the one of sign +1 first.
     fn followed(
         &self,
-        modes_at: ModesAt<'_>,
+        peak: Pair,
         band: &Instability,
         speeds: impl Iterator<Item = f64>,
     ) -> Result<Vec<Row>, SpectrumError> {
-        let mut rows = Vec::new();
-        let mut known: Option<Pair> = None;
+        let (mut rows, mut beside): (Vec<Row>, Vec<Pair>) = Default::default();
+        let mut last = peak;
         for speed in speeds {
-            let last = known.as_ref().unwrap_or(self);
-            let Some(mut next) = last.to(modes_at, speed)? else {
+            let is_inside = (band.from_rad_per_s..=band.to_rad_per_s).contains(&speed);
+            let Some(next) = self.at(speed, last.predicted(speed, is_inside)) else {
                 break;
             };
-            if next.row().1[0].1 < 0 {
-                next.chosen.reverse();
+            match is_inside {
+                true => rows.push(next.row([0, 0])),
+                false => beside.push(next),
             }
-            let inside = (band.from_rad_per_s..=band.to_rad_per_s).contains(&speed);
-            let signs = next.row().1.map(|(_, sign)| sign);
-            if signs != if inside { [0, 0] } else { [1, -1] } {
-                break;
-            }
-            rows.push(next.row());
-            known = Some(next);
+            last = next;
         }
+        // Next to a coalescence at either end signs are rounding.
+        let Some(middle) = beside.get(beside.len() / 2) else {
+            return Ok(rows);
+        };
+        let is_reversed = match self.signs(middle)? {
+            [Some(1), Some(-1)] => false,
+            [Some(-1), Some(1)] => true,
+            _ => return Ok(rows),
+        };
+        rows.extend(beside.into_iter().map(|mut pair| {
+            if is_reversed {
+                pair.sloped.reverse();
+            }
+            pair.row([1, -1])
+        }));
         Ok(rows)
     }
 
-    /// The two modes at another speed; `None` if one has no match.
-    fn to(&self, modes_at: ModesAt<'_>, speed: f64) -> Result<Option<Self>, SpectrumError> {
-        let modes = lowest_modes(modes_at, speed)?;
-        let highest = |modes: &[Mode]| modes.last().map_or(0.0, Mode::frequency_rad_per_s);
-        let height = highest(&self.modes).max(highest(&modes));
-        let seen = [&self.modes, &modes].map(|modes| Sighted::of_modes(modes));
-        let matches = match_modes([&seen[0], &seen[1]], speed - self.speed, height);
-        let after = |before: usize| matches.iter().find(|m| m.before == before).map(|m| m.after);
-        let chosen = after(self.chosen[0]).zip(after(self.chosen[1]));
-        Ok(chosen.map(|(first, second)| Pair {
-            speed,
-            modes,
-            chosen: [first, second],
+    /// Krein signs of a pair.
+    fn signs(&self, pair: &Pair) -> Result<[Option<i8>; 2], SpectrumError> {
+        let modes = self.0.modes(pair.speed)?;
+        Ok(pair.sloped.map(|(lambda, _)| {
+            let nearest = smallest(&modes, |mode| (mode.lambda - lambda).norm());
+            nearest.map(Mode::krein_sign)
         }))
     }
 }

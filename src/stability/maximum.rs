@@ -55,19 +55,6 @@ pub fn maximize(
     Ok(greatest(&samples))
 }
 
-/// Value at a speed by the cubic between the neighbouring samples; beyond the samples the value of the last
-/// one, and zero without samples.
-pub fn between(samples: &[Sample], at: f64) -> f64 {
-    let place = samples.partition_point(|sample| sample.at < at);
-    match samples.get(place.saturating_sub(1)..=place) {
-        Some(ends @ [before, after]) => cubic(ends).at((at - before.at) / (after.at - before.at)),
-        _ => samples
-            .get(place)
-            .or(samples.last())
-            .map_or(0.0, |sample| sample.value),
-    }
-}
-
 /// Cubic between two samples; the secant replaces an unknown slope.
 fn cubic(ends: &[Sample]) -> Cubic {
     let width = ends[1].at - ends[0].at;

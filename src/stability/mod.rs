@@ -37,7 +37,6 @@ mod mode_counts;
 mod onsets;
 mod options;
 mod out_of_reach;
-mod pair_continuation;
 mod partition;
 mod pieces;
 mod proof;
@@ -45,7 +44,6 @@ mod quadruples;
 mod reach;
 mod room;
 mod root;
-mod seen;
 mod sensitivity;
 mod signature;
 #[cfg(test)]

@@ -24,15 +24,6 @@ pub struct Sighted<'a> {
 }
 
 impl<'a> Sighted<'a> {
-    /// Modes of one reduced model, with shapes in its own coordinates.
-    pub fn of_modes(modes: &'a [Mode]) -> Vec<Self> {
-        let sighted = |mode: &'a Mode| Sighted {
-            mode,
-            shape: &mode.coordinates,
-        };
-        modes.iter().map(sighted).collect()
-    }
-
     /// Modes of a chart, with shapes in the basis of the plate, because the reduced model differs between
     /// speeds.
     pub fn of_described(modes: &'a [DescribedMode]) -> Vec<Self> {
@@ -263,7 +254,12 @@ mod tests {
         let before: Vec<Mode> = [damped(-0.1, 0.5, 0)].into_iter().chain(waves()).collect();
         let real = [damped(0.4, 0.0, 0), damped(-0.6, 0.0, 0)];
         let after: Vec<Mode> = real.into_iter().chain(waves()).collect();
-        let seen = [&before, &after].map(|modes| Sighted::of_modes(modes));
+        let seen = [&before, &after].map(|modes| {
+            let shapes = modes.iter().map(|mode| &mode.coordinates);
+            let sighted = modes.iter().zip(shapes);
+            let sighted = sighted.map(|(mode, shape)| Sighted { mode, shape });
+            sighted.collect::<Vec<_>>()
+        });
         let pairs = |found: Vec<Match>| -> Vec<(usize, usize)> {
             found.iter().map(|m| (m.before, m.after)).collect()
         };

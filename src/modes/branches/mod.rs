@@ -21,7 +21,7 @@ use crate::modes::{
 };
 
 use matching::Match;
-pub(crate) use matching::{Sighted, match_modes};
+use matching::{Sighted, match_modes};
 pub(crate) use refine::{Closeness, refined};
 
 /// Progress callback: number of speeds done and number of speeds in total.

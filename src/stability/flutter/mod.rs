@@ -1,63 +1,34 @@
 //! Flutter bands: a quadruple from the speed at which it begins to the speed at which it ends.
 
+mod end;
+
 use faer::c64;
 use rayon::prelude::*;
+
+use self::end::End;
+pub(super) use self::end::VICINITY;
 
 use super::band::{Instability, InstabilityKind};
 use super::evaluator::SignatureEvaluator;
 use super::found::Found;
-use super::maximum::{Sample, between, maximize};
-use super::pair_continuation::{Coalescence, Edge, PairContinuation, VICINITY};
+use super::maximum::{Sample, maximize};
 use super::pieces::Piece;
-use super::quadruples::{Bound, Stretch, stretches};
+use super::quadruples::{Stretch, stretches};
 use super::signature::SignedMode;
 use crate::modes::{SpectrumError, smallest};
 
 /// Distance of a peak at the end of a band from that end, as a share of the width.
 const BESIDE_END: f64 = 1e-3;
-/// Distance from the expected end of a quadruple, as a share of the way to its nearest known speed, at which
-/// a second attempt to follow it to its end begins.
-const INSIDE: f64 = 0.02;
-/// An end whose distance from the expected end exceeds this share of the way belongs to another quadruple.
-const SAME_END: f64 = 0.1;
-/// An end within this share of the way of the expected end is certain.
-const CERTAIN_END: f64 = 0.01;
+/// Allowed relative error of a growth rate in the models of the search.
+const LIKENESS: f64 = 0.025;
 
-/// A quadruple followed over speed.
+/// A quadruple over an interval of speed.
 #[derive(Debug, Clone)]
 pub(super) struct Quadruple {
     begin: End,
     end: End,
     /// Coalesced modes at ascending speeds.
     points: Vec<(f64, SignedMode)>,
-}
-
-/// Begin or end of a band.
-#[derive(Debug, Clone, Copy)]
-enum End {
-    /// Coalescence of two waves or of two real λ.
-    Edge(Edge),
-    /// End of the range inside the band.
-    Range(f64),
-    /// Estimated end of a quadruple that could not be followed to it.
-    Unknown(f64),
-}
-
-impl End {
-    fn speed(&self) -> f64 {
-        match self {
-            End::Edge(edge) => edge.speed_rad_per_s,
-            End::Range(speed) | End::Unknown(speed) => *speed,
-        }
-    }
-
-    /// σ² at the end, if it is a coalescence.
-    fn sample(&self) -> Option<Sample> {
-        match self {
-            End::Edge(edge) => Some(edge.sample()),
-            End::Range(_) | End::Unknown(_) => None,
-        }
-    }
 }
 
 /// Quadruples in the pieces of a search, by their begin.
@@ -109,13 +80,6 @@ impl Part {
     }
 }
 
-/// A quadruple at the end of a part that cuts it.
-struct Cut {
-    sample: Sample,
-    /// In 1/s and rad/s.
-    growth_and_frequency: (f64, f64),
-}
-
 /// A quadruple that differs from the expected one by more than this share of the growth is another quadruple.
 const SAME_QUADRUPLE: f64 = 0.7;
 
@@ -126,7 +90,7 @@ fn is_expected(mode: &SignedMode, square: c64) -> bool {
 }
 
 impl Quadruple {
-    /// Follows the quadruple of an interval to both ends; `None` if no eigenproblem confirms it.
+    /// The quadruple of an interval with both ends; `None` if no eigenproblem confirms it.
     fn new(
         evaluator: &SignatureEvaluator<'_>,
         stretch: &Stretch<'_>,
@@ -154,81 +118,17 @@ impl Quadruple {
         if points.is_empty() {
             return Ok(None);
         }
-        let begin = Self::end(evaluator, stretch, stretch.begin, &points)?;
-        let inwards: Vec<(f64, SignedMode)> = points.iter().rev().copied().collect();
-        let end = Self::end(evaluator, stretch, stretch.end, &inwards)?;
+        let nearest = [points[0], points[points.len() - 1]];
+        let [begin, end] = [(stretch.begin, nearest[0]), (stretch.end, nearest[1])]
+            .map(|(bound, inside)| End::new(evaluator, stretch, bound, inside));
         Ok(Some(Quadruple { begin, end, points }))
-    }
-
-    /// End of an interval whose quadruple is known at the given inner speeds, the nearest to the end first.
-    fn end(
-        evaluator: &SignatureEvaluator<'_>,
-        stretch: &Stretch<'_>,
-        bound: Bound,
-        inwards: &[(f64, SignedMode)],
-    ) -> Result<End, SpectrumError> {
-        let (expected, outside) = match bound {
-            Bound::Coalescence {
-                expected_rad_per_s,
-                outside_rad_per_s,
-            } => (expected_rad_per_s, outside_rad_per_s),
-            Bound::Range(speed) => return Ok(End::Range(speed)),
-            Bound::Height(speed) => return Ok(End::Unknown(speed)),
-        };
-        let off = |edge: &Edge| (edge.speed_rad_per_s - expected).abs();
-        let followed = |start: f64, mode: &SignedMode| -> Result<Option<Edge>, SpectrumError> {
-            let pair = PairContinuation::of_quadruple(evaluator, start, mode)?;
-            let edge = pair.and_then(|pair| pair.edge(outside));
-            let way = (expected - start).abs();
-            Ok(edge.filter(|edge| off(edge) <= SAME_END * way + VICINITY * expected))
-        };
-        let (inside, mode) = inwards[0];
-        let mut from_inside = followed(inside, &mode)?;
-        let is_certain = |edge: &Edge| off(edge) <= CERTAIN_END * (expected - inside).abs();
-        if let Some(edge) = from_inside.filter(is_certain) {
-            return Ok(End::Edge(edge));
-        }
-        // If the nearest speed is closer to the end than the error of its mode allows, the continuation from
-        // it fails and the next speed is tried.
-        if let (None, Some((speed, mode))) = (from_inside, inwards.get(1)) {
-            from_inside = followed(*speed, mode)?;
-        }
-        // Over a long distance the continuation may change to another pair, which ends nearby, so that it is
-        // repeated from a speed close to the expected end.
-        let beside = expected + INSIDE * (inside - expected);
-        let near = match stretch.square(beside) {
-            Some(square) => evaluator
-                .quadruple(beside, square.sqrt())?
-                .filter(|mode| is_expected(mode, square)),
-            None => None,
-        };
-        let from_beside = near.map_or(Ok(None), |near| followed(beside, &near))?;
-        let both = [from_beside, from_inside].into_iter().flatten();
-        if let Some(edge) = smallest(both, off) {
-            return Ok(End::Edge(edge));
-        }
-        let Some(square) = stretch.square(expected) else {
-            return Ok(End::Unknown(expected));
-        };
-        let is_real = square.re > 0.0;
-        Ok(End::Edge(Edge {
-            speed_rad_per_s: expected,
-            coalescence: if is_real {
-                Coalescence::Real
-            } else {
-                Coalescence::Waves
-            },
-            frequency_rad_per_s: if is_real { 0.0 } else { mode.lambda.im },
-            growth_square: if is_real { mode.lambda.re.powi(2) } else { 0.0 },
-            growth_square_slope: f64::NAN,
-        }))
     }
 
     /// Ends of the quadruple that are coalescences of two real eigenvalues.
     pub fn real_ends(&self) -> impl Iterator<Item = f64> {
         let ends = [self.begin, self.end].into_iter();
         ends.filter_map(|end| match end {
-            End::Edge(edge) if edge.coalescence == Coalescence::Real => Some(edge.speed_rad_per_s),
+            End::Edge(edge) if edge.lambda.re > 0.0 => Some(edge.speed_rad_per_s),
             _ => None,
         })
     }
@@ -270,18 +170,14 @@ impl Quadruple {
         part: Part,
     ) -> Result<(f64, (f64, f64)), SpectrumError> {
         let mut known = self.points.clone();
-        let mut samples: Vec<Sample> = self.points.iter().map(sample).collect();
-        samples.extend(
-            [self.begin.sample(), self.end.sample()]
-                .into_iter()
-                .flatten(),
-        );
-        samples.sort_by(|x, y| x.at.total_cmp(&y.at));
-        let cuts = part
-            .cuts()
-            .map(|speed| self.cut(evaluator, &samples, speed));
-        let cuts: Vec<Cut> = cuts.collect::<Result<_, _>>()?;
-        samples.extend(cuts.iter().map(|cut| cut.sample));
+        for speed in part.cuts() {
+            let mode = continued(evaluator, &self.points, speed)?;
+            known.extend(mode.map(|mode| (speed, sharp(evaluator, speed, mode))));
+        }
+        known.sort_by(|x, y| x.0.total_cmp(&y.0));
+        let ends = [&self.begin, &self.end].into_iter();
+        let ends = ends.filter_map(End::sample);
+        let mut samples: Vec<Sample> = known.iter().map(sample).chain(ends).collect();
         samples.retain(|sample| (part.from..=part.to).contains(&sample.at));
         samples.sort_by(|x, y| x.at.total_cmp(&y.at));
         let found = maximize(samples, |speed| {
@@ -293,9 +189,6 @@ impl Quadruple {
             Ok(Some(sample(&known[place])))
         })?;
         let at = found.map_or(self.points[0].0, |sample| sample.at);
-        if let Some(cut) = cuts.iter().find(|cut| cut.sample.at == at) {
-            return Ok((at, cut.growth_and_frequency));
-        }
         // At the coalescence of two real λ the growth is not zero and may be the largest of the band. The
         // peak is then placed slightly inside the band.
         for (end, other) in [(&self.begin, part.to), (&self.end, part.from)] {
@@ -303,47 +196,39 @@ impl Quadruple {
                 && edge.speed_rad_per_s == at
             {
                 let inside = at + BESIDE_END * (other - at);
-                return Ok((
-                    inside,
-                    (edge.growth_square.sqrt(), edge.frequency_rad_per_s),
-                ));
+                return Ok((inside, (edge.lambda.re, edge.lambda.im)));
             }
         }
         let (speed, mode) = nearest(&known, at);
-        // The continued pair is accurate to rounding, whereas the search uses coarser models.
-        let sharp = PairContinuation::of_quadruple(evaluator, speed, &mode)?;
-        let sharp = sharp.and_then(|pair| pair.growth_and_frequency());
-        Ok((speed, sharp.unwrap_or((mode.lambda.re, mode.lambda.im))))
+        let mode = sharp(evaluator, speed, mode);
+        Ok((speed, (mode.lambda.re, mode.lambda.im)))
     }
+}
 
-    /// Quadruple at a speed: followed from the nearest known speed, or else from the cubic between its
-    /// neighbours.
-    fn cut(
-        &self,
-        evaluator: &SignatureEvaluator<'_>,
-        samples: &[Sample],
-        speed: f64,
-    ) -> Result<Cut, SpectrumError> {
-        let (known, mode) = nearest(&self.points, speed);
-        let pair = PairContinuation::of_quadruple(evaluator, known, &mode)?;
-        let followed = pair.and_then(|pair| pair.to(speed)).and_then(|pair| {
-            Some(Cut {
-                sample: pair.sample(),
-                growth_and_frequency: pair.growth_and_frequency()?,
-            })
-        });
-        Ok(followed.unwrap_or_else(|| {
-            let value = between(samples, speed).max(0.0);
-            Cut {
-                sample: Sample {
-                    at: speed,
-                    value,
-                    slope: f64::NAN,
-                },
-                growth_and_frequency: (value.sqrt(), mode.lambda.im),
-            }
-        }))
-    }
+/// The quadruple by the projection, whereas the search uses coarser models.
+fn sharp(evaluator: &SignatureEvaluator<'_>, speed: f64, mode: SignedMode) -> SignedMode {
+    let shift = VICINITY * speed;
+    let near = |found: f64, expected: f64, slope: f64| {
+        (found - expected).abs() <= LIKENESS * mode.lambda.re + slope.abs() * shift
+    };
+    let found = evaluator.next_to(speed, mode.lambda);
+    // The iteration may lead to the mirror image −σ + iω.
+    let found = found.map(|(lambda, slope)| match lambda.re < 0.0 {
+        true => (-lambda.conj(), -slope.conj()),
+        false => (lambda, slope),
+    });
+    let is_same = |(lambda, _): &(c64, c64)| {
+        lambda.re > 0.0
+            && near(lambda.re, mode.lambda.re, mode.slope.re)
+            && near(lambda.im, mode.lambda.im, mode.slope.im)
+    };
+    found
+        .filter(is_same)
+        .map_or(mode, |(lambda, slope)| SignedMode {
+            lambda,
+            slope,
+            ..mode
+        })
 }
 
 /// The quadruple at the known speed nearest to a given one.
