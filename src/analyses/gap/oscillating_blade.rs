@@ -225,6 +225,7 @@ impl OscillatingBlade {
             return Vec::new();
         };
         let forces: Vec<Vec<f64>> = states.iter().map(|q| gaps.forces_n(q)).collect();
+        let left: Vec<Vec<f64>> = states.iter().map(|q| gaps.distances_left_m(q)).collect();
         let count = states.len() as f64;
         let pads = forces.first().map_or(0, Vec::len);
         let pad = |pad: usize| {
@@ -233,7 +234,7 @@ impl OscillatingBlade {
                 guide: self.guides.get(pad).copied().unwrap_or(pad),
                 mean_force_n: own().sum::<f64>() / count,
                 largest_force_n: own().map(f64::abs).fold(0.0, f64::max),
-                contact_share: own().filter(|force| *force != 0.0).count() as f64 / count,
+                contact_share: left.iter().filter(|all| all[pad] <= 0.0).count() as f64 / count,
             }
         };
         (0..pads).map(pad).collect()

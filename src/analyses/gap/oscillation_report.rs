@@ -102,7 +102,7 @@ pub struct OscillationPlace {
 pub struct OscillationPad {
     /// Index among the guides of the scene.
     pub guide: usize,
-    /// Mean force on the blade beyond the gap.
+    /// Mean force on the blade, by contact and film.
     pub mean_force_n: f64,
     /// Largest force, as an absolute value.
     pub largest_force_n: f64,
