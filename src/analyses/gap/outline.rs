@@ -282,7 +282,7 @@ fn oscillation(text: &mut Outline, rpm: f64, found: &Oscillation) {
     text.table(lines(found, at));
     let error = |share: Option<f64>| PERCENT.digits(2, share).or("unknown").with_unit();
     text.sentence(format!(
-        "Estimated error of this amplitude at the cut: {} with more harmonics, {} with more modes at rest",
+        "Estimated error of this amplitude at the cut: {} of neglected harmonics, {} with more modes at rest",
         error(found.harmonics_error_share),
         error(found.basis_error_share)
     ));
