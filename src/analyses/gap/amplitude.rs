@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::analyses::campbell::InstabilityBand;
 use crate::model::scene::{ContactLaw, GuideFile, GuideSide, Scene, rpm};
 use crate::modes::Work;
-use crate::stability::Analysis;
+use crate::stability::{Analysis, Instability, Onsets};
 
 use super::GapError;
 use super::numbers::first_critical;
@@ -120,7 +120,7 @@ fn amplitude_over_gap(share: f64) -> f64 {
 }
 
 impl AmplitudeChart {
-    /// Analyses the saw of a linear analysis at several amplitudes.
+    /// Finds critical speeds and bands of the saw of a linear analysis at several amplitudes, on bases at least as large as its own.
     ///
     /// # Errors
     /// [`GapError`].
@@ -133,10 +133,16 @@ impl AmplitudeChart {
             .fold(f64::INFINITY, f64::min);
         let work = Work::of("amplitudes", SHARES.len() + 1);
         let at = |amplitude_m: Option<f64>| -> Result<AtAmplitude, GapError> {
-            let (scene, shares) = at_amplitude(&swept, amplitude_m.unwrap_or_default())?;
-            let found = read(&Analysis::new(&scene)?, amplitude_m, shares);
+            let (scene, stiffness_shares) = at_amplitude(&swept, amplitude_m.unwrap_or_default())?;
+            let found = Onsets::beside(&scene, linear.model.plate.resolution)?;
             work.advance();
-            Ok(found)
+            Ok(AtAmplitude {
+                amplitude_m,
+                stiffness_shares,
+                critical_rpm: within(linear, found.critical_rad_per_s),
+                instabilities: bands(linear, &found.instabilities),
+                flutter_speed_rpm: found.flutter_speed_rad_per_s.map(rpm),
+            })
         };
         let free = at(None)?;
         let amplitudes = SHARES
@@ -146,31 +152,34 @@ impl AmplitudeChart {
         Ok(AmplitudeChart {
             smallest_gap_m,
             amplitudes,
-            linear: read(linear, None, vec![1.0; free.stiffness_shares.len()]),
+            linear: AtAmplitude {
+                amplitude_m: None,
+                stiffness_shares: vec![1.0; free.stiffness_shares.len()],
+                critical_rpm: within(linear, linear.critical_rad_per_s()),
+                instabilities: bands(linear, &linear.chart.instabilities),
+                flutter_speed_rpm: linear.flutter_speed_rad_per_s.map(rpm),
+            },
             half_way_m: half_way(linear, smallest_gap_m)?,
             free,
         })
     }
 }
 
-/// The results of an analysis at an amplitude.
-fn read(analysis: &Analysis, amplitude_m: Option<f64>, shares: Vec<f64>) -> AtAmplitude {
+/// The speeds within the sweep of an analysis, in rpm.
+fn within(analysis: &Analysis, speeds_rad_per_s: Vec<f64>) -> Vec<f64> {
     let (from, to) = analysis.range_rad_per_s;
-    let critical = analysis.model.critical.iter().map(|c| c.speed_rad_per_s);
+    let speeds = speeds_rad_per_s.into_iter();
+    let within = speeds.filter(|speed| (from..=to).contains(speed));
+    within.map(rpm).collect()
+}
+
+/// Bands with the threshold of an analysis.
+fn bands(analysis: &Analysis, found: &[Instability]) -> Vec<InstabilityBand> {
     let threshold_per_s = analysis.scene.flutter_threshold_per_s();
-    let bands = analysis.chart.instabilities.iter();
-    AtAmplitude {
-        amplitude_m,
-        stiffness_shares: shares,
-        critical_rpm: critical
-            .filter(|speed| (from..=to).contains(speed))
-            .map(rpm)
-            .collect(),
-        instabilities: bands
-            .map(|band| InstabilityBand::new(band, threshold_per_s))
-            .collect(),
-        flutter_speed_rpm: analysis.flutter_speed_rad_per_s.map(rpm),
-    }
+    let bands = found.iter();
+    bands
+        .map(|band| InstabilityBand::new(band, threshold_per_s))
+        .collect()
 }
 
 /// The amplitude at which the first critical speed is the mean of that of the free blade and that of the linear chart.

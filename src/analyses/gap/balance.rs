@@ -15,8 +15,8 @@ use std::f64::consts::TAU;
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, c64};
 
-use crate::model::linalg::real_eigenvalues;
-use crate::model::system::GyroscopicSystem;
+use crate::model::linalg::{real_eigenvalues, symmetric_eigenvalues};
+use crate::model::system::{GyroscopicSystem, dynamic_stiffness};
 use crate::motion::transient::Force;
 
 /// A force that depends on the displacement.
@@ -24,9 +24,9 @@ use crate::motion::transient::Force;
 pub(super) struct Term<'a> {
     /// The force.
     pub force: &'a dyn Force,
-    /// Whether the force changes so little over a period that its derivative at the mean deflection suffices for Newton's
-    /// method, and a few times of the period for its harmonics.
-    pub is_smooth: bool,
+    /// Whether the force is a polynomial of third degree, whose harmonics and those of its derivatives follow from a few times of the
+    /// period.
+    pub is_cubic: bool,
 }
 
 /// The equations of the balance of a system at one speed.
@@ -58,9 +58,9 @@ pub(super) struct Growth {
 const TIMES: usize = 16;
 /// Smallest number of times in a period under forces of contact.
 const LEAST_TIMES: usize = 192;
-/// Number of times in a period for each coefficient under smooth forces. As polynomials of third degree they have at most
-/// three times the harmonics of the motion, which then do not alias into those of the motion.
-const TIMES_OF_SMOOTH: usize = 2;
+/// Number of times in a period for each coefficient under cubic forces. They have at most three times the harmonics of the motion,
+/// and their derivatives twice, which then do not alias into those of the motion.
+const TIMES_OF_CUBIC: usize = 2;
 /// Largest number of iterations of Newton's method.
 const ITERATIONS: usize = 30;
 /// Relative size of the last correction.
@@ -68,14 +68,19 @@ const LAST: f64 = 1e-8;
 /// Smallest share of a correction. It is applied in any case, because where a pad begins to touch the test may fail in all
 /// directions.
 const SHORTEST: f64 = 1.0 / 16.0;
-/// Factor of the stiffness of contact with which the search starts again if Newton's method fails.
+/// Factor of the stiffness of contact and of the alternating loads with which the search starts again if Newton's method fails.
 const SOFTEST: f64 = 1.0 / 4096.0;
-/// Largest factor by which contact then becomes stiffer from one motion to the next.
+/// Largest factor by which both then grow from one motion to the next.
 const STIFFER: f64 = 4.0;
 /// Smallest such factor, below which the search ends without a motion.
 const LEAST_STIFFER: f64 = 1.05;
-/// Number of steps of a period for the monodromy matrix.
-const STEPS: usize = 256;
+/// Number of steps of the monodromy matrix in a period of the highest frequency that it resolves; they change this frequency by
+/// 0.02 %, and its decay by 0.06 %.
+const STEPS: f64 = 128.0;
+/// Number of natural frequencies that are resolved; higher modes hardly follow the motion.
+const RESOLVED: usize = 6;
+/// Largest number of times in a period at which forces are evaluated for neglected harmonics.
+const MOST_TIMES: usize = 4096;
 
 impl<'a> Balance<'a> {
     /// The balance at a speed, for motions with a frequency in rad/s and its multiples up to a number of harmonics.
@@ -111,18 +116,23 @@ impl<'a> Balance<'a> {
     }
 
     /// Motion under constant and alternating loads. The search starts from a deflection at rest; if it fails, it starts again
-    /// between soft pads that become stiffer in steps. `None` if that fails too.
+    /// with small alternating loads between soft pads, which grow and become stiffer in steps. `None` if that fails too.
     pub fn motion(&self, rest: &Col<f64>, load: &Mat<f64>) -> Option<Periodic> {
         let mut still = self.no_load();
         still.col_mut(0).copy_from(rest);
         if let Some(found) = self.solved(&still, load, 1.0) {
             return Some(Periodic(found));
         }
-        let mut motion = self.solved(&still, load, SOFTEST)?;
+        let part = |share: f64| {
+            let mut part = Scale(share) * load;
+            part.col_mut(0).copy_from(load.col(0));
+            part
+        };
+        let mut motion = self.solved(&still, &part(SOFTEST), SOFTEST)?;
         let (mut share, mut factor) = (SOFTEST, STIFFER);
         while share < 1.0 {
             let next = (share * factor).min(1.0);
-            match self.solved(&motion, load, next) {
+            match self.solved(&motion, &part(next), next) {
                 Some(found) => {
                     (motion, share) = (found, next);
                     factor = (factor * factor).min(STIFFER);
@@ -195,51 +205,23 @@ impl<'a> Balance<'a> {
             }
         }
         for term in self.terms {
-            let (at, back) = self.times(term.is_smooth);
-            let deflections = motion * &at;
-            let mut forces = Mat::zeros(self.order(), at.ncols());
-            for time in 0..at.ncols() {
-                let mut force = Col::zeros(self.order());
-                let deflection = deflections.col(time).to_owned();
-                term.force.add_to(&deflection, &mut force);
-                forces.col_mut(time).copy_from(&force);
-            }
-            let share = if term.is_smooth { 1.0 } else { share };
-            rest -= Scale(share) * (forces * back);
+            let (at, back) = times(self.count(term), self.width());
+            rest -= Scale(term.share(share)) * (forces(term, &(motion * &at)) * back);
         }
         rest
     }
 
-    /// Values of the functions of time at the times of a period, and the weights of these times in the coefficients.
-    fn times(&self, is_smooth: bool) -> (Mat<f64>, Mat<f64>) {
-        let width = self.width();
-        let count = match is_smooth {
-            true => width * TIMES_OF_SMOOTH,
-            false => (width * TIMES).max(LEAST_TIMES),
-        };
-        let at = Mat::from_fn(width, count, |k, time| {
-            function(k, TAU * time as f64 / count as f64)
-        });
-        let back = Mat::from_fn(count, width, |time, k| {
-            let norm = if k == 0 { 1.0 } else { 2.0 };
-            norm / count as f64 * at[(k, time)]
-        });
-        (at, back)
-    }
-
-    /// Stiffness matrix of the linear terms and of smooth forces at the mean deflection.
-    fn elastic(&self, motion: &Mat<f64>) -> Mat<f64> {
-        let mean = motion.col(0).to_owned();
-        let mut elastic = self.stiffness.clone();
-        for term in self.terms.iter().filter(|term| term.is_smooth) {
-            term.force.add_stiffness(&mean, &mut elastic);
+    /// Number of times in a period at which a force is evaluated.
+    fn count(&self, term: &Term<'_>) -> usize {
+        match term.is_cubic {
+            true => self.width() * TIMES_OF_CUBIC,
+            false => (self.width() * TIMES).max(LEAST_TIMES),
         }
-        elastic
     }
 
     fn jacobian(&self, motion: &Mat<f64>, share: f64) -> Mat<f64> {
         let (order, width) = (self.order(), self.width());
-        let elastic = self.elastic(motion);
+        let elastic = &self.stiffness;
         let mut jacobian = Mat::zeros(order * width, order * width);
         for k in 0..width {
             let frequency = k.div_ceil(2) as f64 * self.frequency_rad_per_s;
@@ -259,33 +241,25 @@ impl<'a> Balance<'a> {
                 }
             }
         }
-        for term in self.terms.iter().filter(|term| !term.is_smooth) {
-            self.add_contact((term.force, share), motion, &mut jacobian);
+        for term in self.terms {
+            self.add_derivatives(term, share, motion, &mut jacobian);
         }
         jacobian
     }
 
-    /// Adds the derivatives of the coefficients of a force of contact, which has a share of its stiffness.
-    fn add_contact(
+    /// Adds the derivatives of the coefficients of a force; that of contact has a share of its stiffness.
+    fn add_derivatives(
         &self,
-        (force, share): (&dyn Force, f64),
+        term: &Term<'_>,
+        share: f64,
         motion: &Mat<f64>,
         jacobian: &mut Mat<f64>,
     ) {
         let (order, width) = (self.order(), self.width());
-        let (at, back) = self.times(false);
-        let deflections = motion * &at;
-        let count = at.ncols();
-        let mut stiffnesses: Mat<f64> = Mat::zeros(order * order, count);
-        for time in 0..count {
-            let mut own = Mat::zeros(order, order);
-            force.add_stiffness(&deflections.col(time).to_owned(), &mut own);
-            for j in 0..order {
-                for i in 0..order {
-                    stiffnesses[(j * order + i, time)] = own[(i, j)];
-                }
-            }
-        }
+        let count = self.count(term);
+        let (at, back) = times(count, width);
+        let stiffnesses = stiffnesses(term, &(motion * &at));
+        let share = term.share(share);
         let products = Mat::from_fn(count, width * width, |time, pair| {
             share * back[(time, pair % width)] * at[(pair / width, time)]
         });
@@ -300,21 +274,97 @@ impl<'a> Balance<'a> {
         }
     }
 
-    /// The fastest growth of small motions about a periodic one; `None` if the eigenvalues are not found. The monodromy matrix
-    /// is that of the implicit midpoint rule, which keeps the energy of an undamped blade at constant stiffness.
+    /// Coefficients of the stiffness that cubic forces have along a motion, a column each, with the entries of the matrix below each
+    /// other; the derivatives of such forces have twice the harmonics of the motion.
+    fn cubic_stiffness(&self, motion: &Mat<f64>) -> Mat<f64> {
+        let (order, width) = (self.order(), 4 * self.harmonics + 1);
+        let mut coefficients = Mat::zeros(order * order, width);
+        for term in self.terms.iter().filter(|term| term.is_cubic) {
+            let (at, back) = times(self.count(term), width);
+            let at = at.subrows(0, self.width());
+            coefficients += stiffnesses(term, &(motion * at)) * back;
+        }
+        coefficients
+    }
+
+    /// Stiffness matrix at a phase of a motion, with the coefficients of [`Balance::cubic_stiffness`].
+    fn stiffness_along(&self, motion: &Periodic, cubic: &Mat<f64>, phase: f64) -> Mat<f64> {
+        let order = self.order();
+        let own = cubic * Col::from_fn(cubic.ncols(), |k| function(k, phase));
+        let mut stiffness = &self.stiffness + Mat::from_fn(order, order, |i, j| own[j * order + i]);
+        let at = motion.at(phase);
+        for term in self.terms.iter().filter(|term| !term.is_cubic) {
+            term.force.add_stiffness(&at, &mut stiffness);
+        }
+        stiffness
+    }
+
+    /// Mean over a period of the stiffness along a motion, and the highest frequency in rad/s that small motions about it need: that of
+    /// its harmonics, and of the lowest modes with the mean stiffness.
+    fn mean_stiffness(&self, motion: &Periodic) -> Option<(Mat<f64>, f64)> {
+        let cubic = self.cubic_stiffness(&motion.0);
+        let phases = (0..LEAST_TIMES).map(|k| TAU * k as f64 / LEAST_TIMES as f64);
+        let mut mean = Mat::zeros(self.order(), self.order());
+        for phase in phases {
+            mean += Scale(1.0 / LEAST_TIMES as f64) * self.stiffness_along(motion, &cubic, phase);
+        }
+        let squares = symmetric_eigenvalues(mean.as_ref()).ok()?;
+        let natural = squares
+            .iter()
+            .take(RESOLVED)
+            .map(|square| square.abs().sqrt());
+        let harmonic = self.harmonics as f64 * self.frequency_rad_per_s;
+        Some((mean, natural.fold(harmonic, f64::max)))
+    }
+
+    /// The harmonics that a motion neglects, as the linear response to the forces along it: order and complex amplitudes of each, up to
+    /// the highest frequency of [`Balance::mean_stiffness`], and to twice the harmonics of the motion at least.
+    pub fn neglected(&self, motion: &Periodic) -> Option<Vec<(usize, Col<c64>)>> {
+        let (mean, highest) = self.mean_stiffness(motion)?;
+        let order = self.order();
+        let reach = (highest / self.frequency_rad_per_s).ceil() as usize;
+        let last = reach.clamp(2 * self.harmonics, MOST_TIMES / 4);
+        let width = 1 + 2 * last;
+        let mut coefficients = Mat::<f64>::zeros(order, width);
+        for term in self.terms {
+            // Coefficients of cubic forces beyond those that they have are zero.
+            let own = if term.is_cubic {
+                width.min(6 * self.harmonics + 1)
+            } else {
+                width
+            };
+            let (at, back) = times(LEAST_TIMES.max(4 * own), own);
+            let along = Mat::from_fn(self.width(), at.ncols(), |k, time| {
+                function(k, TAU * time as f64 / at.ncols() as f64)
+            });
+            let mut columns = coefficients.subcols_mut(0, own);
+            columns += forces(term, &(&motion.0 * along)) * back;
+        }
+        let neglected = (self.harmonics + 1..=last).map(|k| {
+            let frequency = k as f64 * self.frequency_rad_per_s;
+            let dynamic = dynamic_stiffness(&mean, &self.velocity, c64::new(0.0, frequency));
+            let load = Col::from_fn(order, |i| {
+                c64::new(coefficients[(i, 2 * k - 1)], -coefficients[(i, 2 * k)])
+            });
+            (k, dynamic.partial_piv_lu().solve(&load))
+        });
+        Some(neglected.collect())
+    }
+
+    /// The fastest growth of small motions about a periodic one, with every force linearized along it; `None` if the eigenvalues are
+    /// not found. The monodromy matrix is that of the implicit midpoint rule, which keeps the energy of an undamped blade at constant
+    /// stiffness.
     pub fn growth(&self, motion: &Periodic) -> Option<Growth> {
         let order = self.order();
         let period_s = TAU / self.frequency_rad_per_s;
-        let step_s = period_s / STEPS as f64;
+        let (_, highest) = self.mean_stiffness(motion)?;
+        let steps = (STEPS * highest / self.frequency_rad_per_s).ceil() as usize;
+        let step_s = period_s / steps as f64;
+        let cubic = self.cubic_stiffness(&motion.0);
         let mut state = Mat::<f64>::identity(2 * order, 2 * order);
-        let elastic = self.elastic(&motion.0);
-        for step in 0..STEPS {
-            let phase = TAU * (step as f64 + 0.5) / STEPS as f64;
-            let at = motion.at(phase);
-            let mut stiffness = elastic.clone();
-            for term in self.terms.iter().filter(|term| !term.is_smooth) {
-                term.force.add_stiffness(&at, &mut stiffness);
-            }
+        for step in 0..steps {
+            let phase = TAU * (step as f64 + 0.5) / steps as f64;
+            let stiffness = self.stiffness_along(motion, &cubic, phase);
             // With the step Δ, D = `velocity`, K = `stiffness` and the mean velocity v̄, a step solves
             // (2/Δ + D + K Δ/2) v̄ = 2v₀/Δ − K q₀ and sets q₁ = q₀ + Δ v̄, v₁ = 2v̄ − v₀.
             let mut left = &self.velocity + Scale(0.5 * step_s) * &stiffness;
@@ -338,6 +388,48 @@ impl<'a> Balance<'a> {
         };
         growth.per_s.is_finite().then_some(growth)
     }
+}
+
+impl Term<'_> {
+    /// The share of the force if contact has a share of its stiffness.
+    fn share(&self, of_contact: f64) -> f64 {
+        if self.is_cubic { 1.0 } else { of_contact }
+    }
+}
+
+/// Values of the first functions of time at the times of a period, and the weights of these times in their coefficients.
+fn times(count: usize, width: usize) -> (Mat<f64>, Mat<f64>) {
+    let at = Mat::from_fn(width, count, |k, time| {
+        function(k, TAU * time as f64 / count as f64)
+    });
+    let back = Mat::from_fn(count, width, |time, k| {
+        let norm = if k == 0 { 1.0 } else { 2.0 };
+        norm / count as f64 * at[(k, time)]
+    });
+    (at, back)
+}
+
+/// A force at some deflections, a column each.
+fn forces(term: &Term<'_>, deflections: &Mat<f64>) -> Mat<f64> {
+    let mut forces = Mat::zeros(deflections.nrows(), deflections.ncols());
+    for (deflection, mut column) in deflections.col_iter().zip(forces.col_iter_mut()) {
+        let mut force = Col::zeros(deflection.nrows());
+        term.force.add_to(&deflection.to_owned(), &mut force);
+        column.copy_from(&force);
+    }
+    forces
+}
+
+/// The stiffness of a force at some deflections, a column each, with the columns of the matrix below each other.
+fn stiffnesses(term: &Term<'_>, deflections: &Mat<f64>) -> Mat<f64> {
+    let order = deflections.nrows();
+    let mut all = Mat::zeros(order * order, deflections.ncols());
+    for (deflection, mut column) in deflections.col_iter().zip(all.col_iter_mut()) {
+        let mut own = Mat::zeros(order, order);
+        term.force.add_stiffness(&deflection.to_owned(), &mut own);
+        column.copy_from(flat(&own));
+    }
+    all
 }
 
 /// The k-th of the functions 1, cos φ, sin φ, cos 2φ, sin 2φ, … at a phase φ.
@@ -371,11 +463,6 @@ impl Periodic {
     pub fn harmonic(&self, k: usize, probe: &Col<f64>) -> c64 {
         let [cos, sin] = [2 * k - 1, 2 * k].map(|k| probe.transpose() * self.0.col(k));
         c64::new(cos, -sin)
-    }
-
-    /// Number of harmonics.
-    pub fn harmonics(&self) -> usize {
-        self.0.ncols() / 2
     }
 }
 

@@ -1,15 +1,20 @@
 //! The deflection at the cut, and the forces of the pads, over gap, side force and speed.
 
+use rayon::prelude::*;
+
 use crate::model::scene::Scene;
 use crate::modes::Work;
 use crate::modes::branches::even_speeds;
 use crate::stability::Analysis;
 
 use super::GapError;
-use super::amplitude::with_linear_guides;
 use super::pressed::{Deviation, PressedBlade};
 use super::report::{BasisError, DeviationMap};
 
+/// Gaps of guides without a gap, relative to the given ones: at rest the force of a pad has no kink in a flat blade.
+const NO_GAP: f64 = 1e-6;
+/// Number of times that the search for a limit halves its interval between two neighbouring places of a map.
+const HALVINGS: usize = 12;
 /// Number of gaps and of forces. Each is the cube root of two times the preceding one.
 const FACTORS: usize = 13;
 /// Smallest gap and force, relative to the given ones.
@@ -51,26 +56,39 @@ pub(super) fn deviation_map(
     let gap_factors: Vec<f64> = [0.0].into_iter().chain(factors()).collect();
     let forces_n: Vec<f64> = factors().map(|factor| factor * force_n).collect();
     let speeds_rpm = even_speeds((0.0, end_rpm), SPEEDS);
-    let (mut over_gap, mut over_speed) = (Vec::<Row>::new(), Vec::<Row>::new());
+    let critical = analysis.model.critical.first();
+    let critical_rpm = critical.map(|first| crate::model::scene::rpm(first.speed_rad_per_s));
     let work = Work::of("gaps", gap_factors.len() + 1);
-    let linear_scene = with_linear_guides(scene, |guide| guide.stiffness_n_per_m)?;
-    let linear = blade_of(&linear_scene, MODES)?;
-    let lifting = blade_of(scene, MODES)?;
-    for factor in &gap_factors {
-        let own = (*factor > 0.0).then(|| lifting.with_gaps(*factor));
-        let pressed = own.as_ref().unwrap_or(&linear);
-        let forces = forces_n.iter();
-        let over_forces = forces.map(|force| pressed.deviation(*force, rpm));
-        over_gap.push(over_forces.collect::<Result<_, _>>()?);
-        let over_speeds = speeds_rpm.iter().map(|speed| {
-            let found = pressed.deviation(force_n, *speed)?;
+    let blade = blade_of(scene, MODES)?;
+    let rows = gap_factors.par_iter().map(|factor| {
+        let pressed = blade.with_gaps(factor.max(NO_GAP));
+        let under = |force: f64| pressed.deviation(force, rpm);
+        let at = |speed: f64| -> Result<Option<Deviation>, GapError> {
+            let found = pressed.deviation(force_n, speed)?;
             Ok(found.filter(|found| found.largest_m <= thickness_m))
+        };
+        let over_forces = forces_n.iter().map(|force| under(*force));
+        let over_forces: Row = over_forces.collect::<Result<_, GapError>>()?;
+        let over_speeds = speeds_rpm.iter().map(|speed| at(*speed));
+        let over_speeds: Row = over_speeds.collect::<Result<_, GapError>>()?;
+        let limits = limit_m.map(|limit_m| {
+            let force = within(&forces_n, &over_forces, limit_m, under)?;
+            let speed = within(&speeds_rpm, &over_speeds, limit_m, at)?;
+            // Beyond the first critical speed the blade is held by one side of its guides only.
+            let speed = speed.map(|speed| speed.min(critical_rpm.unwrap_or(f64::INFINITY)));
+            Ok::<_, GapError>((force.map(f64::abs), speed))
         });
-        over_speed.push(over_speeds.collect::<Result<_, GapError>>()?);
         work.advance();
-    }
+        Ok((over_forces, over_speeds, limits.transpose()?))
+    });
+    let rows: Vec<_> = rows.collect::<Result<_, GapError>>()?;
+    let limits: Vec<_> = rows.iter().filter_map(|(.., limits)| *limits).collect();
+    let (over_gap, over_speed): (Vec<Row>, Vec<Row>) = rows
+        .into_iter()
+        .map(|(forces, speeds, _)| (forces, speeds))
+        .unzip();
     let finer = blade_of(scene, MORE_MODES)?;
-    let basis_error = basis_error(&lifting, &finer, &forces_n, rpm)?;
+    let basis_error = basis_error(&blade, &finer, &forces_n, rpm)?;
     work.advance();
     let all = over_gap.iter().flatten().flatten();
     let pads = 0..all
@@ -81,7 +99,6 @@ pub(super) fn deviation_map(
         .iter()
         .position(|factor| (factor - 1.0).abs() < 1e-9);
     let own = own.map_or(&[][..], |own| &over_speed[own]);
-    let sizes_n: Vec<f64> = forces_n.iter().map(|force| force.abs()).collect();
     Ok(DeviationMap {
         angle_deg: scene.file().cut_angle_deg(),
         rpm,
@@ -94,10 +111,10 @@ pub(super) fn deviation_map(
             .map(|pad| over_gap.iter().map(|row| of_pad(pad, row)).collect())
             .collect(),
         max_deflection_m: limit_m,
-        force_within_n: all_within(&sizes_n, &over_gap, limit_m),
+        force_within_n: limits.iter().map(|(force, _)| *force).collect(),
         force_n,
         deflection_over_gap_and_speed_m: table(&over_speed, |at| at.deviation_m),
-        speed_within_rpm: all_within(&speeds_rpm, &over_speed, limit_m),
+        speed_within_rpm: limits.iter().map(|(_, speed)| *speed).collect(),
         deflection_over_speed_m: values(own, |at| at.deviation_m),
         pad_forces_over_speed_n: pads.map(|pad| of_pad(pad, own)).collect(),
         speeds_rpm,
@@ -147,30 +164,33 @@ fn basis_error(
     Ok(largest)
 }
 
-/// The largest place of each row up to which the deflection at the cut stays within a limit; nothing without a limit.
-fn all_within(places: &[f64], rows: &[Row], limit_m: Option<f64>) -> Vec<Option<f64>> {
-    let of = |limit_m| {
-        rows.iter()
-            .map(|row| within(places, row, limit_m))
-            .collect()
+/// The place at which the deflections at places of ascending size first exceed a limit or are not known, by bisection between the
+/// last place within the limit and the next one; the last place if none exceeds the limit; `None` if the first one does. `solve`
+/// gives the deflection at a place.
+pub(super) fn within(
+    places: &[f64],
+    row: &[Option<Deviation>],
+    limit_m: f64,
+    solve: impl Fn(f64) -> Result<Option<Deviation>, GapError>,
+) -> Result<Option<f64>, GapError> {
+    let keeps = |found: &Option<Deviation>| {
+        let found = found.as_ref();
+        found.is_some_and(|at| at.deviation_m.abs() <= limit_m)
     };
-    limit_m.map_or_else(Vec::new, of)
-}
-
-/// The place at which the deflections at ascending places first exceed a limit, interpolated; the preceding place if a
-/// deflection is not known; the last place if none exceeds the limit; `None` if the first one does.
-pub(super) fn within(places: &[f64], row: &[Option<Deviation>], limit_m: f64) -> Option<f64> {
-    let mut before: Option<(f64, f64)> = None;
-    for (place, found) in places.iter().zip(row) {
-        let deviation_m = found
-            .as_ref()
-            .map_or(f64::INFINITY, |at| at.deviation_m.abs());
-        if deviation_m > limit_m {
-            return before.map(|(last, least)| {
-                last + (place - last) * (limit_m - least) / (deviation_m - least)
-            });
+    let first = row.iter().position(|found| !keeps(found));
+    let Some(first) = first else {
+        return Ok(places.last().copied());
+    };
+    let Some(last) = first.checked_sub(1) else {
+        return Ok(None);
+    };
+    let (mut low, mut high) = (places[last], places[first]);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        match keeps(&solve(middle)?) {
+            true => low = middle,
+            false => high = middle,
         }
-        before = Some((*place, deviation_m));
     }
-    before.map(|(place, _)| place)
+    Ok(Some(low))
 }

@@ -52,7 +52,7 @@ use oscillation::oscillation;
 use oscillators::Oscillators;
 
 use crate::model::scene::{
-    Blade, Bore, Guide, RefusedValue, Scene, SceneError, rad_per_s, rpm, speed_rad_per_s,
+    Blade, Bore, Guide, GuideSide, RefusedValue, Scene, SceneError, rad_per_s, rpm, speed_rad_per_s,
 };
 use crate::modes::SpectrumError;
 use crate::motion::stretched::{LARGEST_SLOPE, StretchedError};
@@ -191,6 +191,7 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
         .transpose()?;
     let chart = analysis.report();
     let mut warnings = chart.warnings;
+    warnings.extend(shifting(scene));
     warnings.extend(heated.as_ref().and_then(Heated::warning).map(String::from));
     warnings.extend(oscillation.iter().flat_map(Oscillation::warnings));
     warnings.extend(deviation.basis_error.and_then(BasisError::warning));
@@ -211,6 +212,25 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
         oscillation,
         friction: heated.map(|heated| heated.heat),
         warnings,
+    })
+}
+
+/// Remark on guides whose force has a mean over an oscillation, which moves the blade.
+fn shifting(scene: &Scene) -> Option<String> {
+    let is_shifting = |guide: &&Guide| {
+        let law = guide.lifting;
+        law.is_some_and(|law| law.offset_m != 0.0 || law.side != GuideSide::Both)
+    };
+    let guides = scene.guides().iter().filter(is_shifting);
+    let names: Vec<String> = guides
+        .map(|guide| format!("guides[{}]", guide.index))
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "over an oscillation {} also push the blade aside on average, because of an offset or a missing side: the chart over the \
+             amplitude neglects this shift, and holds for oscillations about the flat blade",
+            names.join(", ")
+        )
     })
 }
 

@@ -17,10 +17,14 @@ use super::balance::{Balance, Growth, Periodic, Term};
 use super::oscillation_report::{OscillationAt, OscillationPad, OscillationPlace};
 use super::oscillators::Oscillators;
 
-/// Number of harmonics of the motion. With more of them the amplitude of the saw of the tests changes by less than 2 %.
+/// Number of harmonics with which the search for a motion begins, and of those that the report contains.
 pub(super) const HARMONICS: usize = 6;
-/// Number of harmonics of the motion with which the amplitude is compared.
-const MORE_HARMONICS: usize = 10;
+/// Largest number of harmonics.
+const MOST_HARMONICS: usize = 24;
+/// Factor by which the number of harmonics grows.
+const MORE_HARMONICS: f64 = 1.6;
+/// Largest amplitude of the neglected harmonics at the cut, relative to that of the motion.
+const NEGLECTED: f64 = 1e-2;
 /// Number of phases at which a motion is evaluated at the probe, at the cut and at the pads.
 const PHASES: usize = 96;
 /// Number of these phases from one evaluation of the whole blade to the next.
@@ -124,11 +128,11 @@ impl OscillatingBlade {
     pub(super) fn terms(&self) -> Vec<Term<'_>> {
         let stretching = Term {
             force: self.blade.stretching(),
-            is_smooth: true,
+            is_cubic: true,
         };
         let gaps = self.blade.gaps().map(|gaps| Term {
             force: gaps,
-            is_smooth: false,
+            is_cubic: false,
         });
         std::iter::once(stretching).chain(gaps).collect()
     }
@@ -157,9 +161,8 @@ impl OscillatingBlade {
         Cancellation::current().check()?;
         let rest = self.blade.settled(speed_rad_per_s, &self.blade.flat())?;
         let still_m = self.cut.transpose() * &rest.coordinates;
-        let found = self.balanced(speed_rad_per_s, HARMONICS, |balance, load| {
-            let motion = balance.motion(&rest.coordinates, load)?;
-            Some(Found::new(balance, motion))
+        let found = self.converged(speed_rad_per_s, |balance, load| {
+            balance.motion(&rest.coordinates, load)
         });
         Ok((found, still_m))
     }
@@ -171,19 +174,60 @@ impl OscillatingBlade {
         let downwards = (1..=last).rev().map(|k| (k, k - 1));
         for (from, to) in upwards.chain(downwards) {
             if let (Some(near), None) = (&motions[from], &motions[to]) {
-                motions[to] = self.balanced(speeds[to], HARMONICS, |balance, load| {
-                    let motion = balance.refined(&near.motion, load)?;
-                    Some(Found::new(balance, motion))
+                motions[to] = self.converged(speeds[to], |balance, load| {
+                    balance.refined(&near.motion, load)
                 });
             }
         }
     }
 
-    /// The motion that is close to a given one and has more harmonics; `None` if it is not found.
-    pub(super) fn refined(&self, near: &Periodic, speed_rad_per_s: f64) -> Option<Periodic> {
-        self.balanced(speed_rad_per_s, MORE_HARMONICS, |balance, load| {
-            balance.refined(near, load)
-        })
+    /// The motion at a speed with as many harmonics as it needs; `None` if it is not found, or if it needs too many.
+    fn converged(
+        &self,
+        speed_rad_per_s: f64,
+        begin: impl Fn(&Balance<'_>, &Mat<f64>) -> Option<Periodic>,
+    ) -> Option<Found> {
+        let mut motion: Option<Periodic> = None;
+        let mut harmonics = HARMONICS;
+        while harmonics <= MOST_HARMONICS {
+            let (found, neglected) =
+                self.balanced(speed_rad_per_s, harmonics, |balance, load| {
+                    let found = match &motion {
+                        None => begin(balance, load)?,
+                        Some(near) => balance.refined(near, load)?,
+                    };
+                    let neglected = balance.neglected(&found)?;
+                    Some((found, neglected))
+                })?;
+            let sizes = neglected.iter().map(|(k, q)| {
+                let at_cut: c64 = (0..q.nrows()).map(|i| q[i] * self.cut[i]).sum();
+                (*k, at_cut.norm())
+            });
+            let sizes: Vec<(usize, f64)> = sizes.collect();
+            let amplitude_m = amplitude_m(&found, &self.cut);
+            let neglected_share = sizes.iter().map(|(_, size)| size).sum::<f64>() / amplitude_m;
+            if neglected_share <= NEGLECTED {
+                let growth = self.balanced(speed_rad_per_s, harmonics, |balance, _| {
+                    balance.growth(&found)
+                });
+                return Some(Found {
+                    motion: found,
+                    growth,
+                    neglected_share,
+                });
+            }
+            let largest = sizes
+                .iter()
+                .max_by(|a, b| a.1.total_cmp(&b.1))
+                .map_or(0, |(k, _)| *k);
+            let more = (MORE_HARMONICS * harmonics as f64).ceil() as usize;
+            harmonics = match harmonics < MOST_HARMONICS {
+                true => more.max(largest).min(MOST_HARMONICS),
+                false => return None,
+            };
+            motion = Some(found);
+        }
+        None
     }
 
     /// Solves the balance of a number of harmonics at a speed, under all loads.
@@ -225,6 +269,7 @@ impl OscillatingBlade {
             return Vec::new();
         };
         let forces: Vec<Vec<f64>> = states.iter().map(|q| gaps.forces_n(q)).collect();
+        let left: Vec<Vec<f64>> = states.iter().map(|q| gaps.distances_left_m(q)).collect();
         let count = states.len() as f64;
         let pads = forces.first().map_or(0, Vec::len);
         let pad = |pad: usize| {
@@ -233,7 +278,7 @@ impl OscillatingBlade {
                 guide: self.guides.get(pad).copied().unwrap_or(pad),
                 mean_force_n: own().sum::<f64>() / count,
                 largest_force_n: own().map(f64::abs).fold(0.0, f64::max),
-                contact_share: own().filter(|force| *force != 0.0).count() as f64 / count,
+                contact_share: left.iter().filter(|all| all[pad] <= 0.0).count() as f64 / count,
             }
         };
         (0..pads).map(pad).collect()
@@ -244,15 +289,8 @@ impl OscillatingBlade {
 pub(super) struct Found {
     pub motion: Periodic,
     pub growth: Option<Growth>,
-}
-
-impl Found {
-    fn new(balance: &Balance<'_>, motion: Periodic) -> Self {
-        Found {
-            growth: balance.growth(&motion),
-            motion,
-        }
-    }
+    /// Estimated amplitude at the cut of all harmonics that the motion lacks, relative to its own.
+    pub neglected_share: f64,
 }
 
 /// The deflection at a place, with its harmonics.
@@ -260,7 +298,7 @@ fn at_place(motion: &Periodic, states: &[Col<f64>], place: &Col<f64>) -> Oscilla
     let values = || states.iter().map(|q| place.transpose() * q);
     let low = values().fold(f64::INFINITY, f64::min);
     let high = values().fold(f64::NEG_INFINITY, f64::max);
-    let harmonics = || (1..=motion.harmonics()).map(|k| motion.harmonic(k, place));
+    let harmonics = || (1..=HARMONICS).map(|k| motion.harmonic(k, place));
     OscillationPlace {
         mean_m: motion.mean(place),
         amplitude_m: 0.5 * (high - low),

@@ -64,10 +64,6 @@ pub(super) fn oscillation(
     let found = motions[place].as_ref();
     let own_m = found.map(|at| amplitude_m(&at.motion, &blade.cut));
     let change = |other: f64| own_m.map(|own| (other / own - 1.0).abs());
-    let more = found.and_then(|at| {
-        let more = blade.refined(&at.motion, speed_rad_per_s)?;
-        Some(amplitude_m(&more, &blade.cut))
-    });
     let fine_m = fine.map(|at| amplitude_m(&at.motion, &finer.cut));
     let thickness_m = scene.blade().thickness_m;
     let pairs = motions.iter().zip(&speeds);
@@ -97,7 +93,11 @@ pub(super) fn oscillation(
         lines: (0..HARMONICS).map(line).collect(),
         at: found.map(|at| blade.read(speed_rad_per_s, at)),
         still_deflection_m,
-        harmonics_error_share: more.and_then(change),
+        harmonics_error_share: found.map(|at| at.neglected_share),
+        neglected_share: motions
+            .iter()
+            .map(|found| Some(found.as_ref()?.neglected_share))
+            .collect(),
         basis_error_share: fine_m.and_then(change),
         rpm: speeds.iter().map(|speed| rpm(*speed)).collect(),
         probe_mean_m: of(|at| at.probe.mean_m),
@@ -113,7 +113,7 @@ impl Oscillation {
         let mut warnings = Vec::new();
         match &self.at {
             None => warnings.push(
-                "no periodic motion was found at the speed of the map: the blade may chatter between its guides without a period"
+                "no periodic motion of few harmonics was found at the speed of the map: the blade may chatter between its guides without a period"
                     .to_owned(),
             ),
             Some(at) if !at.stable => {
@@ -128,17 +128,11 @@ impl Oscillation {
             }
             Some(_) => (),
         }
-        let errors = [
-            ("harmonics", self.harmonics_error_share),
-            ("modes at rest", self.basis_error_share),
-        ];
-        for (what, error) in errors {
-            if let Some(error) = error.filter(|error| *error > LARGE_ERROR) {
-                warnings.push(format!(
-                    "the oscillation at the cut is not converged: with more {what} its amplitude changes by {:.0} %",
-                    1e2 * error
-                ));
-            }
+        if let Some(error) = self.basis_error_share.filter(|error| *error > LARGE_ERROR) {
+            warnings.push(format!(
+                "the oscillation at the cut is not converged: with more modes at rest its amplitude changes by {:.0} %",
+                1e2 * error
+            ));
         }
         warnings
     }

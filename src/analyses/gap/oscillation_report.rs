@@ -21,13 +21,17 @@ pub struct Oscillation {
     pub at: Option<OscillationAt>,
     /// Deflection of the rim at the cut at the speed of the map without oscillation.
     pub still_deflection_m: f64,
-    /// Relative change of the amplitude at the cut at the speed of the map with ten harmonics instead of six; null if no
-    /// motion was found.
+    /// Amplitude at the cut, at the speed of the map, of the harmonics that the motion neglects, relative to its own; null if no motion
+    /// was found.
     pub harmonics_error_share: Option<f64>,
     /// Relative change of this amplitude with 24 modes at rest instead of 16; null if no motion was found.
     pub basis_error_share: Option<f64>,
     /// Rotation speeds of the series below, ascending.
     pub rpm: Vec<f64>,
+    /// Amplitude at the cut of the harmonics that the motion neglects, relative to its own; null where no motion was found, and where it
+    /// needs more than 24 harmonics.
+    #[serde(default)]
+    pub neglected_share: Vec<Option<f64>>,
     /// Mean deflection at the probe, whose sign is the side to which the blade leans; null where no stable periodic motion was
     /// found, and where the blade deflects by more than its thickness.
     pub probe_mean_m: Vec<Option<f64>>,
@@ -102,7 +106,7 @@ pub struct OscillationPlace {
 pub struct OscillationPad {
     /// Index among the guides of the scene.
     pub guide: usize,
-    /// Mean force on the blade beyond the gap.
+    /// Mean force on the blade, by contact and film.
     pub mean_force_n: f64,
     /// Largest force, as an absolute value.
     pub largest_force_n: f64,

@@ -1,6 +1,7 @@
 //! The text of guides with a gap.
 
 use super::{AtAmplitude, DeviationMap, FrictionHeat, GapReport, Oscillation, OscillationAt};
+use crate::model::scene::ContactLaw;
 use crate::page::outline::{
     Column, FORCE, FREQUENCY, Fact, KELVIN, LENGTH, Outline, PERCENT, SPEED, Table, Value,
 };
@@ -55,16 +56,50 @@ const MEANING: &str = "The chart over the amplitude is the linear one with the m
      of the same amplitude at all of them; it is an approximation. Deflections are stationary ones, unless an oscillation is named.";
 
 fn half_way(report: &GapReport) -> String {
-    let gap = shown_to(3, 1e3 * report.smallest_gap_m);
+    let gap = gaps(report);
     match report.half_way_amplitude_m {
-        None => format!(
-            "The first critical speed inside the gap of {gap} mm is that of linear guides to 0.1 %"
-        ),
+        None => {
+            format!("The first critical speed inside the {gap} is that of linear guides to 0.1 %")
+        }
         Some(amplitude) => format!(
-            "Below {} mm of vibration at the guides (gap {gap} mm) the blade behaves rather as if unguided",
+            "Below {} mm of vibration at the guides ({gap}) the blade behaves rather as if unguided",
             shown_to(2, 1e3 * amplitude)
         ),
     }
+}
+
+/// The gap of all guides, or that of each if they differ: "gap 0.05 mm", "gaps 0.05 mm of guides[0], 0.1 mm of guides[1]".
+fn gaps(report: &GapReport) -> String {
+    let mm = |m: f64| format!("{} mm", shown_to(3, 1e3 * m));
+    match have_one_gap(report) {
+        true => format!("gap {}", mm(report.smallest_gap_m)),
+        false => {
+            let each =
+                lifting(report).map(|(place, gap_m)| format!("{} of guides[{place}]", mm(gap_m)));
+            format!("gaps {}", each.collect::<Vec<_>>().join(", "))
+        }
+    }
+}
+
+/// Index and gap of each one-sided guide.
+fn lifting(report: &GapReport) -> impl Iterator<Item = (usize, f64)> {
+    let guides = report.scene.guides.iter().enumerate();
+    let lifting = guides.filter(|(_, guide)| guide.contact == ContactLaw::OneSided);
+    lifting.filter_map(|(place, guide)| Some((place, guide.gap_m?)))
+}
+
+fn have_one_gap(report: &GapReport) -> bool {
+    lifting(report).all(|(_, gap_m)| gap_m == report.smallest_gap_m)
+}
+
+/// The column of gaps, which all change in proportion.
+fn gap_column(report: &GapReport) -> Column {
+    let name = if have_one_gap(report) {
+        "gap"
+    } else {
+        "smallest gap"
+    };
+    Column::of(name, &LENGTH)
 }
 
 fn over_amplitude(report: &GapReport) -> Table {
@@ -76,10 +111,19 @@ fn over_amplitude(report: &GapReport) -> Table {
         Column::words("bands"),
     ];
     let row = |name: Value, at: &AtAmplitude| {
-        let share = at.stiffness_shares.iter().copied().fold(0.0, f64::max);
+        let shares = &at.stiffness_shares;
+        let first = shares.first().copied().unwrap_or_default();
+        let each: Vec<String> = shares
+            .iter()
+            .map(|share| shown_to(3, 1e2 * share))
+            .collect();
+        let stiffness = match shares.iter().all(|share| *share == first) {
+            true => PERCENT.digits(3, first),
+            false => each.join("  ").into(),
+        };
         [
             name,
-            PERCENT.digits(3, share),
+            stiffness,
             SPEED.fixed(1, at.critical_rpm.first().copied()).or("none"),
             SPEED.fixed(1, at.flutter_speed_rpm).or("none"),
             at.instabilities.len().into(),
@@ -144,7 +188,7 @@ fn gap(report: &GapReport, factor: f64) -> Value {
 /// Deflections over gap and force.
 fn over_forces(report: &GapReport) -> Table {
     let map = &report.deviation;
-    let mut columns = vec![Column::of("gap", &LENGTH)];
+    let mut columns = vec![gap_column(report)];
     let forces = map.forces_n.iter().step_by(EVERY);
     columns.extend(forces.map(|force| Column::of(format!("{} N", shown_to(3, *force)), &LENGTH)));
     let title = format!(
@@ -165,13 +209,14 @@ fn over_forces(report: &GapReport) -> Table {
 fn within(report: &GapReport, limit: f64) -> Table {
     let map = &report.deviation;
     let columns = [
-        Column::of("gap", &LENGTH),
+        gap_column(report),
         Column::words("largest side force"),
         Column::words(format!("speed under {} N", shown_to(3, map.force_n))),
     ];
     let [first, last] = [map.forces_n.first(), map.forces_n.last()]
         .map(|force| force.map_or(0.0, |force| force.abs()));
     let end = map.speeds_rpm.last().copied().unwrap_or_default();
+    let critical = report.linear.critical_rpm.first();
     let found = map.force_within_n.iter().zip(&map.speed_within_rpm);
     let rows = map.gap_factors.iter().zip(found).enumerate();
     let rows = rows.filter(|(row, _)| is_shown(*row));
@@ -184,6 +229,9 @@ fn within(report: &GapReport, limit: f64) -> Table {
         let speed = match speed {
             None => "at no speed".to_owned(),
             Some(speed) if *speed >= end => format!("{end:.0} rpm or more"),
+            Some(speed) if critical == Some(speed) => {
+                format!("{speed:.0} rpm, the first critical speed")
+            }
             Some(speed) => format!("{speed:.0} rpm"),
         };
         [gap(report, *factor), force.into(), speed.into()]
@@ -234,7 +282,7 @@ fn oscillation(text: &mut Outline, rpm: f64, found: &Oscillation) {
     text.table(lines(found, at));
     let error = |share: Option<f64>| PERCENT.digits(2, share).or("unknown").with_unit();
     text.sentence(format!(
-        "Estimated error of this amplitude at the cut: {} with more harmonics, {} with more modes at rest",
+        "Estimated error of this amplitude at the cut: {} of neglected harmonics, {} with more modes at rest",
         error(found.harmonics_error_share),
         error(found.basis_error_share)
     ));

@@ -14,10 +14,9 @@ pub struct Deviation {
     pub deviation_m: f64,
     /// Largest deflection of the blade, as an absolute value.
     pub largest_m: f64,
-    /// Force of each one-sided pad on the blade beyond its gap; empty for linear guides.
+    /// Force of each one-sided pad on the blade, by contact and film.
     pub pad_forces_n: Vec<f64>,
-    /// Smallest distance left between the blade and the faces of each one-sided pad, negative where a face is pressed in;
-    /// empty for linear guides.
+    /// Smallest distance left between the blade and the faces of each one-sided pad, negative where a face is pressed in.
     pub distances_left_m: Vec<f64>,
 }
 

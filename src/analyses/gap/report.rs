@@ -78,7 +78,7 @@ pub struct FrictionHeat {
     pub cold_deflection_m: Option<f64>,
     /// Deflection at the cut with this heat.
     pub deflection_m: Option<f64>,
-    /// Force of each one-sided pad on the blade beyond its gap, without that of its film, with this heat.
+    /// Force of each one-sided pad on the blade, by contact and film, with this heat.
     pub pad_forces_n: Vec<f64>,
     /// Each one-sided pad, in the order of the scene.
     pub pads: Vec<FrictionPad>,
@@ -136,7 +136,8 @@ pub struct DeviationMap {
     pub angle_deg: f64,
     /// Speed of the map over gap and force.
     pub rpm: f64,
-    /// Gaps of the map relative to those of the scene, one row each; 0 stands for linear guides.
+    /// Gaps of the map relative to those of the scene, one row each; 0 stands for the same guides without a gap, with their offsets
+    /// and sides.
     pub gap_factors: Vec<f64>,
     /// Side forces of the map.
     pub forces_n: Vec<f64>,
@@ -144,8 +145,8 @@ pub struct DeviationMap {
     pub deflection_m: Vec<Vec<Option<f64>>>,
     /// Largest deflection of the blade, as an absolute value.
     pub largest_deflection_m: Vec<Vec<Option<f64>>>,
-    /// Force of each one-sided pad on the blade beyond its gap, without that of its film: for each pad one row a gap; null for
-    /// linear guides.
+    /// Force of each one-sided pad on the blade, by contact and film: for each pad one row a gap. With the forces of other guides
+    /// and that of the side force, the sum is zero on a blade that slides along its arbor.
     pub pad_forces_n: Vec<Vec<Vec<Option<f64>>>>,
     /// Largest deflection at the cut that is allowed; null if none was given.
     pub max_deflection_m: Option<f64>,
@@ -158,8 +159,8 @@ pub struct DeviationMap {
     pub speeds_rpm: Vec<f64>,
     /// Deflection at the cut over gap and speed, one row a gap; null where the blade deflects by more than its thickness.
     pub deflection_over_gap_and_speed_m: Vec<Vec<Option<f64>>>,
-    /// Largest speed up to which the deflection at the cut keeps the limit under this force, for each gap; null where it
-    /// exceeds the limit at rest. Empty without a limit.
+    /// Largest speed up to which the deflection at the cut keeps the limit under this force, for each gap, at most the first critical
+    /// speed of the linear chart; null where it exceeds the limit at rest. Empty without a limit.
     pub speed_within_rpm: Vec<Option<f64>>,
     /// Deflection at the cut at these speeds, with the gaps of the scene; null where the blade deflects by more than its
     /// thickness.

@@ -42,7 +42,12 @@ fn the_mean_stiffness_is_the_first_harmonic_of_the_force() {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
-    let chart = gap(&lifting(4e-5), &Options::default()).unwrap();
+    let scene = lifting(4e-5);
+    let options = Options {
+        max_deviation_mm: Some(0.3),
+        ..Options::default()
+    };
+    let chart = gap(&scene, &options).unwrap();
     let first = |at: &AtAmplitude| at.critical_rpm[0];
     let free = Scene::paper().edited(|file| {
         file.accuracy = Accuracy::Draft;
@@ -69,10 +74,7 @@ fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
     let map = &chart.deviation;
     for (row, factor) in map.pad_forces_n[0].iter().zip(&map.gap_factors) {
         for (pad_n, force) in row.iter().zip(&map.forces_n) {
-            match *factor == 0.0 {
-                true => assert_eq!(*pad_n, None),
-                false => assert!((pad_n.unwrap() + force).abs() < 1e-5 * force),
-            }
+            assert!((pad_n.unwrap() + force).abs() < 1e-5 * force, "{factor}");
         }
     }
     // The two maps have the speed and the force of the options in common.
@@ -83,6 +85,23 @@ fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
     }
     let error = map.basis_error.unwrap();
     assert!(error.share < 2e-3, "{error:?}");
+    // The limits of speed are those at which the deflection passes the limit, none beyond the first critical speed.
+    let analysis = Analysis::new(&scene).unwrap();
+    let size = analysis.model.plate.resolution;
+    let blade = pressed::PressedBlade::new(&scene, size, 2000.0, deviation::MODES).unwrap();
+    let mut found = 0;
+    for (factor, speed) in map.gap_factors.iter().zip(&map.speed_within_rpm) {
+        let speed = speed.unwrap_or_default();
+        assert!(speed <= first(&chart.linear), "{factor} {speed}");
+        if *factor > 0.0 && speed > 0.0 && speed < first(&chart.linear) {
+            let blade = blade.with_gaps(*factor);
+            let at = |speed: f64| blade.deviation(map.force_n, speed).unwrap();
+            let keeps = |speed: f64| at(speed).is_some_and(|at| at.deviation_m.abs() <= 3e-4);
+            assert!(keeps(speed) && !keeps(speed + 0.1), "{factor} {speed}");
+            found += 1;
+        }
+    }
+    assert!(found > 0, "{:?}", map.speed_within_rpm);
     // A wider gap allows a larger deflection.
     for gaps in map.deflection_m[1..].windows(2) {
         let [narrow, wide] = [&gaps[0], &gaps[1]].map(|row| row[2].unwrap());
@@ -90,8 +109,9 @@ fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
     }
 }
 
+/// Independent value: a deflection that rises with the square of the force, or that is not known beyond a speed.
 #[test]
-fn limits_are_interpolated_between_forces() {
+fn limits_are_found_between_the_places_of_a_map() {
     let at = |deviation_m: f64| {
         Some(Deviation {
             deviation_m,
@@ -100,19 +120,200 @@ fn limits_are_interpolated_between_forces() {
             distances_left_m: Vec::new(),
         })
     };
-    let forces_n = [1.0, 2.0, 4.0];
-    let within = |row: [Option<Deviation>; 3]| deviation::within(&forces_n, &row, 1.2e-4);
-    assert_eq!(within([at(1e-5), at(2e-5), at(4e-5)]), Some(4.0));
-    let found = within([at(4e-5), at(8e-5), at(2.4e-4)]).unwrap();
-    assert!((found - 2.5).abs() < 1e-12, "{found}");
-    assert_eq!(within([at(2e-4), None, None]), None);
-    // Beyond the last speed at which the deflection is known nothing is interpolated.
-    let speeds_rpm = [0.0, 500.0, 1000.0];
-    let row = [at(1e-5), at(1e-4), None];
-    let within = |limit_m: f64| deviation::within(&speeds_rpm, &row, limit_m);
-    assert_eq!(within(1.2e-4), Some(500.0));
-    let found = within(5.5e-5).unwrap();
-    assert!((found - 250.0).abs() < 1e-9, "{found}");
+    let places = [1.0, 2.0, 4.0];
+    let found = |of: &dyn Fn(f64) -> Option<Deviation>, limit_m: f64| {
+        let row = places.map(of);
+        deviation::within(&places, &row, limit_m, |place| Ok(of(place))).unwrap()
+    };
+    let square = |place: f64| at(1e-5 * place * place);
+    assert_eq!(found(&square, 1.7e-4), Some(4.0));
+    assert_eq!(found(&square, 0.9e-5), None);
+    let limit = found(&square, 9e-5).unwrap();
+    assert!((limit - 3.0).abs() < 1e-3 && limit <= 3.0, "{limit}");
+    let ends = |place: f64| if place < 2.5 { at(1e-5) } else { None };
+    let limit = found(&ends, 1.2e-4).unwrap();
+    assert!((limit - 2.5).abs() < 1e-3, "{limit}");
+}
+
+/// Three saws whose guides lift off, for small deflections: one pad, two pads with unlike gaps, and a collar with a pad.
+fn saws(film_stiffness_n_per_m: f64, offset_m: f64) -> [Scene; 3] {
+    let pad = |angle_deg: f64, gap_m: f64| crate::model::scene::GuideFile {
+        angle_deg,
+        contact: ContactLaw::OneSided,
+        gap_m: Some(gap_m),
+        film_stiffness_n_per_m,
+        ..Scene::paper().file().guides[0]
+    };
+    let of = |guides: Vec<crate::model::scene::GuideFile>, is_clamped: bool| {
+        let scene = Scene::paper().edited(|file| {
+            (file.cut, file.guides) = (None, guides);
+            if is_clamped {
+                file.mount = crate::model::scene::Mount::Collar {
+                    diameter_m: 0.25,
+                    in_plane: crate::model::scene::InPlane::Free,
+                };
+            }
+        });
+        scene.unwrap()
+    };
+    let shifted = crate::model::scene::GuideFile {
+        offset_m,
+        ..pad(60.0, 1e-7)
+    };
+    [
+        of(
+            vec![crate::model::scene::GuideFile {
+                offset_m,
+                ..pad(-50.0, 1e-7)
+            }],
+            false,
+        ),
+        of(vec![pad(-50.0, 4e-8), shifted], false),
+        of(vec![shifted], true),
+    ]
+}
+
+const SMALL: crate::model::plate::Resolution = crate::model::plate::Resolution {
+    max_diameters: 5,
+    radial_functions: 4,
+};
+const SPEEDS_RPM: [f64; 5] = [0.0, 300.0, 600.0, 900.0, 1200.0];
+
+/// Independent value: K(Ω) q = f + o K_p h on all functions, with linear guides, a pad K_p with the offset o and the unit heave h; a
+/// blade without guides where the gap is wide. The forces are so small that the blade does not stretch.
+#[test]
+fn without_a_gap_and_far_within_it_the_blade_is_linear_at_every_speed() {
+    use crate::model::plate::Plate;
+    use faer::linalg::solvers::Solve;
+    let (force_n, offset_m) = (1e-3, 3e-8);
+    for (place, scene) in saws(0.0, offset_m).into_iter().enumerate() {
+        let plate = Plate::new(&scene, SMALL);
+        let order = plate.degrees_of_freedom();
+        let pressed = pressed::PressedBlade::new(&scene, SMALL, 1500.0, order).unwrap();
+        let rim = (plate.blade.outer_radius_m, scene.cut_angle_rad());
+        let functions = crate::motion::transient::at_point(&plate, rim);
+        let of = |scene: &Scene| {
+            crate::model::system::GyroscopicSystem::of_plate(&Plate::new(scene, SMALL))
+        };
+        let typed = |offset_m: f64, keeps: &dyn Fn(usize) -> bool| {
+            let scene = scene.edited(|file| {
+                file.guides
+                    .iter_mut()
+                    .for_each(|pad| pad.offset_m = offset_m);
+                let guides = std::mem::take(&mut file.guides).into_iter().enumerate();
+                file.guides = guides
+                    .filter(|(k, _)| keeps(*k))
+                    .map(|(_, pad)| pad)
+                    .collect();
+            });
+            of(&scene.unwrap())
+        };
+        let shifted = usize::from(place == 1);
+        let (whole, others) = (typed(0.0, &|_| true), typed(0.0, &|k| k != shifted));
+        let mut heave = faer::Col::<f64>::zeros(order);
+        heave[0] = 1.0 / plate.functions_at(0.3, 0.0)[0];
+        // A clamped blade has no heave: its pad is not shifted.
+        let is_shifted = place < 2;
+        for rpm in SPEEDS_RPM {
+            let stiffness = whole.stiffness_at(rad_per_s(rpm));
+            let mut load = faer::Scale(force_n) * &functions;
+            if is_shifted {
+                load += faer::Scale(offset_m) * ((&whole.stiffness - &others.stiffness) * &heave);
+            }
+            let expected = functions.transpose() * stiffness.partial_piv_lu().solve(&load);
+            let own = match is_shifted {
+                true => pressed.with_gaps(1e-6).deviation(force_n, rpm),
+                false => {
+                    let flat = scene.edited(|file| file.guides[0].offset_m = 0.0).unwrap();
+                    let pressed = pressed::PressedBlade::new(&flat, SMALL, 1500.0, order).unwrap();
+                    pressed.with_gaps(1e-6).deviation(force_n, rpm)
+                }
+            };
+            let own = own.unwrap().unwrap().deviation_m;
+            assert!(
+                (own / expected - 1.0).abs() < 1e-4,
+                "{place} {rpm}: {own:e} {expected:e}"
+            );
+            if place == 2 {
+                let bare = typed(0.0, &|_| false).stiffness_at(rad_per_s(rpm));
+                let expected =
+                    force_n * (functions.transpose() * bare.partial_piv_lu().solve(&functions));
+                let far = pressed
+                    .with_gaps(1e4)
+                    .deviation(force_n, rpm)
+                    .unwrap()
+                    .unwrap();
+                assert!(
+                    (far.deviation_m / expected - 1.0).abs() < 1e-4,
+                    "{rpm}: {far:?} {expected:e}"
+                );
+            }
+        }
+    }
+}
+
+/// A blade that slides along its arbor is held by its pads alone: at every speed, gap and force their forces, by contact and film,
+/// balance the side force.
+#[test]
+fn pads_and_films_balance_the_side_force_at_every_speed() {
+    for film in [0.0, 2e4] {
+        for scene in &saws(film, 3e-6)[..2] {
+            let pressed = pressed::PressedBlade::new(scene, SMALL, 1500.0, 40).unwrap();
+            for rpm in SPEEDS_RPM {
+                for (factor, force_n) in [(1e-4, 2.0), (100.0, -2.0), (1e3, 5.0), (1e4, 50.0)] {
+                    let found = pressed
+                        .with_gaps(factor)
+                        .deviation(force_n, rpm)
+                        .unwrap()
+                        .unwrap();
+                    let sum: f64 = found.pad_forces_n.iter().sum();
+                    assert!(
+                        (sum + force_n).abs() < 1e-5 * force_n.abs(),
+                        "{film} {rpm} {factor}: {found:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// A pad whose offset exceeds its gap presses on the flat blade, and every guide is named with its own gap.
+#[test]
+fn a_preloaded_pad_holds_the_blade_and_each_gap_is_named() {
+    let scene = lifting(4e-5).edited(|file| {
+        let pad = file.guides[0];
+        file.guides.push(crate::model::scene::GuideFile {
+            angle_deg: 120.0,
+            gap_m: Some(9e-5),
+            offset_m: 1.5e-4,
+            ..pad
+        });
+    });
+    let scene = scene.unwrap();
+    let said = crate::analyses::campbell::lifting_off(&scene).unwrap();
+    assert!(
+        said.contains(
+            "guides[0] lifts off: within its gap of 0.04 mm nothing of it holds the blade"
+        ),
+        "{said}"
+    );
+    assert!(
+        said.contains("guides[1] lifts off: its offset of 0.15 mm exceeds its gap of 0.09 mm"),
+        "{said}"
+    );
+    assert!(shifting(&scene).unwrap().contains("guides[1] also push"));
+    assert!(shifting(&lifting(4e-5)).is_none());
+    let json = include_str!("../../../tests/golden/reports/gap-all.json");
+    let mut report: GapReport = serde_json::from_str(json).unwrap();
+    report.scene.guides = scene.file().guides.clone();
+    let text = report.summary();
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let text = words.join(" ");
+    assert!(
+        text.contains("gaps 0.04 mm of guides[0], 0.09 mm of guides[1]"),
+        "{text}"
+    );
+    assert!(text.contains("smallest gap"), "{text}");
 }
 
 #[test]

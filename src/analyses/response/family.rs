@@ -8,6 +8,7 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Col, Mat, Par, Scale, Side, c64};
 use rayon::prelude::*;
 
+use crate::model::linalg::complex_eigenvalues;
 use crate::model::system::{GyroscopicSystem, dynamic_stiffness};
 use crate::modes::{Cancellation, SpectrumError};
 
@@ -41,80 +42,167 @@ const RESIDUAL_BEYOND: f64 = 1e-2;
 /// Distance of a unit vector from the span of the others below which the basis omits it.
 const INDEPENDENT: f64 = 1e-9;
 
-/// Readings cᵀq of the steady state under a load, at each state; `None` where the dynamic stiffness is singular. Readings whose
-/// absolute value exceeds `beyond` are rough.
-///
-/// # Errors
-/// [`SpectrumError::Cancelled`], or [`SpectrumError::UnstableAtRest`] if the stiffness at rest is not positive definite.
-pub fn readings(
-    system: &GyroscopicSystem,
-    load: &Col<c64>,
-    states: &[State],
-    probes: &[Col<f64>],
-    beyond: f64,
-) -> Result<Vec<Option<Vec<c64>>>, SpectrumError> {
-    let cancellation = Cancellation::current();
-    let factor = factor_at_rest(system)?;
-    let mut found: Vec<Option<Vec<c64>>> = vec![None; states.len()];
-    let mut vectors: Vec<Col<c64>> = Vec::new();
-    // A coarse selection of the states comes first, because a basis for them represents nearly all solutions
-    // at the other states.
-    let stride = states.len().div_ceil(COARSE).max(1);
-    let (coarse, others): (Vec<usize>, Vec<usize>) =
-        (0..states.len()).partition(|k| k.is_multiple_of(stride));
-    for mut left in [coarse, others] {
-        let mut asked = match vectors.is_empty() {
-            true => {
-                let first = spread(left.len(), FIRST).into_iter();
-                first.map(|k| left[k]).collect()
-            }
-            false => Vec::new(),
-        };
-        while !left.is_empty() {
-            cancellation.check()?;
-            let solved: Vec<Col<c64>> = asked
-                .par_iter()
-                .map(|k| solution(system, load, states[*k]))
-                .collect();
-            for (k, q) in asked.iter().zip(&solved) {
-                let norm = q.norm_l2();
-                if norm > 0.0 && norm.is_finite() {
-                    found[*k] = Some(probes.iter().map(|c| reading(c, q)).collect());
-                    vectors.push(Scale(c64::new(1.0 / norm, 0.0)) * q);
-                }
-            }
-            left.retain(|k| !asked.contains(k));
-            let basis = orthonormal(system.order(), &vectors);
-            let reduced = Reduced::new(system, load, probes, &basis, &factor);
-            let tried: Vec<(f64, Vec<c64>)> = left
-                .par_chunks(TOGETHER)
-                .flat_map_iter(|some| {
-                    let states: Vec<State> = some.iter().map(|k| states[*k]).collect();
-                    reduced.at(&states)
-                })
-                .collect();
-            let mut worst: Vec<(usize, f64)> = Vec::new();
-            for (&k, (residual, read)) in left.iter().zip(tried) {
-                let is_beyond = read.iter().any(|value| value.norm() > beyond);
-                let allowed = if is_beyond { RESIDUAL_BEYOND } else { RESIDUAL };
-                match residual <= allowed {
-                    true => found[k] = Some(read),
-                    false => worst.push((k, residual)),
-                }
-            }
-            left = worst.iter().map(|(k, _)| *k).collect();
-            // The states to solve next are far apart, because the solutions of neighbouring states are
-            // similar.
-            asked = spread(worst.len(), MORE.max(worst.len() / SHARE))
-                .into_iter()
-                .map(|place| worst[place].0)
-                .chain(most(&worst))
-                .collect();
-            asked.sort_unstable();
-            asked.dedup();
-        }
+/// The steady states of a system under a load, on the solutions of the full model that are known.
+pub struct Family<'a> {
+    system: &'a GyroscopicSystem,
+    load: &'a Col<c64>,
+    factor: Llt<f64>,
+    /// Solutions of the full model, of unit length.
+    vectors: Vec<Col<c64>>,
+}
+
+/// Place around which poles are found, as a share of the range: it is at least half of the range away from all real places, so that L
+/// is regular there, and all poles within the range are resolved equally well.
+const CENTRE: c64 = c64::new(0.5, 0.5);
+/// Relative distance from a pole at which its share of the deflection is found.
+const BESIDE: f64 = 1e-7;
+/// Relative distance from a pole within which an excited motion deflects as far as under the load at rest; a motion that does so only
+/// closer to it is not excited.
+const EXCITED: f64 = 1e-6;
+/// Largest imaginary part of a pole relative to its real part: more strongly damped motions have no peak.
+const PEAKED: f64 = 0.5;
+/// First place of a pole as a share of the last place, because free rigid motions have poles at zero.
+const LEAST: f64 = 1e-6;
+/// Relative distance of two poles that are one, such as those of cos nθ and sin nθ of a free blade.
+const SAME: f64 = 1e-7;
+
+impl<'a> Family<'a> {
+    /// The states under a load f.
+    ///
+    /// # Errors
+    /// [`SpectrumError::UnstableAtRest`] if the stiffness at rest is not positive definite.
+    pub fn new(system: &'a GyroscopicSystem, load: &'a Col<c64>) -> Result<Self, SpectrumError> {
+        Ok(Family {
+            factor: factor_at_rest(system)?,
+            system,
+            load,
+            vectors: Vec::new(),
+        })
     }
-    Ok(found)
+
+    /// Readings cᵀq at each state; `None` where the dynamic stiffness is singular. Readings whose absolute value exceeds `beyond`
+    /// are rough.
+    ///
+    /// # Errors
+    /// [`SpectrumError::Cancelled`].
+    pub fn readings(
+        &mut self,
+        states: &[State],
+        probes: &[Col<f64>],
+        beyond: f64,
+    ) -> Result<Vec<Option<Vec<c64>>>, SpectrumError> {
+        let cancellation = Cancellation::current();
+        let mut found: Vec<Option<Vec<c64>>> = vec![None; states.len()];
+        // A coarse selection of the states comes first, because a basis for them represents nearly all solutions
+        // at the other states.
+        let stride = states.len().div_ceil(COARSE).max(1);
+        let (coarse, others): (Vec<usize>, Vec<usize>) =
+            (0..states.len()).partition(|k| k.is_multiple_of(stride));
+        for mut left in [coarse, others] {
+            let mut asked = match self.vectors.is_empty() {
+                true => {
+                    let first = spread(left.len(), FIRST).into_iter();
+                    first.map(|k| left[k]).collect()
+                }
+                false => Vec::new(),
+            };
+            while !left.is_empty() {
+                cancellation.check()?;
+                let solved: Vec<Col<c64>> = asked
+                    .par_iter()
+                    .map(|k| solution(self.system, self.load, states[*k]))
+                    .collect();
+                for (k, q) in asked.iter().zip(&solved) {
+                    let norm = q.norm_l2();
+                    if norm > 0.0 && norm.is_finite() {
+                        found[*k] = Some(probes.iter().map(|c| reading(c, q)).collect());
+                        self.vectors.push(Scale(c64::new(1.0 / norm, 0.0)) * q);
+                    }
+                }
+                left.retain(|k| !asked.contains(k));
+                let reduced = self.reduced(probes);
+                let tried: Vec<(f64, Vec<c64>)> = left
+                    .par_chunks(TOGETHER)
+                    .flat_map_iter(|some| {
+                        let states: Vec<State> = some.iter().map(|k| states[*k]).collect();
+                        reduced.at(&states)
+                    })
+                    .collect();
+                let mut worst: Vec<(usize, f64)> = Vec::new();
+                for (&k, (residual, read)) in left.iter().zip(tried) {
+                    let is_beyond = read.iter().any(|value| value.norm() > beyond);
+                    let allowed = if is_beyond { RESIDUAL_BEYOND } else { RESIDUAL };
+                    match residual <= allowed {
+                        true => found[k] = Some(read),
+                        false => worst.push((k, residual)),
+                    }
+                }
+                left = worst.iter().map(|(k, _)| *k).collect();
+                // The states to solve next are far apart, because the solutions of neighbouring states are
+                // similar.
+                asked = spread(worst.len(), MORE.max(worst.len() / SHARE))
+                    .into_iter()
+                    .map(|place| worst[place].0)
+                    .chain(most(&worst))
+                    .collect();
+                asked.sort_unstable();
+                asked.dedup();
+            }
+        }
+        Ok(found)
+    }
+
+    fn reduced(&self, probes: &[Col<f64>]) -> Reduced {
+        let basis = orthonormal(self.system.order(), &self.vectors);
+        Reduced::new(self.system, self.load, probes, &basis, &self.factor)
+    }
+
+    /// Resonances between two places t of a path of states, t ↦ (Ω, s) with linear functions Ω and s: the poles t of L⁻¹f, each as its
+    /// real part and its distance from the real axis, ascending. A pole whose motion the load does not excite is none.
+    ///
+    /// On the path L is quadratic in t, so that its poles are eigenvalues on the basis. The basis holds the solutions at the states of
+    /// [`Family::readings`], so that it also holds each motion that is excited there.
+    ///
+    /// # Errors
+    /// [`SpectrumError`].
+    pub fn poles(
+        &self,
+        (from, to): (f64, f64),
+        path: impl Fn(c64) -> (c64, c64),
+    ) -> Result<Vec<(f64, f64)>, SpectrumError> {
+        let reduced = self.reduced(&[]);
+        let width = reduced.small_load.nrows();
+        let at = |place: c64| {
+            let (speed, s) = path(place);
+            reduced.dynamic(speed, s)
+        };
+        let [middle, above, below] =
+            [0.0, 1.0, -1.0].map(|off| at(from + (to - from) * (CENTRE + off)));
+        let half = Scale(c64::new(0.5, 0.0));
+        let slope = half * (&above - &below);
+        let bend = half * (&above + &below) - &middle;
+        // At the distance 1/u from the centre: (u² L₀ + u L₁ + L₂) x = 0.
+        let factors = middle.partial_piv_lu();
+        let mut companion = Mat::zeros(2 * width, 2 * width);
+        for (column, of) in [(0, &slope), (width, &bend)] {
+            let mut block = companion.submatrix_mut(0, column, width, width);
+            block.copy_from(Scale(c64::new(-1.0, 0.0)) * factors.solve(of));
+        }
+        (0..width).for_each(|i| companion[(width + i, i)] = c64::new(1.0, 0.0));
+        let inverses = complex_eigenvalues(companion.as_ref());
+        let inverses = inverses.map_err(SpectrumError::at(path(c64::new(to, 0.0)).0.re))?;
+        let mut found: Vec<(f64, f64)> = inverses
+            .into_iter()
+            .map(|u| from + (to - from) * (CENTRE + 1.0 / u))
+            .filter(|pole| (from.max(LEAST * to)..=to).contains(&pole.re))
+            .filter(|pole| pole.im.abs() <= PEAKED * pole.re)
+            .filter(|pole| reduced.excitation(*pole, at) > EXCITED)
+            .map(|pole| (pole.re, pole.im.abs()))
+            .collect();
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found.dedup_by(|a, b| (a.0 - b.0).abs() <= SAME * b.0);
+        Ok(found)
+    }
 }
 
 /// The state with the largest residual.
@@ -212,21 +300,39 @@ impl Reduced {
         }
     }
 
+    /// L(s; Ω) on the basis.
+    fn dynamic(&self, speed: c64, s: c64) -> Mat<c64> {
+        let width = self.small_load.nrows();
+        let factors: Vec<c64> = self.factors.iter().map(|of| of(speed, s)).collect();
+        Mat::from_fn(width, width, |i, k| {
+            let parts = self.small.iter().zip(&factors);
+            let parts = parts.map(|(term, factor)| term[(i, k)] * factor);
+            parts.sum::<c64>()
+        })
+    }
+
+    /// The relative distance from a pole at which its motion deflects as far as the blade under the load at rest, both by their elastic
+    /// energy at rest; `at` is L on the path.
+    fn excitation(&self, pole: c64, at: impl Fn(c64) -> Mat<c64>) -> f64 {
+        let [above, below] = [BESIDE, -BESIDE].map(|off| -> Col<c64> {
+            let dynamic = at(pole * (1.0 + off));
+            dynamic.partial_piv_lu().solve(&self.small_load)
+        });
+        let motion = Scale(c64::new(0.5 * BESIDE, 0.0)) * (above - below);
+        let energy = (motion.adjoint() * &self.small[0] * &motion).re;
+        (energy.max(0.0).sqrt() / self.load.norm_l2()).abs()
+    }
+
     /// Residual relative to the load, and readings, at each state.
     fn at(&self, states: &[State]) -> Vec<(f64, Vec<c64>)> {
         let width = self.small_load.nrows();
         let mut shares = Mat::zeros(self.tall.ncols(), states.len());
         let mut read = Vec::with_capacity(states.len());
         for (place, state) in states.iter().enumerate() {
+            let speed = c64::new(state.speed_rad_per_s, 0.0);
             let s = c64::new(0.0, state.frequency_rad_per_s);
-            let factors = self.factors.iter();
-            let factors: Vec<c64> = factors.map(|of| of(state.speed_rad_per_s, s)).collect();
-            let dynamic = Mat::from_fn(width, width, |i, k| {
-                let parts = self.small.iter().zip(&factors);
-                parts
-                    .map(|(term, factor)| term[(i, k)] * factor)
-                    .sum::<c64>()
-            });
+            let factors: Vec<c64> = self.factors.iter().map(|of| of(speed, s)).collect();
+            let dynamic = self.dynamic(speed, s);
             let y: Col<c64> = dynamic.partial_piv_lu().solve(&self.small_load);
             for (part, factor) in factors.iter().enumerate() {
                 for i in 0..width {
@@ -294,18 +400,19 @@ fn factor_at_rest(system: &GyroscopicSystem) -> Result<Llt<f64>, SpectrumError> 
 }
 
 /// Factor of a matrix of L, from Ω and s = iω.
-type Factor = fn(f64, c64) -> c64;
+type Factor = fn(c64, c64) -> c64;
 
-/// The matrices of L(iω; Ω) that a system has, each with its factor; `None` is the unit matrix of the inertia.
+/// The matrices of L(iω; Ω) that a system has, each with its factor, that of the stiffness first; `None` is the unit matrix of the
+/// inertia.
 fn terms(system: &GyroscopicSystem) -> Vec<(Option<&Mat<f64>>, Factor)> {
     const ONE: c64 = c64::new(1.0, 0.0);
     let always: [(_, Factor); 3] = [
         (Some(&system.stiffness), |_, _| ONE),
-        (Some(&system.spin), |speed, _| ONE * speed.powi(2)),
-        (Some(&system.gyroscopic), |speed, s| s * (2.0 * speed)),
+        (Some(&system.spin), |speed, _| speed * speed),
+        (Some(&system.gyroscopic), |speed, s| s * speed * 2.0),
     ];
     let optional: [(_, Factor); 3] = [
-        (system.circulatory.as_ref(), |speed, _| ONE * speed),
+        (system.circulatory.as_ref(), |speed, _| speed),
         (system.nonconservative.as_ref(), |_, _| ONE),
         (system.damping.as_ref(), |_, s| s),
     ];

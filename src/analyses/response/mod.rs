@@ -5,8 +5,10 @@
 //! L(ikΩ; Ω) q = f. [`response`](response()) gives its amplitude and phase at the probe and at the cut, over the speed, and
 //! the deflection at the probe for a force of one newton over the frequency at one speed ([`FrequencyResponse`]).
 //!
-//! No steady state exists where the saw is unstable, and without damping none exists at a resonance: amplitudes beyond the
-//! linear model are not reported.
+//! A natural frequency that equals that of an excitation is a resonance only if the excitation works on its mode: a load that turns with
+//! a symmetric blade excites none. Resonances are the poles of the states over the speed, of whatever frequency, and not those of the
+//! diagram. No steady state exists where a motion of the saw grows, and without damping none exists at a resonance: amplitudes beyond
+//! the linear model are not reported.
 
 pub(crate) mod chart;
 mod family;
@@ -27,13 +29,18 @@ pub use options::Options;
 pub(crate) use outline::outline;
 pub use report::{
     Cause, FrequencyResponse, OperatingResponse, Resonance, ResponseLine, ResponseReport,
+    SteadyState,
 };
 
-use crate::model::scene::{RefusedValue, Scene, SceneError, USUAL_SIDE_FORCE_N, rpm};
+use std::f64::consts::TAU;
+
+use crate::model::plate::Plate;
+use crate::model::scene::{RefusedValue, Scene, SceneError, USUAL_SIDE_FORCE_N, rad_per_s, rpm};
 use crate::modes::SpectrumError;
-use crate::stability::{Analysis, AnalysisError};
-use solver::Solver;
-use speeds::{resonances, speeds};
+use crate::stability::{Analysis, AnalysisError, ahead};
+use family::Family;
+use solver::{Motion, Solver};
+use speeds::{even, near};
 use warnings::warnings;
 
 /// Reason for which the response of a saw could not be computed.
@@ -62,25 +69,55 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
     let (force_n, is_assumed) = constant_force_n(scene);
     let analysis = Analysis::new(scene)?;
     let plate = &analysis.model.plate;
-    let loads = loads(plate, scene, force_n).map_err(|waves| rigid(waves, scene))?;
-    let resonances: Vec<Vec<f64>> = loads
-        .iter()
-        .map(|load| resonances(&analysis, load.order))
-        .collect::<Result<_, _>>()?;
+    let excitations = |plate| loads(plate, scene, force_n).map_err(|waves| rigid(waves, scene));
+    let loads = excitations(plate)?;
     let range = analysis.range_rad_per_s;
     let within = |speed: &f64| (range.0..=range.1).contains(speed);
     let operating = scene.operating_rad_per_s().filter(within);
     let asked = options.speed_rad_per_s(range)?;
-    let events = resonances.iter().flatten().copied();
-    let speeds = speeds(range, events, operating);
     let solver = Solver::new(plate, scene);
-    let lines = loads.iter().zip(&resonances);
-    let lines: Vec<ResponseLine> = lines
-        .map(|(load, resonances)| solver.line(&analysis, load, &speeds, resonances))
-        .collect::<Result<_, _>>()?;
+    let motion = Motion {
+        bands: &analysis.chart.instabilities,
+        is_conservative: analysis.model.is_conservative(),
+    };
+    let mut speeds = even(range, operating);
+    let mut families = Vec::new();
+    for load in &loads {
+        let mut family = Family::new(&solver.system, &load.vector)?;
+        solver.deflections(&mut family, load, &speeds)?;
+        let resonances = Solver::resonances(&family, load, range)?;
+        families.push((load, family, resonances));
+    }
+    for (.., resonances) in &families {
+        speeds.extend(near(range, resonances));
+    }
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
+    let lines = families
+        .iter_mut()
+        .map(|(load, family, resonances)| solver.line(load, family, &speeds, resonances, &motion));
+    let mut lines: Vec<ResponseLine> = lines.collect::<Result<_, _>>()?;
+    let diagram = analysis.model.complete_to_rad_per_s;
+    let is_beyond = |line: &ResponseLine| f64::from(line.order) * range.1 > diagram;
+    if lines.iter().any(is_beyond) {
+        let larger = Plate::new(scene, ahead(plate.resolution));
+        let finer = Solver::new(&larger, scene);
+        let loads = excitations(&larger)?;
+        for (line, load) in lines
+            .iter_mut()
+            .zip(&loads)
+            .filter(|(line, _)| is_beyond(line))
+        {
+            let mut family = Family::new(&finer.system, &load.vector)?;
+            finer.deflections(&mut family, load, &even(range, operating))?;
+            line.state_error(&Solver::resonances(&family, load, range)?);
+        }
+    }
     let points = asked.or(operating).map(|speed| {
         let place = scene.side_force().at.polar();
-        FrequencyResponse::new(&analysis, &solver, (speed, options.to_hz), place)
+        let end = options.to_hz.map(|hz| TAU * hz);
+        let end = end.unwrap_or(analysis.model.complete_to_rad_per_s);
+        FrequencyResponse::new(plate, &solver, &motion, (speed, end), place)
     });
     let points = points.transpose()?;
     let rpm: Vec<f64> = speeds.iter().map(|speed| rpm(*speed)).collect();
@@ -99,11 +136,11 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
         probe_radius_m: probe.radius_m,
         probe_angle_deg: probe.angle_deg,
         cut_angle_deg: scene.file().cut_angle_deg(),
-        damped: !analysis.model.is_conservative(),
+        damped: !motion.is_conservative,
         linear_limit_m: solver.limit_m,
-        warnings: warnings(&analysis, assumed, &lines, chart.warnings),
+        warnings: warnings(scene, assumed, &lines, chart.warnings),
         instabilities: chart.instabilities,
-        operating: OperatingResponse::new(scene, &rpm, &lines, &board_deviation_m),
+        operating: OperatingResponse::new(scene, &motion, &rpm, &lines, &board_deviation_m),
         rpm,
         lines,
         board_deviation_m,
@@ -111,10 +148,24 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
     })
 }
 
+impl ResponseLine {
+    /// States the largest relative distance of the resonances from the nearest ones on a larger basis, in rad/s.
+    fn state_error(&mut self, finer_rad_per_s: &[f64]) {
+        let nearest = |at: &Resonance| {
+            let changes = finer_rad_per_s
+                .iter()
+                .map(|other| (rpm(*other) / at.rpm - 1.0).abs());
+            changes.reduce(f64::min)
+        };
+        self.resonance_error = self.resonances.iter().filter_map(nearest).reduce(f64::max);
+    }
+}
+
 impl OperatingResponse {
     /// The deflections at the operating speed; `None` if it is not one of the speeds.
     fn new(
         scene: &Scene,
+        motion: &Motion<'_>,
         rpm: &[f64],
         lines: &[ResponseLine],
         board_deviation_m: &[Option<f64>],
@@ -125,7 +176,20 @@ impl OperatingResponse {
         let place = rpm
             .iter()
             .position(|rpm| (rpm / asked - 1.0).abs() < 1e-9)?;
+        let here = |resonance: &&Resonance| resonance.rpm == rpm[place];
+        let resonances = lines
+            .iter()
+            .flat_map(|line| line.resonances.iter().find(here));
+        let steady_state = match board_deviation_m[place] {
+            Some(_) => SteadyState::Bounded,
+            None if motion.is_unstable(rad_per_s(asked)) => SteadyState::None,
+            None => resonances
+                .map(|resonance| resonance.steady_state)
+                .find(|state| *state == SteadyState::Unbounded)
+                .unwrap_or(SteadyState::BeyondModel),
+        };
         Some(OperatingResponse {
+            steady_state,
             rpm: asked,
             amplitude_m: lines.iter().map(|line| line.amplitude_m[place]).collect(),
             board_deviation_m: board_deviation_m[place],

@@ -1,6 +1,6 @@
 //! The text of a response.
 
-use super::{ResponseLine, ResponseReport};
+use super::{FrequencyResponse, ResponseLine, ResponseReport, SteadyState};
 use crate::page::outline::{Column, FREQUENCY, Fact, LENGTH, Outline, SPEED, Table};
 use crate::page::text::shown_to;
 
@@ -15,58 +15,98 @@ pub fn outline(report: &ResponseReport) -> Outline {
     text.table(amplitudes(report));
     for line in &report.lines {
         text.table(resonances(line));
+        if let Some(error) = line.resonance_error {
+            text.sentence(format!(
+                "On a larger basis these speeds change by at most {} %",
+                shown_to(2, 1e2 * error)
+            ));
+        }
     }
     if let Some(points) = &report.points {
-        let known = points.receptance_m_per_n.iter().zip(&points.frequency_hz);
-        let known = known.filter_map(|(m, hz)| Some(((*m)?, *hz)));
-        let largest = known.max_by(|a, b| a.0.total_cmp(&b.0));
-        let amplitude = match largest {
-            None => "no steady state, the saw is unstable".to_owned(),
-            Some((m, hz)) => format!(
-                "at most {} mm/N, at {} Hz",
-                shown_to(4, 1e3 * m),
-                shown_to(5, hz)
-            ),
-        };
-        text.sentence(format!(
-            "Force to probe at {:.0} rpm: {amplitude}",
-            points.rpm
-        ));
+        text.sentence(force_to_probe(points));
     }
     text.remarks("Warning", &report.warnings);
     text
+}
+
+/// Number of frequencies that a sentence names.
+const FIRST: usize = 4;
+
+/// The largest deflection for a force of 1 N at one speed.
+fn force_to_probe(points: &FrequencyResponse) -> String {
+    let known = points.receptance_m_per_n.iter().zip(&points.frequency_hz);
+    let known = known.filter_map(|(m, hz)| Some(((*m)?, *hz)));
+    let largest = known.max_by(|a, b| a.0.total_cmp(&b.0));
+    let unbounded = points.unbounded_hz.iter();
+    let first: Vec<String> = unbounded.take(FIRST).map(|hz| shown_to(5, *hz)).collect();
+    let amplitude = match largest {
+        _ if !first.is_empty() => {
+            let more = match points.unbounded_hz.len() - first.len() {
+                0 => String::new(),
+                more => format!(" and {more} more natural frequencies"),
+            };
+            let first = first.join(", ");
+            format!("unbounded at {first} Hz{more}, because nothing dissipates energy")
+        }
+        None => "no steady state, the saw is unstable".to_owned(),
+        Some((m, hz)) => format!(
+            "at most {} mm/N, at {} Hz",
+            shown_to(4, 1e3 * m),
+            shown_to(5, hz)
+        ),
+    };
+    format!("Force to probe at {:.0} rpm: {amplitude}", points.rpm)
 }
 
 fn verdict(report: &ResponseReport) -> String {
     let Some(operating) = &report.operating else {
         let known = report.rpm.iter().zip(&report.board_deviation_m);
         let known = known.filter_map(|(rpm, m)| Some(((*m)?, *rpm)));
-        return match known.max_by(|a, b| a.0.total_cmp(&b.0)) {
-            Some((m, rpm)) => format!(
-                "Sawing deviation: at most {} mm, at {rpm:.0} rpm (all excitations added; the sweep contains no operating_rpm)",
-                shown_to(3, 1e3 * m)
-            ),
-            None => "No steady state at any speed of the sweep".to_owned(),
+        let mut resonances = report.lines.iter().flat_map(|line| &line.resonances);
+        let first = resonances.clone().map(|at| at.rpm).reduce(f64::min);
+        let largest = match (known.max_by(|a, b| a.0.total_cmp(&b.0)), first) {
+            (None, _) => return "No steady state at any speed of the sweep".to_owned(),
+            (_, Some(first)) if resonances.any(|at| at.amplitude_m.is_none()) => {
+                format!("without an amplitude at resonances, the first at {first:.0} rpm")
+            }
+            (Some((m, rpm)), _) => format!("at most {} mm, at {rpm:.0} rpm", shown_to(3, 1e3 * m)),
         };
+        return format!(
+            "Sawing deviation: {largest} (all excitations added; the sweep contains no operating_rpm)"
+        );
     };
-    match operating.board_deviation_m {
-        Some(deviation) => format!(
+    match (operating.board_deviation_m, operating.steady_state) {
+        (Some(deviation), _) => format!(
             "Sawing deviation at {:.0} rpm: at most {} mm (all excitations added)",
             operating.rpm,
             shown_to(3, 1e3 * deviation)
         ),
-        None => format!(
-            "No steady state at {:.0} rpm: the saw is unstable, or its deflection is beyond the linear model",
-            operating.rpm
+        (None, SteadyState::None) => {
+            format!(
+                "No steady state at {:.0} rpm: the saw is unstable",
+                operating.rpm
+            )
+        }
+        (None, state) => format!(
+            "Sawing deviation at {:.0} rpm: {}",
+            operating.rpm,
+            state.said()
         ),
     }
 }
 
-/// The largest amplitude of an excitation at the probe.
+/// The largest amplitude of an excitation at the probe, or that it is not bounded.
 fn largest(line: &ResponseLine) -> Fact {
-    let known = line.amplitude_m.iter().flatten().copied();
     let name = format!("largest at the probe, {}", line.name);
-    Fact::new(name, LENGTH.digits(4, known.reduce(f64::max)).or("none"))
+    let beyond = line.resonances.iter().map(|at| at.steady_state);
+    let beyond =
+        beyond.filter(|state| matches!(state, SteadyState::Unbounded | SteadyState::BeyondModel));
+    let known = line.amplitude_m.iter().flatten().copied();
+    let value = match beyond.min_by_key(|state| *state as u8) {
+        Some(state) => state.said().into(),
+        None => LENGTH.digits(4, known.reduce(f64::max)).or("none"),
+    };
+    Fact::new(name, value)
 }
 
 /// Amplitude of each excitation at the probe, at the first speed and at the operating speed.
@@ -106,7 +146,7 @@ fn resonances(line: &ResponseLine) -> Table {
             FREQUENCY.fixed(2, resonance.frequency_hz),
             LENGTH
                 .digits(4, resonance.amplitude_m)
-                .or("unbounded, or beyond the model"),
+                .or(resonance.steady_state.said()),
         ]
     });
     Table::new(format!("Resonances, {}", line.name), columns)

@@ -4,13 +4,13 @@ use std::f64::consts::TAU;
 
 use faer::{Col, c64};
 
-use super::family::{State, readings};
+use super::family::{Family, State};
 use super::report::FrequencyResponse;
-use super::solver::Solver;
+use super::solver::{Motion, Solver};
+use crate::model::plate::Plate;
 use crate::model::scene::rpm;
 use crate::modes::SpectrumError;
 use crate::modes::branches::even_speeds;
-use crate::stability::{Analysis, StabilityState};
 
 /// Number of evenly spaced frequencies.
 const FREQUENCIES: usize = 401;
@@ -21,45 +21,54 @@ const BESIDE: [f64; 9] = [1e-5, 1e-4, 3e-4, 1e-3, 2e-3, 4e-3, 8e-3, 1.5e-2, 3e-2
 const UNBOUNDED_N: f64 = 1e-2;
 
 impl FrequencyResponse {
-    /// Computes the response at a speed in rad/s, up to a frequency in Hz, to a force at a radius and an angle.
+    /// Computes the response at a speed, up to a frequency, both in rad/s, to a force at a radius and an angle.
     ///
     /// # Errors
     /// [`SpectrumError`].
     pub(super) fn new(
-        analysis: &Analysis,
+        plate: &Plate,
         solver: &Solver,
-        (speed, to_hz): (f64, Option<f64>),
+        motion: &Motion<'_>,
+        (speed, end): (f64, f64),
         (radius_m, angle_rad): (f64, f64),
     ) -> Result<Self, SpectrumError> {
-        let model = &analysis.model;
-        let end = to_hz.map_or(model.complete_to_rad_per_s, |hz| TAU * hz);
-        let mut frequencies = even_speeds((0.0, end), FREQUENCIES);
-        for mode in model.modes(speed)? {
-            let natural = mode.frequency_rad_per_s();
-            let beside = BESIDE.iter().flat_map(|off| [1.0 - off, 1.0 + off]);
-            frequencies.extend(beside.chain([1.0]).map(|share| share * natural));
-        }
-        frequencies.retain(|frequency| (0.0..=end).contains(frequency));
-        frequencies.sort_by(f64::total_cmp);
-        frequencies.dedup();
-        let is_stable = analysis.verdict(speed).state == StabilityState::Stable;
-        let values = model.plate.functions_at(radius_m, angle_rad);
+        let values = plate.functions_at(radius_m, angle_rad);
         let load = Col::from_fn(values.len(), |i| c64::new(values[i], 0.0));
-        let states: Vec<State> = frequencies
-            .iter()
-            .map(|frequency| State {
-                speed_rad_per_s: speed,
-                frequency_rad_per_s: *frequency,
-            })
-            .collect();
-        let beyond = solver.limit_m / UNBOUNDED_N;
-        let receptance: Vec<Option<c64>> = match is_stable {
-            true => readings(&solver.system, &load, &states, &solver.probes[..1], beyond)?
-                .into_iter()
-                .map(|read| Some(*read?.first()?).filter(|w| w.norm() <= beyond))
-                .collect(),
-            false => vec![None; states.len()],
-        };
+        let mut frequencies = even_speeds((0.0, end), FREQUENCIES);
+        let (mut receptance, mut unbounded) = (Vec::new(), Vec::new());
+        if !motion.is_unstable(speed) {
+            let mut family = Family::new(&solver.system, &load)?;
+            let read = |family: &mut Family<'_>, frequencies: &[f64]| {
+                let states = frequencies.iter().map(|frequency| State {
+                    speed_rad_per_s: speed,
+                    frequency_rad_per_s: *frequency,
+                });
+                let beyond = solver.limit_m / UNBOUNDED_N;
+                let read =
+                    family.readings(&states.collect::<Vec<_>>(), &solver.probes[..1], beyond)?;
+                let read = read.into_iter();
+                let read = read.map(|read| Some(*read?.first()?).filter(|w| w.norm() <= beyond));
+                Ok::<Vec<Option<c64>>, SpectrumError>(read.collect())
+            };
+            read(&mut family, &frequencies)?;
+            let path = |frequency| (c64::new(speed, 0.0), c64::new(0.0, 1.0) * frequency);
+            let poles = family.poles((0.0, end), path)?;
+            for (natural, _) in &poles {
+                let beside = BESIDE.iter().flat_map(|off| [1.0 - off, 1.0 + off]);
+                frequencies.extend(beside.chain([1.0]).map(|share| share * natural));
+            }
+            frequencies.retain(|frequency| (0.0..=end).contains(frequency));
+            frequencies.sort_by(f64::total_cmp);
+            frequencies.dedup();
+            receptance = read(&mut family, &frequencies)?;
+            if motion.is_conservative {
+                unbounded = poles.into_iter().map(|(natural, _)| natural).collect();
+            }
+        }
+        receptance.resize(frequencies.len(), None);
+        for natural in &unbounded {
+            receptance[frequencies.partition_point(|other| other < natural)] = None;
+        }
         let of = |value: fn(&c64) -> f64| receptance.iter().map(move |w| w.as_ref().map(value));
         Ok(FrequencyResponse {
             rpm: rpm(speed),
@@ -68,6 +77,7 @@ impl FrequencyResponse {
             frequency_hz: frequencies.iter().map(|omega| omega / TAU).collect(),
             receptance_m_per_n: of(|w| w.norm()).collect(),
             phase_deg: of(|w| w.arg().to_degrees()).collect(),
+            unbounded_hz: unbounded.iter().map(|omega| omega / TAU).collect(),
         })
     }
 }

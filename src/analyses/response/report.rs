@@ -91,8 +91,12 @@ pub struct ResponseLine {
     pub phase_deg: Vec<Option<f64>>,
     /// Amplitude at the rim at the cut.
     pub at_cut_m: Vec<Option<f64>>,
-    /// Speeds at which a natural frequency equals that of the excitation, up to the frequency to which the diagram is complete.
+    /// Speeds of the sweep at which a natural frequency equals that of the excitation, and the excitation works on the mode.
     pub resonances: Vec<Resonance>,
+    /// Largest relative change of these speeds on a larger basis; null for an excitation whose frequencies are those of the diagram,
+    /// whose error the diagram has.
+    #[serde(default)]
+    pub resonance_error: Option<f64>,
 }
 
 /// A resonance of a line.
@@ -104,8 +108,38 @@ pub struct Resonance {
     pub rpm: f64,
     /// Frequency of the force.
     pub frequency_hz: f64,
-    /// Amplitude at the probe there; null where it grows without bound or beyond the linear model, or the saw is unstable.
+    /// Amplitude at the probe there; null unless it is bounded.
     pub amplitude_m: Option<f64>,
+    /// Whether there is an amplitude, or why not.
+    #[serde(default)]
+    pub steady_state: SteadyState,
+}
+
+/// Whether a steady state exists.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SteadyState {
+    /// The amplitude is known.
+    Bounded,
+    /// Nothing dissipates the energy of the mode: the amplitude grows without bound.
+    Unbounded,
+    /// The amplitude exceeds `linear_limit_m` somewhere on the rim.
+    #[default]
+    BeyondModel,
+    /// The saw is unstable.
+    None,
+}
+
+impl SteadyState {
+    /// Words in place of an amplitude.
+    pub fn said(self) -> &'static str {
+        match self {
+            SteadyState::Bounded => "bounded",
+            SteadyState::Unbounded => "unbounded",
+            SteadyState::BeyondModel => "beyond the model",
+            SteadyState::None => "no steady state",
+        }
+    }
 }
 
 /// Deflections at the operating speed.
@@ -119,6 +153,9 @@ pub struct OperatingResponse {
     pub amplitude_m: Vec<Option<f64>>,
     /// Deviation of the board.
     pub board_deviation_m: Option<f64>,
+    /// Whether there is a deviation, or why not.
+    #[serde(default)]
+    pub steady_state: SteadyState,
 }
 
 /// Deflection at the probe for a harmonic force of one newton at the place of the side force.
@@ -138,4 +175,7 @@ pub struct FrequencyResponse {
     pub receptance_m_per_n: Vec<Option<f64>>,
     /// Phase, −180 to 180: negative if the deflection follows the force.
     pub phase_deg: Vec<Option<f64>>,
+    /// Frequencies at which the deflection grows without bound: the natural frequencies that the force excites, without damping.
+    #[serde(default)]
+    pub unbounded_hz: Vec<f64>,
 }

@@ -4,25 +4,45 @@ use std::f64::consts::TAU;
 
 use faer::{Col, c64};
 
-use super::family::{State, readings};
+use super::family::{Family, State};
 use super::load::Load;
-use super::report::{Cause, Resonance, ResponseLine};
+use super::report::{Cause, Resonance, ResponseLine, SteadyState};
 use crate::model::plate::Plate;
 use crate::model::scene::{Scene, rpm};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::SpectrumError;
 use crate::motion::transient::{at_point, linear_limit_m};
-use crate::stability::{Analysis, StabilityState};
+use crate::stability::Instability;
+
+/// Whether motions of the saw grow, and whether anything dissipates their energy.
+pub(super) struct Motion<'a> {
+    pub bands: &'a [Instability],
+    pub is_conservative: bool,
+}
+
+impl Motion<'_> {
+    /// Whether some motion grows at a speed, however slowly: then no state is steady. At the ends of a band nothing grows.
+    pub fn is_unstable(&self, speed: f64) -> bool {
+        let mut bands = self.bands.iter();
+        bands.any(|band| {
+            band.from_rad_per_s * (1.0 + END) < speed && speed < band.to_rad_per_s * (1.0 - END)
+        })
+    }
+}
 
 /// Complex amplitudes w of deflections w e^{ikΩt}.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Deflection {
+pub(super) struct Deflection {
     /// Amplitude at the probe, in m.
     at_probe: c64,
     /// Amplitude of the rim at the cut, in m.
     at_cut: c64,
 }
 
+/// Relative error of the ends of bands and of resonances.
+const END: f64 = 1e-6;
+/// Speed of slow rotation, as a share of the last speed.
+const LEAST: f64 = 1e-6;
 /// Places around the rim at which the deflection is compared with the linear limit.
 const AROUND: usize = 48;
 
@@ -50,28 +70,80 @@ impl Solver {
         }
     }
 
+    /// The deflections of a family of states under a load at some speeds, in stable motion or not; `None` where the linear model is
+    /// not valid.
+    pub fn deflections(
+        &self,
+        family: &mut Family<'_>,
+        load: &Load,
+        speeds: &[f64],
+    ) -> Result<Vec<Option<Deflection>>, SpectrumError> {
+        let last = speeds.last().copied().unwrap_or_default();
+        let states = speeds.iter().map(|speed| {
+            // A load of any order turns slowly with a blade at rest, so that free rigid motions do not follow it.
+            let speed = speed.max(LEAST * last);
+            State {
+                speed_rad_per_s: speed,
+                frequency_rad_per_s: f64::from(load.order) * speed,
+            }
+        });
+        let states: Vec<State> = states.collect();
+        let largest = speeds.iter().map(|speed| load.factor(*speed));
+        let beyond = self.limit_m / largest.fold(f64::MIN_POSITIVE, f64::max);
+        let read = family.readings(&states, &self.probes, beyond)?;
+        let pairs = read.into_iter().zip(speeds);
+        let found = pairs.map(|(read, speed)| self.within(&read?, load.factor(*speed)));
+        Ok(found.collect())
+    }
+
+    /// Resonances of a load between two speeds, ascending.
+    pub fn resonances(
+        family: &Family<'_>,
+        load: &Load,
+        range: (f64, f64),
+    ) -> Result<Vec<f64>, SpectrumError> {
+        let order = c64::new(0.0, f64::from(load.order));
+        let poles = family.poles(range, |speed| (speed, order * speed))?;
+        Ok(poles.into_iter().map(|(speed, _)| speed).collect())
+    }
+
     /// The response to a load at some speeds, of which `resonances` are some.
     pub fn line(
         &self,
-        analysis: &Analysis,
         load: &Load,
+        family: &mut Family<'_>,
         speeds: &[f64],
         resonances: &[f64],
+        motion: &Motion<'_>,
     ) -> Result<ResponseLine, SpectrumError> {
-        let deflections = self.deflections(analysis, load, speeds)?;
+        let mut deflections = self.deflections(family, load, speeds)?;
+        let order = load.order;
+        let resonances = resonances.iter().map(|speed| {
+            let place = speeds.partition_point(|other| other < speed);
+            let steady_state = match deflections[place] {
+                _ if motion.is_unstable(*speed) => SteadyState::None,
+                _ if motion.is_conservative => SteadyState::Unbounded,
+                Some(_) => SteadyState::Bounded,
+                None => SteadyState::BeyondModel,
+            };
+            if steady_state != SteadyState::Bounded {
+                deflections[place] = None;
+            }
+            Resonance {
+                rpm: rpm(*speed),
+                frequency_hz: f64::from(order) * speed / TAU,
+                amplitude_m: deflections[place].map(|found| found.at_probe.norm()),
+                steady_state,
+            }
+        });
+        let resonances = resonances.collect();
+        for (found, speed) in deflections.iter_mut().zip(speeds) {
+            found.take_if(|_| motion.is_unstable(*speed));
+        }
         let of = |value: fn(&Deflection) -> f64| -> Vec<Option<f64>> {
             let all = deflections.iter();
             all.map(|found| found.as_ref().map(value)).collect()
         };
-        let (order, amplitude_m) = (load.order, of(|w| w.at_probe.norm()));
-        let resonances = resonances.iter().map(|speed| {
-            let place = speeds.partition_point(|other| other < speed);
-            Resonance {
-                rpm: rpm(*speed),
-                frequency_hz: f64::from(order) * speed / TAU,
-                amplitude_m: amplitude_m.get(place).copied().flatten(),
-            }
-        });
         Ok(ResponseLine {
             cause: load.cause,
             order,
@@ -82,37 +154,12 @@ impl Solver {
                 Cause::Imbalance => format!("imbalance, {order}×"),
                 Cause::OscillatingForce => format!("side force, {order}×"),
             },
-            resonances: resonances.collect(),
+            resonances,
+            resonance_error: None,
             phase_deg: of(|w| w.at_probe.arg().to_degrees()),
             at_cut_m: of(|w| w.at_cut.norm()),
-            amplitude_m,
+            amplitude_m: of(|w| w.at_probe.norm()),
         })
-    }
-
-    /// The deflections under a load at some speeds; `None` where the saw is unstable or the linear model is not valid.
-    fn deflections(
-        &self,
-        analysis: &Analysis,
-        load: &Load,
-        speeds: &[f64],
-    ) -> Result<Vec<Option<Deflection>>, SpectrumError> {
-        let stable = |speed: &f64| analysis.verdict(*speed).state == StabilityState::Stable;
-        let at: Vec<usize> = (0..speeds.len()).filter(|k| stable(&speeds[*k])).collect();
-        let states: Vec<State> = at
-            .iter()
-            .map(|k| State {
-                speed_rad_per_s: speeds[*k],
-                frequency_rad_per_s: f64::from(load.order) * speeds[*k],
-            })
-            .collect();
-        let largest = speeds.iter().map(|speed| load.factor(*speed));
-        let beyond = self.limit_m / largest.fold(f64::MIN_POSITIVE, f64::max);
-        let read = readings(&self.system, &load.vector, &states, &self.probes, beyond)?;
-        let mut found = vec![None; speeds.len()];
-        for (k, read) in at.into_iter().zip(read) {
-            found[k] = read.and_then(|read| self.within(&read, load.factor(speeds[k])));
-        }
-        Ok(found)
     }
 
     /// The deflection from the readings at the probes; `None` if it is not within the linear model all around the rim.

@@ -1,13 +1,12 @@
 //! Remarks on the validity of the result.
 
-use super::report::ResponseLine;
-use crate::model::scene::rad_per_s;
+use super::report::{ResponseLine, SteadyState};
+use crate::model::scene::Scene;
 use crate::page::text::shown;
-use crate::stability::{Analysis, StabilityState};
 
 /// Remarks of the chart, and on the lines; `assumed_force_n` is the side force of a scene without an excitation.
 pub(super) fn warnings(
-    analysis: &Analysis,
+    scene: &Scene,
     assumed_force_n: Option<f64>,
     lines: &[ResponseLine],
     of_chart: Vec<String>,
@@ -19,7 +18,7 @@ pub(super) fn warnings(
             shown(force_n)
         ));
     }
-    let thickness = analysis.scene.blade().thickness_m;
+    let thickness = scene.blade().thickness_m;
     let all = lines.iter().flat_map(|line| &line.amplitude_m).flatten();
     let largest = all.copied().fold(0.0, f64::max);
     if largest > thickness {
@@ -28,23 +27,27 @@ pub(super) fn warnings(
             shown(1e3 * thickness)
         ));
     }
-    let unbounded: usize = lines
-        .iter()
-        .flat_map(|line| &line.resonances)
-        .filter(|resonance| {
-            let speed = rad_per_s(resonance.rpm);
-            let state = analysis.verdict(speed).state;
-            resonance.amplitude_m.is_none() && state == StabilityState::Stable
-        })
-        .count();
-    if unbounded > 0 {
-        let why = match analysis.model.is_conservative() {
-            true => "the scene has no damping, so that amplitudes grow without bound there",
-            false => "amplitudes exceed five thicknesses of the blade there",
-        };
-        warnings.push(format!(
-            "at {unbounded} resonances no amplitude is given: {why}"
-        ));
+    let reasons = [
+        (
+            SteadyState::Unbounded,
+            "the scene has no damping, so that amplitudes grow without bound there",
+        ),
+        (
+            SteadyState::BeyondModel,
+            "amplitudes exceed five thicknesses of the blade there",
+        ),
+        (SteadyState::None, "the saw is unstable there"),
+    ];
+    for (state, why) in reasons {
+        let all = lines.iter().flat_map(|line| &line.resonances);
+        let count = all
+            .filter(|resonance| resonance.steady_state == state)
+            .count();
+        if count > 0 {
+            warnings.push(format!(
+                "at {count} resonances no amplitude is given: {why}"
+            ));
+        }
     }
     warnings
 }

@@ -29,6 +29,19 @@ pub(crate) struct Lifting {
     pub offset_m: f64,
 }
 
+impl Lifting {
+    /// Whether a face presses on the blade where it is flat: the offset then exceeds the gap.
+    pub fn presses_on_flat_blade(&self) -> bool {
+        let beyond_left = self.gap_m + self.offset_m < 0.0;
+        let beyond_right = self.gap_m - self.offset_m < 0.0;
+        match self.side {
+            GuideSide::Both => beyond_left || beyond_right,
+            GuideSide::Left => beyond_left,
+            GuideSide::Right => beyond_right,
+        }
+    }
+}
+
 /// Number of corners of the polygon that represents an ellipse. A circle of 100 mm deviates from it by 0.06 mm.
 const ELLIPSE_CORNERS: u32 = 64;
 

@@ -30,7 +30,7 @@ impl StretchedBlade {
         self.shapes_at((radius_m, angle_rad)).transpose() * &equilibrium.coordinates
     }
 
-    /// Force of each pad that lifts off on the blade beyond its gap, in the order of the scene's guides.
+    /// Force of each pad that lifts off on the blade, by contact and film, in the order of the scene's guides.
     pub fn pad_forces_n(&self, equilibrium: &Equilibrium) -> Vec<f64> {
         let gaps = self.gaps.as_ref();
         gaps.map_or_else(Vec::new, |gaps| gaps.forces_n(&equilibrium.coordinates))

@@ -75,6 +75,8 @@ struct Point {
     radius_m: f64,
     /// Share of the point in k − k_f of its pad.
     stiffness_n_per_m: f64,
+    /// Share of the point in k_f of its pad.
+    film_n_per_m: f64,
     gap_m: f64,
     side: GuideSide,
     offset_m: f64,
@@ -109,6 +111,7 @@ impl GapPotential {
                     pad,
                     radius_m: place.0,
                     stiffness_n_per_m: share * stiffness,
+                    film_n_per_m: share * law.film_stiffness_n_per_m,
                     gap_m: law.gap_m,
                     side: law.side,
                     offset_m: law.offset_m,
@@ -182,12 +185,12 @@ impl GapPotential {
         })
     }
 
-    /// Force that each pad that lifts off exerts on the blade beyond its gap, in the order of the scene's guides.
+    /// Force that each pad that lifts off exerts on the blade by contact and film, in the order of the scene's guides.
     pub fn forces_n(&self, coordinates: &Col<f64>) -> Vec<f64> {
         let w = self.deflections(coordinates);
         let mut forces = vec![0.0; self.pads];
         for (k, point) in self.points.iter().enumerate() {
-            forces[point.pad] -= point.pressure_n(w[k]);
+            forces[point.pad] -= point.pressure_n(w[k]) + point.film_n_per_m * w[k];
         }
         forces
     }

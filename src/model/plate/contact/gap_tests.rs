@@ -118,11 +118,12 @@ fn the_whole_pad_acts_on_a_blade_that_heaves() {
                 panic!("one pad")
             };
             let whole = 2e7 - 2e6;
-            let expected = if touches {
-                -whole * (9e-5 - 4e-5) * deflection.signum()
+            let pressed = if touches {
+                whole * (9e-5 - 4e-5) * deflection.signum()
             } else {
                 0.0
             };
+            let expected = -pressed - 2e6 * deflection;
             assert!(
                 (force - expected).abs() < 1e-9 * whole,
                 "{side:?} {deflection}: {force}"
