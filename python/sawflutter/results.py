@@ -272,6 +272,16 @@ class CampbellResults(Result, CampbellReport):
         """
         return self._described("root-loci", "no two modes meet within the sweep")
 
+    def sensitivity_chart(self) -> Chart:
+        """Effects of the numbers of the scene on the first critical speed and the flutter speed.
+
+        Returns
+        -------
+        sawflutter.plot.Chart
+            A chart without panels unless :meth:`Scene.run_campbell` was asked for ``sensitivity``.
+        """
+        return self._described("sensitivity", "the sensitivities were not asked for")
+
     def _read(self) -> None:
         know_bands(self.branches, self.bands)
 
