@@ -2,9 +2,11 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use super::Measurement;
 use crate::model::scene::SceneFile;
+use crate::page::text::shown_to;
 
 /// Report of a fit (`fit.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -132,6 +134,10 @@ impl FitReport {
     /// Remarks on the validity of a fit to these frequencies.
     pub(super) fn remarks(&self, used: &Measurement) -> Vec<String> {
         let mut remarks: Vec<String> = self.misfit(used).into_iter().collect();
+        remarks.extend(
+            self.rival()
+                .map(|(start, rms_hz)| self.rival_in_words(start, rms_hz)),
+        );
         for path in &self.without_effect {
             remarks.push(format!("{path} changes no measured frequency and was kept"));
         }
@@ -160,6 +166,48 @@ impl FitReport {
         remarks
     }
 
+    /// Numbers and rms, in Hz, of the best saw of another minimum that fits about as well: its sum of squares is within the
+    /// region of confidence S ≤ S_min (1 + p/(m − p) F(p, m − p)) of the best one (Seber and Wild, *Nonlinear Regression*,
+    /// 1989, §5.4), and a number is farther from that of the best start than the width of its interval. Starts are
+    /// compared with each other, because all have the coarser basis.
+    fn rival(&self) -> Option<(&[f64], f64)> {
+        let reached = self
+            .starts
+            .iter()
+            .filter_map(|start| Some((start.to.as_deref()?, start.rms_hz?)));
+        let (best, least_hz) = reached
+            .clone()
+            .min_by(|one, other| one.1.total_cmp(&other.1))?;
+        let (free, left) = (self.parameters.len() as f64, self.degrees_of_freedom as f64);
+        let quantile = FisherSnedecor::new(free, left)
+            .ok()?
+            .inverse_cdf(self.confidence);
+        let limit_hz = least_hz * (1.0 + free / left * quantile).sqrt();
+        let is_apart = |values: &[f64]| {
+            let pairs = values.iter().zip(best).zip(&self.parameters);
+            pairs.into_iter().any(|((value, best), parameter)| {
+                let ends = parameter.interval_from.zip(parameter.interval_to);
+                ends.is_some_and(|(from, to)| (value - best).abs() > to - from)
+            })
+        };
+        reached
+            .filter(|(values, rms_hz)| *rms_hz <= limit_hz && is_apart(values))
+            .min_by(|one, other| one.1.total_cmp(&other.1))
+    }
+
+    fn rival_in_words(&self, values: &[f64], rms_hz: f64) -> String {
+        let numbers: Vec<String> = self
+            .parameters
+            .iter()
+            .zip(values)
+            .map(|(parameter, value)| format!("{} = {}", parameter.path, shown_to(4, *value)))
+            .collect();
+        format!(
+            "another saw fits about as well ({rms_hz:.3} Hz rms), with {}: the intervals hold for the best saw alone; a frequency at another speed tells them apart",
+            numbers.join(", ")
+        )
+    }
+
     /// Remark on a saw whose frequencies differ considerably from the measured ones.
     fn misfit(&self, used: &Measurement) -> Option<String> {
         let frequencies = used.rows.iter().flat_map(|row| &row.pairs);
@@ -171,5 +219,29 @@ impl FitReport {
                 self.rms_hz
             )
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// With 22 degrees of freedom and two numbers the region of confidence of 95 % reaches to 1.15 times the least rms:
+    /// F(2, 22) = 3.44.
+    #[test]
+    fn another_minimum_within_the_region_of_confidence_is_reported() {
+        let json = include_str!("../../../tests/golden/reports/fit-paper.json");
+        let report: FitReport = serde_json::from_str(json).unwrap();
+        assert_eq!(report.rival(), None);
+        let with = |radius_m: f64, ratio: f64| {
+            let mut other = report.clone();
+            other.starts[1].to = Some(vec![radius_m, 2.07e7]);
+            other.starts[1].rms_hz = Some(ratio * report.rms_hz);
+            other.rival().map(|(values, _)| values[0])
+        };
+        assert_eq!(with(0.3, 1.14), Some(0.3));
+        assert_eq!(with(0.3, 1.16), None);
+        // The interval is 0.163 to 0.225 m.
+        assert_eq!(with(0.25, 1.0), None);
     }
 }
