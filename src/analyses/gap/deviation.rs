@@ -143,9 +143,10 @@ fn basis_error(
     forces_n: &[f64],
     rpm: f64,
 ) -> Result<Option<BasisError>, GapError> {
-    let mut largest: Option<BasisError> = None;
-    for gap_factor in factors().step_by(ESTIMATED_EVERY) {
+    let gap_factors: Vec<f64> = factors().step_by(ESTIMATED_EVERY).collect();
+    let found = gap_factors.into_par_iter().map(|gap_factor| {
         let [blade, finer] = [blade, finer].map(|blade| blade.with_gaps(gap_factor));
+        let mut largest: Option<BasisError> = None;
         for force_n in forces_n.iter().copied().step_by(ESTIMATED_EVERY) {
             let Some(share) = blade.change_with(&finer, (force_n, rpm))? else {
                 continue;
@@ -160,8 +161,11 @@ fn basis_error(
                 });
             }
         }
-    }
-    Ok(largest)
+        Ok(largest)
+    });
+    let found: Vec<Option<BasisError>> = found.collect::<Result<_, GapError>>()?;
+    let found = found.into_iter().flatten();
+    Ok(found.max_by(|a, b| a.share.total_cmp(&b.share)))
 }
 
 /// The place at which the deflections at places of ascending size first exceed a limit or are not known, by bisection between the

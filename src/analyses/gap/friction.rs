@@ -3,13 +3,16 @@
 //! A pad that presses with N on the blade at a radius r, with a coefficient of friction μ, has the power μ N Ω r. A share of
 //! the power enters the blade and heats it along a circle. The temperature over the radius changes the stress in the plane, thus
 //! the deflection under the side force and the forces of the pads: the loop is repeated until the temperature no longer
-//! changes. The effect of the force of friction on the motion is neglected.
+//! changes, or it is known that it cannot settle. All numbers are those of one temperature. The effect of the force of friction on the
+//! motion is neglected.
 
+use crate::model::scene;
 use crate::model::scene::{
-    self, FrictionFile, Guide, Scene, TemperatureFile, TemperatureRow, rad_per_s, typical_value,
+    FrictionFile, Guide, Scene, TemperatureFile, TemperatureRow, rad_per_s, typical_value,
 };
 use crate::modes::{SpectrumError, Work};
 use crate::motion::stretched::StretchedError;
+use crate::page::text::shown_to;
 use crate::stability::Analysis;
 
 use super::GapError;
@@ -18,126 +21,196 @@ use super::heated_disk::{Cooling, radii_m, rises_k};
 use super::numbers::first_critical_of_linear;
 use super::pressed::{Deviation, PressedBlade};
 use super::report::{FrictionHeat, FrictionPad};
+use super::settling::{End, MOST, Settling, settled};
 
 /// Coefficient of linear thermal expansion of steel.
 const STEEL_EXPANSION_PER_K: f64 = typical_value("membrane.temperature.expansion_per_k");
-/// Relative change of the temperature at which the loop ends.
-const CONVERGED: f64 = 1e-4;
-/// Number of repetitions after which the loop ends without convergence.
-const MOST: usize = 25;
 /// Temperature rise beyond which the loop ends, because no blade survives it.
 const RUNAWAY_K: f64 = 1000.0;
+/// Number of times that the search for the speed from which heat runs away halves its interval.
+const HALVINGS: usize = 7;
 
-/// The heat of friction.
-pub(super) struct Heated {
-    pub heat: FrictionHeat,
-    /// Whether the heat of friction buckles the blade at rest with its guides in contact.
-    pub buckles: bool,
+/// The loop of friction and deflection of a saw.
+struct Loop<'a> {
+    analysis: &'a Analysis,
+    friction: FrictionFile,
+    radii_m: Vec<f64>,
+    expansion_per_k: f64,
 }
 
-impl Heated {
+/// A blade with a temperature.
+struct State {
+    deviation: Deviation,
+    power_w: f64,
+}
+
+/// A heated blade, and the end of the loop.
+struct Ended {
+    settling: Settling,
+    /// The states without heat, and with the temperature of the loop; `None` if the model is not valid.
+    cold: Option<State>,
+    hot: Option<State>,
+}
+
+impl Loop<'_> {
+    /// Repeats the loop at a speed until the temperature settles or cannot.
+    fn at(&self, rpm: f64) -> Result<Ended, GapError> {
+        let scene = &self.analysis.scene;
+        let (mut cold, mut hot) = (None, None);
+        let work = Work::of("friction", MOST);
+        let settling = settled(vec![0.0; self.radii_m.len()], RUNAWAY_K, |rise_k| {
+            let warm = self.warm(rise_k)?;
+            let resolution = self.analysis.model.plate.resolution;
+            let blade = PressedBlade::new(&warm, resolution, rpm, MODES);
+            let Some(blade) = unless_buckled(blade)? else {
+                return Ok(None);
+            };
+            let (deviation, contacts) = blade.with_contacts(scene.file().side_force_n(), rpm)?;
+            work.advance();
+            let Some(deviation) = deviation else {
+                return Ok(None);
+            };
+            let friction = &self.friction;
+            let powers = contacts.into_iter().map(|(radius_m, force_n)| {
+                let power_w = friction.coefficient * force_n * rad_per_s(rpm) * radius_m;
+                (radius_m, power_w)
+            });
+            let powers: Vec<(f64, f64)> = powers.collect();
+            let into_blade = powers
+                .iter()
+                .map(|(r, power_w)| (*r, friction.heat_share * power_w));
+            let cooling = Cooling {
+                conductivity_w_per_m_k: friction.conductivity_w_per_m_k,
+                convection_w_per_m2_k: friction.convection_w_per_m2_k,
+            };
+            let rises_k = rises_k(scene.blade(), &cooling, &into_blade.collect::<Vec<_>>());
+            let state = State {
+                deviation,
+                power_w: powers.iter().map(|(_, power_w)| power_w).sum(),
+            };
+            match rise_k.iter().all(|rise_k| *rise_k == 0.0) {
+                true => cold = Some(state),
+                false => hot = Some(state),
+            }
+            Ok::<_, GapError>(Some(rises_k))
+        })?;
+        Ok(Ended {
+            settling,
+            cold,
+            hot,
+        })
+    }
+
+    /// The scene with temperature rises at the radii of the loop, in addition to its own.
+    fn warm(&self, rise_k: &[f64]) -> Result<Scene, GapError> {
+        let scene = &self.analysis.scene;
+        let own = scene
+            .membrane()
+            .and_then(|membrane| membrane.temperature.as_ref());
+        let own_k = |r: f64| own.map_or(0.0, |own| own.rise_k(scene.blade(), r));
+        let rows = self
+            .radii_m
+            .iter()
+            .zip(rise_k)
+            .map(|(radius_m, rise_k)| TemperatureRow {
+                radius_m: *radius_m,
+                rise_k: rise_k + own_k(*radius_m),
+            });
+        heated(scene, self.expansion_per_k, rows.collect())
+    }
+
+    /// The speed in rpm from which the heat runs away, below one at which it does.
+    fn runaway_rpm(&self, rpm: f64) -> Result<f64, GapError> {
+        let (mut low, mut high) = (0.0, rpm);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            match self.at(middle)?.settling.end {
+                End::RunsAway | End::NoAnswer => high = middle,
+                End::Settled | End::Swings => low = middle,
+            }
+        }
+        Ok(high)
+    }
+}
+
+impl FrictionHeat {
     /// Repeats the loop of friction and deflection.
     ///
     /// # Errors
     /// [`GapError`].
-    pub fn new(analysis: &Analysis, friction: FrictionFile, rpm: f64) -> Result<Self, GapError> {
+    pub(super) fn new(
+        analysis: &Analysis,
+        friction: FrictionFile,
+        rpm: f64,
+    ) -> Result<Self, GapError> {
         let scene = &analysis.scene;
         let resolution = analysis.model.plate.resolution;
-        let radii_m = radii_m(scene.blade());
-        let own = scene
-            .membrane()
-            .and_then(|membrane| membrane.temperature.as_ref());
-        let expansion_per_k = own.map_or(STEEL_EXPANSION_PER_K, |own| own.expansion_per_k);
-        let own_k = |r: f64| own.map_or(0.0, |own| own.rise_k(scene.blade(), r));
-        let cooling = Cooling {
-            conductivity_w_per_m_k: friction.conductivity_w_per_m_k,
-            convection_w_per_m2_k: friction.convection_w_per_m2_k,
+        let membrane = scene.membrane();
+        let own = membrane.and_then(|membrane| membrane.temperature.as_ref());
+        let cycle = Loop {
+            analysis,
+            friction,
+            radii_m: radii_m(scene.blade()),
+            expansion_per_k: own.map_or(STEEL_EXPANSION_PER_K, |own| own.expansion_per_k),
         };
-        let mut heat = FrictionHeat {
+        let Ended {
+            settling,
+            cold,
+            hot,
+        } = cycle.at(rpm)?;
+        let end = settling.end;
+        let warm = cycle.warm(&settling.value)?;
+        let critical = unless_buckled(first_critical_of_linear(&warm, resolution))?.flatten();
+        let runaway_rpm = match end {
+            End::RunsAway | End::NoAnswer if cold.is_some() => Some(cycle.runaway_rpm(rpm)?),
+            _ => None,
+        };
+        let cold_deflection_m = cold.as_ref().map(|state| state.deviation.deviation_m);
+        let hot = hot.or(cold);
+        let deviation = hot.as_ref().map(|state| &state.deviation);
+        Ok(FrictionHeat {
             coefficient: friction.coefficient,
             heat_share: friction.heat_share,
             convection_w_per_m2_k: friction.convection_w_per_m2_k,
             conductivity_w_per_m_k: friction.conductivity_w_per_m_k,
-            expansion_per_k,
-            power_w: 0.0,
-            rise_k: vec![0.0; radii_m.len()],
-            radii_m,
-            cold_deflection_m: None,
-            deflection_m: None,
-            pad_forces_n: Vec::new(),
-            pads: Vec::new(),
+            expansion_per_k: cycle.expansion_per_k,
+            power_w: hot.as_ref().map_or(0.0, |state| state.power_w),
+            radii_m: cycle.radii_m,
+            rise_k: settling.value,
+            cold_deflection_m,
+            deflection_m: deviation.map(|at| at.deviation_m),
+            pads: pads(scene, deviation),
+            pad_forces_n: deviation.map_or_else(Vec::new, |at| at.pad_forces_n.clone()),
             cold_critical_rpm: first_critical_of_linear(scene, resolution)?.map(scene::rpm),
-            critical_rpm: None,
-            settled: false,
-            change: f64::INFINITY,
-            repetitions: 0,
-        };
-        let work = Work::of("friction", MOST);
-        let mut warm = scene.clone();
-        let mut hot = None;
-        while !heat.settled && heat.repetitions < MOST {
-            let pressed = PressedBlade::new(&warm, resolution, rpm, MODES);
-            let Some(blade) = unless_buckled(pressed)? else {
-                break;
-            };
-            let (deviation, contacts) = blade.with_contacts(scene.file().side_force_n(), rpm)?;
-            hot = deviation;
-            heat.deflection_m = hot.as_ref().map(|at| at.deviation_m);
-            if heat.repetitions == 0 {
-                heat.cold_deflection_m = heat.deflection_m;
-            }
-            let powers = contacts.into_iter().map(|(radius_m, force_n)| {
-                (
-                    radius_m,
-                    friction.coefficient * force_n * rad_per_s(rpm) * radius_m,
-                )
-            });
-            let powers: Vec<(f64, f64)> = powers.collect();
-            heat.power_w = powers.iter().map(|(_, power_w)| power_w).sum();
-            let into_blade = powers
-                .iter()
-                .map(|(r, power_w)| (*r, friction.heat_share * power_w));
-            let rise_k = rises_k(scene.blade(), &cooling, &into_blade.collect::<Vec<_>>());
-            let pairs = rise_k.iter().zip(&heat.rise_k);
-            let change_k = pairs
-                .map(|(new, old)| (new - old).abs())
-                .fold(0.0, f64::max);
-            let peak_k = rise_k.iter().copied().fold(0.0, f64::max);
-            heat.change = if peak_k > 0.0 { change_k / peak_k } else { 0.0 };
-            heat.settled = heat.change <= CONVERGED;
-            heat.rise_k = rise_k;
-            heat.repetitions += 1;
-            work.advance();
-            if hot.is_none() || peak_k > RUNAWAY_K {
-                break;
-            }
-            let rows = heat.radii_m.iter().zip(&heat.rise_k);
-            let table = rows.map(|(radius_m, rise_k)| TemperatureRow {
-                radius_m: *radius_m,
-                rise_k: rise_k + own_k(*radius_m),
-            });
-            warm = heated(scene, expansion_per_k, table.collect())?;
-        }
-        let critical = unless_buckled(first_critical_of_linear(&warm, resolution))?;
-        heat.pads = pads(scene, hot.as_ref());
-        heat.pad_forces_n = hot.map_or_else(Vec::new, |at| at.pad_forces_n);
-        heat.critical_rpm = critical.flatten().map(scene::rpm);
-        Ok(Heated {
-            heat,
-            buckles: critical.is_none(),
+            critical_rpm: critical.filter(|_| end == End::Settled).map(scene::rpm),
+            settled: end == End::Settled,
+            swings: end == End::Swings,
+            runaway_rpm,
+            change: settling.change,
+            repetitions: settling.repetitions,
         })
     }
 
     /// Remark on the validity of the numbers.
-    pub fn warning(&self) -> Option<&'static str> {
-        if self.buckles {
-            return Some(
-                "the heat of friction buckles the blade at rest: the deflection is that of the last repetition before, and there is no critical speed",
-            );
+    pub(super) fn warning(&self) -> Option<String> {
+        if self.settled {
+            return None;
         }
-        (!self.heat.settled).then_some(
-            "the temperature of friction does not settle: heat, deflection and pad forces raise each other, and the numbers of friction are those of the last repetition",
-        )
+        let last = "the numbers of friction are those of its last temperature, and there is no critical speed";
+        Some(match self.runaway_rpm {
+            Some(rpm) => format!(
+                "the heat of friction runs away from {} rpm on: heat, deflection and pad forces raise each other, or the heat buckles the \
+                 blade; {last}",
+                shown_to(3, rpm)
+            ),
+            None if self.swings => format!(
+                "the temperature of friction swings between two states, because a pad touches the blade only while it is cold, or only while \
+                 it is hot; {last}"
+            ),
+            None => format!(
+                "the model of the blade between its pads is not valid under this force; {last}"
+            ),
+        })
     }
 }
 

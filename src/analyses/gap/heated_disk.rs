@@ -19,17 +19,32 @@ pub(super) struct Cooling {
     pub convection_w_per_m2_k: f64,
 }
 
-/// Number of elements. With it the temperature of the built-in blade is that of the closed form to 0.2 %.
-const ELEMENTS: usize = 60;
+/// Number of elements. With it the temperature of the built-in blade is that of the closed form to 0.3 % for heat transfer coefficients
+/// from that of still air to that of sprayed water, 6 to 2000 W/m²K.
+const ELEMENTS: usize = SHOWN * FINER;
+/// Number of intervals between radii of the report, and of elements in each.
+const SHOWN: usize = 60;
+const FINER: usize = 8;
+
+/// Radii of the temperatures, some of the nodes.
+pub(super) fn radii_m(blade: &Blade) -> Vec<f64> {
+    even_speeds((blade.inner_radius_m, blade.outer_radius_m), SHOWN + 1)
+}
 
 /// Radii of the nodes, at the ends of the elements.
-pub(super) fn radii_m(blade: &Blade) -> Vec<f64> {
+fn nodes_m(blade: &Blade) -> Vec<f64> {
     even_speeds((blade.inner_radius_m, blade.outer_radius_m), ELEMENTS + 1)
 }
 
 /// Temperature rises at [`radii_m`] in K, under sources of a power in W at a radius in m.
 pub(super) fn rises_k(blade: &Blade, cooling: &Cooling, sources: &[(f64, f64)]) -> Vec<f64> {
-    let radii = radii_m(blade);
+    let rises = at_nodes(blade, cooling, sources);
+    rises.into_iter().step_by(FINER).collect()
+}
+
+/// Temperature rises at all nodes.
+fn at_nodes(blade: &Blade, cooling: &Cooling, sources: &[(f64, f64)]) -> Vec<f64> {
+    let radii = nodes_m(blade);
     let nodes = radii.len();
     let (mut diagonal, mut beside, mut load) =
         (vec![0.0; nodes], vec![0.0; nodes], vec![0.0; nodes]);
@@ -84,27 +99,36 @@ mod tests {
         convection_w_per_m2_k: 60.0,
     };
 
+    /// Independent value: the closed form. The Biot numbers 2α(b − a)²/kh of conduction along the blade differ by a factor of 300.
     #[test]
     fn the_temperature_is_that_of_the_closed_form() {
         let scene = Scene::paper();
         let blade = scene.blade();
-        let disk = CooledDisk {
-            inner_radius_m: blade.inner_radius_m,
-            outer_radius_m: blade.outer_radius_m,
-            thickness_m: blade.thickness_m,
-            conductivity_w_per_m_k: 45.0,
-            convection_w_per_m2_k: 60.0,
-        };
-        let sources = [(0.18, 30.0), (0.27, 50.0)];
-        let rises = rises_k(blade, &COOLING, &sources);
-        let exact = |r: f64| -> f64 { sources.iter().map(|(c, p)| disk.rise_k(r, *p, *c)).sum() };
-        let peak = exact(0.27);
-        for (r, found) in radii_m(blade).into_iter().zip(&rises) {
-            assert!(
-                (found - exact(r)).abs() < 3e-3 * peak,
-                "{r}: {found} {}",
-                exact(r)
-            );
+        for convection_w_per_m2_k in [6.0, 60.0, 2000.0] {
+            let cooling = Cooling {
+                convection_w_per_m2_k,
+                ..COOLING
+            };
+            let disk = CooledDisk {
+                inner_radius_m: blade.inner_radius_m,
+                outer_radius_m: blade.outer_radius_m,
+                thickness_m: blade.thickness_m,
+                conductivity_w_per_m_k: 45.0,
+                convection_w_per_m2_k,
+            };
+            let sources = [(0.18, 30.0), (0.27, 50.0)];
+            let rises = rises_k(blade, &cooling, &sources);
+            let exact =
+                |r: f64| -> f64 { sources.iter().map(|(c, p)| disk.rise_k(r, *p, *c)).sum() };
+            let peak = exact(0.27);
+            for (r, found) in radii_m(blade).into_iter().zip(&rises) {
+                let error = (found - exact(r)).abs() / peak;
+                assert!(
+                    error < 3e-3,
+                    "{convection_w_per_m2_k} {r}: {found} {}",
+                    exact(r)
+                );
+            }
         }
     }
 
@@ -113,8 +137,8 @@ mod tests {
     fn the_power_is_that_of_convection() {
         let scene = Scene::paper();
         let blade = scene.blade();
-        let rises = rises_k(blade, &COOLING, &[(0.15, 20.0), (0.3, 60.0)]);
-        let radii = radii_m(blade);
+        let rises = at_nodes(blade, &COOLING, &[(0.15, 20.0), (0.3, 60.0)]);
+        let radii = nodes_m(blade);
         // ∫ T r dr of straight pieces.
         let piece = |k: usize| {
             let ([r, s], [t, u]) = ([radii[k], radii[k + 1]], [rises[k], rises[k + 1]]);

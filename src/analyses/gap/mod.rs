@@ -36,6 +36,7 @@ mod oscillators;
 mod outline;
 mod pressed;
 mod report;
+mod settling;
 
 pub use amplitude::equivalent_share;
 pub(crate) use numbers::{GapCase, GapNumbers};
@@ -47,7 +48,6 @@ pub use report::{AtAmplitude, BasisError, DeviationMap, FrictionHeat, FrictionPa
 
 use amplitude::AmplitudeChart;
 use deviation::deviation_map;
-use friction::Heated;
 use oscillation::oscillation;
 use oscillators::Oscillators;
 
@@ -187,12 +187,12 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
     let heated = scene
         .file()
         .friction
-        .map(|friction| Heated::new(&analysis, friction, speed_rpm))
+        .map(|friction| FrictionHeat::new(&analysis, friction, speed_rpm))
         .transpose()?;
     let chart = analysis.report();
     let mut warnings = chart.warnings;
     warnings.extend(shifting(scene));
-    warnings.extend(heated.as_ref().and_then(Heated::warning).map(String::from));
+    warnings.extend(heated.as_ref().and_then(FrictionHeat::warning));
     warnings.extend(oscillation.iter().flat_map(Oscillation::warnings));
     warnings.extend(deviation.basis_error.and_then(BasisError::warning));
     Ok(GapReport {
@@ -210,7 +210,7 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
         half_way_amplitude_m: amplitude.half_way_m,
         deviation,
         oscillation,
-        friction: heated.map(|heated| heated.heat),
+        friction: heated,
         warnings,
     })
 }

@@ -84,13 +84,19 @@ pub struct FrictionHeat {
     pub pads: Vec<FrictionPad>,
     /// First critical speed of the linear chart without this heat.
     pub cold_critical_rpm: Option<f64>,
-    /// First critical speed of the linear chart with this heat; null also if the heat buckles the blade.
+    /// First critical speed of the linear chart with this heat; null also if the temperature does not settle.
     pub critical_rpm: Option<f64>,
-    /// Whether the temperature has settled; otherwise the numbers are those of the last repetition.
+    /// Whether the temperature has settled; otherwise the numbers are those of the last temperature with which the blade has a deflection.
     pub settled: bool,
-    /// Last change of the temperature, relative to its largest value.
+    /// Whether the temperature swings between two states, because power and deflection have a jump between them.
+    #[serde(default)]
+    pub swings: bool,
+    /// Speed from which the heat runs away or buckles the blade, to 1 %; null if it does not at the speed of the map.
+    #[serde(default)]
+    pub runaway_rpm: Option<f64>,
+    /// Difference of the temperature of the power from this one, relative to its largest value.
     pub change: f64,
-    /// Number of repetitions of the loop of temperature and deflection.
+    /// Number of temperatures for which the loop computed deflection and power.
     pub repetitions: usize,
 }
 

@@ -403,7 +403,7 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
     });
     let analysis = Analysis::new(&scene.unwrap()).unwrap();
     let friction = FrictionFile::of(0.2);
-    let heat = Heated::new(&analysis, friction, 2000.0).unwrap().heat;
+    let heat = FrictionHeat::new(&analysis, friction, 2000.0).unwrap();
     assert!(heat.settled && heat.repetitions > 1, "{heat:?}");
     let force_n = heat.pad_forces_n[0].abs();
     // The spring of the pad is pressed in by its force.
@@ -431,10 +431,30 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
     let [cold, hot] = [heat.cold_critical_rpm, heat.critical_rpm].map(Option::unwrap);
     assert!((hot / cold - 1.0).abs() > 1e-3, "{hot} {cold}");
 
-    // Ten times the friction buckles the blade: it has deflections, but no critical speed.
-    let found = Heated::new(&analysis, FrictionFile::of(2.0), 2000.0).unwrap();
-    let heat = &found.heat;
-    assert!(found.buckles && heat.critical_rpm.is_none(), "{heat:?}");
+    // Ten times the friction buckles the blade: it has deflections, but no critical speed. Power and force still belong together, and
+    // below the speed of the runaway the temperature settles.
+    let many = FrictionFile::of(2.0);
+    let heat = FrictionHeat::new(&analysis, many, 2000.0).unwrap();
+    assert!(!heat.settled && heat.critical_rpm.is_none(), "{heat:?}");
+    let power_w = 2.0 * heat.pad_forces_n[0].abs() * rad_per_s(2000.0) * 0.17;
+    assert!(
+        (heat.power_w / power_w - 1.0).abs() < 1e-9,
+        "{}",
+        heat.power_w
+    );
+    let runaway = heat.runaway_rpm.unwrap();
+    assert!(heat.warning().unwrap().contains("runs away from"));
+    let below = FrictionHeat::new(&analysis, many, 0.95 * runaway).unwrap();
+    assert!(
+        below.settled && below.runaway_rpm.is_none(),
+        "{runaway} {below:?}"
+    );
+    assert!(
+        !FrictionHeat::new(&analysis, many, 1.02 * runaway)
+            .unwrap()
+            .settled,
+        "{runaway}"
+    );
 }
 
 /// A blade on three pads heaves without force, so that pads with one common offset move it by this offset.

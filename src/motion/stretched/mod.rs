@@ -230,26 +230,40 @@ impl StretchedBlade {
 
     /// Gradient ∂V/∂p, in N/√kg.
     fn residual(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Result<Col<f64>, StretchedError> {
+        Ok(self.residual_with(p, &self.stretching.tension(p)?, speed_rad_per_s))
+    }
+
+    /// As [`StretchedBlade::residual`], with the tension of p.
+    fn residual_with(&self, p: &Col<f64>, tension: &Col<f64>, speed_rad_per_s: f64) -> Col<f64> {
         let elastic = self.system.stiffness_at(speed_rad_per_s) * p;
-        let mut rest = elastic + self.stretching.gradient(p)? - &self.force;
+        let mut rest = elastic + self.stretching.gradient_with(p, tension) - &self.force;
         if let Some(gaps) = &self.gaps {
             rest += gaps.gradient(p);
         }
-        Ok(rest)
+        rest
     }
 
     /// Second derivatives ∂²V/∂p², in 1/s².
     fn hessian(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Result<Mat<f64>, StretchedError> {
-        Ok(self.system.stiffness_at(speed_rad_per_s) + self.added_stiffness(p)?)
+        Ok(self.hessian_with(p, &self.stretching.tension(p)?, speed_rad_per_s))
+    }
+
+    /// As [`StretchedBlade::hessian`], with the tension of p.
+    fn hessian_with(&self, p: &Col<f64>, tension: &Col<f64>, speed_rad_per_s: f64) -> Mat<f64> {
+        self.system.stiffness_at(speed_rad_per_s) + self.added_with(p, tension)
     }
 
     /// Stiffness of stretching and of pads that lift off, in 1/s².
     fn added_stiffness(&self, p: &Col<f64>) -> Result<Mat<f64>, StretchedError> {
-        let stretching = self.stretching.hessian(p)?;
-        Ok(match &self.gaps {
+        Ok(self.added_with(p, &self.stretching.tension(p)?))
+    }
+
+    fn added_with(&self, p: &Col<f64>, tension: &Col<f64>) -> Mat<f64> {
+        let stretching = self.stretching.hessian_with(p, tension);
+        match &self.gaps {
             Some(gaps) => stretching + gaps.hessian(p),
             None => stretching,
-        })
+        }
     }
 
     /// Derivative ∂²V/∂p∂Ω of the gradient by the speed.

@@ -41,13 +41,14 @@ impl StretchedBlade {
         self.not_loose()?;
         let size = self.size();
         let mut p = from.clone();
-        let mut energy = self.potential_j(&p, speed_rad_per_s)?;
+        let mut tension = self.stretching.tension(&p)?;
+        let mut energy = self.potential_with(&p, &tension, speed_rad_per_s);
         for _ in 0..STEPS {
             let order = p.nrows();
-            let hessian = self.hessian(&p, speed_rad_per_s)?;
+            let hessian = self.hessian_with(&p, &tension, speed_rad_per_s);
             let modes = SymmetricEigen::new(hessian.as_ref());
             let modes = modes.map_err(SpectrumError::at(speed_rad_per_s))?;
-            let rest = self.residual(&p, speed_rad_per_s)?;
+            let rest = self.residual_with(&p, &tension, speed_rad_per_s);
             let along = modes.vectors.transpose() * &rest;
             let softest = SOFTEST * modes.values[order - 1].abs();
             let shares = Col::from_fn(order, |k| along[k] / modes.values[k].abs().max(softest));
@@ -81,12 +82,13 @@ impl StretchedBlade {
             let mut share = 1.0;
             loop {
                 let next = &p + Scale(share) * &step;
-                let lower = self.potential_j(&next, speed_rad_per_s)?;
+                let tensed = self.stretching.tension(&next)?;
+                let lower = self.potential_with(&next, &tensed, speed_rad_per_s);
                 // Where the potential is nearly constant, such as just above a pitchfork, its last digits are
                 // rounding errors of the stiffest mode.
                 let rounding = ROUNDING * modes.values[order - 1].abs() * next.squared_norm_l2();
                 if lower <= energy + 1e-4 * share * slope.min(0.0) + rounding {
-                    (p, energy) = (next, lower);
+                    (p, tension, energy) = (next, tensed, lower);
                     break;
                 }
                 share *= 0.5;
@@ -100,8 +102,14 @@ impl StretchedBlade {
 
     /// Potential V, in J.
     pub fn potential_j(&self, p: &Col<f64>, speed_rad_per_s: f64) -> Result<f64, StretchedError> {
+        Ok(self.potential_with(p, &self.stretching.tension(p)?, speed_rad_per_s))
+    }
+
+    /// As [`StretchedBlade::potential_j`], with the tension of p.
+    fn potential_with(&self, p: &Col<f64>, tension: &Col<f64>, speed_rad_per_s: f64) -> f64 {
         let elastic = p.transpose() * (self.system.stiffness_at(speed_rad_per_s) * p);
         let of_gaps = self.gaps.as_ref().map_or(0.0, |gaps| gaps.energy_j(p));
-        Ok(0.5 * elastic + self.stretching.energy_j(p)? + of_gaps - self.force.transpose() * p)
+        let stretching = self.stretching.energy_with(p, tension);
+        0.5 * elastic + stretching + of_gaps - self.force.transpose() * p
     }
 }

@@ -58,8 +58,7 @@ impl ReducedStretching {
     /// # Errors
     /// [`StretchingError::Length`].
     pub fn energy_j(&self, coordinates: &Col<f64>) -> Result<f64, StretchingError> {
-        let products = self.products(coordinates)?;
-        Ok(0.5 * (products.transpose() * (&self.quartic * &products)))
+        Ok(self.energy_with(coordinates, &self.tension(coordinates)?))
     }
 
     /// ∂U₄/∂p, in N/√kg.
@@ -67,8 +66,7 @@ impl ReducedStretching {
     /// # Errors
     /// [`StretchingError::Length`].
     pub fn gradient(&self, coordinates: &Col<f64>) -> Result<Col<f64>, StretchingError> {
-        let tension = &self.quartic * self.products(coordinates)?;
-        Ok(self.symmetric(&tension) * coordinates)
+        Ok(self.gradient_with(coordinates, &self.tension(coordinates)?))
     }
 
     /// ∂²U₄/∂p², in 1/s², symmetric.
@@ -76,8 +74,34 @@ impl ReducedStretching {
     /// # Errors
     /// [`StretchingError::Length`].
     pub fn hessian(&self, coordinates: &Col<f64>) -> Result<Mat<f64>, StretchingError> {
-        let tension = &self.quartic * self.products(coordinates)?;
-        let mut hessian = self.symmetric(&tension);
+        Ok(self.hessian_with(coordinates, &self.tension(coordinates)?))
+    }
+
+    /// Tension Qz of each pair, with which [`ReducedStretching::energy_with`] and others need no product of order r⁴.
+    ///
+    /// # Errors
+    /// [`StretchingError::Length`].
+    pub fn tension(&self, coordinates: &Col<f64>) -> Result<Col<f64>, StretchingError> {
+        Ok(&self.quartic * self.products(coordinates)?)
+    }
+
+    /// U₄, in J, with the tension of the same coordinates.
+    pub fn energy_with(&self, coordinates: &Col<f64>, tension: &Col<f64>) -> f64 {
+        let pairs = pairs(self.order).zip(tension.iter());
+        let sum: f64 = pairs
+            .map(|((a, b), tension)| coordinates[a] * coordinates[b] * tension)
+            .sum();
+        0.5 * sum
+    }
+
+    /// ∂U₄/∂p, in N/√kg, with the tension of the same coordinates.
+    pub fn gradient_with(&self, coordinates: &Col<f64>, tension: &Col<f64>) -> Col<f64> {
+        self.symmetric(tension) * coordinates
+    }
+
+    /// ∂²U₄/∂p², in 1/s², symmetric, with the tension of the same coordinates.
+    pub fn hessian_with(&self, coordinates: &Col<f64>, tension: &Col<f64>) -> Mat<f64> {
+        let mut hessian = self.symmetric(tension);
         let p = coordinates;
         // The derivative ∂z/∂pₐ of the products z has one nonzero entry for each b, so that Q ∂z/∂pₐ is a sum
         // of r columns of Q.
@@ -103,7 +127,7 @@ impl ReducedStretching {
                 }
             }
         }
-        Ok(hessian)
+        hessian
     }
 
     /// Products z of the coordinates p.
