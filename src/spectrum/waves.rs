@@ -6,7 +6,7 @@
 //!
 //! (A − B F⁻¹ C)(λ) = K̃ + λC̃ + λ²M̃ + λ³s₃ + λ⁴s₄ + …
 //!
-//! (`series`, `frame`, `whole`), at the nodes of a Chebyshev series in the speed (`over_speed`). No eigenproblem of
+//! (`elimination`), at the nodes of a Chebyshev series in the speed (`over_speed`). No eigenproblem of
 //! the full matrices is needed. The eigenvalues are those of all terms together (`pair`, `roots`), or one of them
 //! (`newton`); λ is in units of the window, the frequency up to which the eigenvalues are wanted.
 
@@ -15,28 +15,24 @@ use std::borrow::Cow;
 use faer::{Mat, Scale};
 
 mod blade;
-mod frame;
+mod elimination;
 mod near;
 mod newton;
 mod over_speed;
 mod pair;
 mod roots;
-mod series;
 #[cfg(test)]
 mod tests;
-mod whole;
 
 use blade::Saw;
-use frame::Frame;
+use elimination::Elimination;
 use near::Near;
 pub use over_speed::WaveModel;
-use whole::Whole;
 
 use super::component::Component;
 use super::error::SpectrumError;
 use super::vectors::orthonormal;
 use crate::plate::Plate;
-use series::Series;
 
 /// Waves up to this multiple of the window are kept: the series in λ converges as the inverse powers of it.
 const CUT: f64 = 2.5;
@@ -60,36 +56,52 @@ pub fn models(
         let whole = |component| WaveModel::whole(component, range, window_rad_per_s);
         return components.iter().map(whole).collect();
     }
-    Ok(reduced(plate, components, range, window_rad_per_s)?.components())
+    let by_waves = ByWaves::new(plate, range, window_rad_per_s);
+    let mut found = Vec::new();
+    for component in components {
+        found.extend(by_waves.reduced(component)?.components());
+    }
+    Ok(found)
 }
 
-/// The reduced model of a plate as a whole, see [`models`].
+/// The reduced model of a component as a whole, see [`models`].
 ///
 /// # Errors
 /// [`SpectrumError::Cancelled`].
 pub fn reduced(
     plate: &Plate,
-    components: &[Component],
+    component: &Component,
     range: (f64, f64),
     window_rad_per_s: f64,
 ) -> Result<WaveModel, SpectrumError> {
-    let cut = (window_rad_per_s, cut(plate, window_rad_per_s));
-    let saw = Saw::new(plate, window_rad_per_s);
-    // More waves are far at rest than at any other speed, so that more dampers are strong.
-    let dampers = Near::new(&saw, (0.0, 0.0), cut);
-    let near = Near::new(&saw, range, cut).with_dampers_of(dampers);
-    let unknowns = near.diameters();
-    let rigid = components.iter().map(|c| c.full.free_rigid.len()).sum();
-    let scale = (window_rad_per_s, rigid);
-    match components {
-        [only] if saw.has_other_coupling => {
-            let whole = Whole::new(&saw, &only.full, &near, window_rad_per_s);
-            WaveModel::of(&|speed| whole.reduced(speed), range, unknowns, scale)
+    ByWaves::new(plate, range, window_rad_per_s).reduced(component)
+}
+
+/// A saw by waves and dampers, those of them that are kept, and the range and window for which they are.
+struct ByWaves {
+    saw: Saw,
+    near: Near,
+    range: (f64, f64),
+    window: f64,
+}
+
+impl ByWaves {
+    fn new(plate: &Plate, range: (f64, f64), window: f64) -> Self {
+        let saw = Saw::new(plate, window);
+        ByWaves {
+            near: Near::new(&saw, range, cut(plate, window)),
+            saw,
+            range,
+            window,
         }
-        _ => {
-            let frame = Frame::new(&saw, &near, window_rad_per_s);
-            WaveModel::of(&|speed| frame.reduced(speed), range, unknowns, scale)
-        }
+    }
+
+    fn reduced(&self, component: &Component) -> Result<WaveModel, SpectrumError> {
+        let elimination = Elimination::new(&self.saw, component, &self.near, self.window);
+        let unknowns = elimination.diameters.clone();
+        let scale = (self.window, component.full.free_rigid.len());
+        let reduced = |speed| elimination.reduced(speed);
+        WaveModel::of(&reduced, self.range, unknowns, scale)
     }
 }
 
@@ -119,11 +131,11 @@ impl WaveModel {
         };
         let order = system.order();
         let quadratic = |speed| {
-            let mut series = Series::default();
-            series.0[0] = Some(Scale(window.powi(-2)) * system.stiffness_at(speed));
-            series.0[1] = Some(Scale(window.recip()) * system.velocity_at(speed));
-            series.0[2] = Some(Mat::identity(order, order));
-            series
+            vec![
+                Scale(window.powi(-2)) * system.stiffness_at(speed),
+                Scale(window.recip()) * system.velocity_at(speed),
+                Mat::identity(order, order),
+            ]
         };
         let rigid = component.full.free_rigid.len();
         WaveModel::of(&quadratic, range, vec![None; order], (window, rigid))

@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use faer::Mat;
 use rayon::prelude::*;
 
-use super::series::{Series, TERMS};
 use crate::spectrum::error::SpectrumError;
 use crate::spectrum::work::Cancellation;
 
@@ -26,7 +25,7 @@ pub struct WaveModel {
     pub(super) window: f64,
     /// Number of free rigid motions, each with λ = 0 at most twice.
     pub(super) rigid: usize,
-    /// Number of terms L₀, L₁, … that are not zero.
+    /// Number of terms L₀, L₁, ….
     terms: usize,
     /// Their entries, one matrix after another, by degree.
     coefficients: Mat<f64>,
@@ -38,7 +37,7 @@ impl WaveModel {
     /// # Errors
     /// [`SpectrumError::Cancelled`].
     pub(super) fn of(
-        reduced: &(dyn Fn(f64) -> Series + Sync),
+        reduced: &(dyn Fn(f64) -> Vec<Mat<f64>> + Sync),
         range: (f64, f64),
         diameters: Vec<Option<usize>>,
         (window, rigid): (f64, usize),
@@ -52,15 +51,13 @@ impl WaveModel {
                 0.5 * (from + to) + 0.5 * (to - from) * angle(k).cos(),
             ))
         };
-        let at_nodes: Result<Vec<Series>, SpectrumError> =
+        let at_nodes: Result<Vec<Vec<Mat<f64>>>, SpectrumError> =
             (0..NODES).into_par_iter().map(at_node).collect();
         let at_nodes = at_nodes?;
-        let is_zero = |power: &usize| at_nodes.iter().all(|series| series.term(*power).is_none());
-        let terms = (0..TERMS).find(is_zero).unwrap_or(TERMS);
+        let terms = at_nodes.first().map_or(0, Vec::len);
         let values = Mat::from_fn(terms * size * size, NODES, |row, node| {
             let (power, entry) = (row / (size * size), row % (size * size));
-            let term = at_nodes[node].term(power);
-            term.map_or(0.0, |term| term[(entry % size, entry / size)])
+            at_nodes[node][power][(entry % size, entry / size)]
         });
         let weights = Mat::from_fn(NODES, NODES, |node, degree| {
             let share = if degree == 0 { 1.0 } else { 2.0 } / NODES as f64;

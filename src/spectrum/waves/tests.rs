@@ -58,8 +58,9 @@ fn newton_finds_the_eigenvalue_next_to_an_expected_one() {
     });
     let plate = Plate::new(&scene.unwrap(), RESOLUTION);
     let to = rad_per_s(TO_RPM);
-    let model = reduced(&plate, &Component::of(&plate), (0.0, to), 2.0 * to).unwrap();
-    let system = &Component::of(&plate)[0].full;
+    let component = &Component::of(&plate)[0];
+    let model = reduced(&plate, component, (0.0, to), 2.0 * to).unwrap();
+    let system = &component.full;
     let speed = 0.4 * to;
     for (lambda, x) in companion_eigenpairs(system, speed).unwrap().iter().take(8) {
         let expected = lambda * c64::new(1.0 + 1e-3, 1e-3);
