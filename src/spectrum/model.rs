@@ -18,13 +18,14 @@ use super::critical::{NamedCriticalSpeed, searched_range};
 use super::derivative;
 use super::error::SpectrumError;
 use super::full_model::FullModel;
-use super::guided_reduction::{Guided, of_guided};
+use super::guided_reduction::{Guided, heights, of_guided};
 use super::interval::{interval_at, states_at};
 use super::mode::{Mode, ModeKind, classify, is_seen};
 use super::mode_name::ModeName;
 use super::projection::Projection;
 use super::scale::frequency_scale;
 use super::structured::LARGE;
+use super::waves::{self, WaveModel};
 use super::work::{Cancellation, WorkCounters};
 
 mod described;
@@ -156,6 +157,9 @@ impl SpectralModel {
         if model.complete_to_rad_per_s.is_infinite() {
             model.complete_to_rad_per_s = model.twelfth_frequency(range)?;
         }
+        if strategy != Strategy::Dense && !model.is_conservative() {
+            model.use_waves(range)?;
+        }
         if model.reflected_to_rad_per_s == 0.0 {
             model.reflected_to_rad_per_s = model.complete_to_rad_per_s;
         }
@@ -169,7 +173,38 @@ impl SpectralModel {
         }
     }
 
-    /// Projects each component on the low modes at a few speeds.
+    /// Selects the reduced model by waves for every component of a damped blade.
+    fn use_waves(&mut self, range: (f64, f64)) -> Result<(), SpectrumError> {
+        let range = searched_range(&self.critical, range);
+        let window = self.complete_to_rad_per_s;
+        for component in &mut self.components {
+            let modes = waves::modes(&self.plate, component, range, window)?;
+            component.solution = Solution::Waves(Box::new(modes));
+        }
+        Ok(())
+    }
+
+    /// Reduced models of the components of a damped blade, or of blocks into which they decouple further, for a range of speeds.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub(crate) fn wave_models(&self, range: (f64, f64)) -> Result<Vec<WaveModel>, SpectrumError> {
+        let mut found = Vec::new();
+        for component in &self.components {
+            match &component.solution {
+                Solution::Waves(modes) => found.extend(modes.model.components()),
+                _ => {
+                    let window = self.complete_to_rad_per_s;
+                    let modes = waves::modes(&self.plate, component, range, window)?;
+                    found.extend(modes.model.components());
+                }
+            }
+        }
+        Ok(found)
+    }
+
+    /// Projects each component on the low modes at a few speeds; with damping only finds up to which frequency modes are
+    /// needed.
     fn reduce(&mut self, range: (f64, f64), strategy: Strategy) -> Result<(), SpectrumError> {
         let range = searched_range(&self.critical, range);
         let scale = frequency_scale(&self.plate);
@@ -183,6 +218,11 @@ impl SpectralModel {
                 scale,
                 critical,
             };
+            if !component.full.is_conservative() {
+                let heights = heights(guided, range, counters)?;
+                (self.complete_to_rad_per_s, self.reflected_to_rad_per_s) = heights;
+                continue;
+            }
             let found = of_guided(guided, range, strategy, counters)?;
             component.solution = Solution::Projected(found.intervals);
             self.complete_to_rad_per_s = found.complete_to_rad_per_s;

@@ -9,13 +9,14 @@ use faer::{Mat, Scale};
 use super::near::STRONG;
 use crate::linalg::SymmetricEigen;
 use crate::plate::Plate;
+use crate::spectrum::component::Component;
 use crate::system::GyroscopicSystem;
 
 /// Matrices of one number of nodal diameters, cosines before sines.
 pub struct Block {
     /// Number of nodal diameters n.
     pub diameters: usize,
-    /// Index of the first unknown in the basis of the plate.
+    /// Index of the first unknown in the component.
     pub first: usize,
     /// Number J of radial functions.
     pub radial: usize,
@@ -42,28 +43,31 @@ impl Block {
     }
 }
 
-/// A saw by waves and dampers.
+/// A component of a saw by waves and dampers.
 pub struct Saw {
-    /// Blocks of n = 0 … n_max.
+    /// Blocks by number of nodal diameters.
     pub blocks: Vec<Block>,
     /// Columns P of the dampers fixed in space, hC = PPᵀ with the top h of the window, N × r.
     pub dampers: Mat<f64>,
 }
 
 impl Saw {
-    /// Blocks and dampers of a plate for a window in 1/s. The trace of what the columns leave out, relative to the stiffness of the
-    /// free blade plus h², is at most [`COLUMNS`].
-    pub fn new(plate: &Plate, window: f64) -> Self {
-        let block = |n: usize| Block {
-            diameters: n,
-            first: plate.offset(n),
-            radial: plate.radial_functions(),
-            system: GyroscopicSystem::of_harmonic(plate, n),
-        };
-        let blocks: Vec<Block> = (0..=plate.max_diameters()).map(block).collect();
+    /// Blocks and dampers of a component of a plate for a window in 1/s. The trace of what the columns leave out, relative to the
+    /// stiffness of the free blade plus h², is at most [`COLUMNS`].
+    pub fn new(plate: &Plate, component: &Component, window: f64) -> Self {
+        let own = component.first..component.first + component.full.order();
+        let blocks: Vec<Block> = (0..=plate.max_diameters())
+            .filter(|n| own.contains(&plate.offset(*n)))
+            .map(|n| Block {
+                diameters: n,
+                first: plate.offset(n) - component.first,
+                radial: plate.radial_functions(),
+                system: GyroscopicSystem::of_harmonic(plate, n),
+            })
+            .collect();
         let dampers = match plate.contact.damping() {
             Some(dampers) => columns(&(Scale(window) * dampers), &weights(&blocks, window)),
-            None => Mat::zeros(plate.degrees_of_freedom(), 0),
+            None => Mat::zeros(component.full.order(), 0),
         };
         Saw { blocks, dampers }
     }

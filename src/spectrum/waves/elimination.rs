@@ -10,11 +10,14 @@
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::Solve;
-use faer::{Accum, Mat, MatRef, Par, Scale};
+use faer::{Accum, Col, Mat, MatRef, Par, Scale};
 
-use super::blade::{Block, Saw};
-use super::near::{Near, NearBlock};
-use crate::spectrum::component::Component;
+use super::blade::Saw;
+use super::near::Near;
+use super::pair::Pair;
+use crate::linalg::LinalgError;
+use crate::spectrum::vectors::orthonormal;
+use crate::system::GyroscopicSystem;
 
 /// Number of coefficients of a series. With 8 the worst eigenvalue of the window is off by 2e-6 of it, with 12 by 3e-8, with
 /// 16 by 6e-10; those of the lower half by 1e-11 with any of these.
@@ -22,6 +25,10 @@ const TERMS: usize = 16;
 
 /// A component in displacements of strong dampers, near waves, far waves, forces of strong dampers.
 pub struct Elimination {
+    /// The vectors of the waves.
+    blocks: Vec<Turned>,
+    /// Index of each wave in these blocks, near ones first.
+    places: Vec<usize>,
     /// Powers of the speed of each coefficient of λ, in units of the window.
     stiffness: [Mat<f64>; 3],
     velocity: [Mat<f64>; 2],
@@ -33,20 +40,44 @@ pub struct Elimination {
 }
 
 /// A block of the component: the index of its first unknown, and the vectors of its waves.
-type Turned<'a> = (usize, &'a Mat<f64>);
+type Turned = (usize, Mat<f64>);
+
+/// The equation of motion at a speed without its far waves.
+pub struct Reduced {
+    /// S₀, S₁, ….
+    pub terms: Vec<Mat<f64>>,
+    /// G₀, G₁, … of the far waves.
+    solved: Vec<Mat<f64>>,
+}
+
+impl Reduced {
+    /// The far waves −Σ G_k X Bᵏ of all eigenvectors within the reach, the displacements X of an invariant pair.
+    ///
+    /// # Errors
+    /// [`LinalgError`].
+    pub fn far(&self) -> Result<Mat<f64>, LinalgError> {
+        let rows = self.solved.first().map_or(0, Mat::nrows);
+        let far = Pair::new(&self.terms)?.map(|Pair { x, b, .. }| {
+            let terms = self.solved.iter().rev();
+            terms.fold(Mat::zeros(rows, b.ncols()), |sum, term| {
+                sum * &b - term * &x
+            })
+        });
+        Ok(far.unwrap_or_else(|| Mat::zeros(rows, 0)))
+    }
+}
 
 impl Elimination {
-    /// A component of a saw for what is near.
-    pub fn new(saw: &Saw, component: &Component, near: &Near, window: f64) -> Self {
-        let system = &component.full;
+    /// A component of a saw with its equation of motion, for what is near.
+    pub fn new(saw: &Saw, system: &GyroscopicSystem, near: &Near, window: f64) -> Self {
         let order = system.order();
-        let mut parts: Vec<Turned<'_>> = Vec::new();
+        let mut blocks: Vec<Turned> = Vec::new();
         let (mut places, mut far) = (Vec::new(), Vec::new());
         let mut diameters = Vec::new();
-        for (block, part) in own(saw, near, component) {
+        for (block, part) in saw.blocks.iter().zip(&near.blocks) {
             for copy in 0..block.copies() {
-                let first = block.first - component.first + copy * block.radial;
-                parts.push((first, &part.vectors));
+                let first = block.first + copy * block.radial;
+                blocks.push((first, part.vectors.clone()));
                 places.extend(first..first + part.near);
                 diameters.extend(vec![Some(block.diameters); part.near]);
                 far.extend(first + part.near..first + block.radial);
@@ -58,7 +89,7 @@ impl Elimination {
             let inner = matrix.map_or_else(
                 || Mat::zeros(order, order),
                 |matrix| {
-                    let half = turned(&parts, &turned(&parts, matrix).transpose().to_owned());
+                    let half = turned(&blocks, &turned(&blocks, matrix).transpose().to_owned());
                     Mat::from_fn(order, order, |i, k| unit * half[(places[k], places[i])])
                 },
             );
@@ -77,7 +108,7 @@ impl Elimination {
             in_waves(system.damping.as_ref(), window.recip()),
             in_waves(Some(&system.gyroscopic), 2.0 / window),
         ];
-        let columns = turned(&parts, &near.dampers);
+        let columns = turned(&blocks, &near.dampers);
         let columns = Mat::from_fn(order, strong, |i, k| columns[(places[i], k)] / window);
         for (k, weight) in near.weights.iter().enumerate() {
             let (z, g) = (k, strong + order + k);
@@ -96,6 +127,8 @@ impl Elimination {
         }
         let kept = vec![None; strong].into_iter().chain(diameters);
         Elimination {
+            blocks,
+            places,
             stiffness,
             velocity,
             waves: order,
@@ -104,8 +137,13 @@ impl Elimination {
         }
     }
 
-    /// S₀, S₁, … at a speed.
-    pub fn reduced(&self, speed: f64) -> Vec<Mat<f64>> {
+    /// Number of near waves.
+    pub fn near(&self) -> usize {
+        self.diameters.len() - self.strong
+    }
+
+    /// The equation of motion at a speed without the far waves.
+    pub fn reduced(&self, speed: f64) -> Reduced {
         let [a, b, c] = &self.stiffness;
         let [d, e] = &self.velocity;
         let stiffness = a + Scale(speed) * b + Scale(speed * speed) * c;
@@ -120,8 +158,9 @@ impl Elimination {
         let mut terms = vec![kept(&stiffness), kept(&velocity), inertia];
         // Far waves without the forces of dampers.
         let far_waves = waves.end - size;
+        let mut solved: Vec<Mat<f64>> = Vec::new();
         if far_waves == 0 {
-            return terms;
+            return Reduced { terms, solved };
         }
         let far = |matrix: &Mat<f64>| matrix.get(size.., size..).to_owned();
         let by_far = |matrix: &Mat<f64>| matrix.get(..size, size..).to_owned();
@@ -133,7 +172,6 @@ impl Elimination {
             [by_kept(&stiffness), by_kept(&velocity)],
         ];
         terms.resize(TERMS, Mat::zeros(size, size));
-        let mut solved: Vec<Mat<f64>> = Vec::with_capacity(TERMS);
         for (power, term) in terms.iter_mut().enumerate() {
             let coupling = by_kept.get(power).cloned();
             let mut right = coupling.unwrap_or_else(|| Mat::zeros(far.nrows(), size));
@@ -149,7 +187,38 @@ impl Elimination {
             subtract_product(term, by_far[0].as_ref(), &right);
             solved.push(right);
         }
-        terms
+        // The forces of dampers are no part of a shape.
+        let solved = solved.iter().map(|g| g.subrows(0, far_waves).to_owned());
+        Reduced {
+            solved: solved.collect(),
+            terms,
+        }
+    }
+
+    /// Orthonormal vectors, first the near waves, then those that span some far ones; those closer than `tolerance` to the span of
+    /// the others are omitted.
+    pub fn basis(&self, far: &[Mat<f64>], tolerance: f64) -> Mat<f64> {
+        let columns = far.iter().flat_map(|all| all.col_iter());
+        let columns: Vec<Col<f64>> = columns.map(|column| column.to_owned()).collect();
+        let near = self.near();
+        let far = orthonormal(self.waves - near, &columns, tolerance);
+        let mut in_waves = Mat::zeros(self.waves, near + far.ncols());
+        for (i, place) in self.places.iter().enumerate() {
+            match i.checked_sub(near) {
+                None => in_waves[(*place, i)] = 1.0,
+                Some(row) => in_waves
+                    .row_mut(*place)
+                    .subcols_mut(near, far.ncols())
+                    .copy_from(far.row(row)),
+            }
+        }
+        let mut basis = Mat::zeros(self.waves, in_waves.ncols());
+        for (first, vectors) in &self.blocks {
+            let size = vectors.nrows();
+            let own = vectors * in_waves.subrows(*first, size);
+            basis.subrows_mut(*first, size).copy_from(&own);
+        }
+        basis
     }
 }
 
@@ -157,21 +226,10 @@ fn subtract_product(from: &mut Mat<f64>, left: MatRef<'_, f64>, right: &Mat<f64>
     matmul(from.as_mut(), Accum::Add, left, right, -1.0, Par::Seq);
 }
 
-/// The blocks of a component.
-fn own<'a>(
-    saw: &'a Saw,
-    near: &'a Near,
-    component: &Component,
-) -> impl Iterator<Item = (&'a Block, &'a NearBlock)> {
-    let own = component.first..component.first + component.full.order();
-    let all = saw.blocks.iter().zip(&near.blocks);
-    all.filter(move |(block, _)| own.contains(&block.first))
-}
-
 /// Vᵀ X with V block by block.
-fn turned(parts: &[Turned<'_>], matrix: &Mat<f64>) -> Mat<f64> {
+fn turned(blocks: &[Turned], matrix: &Mat<f64>) -> Mat<f64> {
     let mut turned = Mat::zeros(matrix.nrows(), matrix.ncols());
-    for (first, vectors) in parts {
+    for (first, vectors) in blocks {
         let size = vectors.nrows();
         let own = vectors.transpose() * matrix.subrows(*first, size);
         turned.subrows_mut(*first, size).copy_from(&own);

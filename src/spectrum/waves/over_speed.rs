@@ -14,6 +14,27 @@ const NODES: usize = 12;
 /// Entries below this in every term do not couple two components, in units of the window.
 const UNCOUPLED: f64 = 1e-9;
 
+/// Angle whose cosine is a node.
+fn angle(node: usize) -> f64 {
+    PI * (node as f64 + 0.5) / NODES as f64
+}
+
+/// Values of a function at the nodes of a range of speeds, which are numbered from its end.
+///
+/// # Errors
+/// [`SpectrumError::Cancelled`], and the errors of the function.
+pub fn at_nodes<T: Send>(
+    (from, to): (f64, f64),
+    at: impl Fn(usize, f64) -> Result<T, SpectrumError> + Sync,
+) -> Result<Vec<T>, SpectrumError> {
+    let cancellation = Cancellation::current();
+    let of_node = |k: usize| {
+        cancellation.check()?;
+        at(k, 0.5 * (from + to) + 0.5 * (to - from) * angle(k).cos())
+    };
+    (0..NODES).into_par_iter().map(of_node).collect()
+}
+
 /// The reduced model from one speed to another.
 #[derive(Debug)]
 pub struct WaveModel {
@@ -32,45 +53,31 @@ pub struct WaveModel {
 }
 
 impl WaveModel {
-    /// A model from its values at any speed.
-    ///
-    /// # Errors
-    /// [`SpectrumError::Cancelled`].
+    /// A model from its terms L₀, L₁, … at the nodes, see [`at_nodes`], in units of the window.
     pub(super) fn of(
-        reduced: &(dyn Fn(f64) -> Vec<Mat<f64>> + Sync),
+        terms_at: &[Vec<Mat<f64>>],
         range: (f64, f64),
         diameters: Vec<Option<usize>>,
         (window, rigid): (f64, usize),
-    ) -> Result<Self, SpectrumError> {
-        let ((from, to), size) = (range, diameters.len());
-        let angle = |k: usize| PI * (k as f64 + 0.5) / NODES as f64;
-        let cancellation = Cancellation::current();
-        let at_node = |k: usize| {
-            cancellation.check()?;
-            Ok(reduced(
-                0.5 * (from + to) + 0.5 * (to - from) * angle(k).cos(),
-            ))
-        };
-        let at_nodes: Result<Vec<Vec<Mat<f64>>>, SpectrumError> =
-            (0..NODES).into_par_iter().map(at_node).collect();
-        let at_nodes = at_nodes?;
-        let terms = at_nodes.first().map_or(0, Vec::len);
+    ) -> Self {
+        let size = diameters.len();
+        let terms = terms_at.first().map_or(0, Vec::len);
         let values = Mat::from_fn(terms * size * size, NODES, |row, node| {
             let (power, entry) = (row / (size * size), row % (size * size));
-            at_nodes[node][power][(entry % size, entry / size)]
+            terms_at[node][power][(entry % size, entry / size)]
         });
         let weights = Mat::from_fn(NODES, NODES, |node, degree| {
             let share = if degree == 0 { 1.0 } else { 2.0 } / NODES as f64;
             share * (degree as f64 * angle(node)).cos()
         });
-        Ok(WaveModel {
+        WaveModel {
             range,
             diameters,
             window,
             rigid,
             terms,
             coefficients: values * weights,
-        })
+        }
     }
 
     /// Number of unknowns.
