@@ -86,19 +86,21 @@ impl Component {
         }
     }
 
-    /// Eigenpairs at a speed in the coordinates of [`Component::at`]; `index` is that of the component, which
+    /// Eigenpairs at a speed up to a frequency, in the coordinates of [`Component::at`]; `index` is that of the component, which
     /// for a free blade is the number of nodal diameters.
     pub(super) fn eigenpairs(
         &self,
         plate: &Plate,
         index: usize,
-        speed_rad_per_s: f64,
+        (speed, highest): (f64, f64),
     ) -> Result<Vec<Eigenpair>, SpectrumError> {
-        let system = &self.at(speed_rad_per_s).reduced;
-        match &self.solution {
-            Solution::Waves(modes) => modes.eigenpairs(speed_rad_per_s),
-            Solution::FreeWaves(_) => free_wave::eigenpairs(plate, index, system, speed_rad_per_s),
-            _ => half_order::eigenpairs(system, speed_rad_per_s),
-        }
+        let system = &self.at(speed).reduced;
+        let mut pairs = match &self.solution {
+            Solution::Waves(modes) => return modes.eigenpairs(speed, highest),
+            Solution::FreeWaves(_) => free_wave::eigenpairs(plate, index, system, speed)?,
+            _ => half_order::eigenpairs(system, speed)?,
+        };
+        pairs.retain(|(lambda, _)| lambda.im <= highest);
+        Ok(pairs)
     }
 }

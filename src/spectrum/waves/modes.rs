@@ -51,13 +51,18 @@ impl WaveModes {
         })
     }
 
-    /// Eigenpairs at a speed with Im λ ≥ 0 up to somewhat beyond the window, by |λ|, without free rigid motions, in the
-    /// coordinates of the projection.
+    /// Eigenpairs at a speed with 0 ≤ Im λ ≤ `highest_rad_per_s`, by |λ|, without free rigid motions, in the coordinates of the
+    /// projection; they end somewhat beyond the window.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn eigenpairs(&self, speed_rad_per_s: f64) -> Result<Vec<Eigenpair>, SpectrumError> {
-        let roots = self.model.roots(speed_rad_per_s)?;
+    pub fn eigenpairs(
+        &self,
+        speed_rad_per_s: f64,
+        highest_rad_per_s: f64,
+    ) -> Result<Vec<Eigenpair>, SpectrumError> {
+        let mut roots = self.model.roots(speed_rad_per_s)?;
+        roots.retain(|root| root.lambda.im <= highest_rad_per_s);
         let stiffness = self.projection.reduced.stiffness_at(speed_rad_per_s);
         let velocity = self.projection.reduced.velocity_at(speed_rad_per_s);
         let (near, order) = (self.near, stiffness.nrows());

@@ -151,8 +151,8 @@ fn vectors_of_all_waves_are_those_of_the_full_matrices() {
     for k in 0..4 {
         let speed = to * (f64::from(k) + 0.4) / 4.0;
         let exact = companion_eigenpairs(&component.full, speed).unwrap();
-        let found = modes.eigenpairs(speed).unwrap();
-        assert!(found.len() >= 10);
+        let found = modes.eigenpairs(speed, 2.0 * to).unwrap();
+        assert!(found.len() >= 8);
         for (lambda, coordinates) in found {
             let off = |pair: &(c64, Col<c64>)| (pair.0 - lambda).norm();
             let exact = exact.iter().min_by(|x, y| off(x).total_cmp(&off(y)));
