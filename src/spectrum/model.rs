@@ -74,7 +74,7 @@ pub struct SpectralModel {
     /// Frequency up to which bands are searched for.
     pub reflected_to_rad_per_s: f64,
     /// Largest estimated error of a frequency of the reduced models that exceeds their tolerance, in rad/s; 0
-    /// unless these models needed more speeds than allowed.
+    /// unless the range of speeds is too long for these models.
     pub unsettled_rad_per_s: f64,
     /// Work done so far.
     pub counters: WorkCounters,
@@ -105,6 +105,10 @@ pub(super) fn chart_height(lambdas: &[c64], is_conservative: bool) -> Option<f64
 /// separates them into forward and backward waves, as at any other speed, and changes frequencies by no more
 /// than itself.
 pub(super) const SPLITTING: f64 = 1e-9;
+
+/// Error of a frequency by waves, relative to the highest, beyond which the range of speeds is too long for their series. The last
+/// coefficient overestimates it: against wood it is 6e-8, where the error is below 1e-9.
+const TAIL: f64 = 1e-6;
 
 impl SpectralModel {
     /// Prepares the modes for a range of speeds, (from, to) in rad/s, and for the search for bands within that
@@ -179,6 +183,10 @@ impl SpectralModel {
         let window = self.complete_to_rad_per_s;
         for component in &mut self.components {
             let modes = waves::modes(&self.plate, component, range, window)?;
+            let error = modes.model.tail();
+            if error > TAIL {
+                self.unsettled_rad_per_s = self.unsettled_rad_per_s.max(error * window);
+            }
             component.solution = Solution::Waves(Box::new(modes));
         }
         Ok(())
