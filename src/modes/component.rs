@@ -14,6 +14,7 @@ use super::interval::{Interval, interval_at};
 use super::projection::Projection;
 use super::residual::MatrixNorms;
 use super::vectors::{Eigenpair, real_times};
+use super::waves::WaveModes;
 
 /// An independent component of the blade: one harmonic, or all of them coupled by guides.
 #[derive(Debug)]
@@ -36,6 +37,8 @@ pub(super) enum Solution {
     FreeWaves(Projection),
     /// Modes of projections on the low modes at a few speeds, by ascending speed.
     Projected(Vec<Interval>),
+    /// Modes of a damped blade by its waves.
+    Waves(Box<WaveModes>),
 }
 
 impl Component {
@@ -79,31 +82,25 @@ impl Component {
             Solution::Whole(whole) => whole.get_or_init(|| Projection::whole(&self.full)),
             Solution::FreeWaves(whole) => whole,
             Solution::Projected(intervals) => &interval_at(intervals, speed_rad_per_s).projection,
+            Solution::Waves(modes) => &modes.projection,
         }
     }
 
-    /// The vectors of all projections; none for a component that is solved as a whole.
-    pub(super) fn spanned(&self) -> Vec<Col<f64>> {
-        let Solution::Projected(intervals) = &self.solution else {
-            return Vec::new();
-        };
-        let bases = intervals.iter().map(|interval| &interval.projection.basis);
-        let vectors = bases.flat_map(|basis| basis.col_iter().map(|vector| vector.to_owned()));
-        vectors.collect()
-    }
-
-    /// Eigenpairs at a speed in the coordinates of [`Component::at`]; `index` is that of the component, which
+    /// Eigenpairs at a speed up to a frequency, in the coordinates of [`Component::at`]; `index` is that of the component, which
     /// for a free blade is the number of nodal diameters.
     pub(super) fn eigenpairs(
         &self,
         plate: &Plate,
         index: usize,
-        speed_rad_per_s: f64,
+        (speed, highest): (f64, f64),
     ) -> Result<Vec<Eigenpair>, SpectrumError> {
-        let system = &self.at(speed_rad_per_s).reduced;
-        match self.solution {
-            Solution::FreeWaves(_) => free_wave::eigenpairs(plate, index, system, speed_rad_per_s),
-            _ => half_order::eigenpairs(system, speed_rad_per_s),
-        }
+        let system = &self.at(speed).reduced;
+        let mut pairs = match &self.solution {
+            Solution::Waves(modes) => return modes.eigenpairs(speed, highest),
+            Solution::FreeWaves(_) => free_wave::eigenpairs(plate, index, system, speed)?,
+            _ => half_order::eigenpairs(system, speed)?,
+        };
+        pairs.retain(|(lambda, _)| lambda.im <= highest);
+        Ok(pairs)
     }
 }

@@ -3,7 +3,8 @@
 use super::band::Instability;
 use super::basis::ChosenBasis;
 use super::certificate::Certificate;
-use super::chart::{CHART_SPEEDS, chart};
+use super::damped;
+use super::detail::Detail;
 use super::error::AnalysisError;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands};
 use super::verdict::flutter_onsets;
@@ -95,7 +96,7 @@ impl Onsets {
 }
 
 /// Finds every band of a saw whose critical speeds are known, with the results of its checks. Without damping
-/// it uses only the modes that can coalesce; with damping it computes a whole chart.
+/// it uses only the modes that can coalesce.
 ///
 /// # Errors
 /// [`AnalysisError`] when an eigenproblem fails.
@@ -110,6 +111,5 @@ pub fn search_bands(
         return Ok(undamped_bands(&model, range, SEARCH_SPEEDS)?);
     }
     let model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
-    let chart = chart(&model, range, CHART_SPEEDS, &|_, _| ())?;
-    Ok((chart.instabilities, chart.certificate))
+    Ok(damped::bands(&model, range, Detail::Full)?)
 }

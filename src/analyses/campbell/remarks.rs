@@ -211,7 +211,7 @@ fn unsettled(analysis: &Analysis) -> Option<String> {
     let error_hz = analysis.model.unsettled_rad_per_s / TAU;
     (error_hz > 0.0).then(|| {
         format!(
-            "the reduced model would need modes at more speeds than allowed: its frequencies may be wrong by {} Hz; a shorter sweep avoids this",
+            "the sweep is too long for the reduced model: its frequencies may be wrong by {} Hz; a shorter sweep avoids this",
             shown_to(2, error_hz)
         )
     })

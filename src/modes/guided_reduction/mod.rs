@@ -100,6 +100,23 @@ pub fn of_guided(
     })
 }
 
+/// Frequencies in rad/s up to which a diagram of a guided blade with damping shows modes, and up to which reflected waves, or
+/// those that coalesce with them, may grow: the height of the diagram is at least the latter, which is 0 without reflected waves.
+///
+/// # Errors
+/// [`SpectrumError::Cancelled`].
+pub fn heights(
+    guided: Guided<'_>,
+    range: (f64, f64),
+    counters: &WorkCounters,
+) -> Result<(f64, f64), SpectrumError> {
+    let builder = Builder::new(guided, range, counters);
+    let reflected = || builder.reflected_height(range.1);
+    let (reflected, chart) = rayon::join(reflected, || builder.chart_height(range.0));
+    let ((reflected, _), (chart, _)) = (reflected?, chart?);
+    Ok((chart.max(reflected), reflected))
+}
+
 /// Low modes of the whole system at one speed.
 #[derive(Clone)]
 struct Snapshot {

@@ -56,14 +56,10 @@ impl Builder<'_> {
         let standing = self.guided.critical.iter().filter(inside);
         let kept = standing.map(|c| &c.shape).chain(&system.free_rigid);
         let mut vectors: Vec<Col<f64>> = kept.map(|x| Scale(KEPT_WHOLE) * x).collect();
-        let followed = match system.is_conservative() {
-            true => self.reflected,
-            false => 0.0,
-        };
         for snapshot in &self.snapshots {
             let height = match between.contains(&snapshot.speed) {
                 true => self.window,
-                false => followed,
+                false => self.reflected,
             };
             for (lambda, q) in &snapshot.pairs {
                 if lambda.norm() <= SPAN_MARGIN.get() * height {

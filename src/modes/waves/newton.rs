@@ -2,7 +2,7 @@
 //! λ ← λ − yᴴL(λ)x / yᴴL′(λ)x (Lancaster, *Lambda-Matrices and Vibrating Systems*, 1966).
 
 use faer::linalg::solvers::Solve;
-use faer::{Col, Mat, Scale, c64};
+use faer::{Col, Mat, MatRef, Scale, c64};
 
 use super::over_speed::WaveModel;
 use crate::modes::vectors::unit;
@@ -37,7 +37,7 @@ impl WaveModel {
                 let left: Col<c64> = factors.solve_adjoint(by_root.adjoint() * &y);
                 (x, y) = (unit(right.as_ref()), unit(left.as_ref()));
             }
-            let change = -(y.adjoint() * (at * &x)) / (y.adjoint() * (by_root * &x));
+            let change = -(y.adjoint() * (at * &x)) / (y.adjoint() * (&by_root * &x));
             mu += change;
             if !mu.is_finite() {
                 return None;
@@ -46,7 +46,6 @@ impl WaveModel {
                 if expected.im == 0.0 {
                     mu.im = 0.0;
                 }
-                let [_, by_root] = polynomial(values, mu, size);
                 let [moved, _] = polynomial(slopes, mu, size);
                 let slope = -(y.adjoint() * (moved * &x)) / (y.adjoint() * (by_root * &x));
                 let found = (mu * self.window, slope * self.window);
@@ -57,23 +56,26 @@ impl WaveModel {
     }
 }
 
-/// Σ λᵏ L_k and its derivative with respect to λ, by Horner's rule, from the entries of L₀, L₁, ….
+/// Σ λᵏ L_k and its derivative with respect to λ, from the entries of L₀, L₁, ….
 fn polynomial(entries: &[f64], mu: c64, size: usize) -> [Mat<c64>; 2] {
-    // Real and imaginary parts of the sums, then of their derivatives.
-    let mut sums = vec![[0.0; 4]; size * size];
-    for term in entries.chunks_exact(size * size).rev() {
-        for ([re, im, slope_re, slope_im], entry) in sums.iter_mut().zip(term) {
-            (*slope_re, *slope_im) = (
-                *slope_re * mu.re - *slope_im * mu.im + *re,
-                *slope_re * mu.im + *slope_im * mu.re + *im,
-            );
-            (*re, *im) = (*re * mu.re - *im * mu.im + entry, *re * mu.im + *im * mu.re);
-        }
+    let count = entries.len() / (size * size);
+    let mut powers = vec![c64::ONE; count];
+    for k in 1..count {
+        powers[k] = powers[k - 1] * mu;
     }
+    // Real and imaginary parts of λᵏ, then of its derivative.
+    let weights = Mat::from_fn(count, 4, |k, part| match (part, k) {
+        (0, _) => powers[k].re,
+        (1, _) => powers[k].im,
+        (_, 0) => 0.0,
+        (2, _) => k as f64 * powers[k - 1].re,
+        _ => k as f64 * powers[k - 1].im,
+    });
+    let sums = MatRef::from_column_major_slice(entries, size * size, count) * weights;
     [0, 2].map(|part| {
         Mat::from_fn(size, size, |i, k| {
-            let sum = sums[k * size + i];
-            c64::new(sum[part], sum[part + 1])
+            let row = k * size + i;
+            c64::new(sums[(row, part)], sums[(row, part + 1)])
         })
     })
 }

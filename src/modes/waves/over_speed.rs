@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use faer::Mat;
 use rayon::prelude::*;
 
-use super::series::{Series, TERMS};
 use crate::modes::error::SpectrumError;
 use crate::modes::work::Cancellation;
 
@@ -14,6 +13,27 @@ use crate::modes::work::Cancellation;
 const NODES: usize = 12;
 /// Entries below this in every term do not couple two components, in units of the window.
 const UNCOUPLED: f64 = 1e-9;
+
+/// Angle whose cosine is a node.
+fn angle(node: usize) -> f64 {
+    PI * (node as f64 + 0.5) / NODES as f64
+}
+
+/// Values of a function at the nodes of a range of speeds, which are numbered from its end.
+///
+/// # Errors
+/// [`SpectrumError::Cancelled`], and the errors of the function.
+pub fn at_nodes<T: Send>(
+    (from, to): (f64, f64),
+    at: impl Fn(usize, f64) -> Result<T, SpectrumError> + Sync,
+) -> Result<Vec<T>, SpectrumError> {
+    let cancellation = Cancellation::current();
+    let of_node = |k: usize| {
+        cancellation.check()?;
+        at(k, 0.5 * (from + to) + 0.5 * (to - from) * angle(k).cos())
+    };
+    (0..NODES).into_par_iter().map(of_node).collect()
+}
 
 /// The reduced model from one speed to another.
 #[derive(Debug)]
@@ -26,54 +46,38 @@ pub struct WaveModel {
     pub(super) window: f64,
     /// Number of free rigid motions, each with λ = 0 at most twice.
     pub(super) rigid: usize,
-    /// Number of terms L₀, L₁, … that are not zero.
+    /// Number of terms L₀, L₁, ….
     terms: usize,
     /// Their entries, one matrix after another, by degree.
     coefficients: Mat<f64>,
 }
 
 impl WaveModel {
-    /// A model from its values at any speed.
-    ///
-    /// # Errors
-    /// [`SpectrumError::Cancelled`].
+    /// A model from its terms L₀, L₁, … at the nodes, see [`at_nodes`], in units of the window.
     pub(super) fn of(
-        reduced: &(dyn Fn(f64) -> Series + Sync),
+        terms_at: &[Vec<Mat<f64>>],
         range: (f64, f64),
         diameters: Vec<Option<usize>>,
         (window, rigid): (f64, usize),
-    ) -> Result<Self, SpectrumError> {
-        let ((from, to), size) = (range, diameters.len());
-        let angle = |k: usize| PI * (k as f64 + 0.5) / NODES as f64;
-        let cancellation = Cancellation::current();
-        let at_node = |k: usize| {
-            cancellation.check()?;
-            Ok(reduced(
-                0.5 * (from + to) + 0.5 * (to - from) * angle(k).cos(),
-            ))
-        };
-        let at_nodes: Result<Vec<Series>, SpectrumError> =
-            (0..NODES).into_par_iter().map(at_node).collect();
-        let at_nodes = at_nodes?;
-        let is_zero = |power: &usize| at_nodes.iter().all(|series| series.term(*power).is_none());
-        let terms = (0..TERMS).find(is_zero).unwrap_or(TERMS);
+    ) -> Self {
+        let size = diameters.len();
+        let terms = terms_at.first().map_or(0, Vec::len);
         let values = Mat::from_fn(terms * size * size, NODES, |row, node| {
             let (power, entry) = (row / (size * size), row % (size * size));
-            let term = at_nodes[node].term(power);
-            term.map_or(0.0, |term| term[(entry % size, entry / size)])
+            terms_at[node][power][(entry % size, entry / size)]
         });
         let weights = Mat::from_fn(NODES, NODES, |node, degree| {
             let share = if degree == 0 { 1.0 } else { 2.0 } / NODES as f64;
             share * (degree as f64 * angle(node)).cos()
         });
-        Ok(WaveModel {
+        WaveModel {
             range,
             diameters,
             window,
             rigid,
             terms,
             coefficients: values * weights,
-        })
+        }
     }
 
     /// Number of unknowns.

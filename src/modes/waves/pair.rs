@@ -13,7 +13,6 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
 
-use super::series::QUADRATIC;
 use crate::model::linalg::{LinalgError, RealEigen};
 
 /// |λ| in windows between which the widest gap ends the pair: beyond it the series in λ is inaccurate, and an eigenvalue next to
@@ -21,6 +20,8 @@ use crate::model::linalg::{LinalgError, RealEigen};
 pub(super) const END: [f64; 2] = [1.2, 1.8];
 /// Change of B in the last step, in windows. The rounding of A is larger where it is not normal.
 const SETTLED: f64 = 1e-13;
+/// Number of terms of the quadratic problem.
+const QUADRATIC: usize = 3;
 /// Largest number of steps; each leaves a tenth of the error.
 const STEPS: usize = 16;
 

@@ -5,12 +5,23 @@
 //!
 //! dλ/dΩ = −(Σ λᵏ w Y (∂L_k/∂Ω) X u) / (Σ k λᵏ⁻¹ w Y L_k X u).
 
-use faer::{Mat, c64};
+use faer::{Col, Mat, c64};
 
 use super::over_speed::WaveModel;
 use super::pair::{END, Pair, columns, inverse};
 use crate::model::linalg::{LinalgError, RealEigen};
 use crate::modes::error::SpectrumError;
+
+/// An eigenvalue with Im λ ≥ 0 and its vector.
+#[derive(Debug, Clone)]
+pub struct Root {
+    /// λ, in 1/s.
+    pub lambda: c64,
+    /// dλ/dΩ, not finite where two eigenvalues coalesce.
+    pub slope: c64,
+    /// Displacements of strong dampers, near waves.
+    pub vector: Col<c64>,
+}
 
 /// |λ| of a free rigid motion in units of the window, which is zero except for the root of rounding.
 const RIGID: f64 = 3e-6;
@@ -21,25 +32,35 @@ impl WaveModel {
         END[1] * self.window
     }
 
-    /// All eigenvalues at a speed with Im λ ≥ 0 up to somewhat beyond the window, in 1/s, without free rigid motions, and
-    /// dλ/dΩ, which is not finite where two coalesce.
+    /// All eigenvalues at a speed with Im λ ≥ 0 up to somewhat beyond the window, by magnitude, without free rigid motions, with
+    /// slopes and vectors.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn roots(&self, speed_rad_per_s: f64) -> Result<Vec<Root>, SpectrumError> {
+        let (terms, slopes) = self.at(speed_rad_per_s);
+        let mut found = sloped(&terms, &slopes).map_err(SpectrumError::at(speed_rad_per_s))?;
+        found.sort_by(|x, y| x.lambda.norm().total_cmp(&y.lambda.norm()));
+        let zeros = found.partition_point(|root| root.lambda.norm() < RIGID);
+        found.drain(..zeros.min(2 * self.rigid));
+        for root in &mut found {
+            root.lambda *= self.window;
+            root.slope *= self.window;
+        }
+        Ok(found)
+    }
+
+    /// The eigenvalues of [`WaveModel::roots`] and their slopes.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn eigenvalues(&self, speed_rad_per_s: f64) -> Result<Vec<(c64, c64)>, SpectrumError> {
-        let (terms, slopes) = self.at(speed_rad_per_s);
-        let mut found = sloped(&terms, &slopes).map_err(SpectrumError::at(speed_rad_per_s))?;
-        found.sort_by(|x, y| x.0.norm().total_cmp(&y.0.norm()));
-        let zeros = found.partition_point(|(mu, _)| mu.norm() < RIGID);
-        found.drain(..zeros.min(2 * self.rigid));
-        let scaled = found.into_iter();
-        Ok(scaled
-            .map(|(mu, slope)| (mu * self.window, slope * self.window))
-            .collect())
+        let roots = self.roots(speed_rad_per_s)?.into_iter();
+        Ok(roots.map(|root| (root.lambda, root.slope)).collect())
     }
 }
 
-fn sloped(terms: &[Mat<f64>], slopes: &[Mat<f64>]) -> Result<Vec<(c64, c64)>, LinalgError> {
+fn sloped(terms: &[Mat<f64>], slopes: &[Mat<f64>]) -> Result<Vec<Root>, LinalgError> {
     let Some(Pair { x, y, b }) = Pair::new(terms)? else {
         return Ok(Vec::new());
     };
@@ -70,7 +91,15 @@ fn sloped(terms: &[Mat<f64>], slopes: &[Mat<f64>]) -> Result<Vec<(c64, c64)>, Li
             }
             power *= mu;
         }
-        (mu, -moved / by_root)
+        let upper = |row: usize| match mu.im > 0.0 {
+            true => c64::new(right[(row, i)], right[(row, i + 1)]),
+            false => c64::from(right[(row, i)]),
+        };
+        Root {
+            lambda: mu,
+            slope: -moved / by_root,
+            vector: Col::from_fn(right.nrows(), upper),
+        }
     };
     Ok(eigen.upper().into_iter().map(of).collect())
 }

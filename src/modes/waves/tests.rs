@@ -1,10 +1,11 @@
 //! Eigenvalues of the reduced model beside those of the full matrices.
 
-use faer::c64;
+use faer::{Col, c64};
 
 use super::*;
 use crate::model::plate::Resolution;
 use crate::model::scene::{DampingFile, Scene, SceneFile, WoodFile, rad_per_s};
+use crate::modes::vectors::real_times;
 use crate::modes::{companion_eigenpairs, derivative, eigenvalues};
 
 const TO_RPM: f64 = 3000.0;
@@ -25,13 +26,11 @@ fn error(edit: impl FnOnce(&mut SceneFile)) -> f64 {
 
 /// Largest distance of an eigenvalue of either list from the other, in windows.
 fn error_of(plate: &Plate) -> f64 {
-    let components = Component::of(plate);
-    let system = &components[0].full;
+    let component = &Component::of(plate)[0];
+    let system = &component.full;
     let to = rad_per_s(TO_RPM);
     let window = 2.0 * to;
-    let [model] = &models(plate, &components, (0.0, to), window).unwrap()[..] else {
-        panic!("one component");
-    };
+    let model = modes(plate, component, (0.0, to), window).unwrap().model;
     let mut worst = 0.0_f64;
     for k in 0..7 {
         let speed = to * (f64::from(k) + 0.4) / 7.0;
@@ -58,8 +57,9 @@ fn newton_finds_the_eigenvalue_next_to_an_expected_one() {
     });
     let plate = Plate::new(&scene.unwrap(), RESOLUTION);
     let to = rad_per_s(TO_RPM);
-    let model = reduced(&plate, &Component::of(&plate), (0.0, to), 2.0 * to).unwrap();
-    let system = &Component::of(&plate)[0].full;
+    let component = &Component::of(&plate)[0];
+    let WaveModes { model, .. } = modes(&plate, component, (0.0, to), 2.0 * to).unwrap();
+    let system = &component.full;
     let speed = 0.4 * to;
     for (lambda, x) in companion_eigenpairs(system, speed).unwrap().iter().take(8) {
         let expected = lambda * c64::new(1.0 + 1e-3, 1e-3);
@@ -134,5 +134,32 @@ fn eigenvalues_with_a_material_that_relaxes_slowly_are_those_of_the_full_matrice
             });
         });
         assert!(worst < 1e-8, "{rate}: {worst:e}");
+    }
+}
+
+/// At speeds beside the nodes. Reference: the vectors of all eigenvalues of the companion matrix.
+#[test]
+fn vectors_of_all_waves_are_those_of_the_full_matrices() {
+    let scene = Scene::paper().edited(|saw| {
+        (saw.cut, saw.runup, saw.probe, saw.measured) = (None, None, None, None);
+        saw.guides[0].damping_n_s_per_m = 300.0;
+    });
+    let plate = Plate::new(&scene.unwrap(), RESOLUTION);
+    let component = &Component::of(&plate)[0];
+    let to = rad_per_s(TO_RPM);
+    let modes = modes(&plate, component, (0.0, to), 2.0 * to).unwrap();
+    for k in 0..4 {
+        let speed = to * (f64::from(k) + 0.4) / 4.0;
+        let exact = companion_eigenpairs(&component.full, speed).unwrap();
+        let found = modes.eigenpairs(speed, 2.0 * to).unwrap();
+        assert!(found.len() >= 8);
+        for (lambda, coordinates) in found {
+            let off = |pair: &(c64, Col<c64>)| (pair.0 - lambda).norm();
+            let exact = exact.iter().min_by(|x, y| off(x).total_cmp(&off(y)));
+            let shape = real_times(&modes.projection.basis, &coordinates);
+            let along: c64 = exact.unwrap().1.adjoint() * &shape;
+            let angle = (1.0 - along.norm_sqr()).abs().sqrt();
+            assert!(angle < 2e-6, "{lambda}: {angle:e}");
+        }
     }
 }

@@ -50,7 +50,7 @@ pub(super) fn charted(
     );
     let closeness = Closeness::of(options.detail);
     let searched = || {
-        let found = bands(model, range, closeness)?;
+        let found = bands(model, range, options.detail)?;
         options.report(&model.critical, range, Some(&found.0));
         Ok::<_, AnalysisError>(found)
     };
@@ -105,12 +105,16 @@ impl Closeness {
     }
 }
 
-/// Every band within a range of speeds, by onset.
-fn bands(
+/// Every band within a range of speeds, by onset, and their checks.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
+pub(super) fn bands(
     model: &SpectralModel,
     range: (f64, f64),
-    closeness: Closeness,
+    detail: Detail,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+    let closeness = Closeness::of(detail);
     let solver = Solver::new(model, range)?;
     let speeds = branches::even_speeds(range, SEARCH_SPEEDS);
     let searched: Vec<(Vec<Piece>, Vec<Instability>)> = (0..solver.components())

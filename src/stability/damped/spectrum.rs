@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
-use crate::modes::waves::{self, WaveModel};
+use crate::modes::waves::WaveModel;
 use crate::modes::{SpectralModel, SpectrumError, smallest};
 use crate::stability::group::Sloped;
 use crate::stability::partition::{BESIDES, Sample};
@@ -45,13 +45,9 @@ impl<'a> Solver<'a> {
     /// # Errors
     /// [`SpectrumError::Cancelled`].
     pub fn new(model: &'a SpectralModel, range: (f64, f64)) -> Result<Self, SpectrumError> {
-        let SpectralModel {
-            plate, components, ..
-        } = model;
-        let highest = model.complete_to_rad_per_s;
         Ok(Solver {
             model,
-            components: waves::models(plate, components, range, highest)?,
+            components: model.wave_models(range)?,
             spent: AtomicUsize::new(0),
         })
     }
