@@ -9,6 +9,9 @@
 //!
 //! g_s = −wᴴL_s v,  g_st = −wᴴ(L_st v + L_s v_t + L_t v_s),  [L b; cᴴ 0] [v_s; g_s] = [−L_s v; 0]
 //!
+//! and so on. Next to the coalescence the eigenvalues differ from the double one by ±√(aδΩ) + mδΩ, with
+//! a = −2g_Ω/g_λλ and m = −(g_λΩ + a g_λλλ/6)/g_λλ
+//!
 //! (A. Griewank & G. W. Reddien, *Characterization and computation of generalized turning points*, SIAM J. Numer. Anal. 21
 //! (1984), 176–185).
 
@@ -26,8 +29,14 @@ pub struct DoubleEigenvalue {
     pub speed_rad_per_s: f64,
     /// λ, in 1/s.
     pub lambda: c64,
-    /// d((λ₁ − λ₂)/2)²/dΩ of the two eigenvalues, in 1/s.
+    /// a = d((λ₁ − λ₂)/2)²/dΩ of the two eigenvalues, in 1/s.
     pub square_slope: f64,
+    /// m = d((λ₁ + λ₂)/2)/dΩ.
+    pub mean_slope: c64,
+    /// Right vector, L(λ)x = 0, ‖x‖ = 1.
+    pub right: Col<c64>,
+    /// Left vector, yᴴL(λ) = 0, ‖y‖ = 1.
+    pub left: Col<c64>,
 }
 
 /// Largest number of steps; convergence is quadratic.
@@ -45,7 +54,7 @@ impl DoubleEigenvalue {
         let [mut right, mut left] = vectors(system, speed, lambda)?;
         for _ in 0..STEPS {
             let jet = Jet::new(system, (speed, lambda), [&right, &left])?;
-            let [by_root, by_speed, twice_by_root, by_both] = jet.slopes;
+            let [by_root, by_speed, twice_by_root, by_both, thrice_by_root] = jet.slopes;
             let determinant = by_root * by_both - by_speed * twice_by_root;
             let change = (by_speed * by_root - by_both * jet.value) / determinant;
             let step = ((twice_by_root * jet.value - by_root * by_root) / determinant).re;
@@ -59,14 +68,18 @@ impl DoubleEigenvalue {
             if !(lambda.is_finite() && speed.is_finite()) {
                 return None;
             }
+            (right, left) = (unit(jet.right.as_ref()), unit(jet.left.as_ref()));
             if step.abs() <= TOLERANCE * speed {
+                let square_slope = -2.0 * by_speed / twice_by_root;
                 return Some(DoubleEigenvalue {
                     speed_rad_per_s: speed,
                     lambda,
-                    square_slope: (-2.0 * by_speed / twice_by_root).re,
+                    square_slope: square_slope.re,
+                    mean_slope: -(by_both + square_slope * thrice_by_root / 6.0) / twice_by_root,
+                    right,
+                    left,
                 });
             }
-            (right, left) = (unit(jet.right.as_ref()), unit(jet.left.as_ref()));
         }
         None
     }
@@ -90,8 +103,8 @@ fn vectors(system: &GyroscopicSystem, speed: f64, lambda: c64) -> Option<[Col<c6
 struct Jet {
     /// g.
     value: c64,
-    /// g_λ, g_Ω, g_λλ, g_λΩ.
-    slopes: [c64; 4],
+    /// g_λ, g_Ω, g_λλ, g_λΩ, g_λλλ.
+    slopes: [c64; 5],
     /// v.
     right: Col<c64>,
     /// w.
@@ -115,12 +128,13 @@ impl Jet {
         let [rooted, sped] = [by_root(&right), by_speed(&right)];
         let moved = |load: &Col<c64>| bordered.solved(&-load, c64::new(0.0, 0.0)).0;
         let [right_by_root, right_by_speed] = [moved(&rooted), moved(&sped)];
-        let two = Scale(c64::new(2.0, 0.0));
-        let both = two * real_times(&system.gyroscopic, &right)
+        let times = |factor: f64| Scale(c64::new(factor, 0.0));
+        let both = times(2.0) * real_times(&system.gyroscopic, &right)
             + by_root(&right_by_speed)
             + by_speed(&right_by_root);
-        let twice = two * (&right + by_root(&right_by_root));
-        let slopes = [rooted, sped, twice, both].map(form);
+        let twice = times(2.0) * (&right + by_root(&right_by_root));
+        let thrice = times(6.0) * &right_by_root + times(3.0) * by_root(&moved(&twice));
+        let slopes = [rooted, sped, twice, both, thrice].map(form);
         let is_finite = value.is_finite() && slopes.iter().all(|slope| slope.is_finite());
         is_finite.then_some(Jet {
             value,
@@ -182,11 +196,11 @@ mod tests {
     #[test]
     fn modes_of_a_shaft_coalesce_at_the_speed_of_the_closed_form() {
         for (a, b) in [(1.0, -2.0), (-0.1, -2.0)] {
-            let square = |entries: [f64; 4]| Mat::from_fn(2, 2, |i, k| entries[2 * i + k]);
+            let matrix = |entries: [f64; 4]| Mat::from_fn(2, 2, |i, k| entries[2 * i + k]);
             let system = GyroscopicSystem {
-                stiffness: square([a, 0.0, 0.0, b]),
-                spin: square([-1.0, 0.0, 0.0, -1.0]),
-                gyroscopic: square([0.0, -1.0, 1.0, 0.0]),
+                stiffness: matrix([a, 0.0, 0.0, b]),
+                spin: matrix([-1.0, 0.0, 0.0, -1.0]),
+                gyroscopic: matrix([0.0, -1.0, 1.0, 0.0]),
                 damping: None,
                 circulatory: None,
                 nonconservative: None,
@@ -196,18 +210,23 @@ mod tests {
             let exact = (-(a - b).powi(2) / (8.0 * (a + b))).sqrt();
             let double_square: f64 = -0.5 * (a + b) - exact * exact;
             let double = c64::new(double_square, 0.0).sqrt();
-            let gap = |speed: f64| {
+            // ((λ₁ ∓ λ₂)/2)².
+            let square = |speed: f64, sign: f64| {
                 let (sum, product) = (a + b, (a - speed * speed) * (b - speed * speed));
-                -0.5 * (0.5 * sum + speed * speed + double_square.signum() * product.sqrt())
+                -0.5 * (0.5 * sum + speed * speed + sign * double_square.signum() * product.sqrt())
             };
             let found = DoubleEigenvalue::next_to(&system, 1.02 * exact, double * 1.03).unwrap();
             let off = found.speed_rad_per_s / exact - 1.0;
             assert!(off.abs() < 1e-9, "{found:?} {exact}");
             assert!((found.lambda - double).norm() < 1e-6, "{found:?} {double}");
             let h = 1e-5;
-            let slope = (gap(exact + h) - gap(exact - h)) / (2.0 * h);
-            let off = found.square_slope / slope - 1.0;
-            assert!(off.abs() < 1e-6, "{found:?} {slope}");
+            let slope = |of: &dyn Fn(f64) -> f64| (of(exact + h) - of(exact - h)) / (2.0 * h);
+            let difference = slope(&|speed| square(speed, 1.0));
+            let off = found.square_slope / difference - 1.0;
+            assert!(off.abs() < 1e-6, "{found:?} {difference}");
+            // The slope of the root of a square.
+            let mean = slope(&|speed| square(speed, -1.0)) / (2.0 * double);
+            assert!((found.mean_slope - mean).norm() < 1e-6, "{found:?} {mean}");
         }
     }
 }

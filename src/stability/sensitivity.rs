@@ -15,14 +15,15 @@ use crate::model::plate::Plate;
 use crate::model::scene::{Parameter, Quantity, Scene, SceneError, SceneFile};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::{
-    Differences, Mode, ModeKind, SpectrumError, complex, derivative, matrix_slopes, smallest,
+    Differences, Mode, ModeKind, SpectralModel, SpectrumError, complex, derivative, matrix_slopes,
+    smallest,
 };
 
 /// Step of the differences as a share of the change, thus 1e-3 of the number for a change of 1 %: the
 /// truncation error (1e-3)⁴ and the rounding error 1e-16/1e-3 are both below 1e-11.
 const STEP: f64 = 0.1;
 
-/// Relative distance below the onset of a band at which the two coalescing modes are computed.
+/// Relative distance below the onset of a band at which the two coalescing modes are expected.
 const BELOW: f64 = 1e-8;
 /// Relative distance within which an onset is a critical speed.
 const SAME_SPEED: f64 = 1e-10;
@@ -272,61 +273,38 @@ impl Merging {
                     c.speed_rad_per_s,
                     &c.shape,
                 ))),
-                None => Self::of_real(analysis, band.from_rad_per_s),
+                None => Self::coalescing(model, band),
             };
         }
-        // Just below the onset the vectors of the two modes are x ± εu with the vector x at the onset and a
-        // small ε, so that their mean is x up to order ε².
-        let before = band.from_rad_per_s * (1.0 - BELOW);
-        let modes = model.modes(before)?;
-        let pair = closest_opposite(&modes);
-        let Some((first, second)) = pair else {
-            return Ok(None);
-        };
-        let component = &model.components[first.component];
-        let lift = |mode: &Mode| component.lifted(before, &mode.coordinates);
-        let (x, y) = (lift(first), lift(second));
-        let overlap: c64 = y.adjoint() * &x;
-        let turn = overlap / overlap.norm().max(f64::MIN_POSITIVE);
-        let mean = faer::Scale(c64::new(0.5, 0.0)) * (x + faer::Scale(turn) * y);
-        Ok(Some(Merging {
-            component: first.component,
-            speed: band.from_rad_per_s,
-            lambda: (first.lambda + second.lambda) * 0.5,
-            x: mean,
-            y: None,
-            damped: false,
-        }))
+        Self::coalescing(model, band)
     }
 
-    /// Coalescence of two real λ at the end of a quadruple; `None` if no such mode is found.
-    ///
-    /// Just below it the vector is x + iεu, whose real part is x to order ε². For an undamped saw L(λ)ᵀ =
-    /// L(−λ), so the left vector is that of the mirror image −λ.
-    fn of_real(analysis: &Analysis, speed: f64) -> Result<Option<Self>, SpectrumError> {
-        let model = &analysis.model;
-        let before = speed * (1.0 - BELOW);
-        let modes = model.modes(before)?;
-        let nearest = |kind: ModeKind, expected: c64| {
-            let alike = modes.iter().filter(|mode| mode.kind == kind);
-            smallest(alike, |mode| (mode.lambda - expected).norm())
-        };
-        let slowest = modes.iter().filter(|mode| mode.kind == ModeKind::Flutter);
-        let pair = smallest(slowest, |mode| mode.lambda.im).and_then(|mode| {
-            let mirrored = nearest(ModeKind::Decaying, -mode.lambda.conj())?;
-            Some((mode, mirrored))
-        });
-        Ok(pair.map(|(mode, mirrored)| {
-            let component = &model.components[mode.component];
-            let vector = |mode: &Mode| real_part(component.lifted(before, &mode.coordinates));
-            Merging {
-                component: mode.component,
-                speed,
-                lambda: c64::new(mode.lambda.re, 0.0),
-                x: vector(mode),
-                y: Some(vector(mirrored)),
-                damped: false,
+    /// Coalescence of two waves, or of two real λ where flutter turns into divergence; `None` if there are no such modes.
+    fn coalescing(
+        model: &SpectralModel,
+        band: &Instability,
+    ) -> Result<Option<Self>, SpectrumError> {
+        let speed = band.from_rad_per_s;
+        let modes = model.modes(speed * (1.0 - BELOW))?;
+        let expected = match band.kind {
+            InstabilityKind::Flutter => closest_opposite(&modes)
+                .map(|(plus, minus)| (plus.component, 0.5 * (plus.lambda + minus.lambda))),
+            InstabilityKind::Divergence => {
+                let flutter = modes.iter().filter(|mode| mode.kind == ModeKind::Flutter);
+                let slowest = smallest(flutter, |mode| mode.lambda.im);
+                slowest.map(|mode| (mode.component, mode.lambda.re.into()))
             }
+        };
+        Ok(expected.and_then(|(component, expected)| {
+            let found = model.double_eigenvalue(component, speed, expected)?;
+            Some(Merging {
+                component,
+                speed,
+                lambda: found.lambda,
+                x: found.right,
+                y: Some(found.left),
+                damped: false,
+            })
         }))
     }
 
@@ -363,13 +341,6 @@ impl Merging {
         let left = self.y.as_ref().unwrap_or(&self.x);
         derivative::of_coalescence(system, self.speed, self.lambda, [&self.x, left], change)
     }
-}
-
-/// Real part of a vector that is real except for its phase and a small part.
-fn real_part(vector: Col<c64>) -> Col<c64> {
-    let square: c64 = vector.iter().map(|q| q * q).sum();
-    let phase = (square / square.norm().max(f64::MIN_POSITIVE)).sqrt();
-    Col::from_fn(vector.nrows(), |i| c64::new((vector[i] / phase).re, 0.0))
 }
 
 /// The + and the − mode whose frequencies are nearest to each other.

@@ -16,6 +16,7 @@ use super::companion::companion_eigenpairs;
 use super::component::{Component, Solution};
 use super::critical::{NamedCriticalSpeed, searched_range};
 use super::derivative;
+use super::double_eigenvalue::DoubleEigenvalue;
 use super::error::SpectrumError;
 use super::full_model::FullModel;
 use super::guided_reduction::{Guided, heights, of_guided};
@@ -341,6 +342,25 @@ impl SpectralModel {
     pub(crate) fn eigenvalue_slope(&self, speed_rad_per_s: f64, mode: &Mode) -> c64 {
         let system = &self.components[mode.component].at(speed_rad_per_s).reduced;
         derivative::with_speed(system, speed_rad_per_s, mode.lambda, &mode.coordinates)
+    }
+
+    /// The double eigenvalue of a component next to an expected one, with vectors in the unknowns of the component.
+    pub(crate) fn double_eigenvalue(
+        &self,
+        component: usize,
+        speed_rad_per_s: f64,
+        expected: c64,
+    ) -> Option<DoubleEigenvalue> {
+        let component = &self.components[component];
+        let system = &component.at(speed_rad_per_s).reduced;
+        let found = DoubleEigenvalue::next_to(system, speed_rad_per_s, expected)?;
+        let [right, left] =
+            [&found.right, &found.left].map(|x| component.lifted(speed_rad_per_s, x));
+        Some(DoubleEigenvalue {
+            right,
+            left,
+            ..found
+        })
     }
 
     /// Relative change of a frequency at rest that rounding may cause: a backward stable solver changes ω² by

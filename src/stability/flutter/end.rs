@@ -93,7 +93,7 @@ impl End {
             speed_rad_per_s: found.speed_rad_per_s,
             lambda: found.lambda,
             growth_square_slope: match is_real {
-                true => f64::NAN,
+                true => 2.0 * found.lambda.re * found.mean_slope.re,
                 false => found.square_slope,
             },
         });
