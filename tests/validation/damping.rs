@@ -410,3 +410,31 @@ fn rigid_motions_in_air_are_counted_and_not_listed() {
     // Stationary air does not resist a stationary wave.
     assert!(!report.critical_speeds_without_damping);
 }
+
+/// The tilts of a free blade in air that turns with the share s of its speed: in space (λ + iΩ)² + c(λ + isΩ) + Ω² = 0 with
+/// the damping c per mass. At a hundredth of the speed of the sweep one
+/// of them is so slow that it might be taken for a rigid motion.
+#[test]
+fn slow_tilts_in_air_that_turns_obey_their_equation() {
+    let damping = DampingFile {
+        air_n_s_per_m3: AIR,
+        air_rotation_share: 0.1,
+        ..DampingFile::default()
+    };
+    let scene = free_blade(damping);
+    let plate = Plate::new(&scene, Resolution::of(Accuracy::Draft));
+    let per_mass = AIR / plate.blade.mass_per_area_kg_per_m2();
+    let range = (0.0, rad_per_s(2700.0));
+    let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
+    for speed in [27.0, 600.0, 2000.0].map(rad_per_s) {
+        let half = 0.5 * c64::new(per_mass, 2.0 * speed);
+        let root = (half * half - c64::new(0.0, 0.1 * per_mass * speed)).sqrt();
+        let modes = model.modes(speed).unwrap();
+        for expected in [-half + root, -half - root] {
+            let upper = c64::new(expected.re, expected.im.abs());
+            let off = modes.iter().map(|mode| (mode.lambda - upper).norm());
+            let off = off.fold(f64::INFINITY, f64::min);
+            assert!(off < 1e-6, "{} rpm: {upper} is off by {off:e}", rpm(speed));
+        }
+    }
+}
