@@ -62,14 +62,15 @@ fn the_report_says_how_many_solves_went_by_the_structure_of_the_matrices() {
     assert!(damped.structured_solves < damped.full_solves, "{damped:?}");
 }
 
-/// More functions need the same number of eigenproblems; only the few of the full model are larger.
+/// More functions need the same number of eigenproblems; only the few of the full model are larger. At `reference` the
+/// listed modes are refined: those at rest and those at the peaks of eleven bands.
 #[test]
 fn work_hardly_depends_on_the_accuracy() {
     let [draft, reference] = [Accuracy::Draft, Accuracy::Reference].map(|a| report(a).work);
     println!("{draft:?} {reference:?}");
     assert!(reference.full_solves <= draft.full_solves + 4);
     assert!(reference.local_solves <= 2 * draft.local_solves);
-    assert!(reference.reduced_solves <= 2 * draft.reduced_solves);
+    assert!(reference.reduced_solves <= draft.reduced_solves + 12);
 }
 
 /// Below the first critical speed no wave is reflected, and no band is searched for.
