@@ -148,11 +148,12 @@ fn vectors_of_all_waves_are_those_of_the_full_matrices() {
     let component = &Component::of(&plate)[0];
     let to = rad_per_s(TO_RPM);
     let modes = modes(&plate, component, (0.0, to), 2.0 * to).unwrap();
+    let mut compared = 0;
     for k in 0..4 {
         let speed = to * (f64::from(k) + 0.4) / 4.0;
         let exact = companion_eigenpairs(&component.full, speed).unwrap();
         let found = modes.eigenpairs(speed, 2.0 * to).unwrap();
-        assert!(found.len() >= 8);
+        compared += found.len();
         for (lambda, coordinates) in found {
             let off = |pair: &(c64, Col<c64>)| (pair.0 - lambda).norm();
             let exact = exact.iter().min_by(|x, y| off(x).total_cmp(&off(y)));
@@ -162,4 +163,5 @@ fn vectors_of_all_waves_are_those_of_the_full_matrices() {
             assert!(angle < 2e-6, "{lambda}: {angle:e}");
         }
     }
+    assert!(compared >= 20, "{compared}");
 }
