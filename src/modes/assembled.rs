@@ -102,9 +102,9 @@ impl Assembled {
     /// # Errors
     /// [`SpectrumError::UnstableAtRest`], [`SpectrumError::Decomposition`].
     pub fn modes_at_rest(&self, count: usize) -> Result<Vec<RestingMode>, SpectrumError> {
-        let structured = self.structured();
-        let structured =
-            structured.and_then(|(structure, only)| modes_at_rest_by(structure, only, count));
+        let structured = self
+            .structured()
+            .and_then(|(structure, only)| modes_at_rest_by(structure, only, count));
         Cancellation::current().check()?;
         match structured {
             Some(found) => Ok(found),
@@ -239,8 +239,11 @@ mod tests {
                 let assembled = Assembled::from(Plate::new(&scene, resolution));
                 let (structure, only) = assembled.structured().unwrap();
                 let top = |found: &[f64]| 2.0 * found[0];
-                let found = critical_speeds_by(structure, only, &top).unwrap();
-                let found: Vec<f64> = found.iter().map(|c| c.speed_rad_per_s).collect();
+                let found: Vec<f64> = critical_speeds_by(structure, only, &top)
+                    .unwrap()
+                    .iter()
+                    .map(|c| c.speed_rad_per_s)
+                    .collect();
                 for (now, before) in found.iter().zip(before.iter().flatten()) {
                     assert!(*now < before * (1.0 + 1e-11), "{now} {before}");
                 }

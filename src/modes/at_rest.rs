@@ -62,9 +62,10 @@ fn lowest(system: &GyroscopicSystem, count: usize) -> Result<Vec<(f64, Col<f64>)
     let unstable = |_| SpectrumError::UnstableAtRest { order };
     let factor = stiffness.llt(Side::Lower).map_err(unstable)?;
     let width = count + MORE;
-    let iterated = match order <= SMALL.max(2 * width) {
-        true => None,
-        false => iterated(system, &factor, [count, width])?,
+    let iterated = if order <= SMALL.max(2 * width) {
+        None
+    } else {
+        iterated(system, &factor, [count, width])?
     };
     let ritz = match iterated {
         Some(ritz) => ritz,
@@ -121,8 +122,9 @@ impl Ritz {
         let flexibility = span.transpose() * &solved;
         let eigen = SymmetricEigen::new(flexibility.as_ref()).map_err(SpectrumError::at(0.0))?;
         let noise = 1e-14 * flexibility.norm_l2();
-        let modes = (0..flexibility.nrows()).rev();
-        let modes = modes.map(|k| (eigen.values[k], eigen.vectors.col(k).to_owned()));
+        let modes = (0..flexibility.nrows())
+            .rev()
+            .map(|k| (eigen.values[k], eigen.vectors.col(k).to_owned()));
         Ok(Ritz {
             span,
             solved,
@@ -159,11 +161,12 @@ mod tests {
     #[test]
     fn modes_at_rest_are_those_of_the_quadratic_problem() {
         let free = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();
-        let point = Scene::paper().edited(|saw| {
-            saw.guides[0].radial_length_m = 0.0;
-            saw.guides[0].tangential_length_m = 0.0;
-        });
-        let point = point.unwrap();
+        let point = Scene::paper()
+            .edited(|saw| {
+                saw.guides[0].radial_length_m = 0.0;
+                saw.guides[0].tangential_length_m = 0.0;
+            })
+            .unwrap();
         for scene in [Scene::paper(), free, point] {
             let resolution = Resolution {
                 max_diameters: 8,

@@ -45,9 +45,10 @@ pub fn first_singular(
     let blocks: Vec<&DMatrix<f64>> = added.stiffness.iter().collect();
     let mut first: Option<SingularStress> = None;
     for (index, component) in components.iter().enumerate() {
-        let range = match plate.is_axisymmetric() {
-            true => index..=index,
-            false => 0..=plate.max_diameters(),
+        let range = if plate.is_axisymmetric() {
+            index..=index
+        } else {
+            0..=plate.max_diameters()
         };
         let term = spread(plate, range, &blocks);
         let stiffness = &component.full.stiffness

@@ -87,8 +87,10 @@ pub fn companion_eigenpairs(
         Some(deflation) => deflation.displacement(eigen.values[i], &eigen.vector(i)),
         None => eigen.vector(i).subrows(0, size).to_owned(),
     };
-    let free = deflation.iter().flat_map(|_| &system.free_rigid);
-    let free = free.map(|z| (c64::new(0.0, 0.0), complex(z)));
+    let free = deflation
+        .iter()
+        .flat_map(|_| &system.free_rigid)
+        .map(|z| (c64::new(0.0, 0.0), complex(z)));
     let pairs = eigen
         .upper()
         .into_iter()

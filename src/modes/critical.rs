@@ -73,10 +73,7 @@ pub(crate) fn searched_range(
 /// range if there are no such speeds.
 pub(crate) fn clear_range(critical: &[NamedCriticalSpeed], (from, to): (f64, f64)) -> (f64, f64) {
     let clear = (clear_above(critical, from), clear_below(critical, to));
-    match clear.0 < clear.1 {
-        true => clear,
-        false => (from, to),
-    }
+    if clear.0 < clear.1 { clear } else { (from, to) }
 }
 
 /// The lowest speed, from a given one on, that is not near a critical speed.

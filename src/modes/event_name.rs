@@ -76,10 +76,10 @@ impl EventName {
         }
         let omega = mode.frequency_rad_per_s();
         let waves = waves(plate, mode.lambda, shape, speed_rad_per_s);
-        let parts = waves
+        let parts: Vec<Part<'_>> = waves
             .iter()
-            .flat_map(|wave| parts(plate, mode.lambda, wave, speed_rad_per_s));
-        let parts: Vec<Part<'_>> = parts.collect();
+            .flat_map(|wave| parts(plate, mode.lambda, wave, speed_rad_per_s))
+            .collect();
         let of_sign = |sign: f64| -> Vec<&Part> {
             let agree = |part: &&Part| sign * part.weight(omega) > 0.0;
             parts.iter().filter(agree).collect()
@@ -96,12 +96,12 @@ impl EventName {
         let named = groups
             .into_iter()
             .zip(sums)
-            .filter(|(_, sum)| *sum >= least);
-        let named = named.filter_map(|((parts, direction), _)| {
-            let weighed = |part| (part, Part::weight(part, omega).abs());
-            let weighed = parts.into_iter().map(weighed).collect();
-            EventWaves::new(direction, weighed, |part| part.named(plate))
-        });
+            .filter(|(_, sum)| *sum >= least)
+            .filter_map(|((parts, direction), _)| {
+                let weighed = |part| (part, Part::weight(part, omega).abs());
+                let weighed = parts.into_iter().map(weighed).collect();
+                EventWaves::new(direction, weighed, |part| part.named(plate))
+            });
         EventName {
             waves: named.collect(),
         }
@@ -123,8 +123,10 @@ impl EventName {
 
     /// Share of n nodal diameters, between 0 and 1, among the waves of its direction, as in the name.
     pub fn share(&self, diameters: usize) -> f64 {
-        let shares = self.waves.iter();
-        let shares = shares.map(|waves| share_of(&waves.shares, diameters));
+        let shares = self
+            .waves
+            .iter()
+            .map(|waves| share_of(&waves.shares, diameters));
         shares.fold(0.0, f64::max)
     }
 
@@ -236,17 +238,19 @@ impl Part<'_> {
     /// The smaller in magnitude of the energy and 2ω times the action, with its sign; zero if the signs differ.
     fn weight(&self, omega: f64) -> f64 {
         let by_action = 2.0 * omega * self.action(omega);
-        match by_action * self.energy > 0.0 {
-            true => by_action.abs().min(self.energy.abs()).copysign(self.energy),
-            false => 0.0,
+        if by_action * self.energy > 0.0 {
+            by_action.abs().min(self.energy.abs()).copysign(self.energy)
+        } else {
+            0.0
         }
     }
 
     /// Nodal diameters, and the circles of the stronger wave.
     fn named(&self, plate: &Plate) -> (usize, usize) {
-        let stronger = match square(self.forward) >= square(self.backward) {
-            true => self.forward,
-            false => self.backward,
+        let stronger = if square(self.forward) >= square(self.backward) {
+            self.forward
+        } else {
+            self.backward
         };
         let diameters = self.wave.diameters;
         (diameters, circles(plate, diameters, stronger))

@@ -70,8 +70,8 @@ fn symmetric_modes(
     let order = matrix.nrows();
     let failed = || SpectrumError::no_convergence(order, speed_rad_per_s);
     let flexibility = matrix.llt(Side::Lower).map_err(|_| failed())?.inverse();
-    let eigen = SymmetricEigen::new(flexibility.as_ref());
-    let eigen = eigen.map_err(SpectrumError::at(speed_rad_per_s))?;
+    let eigen =
+        SymmetricEigen::new(flexibility.as_ref()).map_err(SpectrumError::at(speed_rad_per_s))?;
     let frequency = |k: usize| eigen.values[k].sqrt().recip();
     let modes = (0..order).map(|k| (frequency(k), eigen.vectors.col(k).to_owned()));
     Ok(modes

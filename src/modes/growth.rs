@@ -26,9 +26,10 @@ pub fn eigenvalues(
 
 /// Whether Re λ is positive beyond rounding.
 pub fn grows(lambda: c64, speed_rad_per_s: f64, is_undamped: bool) -> bool {
-    let noise = match is_undamped {
-        true => GROWTH_NOISE * (lambda.norm() + speed_rad_per_s.abs()),
-        false => DAMPED_NOISE * lambda.norm(),
+    let noise = if is_undamped {
+        GROWTH_NOISE * (lambda.norm() + speed_rad_per_s.abs())
+    } else {
+        DAMPED_NOISE * lambda.norm()
     };
     lambda.re > noise
 }

@@ -41,8 +41,11 @@ pub fn eigenpairs(
         return companion_eigenpairs(system, speed_rad_per_s);
     };
     let shapes = found.halves.subrows(0, system.order()).to_owned();
-    let pairs = found.lambdas.into_iter().enumerate();
-    let pairs = pairs.map(|(k, lambda)| (lambda * scale, unit(joined(&shapes, k).as_ref())));
+    let pairs = found
+        .lambdas
+        .into_iter()
+        .enumerate()
+        .map(|(k, lambda)| (lambda * scale, unit(joined(&shapes, k).as_ref())));
     Ok(by_magnitude(pairs.collect()))
 }
 
@@ -150,9 +153,10 @@ fn isotropic(square: &Mat<f64>) -> Option<(Mat<f64>, Mat<f64>)> {
         let (size, shares) = orthogonalize(known, &mut next);
         if let Some(last) = k.checked_sub(1) {
             add(&shares, &mut compressed, last);
-            match size > 0.0 {
-                true => compressed[(k, last)] = size,
-                false => next = fresh(known),
+            if size > 0.0 {
+                compressed[(k, last)] = size
+            } else {
+                next = fresh(known)
             }
         }
         for i in 0..half {
@@ -254,8 +258,13 @@ mod tests {
             let matrix = hamiltonian(half);
             let found = hamiltonian_eigenpairs(matrix.as_ref()).unwrap().unwrap();
             let whole = Eigen::new_from_real(matrix.as_ref()).unwrap();
-            let upper = whole.S().column_vector().iter();
-            let upper: Vec<c64> = upper.filter(|l| l.im >= 0.0).copied().collect();
+            let upper: Vec<c64> = whole
+                .S()
+                .column_vector()
+                .iter()
+                .filter(|l| l.im >= 0.0)
+                .copied()
+                .collect();
             assert_eq!(found.lambdas.len(), upper.len(), "order {half}");
             for lambda in &upper {
                 let away = |other: &c64| (other - lambda).norm();

@@ -119,9 +119,10 @@ impl HamiltonianReduction {
         }
         // A model of two modes needs no canonical basis, because [`HamiltonianReduction::pair_invariants`]
         // does not use one.
-        let canonical = match form.nrows() > ORDER_OF_TWO_MODES {
-            true => canonical_basis(form),
-            false => None,
+        let canonical = if form.nrows() > ORDER_OF_TWO_MODES {
+            canonical_basis(form)
+        } else {
+            None
         };
         Some(HamiltonianReduction {
             canonical: canonical.map(|basis| Coordinates {

@@ -183,14 +183,17 @@ impl<'a> SearchModel<'a> {
         let Some(component) = guided(model) else {
             return Ok(None);
         };
-        let standing = model.critical.iter();
-        let standing: Vec<StandingWave<'_>> =
-            standing.map(|c| (c.speed_rad_per_s, &c.shape)).collect();
+        let standing: Vec<StandingWave<'_>> = model
+            .critical
+            .iter()
+            .map(|c| (c.speed_rad_per_s, &c.shape))
+            .collect();
         let counters = &model.counters;
         let whole = Arc::new(Projection::whole(&component.full));
-        let known = speeds.par_iter();
-        let known = known.map(|speed| KnownModes::of(&whole, *speed, counters));
-        let mut known: Vec<KnownModes> = known.collect::<Result<_, _>>()?;
+        let mut known: Vec<KnownModes> = speeds
+            .par_iter()
+            .map(|speed| KnownModes::of(&whole, *speed, counters))
+            .collect::<Result<_, _>>()?;
         if let [only] = known.as_slice() {
             known.push(only.clone());
         }
@@ -278,9 +281,10 @@ impl<'a> SearchModel<'a> {
         let interval = self.at(speed_rad_per_s);
         let found = on(interval, speed_rad_per_s, expected)?;
         let there = self.at(found.speed_rad_per_s);
-        match Arc::ptr_eq(&interval.projection, &there.projection) {
-            true => Some(found),
-            false => on(there, found.speed_rad_per_s, found.lambda),
+        if Arc::ptr_eq(&interval.projection, &there.projection) {
+            Some(found)
+        } else {
+            on(there, found.speed_rad_per_s, found.lambda)
         }
     }
 }

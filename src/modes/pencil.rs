@@ -103,12 +103,11 @@ impl Pencil<'_> {
             {
                 return Some(span.pairs(&ritz, limit));
             }
-            before = match is_settled {
-                true => {
-                    span.add(self, blocks.next()?);
-                    f64::INFINITY
-                }
-                false => error,
+            before = if is_settled {
+                span.add(self, blocks.next()?);
+                f64::INFINITY
+            } else {
+                error
             };
             let places: Vec<usize> = (0..improved).filter(|&k| errors[k] > TOLERANCE).collect();
             let open = Mat::from_fn(corrections.nrows(), places.len(), |i, k| {
@@ -133,12 +132,13 @@ impl Pencil<'_> {
             residuals.col_mut(k).copy_from(residual);
         }
         let corrections = self.structure.at_rest.solve(residuals.as_ref());
-        let errors = (0..count).map(|k| {
-            let gain: f64 = corrections.col(k).transpose() * residuals.col(k);
-            let energy: f64 = x.col(k).transpose() * ax.col(k);
-            gain.abs() / energy
-        });
-        let errors = errors.collect();
+        let errors = (0..count)
+            .map(|k| {
+                let gain: f64 = corrections.col(k).transpose() * residuals.col(k);
+                let energy: f64 = x.col(k).transpose() * ax.col(k);
+                gain.abs() / energy
+            })
+            .collect();
         (unit_columns(corrections), errors)
     }
 }

@@ -184,8 +184,8 @@ fn body_frequencies(
     speed_rad_per_s: f64,
 ) -> Result<Vec<f64>, SpectrumError> {
     let body = block.body_frame_stiffness(speed_rad_per_s);
-    let squares = symmetric_eigenvalues(body.as_ref());
-    let squares = squares.map_err(SpectrumError::at(speed_rad_per_s))?;
+    let squares =
+        symmetric_eigenvalues(body.as_ref()).map_err(SpectrumError::at(speed_rad_per_s))?;
     Ok(squares
         .into_iter()
         .map(|square| square.max(0.0).sqrt())
@@ -313,13 +313,16 @@ mod tests {
         for scene in [flanged(0.15, 2e-3), flanged(0.27, 0.5e-3)] {
             let plate = plate(&scene, 7);
             let blocks = plate.harmonics_of(FEWEST..=MANY);
-            let lowest = StandingWaves::up_to(&plate, &|found| found[0]).unwrap();
-            let lowest = lowest.speeds_rad_per_s[0];
+            let lowest = StandingWaves::up_to(&plate, &|found| found[0])
+                .unwrap()
+                .speeds_rad_per_s[0];
             for (times, window) in [(0.5, 1.1), (1.0, 1.02), (1.5, 3.0)] {
                 let speed = times * lowest;
                 let in_space = |block: &HarmonicBlock, speed: f64| {
-                    let squares = block.body_frame_stiffness(speed);
-                    let squares = squares.self_adjoint_eigenvalues(Side::Lower).unwrap();
+                    let squares = block
+                        .body_frame_stiffness(speed)
+                        .self_adjoint_eigenvalues(Side::Lower)
+                        .unwrap();
                     squares[0].sqrt() - block.diameters as f64 * speed
                 };
                 let window = window * in_space(&blocks[0], 0.0);

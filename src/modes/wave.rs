@@ -75,9 +75,10 @@ impl Wave {
 
     /// Sign changes of the radial profile of the stronger wave.
     pub fn circles(&self, plate: &Plate) -> usize {
-        match self.runs_forward() {
-            true => circles(plate, self.diameters, &self.forward),
-            false => circles(plate, self.diameters, &self.backward),
+        if self.runs_forward() {
+            circles(plate, self.diameters, &self.forward)
+        } else {
+            circles(plate, self.diameters, &self.backward)
         }
     }
 }

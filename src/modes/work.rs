@@ -127,9 +127,10 @@ impl Cancellation {
     /// [`SpectrumError::Cancelled`] if the computation was cancelled.
     pub fn check(&self) -> Result<(), SpectrumError> {
         count_eigenproblem();
-        match self.is_cancelled() {
-            true => Err(SpectrumError::Cancelled),
-            false => Ok(()),
+        if self.is_cancelled() {
+            Err(SpectrumError::Cancelled)
+        } else {
+            Ok(())
         }
     }
 }

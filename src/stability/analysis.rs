@@ -213,8 +213,10 @@ impl Analysis {
         let drawn_onset = flutter_speed
             .or(first_merge)
             .filter(|_| detail == Detail::Full);
-        let root_loci = drawn_onset.map(|onset| root_loci(&model, &chart, onset, range));
-        let root_loci = root_loci.transpose()?.flatten();
+        let root_loci = drawn_onset
+            .map(|onset| root_loci(&model, &chart, onset, range))
+            .transpose()?
+            .flatten();
         let heat = HeatLimits::new(scene, &model)?;
         let crossings = crossings(&model, &chart, scene.excitation())?;
         let idling = match scene.cut().and_then(|cut| cut.chart) {
@@ -278,9 +280,10 @@ impl Analysis {
     pub fn size_for_similar(&self) -> Resolution {
         let size = self.model.plate.resolution;
         let error = self.promised_error().unwrap_or(f64::INFINITY);
-        match FALL * error <= self.scene.tolerance() {
-            true => next_smaller(size),
-            false => size,
+        if FALL * error <= self.scene.tolerance() {
+            next_smaller(size)
+        } else {
+            size
         }
     }
 

@@ -208,8 +208,10 @@ fn critical_error(
     to_rad_per_s: f64,
 ) -> f64 {
     let within = critical.partition_point(|c| c.speed_rad_per_s <= to_rad_per_s);
-    let errors = critical.iter().take(within.max(1));
-    let errors = errors.map(|c| larger.critical_error(&saw.components, c));
+    let errors = critical
+        .iter()
+        .take(within.max(1))
+        .map(|c| larger.critical_error(&saw.components, c));
     (REMAINDER.get() * errors.fold(0.0, f64::max)).max(ROUNDING)
 }
 
@@ -224,13 +226,15 @@ mod tests {
     /// functions gives their number.
     #[test]
     fn a_basis_too_small_for_the_waves_below_a_speed_gives_way_to_a_larger_one() {
-        let thin = Scene::paper().edited(|saw| saw.blade.thickness_m /= 8.0);
-        let thin = thin.unwrap();
+        let thin = Scene::paper()
+            .edited(|saw| saw.blade.thickness_m /= 8.0)
+            .unwrap();
         let top = rad_per_s(1600.0);
         let below =
             |critical: &[NamedCriticalSpeed]| critical.partition_point(|c| c.speed_rad_per_s < top);
-        let exact = Assembled::from(Plate::new(&thin, resolution((70, LADDER[0].1))));
-        let exact = exact.critical_speeds_below(top).unwrap();
+        let exact = Assembled::from(Plate::new(&thin, resolution((70, LADDER[0].1))))
+            .critical_speeds_below(top)
+            .unwrap();
         let small = Plate::new(&thin, resolution(LADDER[0]));
         let small = below(&SpectralModel::critical_speeds(&small).unwrap());
         assert!(small < exact, "{small} {exact}");

@@ -34,16 +34,13 @@ impl StabilityChart {
         modes: &[Mode],
     ) {
         let (bands, certificate) = (&self.instabilities, &mut self.certificate);
-        match model.is_conservative() {
-            true => {
-                let signature = Signature::new(speed_rad_per_s, modes.iter());
-                let wrong = contradictions(bands, &[signature], GROWTH_FLOOR);
-                certificate.mismatches.extend(wrong);
-            }
-            false => {
-                let wrong = damped::contradicted(model, bands, (speed_rad_per_s, modes));
-                certificate.violations_rad_per_s.extend(wrong);
-            }
+        if model.is_conservative() {
+            let signature = Signature::new(speed_rad_per_s, modes.iter());
+            let wrong = contradictions(bands, &[signature], GROWTH_FLOOR);
+            certificate.mismatches.extend(wrong);
+        } else {
+            let wrong = damped::contradicted(model, bands, (speed_rad_per_s, modes));
+            certificate.violations_rad_per_s.extend(wrong);
         }
     }
 }
@@ -72,9 +69,10 @@ pub(super) fn drawn(
     count: usize,
     options: AnalysisOptions<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
-    let (samples, instabilities, certificate) = match model.is_conservative() {
-        true => undamped::charted(model, range, count, options)?,
-        false => damped::charted(model, range, count, options)?,
+    let (samples, instabilities, certificate) = if model.is_conservative() {
+        undamped::charted(model, range, count, options)?
+    } else {
+        damped::charted(model, range, count, options)?
     };
     Ok(StabilityChart {
         campbell: Campbell::track(samples, model.complete_to_rad_per_s),

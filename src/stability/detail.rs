@@ -29,8 +29,10 @@ mod tests {
         ] {
             let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes");
             let text = std::fs::read_to_string(format!("{folder}/{scene}.json")).unwrap();
-            let saw = Scene::from_json(&text).unwrap();
-            let saw = saw.edited(|file| file.accuracy = Accuracy::Draft).unwrap();
+            let saw = Scene::from_json(&text)
+                .unwrap()
+                .edited(|file| file.accuracy = Accuracy::Draft)
+                .unwrap();
             let [sketch, full] = [Detail::Sketch, Detail::Full].map(|detail| {
                 let options = AnalysisOptions {
                     detail,

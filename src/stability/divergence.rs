@@ -151,8 +151,7 @@ pub(super) fn close_pairs(
     };
     let close = |pair: &[f64]| (1e-12..=CRITICAL_GROUP).contains(&(pair[1] / pair[0] - 1.0));
     let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
-    let pairs = critical.windows(2).enumerate();
-    let pairs = pairs.filter(|(below, pair)| {
+    let pairs = critical.windows(2).enumerate().filter(|(below, pair)| {
         below % 2 == 0 && first <= pair[0] && pair[1] <= last && close(pair)
     });
     pairs

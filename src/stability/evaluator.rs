@@ -127,9 +127,11 @@ impl<'a> SignatureEvaluator<'a> {
 
     /// Results of the checks so far.
     pub fn certificate(&self) -> Certificate {
-        let violations = self.tally.violations.lock();
-        let mut violations =
-            violations.map_or_else(|poisoned| poisoned.into_inner().clone(), |v| v.clone());
+        let mut violations = self
+            .tally
+            .violations
+            .lock()
+            .map_or_else(|poisoned| poisoned.into_inner().clone(), |v| v.clone());
         violations.sort_by(f64::total_cmp);
         Certificate {
             speeds_checked: self.tally.checked.load(Ordering::Relaxed),
@@ -173,9 +175,10 @@ impl<'a> SignatureEvaluator<'a> {
             return Ok(reduced);
         }
         let before = self.tally.solved_in_full.fetch_add(1, Ordering::Relaxed);
-        let modes = match before < most_full_solves(self.model) {
-            true => self.model.full_modes(speed_rad_per_s)?,
-            false => reduced,
+        let modes = if before < most_full_solves(self.model) {
+            self.model.full_modes(speed_rad_per_s)?
+        } else {
+            reduced
         };
         if self.match_index(speed_rad_per_s, &modes) {
             return Ok(modes);
@@ -342,8 +345,9 @@ impl<'a> SignatureEvaluator<'a> {
         expected_per_s: f64,
     ) -> Result<f64, SpectrumError> {
         let found = self.next_to(speed_rad_per_s, c64::new(expected_per_s, 0.0));
-        let growth = found.map(|(lambda, _)| lambda.re);
-        let growth = growth.filter(|g| (g - expected_per_s).abs() <= SAME_GROWTH * expected_per_s);
+        let growth = found
+            .map(|(lambda, _)| lambda.re)
+            .filter(|g| (g - expected_per_s).abs() <= SAME_GROWTH * expected_per_s);
         growth.map_or_else(|| self.divergence(speed_rad_per_s), Ok)
     }
 

@@ -105,14 +105,15 @@ impl Group {
             false => (z, slope),
         };
         let means = ends.map(|end| exact(mean(end)));
-        let coefficients = [0, 1].map(|end| {
-            let (centre, drift) = means[end];
-            let around = ends[end]
-                .iter()
-                .map(|(z, slope)| (z - centre, slope - drift));
-            monic(&around.collect::<Vec<_>>())
-        });
-        let coefficients = coefficients.map(|all| all.into_iter().map(exact).collect::<Vec<_>>());
+        let coefficients = [0, 1]
+            .map(|end| {
+                let (centre, drift) = means[end];
+                let around = ends[end]
+                    .iter()
+                    .map(|(z, slope)| (z - centre, slope - drift));
+                monic(&around.collect::<Vec<_>>())
+            })
+            .map(|all| all.into_iter().map(exact).collect::<Vec<_>>());
         let [first, last] = coefficients;
         let pairs = first.into_iter().zip(last).skip(1);
         Group {
@@ -261,9 +262,10 @@ fn roots(coefficients: &[c64]) -> Vec<c64> {
         (i, k) => c64::new(f64::from(u8::from(i == k + 1)), 0.0),
     });
     let is_real = coefficients.iter().all(|c| c.im == 0.0);
-    let values = match is_real {
-        true => real_eigenvalues(Mat::from_fn(size, size, |i, k| companion[(i, k)].re).as_ref()),
-        false => complex_eigenvalues(companion.as_ref()),
+    let values = if is_real {
+        real_eigenvalues(Mat::from_fn(size, size, |i, k| companion[(i, k)].re).as_ref())
+    } else {
+        complex_eigenvalues(companion.as_ref())
     };
     match values {
         Ok(values) => values.into_iter().map(|z| z * unit).collect(),

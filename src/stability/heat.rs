@@ -180,17 +180,19 @@ impl<'a> Heating<'a> {
     /// faster.
     fn rises(&self, operating: Option<&HeatLimit>, buckling: Option<&HeatLimit>) -> Vec<f64> {
         let size = |limit: Option<&HeatLimit>| limit.map(|limit| limit.rise_k.abs());
-        let shown = size(operating).map_or(0.0, |rise| BEYOND * rise);
-        let shown = shown.max(BEYOND * self.now_k.abs());
+        let shown = size(operating)
+            .map_or(0.0, |rise| BEYOND * rise)
+            .max(BEYOND * self.now_k.abs());
         let end = match size(buckling).map(|rise| BEFORE_BUCKLING * rise) {
             Some(buckling) if shown == 0.0 || buckling < BEYOND * shown => buckling,
             _ => shown,
         };
         let share = |k: usize| 1.0 - (1.0 - k as f64 / (RISES - 1) as f64).powi(2);
         let rises = (0..RISES).map(|k| self.direction * end * share(k));
-        match end > 0.0 {
-            true => rises.collect(),
-            false => Vec::new(),
+        if end > 0.0 {
+            rises.collect()
+        } else {
+            Vec::new()
         }
     }
 
@@ -212,9 +214,10 @@ impl<'a> Heating<'a> {
             for (place, wave) in found.into_iter().enumerate() {
                 let diameters = wave.name.diameters();
                 let is_same = |curve: &HeatCurve| curve.name.diameters() == diameters;
-                let index = match free {
-                    true => curves.iter().position(is_same),
-                    false => (place < curves.len()).then_some(place),
+                let index = if free {
+                    curves.iter().position(is_same)
+                } else {
+                    (place < curves.len()).then_some(place)
                 };
                 let index = index.unwrap_or_else(|| {
                     curves.push(HeatCurve {
@@ -243,9 +246,10 @@ impl<'a> Heating<'a> {
         let mut lowest = Vec::new();
         let free = plate.is_axisymmetric();
         for (index, component) in self.model.components.iter().enumerate() {
-            let range = match free {
-                true => index..=index,
-                false => 0..=plate.max_diameters(),
+            let range = if free {
+                index..=index
+            } else {
+                0..=plate.max_diameters()
             };
             let mut system = component.full.clone();
             system.stiffness += faer::Scale(rise_k - self.now_k) * spread(plate, range, &blocks);

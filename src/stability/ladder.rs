@@ -37,9 +37,10 @@ pub(super) fn sized(rung: usize, diameters: usize) -> Resolution {
 
 /// Number of nodal diameters of a size from [`sized`] if it has more than the ladder; 0 otherwise.
 pub(crate) fn diameters_beyond(size: Resolution) -> usize {
-    match size.max_diameters > LADDER[rung_of(size)].0 {
-        true => size.max_diameters,
-        false => 0,
+    if size.max_diameters > LADDER[rung_of(size)].0 {
+        size.max_diameters
+    } else {
+        0
     }
 }
 

@@ -97,9 +97,10 @@ impl Pair {
         let half = 0.5 * (first - second);
         let square = half * half + half * (first_slope - second_slope) * step;
         let half = square.re.abs().sqrt();
-        let half = match is_coalesced {
-            true => c64::new(half, 0.0),
-            false => c64::new(0.0, half),
+        let half = if is_coalesced {
+            c64::new(half, 0.0)
+        } else {
+            c64::new(0.0, half)
         };
         [c64::new(0.0, mean.im), half]
     }
@@ -154,9 +155,10 @@ impl Pairs<'_> {
             let Some(next) = self.at(speed, last.predicted(speed, is_inside)) else {
                 break;
             };
-            match is_inside {
-                true => rows.push(next.row([0, 0])),
-                false => beside.push(next),
+            if is_inside {
+                rows.push(next.row([0, 0]))
+            } else {
+                beside.push(next)
             }
             last = next;
         }
@@ -218,8 +220,10 @@ mod tests {
         for (path, sign) in loci.paths.iter().zip([1.0, -1.0]) {
             let (lambda, _) = path[path.len() - 1];
             assert!(sign * lambda.re > 0.5 * whole.peak_growth_per_s, "{lambda}");
-            let off = dense.iter().map(|(exact, _)| (exact - lambda).norm());
-            let off = off.fold(f64::INFINITY, f64::min);
+            let off = dense
+                .iter()
+                .map(|(exact, _)| (exact - lambda).norm())
+                .fold(f64::INFINITY, f64::min);
             // A figure resolves a thousandth of the growth.
             assert!(off < 1e-3 * lambda.re.abs(), "{lambda}: {off:e}");
         }

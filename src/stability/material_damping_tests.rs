@@ -49,9 +49,10 @@ fn modes_at_rest_have_the_ratio_that_was_given() {
     let analysis = Analysis::new(&scene(collar)).unwrap();
     assert!(analysis.modes_at_rest.len() >= 6);
     for mode in &analysis.modes_at_rest {
-        let expected = match mode.name.diameters == 3 {
-            true => 0.005,
-            false => 0.002,
+        let expected = if mode.name.diameters == 3 {
+            0.005
+        } else {
+            0.002
         };
         let ratio = mode.mode.damping_ratio().unwrap();
         assert!(
@@ -73,8 +74,10 @@ fn turning_waves_decay_as_in_the_frame_of_the_blade() {
     let modes = model.all_modes(speed).unwrap();
     for n in 2..=3 {
         let block = &plate.harmonics[n];
-        let eigen = block.body_frame_stiffness(speed);
-        let eigen = eigen.self_adjoint_eigen(faer::Side::Lower).unwrap();
+        let eigen = block
+            .body_frame_stiffness(speed)
+            .self_adjoint_eigen(faer::Side::Lower)
+            .unwrap();
         let (omega, shape) = (eigen.S()[0].sqrt(), eigen.U().col(0).to_owned());
         let damping = block.material_damping.as_ref().unwrap();
         let size = shape.nrows();
@@ -115,8 +118,8 @@ fn the_certificate_counts_a_saw_with_a_loss_factor() {
             from_rpm: 0.0,
             to_rpm: 4000.0,
         });
-    }));
-    let reflected = reflected.unwrap();
+    }))
+    .unwrap();
     // Dissipation that turns with a free blade never makes it unstable.
     assert!(reflected.lowest_critical_rpm().unwrap() < 4000.0);
     assert!(reflected.bands().is_empty(), "{:?}", reflected.bands());

@@ -38,11 +38,14 @@ pub fn maximize(
         let Some(best) = greatest(&samples) else {
             break;
         };
-        let predicted = samples.windows(2).enumerate().map(|(place, ends)| {
-            let (share, value) = predicted_maximum(ends);
-            (place, ends[0].at + share * (ends[1].at - ends[0].at), value)
-        });
-        let predicted = predicted.max_by(|x, y| x.2.total_cmp(&y.2));
+        let predicted = samples
+            .windows(2)
+            .enumerate()
+            .map(|(place, ends)| {
+                let (share, value) = predicted_maximum(ends);
+                (place, ends[0].at + share * (ends[1].at - ends[0].at), value)
+            })
+            .max_by(|x, y| x.2.total_cmp(&y.2));
         let Some((place, speed, value)) = predicted else {
             break;
         };

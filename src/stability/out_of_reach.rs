@@ -85,14 +85,14 @@ impl Smaller {
         let finer = Plate::new(scene, ahead(size));
         let larger = LargerBasis::new(&saw.plate, &finer)?;
         let critical = saw.critical_speeds(Some(&|_| to_rad_per_s))?;
-        let within = critical.into_iter();
-        let within = within.filter(|c| c.speed_rad_per_s <= to_rad_per_s);
-        let within = within.map(|c| {
-            let error = larger.critical_error(&saw.components, &c);
-            (error, c.component, c.shape)
-        });
-        let resting = saw.modes_at_rest(MODES_AT_REST)?.into_iter();
-        let resting = resting.map(|mode| {
+        let within = critical
+            .into_iter()
+            .filter(|c| c.speed_rad_per_s <= to_rad_per_s)
+            .map(|c| {
+                let error = larger.critical_error(&saw.components, &c);
+                (error, c.component, c.shape)
+            });
+        let resting = saw.modes_at_rest(MODES_AT_REST)?.into_iter().map(|mode| {
             let error = larger.resting_error(&mode);
             (error, mode.component, mode.shape)
         });
@@ -119,8 +119,9 @@ impl Smaller {
             let stiffness = terms.stiffness()?;
             self.larger.softening_by(self.component, stiffness, &shape)
         };
-        let shares = guides.iter().map(share);
-        let shares = shares
+        let shares = guides
+            .iter()
+            .map(share)
             .enumerate()
             .filter_map(|(k, share)| Some((k, share?)));
         let sharpest = shares.max_by(|x, y| x.1.total_cmp(&y.1));

@@ -118,8 +118,9 @@ impl Search<'_> {
         if let (true, None, Some(groups)) = (is_kept, place, &groups) {
             return Ok(alone(groups.clone()));
         }
-        let speed = place.unwrap_or(0.5 * (a + b));
-        let speed = speed.clamp(a + MARGIN * (b - a), b - MARGIN * (b - a));
+        let speed = place
+            .unwrap_or(0.5 * (a + b))
+            .clamp(a + MARGIN * (b - a), b - MARGIN * (b - a));
         let Some(found) = (self.solve)(speed)? else {
             return Ok(alone(Vec::new()));
         };
@@ -133,23 +134,29 @@ impl Search<'_> {
         let predicted = predicted.filter(|predicted| {
             are_distinct(predicted.iter().flat_map(|group| group.places.iter()))
         });
-        let misfit = predicted.iter().flatten().map(|group| group.misfit);
-        let misfit = misfit.fold(0.0, f64::max);
+        let misfit = predicted
+            .iter()
+            .flatten()
+            .map(|group| group.misfit)
+            .fold(0.0, f64::max);
         let share = (speed - a) / (b - a);
         let mut pieces = Vec::new();
         for (end, half) in halves.into_iter().enumerate() {
             // A half of the piece keeps the groups if the error of their prediction is small enough over the
             // whole half.
             let is_close = left_by(misfit, share, [share, 1.0 - share][end]) <= 1.0;
-            let kept = groups.as_ref().zip(predicted.as_ref()).filter(|_| is_close);
-            let kept = kept.map(|(groups, predicted)| {
-                let parts = groups.iter().zip(predicted).map(|(grouped, predicted)| {
-                    let mut places = [predicted.places.clone(), predicted.places.clone()];
-                    places[end].clone_from(&grouped.places[end]);
-                    places
+            let kept = groups
+                .as_ref()
+                .zip(predicted.as_ref())
+                .filter(|_| is_close)
+                .map(|(groups, predicted)| {
+                    let parts = groups.iter().zip(predicted).map(|(grouped, predicted)| {
+                        let mut places = [predicted.places.clone(), predicted.places.clone()];
+                        places[end].clone_from(&grouped.places[end]);
+                        places
+                    });
+                    grouped_by(half, &parts.collect::<Vec<_>>())
                 });
-                grouped_by(half, &parts.collect::<Vec<_>>())
-            });
             pieces.extend(self.between(half, kept, least_rad_per_s, work)?);
         }
         work.advance();
@@ -227,10 +234,16 @@ impl Search<'_> {
             .iter()
             .map(|&place| sample.eigenvalues[place].0)
             .collect();
-        let off = predicted.iter().zip(&found).map(|(x, z)| (x - z).norm());
-        let off = off.fold(0.0, f64::max);
-        let size = predicted.iter().map(|z| z.norm()).fold(0.0, f64::max);
-        let size = size.max(self.plane.sized(1e-3 * self.top_rad_per_s));
+        let off = predicted
+            .iter()
+            .zip(&found)
+            .map(|(x, z)| (x - z).norm())
+            .fold(0.0, f64::max);
+        let size = predicted
+            .iter()
+            .map(|z| z.norm())
+            .fold(0.0, f64::max)
+            .max(self.plane.sized(1e-3 * self.top_rad_per_s));
         let misfit = match grouped.sign {
             Some(sign) if places.iter().any(|&place| sample.signs[place] != sign) => return None,
             Some(_) => off / (DEFINITE_TOLERANCE * size),
@@ -256,8 +269,10 @@ impl Search<'_> {
         off: f64,
     ) -> f64 {
         let by_growth = |numbers: &[c64]| {
-            let growth = numbers.iter().map(|z| self.plane.growth_per_s(*z));
-            let mut growth: Vec<f64> = growth.collect();
+            let mut growth: Vec<f64> = numbers
+                .iter()
+                .map(|z| self.plane.growth_per_s(*z))
+                .collect();
             growth.sort_by(|x, y| y.total_cmp(x));
             growth
         };
@@ -281,8 +296,9 @@ impl Search<'_> {
             return of_each;
         }
         let pairs = (0..predicted.len()).flat_map(|i| (0..i).map(move |k| (i, k)));
-        let gap = pairs.map(|(i, k)| (predicted[i] - predicted[k]).norm());
-        let gap = gap.fold(f64::INFINITY, f64::min);
+        let gap = pairs
+            .map(|(i, k)| (predicted[i] - predicted[k]).norm())
+            .fold(f64::INFINITY, f64::min);
         let least = match self.plane {
             Plane::Eigenvalues => allowed(0),
             Plane::Squares => {
@@ -354,8 +370,9 @@ fn grouped_by(ends: [&Arc<Sample>; 2], parts: &[Places]) -> Vec<Grouped> {
 fn parabola(values: &[f64]) -> f64 {
     let [x, y, z] = values else { return 0.0 };
     let curvature = x - 2.0 * y + z;
-    match curvature > 0.0 {
-        true => (0.5 * (x - z) / curvature).clamp(-1.0, 1.0),
-        false => 0.0,
+    if curvature > 0.0 {
+        (0.5 * (x - z) / curvature).clamp(-1.0, 1.0)
+    } else {
+        0.0
     }
 }

@@ -108,8 +108,9 @@ impl Proof<'_> {
         };
         let middle = 0.5 * (a.speed + b.speed);
         if ends.len() > 2 {
-            let place = ends.partition_point(|end| end.speed < middle);
-            let place = place.clamp(1, ends.len() - 2);
+            let place = ends
+                .partition_point(|end| end.speed < middle)
+                .clamp(1, ends.len() - 2);
             return halves(&ends[..=place], &ends[place..]);
         }
         let is_open = self.full.has_free_motions() || self.full.is_dense();
@@ -257,8 +258,8 @@ impl End {
             .rev()
             .zip(theirs.iter().rev())
             .take_while(same)
-            .count();
-        let above = above.min(ours.len().min(theirs.len()) - below);
+            .count()
+            .min(ours.len().min(theirs.len()) - below);
         let first = ours[..below].iter().zip(&theirs[..below]);
         let last = ours[ours.len() - above..].iter();
         first.chain(last.zip(&theirs[theirs.len() - above..]))

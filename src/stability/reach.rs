@@ -106,9 +106,10 @@ impl<'a> Reach<'a> {
         let lowest = free.lowest_rad_per_s.zip(speeds.first());
         let lowered = lowest.map_or(1.0, |(free, own)| f64::max(free / own, 1.0));
         let top = lowered * (1.0 + self.tolerance) * last;
-        let needed = match top > free.to_rad_per_s {
-            true => self.needed(saw, &|_| top)?,
-            false => free,
+        let needed = if top > free.to_rad_per_s {
+            self.needed(saw, &|_| top)?
+        } else {
+            free
         };
         Ok(Needed {
             to_rad_per_s: last,
@@ -150,11 +151,12 @@ impl<'a> Reach<'a> {
         if needed.diameters > most {
             self.check_sweep(saw, most.min(MOST_DIAMETERS))?;
         }
-        match needed.diameters > MOST_DIAMETERS {
-            true => Err(AnalysisError::TooNarrow {
+        if needed.diameters > MOST_DIAMETERS {
+            Err(AnalysisError::TooNarrow {
                 diameters: needed.diameters,
-            }),
-            false => Ok(needed),
+            })
+        } else {
+            Ok(needed)
         }
     }
 
@@ -187,9 +189,10 @@ impl<'a> Reach<'a> {
 fn most_unknowns(saw: &Assembled) -> usize {
     let plate = &saw.plate;
     let is_structured = || plate.is_conservative() && saw.may_be_structured();
-    match plate.is_axisymmetric() || is_structured() {
-        true => MOST_UNKNOWNS,
-        false => resolution(DENSE_LADDER[DENSE_LADDER.len() - 1]).degrees_of_freedom(),
+    if plate.is_axisymmetric() || is_structured() {
+        MOST_UNKNOWNS
+    } else {
+        resolution(DENSE_LADDER[DENSE_LADDER.len() - 1]).degrees_of_freedom()
     }
 }
 
@@ -211,12 +214,13 @@ fn fastest_rad_per_s(blade: &Blade) -> f64 {
 /// [`AnalysisError::Overstretched`].
 fn check_stretch(blade: &Blade, to_rad_per_s: f64) -> Result<(), AnalysisError> {
     let fastest = fastest_rad_per_s(blade);
-    match to_rad_per_s > fastest {
-        true => Err(AnalysisError::Overstretched {
+    if to_rad_per_s > fastest {
+        Err(AnalysisError::Overstretched {
             to_rpm: rpm(to_rad_per_s),
             limit_rpm: rpm(fastest),
-        }),
-        false => Ok(()),
+        })
+    } else {
+        Ok(())
     }
 }
 

@@ -61,8 +61,8 @@ mod tests {
     #[test]
     #[cfg_attr(debug_assertions, ignore = "a large basis: run it in release")]
     fn a_chart_beyond_memory_is_refused_before_its_model() {
-        let fast = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft);
-        let fast = fast
+        let fast = Scene::paper()
+            .edited(|saw| saw.accuracy = Accuracy::Draft)
             .unwrap()
             .swept((0.0, rad_per_s(20_000.0)).into())
             .unwrap();

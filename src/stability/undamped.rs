@@ -38,9 +38,10 @@ pub(super) fn charted(
         Detail::Sketch => with_critical_speeds((&model.plate, &model.critical), drawn, even),
     };
     // A free blade has no bands to search for; only the Krein index is checked.
-    let search = match model.plate.is_axisymmetric() {
-        true => from_lowest_critical(model, speeds.clone()),
-        false => search_speeds(model, range, SEARCH_SPEEDS),
+    let search = if model.plate.is_axisymmetric() {
+        from_lowest_critical(model, speeds.clone())
+    } else {
+        search_speeds(model, range, SEARCH_SPEEDS)
     };
     let (within_bands, closeness, depth) = match detail {
         Detail::Full => (WITHIN_BANDS.as_slice(), Closeness::FIGURE, Depth::Proof),
@@ -104,8 +105,10 @@ const DRAWN_FLOOR: f64 = 1e-3;
 /// Ascending speeds from the last one below the lowest critical speed on. Below it nothing can be unstable:
 /// K(Ω) is positive definite, no wave is reflected, and the Krein index is zero.
 fn from_lowest_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
-    let lowest = model.critical.first();
-    let lowest = lowest.map_or(f64::INFINITY, |c| c.speed_rad_per_s);
+    let lowest = model
+        .critical
+        .first()
+        .map_or(f64::INFINITY, |c| c.speed_rad_per_s);
     let below = speeds.partition_point(|speed| *speed < lowest);
     speeds.drain(..below.saturating_sub(1));
     speeds
@@ -124,9 +127,10 @@ fn critical_gap(critical: &[f64], index: usize) -> f64 {
         other.is_some_and(|other| (other / critical[index] - 1.0).abs() < DOUBLE)
     };
     let below = index.checked_sub(1).and_then(|below| critical.get(below));
-    match is_double(below) || is_double(critical.get(index + 1)) {
-        true => DOUBLE_GAP,
-        false => CRITICAL_GAP.get(),
+    if is_double(below) || is_double(critical.get(index + 1)) {
+        DOUBLE_GAP
+    } else {
+        CRITICAL_GAP.get()
     }
 }
 

@@ -48,9 +48,10 @@ pub fn lowest_eigenpairs(
     shift_per_s: f64,
 ) -> Result<Vec<Eigenpair>, SpectrumError> {
     let inverse = ShiftedInverse::new(system, speed_rad_per_s, shift_per_s);
-    let found = match is_hamiltonian(system) {
-        true => nearest(&SquaredInverse::new(inverse), count, shift_per_s),
-        false => nearest(&inverse, 2 * count, shift_per_s),
+    let found = if is_hamiltonian(system) {
+        nearest(&SquaredInverse::new(inverse), count, shift_per_s)
+    } else {
+        nearest(&inverse, 2 * count, shift_per_s)
     };
     let failed = SpectrumError::at(speed_rad_per_s);
     let mut pairs = found.map_err(failed)?;
@@ -251,13 +252,14 @@ mod tests {
     /// A ring of rubber on a stiff bed with a damper, whose modes form a cluster near the lowest one.
     #[test]
     fn a_cluster_of_modes_is_found() {
-        let scene = Scene::paper().edited(|saw| {
-            saw.blade.material.youngs_modulus_pa = 2e7;
-            let bed = &mut saw.guides[0];
-            bed.damping_n_s_per_m = 5.0;
-            (bed.radius_m, bed.radial_length_m, bed.tangential_length_m) = (0.0, 2.0, 2.0);
-        });
-        let scene = scene.unwrap();
+        let scene = Scene::paper()
+            .edited(|saw| {
+                saw.blade.material.youngs_modulus_pa = 2e7;
+                let bed = &mut saw.guides[0];
+                bed.damping_n_s_per_m = 5.0;
+                (bed.radius_m, bed.radial_length_m, bed.tangential_length_m) = (0.0, 2.0, 2.0);
+            })
+            .unwrap();
         let resolution = Resolution {
             max_diameters: 16,
             radial_functions: 5,

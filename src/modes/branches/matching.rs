@@ -72,9 +72,10 @@ pub fn match_modes(
     // partner.
     let leaving = |c: &Carrier, step: f64| {
         let there = (c.frequency + c.slope * step).abs().max(c.frequency.abs());
-        match there >= (1.0 - TOP) * height || c.has_stopped(height) {
-            true => AT_EDGE,
-            false => INSIDE,
+        if there >= (1.0 - TOP) * height || c.has_stopped(height) {
+            AT_EDGE
+        } else {
+            INSIDE
         }
     };
     let size = old.len() + new.len();
@@ -173,11 +174,13 @@ impl Carrier {
         let off = slopes
             .into_iter()
             .chain(level)
-            .map(|slope| (moved - slope * step).abs());
-        let off = off.fold(f64::INFINITY, f64::min) / height;
-        let regrown = match self.damped {
-            true => REGROWN * self.regrown(other, height),
-            false => 0.0,
+            .map(|slope| (moved - slope * step).abs())
+            .fold(f64::INFINITY, f64::min)
+            / height;
+        let regrown = if self.damped {
+            REGROWN * self.regrown(other, height)
+        } else {
+            0.0
         };
         (1.0 - likeness + OFF * off + regrown, likeness)
     }
@@ -213,10 +216,11 @@ impl Likenesses {
             let rows = modes.first().map_or(0, |mode| mode.shape.nrows());
             halves(rows, modes.iter().map(|mode| mode.shape))
         });
-        let products = match x.nrows() == y.nrows() {
-            true => x.transpose() * y,
+        let products = if x.nrows() == y.nrows() {
+            x.transpose() * y
+        } else {
             // The numbers of rows differ only if one of the speeds has no modes.
-            false => Mat::zeros(x.ncols(), y.ncols()),
+            Mat::zeros(x.ncols(), y.ncols())
         };
         Likenesses { products }
     }
@@ -256,8 +260,10 @@ mod tests {
         let after: Vec<Mode> = real.into_iter().chain(waves()).collect();
         let seen = [&before, &after].map(|modes| {
             let shapes = modes.iter().map(|mode| &mode.coordinates);
-            let sighted = modes.iter().zip(shapes);
-            let sighted = sighted.map(|(mode, shape)| Sighted { mode, shape });
+            let sighted = modes
+                .iter()
+                .zip(shapes)
+                .map(|(mode, shape)| Sighted { mode, shape });
             sighted.collect::<Vec<_>>()
         });
         let pairs = |found: Vec<Match>| -> Vec<(usize, usize)> {

@@ -189,9 +189,10 @@ impl<T: Shift> Elimination<T> {
     /// Argument of det L, in rad, up to whole turns. `None` if it is not finite.
     pub fn determinant_angle(&self) -> Option<f64> {
         let blocks: f64 = self.blocks.iter().map(|block| block.angle).sum();
-        let swaps = match is_odd(self.core.P().arrays().0) {
-            true => std::f64::consts::PI,
-            false => 0.0,
+        let swaps = if is_odd(self.core.P().arrays().0) {
+            std::f64::consts::PI
+        } else {
+            0.0
         };
         let upper = self.core.U();
         let pivots = (0..upper.nrows()).map(|i| upper[(i, i)].into().arg());

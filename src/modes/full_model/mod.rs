@@ -108,14 +108,18 @@ impl FullModel {
         let (Coupling::Columns(springs), Some(damping)) = (&self.coupling, &self.damping) else {
             return None;
         };
-        let blocks = self.harmonics.iter().enumerate().map(|(k, harmonic)| {
-            let wave = |n: f64| {
-                let block = harmonic.stiffness(speed_rad_per_s);
-                damping.dynamic(k, block, speed_rad_per_s, lambda.into(), n)
-            };
-            PairInverse::new(harmonic, wave)
-        });
-        let blocks: Option<Vec<PairInverse<T>>> = blocks.collect();
+        let blocks: Option<Vec<PairInverse<T>>> = self
+            .harmonics
+            .iter()
+            .enumerate()
+            .map(|(k, harmonic)| {
+                let wave = |n: f64| {
+                    let block = harmonic.stiffness(speed_rad_per_s);
+                    damping.dynamic(k, block, speed_rad_per_s, lambda.into(), n)
+                };
+                PairInverse::new(harmonic, wave)
+            })
+            .collect();
         let parts = damping.weighted(springs, lambda);
         Elimination::new(blocks?, &parts)
     }
@@ -128,19 +132,22 @@ impl FullModel {
             return None;
         };
         let mut held: Vec<(usize, f64)> = Vec::new();
-        let blocks = self.harmonics.iter().map(|harmonic| {
-            let mut block = harmonic.rest.clone();
-            if harmonic.diameters <= 1 {
-                block[(0, 0)] += harmonic.shift;
-                held.extend(
-                    harmonic
-                        .firsts()
-                        .map(|first| (first, harmonic.shift.sqrt())),
-                );
-            }
-            PairInverse::new(harmonic, |_| block.map(|x| c64::new(x, 0.0)))
-        });
-        let blocks: Option<Vec<PairInverse<f64>>> = blocks.collect();
+        let blocks: Option<Vec<PairInverse<f64>>> = self
+            .harmonics
+            .iter()
+            .map(|harmonic| {
+                let mut block = harmonic.rest.clone();
+                if harmonic.diameters <= 1 {
+                    block[(0, 0)] += harmonic.shift;
+                    held.extend(
+                        harmonic
+                            .firsts()
+                            .map(|first| (first, harmonic.shift.sqrt())),
+                    );
+                }
+                PairInverse::new(harmonic, |_| block.map(|x| c64::new(x, 0.0)))
+            })
+            .collect();
         let order = springs.unknowns.nrows();
         let holding = Mat::from_fn(order, held.len(), |i, k| match held[k] {
             (first, root) if first == i => root,

@@ -55,11 +55,11 @@ impl FullModel {
 
     /// The lowest wave of every number of nodal diameters at rest, N × (2 n_max + 1), without guides.
     pub fn first_waves(&self) -> Mat<f64> {
-        let places = self
+        let places: Vec<(&Harmonic, usize)> = self
             .harmonics
             .iter()
-            .flat_map(|h| h.firsts().map(move |first| (h, first)));
-        let places: Vec<(&Harmonic, usize)> = places.collect();
+            .flat_map(|h| h.firsts().map(move |first| (h, first)))
+            .collect();
         let order = self
             .harmonics
             .iter()

@@ -272,11 +272,15 @@ impl<'a> Builder<'a> {
     /// if no critical speed is within it.
     fn first_reflecting(&self) -> f64 {
         let (from, to) = self.range;
-        let lowest = self.guided.critical.first();
-        let lowest = lowest.map_or(from, |c| c.speed_rad_per_s);
-        match lowest * (1.0 + BELOW_CRITICAL) < to {
-            true => (lowest * (1.0 - BELOW_CRITICAL)).max(from),
-            false => from,
+        let lowest = self
+            .guided
+            .critical
+            .first()
+            .map_or(from, |c| c.speed_rad_per_s);
+        if lowest * (1.0 + BELOW_CRITICAL) < to {
+            (lowest * (1.0 - BELOW_CRITICAL)).max(from)
+        } else {
+            from
         }
     }
 }

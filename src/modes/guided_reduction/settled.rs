@@ -57,9 +57,10 @@ impl Builder<'_> {
         let kept = standing.map(|c| &c.shape).chain(&system.free_rigid);
         let mut vectors: Vec<Col<f64>> = kept.map(|x| Scale(KEPT_WHOLE) * x).collect();
         for snapshot in &self.snapshots {
-            let height = match between.contains(&snapshot.speed) {
-                true => self.window,
-                false => self.reflected,
+            let height = if between.contains(&snapshot.speed) {
+                self.window
+            } else {
+                self.reflected
             };
             for (lambda, q) in &snapshot.pairs {
                 if lambda.norm() <= SPAN_MARGIN.get() * height {
@@ -79,11 +80,13 @@ impl Builder<'_> {
             self.counters.cancellation.check()?;
             let is_open = |pair: &&[Snapshot]| finished.iter().all(|(to, _)| *to != pair[1].speed);
             let open: Vec<&[Snapshot]> = self.snapshots.windows(2).filter(is_open).collect();
-            let tried = open.into_par_iter().map(|pair| {
-                let tried = self.tried([&pair[0], &pair[1]])?;
-                Ok((pair[1].speed, tried))
-            });
-            let tried: Vec<(f64, Tried)> = tried.collect::<Result<_, SpectrumError>>()?;
+            let tried: Vec<(f64, Tried)> = open
+                .into_par_iter()
+                .map(|pair| {
+                    let tried = self.tried([&pair[0], &pair[1]])?;
+                    Ok((pair[1].speed, tried))
+                })
+                .collect::<Result<_, SpectrumError>>()?;
             let mut coarse = Vec::new();
             for (to, tried) in tried {
                 if !tried.is_kept {
@@ -122,9 +125,10 @@ impl Builder<'_> {
         let middle = KnownModes::of(&projection, 0.5 * (from + to), self.counters)?;
         let speed = middle.speed_rad_per_s;
         let error = self.frequency_error(&projection, speed, self.window, &middle.pairs);
-        let unsettled_rad_per_s = match error > frequencies * self.window {
-            true => error,
-            false => 0.0,
+        let unsettled_rad_per_s = if error > frequencies * self.window {
+            error
+        } else {
+            0.0
         };
         let is_kept = unsettled_rad_per_s == 0.0 || self.snapshots.len() >= MAX_SNAPSHOTS;
         let mut intervals = Vec::new();

@@ -149,8 +149,9 @@ impl DenseFunctions {
         // Free rigid motions have no component on the added functions.
         let on_old = |z: &Col<f64>| Col::from_fn(kept.len(), |i| z[kept[i]]);
         let free: Vec<Col<f64>> = larger.free_rigid.iter().map(on_old).collect();
-        let old = stiffened(&block(&larger.stiffness, kept, kept), &free);
-        let old = old.llt(Side::Lower).map_err(unstable)?;
+        let old = stiffened(&block(&larger.stiffness, kept, kept), &free)
+            .llt(Side::Lower)
+            .map_err(unstable)?;
         let mut whitened = block(&larger.stiffness, kept, &added);
         solve_lower_triangular_in_place(old.L(), whitened.as_mut(), Par::Seq);
         let schur = block(&larger.stiffness, &added, &added) - whitened.transpose() * &whitened;

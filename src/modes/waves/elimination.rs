@@ -198,8 +198,11 @@ impl Elimination {
     /// Orthonormal vectors, first the near waves, then those that span some far ones; those closer than `tolerance` to the span of
     /// the others are omitted.
     pub fn basis(&self, far: &[Mat<f64>], tolerance: f64) -> Mat<f64> {
-        let columns = far.iter().flat_map(|all| all.col_iter());
-        let columns: Vec<Col<f64>> = columns.map(|column| column.to_owned()).collect();
+        let columns: Vec<Col<f64>> = far
+            .iter()
+            .flat_map(|all| all.col_iter())
+            .map(|column| column.to_owned())
+            .collect();
         let near = self.near();
         let far = orthonormal(self.waves - near, &columns, tolerance);
         let mut in_waves = Mat::zeros(self.waves, near + far.ncols());

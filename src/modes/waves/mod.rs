@@ -70,8 +70,10 @@ pub fn modes(
     let elimination = Elimination::new(&saw, undamped.as_ref().unwrap_or(full), &near, window);
     let nodes = at_nodes(range, |node, speed| {
         let reduced = elimination.reduced(speed);
-        let far = (node % SPARED == 0).then(|| reduced.far());
-        let far = far.transpose().map_err(SpectrumError::at(speed))?;
+        let far = (node % SPARED == 0)
+            .then(|| reduced.far())
+            .transpose()
+            .map_err(SpectrumError::at(speed))?;
         Ok((reduced.terms, far))
     })?;
     let (terms, far): (Vec<_>, Vec<_>) = nodes.into_iter().unzip();

@@ -34,8 +34,12 @@ fn error_of(plate: &Plate) -> f64 {
     let mut worst = 0.0_f64;
     for k in 0..7 {
         let speed = to * (f64::from(k) + 0.4) / 7.0;
-        let found = model.eigenvalues(speed).unwrap();
-        let found: Vec<c64> = found.into_iter().map(|(lambda, _)| lambda).collect();
+        let found: Vec<c64> = model
+            .eigenvalues(speed)
+            .unwrap()
+            .into_iter()
+            .map(|(lambda, _)| lambda)
+            .collect();
         let exact = eigenvalues(system, speed).unwrap();
         for (some, others) in [(&found, &exact), (&exact, &found)] {
             for lambda in some.iter().filter(|lambda| lambda.norm() < window) {

@@ -153,12 +153,13 @@ fn restrained(plate: &Plate, shapes: usize) -> Result<GyroscopicSystem, Stretche
     if !full.free_rigid.is_empty() {
         return Err(StretchedError::NotHeld);
     }
-    match (1..=full.order()).contains(&shapes) {
-        true => Ok(full),
-        false => Err(StretchedError::Shapes {
+    if (1..=full.order()).contains(&shapes) {
+        Ok(full)
+    } else {
+        Err(StretchedError::Shapes {
             given: shapes,
             most: full.order(),
-        }),
+        })
     }
 }
 

@@ -57,8 +57,10 @@ fn compliance(plate: &Plate, place: (f64, f64), speed_rad_per_s: f64) -> f64 {
 
 /// Deflection under a force at its place, up from the flat blade.
 fn deflection(plate: &Plate, force_n: f64, place: (f64, f64), [at, to]: [f64; 2]) -> f64 {
-    let blade = StretchedBlade::up_to(plate, to, place, MODES).unwrap();
-    let blade = blade.pressed(force_n, place).unwrap();
+    let blade = StretchedBlade::up_to(plate, to, place, MODES)
+        .unwrap()
+        .pressed(force_n, place)
+        .unwrap();
     let found = blade.settled(at, &blade.flat()).unwrap();
     blade.deflection_m(&found, place.0, place.1)
 }

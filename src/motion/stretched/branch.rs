@@ -221,9 +221,10 @@ impl Curve<'_> {
         let last = Col::from_fn(order + 1, |i| if i == order { 1.0 } else { 0.0 });
         let direction = matrix.partial_piv_lu().solve(&last);
         let length = direction.norm_l2();
-        match length.is_finite() && length > 0.0 {
-            true => Ok(Scale(1.0 / length) * direction),
-            false => Err(self.blade.not_found(coordinates, *speed_rad_per_s)),
+        if length.is_finite() && length > 0.0 {
+            Ok(Scale(1.0 / length) * direction)
+        } else {
+            Err(self.blade.not_found(coordinates, *speed_rad_per_s))
         }
     }
 
@@ -274,17 +275,19 @@ impl Curve<'_> {
             }
             // The function value at the end that is kept is halved at every step, a variant of the Illinois
             // method.
-            ends = match (at < 0.0) == (at_low < 0.0) {
-                true => [(middle, at), (high, 0.5 * at_high)],
-                false => [(low, 0.5 * at_low), (middle, at)],
+            ends = if (at < 0.0) == (at_low < 0.0) {
+                [(middle, at), (high, 0.5 * at_high)]
+            } else {
+                [(low, 0.5 * at_low), (middle, at)]
             };
         }
         found.negative_eigenvalues = counts[0];
         // If the curve turns back while the number of negative eigenvalues stays the same, the point is not a
         // fold but a pitchfork, at which the curve touches another one.
-        let kind = match turns_back && counts[0] != counts[1] {
-            true => TurnKind::Fold,
-            false => TurnKind::Bifurcation,
+        let kind = if turns_back && counts[0] != counts[1] {
+            TurnKind::Fold
+        } else {
+            TurnKind::Bifurcation
         };
         Ok(Some(Turn {
             kind,

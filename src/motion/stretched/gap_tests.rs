@@ -33,8 +33,10 @@ fn lifting(pad: &mut GuideFile, gap_m: f64) {
 /// The deflection at the point at which a force acts.
 fn deflection(plate: &Plate, force_n: f64, rpm: f64, place: (f64, f64)) -> f64 {
     let speed = rad_per_s(rpm);
-    let blade = StretchedBlade::up_to(plate, speed, place, MODES).unwrap();
-    let blade = blade.pressed(force_n, place).unwrap();
+    let blade = StretchedBlade::up_to(plate, speed, place, MODES)
+        .unwrap()
+        .pressed(force_n, place)
+        .unwrap();
     let found = blade.settled(speed, &blade.flat()).unwrap();
     assert_eq!(found.negative_eigenvalues, 0);
     blade.deflection_m(&found, place.0, place.1)
@@ -67,12 +69,11 @@ fn a_force_presses_the_blade_on_its_pad_as_two_springs_say() {
                 GuideSide::Left => force > 0.0,
                 GuideSide::Right => force < 0.0,
             };
-            let expected = match is_there && share.abs() > 1.0 {
-                true => {
-                    let pressed = force.abs() + stiffness * gap_m;
-                    force.signum() * pressed * compliance / (1.0 + stiffness * compliance)
-                }
-                false => force * compliance,
+            let expected = if is_there && share.abs() > 1.0 {
+                let pressed = force.abs() + stiffness * gap_m;
+                force.signum() * pressed * compliance / (1.0 + stiffness * compliance)
+            } else {
+                force * compliance
             };
             let found = deflection(&plate, force, 0.0, place);
             // A deflection of up to 80 µm causes little stretching.
@@ -118,8 +119,10 @@ fn one_pad_carries_the_whole_side_force() {
     let mut last = 0.0;
     for gap_m in [1e-5, 4e-5, 1.6e-4] {
         let plate = plate(false, |pad| lifting(pad, gap_m));
-        let blade = StretchedBlade::up_to(&plate, 0.0, place, MODES).unwrap();
-        let blade = blade.pressed(-5.0, place).unwrap();
+        let blade = StretchedBlade::up_to(&plate, 0.0, place, MODES)
+            .unwrap()
+            .pressed(-5.0, place)
+            .unwrap();
         let found = blade.settled(0.0, &blade.flat()).unwrap();
         let force = blade.pad_forces_n(&found);
         assert!((force[0] - 5.0).abs() < 1e-6, "{force:?}");

@@ -208,9 +208,10 @@ impl StretchedBlade {
     /// about the axis.
     fn directed(&self, coordinates: &Col<f64>) -> Result<(), StretchedError> {
         let turns = self.plate.is_axisymmetric() && self.force.norm_max() == 0.0;
-        match turns && coordinates.norm_max() > 0.0 {
-            true => Err(StretchedError::Axisymmetric),
-            false => Ok(()),
+        if turns && coordinates.norm_max() > 0.0 {
+            Err(StretchedError::Axisymmetric)
+        } else {
+            Ok(())
         }
     }
 
@@ -222,9 +223,10 @@ impl StretchedBlade {
         }
         let flat = self.stiffnesses(&self.flat(), 0.0)?;
         let largest = flat.last().copied().unwrap_or_default();
-        match flat.first().is_some_and(|first| *first <= LOOSE * largest) {
-            true => Err(StretchedError::Loose),
-            false => Ok(()),
+        if flat.first().is_some_and(|first| *first <= LOOSE * largest) {
+            Err(StretchedError::Loose)
+        } else {
+            Ok(())
         }
     }
 
@@ -295,13 +297,14 @@ fn angles() -> impl Iterator<Item = f64> {
 
 /// Returns a value, or an error if it is not finite.
 fn finite(what: &'static str, value: f64) -> Result<f64, StretchedError> {
-    match value.is_finite() {
-        true => Ok(value),
-        false => Err(StretchedError::Value {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(StretchedError::Value {
             what,
             value,
             allowed: "",
-        }),
+        })
     }
 }
 

@@ -76,11 +76,13 @@ impl StretchedBlade {
             return Ok(None);
         };
         let sites = self.sites();
-        let readings = sites.iter().map(|(_, site)| {
-            let read = |x: &Col<c64>| (0..site.nrows()).map(|i| x[i] * site[i]).sum::<c64>();
-            (read(&pair.growing), read(&pair.decaying))
-        });
-        let readings: Vec<(c64, c64)> = readings.collect();
+        let readings: Vec<(c64, c64)> = sites
+            .iter()
+            .map(|(_, site)| {
+                let read = |x: &Col<c64>| (0..site.nrows()).map(|i| x[i] * site[i]).sum::<c64>();
+                (read(&pair.growing), read(&pair.decaying))
+            })
+            .collect();
         let mut largest = (0.0, (0.0, 0.0));
         for place in 1..PLACES {
             let turn = FRAC_PI_2 * place as f64 / PLACES as f64;

@@ -46,8 +46,8 @@ impl StretchedBlade {
         for _ in 0..STEPS {
             let order = p.nrows();
             let hessian = self.hessian_with(&p, &tension, speed_rad_per_s);
-            let modes = SymmetricEigen::new(hessian.as_ref());
-            let modes = modes.map_err(SpectrumError::at(speed_rad_per_s))?;
+            let modes = SymmetricEigen::new(hessian.as_ref())
+                .map_err(SpectrumError::at(speed_rad_per_s))?;
             let rest = self.residual_with(&p, &tension, speed_rad_per_s);
             let along = modes.vectors.transpose() * &rest;
             let softest = SOFTEST * modes.values[order - 1].abs();

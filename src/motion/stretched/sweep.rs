@@ -42,9 +42,10 @@ impl StretchedBlade {
         range: (f64, f64),
     ) -> Result<Sweep, StretchedError> {
         let (from, to) = range;
-        let (speed, end, sign) = match upwards {
-            true => (from, to, 1.0),
-            false => (to, from, -1.0),
+        let (speed, end, sign) = if upwards {
+            (from, to, 1.0)
+        } else {
+            (to, from, -1.0)
         };
         let mut start = self.settled(speed, begun)?;
         let mut sweep = Sweep {
@@ -63,8 +64,12 @@ impl StretchedBlade {
                         && e.negative_eigenvalues == 0
                 }
             };
-            let stable = curve.equilibria.iter().take_while(is_before_turn);
-            let mut stable: Vec<Equilibrium> = stable.cloned().collect();
+            let mut stable: Vec<Equilibrium> = curve
+                .equilibria
+                .iter()
+                .take_while(is_before_turn)
+                .cloned()
+                .collect();
             if turn.is_some() {
                 stable.retain(monotone(sign));
             }

@@ -91,8 +91,12 @@ fn near_a_pitchfork_lean_and_frequency_follow_the_normal_form() {
             (flat.negative_eigenvalues, leaned.negative_eigenvalues),
             (1, 0)
         );
-        let growing = blade.small_motions(&flat).unwrap();
-        let growing = growing.iter().map(|lambda| lambda.re).fold(0.0, f64::max);
+        let growing = blade
+            .small_motions(&flat)
+            .unwrap()
+            .iter()
+            .map(|lambda| lambda.re)
+            .fold(0.0, f64::max);
         let swinging = blade.small_motions(&leaned).unwrap()[0];
         assert!(swinging.re.abs() < 1e-6 * swinging.im, "{swinging}");
         [lean, swinging.im.powi(2) / (2.0 * growing.powi(2)) - 1.0]
@@ -149,8 +153,10 @@ fn one_shape() -> (StretchedBlade, f64, f64) {
     let (critical, shape) = several.pitchforks().unwrap().swap_remove(0);
     let one = several.shapes() * &shape;
     let one = Mat::from_fn(one.nrows(), 1, |i, _| one[i]);
-    let blade = StretchedBlade::on(plate.clone(), &GyroscopicSystem::of_plate(&plate), one);
-    let blade = blade.unwrap().pressed(2.0, (0.355, 0.4)).unwrap();
+    let blade = StretchedBlade::on(plate.clone(), &GyroscopicSystem::of_plate(&plate), one)
+        .unwrap()
+        .pressed(2.0, (0.355, 0.4))
+        .unwrap();
     let gamma = 4.0 * blade.stretching.energy_j(&unit()).unwrap();
     (blade, critical, gamma)
 }
@@ -263,8 +269,10 @@ fn a_sweep_says_where_its_number_of_equilibria_ends_it() {
 /// every step.
 #[test]
 fn damping_in_space_only_takes_energy() {
-    let blade = StretchedBlade::new(&paper(), 12).unwrap();
-    let blade = blade.pressed(0.5, (0.355, 0.4)).unwrap();
+    let blade = StretchedBlade::new(&paper(), 12)
+        .unwrap()
+        .pressed(0.5, (0.355, 0.4))
+        .unwrap();
     let pitchforks = blade.clone().unforced().pitchforks().unwrap();
     let between = 0.5 * (pitchforks[1].0 + pitchforks[2].0);
     let within = 0.5 * (pitchforks[0].0 + pitchforks[1].0);
@@ -300,8 +308,10 @@ fn damping_in_space_only_takes_energy() {
 /// The slope equals central differences of the deflection at the evaluated points.
 #[test]
 fn the_largest_slope_is_that_of_the_deflection() {
-    let blade = StretchedBlade::new(&paper(), 12).unwrap();
-    let blade = blade.pressed(40.0, (0.355, 1.1)).unwrap();
+    let blade = StretchedBlade::new(&paper(), 12)
+        .unwrap()
+        .pressed(40.0, (0.355, 1.1))
+        .unwrap();
     let bent = blade.equilibrium(rad_per_s(800.0), None).unwrap();
     let step = 1e-5;
     let mut largest = 0.0_f64;

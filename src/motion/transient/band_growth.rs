@@ -25,9 +25,10 @@ pub fn band_exponents(
     bands
         .par_iter()
         .map(|band| {
-            let integral = match band.curve.is_empty() {
-                true => followed(model, band)?,
-                false => of_curve(&band.curve),
+            let integral = if band.curve.is_empty() {
+                followed(model, band)?
+            } else {
+                of_curve(&band.curve)
             };
             Ok(integral / rate_rad_per_s2)
         })

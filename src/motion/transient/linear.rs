@@ -48,8 +48,9 @@ impl Gauge {
 
 /// Refuses a deflection that has overflowed at a time.
 pub(crate) fn finite(value: f64, rpm: f64, time_s: f64) -> Result<f64, TransientError> {
-    match value.is_finite() {
-        true => Ok(value),
-        false => Err(TransientError::Overflow { rpm, time_s }),
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(TransientError::Overflow { rpm, time_s })
     }
 }

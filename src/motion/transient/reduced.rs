@@ -86,8 +86,8 @@ impl ReducedBlade {
         highest_rad_per_s: f64,
     ) -> Result<Self, SpectrumError> {
         let order = system.order();
-        let shapes = SymmetricEigen::new(system.stiffness.as_ref());
-        let shapes = shapes.map_err(SpectrumError::at(0.0))?;
+        let shapes =
+            SymmetricEigen::new(system.stiffness.as_ref()).map_err(SpectrumError::at(0.0))?;
         let below = |k: &usize| shapes.values[*k] <= highest_rad_per_s * highest_rad_per_s;
         let slow = (0..order)
             .filter(below)

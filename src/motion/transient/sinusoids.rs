@@ -85,9 +85,10 @@ pub fn damped_sinusoids(record: &[f64], step_s: f64) -> Result<Vec<Sinusoid>, Fi
 fn louder_end(record: &[f64]) -> &[f64] {
     let count = record.len().min(SAMPLES);
     let (first, last) = (&record[..count], &record[record.len() - count..]);
-    match largest(first) > largest(last) {
-        true => first,
-        false => last,
+    if largest(first) > largest(last) {
+        first
+    } else {
+        last
     }
 }
 

@@ -209,14 +209,15 @@ mod tests {
         speeds_rpm: (f64, f64),
         duration_s: f64,
     ) -> (StretchedRunUp, RunUpHistory) {
-        let scene = Scene::paper().edited(|saw| {
-            if let Some(runup) = &mut saw.runup {
-                (runup.from_rpm, runup.to_rpm) = speeds_rpm;
-                runup.duration_s = duration_s;
-            }
-            saw.side_force.get_or_insert_default().force_n = Some(force_n);
-        });
-        let scene = scene.unwrap();
+        let scene = Scene::paper()
+            .edited(|saw| {
+                if let Some(runup) = &mut saw.runup {
+                    (runup.from_rpm, runup.to_rpm) = speeds_rpm;
+                    runup.duration_s = duration_s;
+                }
+                saw.side_force.get_or_insert_default().force_n = Some(force_n);
+            })
+            .unwrap();
         let (plate, probe, highest) = (plate(), scene.probe(), TAU * 45.0);
         let runup = (scene.runup().unwrap(), &scene.side_force());
         let stretched = stretched_run_up(&plate, runup, probe, highest, &|_, _| ());
@@ -254,10 +255,11 @@ mod tests {
     /// A force of 20 kN deflects the blade beyond the model at rest.
     #[test]
     fn a_force_that_leaves_no_record_is_refused_by_its_name() {
-        let scene = Scene::paper().edited(|saw| {
-            saw.side_force.get_or_insert_default().force_n = Some(2e4);
-        });
-        let scene = scene.unwrap();
+        let scene = Scene::paper()
+            .edited(|saw| {
+                saw.side_force.get_or_insert_default().force_n = Some(2e4);
+            })
+            .unwrap();
         let (runup, probe) = ((scene.runup().unwrap(), &scene.side_force()), scene.probe());
         let error = stretched_run_up(&plate(), runup, probe, TAU * 45.0, &|_, _| ()).unwrap_err();
         assert!(

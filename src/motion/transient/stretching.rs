@@ -91,8 +91,10 @@ mod tests {
         });
         let plate = Plate::new(&scene.unwrap(), SMALL);
         let (speed, n) = (rad_per_s(1800.0), 2);
-        let modes = plate.harmonics[n].body_frame_stiffness(speed);
-        let modes = modes.self_adjoint_eigen(Side::Lower).unwrap();
+        let modes = plate.harmonics[n]
+            .body_frame_stiffness(speed)
+            .self_adjoint_eigen(Side::Lower)
+            .unwrap();
         let size = plate.basis.count();
         let mut shapes: Mat<f64> = Mat::zeros(plate.degrees_of_freedom(), 2);
         for j in 0..size {

@@ -148,8 +148,10 @@ fn unsearched(
     (from, to): (f64, f64),
     speeds: &[f64],
 ) -> impl Iterator<Item = (f64, f64)> + use<> {
-    let lowest = model.critical.first();
-    let lowest = lowest.map_or(f64::INFINITY, |c| c.speed_rad_per_s);
+    let lowest = model
+        .critical
+        .first()
+        .map_or(f64::INFINITY, |c| c.speed_rad_per_s);
     let (first, last) = match speeds {
         [first, .., last] => (*first, *last),
         [only] => (*only, *only),
@@ -224,9 +226,10 @@ impl Checks<'_> {
     /// Contradictions of counts at some speeds of the search.
     fn at_anchors(&self) -> Result<Vec<MiscountedModes>, SpectrumError> {
         let signatures = self.signatures;
-        let count = match self.full.is_dense() {
-            true => DENSE_ANCHORS,
-            false => ANCHORS,
+        let count = if self.full.is_dense() {
+            DENSE_ANCHORS
+        } else {
+            ANCHORS
         };
         let (Some(first), Some(last)) = (signatures.first(), signatures.last()) else {
             return Ok(Vec::new());

@@ -163,8 +163,10 @@ impl Follower<'_> {
 
     /// Whether the growth within a step agrees with the interpolation from its ends.
     fn is_drawn(&self, tips: &[Tip], found: &[Sloped], places: &[usize], [a, b]: [f64; 2]) -> bool {
-        let pairs = tips.iter().zip(places);
-        let pairs = pairs.map(|((first, _), &place)| [point(a, *first), point(b, found[place])]);
+        let pairs = tips
+            .iter()
+            .zip(places)
+            .map(|((first, _), &place)| [point(a, *first), point(b, found[place])]);
         let growing: Vec<[CurvePoint; 2]> = pairs
             .filter(|[first, last]| first.lambda.re.max(last.lambda.re) > 0.0)
             .collect();
@@ -192,9 +194,10 @@ fn matched(tips: &[Tip], found: &[Sloped], width: f64) -> Option<Vec<usize>> {
     let misfit = |x: &Sloped, y: &Sloped| {
         let change = y.0 - x.0 - (x.1 + y.1) * (0.5 * width);
         let is_alike = (x.0.im == 0.0) == (y.0.im == 0.0);
-        match is_alike {
-            true => change.norm() + 0.25 * width * (x.1 - y.1).norm(),
-            false => f64::INFINITY,
+        if is_alike {
+            change.norm() + 0.25 * width * (x.1 - y.1).norm()
+        } else {
+            f64::INFINITY
         }
     };
     let mut taken = vec![false; found.len()];

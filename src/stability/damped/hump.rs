@@ -42,8 +42,9 @@ pub fn bands(
     let mut bands = Vec::new();
     let mut first = 0;
     while let Some(start) = (first..curve.len()).find(|&k| grows(&curve[k])) {
-        let end = (start..curve.len()).find(|&k| !grows(&curve[k]));
-        let end = end.unwrap_or(curve.len());
+        let end = (start..curve.len())
+            .find(|&k| !grows(&curve[k]))
+            .unwrap_or(curve.len());
         first = end;
         let mut growth = curve[start..end].iter().map(|point| point.lambda.re);
         if growth.all(|growth| growth <= solver.noise()) {
@@ -259,9 +260,10 @@ fn band(curve: &[CurvePoint], extrema: &[f64], cut: [bool; 2]) -> Option<Instabi
         .filter(is_computed)
         .chain([first, last])
         .max_by(|x, y| growth(x).total_cmp(&growth(y)))?;
-    let kind = match peak.lambda.im == 0.0 {
-        true => InstabilityKind::Divergence,
-        false => InstabilityKind::Flutter,
+    let kind = if peak.lambda.im == 0.0 {
+        InstabilityKind::Divergence
+    } else {
+        InstabilityKind::Flutter
     };
     Some(Instability {
         kind,

@@ -57,9 +57,10 @@ pub(super) fn charted(
     let sampled = || branches::sample(model, &speeds, options.progress);
     let (found, samples) = rayon::join(searched, sampled);
     let ((instabilities, certificate), mut samples) = (found?, samples?);
-    let drawn = instabilities.iter();
-    let drawn = drawn.flat_map(|band| drawn_speeds(band, closeness.drawn));
-    let mut drawn: Vec<f64> = drawn.collect();
+    let mut drawn: Vec<f64> = instabilities
+        .iter()
+        .flat_map(|band| drawn_speeds(band, closeness.drawn))
+        .collect();
     drawn.sort_by(f64::total_cmp);
     drawn.dedup();
     drawn.retain(|s| samples.iter().all(|sample| sample.speed_rad_per_s != *s));
@@ -135,9 +136,10 @@ pub(super) fn bands(
         spectra = all.collect::<Result<_, _>>()?;
     }
     instabilities.sort_by(|x, y| x.from_rad_per_s.total_cmp(&y.from_rad_per_s));
-    let counts = match closeness.is_counted {
-        true => Counts::new(model, &solver, &instabilities, range)?,
-        false => Counts::default(),
+    let counts = if closeness.is_counted {
+        Counts::new(model, &solver, &instabilities, range)?
+    } else {
+        Counts::default()
     };
     let mut violations = mismatches(model, &spectra, &instabilities);
     violations.extend(mismatches(model, &counts.spectra, &instabilities));

@@ -167,9 +167,10 @@ pub fn noise(model: &SpectralModel) -> f64 {
 
 /// A slope, or zero at the coalescence of two eigenvalues, where it is not finite.
 pub fn finite(slope: c64) -> c64 {
-    match slope.is_finite() {
-        true => slope,
-        false => c64::new(0.0, 0.0),
+    if slope.is_finite() {
+        slope
+    } else {
+        c64::new(0.0, 0.0)
     }
 }
 

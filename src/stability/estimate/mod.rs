@@ -86,14 +86,16 @@ impl Estimates {
         larger: LargerBasis,
         at_rest: f64,
     ) -> Result<Self, SpectrumError> {
-        let within = model.critical.iter();
-        let within = within.filter(|c| c.speed_rad_per_s <= range.1);
+        let within = model
+            .critical
+            .iter()
+            .filter(|c| c.speed_rad_per_s <= range.1);
         let critical: Vec<f64> = within
             .map(|critical| REMAINDER.get() * larger.critical_error(&model.components, critical))
             .collect();
         let samples = &chart.campbell.samples;
-        let looks = LOOKS.map(|share| range.0 + share * (range.1 - range.0));
-        let looks = looks
+        let looks = LOOKS
+            .map(|share| range.0 + share * (range.1 - range.0))
             .into_iter()
             .filter_map(|speed| smallest(samples, |sample| (sample.speed_rad_per_s - speed).abs()));
         let drawn = looks.flat_map(|sample| {
@@ -188,8 +190,10 @@ impl Estimates {
     ) -> BandError {
         let component = modes[0].mode.component;
         let halves = modes.map(|m| split(&model.components[component].coordinates(&m.shape)));
-        let vectors = halves.iter().flat_map(|(re, im)| [re.clone(), im.clone()]);
-        let vectors: Vec<Col<f64>> = vectors.collect();
+        let vectors: Vec<Col<f64>> = halves
+            .iter()
+            .flat_map(|(re, im)| [re.clone(), im.clone()])
+            .collect();
         let (basis, [found, larger]) = self.projected(model, band, component, &vectors);
         let states = [0, 1].map(|k| {
             let (re, im) = &halves[k];
@@ -214,11 +218,14 @@ impl Estimates {
         let mut near: Vec<&DescribedMode> = own.collect();
         let away = |m: &DescribedMode| (m.mode.lambda.im - growing.mode.lambda.im).abs();
         near.sort_by(|x, y| away(x).total_cmp(&away(y)));
-        let halves = near.iter().take(NEAR_MODES).flat_map(|m| {
-            let (re, im) = split(&model.components[component].coordinates(&m.shape));
-            [re, im]
-        });
-        let halves: Vec<Col<f64>> = halves.collect();
+        let halves: Vec<Col<f64>> = near
+            .iter()
+            .take(NEAR_MODES)
+            .flat_map(|m| {
+                let (re, im) = split(&model.components[component].coordinates(&m.shape));
+                [re, im]
+            })
+            .collect();
         let (_, systems) = self.projected(model, band, component, &halves);
         let [before, after] = systems.map(|system| fastest(&system, growing, band));
         Ok(BandError {
@@ -241,8 +248,7 @@ impl Estimates {
             c.component == component && (is_end(band.from_rad_per_s) || is_end(band.to_rad_per_s))
         });
         let (re, im) = split(&model.components[component].coordinates(&growing.shape));
-        let shapes = ends.map(|c| c.shape.clone()).chain([re, im]);
-        let shapes: Vec<Col<f64>> = shapes.collect();
+        let shapes: Vec<Col<f64>> = ends.map(|c| c.shape.clone()).chain([re, im]).collect();
         let (_, [found, larger]) = self.projected(model, band, component, &shapes);
         let [before, after] = [Lean::new(&found, band)?, Lean::new(&larger, band)?];
         let [Some(before), Some(after)] = [before, after] else {

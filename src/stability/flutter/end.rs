@@ -72,8 +72,10 @@ impl End {
             Bound::Range(speed) => return End::Range(speed),
             Bound::Height(speed) => return End::Unknown(speed),
         };
-        let square = stretch.square(expected);
-        let square = square.unwrap_or(mode.lambda * mode.lambda).re;
+        let square = stretch
+            .square(expected)
+            .unwrap_or(mode.lambda * mode.lambda)
+            .re;
         let lambda = c64::new(square, 0.0).sqrt();
         let is_real = square > 0.0;
         let direction = (outside - inside).signum();
@@ -92,9 +94,10 @@ impl End {
         let edge = found.filter(is_same).map(|found| Edge {
             speed_rad_per_s: found.speed_rad_per_s,
             lambda: found.lambda,
-            growth_square_slope: match is_real {
-                true => 2.0 * found.lambda.re * found.mean_slope.re,
-                false => found.square_slope,
+            growth_square_slope: if is_real {
+                2.0 * found.lambda.re * found.mean_slope.re
+            } else {
+                found.square_slope
             },
         });
         End::Edge(edge.unwrap_or(Edge {

@@ -175,8 +175,7 @@ impl Quadruple {
             known.extend(mode.map(|mode| (speed, sharp(evaluator, speed, mode))));
         }
         known.sort_by(|x, y| x.0.total_cmp(&y.0));
-        let ends = [&self.begin, &self.end].into_iter();
-        let ends = ends.filter_map(End::sample);
+        let ends = [&self.begin, &self.end].into_iter().filter_map(End::sample);
         let mut samples: Vec<Sample> = known.iter().map(sample).chain(ends).collect();
         samples.retain(|sample| (part.from..=part.to).contains(&sample.at));
         samples.sort_by(|x, y| x.at.total_cmp(&y.at));
