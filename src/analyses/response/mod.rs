@@ -89,7 +89,8 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
         families.push((load, family, resonances));
     }
     for (.., resonances) in &families {
-        speeds.extend(near(range, resonances));
+        let places: Vec<f64> = resonances.iter().map(|(speed, _)| *speed).collect();
+        speeds.extend(near(range, &places));
     }
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();
@@ -150,11 +151,11 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
 
 impl ResponseLine {
     /// States the largest relative distance of the resonances from the nearest ones on a larger basis, in rad/s.
-    fn state_error(&mut self, finer_rad_per_s: &[f64]) {
+    fn state_error(&mut self, finer_rad_per_s: &[(f64, f64)]) {
         let nearest = |at: &Resonance| {
             let changes = finer_rad_per_s
                 .iter()
-                .map(|other| (rpm(*other) / at.rpm - 1.0).abs());
+                .map(|(other, _)| (rpm(*other) / at.rpm - 1.0).abs());
             changes.reduce(f64::min)
         };
         self.resonance_error = self.resonances.iter().filter_map(nearest).reduce(f64::max);

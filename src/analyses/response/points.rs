@@ -61,9 +61,8 @@ impl FrequencyResponse {
             frequencies.sort_by(f64::total_cmp);
             frequencies.dedup();
             receptance = read(&mut family, &frequencies)?;
-            if motion.is_conservative {
-                unbounded = poles.into_iter().map(|(natural, _)| natural).collect();
-            }
+            let real = poles.into_iter().filter(|pole| motion.is_undamped(*pole));
+            unbounded = real.map(|(natural, _)| natural).collect();
         }
         receptance.resize(frequencies.len(), None);
         for natural in &unbounded {

@@ -21,6 +21,12 @@ pub(super) struct Motion<'a> {
 }
 
 impl Motion<'_> {
+    /// Whether a pole is real: nothing dissipates the energy of its motion. A damper that is fixed in space, for example, does not act on a
+    /// motion that stands still.
+    pub fn is_undamped(&self, (place, off): (f64, f64)) -> bool {
+        self.is_conservative || off <= REAL * place
+    }
+
     /// Whether some motion grows at a speed, however slowly: then no state is steady. At the ends of a band nothing grows.
     pub fn is_unstable(&self, speed: f64) -> bool {
         let mut bands = self.bands.iter();
@@ -41,6 +47,8 @@ pub(super) struct Deflection {
 
 /// Relative error of the ends of bands and of resonances.
 const END: f64 = 1e-6;
+/// Relative distance of a pole from a real place below which it is real: rounding errors of the basis are smaller.
+const REAL: f64 = 1e-9;
 /// Speed of slow rotation, as a share of the last speed.
 const LEAST: f64 = 1e-6;
 /// Places around the rim at which the deflection is compared with the linear limit.
@@ -96,15 +104,14 @@ impl Solver {
         Ok(found.collect())
     }
 
-    /// Resonances of a load between two speeds, ascending.
+    /// Resonances of a load between two speeds, ascending, each with its distance from real speeds.
     pub fn resonances(
         family: &Family<'_>,
         load: &Load,
         range: (f64, f64),
-    ) -> Result<Vec<f64>, SpectrumError> {
+    ) -> Result<Vec<(f64, f64)>, SpectrumError> {
         let order = c64::new(0.0, f64::from(load.order));
-        let poles = family.poles(range, |speed| (speed, order * speed))?;
-        Ok(poles.into_iter().map(|(speed, _)| speed).collect())
+        family.poles(range, |speed| (speed, order * speed))
     }
 
     /// The response to a load at some speeds, of which `resonances` are some.
@@ -113,16 +120,16 @@ impl Solver {
         load: &Load,
         family: &mut Family<'_>,
         speeds: &[f64],
-        resonances: &[f64],
+        resonances: &[(f64, f64)],
         motion: &Motion<'_>,
     ) -> Result<ResponseLine, SpectrumError> {
         let mut deflections = self.deflections(family, load, speeds)?;
         let order = load.order;
-        let resonances = resonances.iter().map(|speed| {
+        let resonances = resonances.iter().map(|(speed, off)| {
             let place = speeds.partition_point(|other| other < speed);
             let steady_state = match deflections[place] {
                 _ if motion.is_unstable(*speed) => SteadyState::None,
-                _ if motion.is_conservative => SteadyState::Unbounded,
+                _ if motion.is_undamped((*speed, *off)) => SteadyState::Unbounded,
                 Some(_) => SteadyState::Bounded,
                 None => SteadyState::BeyondModel,
             };

@@ -263,11 +263,8 @@ fn a_symmetric_blade_resonates_where_its_waves_do_in_its_own_frame() {
         expected.sort_by(f64::total_cmp);
         // Without rotation of the force both waves of n diameters have one critical speed.
         expected.dedup_by(|a, b| (*a / *b - 1.0).abs() < 1e-7);
-        let lines = report.lines.iter();
-        let line = lines
-            .filter(|line| line.order == order)
-            .next_back()
-            .unwrap();
+        let mut lines = report.lines.iter();
+        let line = lines.rfind(|line| line.order == order).unwrap();
         let found: Vec<f64> = line.resonances.iter().map(|at| at.rpm).collect();
         assert_eq!(
             found.len(),
@@ -417,7 +414,7 @@ fn no_number_is_given_where_there_is_no_steady_state() {
         );
     }
     for (found, critical) in line.resonances.iter().zip(&analysis.model.critical) {
-        assert!((rad_per_s(found.rpm) / critical.speed_rad_per_s - 1.0).abs() < 1e-7);
+        assert!((rad_per_s(found.rpm) / critical.speed_rad_per_s - 1.0).abs() < 1e-9);
         assert_eq!(found.steady_state, SteadyState::Unbounded);
     }
     let text = report.summary();
@@ -442,4 +439,32 @@ fn no_number_is_given_where_there_is_no_steady_state() {
     );
     let said = refused.unwrap_err().to_string();
     assert!(said.starts_with("response.runout_m must be "), "{said}");
+}
+
+/// A damper that is fixed in space exerts no force on a wave that stands still, so that a constant force deflects this wave without
+/// bound at its critical speed, which damping of the pad does not change.
+#[test]
+fn a_damped_pad_does_not_bound_a_static_deflection() {
+    let saw = scene(SideForceFile::of(1.0), ResponseFile::default(), |saw| {
+        saw.guides[0].damping_n_s_per_m = 50.0;
+    });
+    let report = response(&saw, &Options::default()).unwrap();
+    let critical = Analysis::new(&saw).unwrap().model.critical;
+    assert!(report.damped && !report.lines[0].resonances.is_empty());
+    for (found, critical) in report.lines[0].resonances.iter().zip(&critical) {
+        assert!((rad_per_s(found.rpm) / critical.speed_rad_per_s - 1.0).abs() < 1e-9);
+        assert!(
+            matches!(
+                found.steady_state,
+                SteadyState::Unbounded | SteadyState::None
+            ),
+            "{found:?}"
+        );
+    }
+    assert!(
+        report.lines[0]
+            .resonances
+            .iter()
+            .any(|at| at.steady_state == SteadyState::Unbounded)
+    );
 }

@@ -30,7 +30,7 @@ pub(super) fn warnings(
     let reasons = [
         (
             SteadyState::Unbounded,
-            "the scene has no damping, so that amplitudes grow without bound there",
+            "nothing dissipates the energy of the motion there, so that amplitudes grow without bound",
         ),
         (
             SteadyState::BeyondModel,
