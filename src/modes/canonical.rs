@@ -43,18 +43,24 @@ pub fn canonical_basis(mut form: Mat<f64>) -> Option<Mat<f64>> {
         pairs.push([e, f]);
     }
     let half = pairs.len();
-    Some(Mat::from_fn(order, order, |i, k| match k < half {
-        true => basis[(i, pairs[k][0])],
-        false => basis[(i, pairs[k - half][1])],
+    Some(Mat::from_fn(order, order, |i, k| {
+        if k < half {
+            basis[(i, pairs[k][0])]
+        } else {
+            basis[(i, pairs[k - half][1])]
+        }
     }))
 }
 
 /// JS of a symmetric matrix S, J = [0 I; −I 0].
 pub fn turned(symmetric: Mat<f64>) -> Mat<f64> {
     let (order, half) = (symmetric.nrows(), symmetric.nrows() / 2);
-    Mat::from_fn(order, order, |i, k| match i < half {
-        true => symmetric[(half + i, k)],
-        false => -symmetric[(i - half, k)],
+    Mat::from_fn(order, order, |i, k| {
+        if i < half {
+            symmetric[(half + i, k)]
+        } else {
+            -symmetric[(i - half, k)]
+        }
     })
 }
 

@@ -79,18 +79,24 @@ pub(crate) fn clear_range(critical: &[NamedCriticalSpeed], (from, to): (f64, f64
 /// The lowest speed, from a given one on, that is not near a critical speed.
 fn clear_above(critical: &[NamedCriticalSpeed], speed_rad_per_s: f64) -> f64 {
     let critical = critical.iter().map(|c| c.speed_rad_per_s);
-    critical.fold(speed_rad_per_s, |speed, c| match is_clear(speed, c) {
-        true => speed,
-        false => c * (1.0 + CLEAR),
+    critical.fold(speed_rad_per_s, |speed, c| {
+        if is_clear(speed, c) {
+            speed
+        } else {
+            c * (1.0 + CLEAR)
+        }
     })
 }
 
 /// The highest speed, up to a given one, that is not near a critical speed.
 fn clear_below(critical: &[NamedCriticalSpeed], speed_rad_per_s: f64) -> f64 {
     let critical = critical.iter().rev().map(|c| c.speed_rad_per_s);
-    critical.fold(speed_rad_per_s, |speed, c| match is_clear(speed, c) {
-        true => speed,
-        false => c * (1.0 - CLEAR),
+    critical.fold(speed_rad_per_s, |speed, c| {
+        if is_clear(speed, c) {
+            speed
+        } else {
+            c * (1.0 - CLEAR)
+        }
     })
 }
 

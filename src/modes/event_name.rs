@@ -57,9 +57,12 @@ impl EventName {
         // Rotation softens no wave at rest, and an event caused by follower loads may have no softened wave.
         // The weights are then squared amplitudes.
         let is_softened = speed_rad_per_s > 0.0 && waves.iter().any(|wave| softened(wave) > 0.0);
-        let weight = |wave: &Wave| match is_softened {
-            true => softened(wave),
-            false => amplitude(wave),
+        let weight = |wave: &Wave| {
+            if is_softened {
+                softened(wave)
+            } else {
+                amplitude(wave)
+            }
         };
         let weighed = waves.iter().map(|wave| (wave, weight(wave))).collect();
         let named = |wave: &Wave| (wave.diameters, wave.circles(plate));

@@ -231,9 +231,12 @@ mod tests {
     /// J times a symmetric matrix that is not definite: waves, real λ and quadruples.
     fn hamiltonian(half: usize) -> Mat<f64> {
         let wave = |i: usize, k: usize| ((13 * i * k + 7 * (i + k)) as f64).sin();
-        Mat::from_fn(2 * half, 2 * half, |i, k| match i < half {
-            true => wave(half + i, k),
-            false => -wave(i - half, k),
+        Mat::from_fn(2 * half, 2 * half, |i, k| {
+            if i < half {
+                wave(half + i, k)
+            } else {
+                -wave(i - half, k)
+            }
         })
     }
 

@@ -100,9 +100,12 @@ impl Group {
         // Of real numbers and conjugates all coefficients are real, so that its numbers between the ends are real or
         // conjugates, too.
         let is_real = ends.iter().all(|end| are_conjugates(end));
-        let exact = |(z, slope): Sloped| match is_real {
-            true => (c64::from(z.re), c64::from(slope.re)),
-            false => (z, slope),
+        let exact = |(z, slope): Sloped| {
+            if is_real {
+                (c64::from(z.re), c64::from(slope.re))
+            } else {
+                (z, slope)
+            }
         };
         let means = ends.map(|end| exact(mean(end)));
         let coefficients = [0, 1]

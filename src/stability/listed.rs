@@ -60,9 +60,12 @@ impl Listed {
     ) -> Result<c64, SpectrumError> {
         let refined = model.refined(speed_rad_per_s, lambda)?;
         self.note(refined);
-        let re = |refined: RefinedPair| match lambda.re == 0.0 {
-            true => 0.0,
-            false => refined.lambda.re,
+        let re = |refined: RefinedPair| {
+            if lambda.re == 0.0 {
+                0.0
+            } else {
+                refined.lambda.re
+            }
         };
         Ok(refined.map_or(lambda, |refined| c64::new(re(refined), refined.lambda.im)))
     }

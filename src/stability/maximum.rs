@@ -62,9 +62,12 @@ pub fn maximize(
 fn cubic(ends: &[Sample]) -> Cubic {
     let width = ends[1].at - ends[0].at;
     let secant = ends[1].value - ends[0].value;
-    let slope = |sample: &Sample| match sample.slope.is_finite() {
-        true => sample.slope * width,
-        false => secant,
+    let slope = |sample: &Sample| {
+        if sample.slope.is_finite() {
+            sample.slope * width
+        } else {
+            secant
+        }
     };
     Cubic {
         values: [ends[0].value, ends[1].value],

@@ -91,12 +91,13 @@ fn a_cut_that_deflects_the_blade_beyond_the_model_is_not_called_stable() {
         let (summary, json) = done("cut", &pushed(rpm, force_n));
         assert_in_80_columns(&summary);
         let report: CutReport = serde_json::from_slice(&json).unwrap();
-        let (verdict, headline) = match leaves {
-            true => (
+        let (verdict, headline) = if leaves {
+            (
                 CutVerdict::LeavesModel,
                 "NO GROWTH, BUT THE DEFLECTION LEAVES",
-            ),
-            false => (CutVerdict::Stable, "stable"),
+            )
+        } else {
+            (CutVerdict::Stable, "stable")
         };
         assert_eq!(report.runs[0].verdict, verdict);
         assert_eq!(report.runs[0].certificate.growing_modes, 0);

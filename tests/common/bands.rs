@@ -70,9 +70,12 @@ pub fn drawn_saw(index: u64) -> SceneFile {
     file.guides = (0..guides)
         .map(|_| {
             let is_point = draw.one_in(3);
-            let mut side = |low: f64, high: f64| match is_point {
-                true => 0.0,
-                false => 0.5 * outer_m * draw.between(low, high),
+            let mut side = |low: f64, high: f64| {
+                if is_point {
+                    0.0
+                } else {
+                    0.5 * outer_m * draw.between(low, high)
+                }
             };
             let (radial_length_m, tangential_length_m) = (side(0.02, 0.3), side(0.02, 0.4));
             GuideFile {

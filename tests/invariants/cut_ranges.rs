@@ -42,9 +42,10 @@ struct Saw {
 impl Saw {
     fn new(file: &SceneFile, top: f64) -> Self {
         let plate = Plate::new(&scene(file), SMALL);
-        let critical = match plate.is_conservative() {
-            true => SpectralModel::critical_speeds(&plate).unwrap(),
-            false => SpectralModel::critical_speeds(&plate.conservative()).unwrap(),
+        let critical = if plate.is_conservative() {
+            SpectralModel::critical_speeds(&plate).unwrap()
+        } else {
+            SpectralModel::critical_speeds(&plate.conservative()).unwrap()
         };
         let mut saw = Saw {
             system: GyroscopicSystem::of_plate(&plate),

@@ -42,11 +42,12 @@ fn intervals_cover_the_truth_as_often_as_they_say() {
             let allowed = 3.0 * (DRAWS as f64 * 0.9 * 0.1).sqrt();
             let is_off = |count: usize| (count as f64 - 0.9 * DRAWS as f64).abs() > allowed;
             let covered = covered();
-            match covered.into_iter().any(is_off) {
-                true => vec![format!(
+            if covered.into_iter().any(is_off) {
+                vec![format!(
                     "{covered:?} of {DRAWS} cover the truth, expected 90 %"
-                )],
-                false => Vec::new(),
+                )]
+            } else {
+                Vec::new()
             }
         });
     }

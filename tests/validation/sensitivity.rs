@@ -25,9 +25,10 @@ fn analysis_of(scene: &Scene) -> Analysis {
 fn moved(scene: &Scene, path: &str, share: f64) -> Scene {
     let parameter = Parameter::new(path);
     let value = parameter.get(scene.file()).unwrap();
-    let value = match path.ends_with("angle_deg") {
-        true => value + share,
-        false => value * (1.0 + 0.01 * share),
+    let value = if path.ends_with("angle_deg") {
+        value + share
+    } else {
+        value * (1.0 + 0.01 * share)
     };
     scene.file().with(&[(&parameter, value)]).unwrap()
 }

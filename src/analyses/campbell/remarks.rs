@@ -273,14 +273,11 @@ pub(crate) fn lifting_off(scene: &Scene) -> Option<String> {
             };
             let gap_mm = shown(1e3 * law.gap_m);
             let place = guide.index;
-            match law.presses_on_flat_blade() {
-                true => format!(
+            if law.presses_on_flat_blade() { format!(
                     "guides[{place}] lifts off: its offset of {} mm exceeds its gap of {gap_mm} mm, so that it presses on the flat blade; \
                      where the blade leaves it, {within}",
                     shown(1e3 * law.offset_m)
-                ),
-                false => format!("guides[{place}] lifts off: within its gap of {gap_mm} mm {within}"),
-            }
+                ) } else { format!("guides[{place}] lifts off: within its gap of {gap_mm} mm {within}") }
         })
         .collect();
     (!each.is_empty()).then(|| {

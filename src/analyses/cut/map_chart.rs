@@ -29,9 +29,12 @@ pub fn chart(report: &CutReport) -> ChartData {
     let panels = report
         .runs
         .iter()
-        .map(|run| match has_guides {
-            true => map(report, run),
-            false => over_load(report, run),
+        .map(|run| {
+            if has_guides {
+                map(report, run)
+            } else {
+                over_load(report, run)
+            }
         })
         .map(|panel| PanelData {
             share: 0.84,

@@ -55,9 +55,12 @@ fn share_beyond(gap_over_amplitude: f64) -> f64 {
 pub(super) fn equivalent_stiffness(guide: &GuideFile, amplitude_m: f64) -> f64 {
     let gap_m = guide.gap_m.unwrap_or_default();
     let share = |side: f64| 0.5 * share_beyond((gap_m + side * guide.offset_m) / amplitude_m);
-    let [left, right] = [1.0, -1.0].map(|side| match amplitude_m > 0.0 {
-        true => share(side),
-        false => f64::from(gap_m + side * guide.offset_m < 0.0),
+    let [left, right] = [1.0, -1.0].map(|side| {
+        if amplitude_m > 0.0 {
+            share(side)
+        } else {
+            f64::from(gap_m + side * guide.offset_m < 0.0)
+        }
     });
     let shares = match guide.side {
         GuideSide::Both => left + right,
@@ -111,9 +114,10 @@ fn amplitude_over_gap(share: f64) -> f64 {
     let (mut low, mut high) = (1.0_f64, FARTHEST);
     for _ in 0..60 {
         let middle = (low * high).sqrt();
-        match equivalent_share(middle) < share {
-            true => low = middle,
-            false => high = middle,
+        if equivalent_share(middle) < share {
+            low = middle
+        } else {
+            high = middle
         }
     }
     high
@@ -147,8 +151,8 @@ impl AmplitudeChart {
         let free = at(None)?;
         let amplitudes = SHARES
             .iter()
-            .map(|share| at(Some(smallest_gap_m * amplitude_over_gap(*share))));
-        let amplitudes = amplitudes.collect::<Result<Vec<_>, _>>()?;
+            .map(|share| at(Some(smallest_gap_m * amplitude_over_gap(*share))))
+            .collect::<Result<Vec<_>, _>>()?;
         Ok(AmplitudeChart {
             smallest_gap_m,
             amplitudes,
@@ -199,9 +203,10 @@ fn half_way(analysis: &Analysis, smallest_gap_m: f64) -> Result<Option<f64>, Gap
     let (mut low, mut high) = (0.0_f64, FARTHEST.ln());
     for _ in 0..HALVINGS {
         let between = 0.5 * (low + high);
-        match at(smallest_gap_m * between.exp())?.is_some_and(is_free) {
-            true => low = between,
-            false => high = between,
+        if at(smallest_gap_m * between.exp())?.is_some_and(is_free) {
+            low = between
+        } else {
+            high = between
         }
     }
     Ok(Some(smallest_gap_m * high.exp()))

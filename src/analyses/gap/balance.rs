@@ -213,9 +213,10 @@ impl<'a> Balance<'a> {
 
     /// Number of times in a period at which a force is evaluated.
     fn count(&self, term: &Term<'_>) -> usize {
-        match term.is_cubic {
-            true => self.width() * TIMES_OF_CUBIC,
-            false => (self.width() * TIMES).max(LEAST_TIMES),
+        if term.is_cubic {
+            self.width() * TIMES_OF_CUBIC
+        } else {
+            (self.width() * TIMES).max(LEAST_TIMES)
         }
     }
 

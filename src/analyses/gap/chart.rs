@@ -99,15 +99,19 @@ fn beyond_um(report: &GapReport, at: &AtAmplitude) -> Option<f64> {
 
 fn speeds(report: &GapReport) -> PanelData {
     let amplitudes = report.amplitudes.iter();
-    let places = amplitudes.filter_map(|at| Some((beyond_um(report, at)?, at)));
-    let places: Vec<(f64, &AtAmplitude)> = places.collect();
+    let places: Vec<(f64, &AtAmplitude)> = amplitudes
+        .filter_map(|at| Some((beyond_um(report, at)?, at)))
+        .collect();
     let beyond = Beyond::of(places.iter().map(|(um, _)| *um), [true; 2]);
-    let ticks = Axis::new(beyond.values, [0.0, TICKS.1], Spread::Logarithmic).ticks(TICKS.0);
-    let ticks = ticks.into_iter().map(|tick| (tick, tick_label(tick)));
+    let ticks = Axis::new(beyond.values, [0.0, TICKS.1], Spread::Logarithmic)
+        .ticks(TICKS.0)
+        .into_iter()
+        .map(|tick| (tick, tick_label(tick)));
     let free = (beyond.before, "free".to_owned());
     let linear = (beyond.after, "linear".to_owned());
-    let axis = beyond.axis("amplitude at the guides beyond the gap", "µm");
-    let axis = axis.named([free].into_iter().chain(ticks).chain([linear]));
+    let axis = beyond
+        .axis("amplitude at the guides beyond the gap", "µm")
+        .named([free].into_iter().chain(ticks).chain([linear]));
     let columns: Vec<(f64, &AtAmplitude)> = [(beyond.before, &report.free)]
         .into_iter()
         .chain(places)
@@ -116,16 +120,18 @@ fn speeds(report: &GapReport) -> PanelData {
     let mut items: Vec<Item> = half_way(report, beyond.ends).into_iter().collect();
     items.extend(columns.iter().flat_map(|(x, at)| bands(*x, at)));
     items.extend(critical_speeds(&columns));
-    let flutter = columns.iter();
-    let flutter = flutter.filter_map(|(x, at)| Some([*x, at.flutter_speed_rpm?]));
+    let flutter = columns
+        .iter()
+        .filter_map(|(x, at)| Some([*x, at.flutter_speed_rpm?]));
     items.push(Item::Points(Points {
         shape: Shape::Ring,
         ..Points::new(flutter, Hue::Alarm, FLUTTER_SIZE, "flutter speed")
     }));
     let is_empty = |at: &AtAmplitude| at.critical_rpm.is_empty() && at.instabilities.is_empty();
-    let note = match columns.iter().all(|(_, at)| is_empty(at)) {
-        true => "no critical speed and no band within the sweep, at any amplitude",
-        false => "",
+    let note = if columns.iter().all(|(_, at)| is_empty(at)) {
+        "no critical speed and no band within the sweep, at any amplitude"
+    } else {
+        ""
     };
     let speed = AxisData::speed().within([report.from_rpm, report.to_rpm]);
     PanelData {
@@ -182,14 +188,18 @@ fn critical_speeds(columns: &[(f64, &AtAmplitude)]) -> Vec<Item> {
 
 fn deflections(report: &GapReport) -> PanelData {
     let map = &report.deviation;
-    let gaps_mm = map.gap_factors.iter();
-    let gaps_mm: Vec<f64> = gaps_mm.map(|f| 1e3 * f * report.smallest_gap_m).collect();
+    let gaps_mm: Vec<f64> = map
+        .gap_factors
+        .iter()
+        .map(|f| 1e3 * f * report.smallest_gap_m)
+        .collect();
     let above_zero = || gaps_mm.iter().copied().filter(|mm| *mm > 0.0);
     let beyond = Beyond::of(above_zero(), [true, false]);
     let ticks = above_zero().map(|mm| (mm, shown_to(2, mm)));
     let linear = (beyond.before, "linear".to_owned());
-    let axis = beyond.axis("smallest gap, all gaps in proportion", "mm");
-    let axis = axis.named([linear].into_iter().chain(ticks));
+    let axis = beyond
+        .axis("smallest gap, all gaps in proportion", "mm")
+        .named([linear].into_iter().chain(ticks));
     let limit = map.max_deflection_m.map(|m| {
         let ends = beyond.ends.map(|x| [x, 1e3 * m]);
         Item::Line(Line {
@@ -197,8 +207,9 @@ fn deflections(report: &GapReport) -> PanelData {
             ..Line::guide(ends, Hue::Alarm, "largest deflection allowed")
         })
     });
-    let curves = (0..map.forces_n.len()).step_by(EVERY);
-    let curves = curves.flat_map(|k| under_force(report, k, &gaps_mm, beyond.before));
+    let curves = (0..map.forces_n.len())
+        .step_by(EVERY)
+        .flat_map(|k| under_force(report, k, &gaps_mm, beyond.before));
     PanelData {
         share: 0.75,
         ..PanelData::new(
@@ -212,9 +223,14 @@ fn deflections(report: &GapReport) -> PanelData {
 /// The axis of deflections at the cut.
 fn sizes(report: &GapReport) -> AxisData {
     let map = &report.deviation;
-    let all = map.deflection_m.iter().flatten().flatten();
-    let all = all.copied().chain(map.max_deflection_m);
-    let all = all.map(|m| 1e3 * m.abs());
+    let all = map
+        .deflection_m
+        .iter()
+        .flatten()
+        .flatten()
+        .copied()
+        .chain(map.max_deflection_m)
+        .map(|m| 1e3 * m.abs());
     let [low, high] = match extremes(all.filter(|mm| *mm > 0.0)) {
         ends if ends[0].is_finite() => ends,
         _ => [1e-3, 1.0],
@@ -228,8 +244,10 @@ fn under_force(report: &GapReport, k: usize, gaps_mm: &[f64], linear: f64) -> [I
     let map = &report.deviation;
     let tint = 0.4 + 0.6 * k as f64 / map.forces_n.len() as f64;
     let name = format!("{} N", shown_to(3, map.forces_n[k]));
-    let rows = gaps_mm.iter().zip(&map.deflection_m);
-    let rows = rows.map(|(mm, row)| (*mm, row[k].map_or(f64::NAN, |m| 1e3 * m.abs())));
+    let rows = gaps_mm
+        .iter()
+        .zip(&map.deflection_m)
+        .map(|(mm, row)| (*mm, row[k].map_or(f64::NAN, |m| 1e3 * m.abs())));
     let over_gap = rows
         .clone()
         .filter(|(mm, _)| *mm > 0.0)

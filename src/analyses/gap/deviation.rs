@@ -67,10 +67,14 @@ pub(super) fn deviation_map(
             let found = pressed.deviation(force_n, speed)?;
             Ok(found.filter(|found| found.largest_m <= thickness_m))
         };
-        let over_forces = forces_n.iter().map(|force| under(*force));
-        let over_forces: Row = over_forces.collect::<Result<_, GapError>>()?;
-        let over_speeds = speeds_rpm.iter().map(|speed| at(*speed));
-        let over_speeds: Row = over_speeds.collect::<Result<_, GapError>>()?;
+        let over_forces: Row = forces_n
+            .iter()
+            .map(|force| under(*force))
+            .collect::<Result<_, GapError>>()?;
+        let over_speeds: Row = speeds_rpm
+            .iter()
+            .map(|speed| at(*speed))
+            .collect::<Result<_, GapError>>()?;
         let limits = limit_m.map(|limit_m| {
             let force = within(&forces_n, &over_forces, limit_m, under)?;
             let speed = within(&speeds_rpm, &over_speeds, limit_m, at)?;
@@ -144,26 +148,28 @@ fn basis_error(
     rpm: f64,
 ) -> Result<Option<BasisError>, GapError> {
     let gap_factors: Vec<f64> = factors().step_by(ESTIMATED_EVERY).collect();
-    let found = gap_factors.into_par_iter().map(|gap_factor| {
-        let [blade, finer] = [blade, finer].map(|blade| blade.with_gaps(gap_factor));
-        let mut largest: Option<BasisError> = None;
-        for force_n in forces_n.iter().copied().step_by(ESTIMATED_EVERY) {
-            let Some(share) = blade.change_with(&finer, (force_n, rpm))? else {
-                continue;
-            };
-            if largest.is_none_or(|largest| share > largest.share) {
-                largest = Some(BasisError {
-                    share,
-                    gap_factor,
-                    force_n,
-                    modes: MODES,
-                    more_modes: MORE_MODES,
-                });
+    let found: Vec<Option<BasisError>> = gap_factors
+        .into_par_iter()
+        .map(|gap_factor| {
+            let [blade, finer] = [blade, finer].map(|blade| blade.with_gaps(gap_factor));
+            let mut largest: Option<BasisError> = None;
+            for force_n in forces_n.iter().copied().step_by(ESTIMATED_EVERY) {
+                let Some(share) = blade.change_with(&finer, (force_n, rpm))? else {
+                    continue;
+                };
+                if largest.is_none_or(|largest| share > largest.share) {
+                    largest = Some(BasisError {
+                        share,
+                        gap_factor,
+                        force_n,
+                        modes: MODES,
+                        more_modes: MORE_MODES,
+                    });
+                }
             }
-        }
-        Ok(largest)
-    });
-    let found: Vec<Option<BasisError>> = found.collect::<Result<_, GapError>>()?;
+            Ok(largest)
+        })
+        .collect::<Result<_, GapError>>()?;
     let found = found.into_iter().flatten();
     Ok(found.max_by(|a, b| a.share.total_cmp(&b.share)))
 }
@@ -191,9 +197,10 @@ pub(super) fn within(
     let (mut low, mut high) = (places[last], places[first]);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        match keeps(&solve(middle)?) {
-            true => low = middle,
-            false => high = middle,
+        if keeps(&solve(middle)?) {
+            low = middle
+        } else {
+            high = middle
         }
     }
     Ok(Some(low))

@@ -71,11 +71,13 @@ impl Loop<'_> {
                 return Ok(None);
             };
             let friction = &self.friction;
-            let powers = contacts.into_iter().map(|(radius_m, force_n)| {
-                let power_w = friction.coefficient * force_n * rad_per_s(rpm) * radius_m;
-                (radius_m, power_w)
-            });
-            let powers: Vec<(f64, f64)> = powers.collect();
+            let powers: Vec<(f64, f64)> = contacts
+                .into_iter()
+                .map(|(radius_m, force_n)| {
+                    let power_w = friction.coefficient * force_n * rad_per_s(rpm) * radius_m;
+                    (radius_m, power_w)
+                })
+                .collect();
             let into_blade = powers
                 .iter()
                 .map(|(r, power_w)| (*r, friction.heat_share * power_w));
@@ -88,9 +90,10 @@ impl Loop<'_> {
                 deviation,
                 power_w: powers.iter().map(|(_, power_w)| power_w).sum(),
             };
-            match rise_k.iter().all(|rise_k| *rise_k == 0.0) {
-                true => cold = Some(state),
-                false => hot = Some(state),
+            if rise_k.iter().all(|rise_k| *rise_k == 0.0) {
+                cold = Some(state)
+            } else {
+                hot = Some(state)
             }
             Ok::<_, GapError>(Some(rises_k))
         })?;

@@ -129,11 +129,15 @@ fn by_radii(pads: &[FrictionPad]) -> Vec<Pads> {
 
 /// Radii, rest of the gap and force of each pad.
 fn key(heat: &FrictionHeat) -> Vec<Item> {
-    let pads = heat.pads.iter().zip(&heat.pad_forces_n).take(PADS);
-    let pads = pads.map(|(pad, force_n)| {
-        let name = describe(pad, *force_n);
-        Item::tinted_sample(Hue::Forward, PAD_TINT, &name)
-    });
+    let pads = heat
+        .pads
+        .iter()
+        .zip(&heat.pad_forces_n)
+        .take(PADS)
+        .map(|(pad, force_n)| {
+            let name = describe(pad, *force_n);
+            Item::tinted_sample(Hue::Forward, PAD_TINT, &name)
+        });
     let rest = heat.pads.len().saturating_sub(PADS);
     let rest = (rest > 0).then(|| {
         let name = format!("… and {rest} more in gap.json");
@@ -144,9 +148,10 @@ fn key(heat: &FrictionHeat) -> Vec<Item> {
 
 fn describe(pad: &FrictionPad, force_n: f64) -> String {
     let ends = [pad.from_radius_m, pad.to_radius_m].map(|m| tick_label((1e4 * m).round() / 10.0));
-    let place = match ends[0] == ends[1] {
-        true => format!("at {} mm", ends[0]),
-        false => format!("{} to {} mm", ends[0], ends[1]),
+    let place = if ends[0] == ends[1] {
+        format!("at {} mm", ends[0])
+    } else {
+        format!("{} to {} mm", ends[0], ends[1])
     };
     let left = match pad.gap_left_m {
         None => "gap left unknown".to_owned(),

@@ -27,15 +27,23 @@ const PAPER_WIDTH: f64 = STRONG_CURVE + 2.0;
 /// The two maps, as numbers; `None` if no deflection is known.
 pub fn chart(report: &GapReport) -> Option<ChartData> {
     let map = &report.deviation;
-    let all = map.deflection_m.iter().skip(1).flatten();
-    let all = all.chain(map.deflection_over_gap_and_speed_m.iter().skip(1).flatten());
-    let all = all.flatten().map(|m| 1e3 * m.abs()).filter(|mm| *mm > 0.0);
+    let all = map
+        .deflection_m
+        .iter()
+        .skip(1)
+        .flatten()
+        .chain(map.deflection_over_gap_and_speed_m.iter().skip(1).flatten())
+        .flatten()
+        .map(|m| 1e3 * m.abs())
+        .filter(|mm| *mm > 0.0);
     let range = extremes(all);
     if !range[0].is_finite() {
         return None;
     }
-    let gaps_mm = map.gap_factors.iter();
-    let gaps_mm = gaps_mm.map(|factor| 1e3 * factor * report.smallest_gap_m);
+    let gaps_mm = map
+        .gap_factors
+        .iter()
+        .map(|factor| 1e3 * factor * report.smallest_gap_m);
     let forces: Vec<f64> = map.forces_n.iter().map(|force| force.abs()).collect();
     let over_force = Map {
         title: format!("at {:.0} rpm", map.rpm),
@@ -53,8 +61,9 @@ pub fn chart(report: &GapReport) -> Option<ChartData> {
     };
     let gaps_mm: Vec<f64> = gaps_mm.collect();
     let panels = [over_force, over_speed].map(|map| map.panel(&gaps_mm, range));
-    let limit = map.max_deflection_m;
-    let limit = limit.map(|_| Item::line_sample(LIMIT_WIDTH, false, Hue::Ink, LIMIT));
+    let limit = map
+        .max_deflection_m
+        .map(|_| Item::line_sample(LIMIT_WIDTH, false, Hue::Ink, LIMIT));
     let blank = Item::area_sample(Hue::Blank, BLANK);
     let title = "Deflection at the cut over the gap of the guides";
     Some(ChartData {
@@ -102,8 +111,9 @@ impl Map<'_> {
     /// The map for some gaps, with colours for a range of deflections in mm.
     fn panel(&self, gaps_mm: &[f64], range: [f64; 2]) -> PanelData {
         // Linear guides have a gap of zero, which a logarithmic axis cannot show.
-        let rows = (0..gaps_mm.len()).filter(|row| gaps_mm[*row] > 0.0);
-        let rows: Vec<usize> = rows.collect();
+        let rows: Vec<usize> = (0..gaps_mm.len())
+            .filter(|row| gaps_mm[*row] > 0.0)
+            .collect();
         let gaps: Vec<f64> = rows.iter().map(|row| gaps_mm[*row]).collect();
         let y_ends = ends_of_cells(&gaps, Spread::Logarithmic);
         let x_ends = ends_of_cells(self.values, self.axis.spread);
@@ -125,8 +135,12 @@ impl Map<'_> {
         };
         let last = self.values.last().copied().unwrap_or_default();
         let limit = rows.iter().zip(&gaps).map(|(row, gap)| {
-            let within = self.within.get(*row).copied().flatten();
-            let within = within.filter(|value| *value < last);
+            let within = self
+                .within
+                .get(*row)
+                .copied()
+                .flatten()
+                .filter(|value| *value < last);
             [within.unwrap_or(f64::NAN), *gap]
         });
         let line = |width, hue| {

@@ -127,13 +127,14 @@ impl Options {
         }
         let mut guides = scene.guides().iter();
         guides.try_for_each(|guide| check_reached(scene.blade(), guide))?;
-        match scene.guides().iter().any(|guide| guide.lifting.is_some()) {
-            true => Ok(()),
-            false => Err(RefusedValue::missing(
+        if scene.guides().iter().any(|guide| guide.lifting.is_some()) {
+            Ok(())
+        } else {
+            Err(RefusedValue::missing(
                 "guides[].contact",
                 "\"one_sided\" for at least one guide",
                 "a linear guide acts at any deflection; give contact as \"one_sided\" and gap_m",
-            )),
+            ))
         }
     }
 }
@@ -148,9 +149,10 @@ fn check_reached(blade: &Blade, guide: &Guide) -> Result<(), RefusedValue> {
     let (_, farthest_m) = guide.typed.reach_m();
     let free_m = farthest_m.min(blade.outer_radius_m) - blade.inner_radius_m;
     let most_m = LARGEST_SLOPE * free_m + lifting.offset_m.abs();
-    match lifting.gap_m <= most_m {
-        true => Ok(()),
-        false => Err(RefusedValue::new(
+    if lifting.gap_m <= most_m {
+        Ok(())
+    } else {
+        Err(RefusedValue::new(
             format!("guides[{}].gap_m", guide.index),
             lifting.gap_m,
             format!(
@@ -158,7 +160,7 @@ fn check_reached(blade: &Blade, guide: &Guide) -> Result<(), RefusedValue> {
                 shown_to(3, most_m)
             ),
             "give the gap in metres, such as 5e-5, or leave this pad out",
-        )),
+        ))
     }
 }
 
@@ -172,8 +174,9 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
     let analysis = Analysis::new(scene)?;
     let amplitude = AmplitudeChart::new(&analysis)?;
     let first = analysis.model.critical.first();
-    let speed = options.rpm.map(rad_per_s);
-    let speed = speed
+    let speed = options
+        .rpm
+        .map(rad_per_s)
         .or(scene.operating_rad_per_s())
         .or(first.map(|critical| 0.5 * critical.speed_rad_per_s))
         .unwrap_or(analysis.range_rad_per_s.1);

@@ -68,11 +68,13 @@ impl OscillatingBlade {
             (plate.blade.outer_radius_m, scene.cut_angle_rad()),
         );
         let loads = loads(&plate, scene, 0.0).map_err(|waves| rigid(waves, scene))?;
-        let systems = [
+        let systems: Vec<GyroscopicSystem> = [
             Some(GyroscopicSystem::of_plate(&plate)),
             GyroscopicSystem::of_released(&plate),
-        ];
-        let systems: Vec<GyroscopicSystem> = systems.into_iter().flatten().collect();
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
         let mut further = Vec::new();
         for (load, system) in loads
             .iter()
@@ -199,11 +201,13 @@ impl OscillatingBlade {
                     let neglected = balance.neglected(&found)?;
                     Some((found, neglected))
                 })?;
-            let sizes = neglected.iter().map(|(k, q)| {
-                let at_cut: c64 = (0..q.nrows()).map(|i| q[i] * self.cut[i]).sum();
-                (*k, at_cut.norm())
-            });
-            let sizes: Vec<(usize, f64)> = sizes.collect();
+            let sizes: Vec<(usize, f64)> = neglected
+                .iter()
+                .map(|(k, q)| {
+                    let at_cut: c64 = (0..q.nrows()).map(|i| q[i] * self.cut[i]).sum();
+                    (*k, at_cut.norm())
+                })
+                .collect();
             let amplitude_m = amplitude_m(&found, &self.cut);
             let neglected_share = sizes.iter().map(|(_, size)| size).sum::<f64>() / amplitude_m;
             if neglected_share <= NEGLECTED {
@@ -221,9 +225,10 @@ impl OscillatingBlade {
                 .max_by(|a, b| a.1.total_cmp(&b.1))
                 .map_or(0, |(k, _)| *k);
             let more = (MORE_HARMONICS * harmonics as f64).ceil() as usize;
-            harmonics = match harmonics < MOST_HARMONICS {
-                true => more.max(largest).min(MOST_HARMONICS),
-                false => return None,
+            harmonics = if harmonics < MOST_HARMONICS {
+                more.max(largest).min(MOST_HARMONICS)
+            } else {
+                return None;
             };
             motion = Some(found);
         }

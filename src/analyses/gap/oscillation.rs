@@ -52,12 +52,14 @@ pub(super) fn oscillation(
     let place = speeds.partition_point(|other| *other < speed_rad_per_s);
     speeds.insert(place, speed_rad_per_s);
     let blade = of_modes(MODES)?;
-    let motions = speeds.par_iter().map(|speed| {
-        let found = blade.at(*speed)?;
-        work.advance();
-        Ok(found)
-    });
-    let motions = motions.collect::<Result<Vec<_>, GapError>>()?;
+    let motions = speeds
+        .par_iter()
+        .map(|speed| {
+            let found = blade.at(*speed)?;
+            work.advance();
+            Ok(found)
+        })
+        .collect::<Result<Vec<_>, GapError>>()?;
     let still_deflection_m = motions[place].1;
     let mut motions: Vec<_> = motions.into_iter().map(|(found, _)| found).collect();
     blade.follow(&mut motions, &speeds);
@@ -118,10 +120,7 @@ impl Oscillation {
             ),
             Some(at) if !at.stable => {
                 let of_motion = at.growth_frequency_hz.unwrap_or_default() / at.frequency_hz;
-                let what = match (2.0 * of_motion - 1.0).abs() < 1e-3 {
-                    true => "a motion of twice the period (a subharmonic, X/2) takes its place",
-                    false => "small motions about it grow",
-                };
+                let what = if (2.0 * of_motion - 1.0).abs() < 1e-3 { "a motion of twice the period (a subharmonic, X/2) takes its place" } else { "small motions about it grow" };
                 warnings.push(format!(
                     "the periodic motion at the speed of the map is unstable: {what}"
                 ));

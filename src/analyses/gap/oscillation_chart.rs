@@ -52,8 +52,12 @@ pub fn chart(report: &GapReport) -> Option<ChartData> {
             .concat(),
         )
     };
-    let parts = found.lines.iter().zip(HUES);
-    let parts: Vec<Item> = parts.map(|(line, hue)| part(found, line, hue)).collect();
+    let parts: Vec<Item> = found
+        .lines
+        .iter()
+        .zip(HUES)
+        .map(|(line, hue)| part(found, line, hue))
+        .collect();
     let mut chart = ChartData::new(
         "Oscillation between guides with a gap",
         facts(report, found),
@@ -97,11 +101,14 @@ fn facts(report: &GapReport, found: &Oscillation) -> Vec<String> {
 /// Speeds without a motion, over the height of an axis.
 fn unknown(found: &Oscillation, y: &AxisData) -> Area {
     let [low, high] = y.range.unwrap_or([0.0, 1.0]);
-    let columns = found.rpm.iter().zip(&found.probe_mean_m);
-    let columns = columns.map(|(rpm, mean)| match mean {
-        Some(_) => [*rpm, f64::NAN, f64::NAN],
-        None => [*rpm, low, high],
-    });
+    let columns = found
+        .rpm
+        .iter()
+        .zip(&found.probe_mean_m)
+        .map(|(rpm, mean)| match mean {
+            Some(_) => [*rpm, f64::NAN, f64::NAN],
+            None => [*rpm, low, high],
+        });
     let name = "no stable motion, or beyond the thickness";
     Area {
         tint: UNKNOWN_TINT,
@@ -112,9 +119,10 @@ fn unknown(found: &Oscillation, y: &AxisData) -> Area {
 fn amplitudes(found: &Oscillation) -> AxisData {
     let all = found.lines.iter().flat_map(|line| &line.probe_m).flatten();
     let [low, high] = extremes(all.map(|m| 1e3 * m).filter(|mm| *mm > 0.0));
-    let ends = match high > 0.0 {
-        true => [low.max(high * 10f64.powi(-DECADES)) / 1.5, 1.5 * high],
-        false => [1e-3, 1.0],
+    let ends = if high > 0.0 {
+        [low.max(high * 10f64.powi(-DECADES)) / 1.5, 1.5 * high]
+    } else {
+        [1e-3, 1.0]
     };
     let axis = AxisData::new("parts at the probe", "mm").within(ends);
     axis.spread(Spread::Logarithmic)
@@ -157,8 +165,9 @@ fn at_the_cut(report: &GapReport, found: &Oscillation, last: f64) -> Vec<Item> {
             ..Line::new(points, Hue::Forward, name)
         })
     };
-    let between = points(-1.0).zip(cut_mm(found, 1.0));
-    let between = between.map(|((rpm, low), high)| [*rpm, low, high]);
+    let between = points(-1.0)
+        .zip(cut_mm(found, 1.0))
+        .map(|((rpm, low), high)| [*rpm, low, high]);
     let between = Area {
         tint: AMPLITUDE_TINT,
         stepped: false,
@@ -168,14 +177,18 @@ fn at_the_cut(report: &GapReport, found: &Oscillation, last: f64) -> Vec<Item> {
         width: HAIRLINE,
         ..Line::new([[0.0, 0.0], [last, 0.0]], Hue::Ink, "")
     };
-    let limits = report.deviation.max_deflection_m.into_iter();
-    let limits = limits.flat_map(|m| [1e3 * m, -1e3 * m]).map(|mm| {
-        let ends = [[0.0, mm], [last, mm]];
-        Item::Line(Line {
-            width: CURVE,
-            ..Line::guide(ends, Hue::Alarm, "largest deflection allowed")
-        })
-    });
+    let limits = report
+        .deviation
+        .max_deflection_m
+        .into_iter()
+        .flat_map(|m| [1e3 * m, -1e3 * m])
+        .map(|mm| {
+            let ends = [[0.0, mm], [last, mm]];
+            Item::Line(Line {
+                width: CURVE,
+                ..Line::guide(ends, Hue::Alarm, "largest deflection allowed")
+            })
+        });
     let curves = [
         Item::Area(between),
         Item::Line(zero),

@@ -91,9 +91,10 @@ fn without_a_gap_the_motion_is_the_linear_response() {
         let place = speeds.min_by(|a, b| away(a).total_cmp(&away(b))).unwrap();
         assert!(away(&place) < 1e-4);
         // The basis contains the linear response at the speed of the map, where the motion is more accurate.
-        let tolerance = match (own_speed / speed - 1.0).abs() < 1e-9 {
-            true => 1e-3,
-            false => 1e-2,
+        let tolerance = if (own_speed / speed - 1.0).abs() < 1e-9 {
+            1e-3
+        } else {
+            1e-2
         };
         for order in [1, 2] {
             let own = linear.lines.iter().filter(|line| line.order == order);
@@ -135,16 +136,17 @@ fn the_motion_under_an_oscillating_force_is_that_of_the_time_history() {
 fn compare_with_time_history(turning: bool, oscillating_n: f64, base: u32) {
     let scene = saw(|pad| (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5)));
     let speed = rad_per_s(900.0);
-    let scene = scene.edited(|file| {
-        if !turning {
-            file.response = None;
-        }
-        file.side_force = Some(SideForceFile {
-            oscillating_n,
-            ..SideForceFile::of(1.0)
-        });
-    });
-    let scene = scene.unwrap();
+    let scene = scene
+        .edited(|file| {
+            if !turning {
+                file.response = None;
+            }
+            file.side_force = Some(SideForceFile {
+                oscillating_n,
+                ..SideForceFile::of(1.0)
+            });
+        })
+        .unwrap();
     let oscillators = Oscillators::of(&scene).unwrap();
     assert_eq!(oscillators.base_order(), base);
     let asked = (speed, rad_per_s(1400.0));
@@ -166,8 +168,7 @@ fn compare_with_time_history(turning: bool, oscillating_n: f64, base: u32) {
     let steps = 200;
     let frequency = f64::from(base) * speed;
     let step_s = TAU / frequency / f64::from(steps);
-    let newmark = Newmark::new(&blade.system, (speed, 0.0), &loads, step_s);
-    let newmark = newmark.with_forces(&forces);
+    let newmark = Newmark::new(&blade.system, (speed, 0.0), &loads, step_s).with_forces(&forces);
     let sizes = |step: u32| {
         let (sin, cos) = (TAU * f64::from(step % steps) / f64::from(steps)).sin_cos();
         [1.0, cos, sin]
@@ -211,8 +212,10 @@ fn compare_with_time_history(turning: bool, oscillating_n: f64, base: u32) {
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn more_harmonics_and_modes_change_little() {
     let scene = saw(|pad| (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5)));
-    let found = gap(&scene, &Options::default()).unwrap();
-    let found = found.oscillation.unwrap();
+    let found = gap(&scene, &Options::default())
+        .unwrap()
+        .oscillation
+        .unwrap();
     let errors = [found.harmonics_error_share, found.basis_error_share];
     let [harmonics, basis] = errors.map(Option::unwrap);
     assert!(harmonics < 0.02 && basis < 0.05, "{harmonics} {basis}");

@@ -33,9 +33,10 @@ impl Oscillators {
             ("flatness", 2, self.turning.flatness_m),
             ("imbalance", 1, self.turning.imbalance_kg_m2),
             ("imbalance", 2, self.turning.imbalance_kg_m2),
-        ];
-        let turning = turning.into_iter().filter(|(.., size)| *size != 0.0);
-        let turning = turning.map(|(name, order, _)| (name, order));
+        ]
+        .into_iter()
+        .filter(|(.., size)| *size != 0.0)
+        .map(|(name, order, _)| (name, order));
         force.into_iter().chain(turning).collect()
     }
 
@@ -45,9 +46,10 @@ impl Oscillators {
         let causes = self.causes();
         let own = causes.iter().filter(|(_, other)| *other == order);
         let names: Vec<&str> = own.map(|(name, _)| *name).collect();
-        match names.is_empty() {
-            true => "contact".to_owned(),
-            false => names.join(", "),
+        if names.is_empty() {
+            "contact".to_owned()
+        } else {
+            names.join(", ")
         }
     }
 

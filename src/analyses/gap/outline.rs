@@ -71,13 +71,12 @@ fn half_way(report: &GapReport) -> String {
 /// The gap of all guides, or that of each if they differ: "gap 0.05 mm", "gaps 0.05 mm of guides[0], 0.1 mm of guides[1]".
 fn gaps(report: &GapReport) -> String {
     let mm = |m: f64| format!("{} mm", shown_to(3, 1e3 * m));
-    match have_one_gap(report) {
-        true => format!("gap {}", mm(report.smallest_gap_m)),
-        false => {
-            let each =
-                lifting(report).map(|(place, gap_m)| format!("{} of guides[{place}]", mm(gap_m)));
-            format!("gaps {}", each.collect::<Vec<_>>().join(", "))
-        }
+    if have_one_gap(report) {
+        format!("gap {}", mm(report.smallest_gap_m))
+    } else {
+        let each =
+            lifting(report).map(|(place, gap_m)| format!("{} of guides[{place}]", mm(gap_m)));
+        format!("gaps {}", each.collect::<Vec<_>>().join(", "))
     }
 }
 
@@ -117,9 +116,10 @@ fn over_amplitude(report: &GapReport) -> Table {
             .iter()
             .map(|share| shown_to(3, 1e2 * share))
             .collect();
-        let stiffness = match shares.iter().all(|share| *share == first) {
-            true => PERCENT.digits(3, first),
-            false => each.join("  ").into(),
+        let stiffness = if shares.iter().all(|share| *share == first) {
+            PERCENT.digits(3, first)
+        } else {
+            each.join("  ").into()
         };
         [
             name,
@@ -129,8 +129,10 @@ fn over_amplitude(report: &GapReport) -> Table {
             at.instabilities.len().into(),
         ]
     };
-    let amplitudes = report.amplitudes.iter();
-    let amplitudes = amplitudes.map(|at| row(LENGTH.digits(4, at.amplitude_m), at));
+    let amplitudes = report
+        .amplitudes
+        .iter()
+        .map(|at| row(LENGTH.digits(4, at.amplitude_m), at));
     let rows = std::iter::once(row("inside gap".into(), &report.free))
         .chain(amplitudes)
         .chain([row("linear".into(), &report.linear)]);
@@ -158,8 +160,12 @@ fn deviation(text: &mut Outline, report: &GapReport) {
     ];
     let series = map.speeds_rpm.iter().zip(&map.deflection_over_speed_m);
     let rows = series.enumerate().map(|(k, (rpm, deflection))| {
-        let forces = map.pad_forces_over_speed_n.iter().filter_map(|pad| pad[k]);
-        let forces: Vec<String> = forces.map(|force| shown_to(3, force)).collect();
+        let forces: Vec<String> = map
+            .pad_forces_over_speed_n
+            .iter()
+            .filter_map(|pad| pad[k])
+            .map(|force| shown_to(3, force))
+            .collect();
         [
             SPEED.fixed(0, *rpm),
             LENGTH.fixed(4, *deflection).or("leans"),
@@ -179,9 +185,10 @@ fn deviation(text: &mut Outline, report: &GapReport) {
 
 /// A gap of the map, in millimetres.
 fn gap(report: &GapReport, factor: f64) -> Value {
-    match factor == 0.0 {
-        true => "linear".into(),
-        false => LENGTH.digits(3, factor * report.smallest_gap_m),
+    if factor == 0.0 {
+        "linear".into()
+    } else {
+        LENGTH.digits(3, factor * report.smallest_gap_m)
     }
 }
 
@@ -218,24 +225,28 @@ fn within(report: &GapReport, limit: f64) -> Table {
     let end = map.speeds_rpm.last().copied().unwrap_or_default();
     let critical = report.linear.critical_rpm.first();
     let found = map.force_within_n.iter().zip(&map.speed_within_rpm);
-    let rows = map.gap_factors.iter().zip(found).enumerate();
-    let rows = rows.filter(|(row, _)| is_shown(*row));
-    let rows = rows.map(|(_, (factor, (force, speed)))| {
-        let force = match force {
-            None => format!("less than {} N", shown_to(3, first)),
-            Some(force) if *force >= last => format!("{} N or more", shown_to(3, last)),
-            Some(force) => format!("{} N", shown_to(3, *force)),
-        };
-        let speed = match speed {
-            None => "at no speed".to_owned(),
-            Some(speed) if *speed >= end => format!("{end:.0} rpm or more"),
-            Some(speed) if critical == Some(speed) => {
-                format!("{speed:.0} rpm, the first critical speed")
-            }
-            Some(speed) => format!("{speed:.0} rpm"),
-        };
-        [gap(report, *factor), force.into(), speed.into()]
-    });
+    let rows = map
+        .gap_factors
+        .iter()
+        .zip(found)
+        .enumerate()
+        .filter(|(row, _)| is_shown(*row))
+        .map(|(_, (factor, (force, speed)))| {
+            let force = match force {
+                None => format!("less than {} N", shown_to(3, first)),
+                Some(force) if *force >= last => format!("{} N or more", shown_to(3, last)),
+                Some(force) => format!("{} N", shown_to(3, *force)),
+            };
+            let speed = match speed {
+                None => "at no speed".to_owned(),
+                Some(speed) if *speed >= end => format!("{end:.0} rpm or more"),
+                Some(speed) if critical == Some(speed) => {
+                    format!("{speed:.0} rpm, the first critical speed")
+                }
+                Some(speed) => format!("{speed:.0} rpm"),
+            };
+            [gap(report, *factor), force.into(), speed.into()]
+        });
     let title = format!(
         "Within {} mm at the cut at {:.0} rpm",
         shown_to(3, 1e3 * limit),
@@ -329,8 +340,10 @@ fn heat(text: &mut Outline, map: &DeviationMap, friction: &FrictionHeat) {
     });
     let mm = |m: Option<f64>| LENGTH.fixed(4, m).or("unknown").with_unit();
     let speed = |rpm: Option<f64>| SPEED.fixed(1, rpm).or("none").with_unit();
-    let forces = friction.pad_forces_n.iter();
-    let forces = forces.map(|force| shown_to(3, *force));
+    let forces = friction
+        .pad_forces_n
+        .iter()
+        .map(|force| shown_to(3, *force));
     let mut facts = vec![
         Fact::new(
             "power",
@@ -374,9 +387,10 @@ fn heat(text: &mut Outline, map: &DeviationMap, friction: &FrictionHeat) {
             Some(m) => LENGTH.digits(4, m).with_unit(),
         };
         let ends = [pad.from_radius_m, pad.to_radius_m].map(|m| shown_to(3, 1e3 * m));
-        let place = match ends[0] == ends[1] {
-            true => format!("{} mm", ends[0]),
-            false => format!("{} to {} mm", ends[0], ends[1]),
+        let place = if ends[0] == ends[1] {
+            format!("{} mm", ends[0])
+        } else {
+            format!("{} to {} mm", ends[0], ends[1])
         };
         let name = format!("guides[{}], gap left", pad.guide);
         Fact::new(name, format!("{left} (radius {place})"))

@@ -57,9 +57,10 @@ pub(super) fn settled<E>(
     let (mut next, mut factor, mut halved) = (first, 1.0, 0);
     let mut last: Option<Vec<f64>> = None;
     while found.repetitions < MOST {
-        let own = match largest(&next) > limit {
-            true => None,
-            false => answer(&next)?,
+        let own = if largest(&next) > limit {
+            None
+        } else {
+            answer(&next)?
         };
         let Some(own) = own else {
             found.end = End::NoAnswer;
@@ -95,9 +96,10 @@ pub(super) fn settled<E>(
         if let Some(last) = &last {
             let turn: Vec<f64> = drift.iter().zip(last).map(|(new, old)| new - old).collect();
             let best = -factor * product(last, &turn) / product(&turn, &turn);
-            factor = match best > 0.0 && best.is_finite() {
-                true => best.clamp(FACTORS.0, FACTORS.1),
-                false => 1.0,
+            factor = if best > 0.0 && best.is_finite() {
+                best.clamp(FACTORS.0, FACTORS.1)
+            } else {
+                1.0
             };
         }
         let pairs = found.value.iter().zip(&drift);

@@ -221,13 +221,12 @@ fn without_a_gap_and_far_within_it_the_blade_is_linear_at_every_speed() {
                 load += faer::Scale(offset_m) * ((&whole.stiffness - &others.stiffness) * &heave);
             }
             let expected = functions.transpose() * stiffness.partial_piv_lu().solve(&load);
-            let own = match is_shifted {
-                true => pressed.with_gaps(1e-6).deviation(force_n, rpm),
-                false => {
-                    let flat = scene.edited(|file| file.guides[0].offset_m = 0.0).unwrap();
-                    let pressed = pressed::PressedBlade::new(&flat, SMALL, 1500.0, order).unwrap();
-                    pressed.with_gaps(1e-6).deviation(force_n, rpm)
-                }
+            let own = if is_shifted {
+                pressed.with_gaps(1e-6).deviation(force_n, rpm)
+            } else {
+                let flat = scene.edited(|file| file.guides[0].offset_m = 0.0).unwrap();
+                let pressed = pressed::PressedBlade::new(&flat, SMALL, 1500.0, order).unwrap();
+                pressed.with_gaps(1e-6).deviation(force_n, rpm)
             };
             let own = own.unwrap().unwrap().deviation_m;
             assert!(
@@ -280,16 +279,17 @@ fn pads_and_films_balance_the_side_force_at_every_speed() {
 /// A pad whose offset exceeds its gap presses on the flat blade, and every guide is named with its own gap.
 #[test]
 fn a_preloaded_pad_holds_the_blade_and_each_gap_is_named() {
-    let scene = lifting(4e-5).edited(|file| {
-        let pad = file.guides[0];
-        file.guides.push(crate::model::scene::GuideFile {
-            angle_deg: 120.0,
-            gap_m: Some(9e-5),
-            offset_m: 1.5e-4,
-            ..pad
-        });
-    });
-    let scene = scene.unwrap();
+    let scene = lifting(4e-5)
+        .edited(|file| {
+            let pad = file.guides[0];
+            file.guides.push(crate::model::scene::GuideFile {
+                angle_deg: 120.0,
+                gap_m: Some(9e-5),
+                offset_m: 1.5e-4,
+                ..pad
+            });
+        })
+        .unwrap();
     let said = crate::analyses::campbell::lifting_off(&scene).unwrap();
     assert!(
         said.contains(
@@ -462,17 +462,18 @@ fn the_heat_of_a_point_pad_is_that_of_its_force() {
 #[cfg_attr(debug_assertions, ignore = "many eigenproblems: run it in release")]
 fn pads_with_one_offset_move_the_blade_by_it() {
     let of = |offset_m: f64| {
-        let scene = lifting(4e-5).edited(|file| {
-            let pad = file.guides[0];
-            file.guides = [-55.0, 65.0, 185.0]
-                .map(|angle_deg| crate::model::scene::GuideFile {
-                    angle_deg,
-                    offset_m,
-                    ..pad
-                })
-                .to_vec();
-        });
-        let scene = scene.unwrap();
+        let scene = lifting(4e-5)
+            .edited(|file| {
+                let pad = file.guides[0];
+                file.guides = [-55.0, 65.0, 185.0]
+                    .map(|angle_deg| crate::model::scene::GuideFile {
+                        angle_deg,
+                        offset_m,
+                        ..pad
+                    })
+                    .to_vec();
+            })
+            .unwrap();
         let resolution = crate::model::plate::Resolution {
             max_diameters: 8,
             radial_functions: 4,

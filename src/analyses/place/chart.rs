@@ -126,9 +126,12 @@ fn over_one(report: &PlaceReport, map: &GoalMap, x: Along, goal: &str) -> PanelD
     let room = 0.06 * (high - low);
     let points = x.values.iter().zip(&z).map(|(x, rpm)| [*x, *rpm]);
     let [bottom, top] = [low - room, high + room];
-    let lost = x.values.iter().zip(&z).map(|(x, rpm)| match rpm.is_nan() {
-        true => [*x, bottom, top],
-        false => [*x, f64::NAN, f64::NAN],
+    let lost = x.values.iter().zip(&z).map(|(x, rpm)| {
+        if rpm.is_nan() {
+            [*x, bottom, top]
+        } else {
+            [*x, f64::NAN, f64::NAN]
+        }
     });
     let items = [
         Item::Area(Area::new(lost, Hue::Blank, &limit(report))),

@@ -76,9 +76,12 @@ impl Neighbours {
             .collect();
         let all = around.into_iter().chain(alone).flatten();
         let nominal = Rated::new(values, Some(own));
-        let worst = all.fold(nominal, |worst, other| match other.cost > worst.cost {
-            true => other,
-            false => worst,
+        let worst = all.fold(nominal, |worst, other| {
+            if other.cost > worst.cost {
+                other
+            } else {
+                worst
+            }
         });
         Neighbours {
             offsets,

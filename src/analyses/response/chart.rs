@@ -30,8 +30,11 @@ const RESONANCE: f64 = 7.0;
 pub fn chart(report: &ResponseReport) -> ChartData {
     let speeds = [report.from_rpm, report.to_rpm];
     let speed = AxisData::speed().within(speeds);
-    let bands = report.instabilities.iter();
-    let bands: Vec<Item> = bands.map(|b| Item::Band(Band::grown(b, speeds))).collect();
+    let bands: Vec<Item> = report
+        .instabilities
+        .iter()
+        .map(|b| Item::Band(Band::grown(b, speeds)))
+        .collect();
     let all = report.lines.iter().flat_map(|line| &line.amplitude_m);
     let amplitude = amplitudes(
         "amplitude at the probe",
@@ -64,9 +67,10 @@ pub fn chart(report: &ResponseReport) -> ChartData {
         )
     };
     let mut all = report.lines.iter().flat_map(|line| &line.amplitude_m);
-    let note = match all.all(Option::is_none) {
-        true => "no steady state is known at any of these speeds",
-        false => "",
+    let note = if all.all(Option::is_none) {
+        "no steady state is known at any of these speeds"
+    } else {
+        ""
     };
     let amplitudes = PanelData {
         note: note.to_owned(),
@@ -92,9 +96,10 @@ fn facts(report: &ResponseReport) -> Vec<String> {
         shown_to(4, report.probe_angle_deg)
     );
     let cut = format!("cut at {}°", shown_to(4, report.cut_angle_deg));
-    let damping = match report.damped {
-        true => "damped",
-        false => "without damping: no amplitude at a resonance",
+    let damping = if report.damped {
+        "damped"
+    } else {
+        "without damping: no amplitude at a resonance"
     };
     vec![report.condition.clone(), probe, cut, damping.to_owned()]
 }
@@ -102,12 +107,13 @@ fn facts(report: &ResponseReport) -> Vec<String> {
 /// A logarithmic axis for amplitudes, over at least one decade and at most [`DECADES`].
 fn amplitudes(name: &str, unit: &str, values: impl Iterator<Item = f64>) -> AxisData {
     let [low, high] = extremes(values.filter(|value| *value > 0.0));
-    let ends = match high > 0.0 {
-        true => [
+    let ends = if high > 0.0 {
+        [
             low.max(high * 10f64.powi(-DECADES)).min(0.1 * high) / 1.5,
             1.5 * high,
-        ],
-        false => [1e-3, 1.0],
+        ]
+    } else {
+        [1e-3, 1.0]
     };
     let axis = AxisData::new(name, unit).within(ends);
     axis.spread(Spread::Logarithmic)
@@ -172,20 +178,25 @@ fn operating(report: &ResponseReport, is_labelled: bool) -> Vec<Item> {
 }
 
 fn key(report: &ResponseReport) -> Vec<Item> {
-    let lines = report.lines.iter().zip(HUES);
-    let lines = lines.map(|(line, hue)| Item::line_sample(CURVE, false, hue, &line.name));
+    let lines = report
+        .lines
+        .iter()
+        .zip(HUES)
+        .map(|(line, hue)| Item::line_sample(CURVE, false, hue, &line.name));
     let mut resonances = report.lines.iter().flat_map(|line| &line.resonances);
-    let unknown = resonances.any(|resonance| resonance.amplitude_m.is_none());
-    let unknown = unknown.then(|| {
-        let name = "resonance without an amplitude";
-        Item::points_sample(RESONANCE, Shape::Disc, Hue::Quiet, name)
-    });
-    let kinds = [InstabilityKind::Divergence, InstabilityKind::Flutter].into_iter();
-    let kinds = kinds.filter(|kind| report.instabilities.iter().any(|band| band.kind == *kind));
-    let kinds = kinds.map(|kind| {
-        let [_, shade, _] = Hue::of_kind(kind);
-        Item::area_sample(shade, &format!("{kind}: no steady state"))
-    });
+    let unknown = resonances
+        .any(|resonance| resonance.amplitude_m.is_none())
+        .then(|| {
+            let name = "resonance without an amplitude";
+            Item::points_sample(RESONANCE, Shape::Disc, Hue::Quiet, name)
+        });
+    let kinds = [InstabilityKind::Divergence, InstabilityKind::Flutter]
+        .into_iter()
+        .filter(|kind| report.instabilities.iter().any(|band| band.kind == *kind))
+        .map(|kind| {
+            let [_, shade, _] = Hue::of_kind(kind);
+            Item::area_sample(shade, &format!("{kind}: no steady state"))
+        });
     lines.chain(unknown).chain(kinds).collect()
 }
 
@@ -201,9 +212,10 @@ pub fn points_chart(report: &ResponseReport) -> Option<ChartData> {
     let receptance = series(&points.frequency_hz, &points.receptance_m_per_n, 1e6).collect();
     let phases = unwound(series(&points.frequency_hz, &points.phase_deg, 1.0));
     let is_unstable = points.receptance_m_per_n.iter().all(Option::is_none);
-    let note = match is_unstable {
-        true => "the saw is unstable at this speed: no steady state",
-        false => "",
+    let note = if is_unstable {
+        "the saw is unstable at this speed: no steady state"
+    } else {
+        ""
     };
     Some(ChartData {
         title: report.scene.name.clone(),

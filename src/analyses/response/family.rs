@@ -99,12 +99,11 @@ impl<'a> Family<'a> {
         let (coarse, others): (Vec<usize>, Vec<usize>) =
             (0..states.len()).partition(|k| k.is_multiple_of(stride));
         for mut left in [coarse, others] {
-            let mut asked = match self.vectors.is_empty() {
-                true => {
-                    let first = spread(left.len(), FIRST).into_iter();
-                    first.map(|k| left[k]).collect()
-                }
-                false => Vec::new(),
+            let mut asked = if self.vectors.is_empty() {
+                let first = spread(left.len(), FIRST).into_iter();
+                first.map(|k| left[k]).collect()
+            } else {
+                Vec::new()
             };
             while !left.is_empty() {
                 cancellation.check()?;
@@ -132,9 +131,10 @@ impl<'a> Family<'a> {
                 for (&k, (residual, read)) in left.iter().zip(tried) {
                     let is_beyond = read.iter().any(|value| value.norm() > beyond);
                     let allowed = if is_beyond { RESIDUAL_BEYOND } else { RESIDUAL };
-                    match residual <= allowed {
-                        true => found[k] = Some(read),
-                        false => worst.push((k, residual)),
+                    if residual <= allowed {
+                        found[k] = Some(read)
+                    } else {
+                        worst.push((k, residual))
                     }
                 }
                 left = worst.iter().map(|(k, _)| *k).collect();
@@ -189,8 +189,8 @@ impl<'a> Family<'a> {
             block.copy_from(Scale(c64::new(-1.0, 0.0)) * factors.solve(of));
         }
         (0..width).for_each(|i| companion[(width + i, i)] = c64::new(1.0, 0.0));
-        let inverses = complex_eigenvalues(companion.as_ref());
-        let inverses = inverses.map_err(SpectrumError::at(path(c64::new(to, 0.0)).0.re))?;
+        let inverses = complex_eigenvalues(companion.as_ref())
+            .map_err(SpectrumError::at(path(c64::new(to, 0.0)).0.re))?;
         let mut found: Vec<(f64, f64)> = inverses
             .into_iter()
             .map(|u| from + (to - from) * (CENTRE + 1.0 / u))
@@ -305,8 +305,11 @@ impl Reduced {
         let width = self.small_load.nrows();
         let factors: Vec<c64> = self.factors.iter().map(|of| of(speed, s)).collect();
         Mat::from_fn(width, width, |i, k| {
-            let parts = self.small.iter().zip(&factors);
-            let parts = parts.map(|(term, factor)| term[(i, k)] * factor);
+            let parts = self
+                .small
+                .iter()
+                .zip(&factors)
+                .map(|(term, factor)| term[(i, k)] * factor);
             parts.sum::<c64>()
         })
     }

@@ -94,10 +94,10 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
     }
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();
-    let lines = families
+    let mut lines: Vec<ResponseLine> = families
         .iter_mut()
-        .map(|(load, family, resonances)| solver.line(load, family, &speeds, resonances, &motion));
-    let mut lines: Vec<ResponseLine> = lines.collect::<Result<_, _>>()?;
+        .map(|(load, family, resonances)| solver.line(load, family, &speeds, resonances, &motion))
+        .collect::<Result<_, _>>()?;
     let diagram = analysis.model.complete_to_rad_per_s;
     let is_beyond = |line: &ResponseLine| f64::from(line.order) * range.1 > diagram;
     if lines.iter().any(is_beyond) {
@@ -114,13 +114,17 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
             line.state_error(&Solver::resonances(&family, load, range)?);
         }
     }
-    let points = asked.or(operating).map(|speed| {
-        let place = scene.side_force().at.polar();
-        let end = options.to_hz.map(|hz| TAU * hz);
-        let end = end.unwrap_or(analysis.model.complete_to_rad_per_s);
-        FrequencyResponse::new(plate, &solver, &motion, (speed, end), place)
-    });
-    let points = points.transpose()?;
+    let points = asked
+        .or(operating)
+        .map(|speed| {
+            let place = scene.side_force().at.polar();
+            let end = options
+                .to_hz
+                .map(|hz| TAU * hz)
+                .unwrap_or(analysis.model.complete_to_rad_per_s);
+            FrequencyResponse::new(plate, &solver, &motion, (speed, end), place)
+        })
+        .transpose()?;
     let rpm: Vec<f64> = speeds.iter().map(|speed| rpm(*speed)).collect();
     let deviation_m = |k: usize| lines.iter().map(|line| line.at_cut_m[k]).sum();
     let board_deviation_m: Vec<Option<f64>> = (0..rpm.len()).map(deviation_m).collect();

@@ -34,8 +34,11 @@ const FIRST: usize = 4;
 
 /// The largest deflection for a force of 1 N at one speed.
 fn force_to_probe(points: &FrequencyResponse) -> String {
-    let known = points.receptance_m_per_n.iter().zip(&points.frequency_hz);
-    let known = known.filter_map(|(m, hz)| Some(((*m)?, *hz)));
+    let known = points
+        .receptance_m_per_n
+        .iter()
+        .zip(&points.frequency_hz)
+        .filter_map(|(m, hz)| Some(((*m)?, *hz)));
     let largest = known.max_by(|a, b| a.0.total_cmp(&b.0));
     let unbounded = points.unbounded_hz.iter();
     let first: Vec<String> = unbounded.take(FIRST).map(|hz| shown_to(5, *hz)).collect();
@@ -60,8 +63,11 @@ fn force_to_probe(points: &FrequencyResponse) -> String {
 
 fn verdict(report: &ResponseReport) -> String {
     let Some(operating) = &report.operating else {
-        let known = report.rpm.iter().zip(&report.board_deviation_m);
-        let known = known.filter_map(|(rpm, m)| Some(((*m)?, *rpm)));
+        let known = report
+            .rpm
+            .iter()
+            .zip(&report.board_deviation_m)
+            .filter_map(|(rpm, m)| Some(((*m)?, *rpm)));
         let mut resonances = report.lines.iter().flat_map(|line| &line.resonances);
         let first = resonances.clone().map(|at| at.rpm).reduce(f64::min);
         let largest = match (known.max_by(|a, b| a.0.total_cmp(&b.0)), first) {
@@ -98,9 +104,11 @@ fn verdict(report: &ResponseReport) -> String {
 /// The largest amplitude of an excitation at the probe, or that it is not bounded.
 fn largest(line: &ResponseLine) -> Fact {
     let name = format!("largest at the probe, {}", line.name);
-    let beyond = line.resonances.iter().map(|at| at.steady_state);
-    let beyond =
-        beyond.filter(|state| matches!(state, SteadyState::Unbounded | SteadyState::BeyondModel));
+    let beyond = line
+        .resonances
+        .iter()
+        .map(|at| at.steady_state)
+        .filter(|state| matches!(state, SteadyState::Unbounded | SteadyState::BeyondModel));
     let known = line.amplitude_m.iter().flatten().copied();
     let value = match beyond.min_by_key(|state| *state as u8) {
         Some(state) => state.said().into(),

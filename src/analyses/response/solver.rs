@@ -125,25 +125,27 @@ impl Solver {
     ) -> Result<ResponseLine, SpectrumError> {
         let mut deflections = self.deflections(family, load, speeds)?;
         let order = load.order;
-        let resonances = resonances.iter().map(|(speed, off)| {
-            let place = speeds.partition_point(|other| other < speed);
-            let steady_state = match deflections[place] {
-                _ if motion.is_unstable(*speed) => SteadyState::None,
-                _ if motion.is_undamped((*speed, *off)) => SteadyState::Unbounded,
-                Some(_) => SteadyState::Bounded,
-                None => SteadyState::BeyondModel,
-            };
-            if steady_state != SteadyState::Bounded {
-                deflections[place] = None;
-            }
-            Resonance {
-                rpm: rpm(*speed),
-                frequency_hz: f64::from(order) * speed / TAU,
-                amplitude_m: deflections[place].map(|found| found.at_probe.norm()),
-                steady_state,
-            }
-        });
-        let resonances = resonances.collect();
+        let resonances = resonances
+            .iter()
+            .map(|(speed, off)| {
+                let place = speeds.partition_point(|other| other < speed);
+                let steady_state = match deflections[place] {
+                    _ if motion.is_unstable(*speed) => SteadyState::None,
+                    _ if motion.is_undamped((*speed, *off)) => SteadyState::Unbounded,
+                    Some(_) => SteadyState::Bounded,
+                    None => SteadyState::BeyondModel,
+                };
+                if steady_state != SteadyState::Bounded {
+                    deflections[place] = None;
+                }
+                Resonance {
+                    rpm: rpm(*speed),
+                    frequency_hz: f64::from(order) * speed / TAU,
+                    amplitude_m: deflections[place].map(|found| found.at_probe.norm()),
+                    steady_state,
+                }
+            })
+            .collect();
         for (found, speed) in deflections.iter_mut().zip(speeds) {
             found.take_if(|_| motion.is_unstable(*speed));
         }

@@ -157,8 +157,10 @@ fn a_resonance_of_one_mode_has_the_height_and_the_width_of_its_damping() {
     let plate = plate(&scene);
     let c = air_n_s_per_m3 / plate.blade.mass_per_area_kg_per_m2();
     // The frequency of two nodal diameters is apart from the others.
-    let eigen = plate.harmonics[2].body_frame_stiffness(0.0);
-    let eigen = eigen.self_adjoint_eigen(faer::Side::Lower).unwrap();
+    let eigen = plate.harmonics[2]
+        .body_frame_stiffness(0.0)
+        .self_adjoint_eigen(faer::Side::Lower)
+        .unwrap();
     let natural = eigen.S()[0].sqrt();
     let shape = eigen.U().col(0);
     let rim = plate.basis.evaluate(2, plate.blade.outer_radius_m).value;

@@ -101,9 +101,12 @@ impl Lobes {
     ) -> Self {
         let stiffness = |point: &LobePoint| Some(point.boundary?.stiffness_n_per_m);
         let frequency = |point: &LobePoint| Some(point.boundary?.frequency_rad_per_s / TAU);
-        let stable_to = |point: &LobePoint| match point.confirmed {
-            true => (stiffness(point).unwrap_or(ceiling_n_per_m)).min(safe_beyond_n_per_m),
-            false => 0.0,
+        let stable_to = |point: &LobePoint| {
+            if point.confirmed {
+                (stiffness(point).unwrap_or(ceiling_n_per_m)).min(safe_beyond_n_per_m)
+            } else {
+                0.0
+            }
         };
         let points = || points.iter();
         Lobes {

@@ -67,9 +67,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         rpm: arguments.rpm,
         max_deviation_mm: arguments.max_deviation_mm,
     };
-    let refused = |refused: crate::model::scene::RefusedValue| match refused.key.contains('.') {
-        true => refused.into(),
-        false => of_option(refused),
+    let refused = |refused: crate::model::scene::RefusedValue| {
+        if refused.key.contains('.') {
+            refused.into()
+        } else {
+            of_option(refused)
+        }
     };
     options.checked(&scene).map_err(refused)?;
     arguments.page.tried()?;

@@ -132,9 +132,12 @@ fn demands(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Demands> {
         ..
     } = *arguments;
     let gap = GapDemands::new(scene, amplitude_mm, max_deviation_mm);
-    let refused = |refused: RefusedValue| match refused.key.ends_with("_mm") {
-        true => of_option(refused),
-        false => refused.into(),
+    let refused = |refused: RefusedValue| {
+        if refused.key.ends_with("_mm") {
+            of_option(refused)
+        } else {
+            refused.into()
+        }
     };
     Ok(Demands {
         gap: gap.map_err(refused)?,

@@ -41,9 +41,12 @@ impl Told {
 fn speed(name: &'static str, rpm: Option<f64>) -> Fact {
     Fact {
         name,
-        words: rpm.map_or("none".to_owned(), |rpm| match rpm < 100.0 {
-            true => format!("{rpm:.1}"),
-            false => format!("{rpm:.0}"),
+        words: rpm.map_or("none".to_owned(), |rpm| {
+            if rpm < 100.0 {
+                format!("{rpm:.1}")
+            } else {
+                format!("{rpm:.0}")
+            }
         }),
         unit: if rpm.is_some() { "rpm" } else { "" },
     }

@@ -87,9 +87,12 @@ impl Hessenberg {
             column[k] -= lambda / self.norm;
             column
         };
-        let pivot = |entry: c64| match entry.norm() < f64::EPSILON {
-            true => c64::from(f64::EPSILON),
-            false => entry,
+        let pivot = |entry: c64| {
+            if entry.norm() < f64::EPSILON {
+                c64::from(f64::EPSILON)
+            } else {
+                entry
+            }
         };
         let mut x = Scale(c64::from(f64::EPSILON)) * y;
         let order = x.nrows();

@@ -74,9 +74,12 @@ impl RealEigen {
         for i in self.upper() {
             let lambda = self.values[i];
             let pair = [i, i + usize::from(lambda.im > 0.0)];
-            let complex = |columns: &Mat<f64>, row: usize| match lambda.im > 0.0 {
-                true => c64::new(columns[(row, pair[0])], columns[(row, pair[1])]),
-                false => c64::from(columns[(row, i)]),
+            let complex = |columns: &Mat<f64>, row: usize| {
+                if lambda.im > 0.0 {
+                    c64::new(columns[(row, pair[0])], columns[(row, pair[1])])
+                } else {
+                    c64::from(columns[(row, i)])
+                }
             };
             let (mut off, mut size) = (0.0, 0.0);
             for row in 0..self.columns.nrows() {

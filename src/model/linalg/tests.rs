@@ -144,9 +144,12 @@ fn two_damped_chains(masses: usize, damping: impl Fn(usize) -> f64) -> Mat<f64> 
     let mirror = Scale(-2.0 / axis.squared_norm_l2()) * &axis * axis.transpose()
         + Mat::<f64>::identity(order, order);
     let of_both = |of_one: &Mat<f64>| {
-        let apart = Mat::from_fn(order, order, |i, k| match i % 2 == k % 2 {
-            true => of_one[(i / 2, k / 2)],
-            false => 0.0,
+        let apart = Mat::from_fn(order, order, |i, k| {
+            if i % 2 == k % 2 {
+                of_one[(i / 2, k / 2)]
+            } else {
+                0.0
+            }
         });
         &mirror * apart * &mirror
     };

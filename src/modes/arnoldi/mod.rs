@@ -284,9 +284,12 @@ mod tests {
         let order = 12;
         let kinds = [1.0, 2.0, 3.0];
         let zero = || Mat::<f64>::zeros(order, order);
-        let stiffness = Mat::from_fn(order, order, |i, k| match i == k {
-            true => f64::powi(kinds[i % 3], 2),
-            false => 0.0,
+        let stiffness = Mat::from_fn(order, order, |i, k| {
+            if i == k {
+                f64::powi(kinds[i % 3], 2)
+            } else {
+                0.0
+            }
         });
         let system = GyroscopicSystem::undamped(stiffness, zero(), zero());
         let found = lowest_eigenpairs(&system, 0.0, 12, 1.0).unwrap();

@@ -150,9 +150,12 @@ impl Elimination {
         let velocity = d + Scale(speed) * e;
         let size = self.diameters.len();
         let waves = self.strong..self.strong + self.waves;
-        let inertia = Mat::from_fn(size, size, |i, k| match i == k && waves.contains(&i) {
-            true => 1.0,
-            false => 0.0,
+        let inertia = Mat::from_fn(size, size, |i, k| {
+            if i == k && waves.contains(&i) {
+                1.0
+            } else {
+                0.0
+            }
         });
         let kept = |matrix: &Mat<f64>| matrix.get(..size, ..size).to_owned();
         let mut terms = vec![kept(&stiffness), kept(&velocity), inertia];

@@ -137,9 +137,12 @@ fn divided(f: &Mat<f64>, rows: &[c64], columns: &[c64]) -> Mat<f64> {
     for (k, mu) in columns.iter().enumerate().filter(|(_, mu)| mu.im >= 0.0) {
         for (i, nu) in rows.iter().enumerate().filter(|(_, nu)| nu.im >= 0.0) {
             let size = (width(*nu), width(*mu));
-            let at = |row: usize, column: usize| match row < size.0 && column < size.1 {
-                true => f[(i + row, k + column)],
-                false => 0.0,
+            let at = |row: usize, column: usize| {
+                if row < size.0 && column < size.1 {
+                    f[(i + row, k + column)]
+                } else {
+                    0.0
+                }
             };
             // (r − is) F (u + iv) and its mirror image are divided by ν − μ and ν̄ − μ.
             let (even, odd) = (at(0, 0) + at(1, 1), at(0, 1) - at(1, 0));

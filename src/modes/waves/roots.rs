@@ -75,12 +75,13 @@ fn sloped(terms: &[Mat<f64>], slopes: &[Mat<f64>]) -> Result<Vec<Root>, LinalgEr
         let mu = eigen.values[i];
         // Columns i and i + 1 of the right vectors are the real and the imaginary part of u. With the rows a and b of the
         // left vectors at the same indices, w = (a − ib)/2.
-        let form = |matrix: &Mat<f64>| match mu.im > 0.0 {
-            true => {
+        let form = |matrix: &Mat<f64>| {
+            if mu.im > 0.0 {
                 let re = matrix[(i, i)] + matrix[(i + 1, i + 1)];
                 c64::new(re, matrix[(i, i + 1)] - matrix[(i + 1, i)]) * 0.5
+            } else {
+                c64::from(matrix[(i, i)])
             }
-            false => c64::from(matrix[(i, i)]),
         };
         let (mut moved, mut by_root) = (c64::new(0.0, 0.0), c64::new(0.0, 0.0));
         let mut power = c64::new(1.0, 0.0);
@@ -91,9 +92,12 @@ fn sloped(terms: &[Mat<f64>], slopes: &[Mat<f64>]) -> Result<Vec<Root>, LinalgEr
             }
             power *= mu;
         }
-        let upper = |row: usize| match mu.im > 0.0 {
-            true => c64::new(right[(row, i)], right[(row, i + 1)]),
-            false => c64::from(right[(row, i)]),
+        let upper = |row: usize| {
+            if mu.im > 0.0 {
+                c64::new(right[(row, i)], right[(row, i + 1)])
+            } else {
+                c64::from(right[(row, i)])
+            }
         };
         Root {
             lambda: mu,

@@ -297,9 +297,12 @@ impl Curve<'_> {
 
     fn scaled(&self, equilibrium: &Equilibrium) -> Col<f64> {
         let p = &equilibrium.coordinates;
-        Col::from_fn(p.nrows() + 1, |i| match i < p.nrows() {
-            true => p[i] / self.size,
-            false => equilibrium.speed_rad_per_s / self.range_rad_per_s,
+        Col::from_fn(p.nrows() + 1, |i| {
+            if i < p.nrows() {
+                p[i] / self.size
+            } else {
+                equilibrium.speed_rad_per_s / self.range_rad_per_s
+            }
         })
     }
 

@@ -139,9 +139,12 @@ fn sides(panels: &[PanelData], columns: usize) -> Vec<[f64; 2]> {
     let beside = panels
         .chunks(columns)
         .flat_map(|row| row.windows(2))
-        .map(|pair| match pair[0].y == pair[1].y {
-            true => NUMBERS,
-            false => NUMBERS_AND_NAME,
+        .map(|pair| {
+            if pair[0].y == pair[1].y {
+                NUMBERS
+            } else {
+                NUMBERS_AND_NAME
+            }
         })
         .fold(0.0, f64::max);
     let width = (right - LEFT - beside * (columns - 1) as f64) / columns as f64;

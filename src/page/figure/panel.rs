@@ -154,11 +154,14 @@ fn draw_area(sheet: &mut Sheet, area: &Area, ground: &Ground) {
             continue;
         }
         let side = |values: &[f64]| -> Vec<[f64; 2]> {
-            let ends = part.iter().flat_map(|k| match area.stepped {
-                true => half_way(&places, *k)
-                    .map(|x| [x, edge(values, *k)])
-                    .to_vec(),
-                false => vec![[places[*k], edge(values, *k)]],
+            let ends = part.iter().flat_map(|k| {
+                if area.stepped {
+                    half_way(&places, *k)
+                        .map(|x| [x, edge(values, *k)])
+                        .to_vec()
+                } else {
+                    vec![[places[*k], edge(values, *k)]]
+                }
             });
             ends.collect()
         };

@@ -76,9 +76,12 @@ pub fn curves(pieces: &[Piece], top_rad_per_s: f64, noise_per_s: f64) -> Vec<Cur
 /// Eigenvalues with Im λ ≥ 0; frequencies below `real` are set to zero.
 fn upper(all: &[Sloped], real: f64) -> Vec<Sloped> {
     let upper = all.iter().filter(|(z, _)| z.im > -real);
-    let cleared = upper.map(|&(z, slope)| match z.im.abs() <= real {
-        true => (c64::new(z.re, 0.0), c64::new(slope.re, 0.0)),
-        false => (z, slope),
+    let cleared = upper.map(|&(z, slope)| {
+        if z.im.abs() <= real {
+            (c64::new(z.re, 0.0), c64::new(slope.re, 0.0))
+        } else {
+            (z, slope)
+        }
     });
     cleared.collect()
 }

@@ -212,9 +212,12 @@ fn sharp(evaluator: &SignatureEvaluator<'_>, speed: f64, mode: SignedMode) -> Si
     };
     let found = evaluator.next_to(speed, mode.lambda);
     // The iteration may lead to the mirror image −σ + iω.
-    let found = found.map(|(lambda, slope)| match lambda.re < 0.0 {
-        true => (-lambda.conj(), -slope.conj()),
-        false => (lambda, slope),
+    let found = found.map(|(lambda, slope)| {
+        if lambda.re < 0.0 {
+            (-lambda.conj(), -slope.conj())
+        } else {
+            (lambda, slope)
+        }
     });
     let is_same = |(lambda, _): &(c64, c64)| {
         lambda.re > 0.0

@@ -48,12 +48,11 @@ impl Ring {
                 let h = (self.thickness)(r);
                 for i in 0..3 {
                     let (ri, ti) = (dn[i] / half, n[i] / r);
-                    load[2 * k + i] += match of_rotation {
-                        true => w * r * h * self.rho * r * n[i],
-                        false => {
-                            let free = (self.free_strain)(r) * self.e / (1.0 - self.nu);
-                            w * r * h * free * (ri + ti)
-                        }
+                    load[2 * k + i] += if of_rotation {
+                        w * r * h * self.rho * r * n[i]
+                    } else {
+                        let free = (self.free_strain)(r) * self.e / (1.0 - self.nu);
+                        w * r * h * free * (ri + ti)
                     };
                     for j in 0..3 {
                         let (rj, tj) = (dn[j] / half, n[j] / r);

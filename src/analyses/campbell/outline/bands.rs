@@ -58,9 +58,12 @@ const RISES: &str = "Rises to: largest deflection of a motion that begins small,
 fn numbers(report: &Report, band: &InstabilityBand) -> Vec<Value> {
     let is_open = |at: f64, end: f64| !band.closed && (at - end).abs() <= 1e-9 * end.abs();
     let (first, last) = (report.campbell.from_rpm, report.campbell.to_rpm);
-    let speed = |rpm: f64, end: f64, word: &str| match is_open(rpm, end) {
-        true => word.into(),
-        false => SPEED.fixed(1, rpm),
+    let speed = |rpm: f64, end: f64, word: &str| {
+        if is_open(rpm, end) {
+            word.into()
+        } else {
+            SPEED.fixed(1, rpm)
+        }
     };
     let growth = band.peak_growth_per_s;
     vec![

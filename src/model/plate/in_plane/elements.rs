@@ -142,9 +142,12 @@ impl Reference {
         let angle = |k: usize| std::f64::consts::PI * k as f64 / DEGREE as f64;
         let nodes: Vec<f64> = (0..=DEGREE).map(|k| -angle(k).cos()).collect();
         let of_node = |node: usize| {
-            let mut slopes: [f64; DEGREE + 1] = std::array::from_fn(|k| match k == node {
-                true => 0.0,
-                false => Self::weight(k) / Self::weight(node) / (nodes[node] - nodes[k]),
+            let mut slopes: [f64; DEGREE + 1] = std::array::from_fn(|k| {
+                if k == node {
+                    0.0
+                } else {
+                    Self::weight(k) / Self::weight(node) / (nodes[node] - nodes[k])
+                }
             });
             slopes[node] = -slopes.iter().sum::<f64>();
             slopes
