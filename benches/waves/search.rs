@@ -110,9 +110,10 @@ fn is_definite(piece: &Piece, grouped: &Grouped) -> bool {
 impl Searched {
     /// Searches component by component.
     pub fn new(model: &WaveModel, scope: Scope) -> Self {
-        let plane = match scope.is_conservative {
-            true => Plane::Squares,
-            false => Plane::Eigenvalues,
+        let plane = if scope.is_conservative {
+            Plane::Squares
+        } else {
+            Plane::Eigenvalues
         };
         let components = model.components();
         let spent = AtomicUsize::new(0);

@@ -104,9 +104,10 @@ pub fn compare(
 ) -> PyResult<String> {
     compute(py, progress, move |meter| {
         let saws = saws.into_iter().map(|(label, text, is_report)| {
-            let saw = match is_report {
-                true => Saw::Report(Box::new(serde_json::from_str(&text)?)),
-                false => Saw::Scene(Box::new(arguments::scene(&text)?)),
+            let saw = if is_report {
+                Saw::Report(Box::new(serde_json::from_str(&text)?))
+            } else {
+                Saw::Scene(Box::new(arguments::scene(&text)?))
             };
             Ok((label, saw))
         });

@@ -78,9 +78,10 @@ fn read_scene(path: std::path::PathBuf) -> PyResult<String> {
 /// The text of the file of a study, or of a table of frequencies, whatever its encoding.
 #[pyfunction]
 fn read_text(path: std::path::PathBuf, table: bool) -> PyResult<String> {
-    let (class, other_encodings) = match table {
-        true => ("ArgumentError", OtherEncodings::AsLatin1),
-        false => ("StudyError", OtherEncodings::Refused),
+    let (class, other_encodings) = if table {
+        ("ArgumentError", OtherEncodings::AsLatin1)
+    } else {
+        ("StudyError", OtherEncodings::Refused)
     };
     let kind = Kind {
         limit: MAX_SCENE_BYTES,

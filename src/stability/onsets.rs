@@ -76,9 +76,11 @@ impl Onsets {
         // there.
         let is_damped = !saw.plate.is_conservative();
         let is_slow = lowest_critical.is_none_or(|lowest| lowest > range.1);
-        let (instabilities, certificate) = match saw.plate.is_axisymmetric() || is_slow {
-            true if !is_damped => Default::default(),
-            _ => search_bands(saw, critical, range)?,
+        let has_none = !is_damped && (saw.plate.is_axisymmetric() || is_slow);
+        let (instabilities, certificate) = if has_none {
+            Default::default()
+        } else {
+            search_bands(saw, critical, range)?
         };
         let threshold = scene.flutter_threshold_per_s();
         let [flutter_speed, first_merge] = flutter_onsets(&instabilities, threshold);

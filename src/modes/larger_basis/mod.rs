@@ -37,11 +37,12 @@ impl LargerBasis {
     /// # Errors
     /// [`SpectrumError::UnstableAtRest`] when the blade is unstable on the larger basis.
     pub fn new(plate: &Plate, larger: &Plate) -> Result<Self, SpectrumError> {
-        let added = match plate.is_axisymmetric() {
-            true => (0..=plate.max_diameters())
+        let added = if plate.is_axisymmetric() {
+            (0..=plate.max_diameters())
                 .map(|n| AddedFunctions::of_harmonic(plate, larger, n))
-                .collect::<Result<_, _>>()?,
-            false => vec![AddedFunctions::of_coupled(plate, larger)?],
+                .collect::<Result<_, _>>()?
+        } else {
+            vec![AddedFunctions::of_coupled(plate, larger)?]
         };
         Ok(LargerBasis { added })
     }
