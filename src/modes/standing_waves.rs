@@ -52,7 +52,7 @@ impl StandingWaves {
         Self::from_diameters(FEWEST, plate, limit)
     }
 
-    /// Lowest critical speed of the waves of more than `few` nodal diameters, in rad/s.
+    /// First critical speed of the waves of more than `few` nodal diameters, in rad/s.
     ///
     /// # Errors
     /// The errors of [`StandingWaves::up_to`].
@@ -252,7 +252,7 @@ mod tests {
     }
 
     /// Hermite cubics on 24 equal elements of the radius give 35 506.03 rpm, n = 48, and 17 888.80 rpm, n = 14, as
-    /// the lowest critical speeds of n ≤ 150.
+    /// the first critical speeds of n ≤ 150.
     #[test]
     fn the_lowest_critical_speed_of_a_large_flange_has_dozens_of_diameters() {
         for (scene, exact_rpm, diameters) in [

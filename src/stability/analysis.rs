@@ -25,7 +25,7 @@ use crate::modes::branches::CampbellError;
 use crate::modes::{DescribedMode, SpectralModel, SpectrumError, Strategy};
 use crate::page::text::rounded_down;
 
-/// Largest share of the lowest critical speed at which saw makers run a saw.
+/// Largest share of the first critical speed at which saw makers run a saw.
 pub const OPERATING_LIMIT: f64 = 0.85;
 /// Number of even speeds in the chart of a free blade, whose modes take little time.
 const FREE_CHART_SPEEDS: usize = 101;
@@ -86,7 +86,7 @@ pub struct Analysis {
     /// Range of speeds, in rad/s.
     pub range_rad_per_s: (f64, f64),
     /// Speed up to which no wave with more nodal diameters than the basis can stand still, in rad/s: at least the
-    /// end of the range and the lowest critical speed.
+    /// end of the range and the first critical speed.
     pub complete_to_rad_per_s: f64,
     /// Branches, bands and certificate.
     pub chart: StabilityChart,
@@ -331,7 +331,7 @@ impl Analysis {
         &self.chart.instabilities
     }
 
-    /// Lowest critical speed, at which a wave stands still in space; `None` if the blade has none below the
+    /// First critical speed, at which a wave stands still in space; `None` if the blade has none below the
     /// speed at which it would yield.
     pub fn lowest_critical_rpm(&self) -> Option<f64> {
         let lowest = self.model.critical.first()?;

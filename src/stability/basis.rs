@@ -42,7 +42,7 @@ pub struct ChosenBasis {
     /// Functions of a larger basis, for the estimated errors of other results.
     pub larger: LargerBasis,
     /// Speed up to which no wave with more nodal diameters than the basis can stand still: at least the end of the
-    /// range and the lowest critical speed.
+    /// range and the first critical speed.
     pub complete_to_rad_per_s: f64,
 }
 

@@ -36,14 +36,14 @@ pub enum AnalysisError {
     Unresolved {
         /// End of the sweep.
         to_rpm: f64,
-        /// Lowest critical speed of the waves that the largest basis lacks.
+        /// First critical speed of the waves that the largest basis lacks.
         limit_rpm: f64,
         /// Smallest number of their nodal diameters.
         diameters: usize,
     },
-    /// The lowest critical speed belongs to a wave missing from the largest basis.
+    /// The first critical speed belongs to a wave missing from the largest basis.
     #[error(
-        "the waves that stand still at the lowest critical speed have up to {diameters} nodal diameters, more than the {MOST_DIAMETERS} of the largest basis: the blade is too narrow outside its flange; lower mount.diameter_m"
+        "the waves that stand still at the first critical speed have up to {diameters} nodal diameters, more than the {MOST_DIAMETERS} of the largest basis: the blade is too narrow outside its flange; lower mount.diameter_m"
     )]
     TooNarrow {
         /// Their largest number of nodal diameters.

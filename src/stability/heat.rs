@@ -19,7 +19,7 @@ use crate::modes::{
     critical_speeds, first_singular, named,
 };
 
-/// Temperature rise at which the blade buckles, or its lowest critical speed falls to the operating speed.
+/// Temperature rise at which the blade buckles, or its first critical speed falls to the operating speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatLimit {
     /// Peak of the temperature profile, in K.
@@ -42,7 +42,7 @@ pub struct HeatCurve {
 /// Temperature rises that the blade tolerates, for the profile of the scene scaled to other peaks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatLimits {
-    /// Limit at which the lowest critical speed falls to the operating speed, if the scene gives one and the
+    /// Limit at which the first critical speed falls to the operating speed, if the scene gives one and the
     /// blade does not buckle first.
     pub operating: Option<HeatLimit>,
     /// Whether the operating speed is above a critical speed of the cold blade.
@@ -53,7 +53,7 @@ pub struct HeatLimits {
     pub buckles_first: bool,
     /// Limit above which a blade that is buckled when cold is flat, as with much roll tension.
     pub flat_from: Option<HeatLimit>,
-    /// Lowest critical speeds as functions of the peak of the profile.
+    /// First critical speeds as functions of the peak of the profile.
     pub curves: Vec<HeatCurve>,
 }
 
@@ -237,7 +237,7 @@ impl<'a> Heating<'a> {
         Ok(curves)
     }
 
-    /// Lowest critical speeds at a peak, for a free blade one for each number of diameters; none if the blade
+    /// First critical speeds at a peak, for a free blade one for each number of diameters; none if the blade
     /// has buckled.
     fn lowest_critical(&self, rise_k: f64) -> Result<Vec<NamedCriticalSpeed>, SpectrumError> {
         self.count()?;

@@ -15,7 +15,7 @@ use crate::modes::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
 /// Onset speeds, equal to those of an [`Analysis`](super::Analysis) to nine digits.
 #[derive(Debug)]
 pub struct Onsets {
-    /// Lowest critical speed, in rad/s, also above the range.
+    /// First critical speed, in rad/s, also above the range.
     pub lowest_critical_rad_per_s: Option<f64>,
     /// Critical speeds, ascending, in rad/s, including those next to the range.
     pub critical_rad_per_s: Vec<f64>,
@@ -72,7 +72,7 @@ impl Onsets {
         let lowest_critical = critical_rad_per_s.first().copied();
         let functions = saw.plate.degrees_of_freedom();
         // Without damping there are no bands to search for if the blade is free, because its waves are
-        // uncoupled, or if the range ends below the lowest critical speed, because no wave is reflected
+        // uncoupled, or if the range ends below the first critical speed, because no wave is reflected
         // there.
         let is_damped = !saw.plate.is_conservative();
         let is_slow = lowest_critical.is_none_or(|lowest| lowest > range.1);

@@ -1,9 +1,9 @@
 //! The speeds of which a report speaks, and the nodal diameters of the waves that stand still up to them.
 //!
 //! A wave that the basis lacks would make a chart wrong without a warning if it could stand still in space within
-//! the sweep or below the lowest critical speed found. The waves of the free blade ([`StandingWaves`]) are cheap and
+//! the sweep or below the first critical speed found. The waves of the free blade ([`StandingWaves`]) are cheap and
 //! tell how many diameters there are. Guides only raise critical speeds; other loads (cutting forces) may lower them,
-//! and then the lowest critical speed tells by how much.
+//! and then the first critical speed tells by how much.
 
 use super::error::AnalysisError;
 use super::ladder::{DENSE_LADDER, LADDER, resolution};
@@ -25,7 +25,7 @@ pub(crate) const PAST_THE_RANGE: f64 = 1.05;
 /// still at nearly the same speed.
 pub(crate) const CHARTED: usize = 40;
 
-/// A sweep may contain standing waves of this number of nodal diameters more than that of the lowest critical speed:
+/// A sweep may contain standing waves of this number of nodal diameters more than that of the first critical speed:
 /// any two of them may couple, so that the work grows with a high power of their number.
 pub(super) const SWEPT: usize = 70;
 
@@ -44,7 +44,7 @@ pub struct Needed {
     pub diameters: usize,
     /// Speed up to which waves were searched.
     pub to_rad_per_s: f64,
-    /// Lowest critical speed of the free blade.
+    /// First critical speed of the free blade.
     lowest_rad_per_s: Option<f64>,
 }
 
@@ -68,7 +68,7 @@ impl<'a> Reach<'a> {
         }
     }
 
-    /// The highest speed that matters: the end of the range, the lowest critical speed, and the one that ends a
+    /// The highest speed that matters: the end of the range, the first critical speed, and the one that ends a
     /// sweep that the program chooses.
     pub fn last(&self, critical_rad_per_s: &[f64]) -> f64 {
         let (_, end) = self.range(critical_rad_per_s);
@@ -242,7 +242,7 @@ pub(crate) fn is_cut_short(scene: &Scene, critical_rad_per_s: &[f64]) -> bool {
     next.is_some_and(|next| *next < usual)
 }
 
-/// Twice the lowest critical speed, but at most [`fastest_rad_per_s`]; in rad/s.
+/// Twice the first critical speed, but at most [`fastest_rad_per_s`]; in rad/s.
 pub(crate) fn usual_end(scene: &Scene, lowest_critical_rad_per_s: Option<f64>) -> f64 {
     default_top(lowest_critical_rad_per_s).min(fastest_rad_per_s(scene.blade()))
 }
@@ -254,7 +254,7 @@ fn round_between(low: f64, high: f64) -> f64 {
     between.next().unwrap_or(low)
 }
 
-/// Twice the lowest critical speed, rounded up to two digits in rpm; 2000 rpm without a critical speed.
+/// Twice the first critical speed, rounded up to two digits in rpm; 2000 rpm without a critical speed.
 fn default_top(lowest_rad_per_s: Option<f64>) -> f64 {
     let lowest = lowest_rad_per_s.map_or(1000.0, rpm);
     let digit = 10_f64.powf((2.0 * lowest).log10().floor() - 1.0);

@@ -81,7 +81,7 @@ struct Variation {
 
 impl Analysis {
     /// Effects of each number of the scene on the critical speeds, on the onsets of the bands, and on the
-    /// eigenvalues at one speed. The number with the largest effect on the lowest critical speed is first.
+    /// eigenvalues at one speed. The number with the largest effect on the first critical speed is first.
     ///
     /// dλ = −yᴴ(dL)x / yᴴ(∂L/∂λ)x with right and left eigenvectors x, y of L(λ) = λ² + λD(Ω) + K(Ω). Critical
     /// speeds and the onsets of undamped bands change by dΩ = −yᴴ(dL)x / yᴴ(∂L/∂Ω)x, with λ = 0 for a
@@ -151,7 +151,7 @@ impl Analysis {
 
 impl Sensitivity {
     /// Sensitivities of an analysis, with eigenvalues at the operating speed, or at the start of the sweep if
-    /// there is none; sorted by their influence on the lowest critical speed.
+    /// there is none; sorted by their influence on the first critical speed.
     ///
     /// # Errors
     /// [`SensitivityError`].

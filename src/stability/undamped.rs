@@ -102,7 +102,7 @@ pub(super) fn search_speeds(model: &SpectralModel, range: (f64, f64), count: usi
 /// accurate to 1e-5 of the chart's height, and growth next to a coalescence to the square root of 1e-5.
 const DRAWN_FLOOR: f64 = 1e-3;
 
-/// Ascending speeds from the last one below the lowest critical speed on. Below it nothing can be unstable:
+/// Ascending speeds from the last one below the first critical speed on. Below it nothing can be unstable:
 /// K(Ω) is positive definite, no wave is reflected, and the Krein index is zero.
 fn from_lowest_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
     let lowest = model

@@ -131,7 +131,7 @@ pub(super) fn first_critical_of_linear(
     resolution: Resolution,
 ) -> Result<Option<f64>, GapError> {
     let saw = Assembled::from(Plate::new(scene, resolution));
-    // With a limit of zero the search ends at the lowest critical speed.
+    // With a limit of zero the search ends at the first critical speed.
     let critical = saw.critical_speeds(Some(&|_| 0.0))?;
     Ok(critical.first().map(|c| c.speed_rad_per_s))
 }

@@ -22,7 +22,7 @@ use crate::model::tuned::Tuned;
 
 /// Modes up to this multiple of the frequency of the highest reflected wave may coalesce with that wave.
 const REFLECTED_MARGIN: Tuned = Tuned::new("modes/guided_reduction::REFLECTED_MARGIN", 1.3);
-/// Relative distance of the first interval from the lowest critical speed if only bands are searched for; it is
+/// Relative distance of the first interval from the first critical speed if only bands are searched for; it is
 /// larger than the distance that the search keeps from critical speeds.
 const BELOW_CRITICAL: f64 = 1e-3;
 
@@ -215,7 +215,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Frequency of the highest reflected wave at the top speed, with a margin for waves that may coalesce with
-    /// it, and the modes there; 0 below the lowest critical speed. For a damped blade the frequency is that
+    /// it, and the modes there; 0 below the first critical speed. For a damped blade the frequency is that
     /// without damping, because damping destabilizes reflected waves.
     fn reflected_height(&self, speed: f64) -> Result<(f64, Option<Snapshot>), SpectrumError> {
         let Guided {
@@ -268,7 +268,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Speed from which on waves are reflected: slightly below the lowest critical speed; the start of the range
+    /// Speed from which on waves are reflected: slightly below the first critical speed; the start of the range
     /// if no critical speed is within it.
     fn first_reflecting(&self) -> f64 {
         let (from, to) = self.range;

@@ -44,7 +44,7 @@ const LEAST_BESIDE: f64 = 6e-5;
 const NEXT_TO_CRITICAL: f64 = 1e-4;
 
 /// Finds every band within a range by a search between the first and the last of `speeds`, which should cover
-/// the range from the lowest critical speed on. Searches again on the full model if counts contradict the
+/// the range from the first critical speed on. Searches again on the full model if counts contradict the
 /// modes.
 pub(super) fn bands(
     model: &SpectralModel,
@@ -141,7 +141,7 @@ fn searched_pieces(
     search.pieces(&evaluator.with_ends_of_intervals(speeds))
 }
 
-/// Parts of a range outside the speeds of a search, except below the lowest critical speed, where nothing is
+/// Parts of a range outside the speeds of a search, except below the first critical speed, where nothing is
 /// unstable. A part that ends before it begins is empty.
 fn unsearched(
     model: &SpectralModel,
