@@ -221,7 +221,7 @@ fn a_run_up_under_too_large_a_force_is_refused() {
     file.side_force.as_mut().unwrap().force_n = Some(1e6);
     let scene = write_scene(&folder, &file);
     let arguments = ["runup", scene.to_str().unwrap(), "--accuracy", "draft"];
-    assert_refused(&arguments, "side_force.force_n must be ", &folder);
+    assert_refused(&arguments, "side_force.force_n is 1000000", &folder);
 }
 
 /// The block that a refusal prints, between its first and its last brace.

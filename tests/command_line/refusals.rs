@@ -122,7 +122,7 @@ fn bad_values_are_refused_by_the_path_of_their_key() {
         };
         let message = refused_text(paper_with(line, instead).as_bytes());
         assert!(
-            message.contains(&format!("{key}: ")) || message.contains(&format!("{key} is ")),
+            message.contains(&format!("{key}: ")) || message.contains(&format!("{key} must be ")),
             "{instead} should be refused as {key}, not as: {message}"
         );
     }
@@ -152,7 +152,10 @@ fn files_other_than_scenes_are_refused() {
         ("", "empty"),
         ("  \n\t ", "empty"),
         ("{", "add the missing }"),
-        ("[]", "the scene: it is a list"),
+        (
+            "[]",
+            "the scene: it must be an object in braces { } (you gave a list",
+        ),
         ("{} {}", "name"),
         ("radius,thickness\n1,2\n", "the scene"),
     ] {

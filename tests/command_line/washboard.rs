@@ -125,7 +125,7 @@ fn a_missing_key_of_washboarding_is_named() {
         ),
         (
             |saw| saw.mount = Mount::Spline {},
-            "guides is empty or too soft",
+            "the guides must hold the blade against every rigid motion",
         ),
         (
             |saw| delayed(saw).overlap = -0.1,

@@ -237,7 +237,7 @@ fn varying(
     if file.parameters.is_empty() {
         let allowed = "a list of the numbers that vary";
         let remedy = "name one, like blade.thickness_m; a single saw is analysed without a study";
-        return Err(refuse("parameters", "empty", allowed, remedy));
+        return Err(refuse("parameters", "an empty list", allowed, remedy));
     }
     let mut varying: Vec<(Parameter, Distribution)> = Vec::new();
     for (k, entry) in file.parameters.iter().enumerate() {
