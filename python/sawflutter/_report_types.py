@@ -36,6 +36,8 @@ Goal: TypeAlias = Literal["flutter_speed", "stable_window"]
 
 Cause: TypeAlias = Literal["side_force", "run_out", "flatness", "imbalance", "oscillating_force"]
 
+SteadyState: TypeAlias = Literal["bounded", "unbounded", "beyond_model", "none"]
+
 Method: TypeAlias = Literal["reduced", "dense", "critical_speeds"]
 
 
@@ -1176,7 +1178,7 @@ class CutCriterionEntry(Entry):
     """Its largest growth."""
 
     frequency_hz: float | None
-    """Frequency of that motion, if it is known and the motion grows."""
+    """Frequency of that motion, if it is known and the vibration grows."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -1349,7 +1351,7 @@ class CutRun(Entry):
     """Force across the blade on each tooth."""
 
     verdict: CutVerdict
-    """The worst of the criteria; if no motion grows, whether the deflection stays within the
+    """The worst of the criteria; if no vibration grows, whether the deflection stays within the
     model, and the speed away from critical speeds."""
 
     at_critical_rpm: float | None = field(default=None)
@@ -1378,7 +1380,8 @@ class CutRun(Entry):
     """Frequency of this growth, if it is unstable."""
 
     agree: bool | None
-    """Whether both verdicts are equal and, if a motion grows, growth rates agree within 2 %."""
+    """Whether both verdicts are equal and, if a vibration grows, growth rates agree within 2
+    %."""
 
     dominant_frequency_hz: float | None
     """Frequency of the largest oscillation in the cut."""
@@ -1856,8 +1859,8 @@ class Deviation(Entry):
     """Speed of the map over gap and force."""
 
     gap_factors: FloatArray
-    """Gaps of the map relative to those of the scene, one row each; 0 stands for linear
-    guides."""
+    """Gaps of the map relative to those of the scene, one row each; 0 stands for the same
+    guides without a gap, with their offsets and sides."""
 
     forces_n: FloatArray
     """Side forces of the map."""
@@ -1870,8 +1873,9 @@ class Deviation(Entry):
     """Largest deflection of the blade, as an absolute value."""
 
     pad_forces_n: FloatArray
-    """Force of each one-sided pad on the blade beyond its gap, without that of its film: for
-    each pad one row a gap; null for linear guides."""
+    """Force of each one-sided pad on the blade, by contact and film: for each pad one row a
+    gap. With the forces of other guides and that of the side force, the sum is zero on a blade
+    that slides along its arbor."""
 
     max_deflection_m: float | None
     """Largest deflection at the cut that is allowed; null if none was given."""
@@ -1893,7 +1897,8 @@ class Deviation(Entry):
 
     speed_within_rpm: FloatArray
     """Largest speed up to which the deflection at the cut keeps the limit under this force, for
-    each gap; null where it exceeds the limit at rest. Empty without a limit."""
+    each gap, at most the first critical speed of the linear chart; null where it exceeds the
+    limit at rest. Empty without a limit."""
 
     deflection_over_speed_m: FloatArray
     """Deflection at the cut at these speeds, with the gaps of the scene; null where the blade
@@ -1952,7 +1957,7 @@ class OscillationPad(Entry):
     """Index among the guides of the scene."""
 
     mean_force_n: float
-    """Mean force on the blade beyond the gap."""
+    """Mean force on the blade, by contact and film."""
 
     largest_force_n: float
     """Largest force, as an absolute value."""
@@ -2020,8 +2025,8 @@ class Oscillation(Entry):
     """Deflection of the rim at the cut at the speed of the map without oscillation."""
 
     harmonics_error_share: float | None
-    """Relative change of the amplitude at the cut at the speed of the map with ten harmonics
-    instead of six; null if no motion was found."""
+    """Amplitude at the cut, at the speed of the map, of the harmonics that the motion neglects,
+    relative to its own; null if no motion was found."""
 
     basis_error_share: float | None
     """Relative change of this amplitude with 24 modes at rest instead of 16; null if no motion
@@ -2029,6 +2034,10 @@ class Oscillation(Entry):
 
     rpm: FloatArray
     """Rotation speeds of the series below, ascending."""
+
+    neglected_share: FloatArray
+    """Amplitude at the cut of the harmonics that the motion neglects, relative to its own; null
+    where no motion was found, and where it needs more than 24 harmonics."""
 
     probe_mean_m: FloatArray
     """Mean deflection at the probe, whose sign is the side to which the blade leans; null where
@@ -2100,8 +2109,7 @@ class Friction(Entry):
     """Deflection at the cut with this heat."""
 
     pad_forces_n: FloatArray
-    """Force of each one-sided pad on the blade beyond its gap, without that of its film, with
-    this heat."""
+    """Force of each one-sided pad on the blade, by contact and film, with this heat."""
 
     pads: tuple[FrictionPad, ...]
     """Each one-sided pad, in the order of the scene."""
@@ -2110,18 +2118,27 @@ class Friction(Entry):
     """First critical speed of the linear chart without this heat."""
 
     critical_rpm: float | None
-    """First critical speed of the linear chart with this heat; null also if the heat buckles
-    the blade."""
+    """First critical speed of the linear chart with this heat; null also if the temperature
+    does not settle."""
 
     settled: bool
     """Whether the temperature has settled; otherwise the numbers are those of the last
-    repetition."""
+    temperature with which the blade has a deflection."""
+
+    swings: bool = field(default=False)
+    """Whether the temperature swings between two states, because power and deflection have a
+    jump between them."""
+
+    runaway_rpm: float | None = field(default=None)
+    """Speed from which the heat runs away or buckles the blade, to 1 %; null if it does not at
+    the speed of the map."""
 
     change: float
-    """Last change of the temperature, relative to its largest value."""
+    """Difference of the temperature of the power from this one, relative to its largest
+    value."""
 
     repetitions: int
-    """Number of repetitions of the loop of temperature and deflection."""
+    """Number of temperatures for which the loop computed deflection and power."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -2569,8 +2586,10 @@ class Resonance(Entry):
     """Frequency of the force."""
 
     amplitude_m: float | None
-    """Amplitude at the probe there; null where it grows without bound or beyond the linear
-    model, or the saw is unstable."""
+    """Amplitude at the probe there; null unless it is bounded."""
+
+    steady_state: SteadyState = field(default="beyond_model")
+    """Whether there is an amplitude, or why not."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -2599,8 +2618,12 @@ class ResponseLine(Entry):
     """Amplitude at the rim at the cut."""
 
     resonances: tuple[Resonance, ...]
-    """Speeds at which a natural frequency equals that of the excitation, up to the frequency to
-    which the diagram is complete."""
+    """Speeds of the sweep at which a natural frequency equals that of the excitation, and the
+    excitation works on the mode."""
+
+    resonance_error: float | None = field(default=None)
+    """Largest relative change of these speeds on a larger basis; null for an excitation whose
+    frequencies are those of the diagram, whose error the diagram has."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -2615,6 +2638,9 @@ class OperatingResponse(Entry):
 
     board_deviation_m: float | None
     """Deviation of the board."""
+
+    steady_state: SteadyState = field(default="beyond_model")
+    """Whether there is a deviation, or why not."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -2640,6 +2666,10 @@ class FrequencyResponse(Entry):
 
     phase_deg: FloatArray
     """Phase, −180 to 180: negative if the deflection follows the force."""
+
+    unbounded_hz: FloatArray
+    """Frequencies at which the deflection grows without bound: the natural frequencies that the
+    force excites, without damping."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -3036,7 +3066,7 @@ class ReliabilityPoint(Entry):
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Reliability(Entry):
     """Share of saws that can run, over the operating speed: at that speed they keep the margin
-    to their first critical speed and do not flutter. A saw that was refused or failed cannot
+    to their lowest critical speed and do not flutter. A saw that was refused or failed cannot
     run."""
 
     margin: float
@@ -3193,19 +3223,20 @@ class Lobes(Entry):
     """Rotation speeds."""
 
     critical_stiffness_n_per_m: FloatArray
-    """Smallest cutting stiffness at which a motion grows; null if it exceeds `ceiling_n_per_m`,
-    zero if a motion grows without the delayed force."""
+    """Smallest cutting stiffness at which a vibration grows; null if it exceeds
+    `ceiling_n_per_m`, zero if a motion grows without the delayed force."""
 
     frequency_hz: FloatArray
     """Frequency of this motion."""
 
     stable_to_n_per_m: FloatArray
-    """Cutting stiffness up to which it is known that no motion grows: the critical one, or the
-    largest of the search; less where only damping prevents the growth of omitted modes, zero
-    where the count does not confirm it."""
+    """Cutting stiffness up to which it is known that no vibration grows: the critical one, or
+    the largest of the search; less where only damping prevents the growth of omitted modes,
+    zero where the count does not confirm it."""
 
     confirmed: BoolArray
-    """Whether the argument principle confirms that nothing grows just below this stiffness."""
+    """Whether the argument principle confirms that no vibration grows just below this
+    stiffness."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -3229,7 +3260,7 @@ class WashboardReport(Entry):
     """Rotation speed of the verdict."""
 
     verdict: Verdict
-    """Whether a motion grows at that speed."""
+    """Whether a vibration grows at that speed."""
 
     tooth_passing_hz: float
     """Number of teeth that pass per second."""
@@ -3251,8 +3282,8 @@ class WashboardReport(Entry):
     """Feed speed of the wood, if given."""
 
     critical_stiffness_n_per_m: float | None
-    """Smallest cutting stiffness at which a motion grows at the speed `rpm`; null if it exceeds
-    `ceiling_n_per_m`, zero if a motion grows without the delayed force."""
+    """Smallest cutting stiffness at which a vibration grows at the speed `rpm`; null if it
+    exceeds `ceiling_n_per_m`, zero if a vibration grows without the delayed force."""
 
     critical_frequency_hz: float | None
     """Frequency of this motion."""
@@ -3268,7 +3299,7 @@ class WashboardReport(Entry):
     """Modes at the speed `rpm`, in descending order of growth."""
 
     lobes: Lobes
-    """Smallest cutting stiffness at which a motion grows, over the speed."""
+    """Smallest cutting stiffness at which a vibration grows, over the speed."""
 
     ceiling_n_per_m: float
     """Largest cutting stiffness of the search."""
