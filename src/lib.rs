@@ -23,7 +23,7 @@
 //!
 //! [`Analysis`](stability::Analysis) charts a saw: critical speeds, bands of instability, branches. Each other question is one
 //! function, named like the command of the program; its result is the report that the program writes, with text, figures
-//! and page as methods of [`CommandReport`](commands::CommandReport):
+//! and page as methods of [`CommandReport`](analyses::commands::CommandReport):
 //!
 //! ```
 //! use sawflutter::analyses::deflect::Options;

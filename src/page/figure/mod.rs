@@ -1,6 +1,6 @@
 //! Figures: charts as data, their layout on a sheet, and the sheet as PNG or SVG.
 //!
-//! An analysis describes its chart as [`ChartData`]: panels with axes and items ([`items`]). [`layout`] arranges axes, key and
+//! An analysis describes its chart as [`ChartData`]: panels with axes and items (`items`). `layout` arranges axes, key and
 //! labels on a sheet of marks in figure units, and a [`Figure`] renders the sheet to PNG bytes or to SVG text. The same
 //! data are painted by the live page, matplotlib and plotly. This module knows no physics and writes no files.
 
