@@ -113,8 +113,8 @@ def _fault(
         for place, cell in enumerate(cells, start=1):
             if not (_is_number(cell) and np.isfinite(float(cell))):
                 return InputError(
-                    f"line {number} of {path}: column {place} must be a finite "
-                    "number; remove the line, or fill the gap"
+                    f"line {number} of {path}: column {place} must be a finite number "
+                    f"(you gave {cell!r}); remove the line, or fill the gap"
                 )
     return InputError(f"{path} is no table of numbers; separate its columns by commas or tabs")
 

@@ -66,7 +66,8 @@ def refused(key: str, value: object, allowed: str, remedy: str) -> ArgumentError
     >>> refused("speeds", 0, "at least 1", "20 is usual")
     ArgumentError('speeds must be at least 1 (you gave 0); 20 is usual')
     """
-    message = f"{key} must be {allowed} (you gave {value!r}); {remedy}"
+    given = "" if value is None else f" (you gave {value!r})"
+    message = f"{key} must be {allowed}{given}; {remedy}"
     return ArgumentError(message, key, str(value), allowed, remedy)
 
 

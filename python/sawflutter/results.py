@@ -279,6 +279,13 @@ class CampbellResults(Result, CampbellReport):
         -------
         sawflutter.plot.Chart
             A chart without panels unless :meth:`Scene.run_campbell` was asked for ``sensitivity``.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft", sensitivity=True)
+        >>> r.sensitivity_chart().panels[0].x_name
+        'change of the speed [%]'
         """
         return self._described("sensitivity", "the sensitivities were not asked for")
 

@@ -236,7 +236,7 @@ def test_the_chart_shows_spectra_branches_orders_and_peaks(report: sf.CampbellRe
 @pytest.mark.parametrize(
     ("name", "text", "arguments", "said"),
     [
-        ("a.csv", "t,x\n0,1\n1,b\n", {"rpm": 0}, "line 3 of .*column 2 is 'b'"),
+        ("a.csv", "t,x\n0,1\n1,b\n", {"rpm": 0}, "line 3 of .*column 2 must be a finite number .you gave 'b'"),
         ("a.csv", "t,x\n0,1\n1\n", {"rpm": 0}, "line 3 of .* has 1 columns"),
         ("a.csv", "t,x\n0,1\n1,nan\n", {"rpm": 0}, "line 3 .*finite"),
         ("a.csv", "t,x\n0,1\n1,2\n5,2\n", {"rpm": 0}, "not evenly spaced"),
@@ -248,9 +248,9 @@ def test_the_chart_shows_spectra_branches_orders_and_peaks(report: sf.CampbellRe
         ("a.csv", "t,y,x\n0,1,0\n1,2,1\n", {"tacho": "x", "pulses_per_turn": 0}, "at least 1"),
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": 0, "signal": "y"}, r"it has 0 \(x\)"),
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": 0, "speed": 0}, "one source"),
-        ("a.csv", "t,x,k\n0,1,0\n1,2,1\n", {"tacho": "k"}, "tacho is '1 pulses'"),
+        ("a.csv", "t,x,k\n0,1,0\n1,2,1\n", {"tacho": "k"}, "you gave '1 pulses'"),
         ("a.csv", "t,x\n0,1\n1,2\n", {"rpm": 0, "rate_hz": 9}, "leave it out"),
-        ("a.csv", "t,x,speed [1/s]\n0,1,0\n1,2,1\n", {"speed": 1}, "must be in rpm; convert"),
+        ("a.csv", "t,x,speed [1/s]\n0,1,0\n1,2,1\n", {"speed": 1}, "must be in rpm .you gave"),
         ("a.csv", "t,x,speed [mm/s]\n0,1,0\n1,2,1\n", {}, "no channel of a speed"),
         ("a.csv", "t [h],x\n0,1\n1,2\n", {"rpm": 0}, "times of .* are in 'h'"),
         ("a.csv", "x,rpm\n0,1\n1,2\n", {}, "no column of time"),
