@@ -4,22 +4,13 @@
 //! model span the others. The residual of the full model shows where another solution is needed, so that no mode is truncated.
 
 use faer::linalg::solvers::{Llt, Solve};
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Col, Mat, Par, Scale, Side, c64};
+use faer::{Col, Mat, Scale, Side, c64};
 use rayon::prelude::*;
 
+use super::reduced::{Reduced, State};
 use crate::model::linalg::complex_eigenvalues;
 use crate::model::system::{GyroscopicSystem, dynamic_stiffness};
 use crate::modes::{Cancellation, SpectrumError};
-
-/// A speed and a frequency, in rad/s.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State {
-    /// Rotation speed Ω.
-    pub speed_rad_per_s: f64,
-    /// Angular frequency ω.
-    pub frequency_rad_per_s: f64,
-}
 
 /// Number of solutions of the full model in the first round.
 const FIRST: usize = 9;
@@ -42,20 +33,9 @@ const RESIDUAL_BEYOND: f64 = 1e-2;
 /// Distance of a unit vector from the span of the others below which the basis omits it.
 const INDEPENDENT: f64 = 1e-9;
 
-/// The steady states of a system under a load, on the solutions of the full model that are known.
-pub struct Family<'a> {
-    system: &'a GyroscopicSystem,
-    load: &'a Col<c64>,
-    factor: Llt<f64>,
-    /// Solutions of the full model, of unit length.
-    vectors: Vec<Col<c64>>,
-}
-
 /// Place around which poles are found, as a share of the range: it is at least half of the range away from all real places, so that L
 /// is regular there, and all poles within the range are resolved equally well.
 const CENTRE: c64 = c64::new(0.5, 0.5);
-/// Relative distance from a pole at which its share of the deflection is found.
-const BESIDE: f64 = 1e-7;
 /// Relative distance from a pole within which an excited motion deflects as far as under the load at rest; a motion that does so only
 /// closer to it is not excited.
 const EXCITED: f64 = 1e-6;
@@ -65,6 +45,15 @@ const PEAKED: f64 = 0.5;
 const LEAST: f64 = 1e-6;
 /// Relative distance of two poles that are one, such as those of cos nθ and sin nθ of a free blade.
 const SAME: f64 = 1e-7;
+
+/// The steady states of a system under a load, on the solutions of the full model that are known.
+pub struct Family<'a> {
+    system: &'a GyroscopicSystem,
+    load: &'a Col<c64>,
+    factor: Llt<f64>,
+    /// Solutions of the full model, of unit length.
+    vectors: Vec<Col<c64>>,
+}
 
 impl<'a> Family<'a> {
     /// The states under a load f.
@@ -236,132 +225,6 @@ pub fn reading(probe: &Col<f64>, q: &Col<c64>) -> c64 {
     (0..q.nrows()).map(|i| q[i] * probe[i]).sum()
 }
 
-/// The system on a basis V, and its products with V for the residual.
-///
-/// V is complex, so that it may contain a wave that turns with the load without the wave that turns against it. The load does
-/// not excite the latter, but its resonance would amplify rounding.
-struct Reduced {
-    /// Factors of the terms of L.
-    factors: Vec<Factor>,
-    /// VᴴT V of every term T of L.
-    small: Vec<Mat<c64>>,
-    /// Vᴴf.
-    small_load: Col<c64>,
-    /// Vᵀc.
-    probes: Vec<Col<c64>>,
-    /// C⁻¹T V of the terms side by side, with CCᵀ = K₀.
-    tall: Mat<c64>,
-    /// C⁻¹f.
-    load: Col<c64>,
-}
-
-impl Reduced {
-    fn new(
-        system: &GyroscopicSystem,
-        load: &Col<c64>,
-        probes: &[Col<f64>],
-        basis: &Mat<c64>,
-        factor: &Llt<f64>,
-    ) -> Self {
-        let divided = |mut halves: Mat<f64>| {
-            solve_lower_triangular_in_place(factor.L(), halves.as_mut(), Par::Seq);
-            joined(&halves)
-        };
-        let own = halves(basis);
-        let (matrices, factors): (Vec<_>, Vec<Factor>) = terms(system).into_iter().unzip();
-        let products: Vec<Mat<f64>> = matrices
-            .into_iter()
-            .map(|term| term.map_or_else(|| own.clone(), |term| term * &own))
-            .collect();
-        let width = basis.ncols();
-        let mut tall = Mat::zeros(system.order(), products.len() * width);
-        for (k, product) in products.iter().enumerate() {
-            let mut place = tall.subcols_mut(k * width, width);
-            place.copy_from(divided(product.clone()));
-        }
-        let load_alone = Mat::from_fn(load.nrows(), 1, |i, _| load[i]);
-        Reduced {
-            factors,
-            small: products
-                .iter()
-                .map(|product| basis.adjoint() * joined(product))
-                .collect(),
-            small_load: basis.adjoint() * load,
-            probes: probes
-                .iter()
-                .map(|c| {
-                    Col::from_fn(width, |k| {
-                        (0..c.nrows()).map(|i| basis[(i, k)] * c[i]).sum()
-                    })
-                })
-                .collect(),
-            tall,
-            load: divided(halves(&load_alone)).col(0).to_owned(),
-        }
-    }
-
-    /// L(s; Ω) on the basis.
-    fn dynamic(&self, speed: c64, s: c64) -> Mat<c64> {
-        let width = self.small_load.nrows();
-        let factors: Vec<c64> = self.factors.iter().map(|of| of(speed, s)).collect();
-        Mat::from_fn(width, width, |i, k| {
-            let parts = self
-                .small
-                .iter()
-                .zip(&factors)
-                .map(|(term, factor)| term[(i, k)] * factor);
-            parts.sum::<c64>()
-        })
-    }
-
-    /// The relative distance from a pole at which its motion deflects as far as the blade under the load at rest, both by their elastic
-    /// energy at rest; `at` is L on the path.
-    fn excitation(&self, pole: c64, at: impl Fn(c64) -> Mat<c64>) -> f64 {
-        let [above, below] = [BESIDE, -BESIDE].map(|off| -> Col<c64> {
-            let dynamic = at(pole * (1.0 + off));
-            dynamic.partial_piv_lu().solve(&self.small_load)
-        });
-        let motion = Scale(c64::new(0.5 * BESIDE, 0.0)) * (above - below);
-        let energy = (motion.adjoint() * &self.small[0] * &motion).re;
-        (energy.max(0.0).sqrt() / self.load.norm_l2()).abs()
-    }
-
-    /// Residual relative to the load, and readings, at each state.
-    fn at(&self, states: &[State]) -> Vec<(f64, Vec<c64>)> {
-        let width = self.small_load.nrows();
-        let mut shares = Mat::zeros(self.tall.ncols(), states.len());
-        let mut read = Vec::with_capacity(states.len());
-        for (place, state) in states.iter().enumerate() {
-            let speed = c64::new(state.speed_rad_per_s, 0.0);
-            let s = c64::new(0.0, state.frequency_rad_per_s);
-            let factors: Vec<c64> = self.factors.iter().map(|of| of(speed, s)).collect();
-            let dynamic = self.dynamic(speed, s);
-            let y: Col<c64> = dynamic.partial_piv_lu().solve(&self.small_load);
-            for (part, factor) in factors.iter().enumerate() {
-                for i in 0..width {
-                    shares[(part * width + i, place)] = factor * y[i];
-                }
-            }
-            let reading = |c: &Col<c64>| -> c64 { (0..width).map(|i| c[i] * y[i]).sum() };
-            read.push(self.probes.iter().map(reading).collect());
-        }
-        let carried = &self.tall * shares;
-        let size = self.load.norm_l2();
-        let residual = |place: usize| {
-            let left =
-                (0..carried.nrows()).map(|i| (self.load[i] - carried[(i, place)]).norm_sqr());
-            let share = left.sum::<f64>().sqrt() / size;
-            if share.is_finite() {
-                share
-            } else {
-                f64::INFINITY
-            }
-        };
-        let read = read.into_iter().enumerate();
-        read.map(|(place, read)| (residual(place), read)).collect()
-    }
-}
-
 /// An orthonormal basis of the span of some vectors of unit length.
 fn orthonormal(rows: usize, vectors: &[Col<c64>]) -> Mat<c64> {
     let matrix = Mat::from_fn(rows, vectors.len(), |i, k| vectors[k][i]);
@@ -373,25 +236,6 @@ fn orthonormal(rows: usize, vectors: &[Col<c64>]) -> Mat<c64> {
     qr.compute_thin_Q().subcols(0, rank).to_owned()
 }
 
-/// Real and imaginary parts of columns, first all real parts.
-fn halves(columns: &Mat<c64>) -> Mat<f64> {
-    let count = columns.ncols();
-    Mat::from_fn(columns.nrows(), 2 * count, |i, k| {
-        match k.checked_sub(count) {
-            None => columns[(i, k)].re,
-            Some(k) => columns[(i, k)].im,
-        }
-    })
-}
-
-/// Columns from their real and imaginary parts, as [`halves`] returns them.
-fn joined(halves: &Mat<f64>) -> Mat<c64> {
-    let count = halves.ncols() / 2;
-    Mat::from_fn(halves.nrows(), count, |i, k| {
-        c64::new(halves[(i, k)], halves[(i, count + k)])
-    })
-}
-
 /// Cholesky's factor C of K₀ = CCᵀ, with a small stiffness of free rigid motions.
 fn factor_at_rest(system: &GyroscopicSystem) -> Result<Llt<f64>, SpectrumError> {
     let mut stiffness = system.stiffness.clone();
@@ -400,26 +244,4 @@ fn factor_at_rest(system: &GyroscopicSystem) -> Result<Llt<f64>, SpectrumError> 
     (0..order).for_each(|i| stiffness[(i, i)] += LEAST_STIFFNESS * largest);
     let factor = stiffness.llt(Side::Lower);
     factor.map_err(|_| SpectrumError::UnstableAtRest { order })
-}
-
-/// Factor of a matrix of L, from Ω and s = iω.
-type Factor = fn(c64, c64) -> c64;
-
-/// The matrices of L(iω; Ω) that a system has, each with its factor, that of the stiffness first; `None` is the unit matrix of the
-/// inertia.
-fn terms(system: &GyroscopicSystem) -> Vec<(Option<&Mat<f64>>, Factor)> {
-    const ONE: c64 = c64::new(1.0, 0.0);
-    let always: [(_, Factor); 3] = [
-        (Some(&system.stiffness), |_, _| ONE),
-        (Some(&system.spin), |speed, _| speed * speed),
-        (Some(&system.gyroscopic), |speed, s| s * speed * 2.0),
-    ];
-    let optional: [(_, Factor); 3] = [
-        (system.circulatory.as_ref(), |speed, _| speed),
-        (system.nonconservative.as_ref(), |_, _| ONE),
-        (system.damping.as_ref(), |_, s| s),
-    ];
-    let present = optional.into_iter().filter(|(term, _)| term.is_some());
-    let inertia: (_, Factor) = (None, |_, s| s * s);
-    always.into_iter().chain(present).chain([inertia]).collect()
 }

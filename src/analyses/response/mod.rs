@@ -16,6 +16,7 @@ mod load;
 mod options;
 mod outline;
 mod points;
+mod reduced;
 mod report;
 mod solver;
 mod speeds;
@@ -23,10 +24,11 @@ mod speeds;
 mod tests;
 mod warnings;
 
-pub(crate) use family::{State, solution};
+pub(crate) use family::solution;
 pub(crate) use load::{Load, loads};
 pub use options::Options;
 pub(crate) use outline::outline;
+pub(crate) use reduced::State;
 pub use report::{
     Cause, FrequencyResponse, OperatingResponse, Resonance, ResponseLine, ResponseReport,
     SteadyState,
@@ -76,10 +78,7 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
     let operating = scene.operating_rad_per_s().filter(within);
     let asked = options.speed_rad_per_s(range)?;
     let solver = Solver::new(plate, scene);
-    let motion = Motion {
-        bands: &analysis.chart.instabilities,
-        is_conservative: analysis.model.is_conservative(),
-    };
+    let motion = Motion(&analysis);
     let mut speeds = even(range, operating);
     let mut families = Vec::new();
     for load in &loads {
@@ -141,7 +140,7 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
         probe_radius_m: probe.radius_m,
         probe_angle_deg: probe.angle_deg,
         cut_angle_deg: scene.file().cut_angle_deg(),
-        damped: !motion.is_conservative,
+        damped: !analysis.model.is_conservative(),
         linear_limit_m: solver.limit_m,
         warnings: warnings(scene, assumed, &lines, chart.warnings),
         instabilities: chart.instabilities,

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use faer::{Col, c64};
 
-use super::family::{Family, State};
+use super::family::Family;
+use super::reduced::State;
 use super::report::FrequencyResponse;
 use super::solver::{Motion, Solver};
 use crate::model::plate::Plate;

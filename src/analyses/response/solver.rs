@@ -4,35 +4,34 @@ use std::f64::consts::TAU;
 
 use faer::{Col, c64};
 
-use super::family::{Family, State};
+use super::family::Family;
 use super::load::Load;
+use super::reduced::State;
 use super::report::{Cause, Resonance, ResponseLine, SteadyState};
 use crate::model::plate::Plate;
 use crate::model::scene::{Scene, rpm};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::SpectrumError;
 use crate::motion::transient::{at_point, linear_limit_m};
-use crate::stability::Instability;
+use crate::stability::{Analysis, StabilityState};
 
-/// Whether motions of the saw grow, and whether anything dissipates their energy.
-pub(super) struct Motion<'a> {
-    pub bands: &'a [Instability],
-    pub is_conservative: bool,
-}
+/// Whether motions of a saw grow, and whether anything dissipates their energy.
+pub(super) struct Motion<'a>(pub &'a Analysis);
 
 impl Motion<'_> {
     /// Whether a pole is real: nothing dissipates the energy of its motion. A damper that is fixed in space, for example, does not act on a
     /// motion that stands still.
     pub fn is_undamped(&self, (place, off): (f64, f64)) -> bool {
-        self.is_conservative || off <= REAL * place
+        self.0.model.is_conservative() || off <= REAL * place
     }
 
-    /// Whether some motion grows at a speed, however slowly: then no state is steady. At the ends of a band nothing grows.
+    /// Whether the saw is unstable at a speed by its verdict: then no state is steady. At the ends of a band nothing grows.
     pub fn is_unstable(&self, speed: f64) -> bool {
-        let mut bands = self.bands.iter();
-        bands.any(|band| {
+        let mut bands = self.0.chart.instabilities.iter();
+        let is_inside = bands.any(|band| {
             band.from_rad_per_s * (1.0 + END) < speed && speed < band.to_rad_per_s * (1.0 - END)
-        })
+        });
+        is_inside && self.0.verdict(speed).state != StabilityState::Stable
     }
 }
 
