@@ -162,8 +162,12 @@ impl FrictionHeat {
             hot,
         } = cycle.at(rpm)?;
         let end = settling.end;
-        let warm = cycle.warm(&settling.value)?;
-        let critical = unless_buckled(first_critical_of_linear(&warm, resolution))?.flatten();
+        let critical = if end == End::Settled {
+            let warm = cycle.warm(&settling.value)?;
+            unless_buckled(first_critical_of_linear(&warm, resolution))?.flatten()
+        } else {
+            None
+        };
         let runaway_rpm = match end {
             End::RunsAway | End::NoAnswer if cold.is_some() => Some(cycle.runaway_rpm(rpm)?),
             _ => None,
@@ -185,7 +189,7 @@ impl FrictionHeat {
             pads: pads(scene, deviation),
             pad_forces_n: deviation.map_or_else(Vec::new, |at| at.pad_forces_n.clone()),
             cold_critical_rpm: first_critical_of_linear(scene, resolution)?.map(scene::rpm),
-            critical_rpm: critical.filter(|_| end == End::Settled).map(scene::rpm),
+            critical_rpm: critical.map(scene::rpm),
             settled: end == End::Settled,
             swings: end == End::Swings,
             runaway_rpm,

@@ -189,50 +189,54 @@ impl OscillatingBlade {
         speed_rad_per_s: f64,
         begin: impl Fn(&Balance<'_>, &Mat<f64>) -> Option<Periodic>,
     ) -> Option<Found> {
-        let mut motion: Option<Periodic> = None;
+        let mut last: Option<Periodic> = None;
         let mut harmonics = HARMONICS;
-        while harmonics <= MOST_HARMONICS {
-            let (found, neglected) =
-                self.balanced(speed_rad_per_s, harmonics, |balance, load| {
-                    let found = match &motion {
-                        None => begin(balance, load)?,
-                        Some(near) => balance.refined(near, load)?,
-                    };
-                    let neglected = balance.neglected(&found)?;
-                    Some((found, neglected))
-                })?;
-            let sizes: Vec<(usize, f64)> = neglected
-                .iter()
-                .map(|(k, q)| {
-                    let at_cut: c64 = (0..q.nrows()).map(|i| q[i] * self.cut[i]).sum();
-                    (*k, at_cut.norm())
-                })
-                .collect();
-            let amplitude_m = amplitude_m(&found, &self.cut);
-            let neglected_share = sizes.iter().map(|(_, size)| size).sum::<f64>() / amplitude_m;
-            if neglected_share <= NEGLECTED {
-                let growth = self.balanced(speed_rad_per_s, harmonics, |balance, _| {
-                    balance.growth(&found)
-                });
-                return Some(Found {
-                    motion: found,
-                    growth,
-                    neglected_share,
-                });
+        loop {
+            let (found, largest) = self.balanced(speed_rad_per_s, harmonics, |balance, load| {
+                let motion = match &last {
+                    None => begin(balance, load)?,
+                    Some(near) => balance.refined(near, load)?,
+                };
+                self.found(balance, motion)
+            })?;
+            if found.neglected_share <= NEGLECTED {
+                return Some(found);
             }
-            let largest = sizes
-                .iter()
-                .max_by(|a, b| a.1.total_cmp(&b.1))
-                .map_or(0, |(k, _)| *k);
-            let more = (MORE_HARMONICS * harmonics as f64).ceil() as usize;
-            harmonics = if harmonics < MOST_HARMONICS {
-                more.max(largest).min(MOST_HARMONICS)
-            } else {
+            if harmonics == MOST_HARMONICS {
                 return None;
-            };
-            motion = Some(found);
+            }
+            let more = (MORE_HARMONICS * harmonics as f64).ceil() as usize;
+            harmonics = more.max(largest).min(MOST_HARMONICS);
+            last = Some(found.motion);
         }
-        None
+    }
+
+    /// A motion with its growth if it has the harmonics that it needs, and the order of the largest harmonic that it neglects.
+    fn found(&self, balance: &Balance<'_>, motion: Periodic) -> Option<(Found, usize)> {
+        let along = balance.along(&motion)?;
+        let sizes: Vec<(usize, f64)> = along
+            .neglected()
+            .iter()
+            .map(|(k, q)| {
+                let at_cut: c64 = (0..q.nrows()).map(|i| q[i] * self.cut[i]).sum();
+                (*k, at_cut.norm())
+            })
+            .collect();
+        let neglected_share =
+            sizes.iter().map(|(_, size)| size).sum::<f64>() / amplitude_m(&motion, &self.cut);
+        let largest = sizes.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        let largest = largest.map_or(0, |(k, _)| *k);
+        let growth = if neglected_share <= NEGLECTED {
+            along.growth()
+        } else {
+            None
+        };
+        let found = Found {
+            growth,
+            neglected_share,
+            motion,
+        };
+        Some((found, largest))
     }
 
     /// Solves the balance of a number of harmonics at a speed, under all loads.

@@ -371,6 +371,7 @@ fn a_gap_that_the_blade_cannot_cross_is_refused_before_any_work() {
     assert_eq!(refused.key, "guides[0].gap_m");
     let message = refused.to_string();
     assert!(message.contains("must be at most 0.01 m"), "{message}");
+    assert!(message.contains("(you gave 0.02)"), "{message}");
     let study = GapCase::new(&clamped(0.02), &options, None).unwrap_err();
     assert_eq!(study.to_string(), message);
     // A cancelled computation ends before its first eigenproblem.

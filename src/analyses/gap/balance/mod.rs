@@ -5,19 +5,22 @@
 //! functions (alternating frequency/time method). The equations are solved by Newton's method. A correction is shortened until
 //! the following one, from the same derivatives, is smaller: this test does not depend on the scaling of the equations.
 //!
-//! The exponents of small motions about a periodic one are those of its monodromy matrix.
+//! [`Along`] contains the small motions about a periodic one.
 //!
 //! References: T. M. Cameron & J. H. Griffin, J. Appl. Mech. 56 (1989), 149–154; P. Deuflhard, *Newton Methods for Nonlinear
 //! Problems*, 2004, chapter 3.
+
+mod along;
 
 use std::f64::consts::TAU;
 
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, c64};
 
-use crate::model::linalg::{real_eigenvalues, symmetric_eigenvalues};
-use crate::model::system::{GyroscopicSystem, dynamic_stiffness};
+use crate::model::system::GyroscopicSystem;
 use crate::motion::transient::Force;
+
+pub(super) use along::{Along, Growth};
 
 /// A force that depends on the displacement.
 #[derive(Clone, Copy)]
@@ -44,15 +47,6 @@ pub(super) struct Balance<'a> {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Periodic(Mat<f64>);
 
-/// Fastest growth of a small motion about a periodic one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Growth {
-    /// Growth rate, the real part of the exponent.
-    pub per_s: f64,
-    /// Smallest frequency of the small motion, at most half of that of the periodic one.
-    pub frequency_rad_per_s: f64,
-}
-
 /// Number of times in a period for each coefficient under forces of contact; the beginning and the end of a contact are
 /// resolved to the distance of two times.
 const TIMES: usize = 16;
@@ -74,13 +68,6 @@ const SOFTEST: f64 = 1.0 / 4096.0;
 const STIFFER: f64 = 4.0;
 /// Smallest such factor, below which the search ends without a motion.
 const LEAST_STIFFER: f64 = 1.05;
-/// Number of steps of the monodromy matrix in a period of the highest frequency that it resolves; they change this frequency by
-/// 0.02 %, and its decay by 0.06 %.
-const STEPS: f64 = 128.0;
-/// Number of natural frequencies that are resolved; higher modes hardly follow the motion.
-const RESOLVED: usize = 6;
-/// Largest number of times in a period at which forces are evaluated for neglected harmonics.
-const MOST_TIMES: usize = 4096;
 
 impl<'a> Balance<'a> {
     /// The balance at a speed, for motions with a frequency in rad/s and its multiples up to a number of harmonics.
@@ -185,6 +172,11 @@ impl<'a> Balance<'a> {
         None
     }
 
+    /// Every force linearized along a motion; `None` if an eigenproblem fails.
+    pub fn along<'b>(&'b self, motion: &'b Periodic) -> Option<Along<'b>> {
+        Along::new(self, motion)
+    }
+
     fn shaped(&self, vector: &Col<f64>) -> Mat<f64> {
         let order = self.order();
         Mat::from_fn(order, self.width(), |i, k| vector[k * order + i])
@@ -274,121 +266,6 @@ impl<'a> Balance<'a> {
             }
         }
     }
-
-    /// Coefficients of the stiffness that cubic forces have along a motion, a column each, with the entries of the matrix below each
-    /// other; the derivatives of such forces have twice the harmonics of the motion.
-    fn cubic_stiffness(&self, motion: &Mat<f64>) -> Mat<f64> {
-        let (order, width) = (self.order(), 4 * self.harmonics + 1);
-        let mut coefficients = Mat::zeros(order * order, width);
-        for term in self.terms.iter().filter(|term| term.is_cubic) {
-            let (at, back) = times(self.count(term), width);
-            let at = at.subrows(0, self.width());
-            coefficients += stiffnesses(term, &(motion * at)) * back;
-        }
-        coefficients
-    }
-
-    /// Stiffness matrix at a phase of a motion, with the coefficients of [`Balance::cubic_stiffness`].
-    fn stiffness_along(&self, motion: &Periodic, cubic: &Mat<f64>, phase: f64) -> Mat<f64> {
-        let order = self.order();
-        let own = cubic * Col::from_fn(cubic.ncols(), |k| function(k, phase));
-        let mut stiffness = &self.stiffness + Mat::from_fn(order, order, |i, j| own[j * order + i]);
-        let at = motion.at(phase);
-        for term in self.terms.iter().filter(|term| !term.is_cubic) {
-            term.force.add_stiffness(&at, &mut stiffness);
-        }
-        stiffness
-    }
-
-    /// Mean over a period of the stiffness along a motion, and the highest frequency in rad/s that small motions about it need: that of
-    /// its harmonics, and of the lowest modes with the mean stiffness.
-    fn mean_stiffness(&self, motion: &Periodic) -> Option<(Mat<f64>, f64)> {
-        let cubic = self.cubic_stiffness(&motion.0);
-        let phases = (0..LEAST_TIMES).map(|k| TAU * k as f64 / LEAST_TIMES as f64);
-        let mut mean = Mat::zeros(self.order(), self.order());
-        for phase in phases {
-            mean += Scale(1.0 / LEAST_TIMES as f64) * self.stiffness_along(motion, &cubic, phase);
-        }
-        let squares = symmetric_eigenvalues(mean.as_ref()).ok()?;
-        let natural = squares
-            .iter()
-            .take(RESOLVED)
-            .map(|square| square.abs().sqrt());
-        let harmonic = self.harmonics as f64 * self.frequency_rad_per_s;
-        Some((mean, natural.fold(harmonic, f64::max)))
-    }
-
-    /// The harmonics that a motion neglects, as the linear response to the forces along it: order and complex amplitudes of each, up to
-    /// the highest frequency of [`Balance::mean_stiffness`], and to twice the harmonics of the motion at least.
-    pub fn neglected(&self, motion: &Periodic) -> Option<Vec<(usize, Col<c64>)>> {
-        let (mean, highest) = self.mean_stiffness(motion)?;
-        let order = self.order();
-        let reach = (highest / self.frequency_rad_per_s).ceil() as usize;
-        let last = reach.clamp(2 * self.harmonics, MOST_TIMES / 4);
-        let width = 1 + 2 * last;
-        let mut coefficients = Mat::<f64>::zeros(order, width);
-        for term in self.terms {
-            // Coefficients of cubic forces beyond those that they have are zero.
-            let own = if term.is_cubic {
-                width.min(6 * self.harmonics + 1)
-            } else {
-                width
-            };
-            let (at, back) = times(LEAST_TIMES.max(4 * own), own);
-            let along = Mat::from_fn(self.width(), at.ncols(), |k, time| {
-                function(k, TAU * time as f64 / at.ncols() as f64)
-            });
-            let mut columns = coefficients.subcols_mut(0, own);
-            columns += forces(term, &(&motion.0 * along)) * back;
-        }
-        let neglected = (self.harmonics + 1..=last).map(|k| {
-            let frequency = k as f64 * self.frequency_rad_per_s;
-            let dynamic = dynamic_stiffness(&mean, &self.velocity, c64::new(0.0, frequency));
-            let load = Col::from_fn(order, |i| {
-                c64::new(coefficients[(i, 2 * k - 1)], -coefficients[(i, 2 * k)])
-            });
-            (k, dynamic.partial_piv_lu().solve(&load))
-        });
-        Some(neglected.collect())
-    }
-
-    /// The fastest growth of small motions about a periodic one, with every force linearized along it; `None` if the eigenvalues are
-    /// not found. The monodromy matrix is that of the implicit midpoint rule, which keeps the energy of an undamped blade at constant
-    /// stiffness.
-    pub fn growth(&self, motion: &Periodic) -> Option<Growth> {
-        let order = self.order();
-        let period_s = TAU / self.frequency_rad_per_s;
-        let (_, highest) = self.mean_stiffness(motion)?;
-        let steps = (STEPS * highest / self.frequency_rad_per_s).ceil() as usize;
-        let step_s = period_s / steps as f64;
-        let cubic = self.cubic_stiffness(&motion.0);
-        let mut state = Mat::<f64>::identity(2 * order, 2 * order);
-        for step in 0..steps {
-            let phase = TAU * (step as f64 + 0.5) / steps as f64;
-            let stiffness = self.stiffness_along(motion, &cubic, phase);
-            // With the step Δ, D = `velocity`, K = `stiffness` and the mean velocity v̄, a step solves
-            // (2/Δ + D + K Δ/2) v̄ = 2v₀/Δ − K q₀ and sets q₁ = q₀ + Δ v̄, v₁ = 2v̄ − v₀.
-            let mut left = &self.velocity + Scale(0.5 * step_s) * &stiffness;
-            (0..order).for_each(|i| left[(i, i)] += 2.0 / step_s);
-            let (q, v) = (state.subrows(0, order), state.subrows(order, order));
-            let mean = left
-                .partial_piv_lu()
-                .solve(Scale(2.0 / step_s) * v - &stiffness * q);
-            let next_q = q + Scale(step_s) * &mean;
-            let next_v = Scale(2.0) * &mean - v;
-            state.subrows_mut(0, order).copy_from(&next_q);
-            state.subrows_mut(order, order).copy_from(&next_v);
-        }
-        let largest = real_eigenvalues(state.as_ref())
-            .ok()?
-            .into_iter()
-            .max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
-        let growth = Growth {
-            per_s: largest.norm().ln() / period_s,
-            frequency_rad_per_s: largest.arg().abs() / period_s,
-        };
-        growth.per_s.is_finite().then_some(growth)
-    }
 }
 
 impl Term<'_> {
@@ -468,5 +345,4 @@ impl Periodic {
 }
 
 #[cfg(test)]
-#[path = "balance_tests.rs"]
 mod tests;

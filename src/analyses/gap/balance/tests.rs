@@ -169,7 +169,7 @@ fn the_growth_of_a_linear_motion_is_its_eigenvalue() {
     let frequency = 7.0;
     let balance = Balance::new(&system, SPEED, (frequency, 2), &[], 1e-3);
     let motion = balance.motion(&Col::zeros(2), &balance.no_load()).unwrap();
-    let growth = balance.growth(&motion).unwrap();
+    let growth = balance.along(&motion).unwrap().growth().unwrap();
     assert!(
         (growth.per_s - slowest.re).abs() < 1e-3 * slowest.re.abs(),
         "{growth:?} {slowest}"
@@ -257,7 +257,7 @@ fn histories_leave_unstable_oscillations_and_return_to_stable_ones() {
             (found / amplitude - 1.0).abs() < 0.03,
             "{found} {amplitude}"
         );
-        let growth = balance.growth(&motion).unwrap().per_s;
+        let growth = balance.along(&motion).unwrap().growth().unwrap().per_s;
         let velocity: f64 = (1..=9)
             .map(|k| k as f64 * frequency * motion.0[(0, 2 * k)])
             .sum();
@@ -297,7 +297,7 @@ fn the_decay_of_a_mode_far_above_the_motion_is_resolved() {
     let system = single(natural * natural, damping);
     let balance = Balance::new(&system, 0.0, (TAU * 0.8, 6), &[], 1e-3);
     let motion = balance.motion(&Col::zeros(1), &balance.no_load()).unwrap();
-    let growth = balance.growth(&motion).unwrap();
+    let growth = balance.along(&motion).unwrap().growth().unwrap();
     assert!(
         (growth.per_s + 0.5 * damping).abs() < 0.01 * damping,
         "{growth:?}"
@@ -346,7 +346,7 @@ fn compare_harmonics(frequency: f64) {
         let mut load = balance.no_load();
         load[(0, 1)] = force;
         let motion = balance.motion(&Col::zeros(1), &load).unwrap();
-        let neglected = balance.neglected(&motion).unwrap();
+        let neglected = balance.along(&motion).unwrap().neglected();
         (motion, neglected)
     };
     let (_, neglected) = solve(6);
