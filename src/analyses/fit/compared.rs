@@ -2,19 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::matching::matched;
-use super::model::{frequencies_hz, tones};
+use super::model::{Assigned, frequencies_hz, frequency_hz};
 use super::{Curves, Measurement, Residual};
 use crate::model::plate::{Plate, Resolution};
-use crate::model::scene::{Scene, rad_per_s};
-use crate::modes::{LowestModes, SpectrumError};
-
-/// A computed frequency, with its rank at this speed from 1.
-#[derive(Debug, Clone, Copy)]
-struct Computed {
-    place: usize,
-    hz: f64,
-}
+use crate::model::scene::Scene;
+use crate::modes::{LowestModes, Mode, SpectrumError};
 
 /// A saw before and after a fit.
 pub struct Compared {
@@ -53,27 +45,19 @@ impl Compared {
     ) -> Result<Vec<Residual>, SpectrumError> {
         let mut residuals = Vec::new();
         for row in &measured.rows {
-            let computed = |lowest: &LowestModes| -> Result<Vec<Option<Computed>>, SpectrumError> {
-                let modes = lowest.at(rad_per_s(row.rpm), row.modes_needed())?;
-                let tones = tones(lowest, &modes);
-                let of_tone = |index: usize| Computed {
-                    place: index + 1,
-                    hz: tones[index].hz,
+            let before = Assigned::new(&self.before, row)?;
+            let fitted = Assigned::new(&self.fitted, row)?;
+            let pairs = before.each().zip(fitted.each());
+            for ((before, fitted), (column, measured_hz)) in pairs.zip(&row.pairs) {
+                let hz = |found: Option<(usize, &Mode)>| {
+                    found.map_or(0.0, |(_, mode)| frequency_hz(mode))
                 };
-                let found = matched(row, &tones).into_iter();
-                Ok(found.map(|index| index.map(of_tone)).collect())
-            };
-            let pairs = computed(&self.before)?
-                .into_iter()
-                .zip(computed(&self.fitted)?);
-            for ((before, after), (column, measured_hz)) in pairs.zip(&row.pairs) {
-                let hz = |computed: Option<Computed>| computed.map_or(0.0, |computed| computed.hz);
                 residuals.push(Residual {
                     rpm: row.rpm,
-                    place: after.map_or(column + 1, |computed| computed.place),
+                    place: fitted.map_or(column + 1, |(rank, _)| rank),
                     measured_hz: *measured_hz,
                     before_hz: hz(before),
-                    fitted_hz: hz(after),
+                    fitted_hz: hz(fitted),
                     fitted: row.rpm <= to_rpm,
                 });
             }

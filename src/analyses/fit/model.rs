@@ -11,8 +11,8 @@ use crate::modes::{
     Component, Differences, LowestModes, Mode, SpectrumError, derivative, matrix_slopes,
 };
 
-use super::Measurement;
 use super::matching::{Tone, matched};
+use super::{Measurement, Row};
 
 /// A saw with freed numbers, on one basis.
 pub struct Model<'a> {
@@ -86,13 +86,11 @@ impl Model<'_> {
     ) -> Result<Vec<f64>, SpectrumError> {
         let mut residuals = Vec::new();
         for row in &self.measurement.rows {
-            let speed = rad_per_s(row.rpm);
-            let modes = lowest.at(speed, row.modes_needed())?;
-            let found = matched(row, &tones(lowest, &modes));
-            for (index, (_, measured_hz)) in found.iter().zip(&row.pairs) {
-                let mode = index.map(|index| &modes[index]);
+            let assigned = Assigned::new(lowest, row)?;
+            for (found, (_, measured_hz)) in assigned.each().zip(&row.pairs) {
+                let mode = found.map(|(_, mode)| mode);
                 residuals.push(mode.map_or(0.0, frequency_hz) - measured_hz);
-                visit(speed, mode);
+                visit(rad_per_s(row.rpm), mode);
             }
         }
         Ok(residuals)
@@ -118,15 +116,31 @@ impl Model<'_> {
     }
 }
 
-/// Frequencies and nodal diameters of modes.
-pub fn tones(lowest: &LowestModes, modes: &[Mode]) -> Vec<Tone> {
-    modes
-        .iter()
-        .map(|mode| Tone {
-            hz: frequency_hz(mode),
-            diameters: lowest.diameters_of(mode),
-        })
-        .collect()
+/// The lowest modes of a saw at the speed of a row, assigned to its measured frequencies.
+pub struct Assigned {
+    modes: Vec<Mode>,
+    found: Vec<Option<usize>>,
+}
+
+impl Assigned {
+    pub fn new(lowest: &LowestModes, row: &Row) -> Result<Self, SpectrumError> {
+        let modes = lowest.at(rad_per_s(row.rpm), row.modes_needed())?;
+        let tones: Vec<Tone> = modes
+            .iter()
+            .map(|mode| Tone {
+                hz: frequency_hz(mode),
+                diameters: lowest.diameters_of(mode),
+            })
+            .collect();
+        let found = matched(row, &tones);
+        Ok(Assigned { modes, found })
+    }
+
+    /// The mode of each measured frequency with its rank, from 1; `None` if the basis lacks it.
+    pub fn each(&self) -> impl Iterator<Item = Option<(usize, &Mode)>> {
+        let mode = |index: usize| (index + 1, &self.modes[index]);
+        self.found.iter().map(move |index| index.map(mode))
+    }
 }
 
 /// The `count` lowest frequencies of a saw at a speed in rpm, in Hz.
@@ -139,7 +153,7 @@ pub fn frequencies_hz(
     Ok(modes.iter().map(frequency_hz).collect())
 }
 
-fn frequency_hz(mode: &Mode) -> f64 {
+pub fn frequency_hz(mode: &Mode) -> f64 {
     mode.frequency_rad_per_s() / TAU
 }
 
