@@ -50,6 +50,18 @@ pub struct Sensitivity {
     pub frequency_hz: Vec<f64>,
 }
 
+impl Sensitivity {
+    /// Change of the first critical speed, in percent; `None` without a critical speed.
+    pub(crate) fn of_first_critical(&self) -> Option<f64> {
+        self.critical_speeds_percent.first().copied()
+    }
+
+    /// Change of the onset of the band with this index, in percent.
+    pub(crate) fn of_onset(&self, band: usize) -> Option<f64> {
+        self.onsets_percent.get(band).copied().flatten()
+    }
+}
+
 /// Reason why no sensitivity could be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum SensitivityError {

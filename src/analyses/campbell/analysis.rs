@@ -87,6 +87,15 @@ pub struct Report {
     pub warnings: Vec<String>,
 }
 
+impl Report {
+    /// Index into `instabilities` of the band that begins at the flutter speed.
+    pub(crate) fn flutter_band(&self) -> Option<usize> {
+        let flutter_rpm = self.flutter_speed_rpm?;
+        let mut bands = self.instabilities.iter();
+        bands.position(|band| band.from_rpm == flutter_rpm)
+    }
+}
+
 /// Size of the basis and estimated errors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -1,6 +1,6 @@
 //! Effects of the numbers of the scene on the first critical speed and on the flutter speed, the strongest at the top.
 
-use super::{InstabilityBand, Report, Sensitivity};
+use super::{Report, Sensitivity};
 use crate::analyses::scene_number;
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};
 use crate::page::figure::items::{Item, Line, Role, Upright};
@@ -18,8 +18,7 @@ const FREE: f64 = 1.05;
 
 /// The effects, as numbers; `None` if the report has no sensitivities.
 pub fn chart(report: &Report) -> Option<ChartData> {
-    let begins = |band: &InstabilityBand| Some(band.from_rpm) == report.flutter_speed_rpm;
-    let flutter = report.instabilities.iter().position(begins);
+    let flutter = report.flutter_band();
     let mut rows: Vec<Row> = report
         .sensitivities
         .iter()
@@ -89,15 +88,14 @@ struct Row {
 
 impl Row {
     fn new(sensitivity: &Sensitivity, flutter: Option<usize>) -> Self {
-        let onset = |index: usize| sensitivity.onsets_percent.get(index).copied().flatten();
         Row {
             name: format!(
                 "{} + {}",
                 scene_number::name(&sensitivity.parameter),
                 sensitivity.change
             ),
-            critical: sensitivity.critical_speeds_percent.first().copied(),
-            flutter: flutter.and_then(onset),
+            critical: sensitivity.of_first_critical(),
+            flutter: flutter.and_then(|band| sensitivity.of_onset(band)),
         }
     }
 

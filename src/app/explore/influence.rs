@@ -25,8 +25,8 @@ pub fn influences(entries: &[Sensitivity], report: &Report) -> Vec<Influence> {
         bands.position(|band| band.counted_rpm.iter().any(begins))
     });
     let changes = entries.iter().map(|entry| {
-        let of_critical = entry.critical_speeds_percent.first().copied();
-        let of_flutter = band.and_then(|band| entry.onsets_percent.get(band).copied().flatten());
+        let of_critical = entry.of_first_critical();
+        let of_flutter = band.and_then(|band| entry.of_onset(band));
         let rpm = |percent: Option<f64>, speed: Option<f64>| Some(0.01 * percent? * speed?);
         [rpm(of_critical, critical), rpm(of_flutter, flutter)]
     });

@@ -9,6 +9,7 @@ use faer::{Col, Mat, Scale, c64};
 
 use super::over_speed::{WaveModel, at_nodes};
 use super::roots::Root;
+use crate::model::system::dynamic_stiffness;
 use crate::modes::error::SpectrumError;
 use crate::modes::projection::Projection;
 use crate::modes::vectors::{Eigenpair, unit};
@@ -67,13 +68,9 @@ impl WaveModes {
         let velocity = self.projection.reduced.velocity_at(speed_rad_per_s);
         let (near, order) = (self.near, stiffness.nrows());
         let pair = |Root { lambda, vector, .. }: Root| {
-            let at = |i: usize, k: usize| {
-                let inertia = if i == k { lambda * lambda } else { c64::ZERO };
-                inertia + lambda * velocity[(i, k)] + stiffness[(i, k)]
-            };
+            let dynamic = dynamic_stiffness(&stiffness, &velocity, lambda);
             let x = vector.subrows(vector.nrows() - near, near);
-            let coupling = Mat::from_fn(order - near, near, |i, k| at(near + i, k));
-            let far = Mat::from_fn(order - near, order - near, |i, k| at(near + i, near + k));
+            let (coupling, far) = (dynamic.get(near.., ..near), dynamic.get(near.., near..));
             let y = far
                 .partial_piv_lu()
                 .solve(Scale(c64::from(-1.0)) * (coupling * x));

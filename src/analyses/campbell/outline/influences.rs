@@ -1,6 +1,6 @@
 //! Rolled bands, light gap, limits of heat, and effects of the numbers of the scene on the speeds.
 
-use crate::analyses::campbell::{InstabilityBand, Report, ToleratedRise};
+use crate::analyses::campbell::{Report, ToleratedRise};
 use crate::page::outline::{Column, LENGTH, Outline, Table, Value};
 use crate::page::text::shown_to;
 
@@ -100,8 +100,7 @@ pub fn heat(text: &mut Outline, report: &Report) {
 
 /// The relative changes of the first critical speed and of the flutter speed by a change of each number of the scene.
 pub fn sensitivity(report: &Report) -> Table {
-    let begins = |b: &InstabilityBand| Some(b.from_rpm) == report.flutter_speed_rpm;
-    let flutter = report.instabilities.iter().position(begins);
+    let flutter = report.flutter_band();
     let columns = [
         Column::words("change"),
         Column::words("number"),
@@ -110,13 +109,11 @@ pub fn sensitivity(report: &Report) -> Table {
     ];
     let percent = |value: Option<f64>| value.map_or(Value::Missing, |v| format!("{v:+.3}").into());
     let rows = report.sensitivities.iter().map(|entry| {
-        let critical = entry.critical_speeds_percent.first().copied();
-        let onset = flutter.and_then(|i| entry.onsets_percent.get(i).copied().flatten());
         [
             format!("{} more", entry.change).into(),
             entry.parameter.clone().into(),
-            percent(critical),
-            percent(onset),
+            percent(entry.of_first_critical()),
+            percent(flutter.and_then(|band| entry.of_onset(band))),
         ]
     });
     let title = "Influences on the first critical speed, and the flutter speed";
