@@ -5,7 +5,7 @@ use crate::page::text::{FileError, shown};
 /// A value of a scene, a study or an argument that cannot be used. Program, live page and Python package show
 /// this message and add only the name of their option.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{key} {}must be {allowed}{}; {remedy}", self.before_allowed(), self.after_allowed())]
+#[error("{}; {remedy}", self.in_words())]
 pub struct RefusedValue {
     /// JSON path of the key, or name of the argument.
     pub key: String,
@@ -43,19 +43,17 @@ impl RefusedValue {
         self.value == "missing"
     }
 
-    fn before_allowed(&self) -> &'static str {
+    fn in_words(&self) -> String {
+        let RefusedValue {
+            key,
+            value,
+            allowed,
+            ..
+        } = self;
         if self.is_missing() {
-            "is missing; it "
+            format!("{key} is missing; it must be {allowed}")
         } else {
-            ""
-        }
-    }
-
-    fn after_allowed(&self) -> String {
-        if self.is_missing() {
-            String::new()
-        } else {
-            format!(" (you gave {})", self.value)
+            format!("{key} must be {allowed} (you gave {value})")
         }
     }
 }
