@@ -61,7 +61,7 @@ fn every_command_that_reads_a_scene_takes_settings() {
     ];
     for command in commands {
         let set = ["--set", "guides[0].radius_m=20kN"];
-        let words = "guides[0].radius_m must be ";
+        let words = "guides[0].radius_m must be … (you gave \"20kN\")";
         assert_refused(&[command, &set].concat(), words, &folder);
         assert!(names_in(&out(&folder)).is_empty(), "{command:?}");
     }
@@ -147,7 +147,7 @@ fn a_scene_without_a_cut_takes_one_from_options_and_says_what_is_assumed() {
     assert!(said.contains("cut.lateral_n_per_tooth = 1"), "{said}");
     assert!(!said.contains("power") && !said.contains("depth"), "{said}");
     let length = ["cut", scene, "--power", "20mm"];
-    let words = "--power must be a number in W";
+    let words = "--power must be a number in W … (you gave \"20mm\")";
     assert_refused(&length, words, &folder);
 }
 

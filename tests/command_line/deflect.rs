@@ -47,7 +47,7 @@ fn a_force_or_a_saw_without_an_answer_is_refused() {
         (&["--force-n", "1e9"][..], "--force-n"),
         (
             &["--force-n", "1e5", "--accuracy", "draft"],
-            "side_force.force_n must be ",
+            "side_force.force_n must be … (you gave 100000)",
         ),
         (
             &["--set", "side_force.angle_deg=inf"],

@@ -2,6 +2,7 @@
 //!
 //! Source: `--help` and docs/how-to.
 
+use crate::common::says;
 use std::path::PathBuf;
 
 use sawflutter::analyses::check::CheckReport;
@@ -114,9 +115,17 @@ fn a_table_that_cannot_be_fitted_is_refused_and_nothing_is_written() {
     let cases: [(&str, &[&str], &str); 9] = [
         ("rpm,f\n0,x\n", &[], "line 2"),
         ("rpm,f\n", &[], "no frequency in measured.csv"),
-        (TABLE, &["--to-rpm", "-1"], "--to-rpm must be "),
-        (TABLE, &["--confidence", "1"], "--confidence must be "),
-        (TABLE, &["--starts", "0"], "--starts must be "),
+        (
+            TABLE,
+            &["--to-rpm", "-1"],
+            "--to-rpm must be … (you gave -1)",
+        ),
+        (
+            TABLE,
+            &["--confidence", "1"],
+            "--confidence must be … (you gave 1)",
+        ),
+        (TABLE, &["--starts", "0"], "--starts must be … (you gave 0)"),
         (
             TABLE,
             &["--free", "guides[3].radius_m"],
@@ -187,14 +196,14 @@ fn the_exit_code_says_whether_the_limit_is_kept_or_the_input_refused() {
         (
             &["--min-critical-rpm", "-9"],
             2,
-            "--min-critical-rpm must be ",
+            "--min-critical-rpm must be … (you gave -9)",
         ),
-        (&["--map", "1"], 2, "--map must be "),
-        (&["--samples", "0"], 2, "--samples must be "),
+        (&["--map", "1"], 2, "--map must be … (you gave 1)"),
+        (&["--samples", "0"], 2, "--samples must be … (you gave 0)"),
         (
             &["--radius-tolerance-m", "-0.002"],
             2,
-            "--radius-tolerance-m must be from 0 to 0.1",
+            "--radius-tolerance-m must be from 0 to 0.1 … (you gave -0.002)",
         ),
     ];
     for (more, code, expected) in cases {
@@ -209,7 +218,7 @@ fn the_exit_code_says_whether_the_limit_is_kept_or_the_input_refused() {
         let said = format!("{}{}", text(&output.stdout), text(&output.stderr));
         assert_eq!(output.status.code(), Some(code), "{more:?}: {said}");
         assert!(
-            said.replace("\n  ", " ").contains(expected),
+            says(&said.replace("\n  ", " "), expected),
             "{more:?}: {said}"
         );
     }

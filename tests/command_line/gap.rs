@@ -106,7 +106,7 @@ fn a_saw_without_a_gap_and_invalid_numbers_are_refused() {
         (&["gap"][..], "guides[].contact"),
         (
             &["gap", &path, "--force-n", "0"],
-            "side_force.force_n must be ",
+            "side_force.force_n must be … (you gave 0)",
         ),
         (&["gap", &path, "--rpm", "-3"], "--rpm"),
         (

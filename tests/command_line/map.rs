@@ -151,7 +151,7 @@ fn numbers_that_are_none_and_ranges_without_ends_are_refused() {
                 "--y",
                 "blade.thickness_m=2mm..3mm",
             ],
-            "--y must be ",
+            "--y must be … (you gave blade.thickness_m again)",
         ),
         (
             &[
@@ -160,7 +160,7 @@ fn numbers_that_are_none_and_ranges_without_ends_are_refused() {
                 "--y",
                 "operating_rpm=1000..2000",
             ],
-            "--y must be ",
+            "--y must be … (you gave operating_rpm)",
         ),
         (
             &["--x", "operating_rpm=1000..2000"],
@@ -168,11 +168,11 @@ fn numbers_that_are_none_and_ranges_without_ends_are_refused() {
         ),
         (
             &["--x", "blade.thickness_m=2mm..3mm", "--points", "1"],
-            "--points must be ",
+            "--points must be … (you gave 1)",
         ),
         (
             &["--x", "blade.thickness_m=2mm..3mm", "--rpm", "-1"],
-            "--rpm must be ",
+            "--rpm must be … (you gave -1)",
         ),
     ] {
         assert_refused(&[&["map"][..], words].concat(), said, &folder);

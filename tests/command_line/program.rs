@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Output;
 use std::time::Duration;
 
+use crate::common::says;
 use assert_cmd::Command;
 use sawflutter::model::scene::{Accuracy, SceneFile};
 use serde::de::DeserializeOwned;
@@ -48,7 +49,7 @@ pub fn assert_refused(arguments: &[&str], words: &str, folder: &TempDir) {
     let output = run(arguments, folder);
     let message = text(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
-    assert!(message.contains(words), "{arguments:?}: {message}");
+    assert!(says(message, words), "{arguments:?}: {message}");
 }
 
 /// Fails if a line does not fit a terminal. The line of the written files names a folder and may have any length.

@@ -81,13 +81,16 @@ fn causes_are_set_by_their_keys_and_refused_by_them() {
     for (set, said) in [
         ("response.runout_m=-1mm", "response.runout_m"),
         ("response.runout_m=0.1mm", "tilts freely"),
-        ("side_force.radius_m=2", "side_force.radius_m must be "),
+        (
+            "side_force.radius_m=2",
+            "side_force.radius_m must be … (you gave 2)",
+        ),
     ] {
         assert_refused(&["response", &path, "--set", set], said, &folder);
     }
     // Beyond the sweep the saw was not analysed.
     let fast = ["response", &path, "--rpm", "9000"];
-    assert_refused(&fast, "--rpm must be ", &folder);
+    assert_refused(&fast, "--rpm must be … (you gave 9000)", &folder);
     let still = ["response", &path, "--to-hz", "0"];
-    assert_refused(&still, "--to-hz must be ", &folder);
+    assert_refused(&still, "--to-hz must be … (you gave 0)", &folder);
 }

@@ -92,7 +92,7 @@ fn the_modes_of_one_speed_are_listed_when_asked_for() {
     }
     let folder = TempDir::new().unwrap();
     let beyond = ["analyze", "--accuracy", "draft", "--at-rpm", "9000"];
-    let words = "--at-rpm must be from 0 to 3000";
+    let words = "--at-rpm must be from 0 to 3000 … (you gave 9000)";
     assert_refused(&beyond, words, &folder);
 }
 

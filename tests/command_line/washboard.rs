@@ -2,6 +2,7 @@
 //!
 //! Source: `--help` and docs/how-to/washboarding.md.
 
+use crate::common::says;
 use sawflutter::analyses::campbell::Verdict;
 use sawflutter::analyses::washboard::WashboardReport;
 use sawflutter::model::scene::{Accuracy, DampingFile, Mount, Scene, SceneFile, WashboardingFile};
@@ -129,7 +130,7 @@ fn a_missing_key_of_washboarding_is_named() {
         ),
         (
             |saw| delayed(saw).overlap = -0.1,
-            "cut.washboarding.overlap must be ",
+            "cut.washboarding.overlap must be … (you gave -0.1)",
         ),
     ];
     for (change, expected) in cases {
@@ -138,7 +139,7 @@ fn a_missing_key_of_washboarding_is_named() {
         let output = run(&["washboard", scene.to_str().unwrap()], &folder);
         assert_eq!(output.status.code(), Some(2), "{expected}");
         let error = text(&output.stderr);
-        assert!(error.contains(expected), "{expected}: {error}");
+        assert!(says(&error, expected), "{expected}: {error}");
         assert_eq!(names_in(&out(&folder)), Vec::<String>::new(), "{expected}");
     }
 }

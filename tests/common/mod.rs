@@ -9,6 +9,13 @@ use sawflutter::model::plate::{Plate, Resolution};
 use sawflutter::model::scene::{Accuracy, Mount, Scene, SceneFile};
 use sawflutter::modes::{Mode, SpectralModel, Strategy};
 
+/// Whether a message contains words, whose pieces between ellipses stand in this order.
+pub fn says(message: &str, words: &str) -> bool {
+    let mut pieces = words.split('…').map(str::trim);
+    let rest = pieces.try_fold(message, |rest, piece| Some(rest.split_once(piece)?.1));
+    rest.is_some()
+}
+
 /// A file that comes with the crate.
 pub fn path(inside: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(inside)

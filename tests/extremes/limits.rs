@@ -6,7 +6,7 @@ use sawflutter::modes::branches::{CampbellError, even_speeds, sample};
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::Analysis;
 
-use crate::common::relative_error;
+use crate::common::{relative_error, says};
 use crate::guides::bed;
 use crate::saws::{SMALL, critical, paper, scene, unguided};
 
@@ -73,7 +73,7 @@ fn problems_too_large_for_memory_are_refused_with_the_number() {
     file.guides = vec![file.guides[0]; 257];
     let message = Scene::try_from(file).unwrap_err().to_string();
     assert!(
-        message.contains("guides must be ") && message.contains("256"),
+        says(&message, "guides must be … (you gave 257)") && message.contains("256"),
         "{message}"
     );
     let plate = Plate::new(&scene(&unguided()), SMALL);

@@ -320,7 +320,10 @@ mod tests {
                 "blade.thickness_m=thin",
                 &["\"thin\"", "like 0.0026 or 2.6mm"],
             ),
-            ("blade.thickness_m=", &["blade.thickness_m must be "]),
+            (
+                "blade.thickness_m=",
+                &["blade.thickness_m must be ", "(you gave \"\")"],
+            ),
             ("blade.thickness_m=-1mm", &["blade.thickness_m", "-0.001"]),
             ("blade.teeth=80.5", &["blade.teeth", "whole number"]),
             ("blade.teeth=80 mm", &["without a unit"]),

@@ -79,6 +79,7 @@ fn rows_that_no_blade_has_are_refused_by_name() {
     let many = [(0.2, 2e-3); 9];
     let error = blade_with(&many).expect_err("too many").to_string();
     assert!(error.contains("blade.profile must be "), "{error}");
+    assert!(error.contains("(you gave 9)"), "{error}");
 }
 
 #[test]
