@@ -223,7 +223,7 @@ fn impossible_saws_are_rows_with_a_reason() {
         let Outcome::Refused(reason) = &saws[index].outcome else {
             panic!("{:?}", saws[index]);
         };
-        assert!(says(&reason, key), "{reason}");
+        assert!(says(reason, key), "{reason}");
     }
     let report = study.report(&saws).unwrap();
     assert_eq!(
