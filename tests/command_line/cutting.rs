@@ -147,7 +147,7 @@ fn a_scene_without_the_forces_is_refused() {
         let output = run(&arguments, &folder);
         assert_eq!(output.status.code(), Some(2), "{expected}");
         let error = text(&output.stderr);
-        assert!(says(&error, expected), "{expected}: {error}");
+        assert!(says(error, expected), "{expected}: {error}");
         assert_eq!(names_in(&out(&folder)), Vec::<String>::new(), "{expected}");
     }
 }

@@ -139,7 +139,7 @@ fn a_missing_key_of_washboarding_is_named() {
         let output = run(&["washboard", scene.to_str().unwrap()], &folder);
         assert_eq!(output.status.code(), Some(2), "{expected}");
         let error = text(&output.stderr);
-        assert!(says(&error, expected), "{expected}: {error}");
+        assert!(says(error, expected), "{expected}: {error}");
         assert_eq!(names_in(&out(&folder)), Vec::<String>::new(), "{expected}");
     }
 }
