@@ -8,7 +8,7 @@ use std::hint::black_box;
 use faer::{Col, Mat};
 use sawflutter::model::plate::{Plate, ReducedStretching, Resolution, Stretching};
 use sawflutter::model::scene::{Accuracy, Scene, rad_per_s};
-use sawflutter::motion::stretched::{Extent, StretchedBlade};
+use sawflutter::motion::stretched_blade::{Extent, StretchedBlade};
 
 use timing::time;
 

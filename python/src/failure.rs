@@ -18,7 +18,7 @@ use sawflutter::page::figure::FigureError;
 
 use sawflutter::model::scene::{RefusedValue, SceneError};
 use sawflutter::modes::SpectrumError;
-use sawflutter::motion::stretched::StretchedError;
+use sawflutter::motion::stretched_blade::StretchedError;
 use sawflutter::motion::transient::TransientError;
 use sawflutter::page::text::FileError;
 use sawflutter::stability::{AnalysisError, SensitivityError};

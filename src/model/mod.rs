@@ -11,4 +11,4 @@ pub mod plate;
 pub mod scene;
 pub mod spline;
 pub mod system;
-pub(crate) mod tuned;
+pub(crate) mod tuning;

@@ -6,10 +6,10 @@ use crate::model::plate::Plate;
 use crate::model::system::spread;
 
 use super::component::Component;
-use super::critical::standing_name;
+use super::critical_speed::standing_name;
 use super::error::SpectrumError;
 use super::event_name::EventName;
-use super::generalized::singular_multiples;
+use super::symmetric_pencil::singular_multiples;
 
 /// Change of a stress under which K(Ω) becomes singular.
 #[derive(Debug, Clone, PartialEq)]

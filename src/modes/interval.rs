@@ -17,14 +17,14 @@ use super::derivative;
 use super::double_eigenvalue::DoubleEigenvalue;
 use super::error::SpectrumError;
 use super::half_order;
-use super::hamiltonian::{HamiltonianReduction, State};
+use super::hamiltonian_reduction::{HamiltonianReduction, State};
 use super::mode::{Mode, classify};
 use super::model::SpectralModel;
 use super::projection::Projection;
 use super::vectors::{Eigenpair, complex};
 use super::work::WorkCounters;
 use crate::model::system::GyroscopicSystem;
-use crate::model::tuned::Tuned;
+use crate::model::tuning::Tuned;
 
 /// Modes up to this multiple of the window are included, because some of them enter it between two speeds.
 pub(super) const SPAN_MARGIN: Tuned = Tuned::new("spectrum/interval::SPAN_MARGIN", 1.5);

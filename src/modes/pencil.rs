@@ -11,8 +11,8 @@
 
 use faer::{Col, Mat, MatRef, Scale};
 
-use super::generalized::singular_multiples;
-use super::structured::{self, StructuredStiffness};
+use super::structured_stiffness::{self, StructuredStiffness};
+use super::symmetric_pencil::singular_multiples;
 use super::vectors::independent;
 use super::work::Cancellation;
 use crate::model::system::{GyroscopicSystem, symmetric};
@@ -188,7 +188,7 @@ impl Span {
         let shares = span.transpose() * &new;
         new -= span * shares;
         let structure = Some(&pencil.structure.full);
-        let product = structured::times(pencil.system, structure, new.as_ref());
+        let product = structured_stiffness::times(pencil.system, structure, new.as_ref());
         let stiffened = product.stiffness;
         let softened = match pencil.softening {
             Softening::Rotation => Scale(-1.0) * product.spin,

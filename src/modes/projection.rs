@@ -6,7 +6,7 @@ use crate::model::system::GyroscopicSystem;
 
 use super::full_model::FullModel;
 use super::residual::Lifted;
-use super::structured;
+use super::structured_stiffness;
 use super::vectors::{Eigenpair, halves, joined, split};
 
 /// A component projected on few orthonormal vectors.
@@ -23,7 +23,7 @@ pub struct Projection {
 impl Projection {
     /// Projects a component on orthonormal vectors, in less time if its structure is known.
     pub fn new(system: &GyroscopicSystem, structure: Option<&FullModel>, basis: Mat<f64>) -> Self {
-        let products = structured::times(system, structure, basis.as_ref());
+        let products = structured_stiffness::times(system, structure, basis.as_ref());
         let reduced = products.onto(basis.as_ref());
         Projection {
             basis,

@@ -17,9 +17,9 @@
 
 use faer::{Mat, Side};
 
-use super::assembled::SpeedLimit;
+use super::assembled_plate::SpeedLimit;
 use super::error::SpectrumError;
-use super::generalized::singular_multiples;
+use super::symmetric_pencil::singular_multiples;
 use crate::model::linalg::symmetric_eigenvalues;
 use crate::model::plate::{HarmonicBlock, Plate};
 

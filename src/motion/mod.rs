@@ -1,8 +1,8 @@
 //! Motion in time, and states of large deflection.
 //!
-//! [`stretched`] contains the blade whose deflection stretches its middle plane: equilibria over the speed, and the amplitude
+//! [`stretched_blade`] contains the blade whose deflection stretches its middle plane: equilibria over the speed, and the amplitude
 //! at which flutter stops to grow. [`transient`] integrates the equation of motion in time, with the forces that depend on the
 //! deflection.
 
-pub mod stretched;
+pub mod stretched_blade;
 pub mod transient;

@@ -11,7 +11,7 @@ use super::ladder::{DENSE_LADDER, LADDER, ahead, resolution, rung_of, sized};
 use super::reach::{PAST_THE_RANGE, Reach};
 use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::Scene;
-use crate::model::tuned::Tuned;
+use crate::model::tuning::Tuned;
 use crate::modes::{Assembled, Cancellation, LargerBasis, NamedCriticalSpeed, RestingMode, Work};
 
 /// Factor for the estimated errors, because the larger basis has an error too. On 120 random saws, 60 of

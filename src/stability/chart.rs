@@ -2,7 +2,7 @@
 
 use super::band::Instability;
 use super::certificate::Certificate;
-use super::certified::{GROWTH_FLOOR, contradictions};
+use super::certification::{GROWTH_FLOOR, contradictions};
 use super::damped;
 use super::error::AnalysisError;
 use super::options::AnalysisOptions;

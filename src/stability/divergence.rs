@@ -3,8 +3,8 @@
 use super::band::{Instability, InstabilityKind};
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SignatureEvaluator};
 use super::flutter::VICINITY;
-use super::found::Found;
 use super::maximum::{Sample, maximize};
+use super::search_result::Found;
 use super::signature::Signature;
 use crate::modes::{SpectralModel, SpectrumError, smallest};
 

@@ -10,7 +10,7 @@ use faer::c64;
 use super::certificate::Certificate;
 use super::partition::{BESIDES, Sample};
 use super::signature::{Signature, SignedMode};
-use crate::model::tuned::Tuned;
+use crate::model::tuning::Tuned;
 use crate::modes::{
     DoubleEigenvalue, Mode, ModeKind, SearchModel, SpectralModel, SpectrumError, krein_index,
     smallest,

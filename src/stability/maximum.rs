@@ -1,7 +1,7 @@
 //! Maximum of a smooth function of the speed: the largest growth of a band.
 
 use super::interpolation::Cubic;
-use crate::model::tuned::Tuned;
+use crate::model::tuning::Tuned;
 use crate::modes::SpectrumError;
 
 /// A value of the function with its slope.

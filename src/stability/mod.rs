@@ -9,8 +9,9 @@
 mod analysis;
 mod band;
 mod basis;
+mod basis_limit;
 mod certificate;
-mod certified;
+mod certification;
 mod chart;
 mod damped;
 mod detail;
@@ -19,16 +20,15 @@ mod error;
 mod estimate;
 mod evaluator;
 mod excitation;
-mod expected;
+mod expected_work;
 mod flutter;
-mod found;
 mod group;
-mod growing;
+mod growing_modes;
 mod heat;
 mod hidden_growth;
 mod interpolation;
 mod ladder;
-mod listed;
+mod listed_pair;
 mod loci;
 #[cfg(test)]
 mod material_damping_tests;
@@ -36,7 +36,6 @@ mod maximum;
 mod mode_counts;
 mod onsets;
 mod options;
-mod out_of_reach;
 mod partition;
 mod pieces;
 mod proof;
@@ -44,6 +43,7 @@ mod quadruples;
 mod reach;
 mod room;
 mod root;
+mod search_result;
 mod sensitivity;
 mod signature;
 #[cfg(test)]
@@ -57,6 +57,7 @@ pub(crate) use band::CurvePoint;
 pub use band::{Instability, InstabilityKind};
 pub use basis::ChosenBasis;
 pub(crate) use basis::{end_of_sweep, resolved};
+pub use basis_limit::OutOfReach;
 pub use certificate::{Certificate, ContradictedBands};
 pub use chart::StabilityChart;
 #[doc(hidden)]
@@ -67,8 +68,8 @@ pub use estimate::Estimates;
 pub use excitation::Crossing;
 #[doc(hidden)]
 pub use excitation::crossings;
-pub use expected::ExpectedWork;
-pub(crate) use growing::GrowingModes;
+pub use expected_work::ExpectedWork;
+pub(crate) use growing_modes::GrowingModes;
 pub use heat::{HeatCurve, HeatLimit, HeatLimits};
 pub(crate) use ladder::{DENSE_LADDER, LADDER, ahead, diameters_beyond, resolution};
 pub use mode_counts::MiscountedModes;
@@ -76,7 +77,6 @@ pub use onsets::Onsets;
 #[doc(hidden)]
 pub use onsets::search_bands;
 pub use options::{AnalysisOptions, Interim};
-pub use out_of_reach::OutOfReach;
 #[doc(hidden)]
 pub use partition::{Plane, Sample};
 #[doc(hidden)]

@@ -2,7 +2,7 @@
 
 use super::band::Instability;
 use super::detail::Detail;
-use super::expected::ExpectedWork;
+use super::expected_work::ExpectedWork;
 use super::ladder::{LADDER, resolution};
 use crate::model::plate::Resolution;
 use crate::modes::NamedCriticalSpeed;

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::{Analysis, AnalysisError, Instability};
 use crate::model::scene::{Accuracy, Scene, rpm};
-use crate::model::tuned::trial;
+use crate::model::tuning::trial;
 
 /// Compared results for a saw.
 struct Answer {

@@ -2,7 +2,7 @@
 
 use super::band::Instability;
 use super::certificate::Certificate;
-use super::certified::{Depth, bands, contradictions};
+use super::certification::{Depth, bands, contradictions};
 use super::detail::Detail;
 use super::error::AnalysisError;
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP};

@@ -13,7 +13,7 @@ use super::root_loci;
 use super::{BranchCurve, Report, RootLoci};
 use crate::model::scene::{Accuracy, SceneFile, SweepFile, rpm};
 use crate::page::figure::layout;
-use crate::page::figure::tidy::assert_tidy;
+use crate::page::figure::tidiness::assert_tidy;
 use crate::stability::Analysis;
 
 const PEAK: f64 = 1.02;

@@ -154,7 +154,7 @@ mod tests {
     use crate::analyses::campbell::sample::empty_report;
     use crate::analyses::campbell::{CriticalCurve, OperatingPoint, ToleratedRise};
     use crate::page::figure::layout::sheet;
-    use crate::page::figure::tidy::{assert_tidy, texts};
+    use crate::page::figure::tidiness::{assert_tidy, texts};
 
     /// The critical speeds of this blade fall linearly up to 40 K, and it buckles at 52 K.
     fn report(rise_k: f64) -> Report {

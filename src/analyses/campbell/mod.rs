@@ -4,13 +4,14 @@
 //! speeds in rpm, frequencies in Hz and growth rates in 1/s. The contents of a report are computed before it is made;
 //! only [`Whirl`], [`EventShape`] and [`Sensitivity`] are computed on request and added.
 
+mod amplitudes;
 mod analysis;
 pub(crate) mod band_item;
 mod branches;
-mod build;
 mod certificate;
 mod chart;
 mod colours;
+mod construction;
 mod csv;
 pub(crate) mod diagram;
 #[cfg(test)]
@@ -33,12 +34,12 @@ mod remarks;
 pub(crate) mod root_loci;
 #[cfg(test)]
 pub(crate) mod sample;
-mod saturated;
 pub(crate) mod sensitivity_chart;
 mod speeds;
 mod verdict;
 mod vtu;
 
+pub(crate) use self::amplitudes::add_amplitudes;
 pub use self::analysis::{BasisAccuracy, Report, SolveCounts};
 pub(crate) use self::branches::Numbered;
 pub use self::certificate::BandCertificate;
@@ -60,7 +61,6 @@ pub(crate) use self::outline::outline;
 #[cfg(feature = "page")]
 pub(crate) use self::outline::{answer, headline};
 pub(crate) use self::remarks::{lifting_off, side_force_in_words};
-pub(crate) use self::saturated::add_amplitudes;
 pub use self::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
 pub use self::verdict::Verdict;
 pub use self::vtu::VTK_NAMES;

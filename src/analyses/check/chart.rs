@@ -217,7 +217,7 @@ mod tests {
     use crate::analyses::check::{Limits, check};
     use crate::model::scene::{Accuracy, Scene, SweepFile, rad_per_s};
     use crate::page::figure::layout::sheet;
-    use crate::page::figure::tidy::{assert_tidy, texts};
+    use crate::page::figure::tidiness::{assert_tidy, texts};
 
     #[test]
     fn limits_that_are_kept_and_limits_that_are_broken_are_distinguished() {

@@ -5,7 +5,7 @@ use super::report::Criterion;
 use super::static_deflection::StaticDeflection;
 use crate::model::plate::Plate;
 use crate::model::scene::{Scene, rpm};
-use crate::motion::stretched::Rise;
+use crate::motion::stretched_blade::Rise;
 use crate::motion::transient::at_point;
 use crate::page::text::{shown, shown_to};
 use crate::stability::{Analysis, Evidence, Instability, InstabilityKind, flutter_onsets};

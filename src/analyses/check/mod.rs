@@ -28,8 +28,8 @@ use crate::analyses::campbell::{
 use crate::analyses::deflect::compliance_m_per_n;
 use crate::model::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::modes::SpectrumError;
-use crate::motion::stretched::StretchedError;
-use crate::motion::stretched::{Rise, saturations};
+use crate::motion::stretched_blade::StretchedError;
+use crate::motion::stretched_blade::{Rise, saturations};
 use crate::stability::{Analysis, AnalysisError};
 pub(crate) use outline::outline;
 

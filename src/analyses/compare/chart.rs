@@ -190,7 +190,7 @@ mod tests {
     use crate::analyses::campbell::sample;
     use crate::analyses::compare::{Saw, compare};
     use crate::page::figure::layout;
-    use crate::page::figure::tidy::{assert_tidy, texts};
+    use crate::page::figure::tidiness::{assert_tidy, texts};
 
     #[test]
     fn every_saw_has_its_row_and_nothing_is_cut_off() {

@@ -7,7 +7,7 @@ use crate::model::scene::{Accuracy, Scene, SceneFile};
 use crate::page::figure::canvas::{Mark, Sheet};
 use crate::page::figure::layout;
 use crate::page::figure::style::BLANK;
-use crate::page::figure::tidy::{assert_tidy, texts};
+use crate::page::figure::tidiness::{assert_tidy, texts};
 
 /// The committed report of a saw with a spline, as many times as there are factors of its deflections.
 fn cut_report(factors: &[f64]) -> CutReport {

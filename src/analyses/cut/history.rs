@@ -16,7 +16,7 @@ use super::record::{
     Growth, MAX_SAMPLES, Record, SAMPLE_S, fastest_mode_rad_per_s, longest_step_s,
 };
 use super::saw::{MODES, SawInCut};
-use super::stretched::{CutStretching, stretched_cut};
+use super::stretching::{CutStretching, stretched_cut};
 
 /// One speed of a cut: eigenvalues and time history.
 #[derive(Debug)]

@@ -26,7 +26,7 @@ mod record;
 mod report;
 mod saw;
 mod spline;
-mod stretched;
+mod stretching;
 #[cfg(test)]
 mod tests;
 mod tooth_passing;
@@ -50,7 +50,7 @@ pub use certificate::CutCertificate;
 pub use criteria::{CutCriterion, CutFinding, CutVerdict};
 pub use report::{ByPower, CutAtSpeed, CutReport};
 pub use spline::SplineOrbit;
-pub use stretched::CutStretching;
+pub use stretching::CutStretching;
 pub use tooth_passing::ToothPassing;
 pub use verdict_map::VerdictMap;
 

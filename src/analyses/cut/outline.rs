@@ -2,7 +2,7 @@
 
 use super::{CutAtSpeed, CutCriterion, CutReport, CutVerdict};
 use crate::analyses::campbell::Verdict;
-use crate::motion::stretched::LARGEST_SLOPE;
+use crate::motion::stretched_blade::LARGEST_SLOPE;
 use crate::motion::transient::LINEAR_THICKNESSES;
 use crate::page::outline::{Column, FREQUENCY, Fact, GROWTH, LENGTH, Outline, Table, Value};
 use crate::page::text::shown_to;

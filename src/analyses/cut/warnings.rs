@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{CutAtSpeed, CutCriterion, CutVerdict};
 use crate::analyses::campbell::Verdict;
-use crate::motion::stretched::LARGEST_SLOPE;
+use crate::motion::stretched_blade::LARGEST_SLOPE;
 use crate::motion::transient::LINEAR_THICKNESSES;
 
 /// Beyond this many thicknesses a plate stretches as it bends and is stiffer than the linear model.

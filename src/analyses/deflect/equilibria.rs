@@ -7,7 +7,7 @@ use super::{DeflectError, Options};
 use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::{Scene, SideForce, rad_per_s};
 use crate::modes::{Cancellation, Work};
-use crate::motion::stretched::{
+use crate::motion::stretched_blade::{
     Branch, Equilibrium, Extent, LARGEST_SLOPE, StretchedBlade, StretchedError, Sweep,
 };
 use crate::stability::Analysis;

@@ -1,7 +1,7 @@
 //! Equilibria of a blade that stretches while its speed slowly rises and falls, under a side force.
 //!
 //! The linear model gives the speeds at which the flat blade is unstable, but not the deflection that
-//! results. With the potential of [`stretched`](crate::motion::stretched) the blade deflects to one side and has an
+//! results. With the potential of [`stretched_blade`](crate::motion::stretched_blade) the blade deflects to one side and has an
 //! equilibrium there. [`deflect`] follows the stable equilibria for rising and falling speed, including jumps
 //! from one to another, and computes the unstable ones between them and the frequencies of small motions
 //! about each.
@@ -34,7 +34,7 @@ pub use pressed::Options;
 pub use report::{Arc, DeflectReport, EquilibriumCurve, Jump, SlowSweep, Turn};
 
 use crate::model::scene::{RefusedValue, Scene, SceneError};
-use crate::motion::stretched::StretchedError;
+use crate::motion::stretched_blade::StretchedError;
 use crate::stability::AnalysisError;
 
 use equilibria::Equilibria;

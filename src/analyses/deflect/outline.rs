@@ -2,7 +2,7 @@
 
 use super::{Arc, DeflectReport, Jump, SlowSweep};
 use crate::model::scene::ContactLaw;
-use crate::motion::stretched::{LARGEST_SLOPE, TurnKind};
+use crate::motion::stretched_blade::{LARGEST_SLOPE, TurnKind};
 use crate::page::outline::{Column, FREQUENCY, LENGTH, Outline, SPEED, Table, Value};
 use crate::page::text::shown_to;
 

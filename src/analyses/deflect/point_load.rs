@@ -47,7 +47,7 @@ mod tests {
 
     use super::*;
     use crate::model::plate::Resolution;
-    use crate::motion::stretched::basis_tests::saws;
+    use crate::motion::stretched_blade::basis_tests::saws;
 
     const fn basis(max_diameters: usize, radial_functions: usize) -> Resolution {
         Resolution {

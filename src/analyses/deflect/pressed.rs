@@ -2,7 +2,7 @@
 
 use crate::model::plate::Plate;
 use crate::model::scene::{RefusedValue, SideForce, speed_rad_per_s};
-use crate::motion::stretched::{LARGEST_SLOPE, StretchedBlade, StretchedError};
+use crate::motion::stretched_blade::{LARGEST_SLOPE, StretchedBlade, StretchedError};
 use crate::page::text::{rounded_down, shown_to};
 
 /// Options of the computation of equilibria.

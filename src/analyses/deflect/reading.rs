@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::report::{Arc, EquilibriumCurve, Jump, SlowSweep, Turn};
 use crate::model::scene::{Point, rpm};
-use crate::motion::stretched::{
+use crate::motion::stretched_blade::{
     Branch, Equilibrium, LARGEST_SLOPE, Sites, StretchedBlade, StretchedError, Sweep,
 };
 

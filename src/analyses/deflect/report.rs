@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::analyses::campbell::{CampbellDiagram, CriticalSpeed, InstabilityBand};
 use crate::model::scene::SceneFile;
-use crate::motion::stretched::TurnKind;
+use crate::motion::stretched_blade::TurnKind;
 
 /// Report of the equilibria over speed (`deflect.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -7,7 +7,7 @@ use super::pressed::under;
 use super::*;
 use crate::model::plate::Plate;
 use crate::model::scene::{Accuracy, SideForceFile, rad_per_s};
-use crate::motion::stretched::Equilibrium;
+use crate::motion::stretched_blade::Equilibrium;
 use crate::stability::ChosenBasis;
 
 /// The paper's saw under a side force.

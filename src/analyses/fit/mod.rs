@@ -23,15 +23,15 @@
 //! ```
 
 pub(crate) mod chart;
-mod compared;
+mod comparison;
 mod error;
+mod least_squares;
 mod matching;
 mod measurement;
 mod model;
 mod options;
 mod outline;
 mod report;
-mod solve;
 mod starts;
 mod table;
 
@@ -44,13 +44,13 @@ use crate::modes::branches::{Progress, even_speeds};
 use crate::stability::ChosenBasis;
 pub(crate) use outline::outline;
 
-use compared::Compared;
+use comparison::Compared;
 pub use error::FitError;
+use least_squares::{Found, at_bound, statistics};
 pub use measurement::{Columns, Measurement, Row};
 use model::Model;
 pub use options::Options;
 pub use report::{Curves, FitReport, FittedParameter, Residual, Start};
-use solve::{Found, at_bound, statistics};
 use starts::{refined, search};
 
 /// Shares at which the effect of a number is examined.

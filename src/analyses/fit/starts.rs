@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use super::least_squares::{Found, minimum};
 use super::model::Model;
-use super::solve::{Found, minimum};
 use super::{Options, Start};
 use crate::model::scene::spread;
 use crate::modes::SpectrumError;

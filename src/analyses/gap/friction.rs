@@ -11,7 +11,7 @@ use crate::model::scene::{
     FrictionFile, Guide, Scene, TemperatureFile, TemperatureRow, rad_per_s, typical_value,
 };
 use crate::modes::{SpectrumError, Work};
-use crate::motion::stretched::StretchedError;
+use crate::motion::stretched_blade::StretchedError;
 use crate::page::text::shown_to;
 use crate::stability::Analysis;
 

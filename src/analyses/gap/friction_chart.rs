@@ -165,7 +165,7 @@ fn describe(pad: &FrictionPad, force_n: f64) -> String {
 mod tests {
     use super::*;
     use crate::page::figure::layout::sheet;
-    use crate::page::figure::tidy::{assert_tidy, texts};
+    use crate::page::figure::tidiness::{assert_tidy, texts};
 
     #[test]
     fn every_pad_is_named_and_no_label_lies_on_another() {

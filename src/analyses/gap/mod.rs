@@ -6,7 +6,7 @@
 //! * [`AtAmplitude`]: critical speeds, bands and flutter speed with the stiffness that the guides have on average
 //!   over an oscillation of a given amplitude.
 //! * [`DeviationMap`]: the stationary deflection at the cut, and the forces of the pads, over gap, side force and speed,
-//!   from the equilibria of [`stretched`](crate::motion::stretched).
+//!   from the equilibria of [`stretched_blade`](crate::motion::stretched_blade).
 //! * [`Oscillation`], only if something makes the blade oscillate: its periodic motion, at a speed and over the speed.
 //! * [`FrictionHeat`], only for a scene with `friction`: the heat of the pads, and the blade that it deforms.
 //!
@@ -55,7 +55,7 @@ use crate::model::scene::{
     Blade, Bore, Guide, GuideSide, RefusedValue, Scene, SceneError, rad_per_s, rpm, speed_rad_per_s,
 };
 use crate::modes::SpectrumError;
-use crate::motion::stretched::{LARGEST_SLOPE, StretchedError};
+use crate::motion::stretched_blade::{LARGEST_SLOPE, StretchedError};
 use crate::page::text::shown_to;
 use crate::stability::{Analysis, AnalysisError};
 

@@ -9,7 +9,7 @@ use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::{Scene, rpm};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::Cancellation;
-use crate::motion::stretched::{Sites, StretchedBlade};
+use crate::motion::stretched_blade::{Sites, StretchedBlade};
 use crate::motion::transient::reduced_system;
 
 use super::GapError;

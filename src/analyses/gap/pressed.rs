@@ -3,7 +3,7 @@
 use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::{Scene, rad_per_s};
 use crate::modes::Cancellation;
-use crate::motion::stretched::{Equilibrium, LARGEST_SLOPE, Sites, StretchedBlade};
+use crate::motion::stretched_blade::{Equilibrium, LARGEST_SLOPE, Sites, StretchedBlade};
 
 use super::GapError;
 

@@ -246,7 +246,7 @@ mod tests {
     use crate::analyses::place::{FragileOptimum, Neighbour, Outcome, PlaceCertificate};
     use crate::model::scene::Scene;
     use crate::page::figure::layout::sheet;
-    use crate::page::figure::tidy::{assert_tidy, texts};
+    use crate::page::figure::tidiness::{assert_tidy, texts};
 
     fn report(y_path: Option<&str>) -> PlaceReport {
         let outcome = Outcome {

@@ -26,16 +26,16 @@
 //! ```
 
 pub(crate) mod chart;
-mod computed;
+mod choice;
 mod demands;
 mod error;
 mod map;
 mod neighbours;
+mod outcome;
 mod outline;
 mod report;
-mod robust;
 mod search;
-mod settle;
+mod worst_case;
 
 pub(crate) use outline::outline;
 use std::convert::Infallible;
@@ -48,16 +48,16 @@ use crate::model::scene::{Freed, Scene, SceneError, effective, rpm};
 use crate::modes::Cancellation;
 use crate::stability::ChosenBasis;
 
-use computed::{Computed, Question, REFUSED};
+use choice::{Choice, Weighed, basis_of_all, settle};
 pub use demands::{Demands, GapDemands, Options, Tolerances};
 pub use error::PlaceError;
 use neighbours::Neighbours;
+use outcome::{Computed, Question, REFUSED};
 pub use report::{
     FragileOptimum, Goal, GoalMap, Neighbour, Outcome, PlaceCertificate, PlaceReport,
     PlacedParameter,
 };
 use search::{Search, Tried};
-use settle::{Choice, Weighed, basis_of_all, settle};
 
 /// Progress callback: name of the step, number of its finished saws, number of all its saws.
 pub type Progress<'a> = &'a (dyn Fn(&'static str, usize, usize) + Sync);

@@ -6,9 +6,9 @@ use crate::model::scene::rpm;
 use crate::stability::{Instability, InstabilityKind};
 
 use super::Neighbour;
-use super::computed::{Computed, REFUSED};
-use super::robust::directions;
+use super::outcome::{Computed, REFUSED};
 use super::search::Search;
+use super::worst_case::directions;
 
 /// The neighbours of a saw and the worst of them.
 #[derive(Debug, Clone)]

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use crate::model::scene::{Freed, SceneFile, scene_at, spread};
 
-use super::computed::{Computed, Question, REFUSED};
+use super::outcome::{Computed, Question, REFUSED};
 
 /// The result of a saw, or the reason why it could not be computed (`None` if there is no such saw).
 type Known = Result<Computed, Option<String>>;

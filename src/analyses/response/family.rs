@@ -7,7 +7,7 @@ use faer::linalg::solvers::{Llt, Solve};
 use faer::{Col, Mat, Scale, Side, c64};
 use rayon::prelude::*;
 
-use super::reduced::{Reduced, State};
+use super::reduced_model::{Reduced, State};
 use crate::model::linalg::complex_eigenvalues;
 use crate::model::system::{GyroscopicSystem, dynamic_stiffness};
 use crate::modes::{Cancellation, SpectrumError};

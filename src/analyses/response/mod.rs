@@ -16,7 +16,7 @@ mod load;
 mod options;
 mod outline;
 mod points;
-mod reduced;
+mod reduced_model;
 mod report;
 mod solver;
 mod speeds;
@@ -28,7 +28,7 @@ pub(crate) use family::solution;
 pub(crate) use load::{Load, loads};
 pub use options::Options;
 pub(crate) use outline::outline;
-pub(crate) use reduced::State;
+pub(crate) use reduced_model::State;
 pub use report::{
     Cause, FrequencyResponse, OperatingResponse, Resonance, ResponseLine, ResponseReport,
     SteadyState,

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use faer::{Col, c64};
 
 use super::family::Family;
-use super::reduced::State;
+use super::reduced_model::State;
 use super::report::FrequencyResponse;
 use super::solver::{Motion, Solver};
 use crate::model::plate::Plate;

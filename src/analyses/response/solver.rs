@@ -6,7 +6,7 @@ use faer::{Col, c64};
 
 use super::family::Family;
 use super::load::Load;
-use super::reduced::State;
+use super::reduced_model::State;
 use super::report::{Cause, Resonance, ResponseLine, SteadyState};
 use crate::model::plate::Plate;
 use crate::model::scene::{Scene, rpm};

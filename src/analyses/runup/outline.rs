@@ -1,7 +1,7 @@
 //! The text of a run-up.
 
 use super::RunUpReport;
-use crate::motion::stretched::LARGEST_SLOPE;
+use crate::motion::stretched_blade::LARGEST_SLOPE;
 use crate::motion::transient::LINEAR_THICKNESSES;
 use crate::page::outline::{Column, Fact, LENGTH, Outline, PLAIN, SPEED, TIME, Table, Value};
 

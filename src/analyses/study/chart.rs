@@ -216,7 +216,7 @@ mod tests {
     use crate::analyses::study::{Found, Outcome, Saw, Study, StudyFile};
     use crate::model::scene::Scene;
     use crate::page::figure::layout::sheet;
-    use crate::page::figure::tidy::{assert_tidy, texts};
+    use crate::page::figure::tidiness::{assert_tidy, texts};
 
     /// Synthetic saws whose flutter speed follows from the critical speed, with the limits of the sample
     /// study.

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::csv::{columns, record, saw};
-use super::finished::Finished;
+use super::finished_saws::Finished;
 use super::inputs::Inputs;
 use super::plan::{Shard, Study};
 use super::saw::Saw;

@@ -27,7 +27,7 @@ mod counts;
 mod csv;
 mod distribution;
 mod file;
-mod finished;
+mod finished_saws;
 mod inputs;
 mod log;
 mod order;

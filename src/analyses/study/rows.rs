@@ -6,7 +6,7 @@ use std::io::{Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::finished::{BLOCK, Finished};
+use super::finished_saws::{BLOCK, Finished};
 use super::log::{Line, Log, LogError, io, read, row};
 use super::plan::Study;
 use super::saw::Saw;

@@ -139,7 +139,7 @@ fn of_method(method: Method, settings: &[Setting]) -> Vec<Item> {
 mod tests {
     use super::*;
     use crate::page::figure::layout::sheet;
-    use crate::page::figure::tidy::{assert_tidy, texts};
+    use crate::page::figure::tidiness::{assert_tidy, texts};
 
     /// Eight sizes of the basis, for a diagram and for critical speeds, and two diagrams on the full model.
     #[test]

@@ -7,7 +7,7 @@ use faer::{Mat, Scale};
 use nalgebra::DMatrix;
 
 use super::WashboardError;
-use super::delayed::DelayedSaw;
+use super::delayed_saw::DelayedSaw;
 use crate::model::linalg::{SymmetricEigen, symmetric_eigenvalues};
 use crate::model::plate::{Contact, ContactTerms, Plate, Resolution};
 use crate::model::scene::{Cut, CutRun, Scene, SpeedRange, Washboarding, rpm};

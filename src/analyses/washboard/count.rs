@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use crate::modes::turn_along;
 
-use super::delayed::{Boundary, DelayedSaw};
+use super::delayed_saw::{Boundary, DelayedSaw};
 
 /// Eigenvalues of the loop gain along the imaginary axis.
 #[derive(Debug)]

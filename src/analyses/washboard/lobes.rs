@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::WashboardError;
 use super::count::LoopGains;
-use super::delayed::{Boundary, DelayedSaw};
+use super::delayed_saw::{Boundary, DelayedSaw};
 use super::report::Lobes;
 use crate::model::scene::rpm;
 use crate::modes::Cancellation;

@@ -21,7 +21,7 @@ mod basis;
 pub(crate) mod chart;
 mod count;
 mod delay;
-mod delayed;
+mod delayed_saw;
 mod lobes;
 mod modes;
 mod outline;

@@ -6,7 +6,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, c64};
 
 use super::basis::Motions;
-use super::delayed::DelayedSaw;
+use super::delayed_saw::DelayedSaw;
 use super::report::WashboardMode;
 use super::roots::{Root, roots_with_all_growing};
 use crate::model::scene::{CutRun, Washboarding};

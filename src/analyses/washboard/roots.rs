@@ -6,7 +6,7 @@
 
 use faer::c64;
 
-use super::delayed::DelayedSaw;
+use super::delayed_saw::DelayedSaw;
 
 /// An eigenvalue with the delayed force, Im λ ≥ 0.
 #[derive(Debug, Clone, Copy, PartialEq)]

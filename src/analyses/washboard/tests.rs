@@ -6,7 +6,7 @@ use faer::{Mat, c64};
 use nalgebra::DMatrix;
 
 use super::count::LoopGains;
-use super::delayed::DelayedSaw;
+use super::delayed_saw::DelayedSaw;
 use super::modes::Pattern;
 use super::roots::{right_of_axis, roots_with_all_growing};
 use crate::model::analytical::regenerative::OneMode;

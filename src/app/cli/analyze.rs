@@ -9,13 +9,13 @@ use crate::stability::{Analysis, AnalysisOptions, ExpectedWork};
 use anyhow::Context;
 use clap::Args;
 
+use super::batch;
 use super::common::{Changes, Output, number, read_scene};
 use super::output::NamedFile;
 use super::output::OutputFolder;
 use super::page::Page;
 use super::pictures;
 use super::progress::watched_with_remarks;
-use super::several;
 
 pub const EXAMPLES: &str = "\
 Examples:
@@ -136,7 +136,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
                     .map(|scene| scene.map(Ok))
                     .collect::<anyhow::Result<_>>()?
             };
-            several::run(&arguments.output, paths, scenes, |scene, folder| {
+            batch::run(&arguments.output, paths, scenes, |scene, folder| {
                 into_folder(arguments, scene, folder)
             })
         }
@@ -169,7 +169,7 @@ fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
     let (files, json) = files(arguments, &report)?;
     arguments.page.write(&report)?;
     // A table of several scenes in this folder is from an earlier run and is removed.
-    let optional = [&optional_names()[..], &several::FILES].concat();
+    let optional = [&optional_names()[..], &batch::FILES].concat();
     let words = || arguments.output.words(&report);
     arguments
         .output

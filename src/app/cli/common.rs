@@ -12,9 +12,9 @@ use anyhow::Context;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
+use super::colour::Paint;
 use super::output::{NamedFile, OutputFolder, Writing};
 use super::page::Page;
-use super::paint::Paint;
 use super::pictures::drawn;
 
 /// The scene of a command, and changes of it.

@@ -1,13 +1,13 @@
 //! `sawflutter cut`.
 
 use crate::analyses::cut::cut;
-use crate::model::scene::{Scene, typical};
+use crate::model::scene::{Scene, typical_block};
 use clap::Args;
 
-use super::assumed::{Block, Given};
+use super::assumption::{Block, Given};
+use super::block_text::pasted;
 use super::common::{Common, number};
 use super::page::Page;
-use super::paste::pasted;
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
@@ -94,7 +94,7 @@ impl Forces {
         let block = Block {
             name: "cut",
             is_missing: scene.file().cut.is_none(),
-            usual: typical::cut,
+            usual: typical_block::cut,
             given: &given,
             wins: &[
                 ("tangential_n_per_tooth", "power_w"),

@@ -7,8 +7,8 @@ use crate::model::scene::{Freed, Scene};
 use crate::page::text::{Kind, OtherEncodings};
 use clap::Args;
 
+use super::bounds::named_bounds;
 use super::common::{Common, count, number, of_option, read_text, refused};
-use super::free::named_bounds;
 use super::page::Page;
 use super::progress::watched;
 

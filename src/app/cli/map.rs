@@ -5,8 +5,8 @@ use crate::analyses::study::{Log, Rows, Shard, StudyError};
 use anyhow::Context;
 use clap::Args;
 
+use super::bounds::range;
 use super::common::{Changes, Output, number, of_option, read_scene};
-use super::free::range;
 use super::page::Page;
 use super::study::{compute, print_part, shard};
 use super::{common, scheduler};

@@ -1,8 +1,12 @@
 //! The command line: arguments become calls of the library, and their results files and text.
 
 mod analyze;
-mod assumed;
+mod assumption;
+mod batch;
+mod block_text;
+mod bounds;
 mod check;
+mod colour;
 mod common;
 mod compare;
 mod cut;
@@ -11,14 +15,11 @@ mod deflect;
 mod explore;
 mod export;
 mod fit;
-mod free;
 mod gap;
 mod keys;
 mod map;
 mod output;
 mod page;
-mod paint;
-mod paste;
 mod pictures;
 mod place;
 mod progress;
@@ -26,7 +27,6 @@ mod response;
 mod runup;
 mod scheduler;
 mod schema;
-mod several;
 mod study;
 mod tradeoff;
 mod washboard;

@@ -4,8 +4,8 @@ use crate::analyses::place::{Demands, GapDemands, Options, Tolerances, place};
 use crate::model::scene::{Freed, RefusedValue, Scene};
 use clap::{Args, ValueEnum};
 
+use super::bounds::named_bounds;
 use super::common::{Common, count, number, of_option, with_shorthands};
-use super::free::named_bounds;
 use super::page::Page;
 use super::progress::watched;
 

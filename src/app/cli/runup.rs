@@ -1,13 +1,13 @@
 //! `sawflutter runup`.
 
 use crate::analyses::runup::runup;
-use crate::model::scene::{Scene, typical};
+use crate::model::scene::{Scene, typical_block};
 use clap::Args;
 
-use super::assumed::{Block, Given};
+use super::assumption::{Block, Given};
+use super::block_text::pasted;
 use super::common::Common;
 use super::page::Page;
-use super::paste::pasted;
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\
@@ -68,7 +68,7 @@ impl Course {
         let block = Block {
             name: "runup",
             is_missing: scene.file().runup.is_none(),
-            usual: typical::runup,
+            usual: typical_block::runup,
             given: &given,
             wins: &[],
         };

@@ -3,9 +3,9 @@
 use crate::analyses::washboard::washboard;
 use clap::Args;
 
+use super::block_text::pasted;
 use super::common::{Common, number};
 use super::page::Page;
-use super::paste::pasted;
 use super::progress::watched;
 
 pub const EXAMPLES: &str = "\

@@ -5,13 +5,13 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use serde::Serialize;
 
-use super::ahead::Ahead;
+use super::answer::Told;
+use super::early_answer::Ahead;
 use super::influence::{Influence, influences};
 use super::meter::Clock;
+use super::progress::UnderWay;
 use super::refusal::Refusal;
 use super::reply::SavedFile;
-use super::told::Told;
-use super::under_way::UnderWay;
 use crate::analyses::campbell::{Report, Sensitivity};
 use crate::model::plate::Resolution;
 use crate::model::scene::{Accuracy, Scene, SceneError};

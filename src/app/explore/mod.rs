@@ -4,35 +4,35 @@
 //! request and computes nothing: all that it shows, and every file that it saves, comes from the same
 //! functions as on the command line.
 
-mod ahead;
+mod answer;
 mod backend;
 mod charts;
+mod early_answer;
 mod examples;
 mod fields;
 #[cfg(feature = "explore")]
 mod guard;
 mod influence;
+mod initial_part;
 #[cfg(feature = "explore")]
 mod job;
 mod meter;
 mod mode;
 mod needs;
 #[cfg(feature = "explore")]
-mod opened;
+mod opened_file;
 #[cfg(feature = "explore")]
 mod page;
 #[cfg(feature = "explore")]
 mod pages;
 mod parts;
+mod progress;
 mod refusal;
 mod reply;
 #[cfg(feature = "explore")]
 mod server;
 mod task;
-mod told;
 mod tolerances;
-mod under_way;
-mod usual;
 mod wording;
 
 pub use backend::{Answer, Backend, Question};

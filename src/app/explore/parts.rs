@@ -2,13 +2,16 @@
 
 use serde::Deserialize;
 
+use super::initial_part::{
+    SPLINE, between, guide, inner, mount, next_row, rim, side_force, usual_teeth,
+};
 use super::refusal::Refusal;
-use super::usual::{SPLINE, between, guide, inner, mount, next_row, rim, side_force, usual_teeth};
-use crate::model::scene::typical::rounded;
+use crate::model::scene::typical_block::rounded;
 use crate::model::scene::{
     CutFile, CutSpeedFile, DampingFile, ExcitationFile, FrictionFile, ModeRatioRow, ProbeFile,
     ResidualStressRow, ResponseFile, RimFile, RollBandFile, Scene, SceneFile, StraightEdgeFile,
-    SweepFile, TemperatureFile, TemperatureRow, ThicknessRow, WoodFile, typical, typical_value,
+    SweepFile, TemperatureFile, TemperatureRow, ThicknessRow, WoodFile, typical_block,
+    typical_value,
 };
 
 /// A request for a part.
@@ -60,12 +63,12 @@ fn add(scene: &mut SceneFile, path: &str, kind: &str) -> Option<()> {
         "sweep" => {
             scene.sweep = Some(SweepFile {
                 from_rpm: 0.0,
-                to_rpm: rounded(2.0 * typical::operating_rpm(scene), 2),
+                to_rpm: rounded(2.0 * typical_block::operating_rpm(scene), 2),
             });
         }
         "side_force" => scene.side_force = Some(side_force(scene)),
         "runup" => {
-            scene.runup = serde_json::from_value(typical::runup(scene)).ok()?;
+            scene.runup = serde_json::from_value(typical_block::runup(scene)).ok()?;
             let usual = side_force(scene);
             scene.side_force.get_or_insert(usual);
         }
@@ -125,14 +128,14 @@ fn add_to_blade(scene: &mut SceneFile, part: &str) -> Option<()> {
 
 fn add_to_cut(scene: &mut SceneFile, part: &str) -> Option<()> {
     let speed = CutSpeedFile {
-        rpm: typical::operating_rpm(scene),
+        rpm: typical_block::operating_rpm(scene),
         ..CutSpeedFile::default()
     };
     if scene.cut.is_none() {
         scene.blade.teeth.get_or_insert(usual_teeth(scene));
         scene.cut = Some(CutFile {
             speeds: vec![speed.clone()],
-            ..serde_json::from_value(typical::cut(scene)).ok()?
+            ..serde_json::from_value(typical_block::cut(scene)).ok()?
         });
     }
     let cut = scene.cut.as_mut()?;
@@ -141,8 +144,8 @@ fn add_to_cut(scene: &mut SceneFile, part: &str) -> Option<()> {
         "speeds[]" => cut.speeds.push(speed),
         "wood" => cut.wood = Some(WoodFile::default()),
         "washboarding" => {
-            cut.washboarding = serde_json::from_value(typical::washboarding()).ok()?;
-            scene.operating_rpm = Some(typical::operating_rpm(scene));
+            cut.washboarding = serde_json::from_value(typical_block::washboarding()).ok()?;
+            scene.operating_rpm = Some(typical_block::operating_rpm(scene));
             // Without damping even the smallest delayed force makes some mode grow.
             scene.damping.get_or_insert(DampingFile {
                 material_retardation_time_s: const {

@@ -20,7 +20,7 @@ use super::backend::{Answer, Backend, LINES, Question};
 use super::fields::Units;
 use super::guard::{OwnHosts, guard};
 use super::job::Jobs;
-use super::opened::OpenedFile;
+use super::opened_file::OpenedFile;
 use super::page;
 use super::pages::Pages;
 use super::refusal::Refusal;

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::SceneError;
-use super::check::{needed_teeth, refuse};
+use super::rule::{needed_teeth, refuse};
 use super::thickness::{ThicknessProfile, ThicknessRow};
 use crate::page::text::shown;
 

@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::check::{needed_teeth, refuse};
 use super::cut_file::{CutFile, CutSpeedFile};
 use super::quantities::quantity;
 use super::quantity::Quantity;
+use super::rule::{needed_teeth, refuse};
 use super::teeth_in_cut::TeethInCut;
 use super::washboarding::Washboarding;
 use super::wood::Wood;

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::is_default;
 use super::quantities::typical_value;
+use super::rule::is_default;
 use super::washboarding::WashboardingFile;
 use super::wood::WoodFile;
 

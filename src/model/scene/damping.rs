@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::SceneError;
-use super::check::{is_default, refuse};
+use super::rule::{is_default, refuse};
 
 /// Damping of the blade: the contributions of the material, which turns with the blade, and of the air add up.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::SceneError;
-use super::check::{is_default, needed_teeth};
+use super::rule::{is_default, needed_teeth};
 
 /// Lines of the Campbell diagram at multiples of the rotation speed, and their crossings with the natural
 /// frequencies.

@@ -7,7 +7,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::blade::{BladeFile, Mount};
-use super::check::is_default;
 use super::cut_file::CutFile;
 use super::damping::DampingFile;
 use super::excitation::ExcitationFile;
@@ -15,6 +14,7 @@ use super::friction::FrictionFile;
 use super::membrane::MembraneFile;
 use super::quantities::typical_value;
 use super::response::ResponseFile;
+use super::rule::is_default;
 use super::runup::{ProbeFile, RunUpFile};
 use super::side_force::SideForceFile;
 use super::spline::SplineFile;

@@ -1,6 +1,6 @@
 //! Validated guide pads, angles in radians.
 
-use super::check::refuse;
+use super::rule::refuse;
 use super::{Blade, ContactLaw, GuideFile, GuideShape, GuideSide, RefusedValue, SceneError};
 use crate::page::text::shown;
 use std::f64::consts::{PI, TAU};

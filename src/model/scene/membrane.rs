@@ -3,10 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{ascending, few, refuse};
 use super::profile::Profile;
 use super::residual::{ResidualStress, ResidualStressRow};
 use super::roll_band::{RollBand, RollBandFile};
+use super::rule::{ascending, few, refuse};
 use super::straight_edge::{StraightEdge, StraightEdgeFile};
 use super::{Blade, RefusedValue, SceneError};
 use crate::page::text::shown;

@@ -6,31 +6,33 @@
 //! validates again, so that every scene is valid.
 
 mod blade;
-mod check;
 mod cut;
 mod cut_file;
 mod damping;
 mod entries;
 mod excitation;
 mod file;
-mod freed;
+mod free_number;
 mod friction;
 mod guide;
 mod membrane;
-mod needed;
 mod parameter;
+mod parser;
+mod plausibility;
 mod point;
 mod profile;
 mod quantities;
 mod quantity;
-mod read;
+mod refusal;
 #[cfg(test)]
 mod refusal_tests;
-mod refused;
+mod requirement;
 mod residual;
 mod response;
 mod roll_band;
+mod rule;
 mod runup;
+mod saw;
 mod schema;
 mod setting;
 mod side_force;
@@ -41,11 +43,9 @@ mod straight_edge;
 mod teeth_in_cut;
 mod thickness;
 #[cfg(any(feature = "cli", feature = "page"))]
-pub(crate) mod typical;
+pub(crate) mod typical_block;
 mod unit;
-mod unusual;
-mod validate;
-mod validated;
+mod validation;
 mod washboarding;
 mod wood;
 
@@ -63,31 +63,33 @@ pub use file::{
     SweepFile,
 };
 #[doc(hidden)]
-pub use freed::spread;
-pub use freed::{Freed, NamedBounds};
-pub(crate) use freed::{effective, is_logarithmic, scene_at};
+pub use free_number::spread;
+pub use free_number::{Freed, NamedBounds};
+pub(crate) use free_number::{effective, is_logarithmic, scene_at};
 pub use friction::FrictionFile;
 pub(crate) use guide::{Guide, Lifting};
 pub(crate) use membrane::{Membrane, Temperature, TemperatureShape};
 pub use membrane::{MembraneFile, TemperatureFile, TemperatureRow};
 pub use parameter::Parameter;
+pub use parser::MAX_SCENE_BYTES;
+#[cfg(feature = "cli")]
+pub(crate) use parser::SCENE_TEXT;
+pub(crate) use plausibility::unusual_number;
 pub(crate) use point::Point;
 pub(crate) use profile::Profile;
 #[cfg(any(test, feature = "page"))]
 pub(crate) use quantities::QUANTITIES;
 pub(crate) use quantities::{quantity, typical_value};
 pub use quantity::{Kind, Quantity, Typical};
-pub use read::MAX_SCENE_BYTES;
-#[cfg(feature = "cli")]
-pub(crate) use read::SCENE_TEXT;
-pub(crate) use refused::Given;
-pub use refused::{RefusedValue, SceneError};
+pub(crate) use refusal::Given;
+pub use refusal::{RefusedValue, SceneError};
 pub(crate) use residual::ResidualStress;
 pub use residual::ResidualStressRow;
 pub use response::ResponseFile;
 pub use roll_band::RollBandFile;
 pub(crate) use roll_band::{Groove, RollBand};
 pub use runup::{ProbeFile, RunUpFile};
+pub use saw::Scene;
 pub use schema::json_schema;
 #[cfg(feature = "cli")]
 pub(crate) use schema::{Key, keys};
@@ -102,8 +104,6 @@ pub(crate) use straight_edge::StraightEdge;
 pub use straight_edge::StraightEdgeFile;
 pub use teeth_in_cut::{TeethInCut, Tooth};
 pub use thickness::ThicknessRow;
-pub(crate) use unusual::unusual_number;
-pub use validated::Scene;
 pub use washboarding::WashboardingFile;
 pub(crate) use washboarding::{MAX_CUTTING_STIFFNESS, Washboarding};
 pub(crate) use wood::Wood;

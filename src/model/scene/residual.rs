@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{ascending, few, refuse};
 use super::profile::Profile;
+use super::rule::{ascending, few, refuse};
 use super::{Blade, Bore, SceneError};
 
 /// Residual stress at one radius.

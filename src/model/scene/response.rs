@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::is_default;
+use super::rule::is_default;
 
 /// Shape and imbalance of the blade, which turn with it and excite it, for `sawflutter response` and `gap`; `side_force` excites it,
 /// too. Causes that are 0 are absent.

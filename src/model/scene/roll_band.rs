@@ -9,8 +9,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::refuse;
 use super::quantities::quantity;
+use super::rule::refuse;
 use super::{Blade, RefusedValue, SceneError};
 use crate::page::text::shown;
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::is_default;
+use super::rule::is_default;
 use super::speed_range::check_rise;
 use super::{Blade, Point, Scene, SceneError, SpeedRange};
 

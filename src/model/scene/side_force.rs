@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::is_default;
 use super::quantities::typical_value;
+use super::rule::is_default;
 use super::{Blade, Point, RefusedValue, Scene, SceneError, SceneFile};
 use crate::page::text::shown_to;
 

@@ -1,8 +1,8 @@
 //! Rotation speeds and their ranges.
 
-use super::check::refuse;
 use super::quantities::quantity;
 use super::quantity::TURNS_THE_OTHER_WAY;
+use super::rule::refuse;
 use super::{RefusedValue, SceneError, rad_per_s, rpm};
 use crate::page::text::shown;
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::refuse;
+use super::rule::refuse;
 use super::{Blade, Mount, RefusedValue, SceneError};
 use crate::page::text::shown;
 

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::refuse;
 use super::roll_band::RollBand;
+use super::rule::refuse;
 use super::{Blade, Bore, SceneError};
 use crate::page::text::shown;
 

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{MAX_GUIDES, refuse};
 use super::quantities::{quantity, typical_value};
+use super::rule::{MAX_GUIDES, refuse};
 use super::teeth_in_cut::TeethInCut;
 use super::wood::{Wood, WoodFile};
 use super::{RefusedValue, SceneError};

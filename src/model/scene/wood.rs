@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::refuse;
+use super::rule::refuse;
 use super::teeth_in_cut::TeethInCut;
 use super::{Blade, SceneError};
 use crate::page::text::shown;

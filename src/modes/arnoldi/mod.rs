@@ -24,7 +24,7 @@ use super::error::SpectrumError;
 use super::full_model::FullModel;
 use super::mode::rigid_noise;
 use super::vectors::{Eigenpair, by_magnitude, unit};
-use crate::model::tuned::Tuned;
+use crate::model::tuning::Tuned;
 
 /// A vector whose part outside the span of the others is below this share is rounding.
 const BREAKDOWN: f64 = 1e-14;

@@ -9,7 +9,7 @@
 
 mod assignment;
 mod matching;
-mod refine;
+mod refinement;
 
 use faer::c64;
 use rayon::prelude::*;
@@ -22,7 +22,7 @@ use crate::modes::{
 
 use matching::Match;
 use matching::{Sighted, match_modes};
-pub(crate) use refine::{Closeness, refined};
+pub(crate) use refinement::{Closeness, refined};
 
 /// Progress callback: number of speeds done and number of speeds in total.
 pub type Progress<'a> = &'a (dyn Fn(usize, usize) + Sync);

@@ -15,10 +15,10 @@
 mod coupling;
 mod damping;
 mod elimination;
+mod growth_count;
 mod harmonic;
 mod inertia;
 mod product;
-mod unlisted;
 
 use faer::{Mat, c64};
 use nalgebra::DMatrix;

@@ -1,7 +1,7 @@
 //! Division of a range of speeds into intervals, each with a small basis for the low modes.
 
 mod error;
-mod settled;
+mod interval_search;
 
 use std::sync::atomic::Ordering;
 
@@ -9,7 +9,7 @@ use faer::c64;
 use rayon::prelude::*;
 
 use super::arnoldi::{lowest_eigenpairs, nearly_lowest_eigenpairs};
-use super::critical::NamedCriticalSpeed;
+use super::critical_speed::NamedCriticalSpeed;
 use super::error::SpectrumError;
 use super::full_model::FullModel;
 use super::interval::{Interval, StandingWave};
@@ -18,7 +18,7 @@ use super::model::{CHART_MODES, Strategy, chart_height};
 use super::vectors::Eigenpair;
 use super::work::WorkCounters;
 use crate::model::system::GyroscopicSystem;
-use crate::model::tuned::Tuned;
+use crate::model::tuning::Tuned;
 
 /// Modes up to this multiple of the frequency of the highest reflected wave may coalesce with that wave.
 const REFLECTED_MARGIN: Tuned = Tuned::new("modes/guided_reduction::REFLECTED_MARGIN", 1.3);

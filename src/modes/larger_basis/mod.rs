@@ -8,18 +8,18 @@
 
 use faer::{Col, Mat, Scale, c64};
 
-use super::at_rest::RestingMode;
 use super::component::Component;
-use super::critical::NamedCriticalSpeed;
+use super::critical_speed::NamedCriticalSpeed;
 use super::error::SpectrumError;
 use super::mode::{Mode, ModeKind};
 use super::model::DescribedMode;
+use super::resting_mode::RestingMode;
 use super::vectors::{halves, real_times};
 use crate::model::plate::Plate;
 
-mod added;
+mod added_functions;
 
-use self::added::AddedFunctions;
+use self::added_functions::AddedFunctions;
 
 /// A larger basis that contains the one of a plate.
 #[derive(Debug)]
@@ -141,7 +141,7 @@ mod tests {
     use crate::model::plate::Resolution;
     use crate::model::scene::Scene;
     use crate::modes::SpectralModel;
-    use crate::modes::at_rest::modes_at_rest;
+    use crate::modes::resting_mode::modes_at_rest;
 
     /// Reference: the differences between the results of both bases.
     #[test]

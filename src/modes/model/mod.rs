@@ -11,10 +11,10 @@ use faer::{Col, Mat, c64};
 
 use crate::model::plate::Plate;
 
-use super::assembled::Assembled;
+use super::assembled_plate::Assembled;
 use super::companion::companion_eigenpairs;
 use super::component::{Component, Solution};
-use super::critical::{NamedCriticalSpeed, searched_range};
+use super::critical_speed::{NamedCriticalSpeed, searched_range};
 use super::derivative;
 use super::double_eigenvalue::DoubleEigenvalue;
 use super::error::SpectrumError;
@@ -25,13 +25,13 @@ use super::mode::{Mode, ModeKind, classify, is_seen};
 use super::mode_name::ModeName;
 use super::projection::Projection;
 use super::scale::frequency_scale;
-use super::structured::LARGE;
+use super::structured_stiffness::LARGE;
 use super::waves::{self, WaveModel};
 use super::work::{Cancellation, WorkCounters};
 
-mod described;
+mod named_mode;
 #[cfg(test)]
-mod planted;
+mod planted_fault;
 
 /// Method by which the modes at a speed are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

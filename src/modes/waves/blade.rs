@@ -6,7 +6,7 @@
 
 use faer::{Mat, Scale};
 
-use super::near::STRONG;
+use super::near_block::STRONG;
 use crate::model::linalg::SymmetricEigen;
 use crate::model::plate::Plate;
 use crate::model::system::GyroscopicSystem;

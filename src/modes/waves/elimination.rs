@@ -13,7 +13,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Accum, Col, Mat, MatRef, Par, Scale};
 
 use super::blade::Saw;
-use super::near::Near;
+use super::near_block::Near;
 use super::pair::Pair;
 use crate::model::linalg::LinalgError;
 use crate::model::system::GyroscopicSystem;

@@ -15,20 +15,20 @@ use faer::Mat;
 mod blade;
 mod elimination;
 mod modes;
-mod near;
+mod near_block;
 mod newton;
-mod over_speed;
 mod pair;
 mod roots;
+mod speed_series;
 #[cfg(test)]
 mod tests;
 
 use blade::Saw;
 use elimination::Elimination;
 pub use modes::WaveModes;
-use near::Near;
-pub use over_speed::WaveModel;
-use over_speed::at_nodes;
+use near_block::Near;
+pub use speed_series::WaveModel;
+use speed_series::at_nodes;
 
 use super::component::Component;
 use super::error::SpectrumError;

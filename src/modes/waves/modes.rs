@@ -7,8 +7,8 @@
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, c64};
 
-use super::over_speed::{WaveModel, at_nodes};
 use super::roots::Root;
+use super::speed_series::{WaveModel, at_nodes};
 use crate::model::system::dynamic_stiffness;
 use crate::modes::error::SpectrumError;
 use crate::modes::projection::Projection;

@@ -4,7 +4,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, MatRef, Scale, c64};
 
-use super::over_speed::WaveModel;
+use super::speed_series::WaveModel;
 use crate::modes::vectors::unit;
 
 /// Largest number of steps; convergence is cubic.

@@ -7,8 +7,8 @@
 
 use faer::{Col, Mat, c64};
 
-use super::over_speed::WaveModel;
 use super::pair::{END, Pair, columns, inverse};
+use super::speed_series::WaveModel;
 use crate::model::linalg::{LinalgError, RealEigen};
 use crate::modes::error::SpectrumError;
 

@@ -9,11 +9,11 @@
 //! speed rises.
 
 mod band_growth;
-mod linear;
+mod linear_limit;
 mod motion;
 mod newmark;
 mod propagator;
-mod reduced;
+mod reduced_blade;
 mod response;
 mod runup;
 mod sinusoids;
@@ -22,11 +22,11 @@ mod stretched_runup;
 mod stretching;
 
 pub(crate) use band_growth::band_exponents;
-pub(crate) use linear::{Gauge, LINEAR_THICKNESSES, finite, linear_limit_m};
+pub(crate) use linear_limit::{Gauge, LINEAR_THICKNESSES, finite, linear_limit_m};
 pub(crate) use motion::{Force, Integrator, State};
 pub(crate) use newmark::Newmark;
 pub(crate) use propagator::Propagator;
-pub(crate) use reduced::{ReducedBlade, Snapshot, at_point, lateral_load};
+pub(crate) use reduced_blade::{ReducedBlade, Snapshot, at_point, lateral_load};
 pub(crate) use response::response_map;
 pub(crate) use runup::run_up;
 pub use sinusoids::FitError;
@@ -38,7 +38,7 @@ pub(crate) use stretching::{forces, system as reduced_system};
 use crate::model::scene::SceneError;
 use crate::model::spline::SplineError;
 use crate::modes::SpectrumError;
-use crate::motion::stretched::{LARGEST_SLOPE, StretchedError};
+use crate::motion::stretched_blade::{LARGEST_SLOPE, StretchedError};
 use crate::stability::AnalysisError;
 
 /// Reason for which a time history could not be computed.

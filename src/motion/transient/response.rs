@@ -8,7 +8,7 @@ use crate::model::plate::Plate;
 use crate::model::scene::{Point, RunUpFile, SideForce};
 use crate::model::system::GyroscopicSystem;
 
-use super::reduced::at_point;
+use super::reduced_blade::at_point;
 use super::runup::reduced_blade;
 
 /// Computes the receptance |w/F| = |cᵀ L(s)⁻¹ b| at the probe, in m/N, on s = iω + Δω/2: a row for each speed.

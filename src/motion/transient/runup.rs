@@ -9,8 +9,8 @@ use crate::model::system::GyroscopicSystem;
 use crate::modes::Cancellation;
 use crate::modes::branches::{Progress, even_speeds};
 
-use super::linear::{Gauge, finite};
-use super::reduced::{ReducedBlade, Snapshot, at_point};
+use super::linear_limit::{Gauge, finite};
+use super::reduced_blade::{ReducedBlade, Snapshot, at_point};
 use super::{Force, Integrator, Newmark, State, TransientError};
 
 /// Deflection over the run-up.

@@ -1,7 +1,7 @@
 //! Readings of a moving blade that stretches.
 
 use crate::model::scene::Point;
-use crate::motion::stretched::{Equilibrium, LARGEST_SLOPE, StretchedBlade};
+use crate::motion::stretched_blade::{Equilibrium, LARGEST_SLOPE, StretchedBlade};
 
 use super::State;
 

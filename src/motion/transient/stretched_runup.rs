@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::model::plate::Plate;
 use crate::model::scene::{Point, RunUpFile, SideForce};
 use crate::modes::branches::Progress;
-use crate::motion::stretched::StretchedBlade;
+use crate::motion::stretched_blade::StretchedBlade;
 
 use super::runup::{MAX_SAMPLES, Moving, RunUpHistory, Steps};
 use super::stretched_probe::StretchedProbe;
@@ -193,7 +193,7 @@ mod tests {
     use super::*;
     use crate::model::plate::Resolution;
     use crate::model::scene::Scene;
-    use crate::motion::stretched::LARGEST_SLOPE;
+    use crate::motion::stretched_blade::LARGEST_SLOPE;
     use crate::motion::transient::runup::run_up;
 
     fn plate() -> Plate {

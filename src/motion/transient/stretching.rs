@@ -4,7 +4,7 @@ use faer::{Col, Mat};
 
 use crate::model::plate::{GapPotential, Plate, ReducedStretching};
 use crate::model::system::GyroscopicSystem;
-use crate::motion::stretched::StretchedBlade;
+use crate::motion::stretched_blade::StretchedBlade;
 
 use super::Force;
 

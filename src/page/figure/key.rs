@@ -3,7 +3,7 @@
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
 use super::heat::rgb;
 use super::items::{Area, Item, Line, Points, Shape};
-use super::paint::{draw_mark, stroke, upright_stroke};
+use super::painting::{draw_mark, stroke, upright_stroke};
 use super::palette::Hue;
 use super::style::{LABEL_SIZE, PAPER, QUIET, label_width, shorten_label, tint};
 

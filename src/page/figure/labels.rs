@@ -2,9 +2,9 @@
 
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke, text_frame};
 use super::chart_data::PanelData;
-use super::declutter::{Extent, push_apart};
 use super::items::{Item, Label, Line, Upright};
-use super::paint::Ground;
+use super::label_placement::{Extent, push_apart};
+use super::painting::Ground;
 use super::style::{HAIRLINE, LABEL_SIZE, PAPER, QUIET, label_width, shorten_label, tint};
 
 /// Space between the labels of vertical lines.

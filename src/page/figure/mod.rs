@@ -8,35 +8,35 @@ pub(crate) mod axis;
 pub(crate) mod bands;
 pub(crate) mod canvas;
 pub(crate) mod chart_data;
-pub(crate) mod clip;
-pub(crate) mod declutter;
-pub(crate) mod drawn;
+pub(crate) mod clipping;
+pub(crate) mod drawing;
 pub(crate) mod heading;
 pub(crate) mod heat;
 pub(crate) mod items;
 pub(crate) mod key;
+pub(crate) mod label_placement;
 pub(crate) mod labels;
 pub(crate) mod layout;
 pub(crate) mod letters;
-pub(crate) mod paint;
+pub(crate) mod painting;
 pub(crate) mod palette;
 pub(crate) mod panel;
 pub(crate) mod raster;
 pub(crate) mod style;
 pub(crate) mod svg;
 #[cfg(test)]
-pub(crate) mod tidy;
+pub(crate) mod tidiness;
 
 pub use axis::Spread;
 pub use chart_data::{AxisData, ChartData, PanelData};
-pub(crate) use drawn::Drawing;
-pub use drawn::Figure;
+pub(crate) use drawing::Drawing;
+pub use drawing::Figure;
 pub use items::{Area, Band, Bars, Heat, Item, Label, Line, Points, Role, Shape, Upright};
 pub use palette::Hue;
 #[doc(hidden)]
 pub use palette::{PALETTE, Palette};
 #[cfg(test)]
-pub(crate) use tidy::assert_tidy;
+pub(crate) use tidiness::assert_tidy;
 
 /// Error of rendering a figure.
 #[derive(Debug, thiserror::Error)]

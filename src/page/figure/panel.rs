@@ -9,7 +9,7 @@ use super::chart_data::{AxisData, PanelData};
 use super::heat::draw_cells;
 use super::items::{Area, Bars, Item};
 use super::labels::Labels;
-use super::paint::{Ground, upright_stroke};
+use super::painting::{Ground, upright_stroke};
 use super::style::{
     GRID, HAIRLINE, LABEL_SIZE, QUIET, SUBTITLE_SIZE, Weight, broken, shorten, tint,
 };

@@ -7,7 +7,7 @@ use faer::c64;
 use super::spectrum::{Solver, Spectrum};
 use crate::modes::{FullModel, SpectralModel, SpectrumError};
 use crate::stability::band::Instability;
-use crate::stability::certified::drawn_share;
+use crate::stability::certification::drawn_share;
 use crate::stability::mode_counts::MiscountedModes;
 
 /// Number of bands, from the lowest, with counts on both sides of their onsets; each count takes about forty

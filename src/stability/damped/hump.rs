@@ -6,7 +6,7 @@ use super::super::band::{CurvePoint, Instability, InstabilityKind};
 use super::super::interpolation::Cubic;
 use super::super::root::{Look, bracketed};
 use super::spectrum::Solver;
-use crate::model::tuned::Tuned;
+use crate::model::tuning::Tuned;
 use crate::modes::SpectrumError;
 
 /// Relative accuracy in speed of onsets, peaks and minima of growth.

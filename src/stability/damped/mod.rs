@@ -21,7 +21,7 @@ use super::options::AnalysisOptions;
 use super::partition::Plane;
 use super::pieces::{Piece, Search};
 use super::undamped::with_critical_speeds;
-use crate::model::tuned::Tuned;
+use crate::model::tuning::Tuned;
 use crate::modes::branches::{self, SpeedSample};
 use crate::modes::{Mode, SpectralModel, SpectrumError, clear_range};
 use counts::Counts;

@@ -10,10 +10,10 @@ pub(super) use self::end::VICINITY;
 
 use super::band::{Instability, InstabilityKind};
 use super::evaluator::SignatureEvaluator;
-use super::found::Found;
 use super::maximum::{Sample, maximize};
 use super::pieces::Piece;
 use super::quadruples::{Stretch, stretches};
+use super::search_result::Found;
 use super::signature::SignedMode;
 use crate::modes::{SpectrumError, smallest};
 

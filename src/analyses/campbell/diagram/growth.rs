@@ -9,7 +9,7 @@ use crate::page::figure::axis::{Axis, Spread};
 use crate::page::figure::canvas::{Anchor, Lettering, Sheet, Stroke};
 use crate::page::figure::chart_data::{AxisData, PanelData};
 use crate::page::figure::items::{Item, Line, Points, lines_by_look};
-use crate::page::figure::paint::Ground;
+use crate::page::figure::painting::Ground;
 use crate::page::figure::palette::Hue;
 use crate::page::figure::style::{CURVE, HAIRLINE, INK, LABEL_SIZE, QUIET};
 use crate::page::text::shown_to;

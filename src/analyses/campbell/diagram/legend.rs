@@ -1,7 +1,7 @@
 //! The lines below the figure that explain colours and styles, and state which contents have no label.
 
 use super::band_labels::BandLabels;
-use super::describe::WINDOW;
+use super::contents::WINDOW;
 use super::growth;
 use super::plan::{Chart, HEIGHT, LEGEND_ABOVE_FOOT, NOTES_ABOVE_FOOT, PLOT_LEFT, WIDTH};
 use super::view::left_out;

@@ -3,7 +3,7 @@
 mod band_labels;
 mod branch_line;
 mod certificate;
-mod describe;
+mod contents;
 mod excitation;
 mod facts;
 mod growth;
@@ -19,7 +19,7 @@ pub(super) use growth::curve;
 pub use view::CampbellView;
 
 use band_labels::BandLabels;
-use describe::describe;
+use contents::describe;
 use facts::facts;
 pub use plan::NEGLIGIBLE_PER_S;
 use plan::{

@@ -5,7 +5,7 @@ use crate::page::figure::axis::Axis;
 use crate::page::figure::canvas::Frame;
 use crate::page::figure::chart_data::{ChartData, PanelData};
 use crate::page::figure::items::{Band, Item, Line, Role, Upright};
-use crate::page::figure::paint::Ground;
+use crate::page::figure::painting::Ground;
 
 pub const WIDTH: u32 = 1200;
 pub const HEIGHT: u32 = 918;

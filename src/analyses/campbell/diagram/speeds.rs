@@ -5,8 +5,8 @@ use super::waves;
 use crate::analyses::campbell::CriticalSpeed;
 use crate::page::figure::bands::places;
 use crate::page::figure::canvas::{Anchor, Frame, Lettering, Mark, Sheet, Stroke, text_frame};
-use crate::page::figure::declutter::{Cluster, join_close};
 use crate::page::figure::items::{Role, Upright};
+use crate::page::figure::label_placement::{Cluster, join_close};
 use crate::page::figure::style::{
     FINE_DASH, HAIRLINE, INK, LABEL_SIZE, MARGIN, PAPER, QUIET, label_width,
 };

@@ -5,7 +5,7 @@ use crate::analyses::campbell::{CriticalSpeed, InstabilityBand};
 use crate::page::figure::Hue;
 use crate::page::figure::canvas::Mark;
 use crate::page::figure::items::{Item, Line};
-use crate::page::figure::tidy::{assert_tidy, assert_unstruck, texts};
+use crate::page::figure::tidiness::{assert_tidy, assert_unstruck, texts};
 
 #[test]
 fn every_critical_speed_is_labelled() {

@@ -4,8 +4,8 @@ use super::plan::{Chart, NEGLIGIBLE_PER_S};
 use crate::analyses::campbell::{BranchCurve, Direction, Report};
 use crate::model::scene::MeasuredRow;
 use crate::page::figure::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
-use crate::page::figure::clip::clip;
-use crate::page::figure::declutter::{Extent, push_apart};
+use crate::page::figure::clipping::clip;
+use crate::page::figure::label_placement::{Extent, push_apart};
 use crate::page::figure::palette::Hue;
 use crate::page::figure::style::{Colour, HAIRLINE, LABEL_SIZE, label_width, shorten_label, tint};
 

@@ -168,7 +168,7 @@ mod tests {
     use super::*;
     use crate::model::scene::{Accuracy, Scene};
     use crate::page::figure::canvas::Mark;
-    use crate::page::figure::tidy::{assert_tidy, texts};
+    use crate::page::figure::tidiness::{assert_tidy, texts};
     use crate::stability::Analysis;
 
     fn report(speeds_rpm: &[f64]) -> Report {

@@ -1,7 +1,7 @@
 use super::super::sample::{busy_report, root_loci as sample_loci};
 use super::*;
 use crate::page::figure::layout::sheet;
-use crate::page::figure::tidy::{assert_tidy, texts};
+use crate::page::figure::tidiness::{assert_tidy, texts};
 
 fn report(loci: RootLoci) -> Report {
     let mut report = busy_report();

@@ -4,7 +4,7 @@ use crate::analyses::map::{Map, MappedSaw, Options, Range};
 use crate::analyses::study::{Found, Outcome, Saw};
 use crate::model::scene::Scene;
 use crate::page::figure::layout::sheet;
-use crate::page::figure::tidy::{assert_tidy, texts};
+use crate::page::figure::tidiness::{assert_tidy, texts};
 use crate::stability::InstabilityKind;
 
 /// Synthetic saws whose flutter speed rises with x and falls with y.

@@ -16,18 +16,18 @@
 //! plates*, part 1, J. Sound Vib. 258 (2002), 649–676, for free edges.
 
 mod nodes;
-mod reduced;
-mod relaxed;
+mod reduced_potential;
+mod relaxation;
 mod strain;
 
-pub use reduced::ReducedStretching;
+pub use reduced_potential::ReducedStretching;
 
 use faer::{Col, Mat};
 use rayon::prelude::*;
 
 use super::Plate;
 use nodes::Nodes;
-use relaxed::Relaxed;
+use relaxation::Relaxed;
 use strain::{Slopes, Strain};
 
 /// Reason for which the potential of stretching, or its value, could not be computed.

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::SceneError;
-use super::check::refuse;
+use super::rule::refuse;
 use crate::page::text::shown;
 
 /// Thickness at one radius.

@@ -26,7 +26,7 @@ use self::jacobi::LEFT;
 use self::waves::Waves;
 use super::coupling::{Coupling, LOOKS};
 use super::{FullModel, Harmonic};
-use crate::modes::hermitian::negative_eigenvalues;
+use crate::modes::hermitian_inertia::negative_eigenvalues;
 
 /// Share of T = B(0) + σ by which rounding may change L.
 const ROUNDING: f64 = 1e-11;

@@ -9,7 +9,7 @@ use faer::{Accum, Mat, MatRef, Par, Scale, c64};
 use super::free_waves::FreeWaves;
 use super::{Bound, BoundedBlock};
 use crate::modes::full_model::Harmonic;
-use crate::modes::hermitian::negative_eigenvalues;
+use crate::modes::hermitian_inertia::negative_eigenvalues;
 
 /// A wave with |p|²/|d| above this value is not eliminated, because its term would conceal the others.
 const RESONANT: f64 = 1e5;

@@ -1,6 +1,6 @@
 //! Initial values of parts for a blade of any size.
 
-use crate::model::scene::typical::rounded;
+use crate::model::scene::typical_block::rounded;
 use crate::model::scene::{
     GuideFile, InPlane, Mount, SceneFile, SideForceFile, SplineFile, typical_value,
 };

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::told::{Fact, of_bands, of_critical};
+use super::answer::{Fact, of_bands, of_critical};
 use crate::analyses::campbell::{Answer, InstabilityBand, OperatingPoint, headline};
 use crate::model::scene::{Scene, rpm};
 use crate::page::figure::{Band, Item, Upright};

@@ -5,11 +5,11 @@ use super::certificate::{Certificate, ContradictedBands, mismatches};
 use super::divergence::{close_pairs, divergence};
 use super::evaluator::SignatureEvaluator;
 use super::flutter::{Quadruple, flutter, quadruples};
-use super::found::Found;
 use super::mode_counts::{MiscountedModes, ModeCounts};
 use super::partition::Plane;
 use super::pieces::{Piece, Search};
 use super::proof::Proof;
+use super::search_result::Found;
 use super::signature::Signature;
 use crate::modes::{SpectralModel, SpectrumError};
 

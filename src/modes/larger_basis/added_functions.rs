@@ -7,8 +7,8 @@ use faer::{Col, Mat, Par, Scale, Side};
 use crate::model::plate::Plate;
 use crate::model::system::GyroscopicSystem;
 use crate::modes::error::SpectrumError;
-use crate::modes::generalized::stiffened;
-use crate::modes::structured::{LARGE, StructuredStiffness};
+use crate::modes::structured_stiffness::{LARGE, StructuredStiffness};
+use crate::modes::symmetric_pencil::stiffened;
 use crate::modes::work::Cancellation;
 
 /// Functions that a component lacks.

@@ -8,7 +8,7 @@ use crate::model::system::GyroscopicSystem;
 use super::component::Component;
 use super::error::SpectrumError;
 use super::event_name::EventName;
-use super::generalized::singular_multiples;
+use super::symmetric_pencil::singular_multiples;
 use super::vectors::complex;
 
 /// A speed at which K(Ω) is singular: a wave stands still in space.

@@ -2,8 +2,8 @@
 
 use super::analysis::Report;
 use super::speeds::InstabilityBand;
-use crate::motion::stretched::StretchedError;
-use crate::motion::stretched::{Rise, saturations};
+use crate::motion::stretched_blade::StretchedError;
+use crate::motion::stretched_blade::{Rise, saturations};
 use crate::stability::Analysis;
 
 impl Report {

@@ -9,7 +9,7 @@ use crate::model::plate::Plate;
 use crate::model::scene::{Blade, Point};
 
 use super::TransientError;
-use super::reduced::{ReducedBlade, at_point};
+use super::reduced_blade::{ReducedBlade, at_point};
 
 /// Deflections beyond this many thicknesses of the blade are not reported.
 pub const LINEAR_THICKNESSES: f64 = 5.0;

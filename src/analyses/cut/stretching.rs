@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::model::scene::Point;
 use crate::model::system::GyroscopicSystem;
 use crate::modes::Cancellation;
-use crate::motion::stretched::StretchedBlade;
+use crate::motion::stretched_blade::StretchedBlade;
 use crate::motion::transient::{
     Integrator, Newmark, ReducedBlade, Snapshot, State, StretchedProbe, TransientError, forces,
     lateral_load, reduced_system,

@@ -1,10 +1,10 @@
 //! Validates a [`SceneFile`]: the [`Scene`] that results is in SI units and radians.
 
 use super::blade::RimMass;
-use super::check::{MAX_GUIDES, refuse};
 use super::cut::Cut;
 use super::guide::guide;
 use super::membrane::Membrane;
+use super::rule::{MAX_GUIDES, refuse};
 use super::speed_range::check_rise;
 use super::thickness::ThicknessProfile;
 use super::{Blade, Bore, ExcitationLine, Mount, RefusedValue, Scene, SceneError, SceneFile};

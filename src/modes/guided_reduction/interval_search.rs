@@ -7,10 +7,10 @@ use faer::{Col, Mat, Scale};
 use rayon::prelude::*;
 
 use super::{Builder, Guided, Snapshot};
-use crate::model::tuned::Tuned;
-use crate::modes::critical::NamedCriticalSpeed;
+use crate::model::tuning::Tuned;
+use crate::modes::critical_speed::NamedCriticalSpeed;
 use crate::modes::error::SpectrumError;
-use crate::modes::hamiltonian::HamiltonianReduction;
+use crate::modes::hamiltonian_reduction::HamiltonianReduction;
 use crate::modes::interval::{Interval, KnownModes, SPAN_MARGIN, states_at, states_between};
 use crate::modes::projection::Projection;
 use crate::modes::vectors::{orthonormal, split};

@@ -5,7 +5,7 @@ use faer::{Col, Mat, Scale, Side};
 
 use super::component::Component;
 use super::error::SpectrumError;
-use super::generalized::stiffened;
+use super::symmetric_pencil::stiffened;
 use crate::model::linalg::SymmetricEigen;
 use crate::model::system::GyroscopicSystem;
 

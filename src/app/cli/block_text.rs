@@ -2,16 +2,19 @@
 
 use serde_json::Value;
 
-use crate::model::scene::{RefusedValue, Scene, SceneFile, typical};
+use crate::model::scene::{RefusedValue, Scene, SceneFile, typical_block};
 
 /// Returns the block of a scene that a command needs. If it is missing, prints a typical one on the error stream.
 pub fn pasted<T>(scene: &Scene, needed: Result<T, RefusedValue>) -> anyhow::Result<T> {
     needed.map_err(|refused| {
         let (block, place) = match refused.key.as_str() {
             "cut" => (cut_block(scene.file()), "the scene"),
-            "runup" => (block("runup", &typical::runup(scene.file())), "the scene"),
+            "runup" => (
+                block("runup", &typical_block::runup(scene.file())),
+                "the scene",
+            ),
             "cut.washboarding" => {
-                let washboarding = block("washboarding", &typical::washboarding());
+                let washboarding = block("washboarding", &typical_block::washboarding());
                 (washboarding, "its block \"cut\"")
             }
             _ => return refused.into(),
@@ -26,7 +29,7 @@ pub fn pasted<T>(scene: &Scene, needed: Result<T, RefusedValue>) -> anyhow::Resu
 
 /// The key `cut` of a typical cut, with the number of teeth if the blade lacks it.
 fn cut_block(scene: &SceneFile) -> String {
-    let mut text = block("cut", &typical::cut(scene));
+    let mut text = block("cut", &typical_block::cut(scene));
     if scene.blade.teeth.is_none_or(|teeth| teeth == 0) {
         text += "\n\nand the number of its teeth, \"teeth\": 40, into its block \"blade\"";
     }

@@ -9,8 +9,8 @@ use crate::model::plate::Resolution;
 use crate::model::scene::{Freed, Scene, SceneError, scene_at};
 use crate::stability::ChosenBasis;
 
-use super::computed::Computed;
 use super::neighbours::Neighbours;
+use super::outcome::Computed;
 use super::search::{Search, Tried};
 use super::{IDLE, PlaceError, Progress, cheapest};
 

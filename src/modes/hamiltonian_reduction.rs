@@ -12,7 +12,7 @@ use faer::{Col, Mat, Scale, c64};
 use crate::model::linalg::RealEigen;
 use crate::model::system::GyroscopicSystem;
 
-use super::canonical::{canonical_basis, turned};
+use super::canonical_basis::{canonical_basis, turned};
 use super::error::SpectrumError;
 use super::half_order::hamiltonian_eigenpairs;
 use super::vectors::{Eigenpair, by_magnitude, joined, orthonormal, split, unit};

@@ -3,7 +3,7 @@
 use faer::c64;
 
 use crate::modes::{SpectrumError, Work};
-use crate::motion::stretched::{FlutterRise, Saturation, StretchedError};
+use crate::motion::stretched_blade::{FlutterRise, Saturation, StretchedError};
 use crate::stability::{Analysis, Instability, InstabilityKind};
 
 /// Amplitude to which the flutter of a band rises; `None` for divergence, and if the blade without damping does not

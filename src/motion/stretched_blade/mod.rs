@@ -22,16 +22,16 @@
 mod basis;
 mod branch;
 mod equilibrium;
-mod of_bands;
+mod flutter_rise;
+mod potential_minimum;
 mod rise;
 mod saturation;
-mod settled;
 mod sites;
 mod sweep;
 
 pub use branch::{Branch, Extent, Turn, TurnKind};
 pub use equilibrium::Equilibrium;
-pub use of_bands::FlutterRise;
+pub use flutter_rise::FlutterRise;
 pub use rise::{Rise, saturations};
 pub use saturation::Saturation;
 pub use sites::Sites;

@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::canvas::{Frame, Sheet, Stroke};
-use super::clip::clip;
+use super::clipping::clip;
 use super::items::{Item, Line, Points, Shape, Upright};
 use super::style::{DASH, FINE_DASH, HAIRLINE, tint};
 

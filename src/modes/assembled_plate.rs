@@ -4,13 +4,13 @@ use std::sync::OnceLock;
 
 use faer::Col;
 
-use super::at_rest::{RestingMode, modes_at_rest};
 use super::buckling;
 use super::component::Component;
-use super::critical::{CriticalSpeed, NamedCriticalSpeed, critical_speeds, named};
+use super::critical_speed::{CriticalSpeed, NamedCriticalSpeed, critical_speeds, named};
 use super::error::SpectrumError;
 use super::pencil::{Pencil, Softening};
-use super::structured::{LARGE, StructuredStiffness};
+use super::resting_mode::{RestingMode, modes_at_rest};
+use super::structured_stiffness::{LARGE, StructuredStiffness};
 use super::work::Cancellation;
 use crate::model::plate::Plate;
 
@@ -167,7 +167,7 @@ mod tests {
     use super::*;
     use crate::model::plate::Resolution;
     use crate::model::scene::{Scene, rad_per_s};
-    use crate::modes::generalized::singular_multiples;
+    use crate::modes::symmetric_pencil::singular_multiples;
 
     /// The stiffest pad has a million times the stiffness of the blade, and its columns have rounding errors
     /// relative to that stiffness.
