@@ -11,8 +11,6 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde::Serialize;
 
-use super::work::Cancellation;
-
 /// Stage of a computation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Stage {
@@ -52,17 +50,6 @@ impl Progress {
             eigenproblems: AtomicUsize::new(0),
             is_busy: AtomicBool::new(false),
         })))
-    }
-
-    /// Runs a function with this progress callback, on new threads, as many as the current pool has.
-    ///
-    /// # Errors
-    /// The error of starting a thread.
-    pub fn watched<T: Send>(
-        &self,
-        work: impl FnOnce() -> T + Send,
-    ) -> Result<T, rayon::ThreadPoolBuildError> {
-        Cancellation::current().watched_with(self, work)
     }
 
     /// The callback of the computation on this thread.
@@ -173,6 +160,7 @@ mod tests {
     use rayon::prelude::*;
 
     use super::*;
+    use crate::modes::Cancellation;
 
     /// The callback receives the outer of two loops, part by part, and every eigenproblem.
     #[test]

@@ -135,6 +135,19 @@ impl Cancellation {
     }
 }
 
+impl Progress {
+    /// Runs a function with this progress callback, on new threads, as many as the current pool has.
+    ///
+    /// # Errors
+    /// The error of starting a thread.
+    pub fn watched<T: Send>(
+        &self,
+        work: impl FnOnce() -> T + Send,
+    ) -> Result<T, rayon::ThreadPoolBuildError> {
+        Cancellation::current().watched_with(self, work)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use rayon::prelude::*;

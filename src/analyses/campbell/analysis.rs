@@ -5,14 +5,15 @@ use serde::{Deserialize, Serialize};
 
 use super::certificate::BandCertificate;
 use super::chart::{CampbellDiagram, RootLoci};
-use super::event_shape::EventShape;
+use super::event_shape::{EventShape, shapes};
 use super::excitation::ExcitationLines;
 use super::in_cut::InCut;
 use super::membrane::BladeStress;
 use super::modes::{RestMode, Whirl};
 use super::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
 use crate::model::scene::{Accuracy, SceneFile};
-use crate::stability::Sensitivity;
+use crate::modes::SpectrumError;
+use crate::stability::{Analysis, Sensitivity};
 
 /// Report of an analysis (`report.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -88,6 +89,20 @@ pub struct Report {
 }
 
 impl Report {
+    /// Adds the shapes at every critical speed, at the peak of every band, at the operating speed and at
+    /// requested speeds, by ascending speed.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn add_shapes(
+        &mut self,
+        analysis: &Analysis,
+        asked_rad_per_s: &[f64],
+    ) -> Result<(), SpectrumError> {
+        self.shapes = shapes(analysis, asked_rad_per_s)?;
+        Ok(())
+    }
+
     /// Index into `instabilities` of the band that begins at the flutter speed.
     pub(crate) fn flutter_band(&self) -> Option<usize> {
         let flutter_rpm = self.flutter_speed_rpm?;

@@ -6,7 +6,6 @@ use faer::{Col, c64};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::analysis::Report;
 use super::modes::{ModeHarmonic, profile};
 use crate::model::plate::Plate;
 use crate::model::scene::rpm;
@@ -64,33 +63,29 @@ const LOWEST: usize = 4;
 /// Number of angles per nodal diameter at which the largest deflection is searched for.
 const ANGLES_EACH: usize = 24;
 
-impl Report {
-    /// Adds the shapes at every critical speed, at the peak of every band, at the operating speed and at
-    /// requested speeds, by ascending speed.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn add_shapes(
-        &mut self,
-        analysis: &Analysis,
-        asked_rad_per_s: &[f64],
-    ) -> Result<(), SpectrumError> {
-        let mut shapes = standing(analysis);
-        for band in analysis.bands() {
-            shapes.extend(of_band(analysis, band)?);
-        }
-        shapes.sort_by(|x, y| x.rpm.total_cmp(&y.rpm));
-        if let Some(speed) = analysis.scene.operating_rad_per_s()
-            && analysis.verdict(speed).state != StabilityState::OutsideSweep
-        {
-            shapes.extend(at_speed(analysis, speed, ShapeOccasion::OperatingSpeed)?);
-        }
-        for speed in asked_rad_per_s {
-            shapes.extend(at_speed(analysis, *speed, ShapeOccasion::AskedSpeed)?);
-        }
-        self.shapes = shapes;
-        Ok(())
+/// The shapes at every critical speed, at the peak of every band, at the operating speed and at requested speeds, by
+/// ascending speed.
+///
+/// # Errors
+/// [`SpectrumError`] when an eigenproblem fails.
+pub(super) fn shapes(
+    analysis: &Analysis,
+    asked_rad_per_s: &[f64],
+) -> Result<Vec<EventShape>, SpectrumError> {
+    let mut shapes = standing(analysis);
+    for band in analysis.bands() {
+        shapes.extend(of_band(analysis, band)?);
     }
+    shapes.sort_by(|x, y| x.rpm.total_cmp(&y.rpm));
+    if let Some(speed) = analysis.scene.operating_rad_per_s()
+        && analysis.verdict(speed).state != StabilityState::OutsideSweep
+    {
+        shapes.extend(at_speed(analysis, speed, ShapeOccasion::OperatingSpeed)?);
+    }
+    for speed in asked_rad_per_s {
+        shapes.extend(at_speed(analysis, *speed, ShapeOccasion::AskedSpeed)?);
+    }
+    Ok(shapes)
 }
 
 /// The waves that stand still at the critical speeds of the sweep. Each speed of a free blade is listed once,

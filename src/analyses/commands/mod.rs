@@ -15,7 +15,7 @@ use super::check::{self, CheckReport};
 use super::compare::{self, CompareReport};
 use super::cut::{self, CutReport};
 use super::deflect::{self, DeflectReport};
-use super::document;
+use super::document::Document;
 use super::fit::{self, FitReport};
 use super::gap::{self, GapReport};
 use super::map::{self, MapReport};
@@ -105,7 +105,14 @@ pub trait CommandReport {
     /// # Errors
     /// [`FigureError`] if a figure cannot be drawn.
     fn page(&self) -> Result<String, FigureError> {
-        document::page(self)
+        let document = Document {
+            command: self.command().name,
+            version: self.version(),
+            scene: self.scene(),
+            outline: self.outline(),
+            figures: self.figures(),
+        };
+        document.page()
     }
 }
 

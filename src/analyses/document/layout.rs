@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use super::inputs::inputs;
-use crate::analyses::commands::CommandReport;
 use crate::model::scene::SceneFile;
-use crate::page::figure::FigureError;
+use crate::page::figure::{Figure, FigureError};
+use crate::page::outline::Outline;
 use crate::page::text::escaped;
 
 const STYLE: &str = "\
@@ -19,28 +19,37 @@ th{font-weight:600}td.number{text-align:right}\
 figure{margin:1em 0;break-inside:avoid}figure svg{width:100%;height:auto}tr{break-inside:avoid}\
 @media print{body{margin:0;max-width:none;font-size:11px}h2{break-after:avoid}}@page{margin:15mm}";
 
-/// Returns the page of a report.
-///
-/// # Errors
-/// [`FigureError`] if a figure cannot be drawn.
-pub fn page<R: CommandReport + ?Sized>(report: &R) -> Result<String, FigureError> {
-    let figures = report
-        .figures()
-        .iter()
-        .map(|figure| figure.svg())
-        .collect::<Result<Vec<String>, _>>()?;
-    let mut text = String::new();
-    // Writing to a string cannot fail, so that the result is ignored.
-    let _ = write_page(&mut text, report, &figures);
-    Ok(text)
+/// A report with its faces.
+pub struct Document<'a> {
+    /// Command that computed the report.
+    pub command: &'a str,
+    /// Version of sawflutter that computed it.
+    pub version: &'a str,
+    /// Scene of the report.
+    pub scene: &'a SceneFile,
+    /// Its text.
+    pub outline: Outline,
+    /// Its figures.
+    pub figures: Vec<Figure>,
 }
 
-fn write_page<R: CommandReport + ?Sized>(
-    text: &mut String,
-    report: &R,
-    figures: &[String],
-) -> std::fmt::Result {
-    let name = escaped(&report.scene().name);
+impl Document<'_> {
+    /// Returns the page of the report.
+    ///
+    /// # Errors
+    /// [`FigureError`] if a figure cannot be drawn.
+    pub fn page(&self) -> Result<String, FigureError> {
+        let figures = self.figures.iter().map(Figure::svg);
+        let figures = figures.collect::<Result<Vec<String>, _>>()?;
+        let mut text = String::new();
+        // Writing to a string cannot fail, so that the result is ignored.
+        let _ = write_page(&mut text, self, &figures);
+        Ok(text)
+    }
+}
+
+fn write_page(text: &mut String, document: &Document<'_>, figures: &[String]) -> std::fmt::Result {
+    let name = escaped(&document.scene.name);
     writeln!(
         text,
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}</title>\n<style>{STYLE}</style>\n</head>\n<body>"
@@ -48,17 +57,17 @@ fn write_page<R: CommandReport + ?Sized>(
     writeln!(
         text,
         "<h1>{name}</h1>\n<p class=\"facts\">sawflutter {} {}</p>",
-        escaped(report.version()),
-        report.command().name
+        escaped(document.version),
+        document.command
     )?;
-    writeln!(text, "<h2>Result</h2>\n{}", report.outline().in_html())?;
+    writeln!(text, "<h2>Result</h2>\n{}", document.outline.in_html())?;
     writeln!(text, "<h2>Figures</h2>")?;
     for figure in figures {
         // The XML header of the drawing is removed, because HTML does not allow it.
         let drawing = figure.find("<svg").map_or("", |start| &figure[start..]);
         writeln!(text, "<figure>\n{drawing}\n</figure>")?;
     }
-    scene(text, report.scene())?;
+    scene(text, document.scene)?;
     writeln!(text, "</body>\n</html>")
 }
 

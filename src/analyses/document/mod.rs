@@ -6,4 +6,4 @@
 mod inputs;
 mod layout;
 
-pub use layout::page;
+pub use layout::Document;

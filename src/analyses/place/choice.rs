@@ -9,10 +9,11 @@ use crate::model::plate::Resolution;
 use crate::model::scene::{Freed, Scene, SceneError, scene_at};
 use crate::stability::ChosenBasis;
 
+use super::demands::Progress;
+use super::error::PlaceError;
 use super::neighbours::Neighbours;
-use super::outcome::Computed;
-use super::search::{Search, Tried};
-use super::{IDLE, PlaceError, Progress, cheapest};
+use super::outcome::{Computed, IDLE};
+use super::search::{Search, Tried, cheapest};
 
 /// First and last step of the refinement on the final basis, as shares of the bounds.
 const FINE_STEPS: (f64, f64) = (0.02, 1e-3);

@@ -207,6 +207,9 @@ impl Options {
     }
 }
 
+/// Progress callback: name of the step, number of its finished saws, number of all its saws.
+pub type Progress<'a> = &'a (dyn Fn(&'static str, usize, usize) + Sync);
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,8 +3,9 @@
 use crate::model::scene::Quantity;
 use crate::modes::branches::even_speeds;
 
+use super::demands::Progress;
+use super::report::{GoalMap, Outcome};
 use super::search::{Search, Tried};
-use super::{GoalMap, Outcome, Progress};
 
 /// Indices of the numbers along the axes: radius and angle of a pad if both are free, otherwise others.
 fn axes(paths: &[&str]) -> (usize, Option<usize>) {

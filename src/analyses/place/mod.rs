@@ -49,18 +49,15 @@ use crate::modes::Cancellation;
 use crate::stability::ChosenBasis;
 
 use choice::{Choice, Weighed, basis_of_all, settle};
-pub use demands::{Demands, GapDemands, Options, Tolerances};
+pub use demands::{Demands, GapDemands, Options, Progress, Tolerances};
 pub use error::PlaceError;
 use neighbours::Neighbours;
-use outcome::{Computed, Question, REFUSED};
+use outcome::{Computed, IDLE, Question, REFUSED};
 pub use report::{
     FragileOptimum, Goal, GoalMap, Neighbour, Outcome, PlaceCertificate, PlaceReport,
     PlacedParameter,
 };
-use search::{Search, Tried};
-
-/// Progress callback: name of the step, number of its finished saws, number of all its saws.
-pub type Progress<'a> = &'a (dyn Fn(&'static str, usize, usize) + Sync);
+use search::{Search, Tried, cheapest};
 
 /// Tolerance that determines the basis of the coarse search. The best saws are compared and refined with the
 /// tolerance of the scene.
@@ -79,9 +76,6 @@ const MOST_PROMISING: usize = 3;
 const AT_BOUND: f64 = 1e-3;
 /// Shares at which the effect of a number is examined.
 const LOOKED_AT: [f64; 2] = [0.23, 0.71];
-/// Smaller relative changes of speeds are no effect.
-const IDLE: f64 = 1e-7;
-
 /// Searches for the saw that is best in the worst case of its tolerances: it computes even samples of the
 /// bounds, refines the best of them by direct search (MADS), draws a map through the result, and refines the
 /// best saws on the basis that the tolerance of the scene requires.
@@ -270,11 +264,6 @@ fn look_everywhere(
     candidates.sort_by(|x, y| x.cost.total_cmp(&y.cost));
     candidates.dedup_by(|x, y| x.shares == y.shares);
     Ok((candidates, map))
-}
-
-fn cheapest(tried: &[Tried]) -> Option<Tried> {
-    let cheapest = tried.iter().min_by(|x, y| x.cost.total_cmp(&y.cost));
-    cheapest.cloned()
 }
 
 /// Divides the free numbers into those that move a critical speed or a band, and the others.

@@ -39,6 +39,8 @@ pub struct Question {
 const FAR_BEYOND: f64 = 1e6;
 /// Cost of a saw that cannot be analysed, larger than any other.
 pub const REFUSED: f64 = 1e12;
+/// Smaller relative changes of speeds are no effect.
+pub const IDLE: f64 = 1e-7;
 
 impl Question {
     /// Analyses a saw.

@@ -182,3 +182,9 @@ impl<'a> Search<'a> {
         tried
     }
 }
+
+/// The one with the smallest cost.
+pub fn cheapest(tried: &[Tried]) -> Option<Tried> {
+    let cheapest = tried.iter().min_by(|x, y| x.cost.total_cmp(&y.cost));
+    cheapest.cloned()
+}

@@ -8,8 +8,7 @@ use crate::model::scene::Scene;
 use anyhow::bail;
 use serde::Serialize;
 
-use super::common::{Output, is_standard_input};
-use super::in_words;
+use super::common::{Output, in_words, is_standard_input};
 
 use crate::analyses::campbell::Answer;
 use crate::page::outline::{shortened, wrapped};

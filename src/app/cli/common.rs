@@ -293,3 +293,16 @@ impl Output {
         Ok(())
     }
 }
+
+/// The text of an error and of its causes, except causes that the text already contains.
+pub fn in_words(error: &anyhow::Error) -> String {
+    let mut words = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        if words.is_empty() {
+            words = cause;
+        } else if !words.contains(&cause) {
+            words += &format!(": {cause}");
+        }
+    }
+    words
+}

@@ -37,6 +37,8 @@ use std::path::Path;
 use crate::page::text::{printable, printable_line};
 use clap::{CommandFactory, Parser, Subcommand};
 
+use self::common::in_words;
+
 /// Stability of thin, fast, guided circular saws: Campbell diagram, critical
 /// speeds, divergence and flutter bands, and a plain verdict.
 #[derive(Parser)]
@@ -189,19 +191,6 @@ fn command(command: Option<Command>) -> anyhow::Result<bool> {
         Some(Command::Schema(arguments)) => schema::run(&arguments),
     }
     .map(|()| true)
-}
-
-/// The text of an error and of its causes, except causes that the text already contains.
-fn in_words(error: &anyhow::Error) -> String {
-    let mut words = String::new();
-    for cause in error.chain().map(ToString::to_string) {
-        if words.is_empty() {
-            words = cause;
-        } else if !words.contains(&cause) {
-            words += &format!(": {cause}");
-        }
-    }
-    words
 }
 
 /// Whether the reader of the output has closed it, like `head`, which is no failure.

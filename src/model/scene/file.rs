@@ -11,13 +11,14 @@ use super::cut_file::CutFile;
 use super::damping::DampingFile;
 use super::excitation::ExcitationFile;
 use super::friction::FrictionFile;
+use super::guide_file::GuideFile;
 use super::membrane::MembraneFile;
 use super::quantities::typical_value;
 use super::response::ResponseFile;
-use super::rule::is_default;
 use super::runup::{ProbeFile, RunUpFile};
-use super::side_force::SideForceFile;
+use super::side_force::{SideForceFile, USUAL_SIDE_FORCE_N};
 use super::spline::SplineFile;
+use crate::page::text::shown_to;
 
 /// A saw and the analysis, as written in a scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -93,84 +94,33 @@ fn default_flutter_threshold_per_s() -> f64 {
     const { typical_value("flutter_threshold_per_s") }
 }
 
-/// A guide pad with one length along and one across the radius at its centre. With zero size it is a point
-/// spring.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct GuideFile {
-    /// Distance of the pad's centre from the axis.
-    pub radius_m: f64,
-    /// Angle of the pad's centre, from the cut (θ = 0), positive in the direction of rotation.
-    pub angle_deg: f64,
-    /// Length along the radius.
-    pub radial_length_m: f64,
-    /// Length across the radius.
-    pub tangential_length_m: f64,
-    /// Shape of the pad; a rectangle by default.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub shape: GuideShape,
-    /// Lateral stiffness of the whole pad, both faces together.
-    pub stiffness_n_per_m: f64,
-    /// Lateral viscous damping of the whole pad, fixed in space.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub damping_n_s_per_m: f64,
-    /// Gap between the pad and a face of the blade, such as the thickness of a film of water; `check` compares it
-    /// with the static deflection in the cut. A linear pad acts as if it had no gap. Required where `contact` is one_sided,
-    /// otherwise not checked by default.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub gap_m: Option<f64>,
-    /// Whether the pad acts at any deflection, which is the default, or only beyond the gap.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub contact: ContactLaw,
-    /// Sides of the blade on which a one-sided pad is; both by default.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub side: GuideSide,
-    /// Lateral stiffness of the whole one-sided pad inside the gap, such as that of a film of water. Zero by
-    /// default.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub film_stiffness_n_per_m: f64,
-    /// Lateral offset of the middle between the faces of a one-sided pad from the plane of the flat blade, positive in the
-    /// direction of positive deflection. Zero by default.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub offset_m: f64,
-}
+impl SceneFile {
+    /// Constant side force in N: the given one, or 1 N.
+    pub fn side_force_n(&self) -> f64 {
+        let typed = self.side_force.and_then(|typed| typed.force_n);
+        typed.unwrap_or(USUAL_SIDE_FORCE_N)
+    }
 
-/// Shape of a guide pad.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum GuideShape {
-    /// A rectangle with sides along and across the radius.
-    #[default]
-    Rectangle,
-    /// An ellipse whose axes are the lengths along and across the radius: a circle if they are equal.
-    Round,
-}
+    /// Place of the side force for a reader: "at the cut", or like "at the rim at 30°".
+    pub(crate) fn side_force_place_in_words(&self) -> String {
+        let typed = self.side_force.unwrap_or_default();
+        let radius = match typed.radius_m {
+            None => "the rim".to_owned(),
+            Some(radius_m) => format!("{} m", shown_to(4, radius_m)),
+        };
+        let angle_deg = typed.angle_deg.unwrap_or(self.cut_angle_deg());
+        let is_in_cut = self.cut.is_some() && angle_deg == self.cut_angle_deg();
+        if typed.radius_m.is_none() && is_in_cut {
+            "at the cut".to_owned()
+        } else {
+            format!("at {radius} at {}°", shown_to(4, angle_deg))
+        }
+    }
 
-/// Contact law of a guide pad.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum ContactLaw {
-    /// A spring in both directions at any deflection: a preloaded pad, or one with a film.
-    #[default]
-    Linear,
-    /// A spring only beyond the gap, which presses and never pulls. `deflect`, `runup.stretching` and
-    /// `cut.stretching` include the contact; linear analyses such as the Campbell diagram treat the pad as
-    /// linear.
-    OneSided,
-}
-
-/// Sides of the blade on which a guide pad is.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum GuideSide {
-    /// Both sides, with a gap on each.
-    #[default]
-    Both,
-    /// The side of positive deflections, on the left when looking from the cut towards the axis with θ = 90°
-    /// up.
-    Left,
-    /// The side of negative deflections.
-    Right,
+    /// Angle of the middle of the cut; without a cut, zero, the direction from which angles are counted.
+    pub(crate) fn cut_angle_deg(&self) -> f64 {
+        self.cut.as_ref().map_or(0.0, |cut| cut.angle_deg)
+    }
 }
 
 /// Range of rotation speeds.

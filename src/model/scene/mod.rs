@@ -15,6 +15,7 @@ mod file;
 mod free_number;
 mod friction;
 mod guide;
+mod guide_file;
 mod membrane;
 mod parameter;
 mod parser;
@@ -58,16 +59,14 @@ pub use cut_file::{CutFile, CutSpeedFile};
 pub use damping::{DampingFile, ModeRatioRow};
 pub(crate) use entries::in_words;
 pub use excitation::{ExcitationFile, ExcitationLine};
-pub use file::{
-    Accuracy, ContactLaw, GuideFile, GuideShape, GuideSide, Measured, MeasuredRow, SceneFile,
-    SweepFile,
-};
+pub use file::{Accuracy, Measured, MeasuredRow, SceneFile, SweepFile};
 #[doc(hidden)]
 pub use free_number::spread;
 pub use free_number::{Freed, NamedBounds};
 pub(crate) use free_number::{effective, is_logarithmic, scene_at};
 pub use friction::FrictionFile;
 pub(crate) use guide::{Guide, Lifting};
+pub use guide_file::{ContactLaw, GuideFile, GuideShape, GuideSide};
 pub(crate) use membrane::{Membrane, Temperature, TemperatureShape};
 pub use membrane::{MembraneFile, TemperatureFile, TemperatureRow};
 pub use parameter::Parameter;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::rule::is_default;
 use super::speed_range::check_rise;
-use super::{Blade, Point, Scene, SceneError, SpeedRange};
+use super::{Blade, SceneError, SpeedRange};
 
 /// Run-up at a constant rate, under the constant force of `side_force`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -36,7 +36,7 @@ pub struct ProbeFile {
 }
 
 /// The paper's position of the displacement probe, section 3.1.
-const DEFAULT_PROBE_DEG: f64 = 90.0;
+pub(super) const DEFAULT_PROBE_DEG: f64 = 90.0;
 
 impl RunUpFile {
     /// Checks that the speed rises.
@@ -63,17 +63,5 @@ impl ProbeFile {
         let remedy = "put the probe over the moving part of the blade";
         let radius_m = self.radius_m.unwrap_or(blade.outer_radius_m);
         blade.check_on("probe.radius_m", radius_m, remedy)
-    }
-}
-
-impl Scene {
-    /// Point at which the deflection is read.
-    pub(crate) fn probe(&self) -> Point {
-        let typed = self.file.probe.as_ref();
-        let radius_m = typed.and_then(|probe| probe.radius_m);
-        Point {
-            radius_m: radius_m.unwrap_or(self.blade.outer_radius_m),
-            angle_deg: typed.map_or(DEFAULT_PROBE_DEG, |probe| probe.angle_deg),
-        }
     }
 }

@@ -1,8 +1,10 @@
 //! A [`Scene`]: a validated saw, in SI units and radians.
 
+use super::runup::DEFAULT_PROBE_DEG;
 use super::{
-    Accuracy, Blade, Cut, DampingFile, ExcitationLine, Guide, Membrane, RunUpFile, SceneError,
-    SceneFile, SpeedRange, SplineFile, SweepFile, in_the_cut, rad_per_s, rpm,
+    Accuracy, Blade, Cut, DampingFile, ExcitationLine, Guide, Membrane, OscillatingForce, Point,
+    RunUpFile, SceneError, SceneFile, SideForce, SpeedRange, SplineFile, SweepFile, in_the_cut,
+    rad_per_s, rpm,
 };
 
 /// A validated saw. It contains the scene as typed and the numbers derived from it, so that it cannot be
@@ -148,5 +150,36 @@ impl Scene {
     /// Run-up under the side force.
     pub fn runup(&self) -> Option<&RunUpFile> {
         self.file.runup.as_ref()
+    }
+
+    /// The constant side force, given or assumed.
+    pub(crate) fn side_force(&self) -> SideForce {
+        let typed = self.file.side_force.unwrap_or_default();
+        SideForce {
+            force_n: self.file.side_force_n(),
+            at: Point {
+                radius_m: typed.radius_m.unwrap_or(self.blade.outer_radius_m),
+                angle_deg: typed.angle_deg.unwrap_or(self.file.cut_angle_deg()),
+            },
+        }
+    }
+
+    /// The oscillating side force, if there is one.
+    pub(crate) fn oscillating_force(&self) -> Option<OscillatingForce> {
+        let typed = self.file.side_force?;
+        (typed.oscillating_n != 0.0).then_some(OscillatingForce {
+            amplitude_n: typed.oscillating_n,
+            order: typed.order.unwrap_or(1),
+        })
+    }
+
+    /// Point at which the deflection is read.
+    pub(crate) fn probe(&self) -> Point {
+        let typed = self.file.probe.as_ref();
+        let radius_m = typed.and_then(|probe| probe.radius_m);
+        Point {
+            radius_m: radius_m.unwrap_or(self.blade.outer_radius_m),
+            angle_deg: typed.map_or(DEFAULT_PROBE_DEG, |probe| probe.angle_deg),
+        }
     }
 }

@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::quantities::typical_value;
 use super::rule::is_default;
-use super::{Blade, Point, RefusedValue, Scene, SceneError, SceneFile};
-use crate::page::text::shown_to;
+use super::{Blade, Point, RefusedValue, SceneError};
 
 /// Lateral force at a point fixed in space, constant and oscillating. `deflect`, `runup`, `gap`, `place` and studies of guides with
 /// a gap compute with the constant force, by default 1 N, `response` and `gap` also with the oscillating one.
@@ -72,57 +71,5 @@ impl SideForceFile {
             return Err(RefusedValue::missing("side_force.oscillating_n", allowed, remedy).into());
         }
         Ok(())
-    }
-}
-
-impl SceneFile {
-    /// Constant side force in N: the given one, or 1 N.
-    pub fn side_force_n(&self) -> f64 {
-        let typed = self.side_force.and_then(|typed| typed.force_n);
-        typed.unwrap_or(USUAL_SIDE_FORCE_N)
-    }
-
-    /// Place of the side force for a reader: "at the cut", or like "at the rim at 30°".
-    pub(crate) fn side_force_place_in_words(&self) -> String {
-        let typed = self.side_force.unwrap_or_default();
-        let radius = match typed.radius_m {
-            None => "the rim".to_owned(),
-            Some(radius_m) => format!("{} m", shown_to(4, radius_m)),
-        };
-        let angle_deg = typed.angle_deg.unwrap_or(self.cut_angle_deg());
-        let is_in_cut = self.cut.is_some() && angle_deg == self.cut_angle_deg();
-        if typed.radius_m.is_none() && is_in_cut {
-            "at the cut".to_owned()
-        } else {
-            format!("at {radius} at {}°", shown_to(4, angle_deg))
-        }
-    }
-
-    /// Angle of the middle of the cut; without a cut, zero, the direction from which angles are counted.
-    pub(crate) fn cut_angle_deg(&self) -> f64 {
-        self.cut.as_ref().map_or(0.0, |cut| cut.angle_deg)
-    }
-}
-
-impl Scene {
-    /// The constant side force, given or assumed.
-    pub(crate) fn side_force(&self) -> SideForce {
-        let typed = self.file.side_force.unwrap_or_default();
-        SideForce {
-            force_n: self.file.side_force_n(),
-            at: Point {
-                radius_m: typed.radius_m.unwrap_or(self.blade.outer_radius_m),
-                angle_deg: typed.angle_deg.unwrap_or(self.file.cut_angle_deg()),
-            },
-        }
-    }
-
-    /// The oscillating side force, if there is one.
-    pub(crate) fn oscillating_force(&self) -> Option<OscillatingForce> {
-        let typed = self.file.side_force?;
-        (typed.oscillating_n != 0.0).then_some(OscillatingForce {
-            amplitude_n: typed.oscillating_n,
-            order: typed.order.unwrap_or(1),
-        })
     }
 }

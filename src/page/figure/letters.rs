@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 
 use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point, PxScaleFont, ScaleFont};
 use plotters::element::{Drawable, PointCollection};
-use plotters::style::Color;
+use plotters::style::{Color, RGBColor};
 use plotters_backend::text_anchor::Pos;
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
@@ -16,13 +16,20 @@ use plotters_backend::{
 
 use tiny_skia::{Path, PathBuilder};
 
-use super::style::{Colour, Weight};
-
 /// Names of the font in an SVG, with replacements for systems without Inter.
 const FAMILY: &str = "Inter, Helvetica, Arial, sans-serif";
 
 /// Ratio of the size of a font in plotters to the em.
 const SIZE_PER_EM: f64 = 1.24;
+
+/// Weight of a font.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Weight {
+    /// Weight of most text.
+    Regular,
+    /// Weight of titles.
+    SemiBold,
+}
 
 /// The built-in font of a weight; `None` if it cannot be read.
 fn font(weight: Weight) -> Option<&'static FontRef<'static>> {
@@ -115,7 +122,7 @@ pub struct Written<'a> {
     /// Height of an em in the pixels of the backend.
     pub em: f64,
     pub weight: Weight,
-    pub colour: Colour,
+    pub colour: RGBColor,
     pub anchor: Pos,
     pub transform: FontTransform,
 }

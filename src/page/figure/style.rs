@@ -2,7 +2,7 @@
 
 use plotters::style::RGBColor;
 
-pub use super::letters::text_width;
+pub use super::letters::{Weight, text_width};
 
 /// A colour: red, green and blue from 0 to 255.
 pub type Colour = RGBColor;
@@ -70,15 +70,6 @@ pub const FINE_DASH: [f64; 2] = [4.0, 4.0];
 
 /// Diameter of the rings at measured frequencies.
 pub const MEASURED_SIZE: f64 = 6.0;
-
-/// Weight of a font.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Weight {
-    /// Weight of most text.
-    Regular,
-    /// Weight of titles.
-    SemiBold,
-}
 
 /// Width of a label in figure units.
 pub fn label_width(label: &str) -> f64 {

@@ -11,10 +11,11 @@ const SHARE: f64 = 1.45;
 
 /// The areas, as numbers.
 pub fn chart(report: &MapReport) -> ChartData {
-    let (panel, key) = match &report.y {
+    let (mut panel, key) = match &report.y {
         Some(y) => (over_numbers::panel(report, y), over_numbers::key(report)),
         None => (over_speed::panel(report), over_speed::key(report)),
     };
+    panel.share = SHARE;
     ChartData {
         key,
         ..ChartData::new(&report.scene.name, facts(report), vec![panel])

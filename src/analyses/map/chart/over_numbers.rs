@@ -1,6 +1,5 @@
 //! Areas of stable, diverging and fluttering saws over two numbers, with contours of speeds.
 
-use super::SHARE;
 use crate::analyses::map::{Contour, Contoured, MapAxis, MapReport, MappedSaw};
 use crate::analyses::scene_axis::Along;
 use crate::page::figure::chart_data::PanelData;
@@ -103,10 +102,7 @@ pub fn panel(report: &MapReport, y: &MapAxis) -> PanelData {
         .chain(contours)
         .chain([Item::Points(scene)])
         .collect();
-    PanelData {
-        share: SHARE,
-        ..PanelData::new(across.axis, up.axis, items)
-    }
+    PanelData::new(across.axis, up.axis, items)
 }
 
 fn look(quantity: Contoured) -> (Hue, bool, &'static str) {

@@ -1,6 +1,5 @@
 //! Bands as areas over a number and the speed.
 
-use super::SHARE;
 use crate::analyses::map::{MapReport, MappedSaw};
 use crate::analyses::scene_axis::Along;
 use crate::page::figure::chart_data::{AxisData, PanelData};
@@ -90,14 +89,11 @@ pub fn panel(report: &MapReport) -> PanelData {
         all.extend(curve(report, &along, (hue, name), of));
     }
     all.extend(marks(report, &along));
-    PanelData {
-        share: SHARE,
-        ..PanelData::new(
-            along.axis,
-            AxisData::speed().within([0.0, report.to_rpm]),
-            all,
-        )
-    }
+    PanelData::new(
+        along.axis,
+        AxisData::speed().within([0.0, report.to_rpm]),
+        all,
+    )
 }
 
 /// The areas of a saw in a sweep up to `to_rpm`.
