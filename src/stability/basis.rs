@@ -8,7 +8,7 @@
 
 use super::error::AnalysisError;
 use super::ladder::{DENSE_LADDER, LADDER, ahead, resolution, rung_of, sized};
-use super::reach::{PAST_THE_RANGE, Reach};
+use super::reach::{PAST_THE_RANGE, Reach, speeds};
 use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::Scene;
 use crate::model::tuning::Tuned;
@@ -127,11 +127,6 @@ impl ChosenBasis {
             rung = next;
         }
     }
-}
-
-/// Critical speeds without their waves, in rad/s.
-pub(super) fn speeds(critical: &[NamedCriticalSpeed]) -> Vec<f64> {
-    critical.iter().map(|c| c.speed_rad_per_s).collect()
 }
 
 /// Index of the first size that may reduce an error of `excess` times the tolerance to the tolerance, or of the

@@ -101,7 +101,7 @@ impl<'a> Reach<'a> {
         critical: &[NamedCriticalSpeed],
         free: Needed,
     ) -> Result<Needed, AnalysisError> {
-        let speeds = super::basis::speeds(critical);
+        let speeds = speeds(critical);
         let last = self.last(&speeds);
         let lowest = free.lowest_rad_per_s.zip(speeds.first());
         let lowered = lowest.map_or(1.0, |(free, own)| f64::max(free / own, 1.0));
@@ -259,6 +259,11 @@ fn default_top(lowest_rad_per_s: Option<f64>) -> f64 {
     let lowest = lowest_rad_per_s.map_or(1000.0, rpm);
     let digit = 10_f64.powf((2.0 * lowest).log10().floor() - 1.0);
     rad_per_s((2.0 * lowest / digit).ceil() * digit)
+}
+
+/// Critical speeds without their waves, in rad/s.
+pub(super) fn speeds(critical: &[NamedCriticalSpeed]) -> Vec<f64> {
+    critical.iter().map(|c| c.speed_rad_per_s).collect()
 }
 
 #[cfg(test)]

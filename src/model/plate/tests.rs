@@ -1,7 +1,9 @@
 //! Integrals of guides, compared with sums over their areas.
 
+use faer::Mat;
+
 use super::*;
-use crate::model::scene::{GuideFile, GuideShape};
+use crate::model::scene::{GuideFile, GuideShape, Scene};
 
 fn plate_with(guides: &[GuideFile]) -> Plate {
     let scene = Scene::paper().edited(|saw| saw.guides = guides.to_vec());

@@ -3,7 +3,7 @@
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Col, Mat, MatRef, Par, Scale, c64};
 
-use super::Harmonic;
+use super::harmonic::Harmonic;
 
 /// Coupling matrix of the harmonics, of guides and edge loads.
 #[derive(Debug)]

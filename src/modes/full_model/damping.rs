@@ -4,7 +4,6 @@ use faer::traits::math_utils::from_f64;
 use faer::{Mat, MatRef, c64};
 use nalgebra::DMatrix;
 
-use super::add_scaled;
 use super::coupling::{Columns, Kept};
 use super::elimination::Shift;
 use super::harmonic::Harmonic;
@@ -100,4 +99,11 @@ fn proportion(stiffness: Option<&Mat<f64>>, damping: Option<&Mat<f64>>) -> Optio
     let share = damping.norm_l2() / stiffness.norm_l2();
     let differs = (damping - faer::Scale(share) * stiffness).norm_l2();
     (differs <= ROUNDING * damping.norm_l2()).then_some(share)
+}
+
+/// Adds a real block times a number to a complex block.
+fn add_scaled(sum: &mut DMatrix<c64>, factor: c64, block: &DMatrix<f64>) {
+    if factor != c64::new(0.0, 0.0) {
+        sum.zip_apply(block, |sum, own| *sum += factor * own);
+    }
 }

@@ -21,7 +21,6 @@ mod inertia;
 mod product;
 
 use faer::{Mat, c64};
-use nalgebra::DMatrix;
 
 pub use self::elimination::Elimination;
 pub use self::inertia::AtSpeed;
@@ -155,12 +154,5 @@ impl FullModel {
         });
         let parts = [(springs.unknowns.as_ref(), 1.0), (holding.as_ref(), -1.0)];
         Elimination::new(blocks?, &parts)
-    }
-}
-
-/// Adds a real block times a number to a complex block.
-fn add_scaled(sum: &mut DMatrix<c64>, factor: c64, block: &DMatrix<f64>) {
-    if factor != c64::new(0.0, 0.0) {
-        sum.zip_apply(block, |sum, own| *sum += factor * own);
     }
 }

@@ -12,19 +12,11 @@
 
 use faer::{Col, Mat, MatRef, Scale};
 
-use crate::model::scene::{Guide, GuideFile, GuideSide, Lifting};
+use crate::model::scene::{Guide, GuideFile, GuideSide};
 
 use super::super::{Plate, quadrature};
 use super::guide::circles;
-use super::{Contact, ContactTerms};
-
-/// Pads that lift off, and the linear terms of their plate while no pad is in contact.
-#[derive(Debug, Clone)]
-pub struct LiftingPads {
-    pads: Vec<(GuideFile, Lifting)>,
-    /// Terms of all contacts of the plate, in which each of these pads has only the stiffness of its film.
-    pub released: ContactTerms,
-}
+use super::{Contact, ContactTerms, LiftingPads};
 
 impl LiftingPads {
     /// The pads among the guides that lift off; `None` if there are none.
@@ -44,14 +36,6 @@ impl LiftingPads {
             guide.add_to(plate, &mut released);
         }
         Some(LiftingPads { pads, released })
-    }
-
-    /// The pads with only those terms that have a potential.
-    pub fn conservative(&self) -> Self {
-        LiftingPads {
-            pads: self.pads.clone(),
-            released: self.released.conservative(),
-        }
     }
 }
 

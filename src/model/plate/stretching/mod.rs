@@ -15,11 +15,13 @@
 //! Reference: C. Touzé, O. Thomas & A. Chaigne, *Asymmetric non-linear forced vibrations of free-edge circular
 //! plates*, part 1, J. Sound Vib. 258 (2002), 649–676, for free edges.
 
+mod error;
 mod nodes;
 mod reduced_potential;
 mod relaxation;
 mod strain;
 
+pub use error::StretchingError;
 pub use reduced_potential::ReducedStretching;
 
 use faer::{Col, Mat};
@@ -29,29 +31,6 @@ use super::Plate;
 use nodes::Nodes;
 use relaxation::Relaxed;
 use strain::{Slopes, Strain};
-
-/// Reason for which the potential of stretching, or its value, could not be computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum StretchingError {
-    /// The deflection belongs to another basis.
-    #[error(
-        "the deflection has {given} coordinates, the basis {expected} functions; give one coordinate for each"
-    )]
-    Length {
-        /// Number of given coordinates.
-        given: usize,
-        /// Number of required coordinates.
-        expected: usize,
-    },
-    /// The numbers differ too much in size.
-    #[error(
-        "the in-plane stiffness of the blade for {harmonic} waves is not finite; the scene's numbers differ too much in size"
-    )]
-    NotFinite {
-        /// Number m of waves around the circle.
-        harmonic: usize,
-    },
-}
 
 /// Potential of stretching U₄ of a plate, on its full model of N functions:
 ///

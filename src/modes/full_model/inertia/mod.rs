@@ -12,6 +12,7 @@
 //! zero, so two counts suffice for a line. The neglected part of PPᵀ and rounding are included in the same
 //! way: L_high contains them in full.
 
+mod bound;
 mod free_waves;
 mod jacobi;
 mod waves;
@@ -21,6 +22,7 @@ use std::sync::OnceLock;
 
 use faer::{Mat, c64};
 
+use self::bound::{Bound, BoundedBlock};
 use self::free_waves::FreeWaves;
 use self::jacobi::LEFT;
 use self::waves::Waves;
@@ -172,40 +174,6 @@ pub struct AtSpeed {
     free: OnceLock<Vec<FreeWaves>>,
     /// Waves with the columns of each stage.
     waves: [OnceLock<Waves>; LOOKS],
-}
-
-/// Coefficients of a block of a bound, (1 + share) B_n + more − (ω ± nΩ)².
-struct BoundedBlock {
-    share: f64,
-    more: f64,
-    /// (ω + nΩ)² and (ω − nΩ)².
-    turning: [f64; 2],
-}
-
-/// Lower or upper bound of L along a line.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Bound {
-    Low,
-    High,
-}
-
-impl Bound {
-    fn sign(self) -> f64 {
-        match self {
-            Bound::Low => -1.0,
-            Bound::High => 1.0,
-        }
-    }
-
-    /// Value of the square, of a number between two, that gives this bound of L.
-    fn of_square(self, ends: [f64; 2]) -> f64 {
-        let [x, y] = ends.map(|end| end * end);
-        match self {
-            Bound::Low => x.max(y),
-            Bound::High if ends[0] * ends[1] <= 0.0 => 0.0,
-            Bound::High => x.min(y),
-        }
-    }
 }
 
 #[cfg(test)]

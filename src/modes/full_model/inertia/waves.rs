@@ -6,8 +6,8 @@ use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::{Accum, Mat, MatRef, Par, Scale, c64};
 
+use super::bound::{Bound, BoundedBlock};
 use super::free_waves::FreeWaves;
-use super::{Bound, BoundedBlock};
 use crate::modes::full_model::Harmonic;
 use crate::modes::hermitian_inertia::negative_eigenvalues;
 

@@ -1,0 +1,113 @@
+//! The matrices of a plate, and the basis in which they stand.
+
+use faer::Mat;
+
+use super::contact::{ContactTerms, LiftingPads};
+use super::harmonic::HarmonicBlock;
+use super::membrane::MembraneStress;
+use super::radial::RadialBasis;
+use super::resolution::Resolution;
+use super::stress::CentrifugalStress;
+use crate::model::scene::{Blade, DampingFile};
+
+/// The matrices of a scene in a basis, M = 1. Terms that the scene does not contain are not assembled.
+#[derive(Debug, Clone)]
+pub struct Plate {
+    /// The part of the blade that deflects.
+    pub blade: Blade,
+    /// Size of the basis.
+    pub resolution: Resolution,
+    /// Radial functions R_nj.
+    pub(crate) basis: RadialBasis,
+    /// Centrifugal stress.
+    pub(super) spinning: CentrifugalStress,
+    /// Stiffness matrices K_b, K_m and K_σ − N of n = 0 … n_max nodal diameters.
+    pub harmonics: Vec<HarmonicBlock>,
+    /// Terms of the guides and of the contacts that [`Plate::with_contact`] adds.
+    pub contact: ContactTerms,
+    /// Pads that lift off, if the scene has any; `contact` contains them as pads in permanent contact.
+    pub(super) lifting: Option<LiftingPads>,
+    /// K_e, in 1/s², N × N, symmetric, if [`Plate::with_edge_loads`] has applied forces to the rim.
+    pub edge_stiffness: Option<Mat<f64>>,
+    /// Material and air damping, if the scene has any.
+    pub(crate) damping: Option<DampingFile>,
+    /// Stress of heat, roll tension or manufacture, if the scene has any.
+    pub membrane: Option<MembraneStress>,
+    /// Radial functions of n ≠ 1 and of n = 1 at the sampled radii.
+    pub(super) samples: [Vec<Vec<f64>>; 2],
+}
+
+/// Number of sampled radii, which resolves every nodal circle of a mode in a diagram.
+const SAMPLED_RADII: usize = 41;
+
+pub(super) fn sampled_radii(blade: &Blade) -> impl Iterator<Item = f64> + use<> {
+    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
+    (0..SAMPLED_RADII).map(move |k| a + (b - a) * k as f64 / (SAMPLED_RADII - 1) as f64)
+}
+
+impl Plate {
+    /// Largest number n_max of nodal diameters.
+    pub fn max_diameters(&self) -> usize {
+        self.resolution.max_diameters
+    }
+
+    /// Number of unknowns N.
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.basis.count() * (2 * self.max_diameters() + 1)
+    }
+
+    /// Number of radial functions for each number of nodal diameters: those of the resolution, and those that
+    /// steps and kinks of the thickness add.
+    pub fn radial_functions(&self) -> usize {
+        self.basis.count()
+    }
+
+    /// Index of the first cosine of n nodal diameters.
+    pub fn offset(&self, n: usize) -> usize {
+        let size = self.basis.count();
+        if n == 0 { 0 } else { size * (2 * n - 1) }
+    }
+
+    /// Norm of cos nθ (or sin nθ) in the mass inner product, √(ρh₀ π(1+δ_n0)), in √(kg/m²).
+    pub fn angular_norm(&self, n: usize) -> f64 {
+        let two = if n == 0 { 2.0 } else { 1.0 };
+        (self.blade.mass_per_area_kg_per_m2() * std::f64::consts::PI * two).sqrt()
+    }
+
+    /// Whether no contact or load fixed in space couples the harmonics.
+    pub fn is_axisymmetric(&self) -> bool {
+        self.contact.is_empty() && self.edge_stiffness.is_none()
+    }
+
+    /// Whether all forces have a potential: then eigenvalues come in quadruples and modes have Krein signs.
+    pub fn is_conservative(&self) -> bool {
+        self.damping.is_none() && self.contact.is_conservative()
+    }
+
+    /// Values R_nj for n nodal diameters, in 1/m, at [`Plate::sampled_radii_m`]: one row of J values for each
+    /// radius.
+    pub fn sampled_functions(&self, n: usize) -> &[Vec<f64>] {
+        &self.samples[usize::from(n == 1)]
+    }
+
+    /// 41 radii, evenly spaced from edge to edge, in m.
+    pub fn sampled_radii_m(&self) -> impl Iterator<Item = f64> + '_ {
+        sampled_radii(&self.blade)
+    }
+
+    /// Every basis function φᵢ at a point of the blade, in 1/√kg: N values in the order of the
+    /// unknowns. A point force F there is F φ on the right side of the equation of motion.
+    pub fn functions_at(&self, radius_m: f64, angle_rad: f64) -> Vec<f64> {
+        let mut values = Vec::with_capacity(self.degrees_of_freedom());
+        for n in 0..=self.max_diameters() {
+            let radial = self.basis.evaluate(n, radius_m).value;
+            let (sin, cos) = (n as f64 * angle_rad).sin_cos();
+            let norm = self.angular_norm(n);
+            values.extend(radial.iter().map(|r| r * cos / norm));
+            if n > 0 {
+                values.extend(radial.iter().map(|r| r * sin / norm));
+            }
+        }
+        values
+    }
+}
