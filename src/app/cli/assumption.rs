@@ -27,8 +27,6 @@ pub struct Block<'a> {
     pub usual: fn(&SceneFile) -> Value,
     /// The options of the command.
     pub given: &'a [Given<'a>],
-    /// Pairs of keys of the block, the second of which is not assumed if the first is given.
-    pub wins: &'a [(&'static str, &'static str)],
 }
 
 impl Block<'_> {
@@ -78,20 +76,16 @@ impl Block<'_> {
         Ok(set)
     }
 
-    /// The typical numbers, without those that options give or replace.
+    /// The typical numbers, without those that options give.
     fn usual_beside_given(&self, scene: &SceneFile) -> Map<String, Value> {
         let is_given = |key: &str| {
             let mut given = self.given.iter();
             given.any(|given| given.path == format!("{}.{key}", self.name) && given.text.is_some())
         };
-        let is_beaten = |key: &str| {
-            let mut wins = self.wins.iter();
-            wins.any(|(by, own)| *own == key && is_given(by))
-        };
         let Value::Object(mut block) = (self.usual)(scene) else {
             return Map::new();
         };
-        block.retain(|key, _| !is_given(key) && !is_beaten(key));
+        block.retain(|key, _| !is_given(key));
         block
     }
 }

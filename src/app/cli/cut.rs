@@ -46,24 +46,6 @@ struct Forces {
     /// Depth of cut, in m, or like 100mm
     #[arg(long, value_name = "LENGTH")]
     depth: Option<String>,
-    /// Teeth in the cut at a time; wins over the depth
-    #[arg(long, value_name = "COUNT")]
-    teeth_in_cut: Option<String>,
-    /// Force against the rotation on each tooth, in N; wins over the power
-    #[arg(long, value_name = "FORCE", allow_hyphen_values = true)]
-    tangential: Option<String>,
-    /// Force towards the axis on each tooth, in N
-    #[arg(long, value_name = "FORCE", allow_hyphen_values = true)]
-    radial: Option<String>,
-    /// Force across the blade on each tooth, in N
-    #[arg(long, value_name = "FORCE", allow_hyphen_values = true)]
-    lateral: Option<String>,
-    /// Speed at which the wood is fed, in m/s, or like 60m/min
-    #[arg(long, value_name = "SPEED")]
-    feed: Option<String>,
-    /// Length of the board, in m
-    #[arg(long, value_name = "LENGTH")]
-    board_length: Option<String>,
 }
 
 impl Forces {
@@ -72,34 +54,12 @@ impl Forces {
         let given = [
             given("power", "cut.power_w", self.power.as_ref()),
             given("depth", "cut.depth_m", self.depth.as_ref()),
-            given(
-                "teeth-in-cut",
-                "cut.teeth_in_cut",
-                self.teeth_in_cut.as_ref(),
-            ),
-            given(
-                "tangential",
-                "cut.tangential_n_per_tooth",
-                self.tangential.as_ref(),
-            ),
-            given("radial", "cut.radial_n_per_tooth", self.radial.as_ref()),
-            given("lateral", "cut.lateral_n_per_tooth", self.lateral.as_ref()),
-            given("feed", "cut.feed_m_per_s", self.feed.as_ref()),
-            given(
-                "board-length",
-                "cut.board_length_m",
-                self.board_length.as_ref(),
-            ),
         ];
         let block = Block {
             name: "cut",
             is_missing: scene.file().cut.is_none(),
             usual: typical_block::cut,
             given: &given,
-            wins: &[
-                ("tangential_n_per_tooth", "power_w"),
-                ("teeth_in_cut", "depth_m"),
-            ],
         };
         block.applied(scene)
     }

@@ -38,9 +38,6 @@ pub struct Arguments {
 #[derive(Args)]
 #[command(next_help_heading = "Numbers of the run-up, with or without a unit")]
 struct Course {
-    /// First speed, in rpm
-    #[arg(long, value_name = "SPEED")]
-    from: Option<String>,
     /// Last speed, in rpm
     #[arg(long, value_name = "SPEED")]
     to: Option<String>,
@@ -50,27 +47,21 @@ struct Course {
     /// Constant side force, in N
     #[arg(long, value_name = "FORCE", allow_hyphen_values = true)]
     force: Option<String>,
-    /// Angle of the force, in degrees, positive with the rotation
-    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
-    angle: Option<String>,
 }
 
 impl Course {
     fn applied(&self, scene: Scene) -> anyhow::Result<Scene> {
         let given = |option, path, text| Given { option, path, text };
         let given = [
-            given("from", "runup.from_rpm", self.from.as_ref()),
             given("to", "runup.to_rpm", self.to.as_ref()),
             given("seconds", "runup.duration_s", self.seconds.as_ref()),
             given("force", "side_force.force_n", self.force.as_ref()),
-            given("angle", "side_force.angle_deg", self.angle.as_ref()),
         ];
         let block = Block {
             name: "runup",
             is_missing: scene.file().runup.is_none(),
             usual: typical_block::runup,
             given: &given,
-            wins: &[],
         };
         block.applied(scene)
     }

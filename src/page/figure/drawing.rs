@@ -72,12 +72,6 @@ impl Figure {
         Figure { names, sheet }
     }
 
-    /// The marks, for tests of all figures.
-    #[cfg(test)]
-    pub(crate) fn sheet(&self) -> &Sheet {
-        &self.sheet
-    }
-
     /// File names of the PNG and of the SVG.
     pub fn names(&self) -> [&'static str; 2] {
         self.names

@@ -9,6 +9,7 @@ use super::key;
 use super::labels::end_room;
 use super::panel::{self, Named, lines_of_facts};
 use super::style::BETWEEN_FACTS;
+use super::tidiness::tidy;
 
 const WIDTH: u32 = 1200;
 const LEFT: f64 = 104.0;
@@ -44,7 +45,7 @@ pub fn sheet(data: &ChartData) -> Sheet {
     }
     grid.draw_scales(&mut sheet, &data.panels);
     key::draw(&mut sheet, &data.key, [LEFT, grid.bottom()], RIGHT - LEFT);
-    sheet
+    tidy(sheet)
 }
 
 /// Frames of the panels, in rows from top to bottom.

@@ -24,7 +24,6 @@ pub(crate) mod panel;
 pub(crate) mod raster;
 pub(crate) mod style;
 pub(crate) mod svg;
-#[cfg(test)]
 pub(crate) mod tidiness;
 
 pub use axis::Spread;
@@ -35,8 +34,6 @@ pub use items::{Area, Band, Bars, Heat, Item, Label, Line, Points, Role, Shape, 
 pub use palette::Hue;
 #[doc(hidden)]
 pub use palette::{PALETTE, Palette};
-#[cfg(test)]
-pub(crate) use tidiness::assert_tidy;
 
 /// Error of rendering a figure.
 #[derive(Debug, thiserror::Error)]

@@ -1,10 +1,18 @@
-//! Requirements on all figures, for tests.
+//! Requirements on all figures, which tests check wherever a sheet is drawn.
 
 use super::canvas::{Frame, Mark, Sheet, text_frame};
+#[cfg(test)]
 use super::style::PAPER;
 
-/// Requires that every text is inside the sheet and overlaps no other.
-pub fn assert_tidy(sheet: &Sheet) {
+/// The sheet; in tests every text must be inside it and overlap no other.
+pub fn tidy(sheet: Sheet) -> Sheet {
+    if cfg!(test) {
+        assert_tidy(&sheet);
+    }
+    sheet
+}
+
+fn assert_tidy(sheet: &Sheet) {
     let (width, height) = sheet.size();
     let texts = texts(sheet);
     for (i, (frame, text)) in texts.iter().enumerate() {
@@ -20,6 +28,7 @@ pub fn assert_tidy(sheet: &Sheet) {
 }
 
 /// Requires that no vertical line crosses a text, unless a white ground covers the line there.
+#[cfg(test)]
 pub fn assert_unstruck(sheet: &Sheet) {
     let marks = sheet.marks();
     for (above, mark) in marks.iter().enumerate() {
@@ -53,6 +62,7 @@ pub fn assert_unstruck(sheet: &Sheet) {
 }
 
 /// Abscissa, upper and lower end of a vertical line between two points.
+#[cfg(test)]
 fn upright(mark: &Mark) -> Option<[f64; 3]> {
     match mark {
         Mark::Line(points, _) => match points[..] {

@@ -32,6 +32,7 @@ use crate::page::figure::axis::{Axis, SPEED, draw_horizontal, draw_vertical, nam
 use crate::page::figure::canvas::{Frame, Sheet, Stroke};
 use crate::page::figure::chart_data::ChartData;
 use crate::page::figure::style::{BETWEEN_FACTS, HAIRLINE, MARGIN, QUIET};
+use crate::page::figure::tidiness::tidy;
 use crate::page::figure::{bands, heading};
 
 pub fn sheet(report: &Report, view: CampbellView) -> Sheet {
@@ -64,7 +65,7 @@ pub fn sheet(report: &Report, view: CampbellView) -> Sheet {
     speeds::label_operating(&mut sheet, &chart);
     legend::draw(&mut sheet, &chart, &labels);
     certificate::draw(&mut sheet, report);
-    sheet
+    tidy(sheet)
 }
 
 /// The whole sweep as numbers. Descriptions of the points, which are most of the data, are included only if `said`.
