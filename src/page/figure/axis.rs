@@ -118,12 +118,12 @@ impl Axis {
         let [from, to] = self.values;
         let most = ((self.places[1] - self.places[0]).abs() / apart).max(1.0);
         let step = round_up((to - from) / most);
-        let (first, last) = ((from / step).ceil(), (to / step).floor());
+        let (first, below) = ((from / step).ceil(), (to / step).floor());
         // Without this margin a rounding error may drop the tick at the end.
-        let last = if (last + 1.0) * step <= to + 1e-9 * step {
-            last + 1.0
+        let last = if (below + 1.0) * step <= to + 1e-9 * step {
+            below + 1.0
         } else {
-            last
+            below
         };
         let count = (last - first).clamp(0.0, 1000.0) as usize;
         (0..=count).map(|i| (first + i as f64) * step).collect()
@@ -242,8 +242,8 @@ pub fn round_up(size: f64) -> f64 {
 
 /// A number with at most six decimals, without trailing zeros.
 pub fn tick_label(value: f64) -> String {
-    let rounded = (value * 1e6).round() / 1e6;
-    let rounded = if rounded == 0.0 { 0.0 } else { rounded };
+    // The sum has no negative zero.
+    let rounded = (value * 1e6).round() / 1e6 + 0.0;
     format!("{rounded}").replace('-', "\u{2212}")
 }
 

@@ -70,8 +70,12 @@ pub fn draw_cells(sheet: &mut Sheet, heat: &Heat, x: &Axis, y: &Axis) {
     let colours: Vec<Colour> = heat.colours.iter().map(|colour| rgb(*colour)).collect();
     let scale = Axis::new(heat.range, [0.0, 1.0], heat.spread);
     draw_grid(sheet, (x, &heat.x), (y, &heat.y), |column, row| {
-        let value = heat.z.get(row).and_then(|row| row.get(column)).copied();
-        let value = value.filter(|value| !value.is_nan())?;
+        let value = heat
+            .z
+            .get(row)
+            .and_then(|row| row.get(column))
+            .copied()
+            .filter(|value| !value.is_nan())?;
         Some(match colours[..] {
             [only] => only,
             _ => ramp(&colours, scale.at(value)),

@@ -110,13 +110,14 @@ impl<'a> Labels<'a> {
     /// Draws the labels at the right ends of curves, to the right of the panel.
     fn draw_ends(&mut self, panel: &PanelData) {
         let frame = self.ground.frame;
-        let ends = ended(panel).filter_map(|line| {
-            let parts = self.ground.parts(line);
-            let points = parts.iter().flatten().copied();
-            let end = points.max_by(|a, b| a[0].total_cmp(&b[0]))?;
-            Some((line, end))
-        });
-        let ends: Vec<(&Line, [f64; 2])> = ends.collect();
+        let ends: Vec<(&Line, [f64; 2])> = ended(panel)
+            .filter_map(|line| {
+                let parts = self.ground.parts(line);
+                let points = parts.iter().flatten().copied();
+                let end = points.max_by(|a, b| a[0].total_cmp(&b[0]))?;
+                Some((line, end))
+            })
+            .collect();
         let extents = ends.iter().map(|(_, [_, y])| Extent {
             centre: *y,
             length: LINE,
@@ -126,13 +127,13 @@ impl<'a> Labels<'a> {
             .zip(push_apart(extents, [frame.top, frame.bottom]))
         {
             let Some(y) = place else { continue };
-            let at = [frame.right + LEADER, y];
+            let elbow = [frame.right + LEADER, y];
             self.sheet
-                .line([*end, at], Stroke::solid(QUIET, 0.6 * HAIRLINE));
+                .line([*end, elbow], Stroke::solid(QUIET, 0.6 * HAIRLINE));
             let colour = tint(line.colour.colour(), line.tint.max(0.8));
             let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
             let label = shorten_label(&line.end, LONGEST);
-            let at = [at[0] + GAP, y + 0.36 * LABEL_SIZE];
+            let at = [elbow[0] + GAP, y + 0.36 * LABEL_SIZE];
             self.sheet.text(at, letters, &label);
         }
     }
@@ -178,14 +179,15 @@ impl<'a> Labels<'a> {
             (at, letters, frame)
         });
         let inside = self.ground.frame;
-        let free = framed.filter(|(_, _, frame)| {
-            let is_inside = inside.left <= frame.left
-                && frame.right <= inside.right
-                && inside.top <= frame.top
-                && frame.bottom <= inside.bottom;
-            is_inside && !self.taken.iter().any(|other| other.overlaps(frame))
-        });
-        let free: Vec<([f64; 2], Lettering, Frame)> = free.collect();
+        let free: Vec<([f64; 2], Lettering, Frame)> = framed
+            .filter(|(_, _, frame)| {
+                let is_inside = inside.left <= frame.left
+                    && frame.right <= inside.right
+                    && inside.top <= frame.top
+                    && frame.bottom <= inside.bottom;
+                is_inside && !self.taken.iter().any(|other| other.overlaps(frame))
+            })
+            .collect();
         let is_clear = |(_, _, frame): &&([f64; 2], Lettering, Frame)| {
             !self.shunned.iter().any(|other| other.overlaps(frame))
         };
@@ -221,8 +223,8 @@ impl<'a> Labels<'a> {
     /// Writes a label on a curve, as close to its middle as there is room.
     fn draw_on(&mut self, line: &Line) {
         let points = line.x.iter().zip(&line.y);
-        let places = points.map(|(x, y)| [self.ground.x.at(*x), self.ground.y.at(*y)]);
-        let places = filled(&places.collect::<Vec<_>>());
+        let drawn = points.map(|(x, y)| [self.ground.x.at(*x), self.ground.y.at(*y)]);
+        let places = filled(&drawn.collect::<Vec<_>>());
         let letters = Lettering::regular(LABEL_SIZE, line.colour.colour(), Anchor::Middle);
         let middle = places.len() / 2;
         let tried = (0..=middle)

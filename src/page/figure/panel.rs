@@ -118,11 +118,9 @@ fn draw_title(sheet: &mut Sheet, panel: &PanelData, frame: &Frame, has_labels: b
         baseline -= FACT;
     }
     let title = shorten(&panel.title, SUBTITLE_SIZE, Weight::SemiBold, width);
-    let baseline = if panel.facts.is_empty() {
-        baseline
-    } else {
-        baseline - 2.0
-    };
+    if !panel.facts.is_empty() {
+        baseline -= 2.0;
+    }
     sheet.text(
         [frame.left, baseline],
         Lettering::title(SUBTITLE_SIZE, panel.colour.colour()),

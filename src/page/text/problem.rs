@@ -6,8 +6,8 @@ use super::token::{Part, Token, tokens};
 /// Finds the key and the cause of an error of the parser, and a remedy.
 pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
     let Fault { path, error } = fault;
-    let said = error.to_string();
-    let said = said.split(" at line ").next().unwrap_or_default();
+    let words = error.to_string();
+    let said = words.split(" at line ").next().unwrap_or_default();
     let line = error.line();
     let (key, message) = match error.classify() {
         _ if text.trim().is_empty() => (String::new(), "it is empty; give its keys in JSON".into()),
@@ -75,8 +75,10 @@ fn below(path: &str, key: &str) -> String {
 /// Path and message for a text that is JSON, but has another structure than expected.
 fn of_data(path: &str, said: &str, line: usize) -> (String, String) {
     let names: Vec<&str> = said.split('`').skip(1).step_by(2).collect();
-    let (subject, known) = (names.first().copied().unwrap_or_default(), names.get(1..));
-    let known = known.unwrap_or_default();
+    let (subject, known) = (
+        names.first().copied().unwrap_or_default(),
+        names.get(1..).unwrap_or_default(),
+    );
     let begins = |kind: &str| said.starts_with(kind);
     let message = if begins("missing field") {
         return (below(path, subject), "it is missing".into());
