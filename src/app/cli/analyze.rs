@@ -127,12 +127,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
                 !arguments.page.is_asked(),
                 "--report is given with several scenes, but a page is one saw's; name one scene, or use `sawflutter compare`"
             );
-            let scenes = paths.iter().map(read);
+            let as_read = paths.iter().map(read);
             let scenes: Vec<anyhow::Result<Scene>> = if arguments.keep_going {
-                scenes.collect()
+                as_read.collect()
             } else {
                 // Without `--keep-going`, no scene is computed if one of them is refused.
-                scenes
+                as_read
                     .map(|scene| scene.map(Ok))
                     .collect::<anyhow::Result<_>>()?
             };

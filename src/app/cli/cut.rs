@@ -68,24 +68,24 @@ struct Forces {
 
 impl Forces {
     fn applied(&self, scene: Scene) -> anyhow::Result<Scene> {
-        let given = |option, path, text| Given { option, path, text };
+        let of = |option, path, text| Given { option, path, text };
         let given = [
-            given("power", "cut.power_w", self.power.as_ref()),
-            given("depth", "cut.depth_m", self.depth.as_ref()),
-            given(
+            of("power", "cut.power_w", self.power.as_ref()),
+            of("depth", "cut.depth_m", self.depth.as_ref()),
+            of(
                 "teeth-in-cut",
                 "cut.teeth_in_cut",
                 self.teeth_in_cut.as_ref(),
             ),
-            given(
+            of(
                 "tangential",
                 "cut.tangential_n_per_tooth",
                 self.tangential.as_ref(),
             ),
-            given("radial", "cut.radial_n_per_tooth", self.radial.as_ref()),
-            given("lateral", "cut.lateral_n_per_tooth", self.lateral.as_ref()),
-            given("feed", "cut.feed_m_per_s", self.feed.as_ref()),
-            given(
+            of("radial", "cut.radial_n_per_tooth", self.radial.as_ref()),
+            of("lateral", "cut.lateral_n_per_tooth", self.lateral.as_ref()),
+            of("feed", "cut.feed_m_per_s", self.feed.as_ref()),
+            of(
                 "board-length",
                 "cut.board_length_m",
                 self.board_length.as_ref(),

@@ -153,10 +153,10 @@ mod tests {
             heading,
             "blade.outer_diameter_m  [m]  required in blade  usual range 0.04 to 5"
         );
-        let (heading, _) = printed("mount.diameter_m");
+        let (of_mount, _) = printed("mount.diameter_m");
         assert!(
-            heading.contains("required in mount  of kind \"collar\""),
-            "{heading}"
+            of_mount.contains("required in mount  of kind \"collar\""),
+            "{of_mount}"
         );
     }
 

@@ -57,13 +57,13 @@ struct Course {
 
 impl Course {
     fn applied(&self, scene: Scene) -> anyhow::Result<Scene> {
-        let given = |option, path, text| Given { option, path, text };
+        let of = |option, path, text| Given { option, path, text };
         let given = [
-            given("from", "runup.from_rpm", self.from.as_ref()),
-            given("to", "runup.to_rpm", self.to.as_ref()),
-            given("seconds", "runup.duration_s", self.seconds.as_ref()),
-            given("force", "side_force.force_n", self.force.as_ref()),
-            given("angle", "side_force.angle_deg", self.angle.as_ref()),
+            of("from", "runup.from_rpm", self.from.as_ref()),
+            of("to", "runup.to_rpm", self.to.as_ref()),
+            of("seconds", "runup.duration_s", self.seconds.as_ref()),
+            of("force", "side_force.force_n", self.force.as_ref()),
+            of("angle", "side_force.angle_deg", self.angle.as_ref()),
         ];
         let block = Block {
             name: "runup",

@@ -29,8 +29,8 @@ struct Asked {
 /// [`Refusal`] if the request cannot be read, or the diagram is no longer kept.
 pub fn answer(charts: &Charts, asked: &str) -> Result<ModeShape, Refusal> {
     let asked: Asked = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
-    let found = charts.named(asked.chart);
-    let found = found
+    let kept = charts.named(asked.chart);
+    let found = kept
         .as_deref()
         .and_then(|analysis| Some((analysis, nearest(analysis, &asked)?)));
     let (analysis, (speed, mode)) = found.ok_or_else(|| Refusal::gone(asked.chart))?;

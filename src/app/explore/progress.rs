@@ -56,9 +56,9 @@ impl UnderWay {
             }
         });
         let done = progress.watched(work);
-        let mut stages = locked(&self.stages);
-        if stages.get(page).is_some_and(|latest| latest.0 == number) {
-            stages.remove(page);
+        let mut running = locked(&self.stages);
+        if running.get(page).is_some_and(|latest| latest.0 == number) {
+            running.remove(page);
         }
         done
     }

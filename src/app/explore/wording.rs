@@ -114,18 +114,17 @@ impl<'a> Word<'a> {
 /// other than the unit of the key, "and", "to" or "or", as in "30 diameters", is not converted.
 fn converted(path: &str, allowed: &str, unit: FieldUnit) -> String {
     let si = Quantity::of(path).map_or("", |quantity| quantity.unit);
-    let words: Vec<Word<'_>> = allowed.split(' ').map(Word::new).collect();
+    let mut words = allowed.split(' ').map(Word::new).peekable();
     let mut told: Vec<String> = Vec::new();
     // `last` contains the position of the last number without a unit, and its text with the unit.
     let mut last: Option<(usize, String)> = None;
-    let mut words = words.iter().peekable();
     while let Some(word) = words.next() {
-        let Some(number) = word.number() else {
+        let Some(given) = word.number() else {
             told.push(word.with(&named(path, word.core)));
             continue;
         };
-        let number = shown_to(DIGITS, number * unit.scale);
-        let is_end = |next: &&&Word<'_>| word.after.is_empty() && next.core == si && !si.is_empty();
+        let number = shown_to(DIGITS, given * unit.scale);
+        let is_end = |next: &&Word<'_>| word.after.is_empty() && next.core == si && !si.is_empty();
         if let Some(end) = words.peek().filter(is_end) {
             told.push(format!(
                 "{}{number} {}{}",
@@ -135,7 +134,7 @@ fn converted(path: &str, allowed: &str, unit: FieldUnit) -> String {
             words.next();
             continue;
         }
-        let joins = |next: &&Word<'_>| ["and", "to", "or"].contains(&next.core);
+        let joins = |next: &Word<'_>| ["and", "to", "or"].contains(&next.core);
         if word.after.is_empty() && !words.peek().is_none_or(joins) {
             told.push(word.with(word.core));
             continue;
@@ -215,9 +214,9 @@ mod tests {
         }
         *place = typed.clone();
         let text = scene.to_string();
-        let refusal = Refusal::from(Scene::from_json(&text).unwrap_err());
-        assert_eq!(refusal.key.as_deref(), Some(path));
-        let refusal = refusal.in_field(&text, units);
+        let raw = Refusal::from(Scene::from_json(&text).unwrap_err());
+        assert_eq!(raw.key.as_deref(), Some(path));
+        let refusal = raw.in_field(&text, units);
         refusal
             .told
             .unwrap_or_else(|| panic!("{path}: {}", refusal.message))
