@@ -122,7 +122,7 @@ pub fn cut(
         let of = |done: usize, _| progress(index * points + done, runs.len() * points);
         found.push(cutting.at_speed(run, &of)?);
     }
-    let (thickness_m, _) = scene.blade().thickness_range_m();
+    let [thickness_m, _] = scene.blade().thickness_range_m();
     let of_run = |run| warnings(run, teeth.mean, thickness_m);
     Ok(CutReport {
         sawflutter: env!("CARGO_PKG_VERSION").to_owned(),

@@ -69,18 +69,16 @@ impl Freed {
     /// [`SceneError`] as for [`Freed::new`].
     pub fn with_usual_bounds(scene: &Scene, path: &str) -> Result<Self, SceneError> {
         let value = Parameter::new(path).get(&scene.file)?;
-        let (from, to) = match Quantity::kind_of(path) {
-            Kind::GuideRadius => (scene.blade.inner_radius_m, scene.blade.outer_radius_m),
-            Kind::Stiffness | Kind::Damping => (value / 30.0, value * 30.0),
-            Kind::Angle => (value - 60.0, value + 60.0),
-            Kind::Gap => (0.25 * value, 4.0 * value),
+        let [from, to] = match Quantity::kind_of(path) {
+            Kind::GuideRadius => [scene.blade.inner_radius_m, scene.blade.outer_radius_m],
+            Kind::Stiffness | Kind::Damping => [value / 30.0, value * 30.0],
+            Kind::Angle => [value - 60.0, value + 60.0],
+            Kind::Gap => [0.25 * value, 4.0 * value],
             Kind::Radius | Kind::Count | Kind::Other => {
-                (value - 0.2 * value.abs(), value + 0.2 * value.abs())
+                [value - 0.2 * value.abs(), value + 0.2 * value.abs()]
             }
-        };
-        let [from, to] = [from, to].map(|bound| {
-            Quantity::of(path).map_or(bound, |quantity| quantity.allowed.nearest(bound))
-        });
+        }
+        .map(|bound| Quantity::of(path).map_or(bound, |quantity| quantity.allowed.nearest(bound)));
         Freed::new(&scene.file, path, from, to)
     }
 
@@ -235,11 +233,11 @@ pub fn effective<A, E: Send>(
         }
         Ok(false)
     };
-    let moving = (0..freed.len())
+    let has_effect = (0..freed.len())
         .into_par_iter()
         .map(moves)
         .collect::<Result<Vec<bool>, E>>()?;
-    let pairs = freed.iter().cloned().zip(moving);
+    let pairs = freed.iter().cloned().zip(has_effect);
     let (moving, idle): (Vec<_>, Vec<_>) = pairs.partition(|(_, moves)| *moves);
     let freed = |pairs: Vec<(Freed, bool)>| pairs.into_iter().map(|(freed, _)| freed).collect();
     Ok((freed(moving), freed(idle)))

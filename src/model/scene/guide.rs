@@ -50,14 +50,14 @@ impl GuideFile {
     pub fn outline_m(&self) -> Vec<[f64; 2]> {
         let (sin, cos) = self.angle_deg.to_radians().sin_cos();
         let half = [self.radial_length_m, self.tangential_length_m].map(|side| 0.5 * side);
-        let corners: Vec<(f64, f64)> = match self.shape {
+        let unit_corners: Vec<(f64, f64)> = match self.shape {
             GuideShape::Rectangle => vec![(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)],
             GuideShape::Round => {
                 let turns = (0..ELLIPSE_CORNERS).map(|k| f64::from(k) / f64::from(ELLIPSE_CORNERS));
                 turns.map(|turn| (TAU * turn).sin_cos()).collect()
             }
         };
-        let corners = corners.iter().map(|(along, across)| {
+        let corners = unit_corners.iter().map(|(along, across)| {
             let (x, y) = (self.radius_m + along * half[0], across * half[1]);
             [x * cos - y * sin, x * sin + y * cos]
         });

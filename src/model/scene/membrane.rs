@@ -223,11 +223,15 @@ fn table(typed: &TemperatureFile, blade: &Blade) -> Result<(f64, TemperatureShap
         .iter()
         .map(|row| (row.radius_m, row.rise_k))
         .collect();
-    let peak = Profile::new(&rows).map_or(0.0, |profile| {
+    let typed_peak = Profile::new(&rows).map_or(0.0, |profile| {
         profile.peak(blade.inner_radius_m, blade.outer_radius_m)
     });
     // Division by a peak far below `MIN_RISE_K` could overflow, so a peak below this limit is taken as zero.
-    let peak = if peak.abs() < MIN_RISE_K { 0.0 } else { peak };
+    let peak = if typed_peak.abs() < MIN_RISE_K {
+        0.0
+    } else {
+        typed_peak
+    };
     let share = if peak == 0.0 { 0.0 } else { 1.0 / peak };
     rows.iter_mut().for_each(|(_, rise)| *rise *= share);
     let profile = Profile::new(&rows).expect("a table that is not empty has rows");

@@ -9,10 +9,10 @@ use crate::page::text::shown;
 /// Puts a value at a path like `guides.0.gap_m`.
 fn put(scene: &mut Value, path: &str, value: Value) {
     let (parent, key) = path.rsplit_once('.').unwrap_or(("", path));
-    let parent = scene.pointer_mut(&pointer(parent)).unwrap();
+    let holder = scene.pointer_mut(&pointer(parent)).unwrap();
     match key.parse::<usize>() {
-        Ok(index) => parent[index] = value,
-        Err(_) => parent[key] = value,
+        Ok(index) => holder[index] = value,
+        Err(_) => holder[key] = value,
     }
 }
 

@@ -32,7 +32,7 @@ impl FromStr for Setting {
 
     /// Parses a text like `guides[0].stiffness_n_per_m=20 kN/mm`.
     fn from_str(text: &str) -> Result<Self, RefusedValue> {
-        let Some((path, value)) = text.split_once('=') else {
+        let Some((name, number)) = text.split_once('=') else {
             let allowed = "a path, =, and a number with or without a unit";
             let remedy = "write it like blade.thickness_m=2.6mm";
             return Err(RefusedValue::new(
@@ -42,8 +42,8 @@ impl FromStr for Setting {
                 remedy,
             ));
         };
-        let path = path.trim().to_owned();
-        let value = number_of(&path, value)?;
+        let path = name.trim().to_owned();
+        let value = number_of(&path, number)?;
         Ok(Setting { path, value })
     }
 }
@@ -99,8 +99,9 @@ pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
 fn split(text: &str) -> (&str, &str) {
     let is_digit = |c: char| c.is_ascii_digit() || c == '.';
     let exponent = |at: usize| {
-        let rest = text[at..].strip_prefix(['e', 'E']);
-        let rest = rest.map(|rest| rest.strip_prefix(['+', '-']).unwrap_or(rest));
+        let rest = text[at..]
+            .strip_prefix(['e', 'E'])
+            .map(|rest| rest.strip_prefix(['+', '-']).unwrap_or(rest));
         rest.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
     };
     let mut end = text.len() - text.trim_start_matches(['+', '-']).len();

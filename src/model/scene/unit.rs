@@ -143,8 +143,12 @@ fn power(rest: &mut &str) -> Option<Unit> {
         }
         None => {
             let is_one = rest.starts_with('1');
-            let end = rest.find(|c: char| !(c.is_alphabetic() || c == '°' || c == '%'));
-            let end = if is_one { 1 } else { end.unwrap_or(rest.len()) };
+            let letters = rest.find(|c: char| !(c.is_alphabetic() || c == '°' || c == '%'));
+            let end = if is_one {
+                1
+            } else {
+                letters.unwrap_or(rest.len())
+            };
             let (symbol, after) = rest.split_at(end);
             *rest = after;
             of_symbol(symbol)?
@@ -184,8 +188,8 @@ fn exponent(rest: &mut &str) -> Option<f64> {
         marked?;
         let (fraction, after) = inner.split_once(')')?;
         *rest = after;
-        let (above, below) = fraction.split_once('/').unwrap_or((fraction, "1"));
-        let (above, below): (f64, f64) = (above.parse().ok()?, below.parse().ok()?);
+        let (above_text, below_text) = fraction.split_once('/').unwrap_or((fraction, "1"));
+        let (above, below): (f64, f64) = (above_text.parse().ok()?, below_text.parse().ok()?);
         return (below != 0.0).then_some(above / below);
     }
     let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '-'));

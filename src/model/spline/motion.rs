@@ -289,13 +289,13 @@ impl ODE<f64, State> for InPlaneMotion {
     fn diff(&self, t: f64, y: &State, slope: &mut State) {
         let (angle, q, velocity) = self.unscaled(t, y);
         let (seen, relative) = self.seen_from_arbor(angle, q, velocity);
-        let mut force = Vector3::zeros();
+        let mut in_frame = Vector3::zeros();
         let mut lost_w = 0.0;
         for touch in self.contact.touches(seen, relative) {
-            force += touch.normal * touch.force_n;
+            in_frame += touch.normal * touch.force_n;
             lost_w += (touch.elastic_n - touch.force_n) * touch.normal.dot(&relative);
         }
-        let force = turned(force, angle);
+        let force = turned(in_frame, angle);
         let Scale {
             length_m,
             rate_per_s,

@@ -58,8 +58,11 @@ fn force_and_stiffness_are_derivatives_of_the_potential() {
         let error = (slope - gradient[i]).abs();
         assert!(error < 1e-6 * gradient.norm_max(), "{i}: {error:e}");
         let column = (gaps.gradient(&up) - gaps.gradient(&down)) * faer::Scale(0.5 / step);
-        let error = (column - hessian.col(i)).norm_max();
-        assert!(error < 1e-3 * hessian.norm_max(), "{i}: {error:e}");
+        let hessian_error = (column - hessian.col(i)).norm_max();
+        assert!(
+            hessian_error < 1e-3 * hessian.norm_max(),
+            "{i}: {hessian_error:e}"
+        );
     }
 }
 

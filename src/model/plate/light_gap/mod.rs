@@ -163,13 +163,13 @@ impl LyingBlade {
 
     /// Smallest positive factor at which K_b + s K_m is singular.
     fn buckling_factor(&self) -> Option<f64> {
-        let largest = |wave: &Wave| {
+        let largest_of = |wave: &Wave| {
             let lower = wave.bending.clone().cholesky()?.unpack();
             let half = lower.solve_lower_triangular(&wave.rolled)?;
             let relative = lower.solve_lower_triangular(&half.transpose())?;
             Some(-symmetric_eigenvalues(view(&relative)).ok()?[0])
         };
-        let largest = self.waves.iter().filter_map(largest).fold(0.0, f64::max);
+        let largest = self.waves.iter().filter_map(largest_of).fold(0.0, f64::max);
         (largest > 0.0).then(|| 1.0 / largest)
     }
 

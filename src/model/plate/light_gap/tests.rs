@@ -188,8 +188,8 @@ fn a_measured_gap_gives_the_eigenstrain_that_causes_it() {
     let text = ROLLED
         .replace("3e-4", "1e-5")
         .replace("{}", &format!("{{\"measured_gap_m\": {gap_m}}}"));
-    let (again, bands) = edge(&text, |_| ());
-    let (factor, found) = StraightEdgeReading::new(&again, &bands)
+    let (again, bands_again) = edge(&text, |_| ());
+    let (factor, found) = StraightEdgeReading::new(&again, &bands_again)
         .unwrap()
         .measured
         .unwrap();

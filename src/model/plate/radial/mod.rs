@@ -189,10 +189,11 @@ impl RadialBasis {
             for _ in 0..2 {
                 for (known, known_row) in done.iter().zip(&rows) {
                     let share = dot(&mass.weights, known, &values);
-                    let all = values.iter_mut().zip(known);
+                    let all = values
+                        .iter_mut()
+                        .zip(known)
+                        .chain(row.iter_mut().zip(known_row));
                     all.for_each(|(value, known)| *value -= share * known);
-                    let all = row.iter_mut().zip(known_row);
-                    all.for_each(|(factor, known)| *factor -= share * known);
                 }
             }
             let norm = dot(&mass.weights, &values, &values).sqrt();
@@ -208,22 +209,24 @@ impl RadialBasis {
     fn with_powers(&self, powers: &[(f64, i32)], r: f64) -> RadialValues {
         let mut values = self.polynomials(r);
         let [c, dc, ddc] = self.clamp(r);
-        let truncated = powers.iter().map(|&(knot_m, power)| {
-            let t = ((r - knot_m) / self.width_m).max(0.0);
-            let p = f64::from(power);
-            let e = [
-                t.powi(power),
-                p * t.powi(power - 1) / self.width_m,
-                p * (p - 1.0) * t.powi(power - 2) / self.width_m.powi(2),
-            ];
-            let beyond = if r > knot_m { 1.0 } else { 0.0 };
-            [
-                c * e[0],
-                dc * e[0] + c * e[1],
-                ddc * e[0] + 2.0 * dc * e[1] + c * e[2] * beyond,
-            ]
-        });
-        let truncated: Vec<[f64; 3]> = truncated.collect();
+        let truncated: Vec<[f64; 3]> = powers
+            .iter()
+            .map(|&(knot_m, power)| {
+                let t = ((r - knot_m) / self.width_m).max(0.0);
+                let p = f64::from(power);
+                let e = [
+                    t.powi(power),
+                    p * t.powi(power - 1) / self.width_m,
+                    p * (p - 1.0) * t.powi(power - 2) / self.width_m.powi(2),
+                ];
+                let beyond = if r > knot_m { 1.0 } else { 0.0 };
+                [
+                    c * e[0],
+                    dc * e[0] + c * e[1],
+                    ddc * e[0] + 2.0 * dc * e[1] + c * e[2] * beyond,
+                ]
+            })
+            .collect();
         let RadialValues {
             value,
             slope,

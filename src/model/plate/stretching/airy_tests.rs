@@ -80,9 +80,9 @@ fn lower_bound(blade: &Blade, waves: &[EvenWave<'_>], count: usize) -> f64 {
             .map(|i| compliance[(i, i)].sqrt().recip())
             .collect();
         let scaled = Mat::from_fn(count, count, |i, k| compliance[(i, k)] * unit[i] * unit[k]);
-        let work = Col::from_fn(count, |i| work[i] * unit[i]);
-        let solution = scaled.partial_piv_lu().solve(&work);
-        energy += 0.5 * (solution.transpose() * &work);
+        let scaled_work = Col::from_fn(count, |i| work[i] * unit[i]);
+        let solution = scaled.partial_piv_lu().solve(&scaled_work);
+        energy += 0.5 * (solution.transpose() * &scaled_work);
     }
     energy
 }

@@ -150,10 +150,10 @@ fn gradient_and_hessian_are_the_derivatives() {
         let found = slope(&|step| stretching.energy_j(&at(step)).unwrap());
         let exact = gradient.transpose() * &direction;
         assert!((found - exact).abs() < 1e-11 * energy, "{found} {exact}");
-        let found = Col::from_fn(bent.nrows(), |i| {
+        let found_product = Col::from_fn(bent.nrows(), |i| {
             slope(&|step| stretching.gradient(&at(step)).unwrap()[i])
         });
-        let error = (found - &hessian * &direction).norm_l2();
+        let error = (found_product - &hessian * &direction).norm_l2();
         assert!(error < 1e-11 * gradient.norm_l2(), "{error:e}");
     }
 }
@@ -175,11 +175,17 @@ fn the_reduced_form_is_the_potential_on_its_shapes() {
         let error = reduced.energy_j(&p).unwrap() / energy - 1.0;
         assert!(error.abs() < 1e-12, "{error:e}");
         let gradient = shapes.transpose() * stretching.gradient(&q).unwrap();
-        let error = (reduced.gradient(&p).unwrap() - &gradient).norm_l2();
-        assert!(error < 1e-12 * gradient.norm_l2(), "{error:e}");
+        let gradient_error = (reduced.gradient(&p).unwrap() - &gradient).norm_l2();
+        assert!(
+            gradient_error < 1e-12 * gradient.norm_l2(),
+            "{gradient_error:e}"
+        );
         let hessian = shapes.transpose() * stretching.hessian(&q).unwrap() * &shapes;
-        let error = (reduced.hessian(&p).unwrap() - &hessian).norm_l2();
-        assert!(error < 1e-12 * hessian.norm_l2(), "{error:e}");
+        let hessian_error = (reduced.hessian(&p).unwrap() - &hessian).norm_l2();
+        assert!(
+            hessian_error < 1e-12 * hessian.norm_l2(),
+            "{hessian_error:e}"
+        );
         let eigenvalues = reduced
             .quartic()
             .self_adjoint_eigenvalues(faer::Side::Lower)

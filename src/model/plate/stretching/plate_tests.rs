@@ -56,8 +56,8 @@ impl SupportedBlade {
             .collect();
         let on_even = Mat::from_fn(even.len(), even.len(), |i, k| supported[(even[i], even[k])]);
         let modes = SymmetricEigen::new(on_even.as_ref()).unwrap();
-        let force = functions(&plate, load.0, load.1);
-        let force = Col::from_fn(even.len(), |i| force[even[i]]);
+        let full_force = functions(&plate, load.0, load.1);
+        let force = Col::from_fn(even.len(), |i| full_force[even[i]]);
         let answer = on_even.llt(Side::Lower).unwrap().solve(&force);
         let mut vectors = Mat::zeros(order, shapes);
         for (i, &row) in even.iter().enumerate() {

@@ -44,9 +44,9 @@ impl Relaxed {
     ) -> Result<Self, StretchingError> {
         let points = Points::new(blade, nodes, elements);
         let displacements = points.displacements(elements, 3 * nodes.len(), fixed(blade, order));
-        let left = points.left(elements, &displacements, 3 * nodes.len());
         let turns = if order == 0 { 1.0 } else { 2.0 };
-        let left = Scale((std::f64::consts::PI * turns).sqrt()) * left;
+        let left = Scale((std::f64::consts::PI * turns).sqrt())
+            * points.left(elements, &displacements, 3 * nodes.len());
         if !left.norm_max().is_finite() {
             return Err(StretchingError::NotFinite { harmonic: order });
         }
@@ -255,12 +255,12 @@ mod tests {
             let nodes = Nodes::new(&plate);
             for order in [0, 1, 2, 9, 24] {
                 let mut knots = nodes.divisions_m(DEGREE, HALF_WAVES);
-                let usual = Elements::new(blade, order, &knots);
-                let ends = (0..usual.count()).map(|element| usual.ends_m(element));
+                let coarse = Elements::new(blade, order, &knots);
+                let ends = (0..coarse.count()).map(|element| coarse.ends_m(element));
                 knots.extend(ends.flat_map(|(from, to)| [from, (from * to).sqrt()]));
-                let halved = Elements::new(blade, order, &knots);
-                assert_eq!(halved.count(), 2 * usual.count());
-                let [usual, halved] = [usual, halved]
+                let fine = Elements::new(blade, order, &knots);
+                assert_eq!(fine.count(), 2 * coarse.count());
+                let [usual, halved] = [coarse, fine]
                     .map(|elements| Relaxed::on(&elements, blade, &nodes, order).unwrap());
                 let energies = |z: &Relaxed| -> Vec<f64> {
                     let square = |unit: usize| z.rows.iter().map(move |row| row[unit].powi(2));
@@ -268,9 +268,9 @@ mod tests {
                         .map(|unit| square(unit).sum())
                         .collect()
                 };
-                let (usual, halved) = (energies(&usual), energies(&halved));
-                let largest = halved.iter().copied().fold(0.0, f64::max);
-                for (usual, halved) in usual.iter().zip(&halved) {
+                let (usual_energies, halved_energies) = (energies(&usual), energies(&halved));
+                let largest = halved_energies.iter().copied().fold(0.0, f64::max);
+                for (usual, halved) in usual_energies.iter().zip(&halved_energies) {
                     let error = (usual - halved).abs() / largest;
                     assert!(error < 1e-9, "{functions} {bore_m} {order}: {error:e}");
                 }

@@ -79,10 +79,10 @@ impl Strain {
                 let Ok(m) = usize::try_from(n + k) else {
                     continue;
                 };
-                let [re, im] = &mut strain.harmonics[m];
-                let (re_rr, re) = re.split_at_mut(nodes);
+                let [real, imaginary] = &mut strain.harmonics[m];
+                let (re_rr, re) = real.split_at_mut(nodes);
                 let (re_tt, re_rt) = re.split_at_mut(nodes);
-                let (im_rr, im) = im.split_at_mut(nodes);
+                let (im_rr, im) = imaginary.split_at_mut(nodes);
                 let (im_tt, im_rt) = im.split_at_mut(nodes);
                 let [left_sign, right_sign] = [n, k].map(conjugation);
                 let [[vr, vri], [vt, vti]] = left;
@@ -141,8 +141,7 @@ impl Strain {
             let (rr, rri) = (re[j], side * im[j]);
             let (tt, tti) = (re[nodes + j], side * im[nodes + j]);
             // The shear stress τ is −i times the stored value iτ.
-            let (rt, rti) = (im[2 * nodes + j], -re[2 * nodes + j]);
-            let (rt, rti) = (rt, side * rti);
+            let (rt, rti) = (im[2 * nodes + j], side * -re[2 * nodes + j]);
             fr[j] += cr * rr - ci * rri + dr * rt - di * rti;
             fri[j] += cr * rri + ci * rr + dr * rti + di * rt;
             ft[j] += dr * tt - di * tti + cr * rt - ci * rti;

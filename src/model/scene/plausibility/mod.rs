@@ -133,20 +133,20 @@ impl Usual {
             };
         }
         let rpm = |rim_m_per_s: f64| 60.0 * rim_m_per_s / (PI * diameter_m);
-        let from = rpm(RIM_M_PER_S.0);
-        let to = if is_run {
+        let slowest = rpm(RIM_M_PER_S.0);
+        let fastest = if is_run {
             to.min(rpm(RIM_M_PER_S.1))
         } else {
             to
         };
         let words = if is_run {
-            format!("saws of this diameter run at {from:.0} to {to:.0} rpm")
+            format!("saws of this diameter run at {slowest:.0} to {fastest:.0} rpm")
         } else {
-            format!("saws of this diameter run at {from:.0} rpm or more")
+            format!("saws of this diameter run at {slowest:.0} rpm or more")
         };
         Usual {
-            from,
-            to,
+            from: slowest,
+            to: fastest,
             typical: rpm(TYPICAL_RIM_M_PER_S),
             words,
         }
@@ -212,8 +212,8 @@ fn together(group: &[Unusual]) -> String {
     let each: Vec<String> = group
         .iter()
         .map(|one| {
-            let meant = one.meant.map_or(one.value, |(_, meant)| meant);
-            let (value, meant) = (shown(one.value), one.with_unit(meant));
+            let meant_value = one.meant.map_or(one.value, |(_, meant)| meant);
+            let (value, meant) = (shown(one.value), one.with_unit(meant_value));
             format!(
                 "{} is {value} (that would be {meant}; {})",
                 one.path, one.why

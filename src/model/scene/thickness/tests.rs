@@ -34,7 +34,7 @@ fn thickness_is_that_of_the_hub_then_straight_between_rows_then_constant() {
         blade.edges_m(),
         [blade.inner_radius_m, 0.2, 0.3, blade.outer_radius_m]
     );
-    let (least, largest) = blade.thickness_range_m();
+    let [least, largest] = blade.thickness_range_m();
     assert!((least - 1.6e-3).abs() < 1e-15 && (largest - 2.8e-3).abs() < 1e-15);
 }
 
@@ -54,8 +54,8 @@ fn the_mass_is_that_of_the_rings() {
     let width = b - a;
     let area = 2.1e-3 * width;
     let centroid = a + width / 3.0 * (2.8 + 2.0 * 1.4) / (2.8 + 1.4);
-    let expected = 7800.0 * std::f64::consts::TAU * area * centroid;
-    assert!((taper.mass_kg() / expected - 1.0).abs() < 1e-14);
+    let expected_taper = 7800.0 * std::f64::consts::TAU * area * centroid;
+    assert!((taper.mass_kg() / expected_taper - 1.0).abs() < 1e-14);
 }
 
 #[test]
