@@ -112,8 +112,8 @@ fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLoci> {
         .flat_map(|event| event.waves);
     let mut names: Vec<String> = waves.map(|waves| waves.in_words()).collect();
     names.reverse();
-    let names = names.into_iter().chain(std::iter::repeat(String::new()));
-    let paths = names.zip(&loci.paths).map(|(name, path)| RootPath {
+    let padded = names.into_iter().chain(std::iter::repeat(String::new()));
+    let paths = padded.zip(&loci.paths).map(|(name, path)| RootPath {
         name,
         growth_per_s: path.iter().map(|(lambda, _)| lambda.re).collect(),
         frequency_hz: path.iter().map(|(lambda, _)| lambda.im / TAU).collect(),

@@ -152,9 +152,8 @@ fn analysed(scene: &Scene, least_end_rad_per_s: f64) -> Result<Analysis, CheckEr
 fn bands(analysis: &Analysis, saturations: &[Rise]) -> Vec<InstabilityBand> {
     let branches = Numbered::new(analysis);
     let threshold_per_s = analysis.scene.flutter_threshold_per_s();
-    let bands = analysis.chart.instabilities.iter();
     let entry = |band| InstabilityBand::in_chart(band, &branches, threshold_per_s);
-    let mut bands: Vec<InstabilityBand> = bands.map(entry).collect();
+    let mut bands: Vec<InstabilityBand> = analysis.chart.instabilities.iter().map(entry).collect();
     add_amplitudes(&mut bands, saturations);
     bands
 }

@@ -37,8 +37,8 @@ fn drawn(report: &CompareReport) -> impl DoubleEndedIterator<Item = (usize, &Com
 pub fn chart(report: &CompareReport) -> ChartData {
     let ends = drawn(report).flat_map(|(_, saw, _)| [saw.campbell.from_rpm, saw.campbell.to_rpm]);
     let speed = AxisData::speed().within(proper_range(extremes(ends)));
-    let hz = drawn(report).map(|(_, saw, _)| shown_hz(saw));
-    let [_, hz] = proper_range([0.0, hz.fold(0.0, f64::max)]);
+    let tops = drawn(report).map(|(_, saw, _)| shown_hz(saw));
+    let [_, hz] = proper_range([0.0, tops.fold(0.0, f64::max)]);
     // The first saw is drawn last, on top.
     let frequencies = drawn(report)
         .rev()
@@ -49,10 +49,12 @@ pub fn chart(report: &CompareReport) -> ChartData {
         .iter()
         .enumerate()
         .map(|(row, label)| (1.0 + row as f64, label.clone()));
-    let names = AxisData::new("", "").named(names);
+    let saw_axis = AxisData::new("", "").named(names);
     let count = labels.len() as f64;
-    let shown = labels.join(", ");
-    let shown = format!("critical speeds, bands and frequencies of {shown}");
+    let shown = format!(
+        "critical speeds, bands and frequencies of {}",
+        labels.join(", ")
+    );
     let mut facts = vec![report.condition(), shown];
     if labels.len() < report.saws.len() {
         facts.push(format!(
@@ -76,7 +78,7 @@ pub fn chart(report: &CompareReport) -> ChartData {
             },
             PanelData {
                 share: ROW * count,
-                ..PanelData::new(speed, names.within([0.4, count + 0.6]), speeds.collect())
+                ..PanelData::new(speed, saw_axis.within([0.4, count + 0.6]), speeds.collect())
             },
         ],
         columns: 1,
@@ -120,14 +122,14 @@ fn curves(saw: &ComparedSaw, hue: Hue) -> Vec<Item> {
 /// Whether a branch grows between one of its samples and the next, and whether it is reflected without growing.
 fn look(branch: &BranchCurve, i: usize) -> (bool, bool) {
     let ends = [i, i + 1];
-    let grows = ends.map(|k| {
+    let grows_at = ends.map(|k| {
         branch
             .growth_per_s
             .get(k)
             .is_some_and(|g| *g > NEGLIGIBLE_PER_S)
     });
     let reflected = ends.map(|k| branch.krein_sign.get(k) == Some(&-1));
-    let grows = grows.contains(&true);
+    let grows = grows_at.contains(&true);
     (grows, !grows && reflected.contains(&true))
 }
 
@@ -146,13 +148,13 @@ fn events(row: usize, saw: &ComparedSaw, hue: Hue) -> Vec<Item> {
             ..Line::new([[band.from_rpm, y], [band.to_rpm, y]], streak, &name)
         })
     });
-    let critical = saw.critical_speeds.iter().map(|entry| [entry.rpm, y]);
+    let places = saw.critical_speeds.iter().map(|entry| [entry.rpm, y]);
     let critical = Item::Points(Points {
         said: (saw.critical_speeds.iter())
             .map(|entry| format!("critical speed {:.1} rpm\n{}", entry.rpm, entry.name))
             .collect(),
         ..Points::new(
-            critical,
+            places,
             hue,
             CRITICAL_SIZE,
             &format!("{}: critical speeds", saw.label),

@@ -186,10 +186,9 @@ fn facts(run: &CutAtSpeed) -> Vec<String> {
         Some(_) => "with stretching, largest",
         None => "largest",
     };
-    let criteria = criteria.collect::<Vec<_>>().join(", ");
     vec![
         format!("{with} {}", length(largest_m(run))),
-        format!("{criteria}\u{a0}1/s"),
+        format!("{}\u{a0}1/s", criteria.collect::<Vec<_>>().join(", ")),
     ]
 }
 

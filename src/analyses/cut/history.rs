@@ -186,8 +186,8 @@ fn propagator(
     system: &GyroscopicSystem,
     step_s: f64,
 ) -> Result<Propagator, TransientError> {
-    let load = lateral_load(saw.plate, &saw.cut.teeth.standing());
-    let load: Col<f64> = saw.blade.vector(&load);
+    let lateral = lateral_load(saw.plate, &saw.cut.teeth.standing());
+    let load: Col<f64> = saw.blade.vector(&lateral);
     let system = saw.blade.system(system);
     Propagator::new(&system, saw.run.speed_rad_per_s, &[load], step_s)
 }

@@ -47,8 +47,8 @@ fn the_paper_saw_is_stable_at_1800_and_flutters_at_2800() {
     };
     let quiet = history_at(1800.0);
     assert_eq!(quiet.in_cut().growth_per_s, 0.0);
-    let fitted = quiet.fitted.unwrap().growth_per_s;
-    assert!(fitted.abs() < 1e-3, "{fitted:e}");
+    let quiet_growth = quiet.fitted.unwrap().growth_per_s;
+    assert!(quiet_growth.abs() < 1e-3, "{quiet_growth:e}");
 
     let loud = history_at(2800.0);
     let growth = loud.in_cut().growth_per_s;

@@ -93,20 +93,20 @@ pub fn fit(
         resolution,
     };
     let (starts, candidates) = search(&model(coarse), options, progress)?;
-    let Some(best) = candidates.first() else {
+    let Some(best_start) = candidates.first() else {
         let starts = starts.len();
         return Err(FitError::NoStart { starts });
     };
     let (resolution, estimated_relative_error) = match options.resolution {
         Some(resolution) => (resolution, None),
         None => {
-            let near = scene_at(scene.file(), &freed, &best.shares)?;
+            let near = scene_at(scene.file(), &freed, &best_start.shares)?;
             let (resolution, error) = basis(&near, measurement, scene.tolerance())?;
             (resolution, Some(error))
         }
     };
     let fine = model(resolution);
-    let best = refined(&fine, &candidates)?.unwrap_or_else(|| best.clone());
+    let best = refined(&fine, &candidates)?.unwrap_or_else(|| best_start.clone());
     let spread = statistics(&fine, &best.shares, options.confidence)?;
     let before = fine.residuals_of_saw_hz(scene)?;
     let fitted = calibrated(scene, measurement, &freed, &best)?;

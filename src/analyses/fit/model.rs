@@ -58,8 +58,8 @@ impl Model<'_> {
             .map(|k| self.changed_components(shares, k))
             .collect();
         let (Ok(plate), Ok(changes)) = (self.plate(shares), changes) else {
-            let slopes = vec![f64::NAN; rows * columns];
-            let slopes = DenseMatrix::from_row_slice(rows, columns, &slopes);
+            let slopes =
+                DenseMatrix::from_row_slice(rows, columns, &vec![f64::NAN; rows * columns]);
             return Ok((vec![f64::NAN; rows], slopes));
         };
         let lowest = LowestModes::new(&plate);

@@ -246,8 +246,9 @@ fn is_frequency(small: &str) -> bool {
         "hz", "freq", "fréq", "mode", "peak", "wave", "eigen", "diameter",
     ];
     let numbered = |prefix: &str| {
-        let rest = small.strip_prefix(prefix);
-        let rest = rest.map(|rest| rest.trim_start_matches(['_', ' ', '-', '.']));
+        let rest = small
+            .strip_prefix(prefix)
+            .map(|rest| rest.trim_start_matches(['_', ' ', '-', '.']));
         rest.is_some_and(|rest| rest.chars().all(|c| c.is_ascii_digit()))
     };
     words.iter().any(|word| small.contains(word))

@@ -91,7 +91,7 @@ fn range(rows: &[Vec<f64>]) -> [f64; 2] {
 fn over_two(report: &PlaceReport, map: &GoalMap, x: Along, y: Along) -> PanelData {
     let z: Vec<Vec<f64>> = (0..map.y.len()).map(|row| goals(map, row)).collect();
     let [low, high] = y.axis.range.unwrap_or([0.0, 1.0]);
-    let ground = x.axis.range.unwrap_or([0.0, 1.0]).map(|x| [x, low, high]);
+    let edges = x.axis.range.unwrap_or([0.0, 1.0]).map(|x| [x, low, high]);
     let heat = Heat {
         x: x.values.clone(),
         y: y.values.clone(),
@@ -109,7 +109,7 @@ fn over_two(report: &PlaceReport, map: &GoalMap, x: Along, y: Along) -> PanelDat
         ])
     };
     let marks = marks(report, place);
-    let ground = Area::new(ground, Hue::Blank, &limit(report));
+    let ground = Area::new(edges, Hue::Blank, &limit(report));
     let items = [Item::Area(ground), Item::Heat(heat)];
     PanelData {
         share: SHARES[0],

@@ -107,17 +107,17 @@ pub fn place(
     if freed.is_empty() {
         return Err(PlaceError::NothingFree);
     }
-    let own: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
+    let typed: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
     let coarse = Search::new(scene.file(), &freed, question.clone());
-    let (candidates, map) = look_everywhere(&coarse, &own, options, progress)?;
+    let (candidates, map) = look_everywhere(&coarse, &typed, options, progress)?;
     if options.resolution.is_none() {
         question.resolution = basis_of_all(scene, &freed, &candidates, question.range)?;
     }
     let fine = Search::new(scene.file(), &freed, question.clone());
     let settled = settle(&fine, &candidates, options.refine / SETTLED, progress);
-    let before = question.ask(scene)?;
+    let answer = question.ask(scene)?;
     let own = exact_shares(scene, &freed)?;
-    let before = Weighed::new(&fine, own, before);
+    let before = Weighed::new(&fine, own, answer);
     let Choice {
         scene: placed,
         saw: best,
@@ -256,8 +256,8 @@ fn look_everywhere(
     let best = cheapest(&candidates).ok_or(PlaceError::NoSaw { tried: samples })?;
     let mapped =
         (options.map > 1).then(|| map::through(search, &best.shares, options.map, progress));
-    let (map, cells) = mapped.unzip();
-    let cells = cells.unwrap_or_default();
+    let (map, mapped_cells) = mapped.unzip();
+    let cells = mapped_cells.unwrap_or_default();
     let of_map = search.most_robust(&cells, 1, 0.0).pop();
     let better = of_map.filter(|cell| cell.cost < best.cost);
     candidates.extend(better.map(|cell| refined(&cell)));

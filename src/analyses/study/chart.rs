@@ -113,8 +113,8 @@ impl Speed<'_> {
         let total = (found.saws + found.beyond).max(1) as f64;
         let percent = |saws: &usize| 100.0 * *saws as f64 / total;
         let counts = found.histogram.iter().flat_map(|bars| &bars.counts);
-        let most = counts.map(percent).fold(0.0, f64::max);
-        let most = if most > 0.0 { most } else { 100.0 };
+        let highest = counts.map(percent).fold(0.0, f64::max);
+        let most = if highest > 0.0 { highest } else { 100.0 };
         let bars = found.histogram.as_ref().map(|bars| {
             let count = bars.counts.len();
             let width = (bars.to_rpm - bars.from_rpm) / count as f64;

@@ -107,8 +107,8 @@ impl Values {
         wanted.dedup();
         let found = self.ranked(&wanted)?;
         let value = |rank: usize| Some(found[wanted.binary_search(&rank).ok()?]);
-        let ranks = ranks.into_iter();
         Ok(ranks
+            .into_iter()
             .map(|rank| rank.and_then(|rank| between(rank, &value)))
             .collect())
     }

@@ -256,8 +256,8 @@ fn varying(
         let nominal = parameter.get(scene).map_err(unusable)?;
         // This step refuses counts, which do not vary.
         scene.with(&[(&parameter, nominal)]).map_err(unusable)?;
-        let key = format!("parameters[{k}].distribution");
-        let distribution = Distribution::new(&entry.distribution, nominal, &key)?;
+        let distribution_key = format!("parameters[{k}].distribution");
+        let distribution = Distribution::new(&entry.distribution, nominal, &distribution_key)?;
         varying.push((parameter, distribution));
     }
     Ok(varying)

@@ -73,15 +73,15 @@ mod tests {
             (low - 0.025_f64.powf(0.1)).abs() < 1e-10 && high == 1.0,
             "{low}"
         );
-        let [low, high] = interval(0, 1000, 0.99);
+        let [low_of_all, high_of_all] = interval(0, 1000, 0.99);
         assert!(
-            (high - (1.0 - 0.005_f64.powf(1e-3))).abs() < 1e-10 && low == 0.0,
-            "{high}"
+            (high_of_all - (1.0 - 0.005_f64.powf(1e-3))).abs() < 1e-10 && low_of_all == 0.0,
+            "{high_of_all}"
         );
         for (passed, of) in [(7, 10), (1, 3), (930, 1000), (2000, 4096)] {
-            let [low, high] = interval(passed, of, 0.95);
-            let above: f64 = (passed..=of).map(|k| binomial(of, k, low)).sum();
-            let below: f64 = (0..=passed).map(|k| binomial(of, k, high)).sum();
+            let [low_of_all, high_of_all] = interval(passed, of, 0.95);
+            let above: f64 = (passed..=of).map(|k| binomial(of, k, low_of_all)).sum();
+            let below: f64 = (0..=passed).map(|k| binomial(of, k, high_of_all)).sum();
             assert!((above - 0.025).abs() < 1e-8, "{passed} of {of}: {above}");
             assert!((below - 0.025).abs() < 1e-8, "{passed} of {of}: {below}");
         }

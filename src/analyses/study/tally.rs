@@ -183,8 +183,9 @@ impl<'a> Tally<'a> {
             // `out` is the number of saws that may fail. The margin is needed because the computed
             // value of 1000 × (1 − 0.9) is slightly below 100.
             let out = (saws as f64 * (1.0 - share) + 1e-6).floor() as usize;
-            let rank = out.checked_sub(saws - analysed);
-            let rank = rank.filter(|rank| *rank < self.allowed.count());
+            let rank = out
+                .checked_sub(saws - analysed)
+                .filter(|rank| *rank < self.allowed.count());
             let rpm = match rank {
                 Some(rank) => self.allowed.ranked(&[rank])?.first().copied(),
                 None => None,

@@ -53,14 +53,13 @@ pub fn chart(scene: &str, settings: &[Setting]) -> ChartData {
         Item::points_sample(DOT_SIZE, Shape::Disc, hue, name)
     });
     let facts = vec![scene.to_owned(), "numbers: basis functions".to_owned()];
-    let panel = PanelData::new(
-        error.spread(Spread::Logarithmic),
-        time.spread(Spread::Logarithmic),
-        items.collect(),
-    );
     let panel = PanelData {
         share: 1.2,
-        ..panel
+        ..PanelData::new(
+            error.spread(Spread::Logarithmic),
+            time.spread(Spread::Logarithmic),
+            items.collect(),
+        )
     };
     ChartData {
         key: samples
@@ -73,8 +72,8 @@ pub fn chart(scene: &str, settings: &[Setting]) -> ChartData {
 
 /// Powers of ten around some values.
 fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    let [low, high] = extremes(values.map(|value| value.max(LEAST).log10()));
-    let low = low.floor();
+    let [lowest, high] = extremes(values.map(|value| value.max(LEAST).log10()));
+    let low = lowest.floor();
     [low, high.max(low + 1.0).ceil()].map(|log| 10f64.powf(log))
 }
 
@@ -94,8 +93,7 @@ fn look(method: Method) -> (Hue, &'static str) {
 
 /// Connects the settings than which no other is both faster and more accurate.
 fn front(settings: &[Setting]) -> Item {
-    let front = settings.iter().filter(|s| s.on_front);
-    let mut front: Vec<[f64; 2]> = front.map(place).collect();
+    let mut front: Vec<[f64; 2]> = settings.iter().filter(|s| s.on_front).map(place).collect();
     front.sort_by(|x, y| x[0].total_cmp(&y[0]));
     let (width, tint) = FRONT;
     Item::Line(Line {

@@ -82,8 +82,8 @@ impl Motions {
         }
         let all = Shapes::new(&full, run.speed_rad_per_s)?;
         let arc = columns(&arc(&plate, washboarding))?;
-        let complete_to = complete_to(&plate, fastest).min(needed);
-        let (kept, complete_to) = all.kept(&plate, run.speed_rad_per_s, complete_to);
+        let searched_to = complete_to(&plate, fastest).min(needed);
+        let (kept, complete_to) = all.kept(&plate, run.speed_rad_per_s, searched_to);
         let passing = washboarding.tooth_passing_rad_per_s(run.speed_rad_per_s);
         if complete_to < 0.5 * passing {
             return Err(WashboardError::Incomplete {

@@ -82,7 +82,7 @@ fn roots(saw: &DelayedSaw, stiffness: f64) -> Vec<Root> {
             break;
         }
     }
-    let found = own
+    let accepted = own
         .iter()
         .zip(found)
         .zip(done)
@@ -91,7 +91,7 @@ fn roots(saw: &DelayedSaw, stiffness: f64) -> Vec<Root> {
         lambda: upper(lambda),
         without: Some(all[*k]),
     };
-    found.map(|(pair, _)| root(pair)).collect()
+    accepted.map(|(pair, _)| root(pair)).collect()
 }
 
 /// A root in the right half plane other than the known ones, searched from several starting points.

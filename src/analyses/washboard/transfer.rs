@@ -187,8 +187,8 @@ mod tests {
                 let error = (found[(i, k)] - exact[(i, k)]).norm() / exact[(i, k)].norm();
                 assert!(error < 1e-7, "{lambda}: {error}");
                 let difference = differences[(i, k)] / (step * 2.0);
-                let error = (slope[(i, k)] - difference).norm() / slope[(i, k)].norm();
-                assert!(error < 1e-4, "slope at {lambda}: {error}");
+                let slope_error = (slope[(i, k)] - difference).norm() / slope[(i, k)].norm();
+                assert!(slope_error < 1e-4, "slope at {lambda}: {slope_error}");
             }
         }
     }

@@ -99,12 +99,12 @@ fn range(report: &Report, shown: [f64; 2]) -> Option<([f64; 2], Spread)> {
     if !is_worth_showing(report) {
         return None;
     }
-    let growth = greatest_growth(report, shown);
-    let decay = greatest_decay(report);
-    let least = NEGLIGIBLE_PER_S.max(0.02 * growth.max(decay));
-    let growth = growth.max(least);
+    let fastest_growth = greatest_growth(report, shown);
+    let fastest_decay = greatest_decay(report);
+    let least = NEGLIGIBLE_PER_S.max(0.02 * fastest_growth.max(fastest_decay));
+    let growth = fastest_growth.max(least);
     let decay = if is_damped(report) {
-        decay.max(least)
+        fastest_decay.max(least)
     } else {
         0.0
     };

@@ -133,13 +133,11 @@ pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
     let rows = (0..)
         .map(|row| chart.upper.top + 16.0 + 4.0 * f64::from(row))
         .take_while(|baseline| *baseline < chart.upper.bottom - 6.0);
-    let candidates = rows.flat_map(|baseline| sides.map(|(x, anchor)| ([x, baseline], anchor)));
-    let candidates = std::iter::once(above)
-        .chain(candidates)
-        .map(|(at, anchor)| {
-            let letters = Lettering::regular(LABEL_SIZE, INK, anchor);
-            (at, letters, text_frame(at, &letters, label))
-        });
+    let beside = rows.flat_map(|baseline| sides.map(|(x, anchor)| ([x, baseline], anchor)));
+    let candidates = std::iter::once(above).chain(beside).map(|(at, anchor)| {
+        let letters = Lettering::regular(LABEL_SIZE, INK, anchor);
+        (at, letters, text_frame(at, &letters, label))
+    });
     let cost = |frame: &Frame| {
         let outside = frame.left < chart.upper.left || frame.right > chart.upper.right;
         let crossed = waves::is_crossed(chart, frame);

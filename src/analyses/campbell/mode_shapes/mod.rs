@@ -62,8 +62,12 @@ fn shown(shapes: &[EventShape]) -> Vec<&EventShape> {
     };
     let (events, singles): (Vec<_>, Vec<_>) = shapes.iter().partition(is_event);
     let room = MOST.saturating_sub(singles.len());
-    let events = events.into_iter().take(room);
-    events.chain(singles).take(MOST).collect()
+    events
+        .into_iter()
+        .take(room)
+        .chain(singles)
+        .take(MOST)
+        .collect()
 }
 
 fn facts(report: &Report, shown: usize) -> String {
@@ -210,8 +214,12 @@ mod tests {
         );
         let mut free = report.clone();
         free.scene.guides.clear();
-        let sheet = super::sheet(&free).unwrap();
-        assert!(texts(&sheet).iter().all(|(_, text)| *text != "guide"));
+        let without_guides = super::sheet(&free).unwrap();
+        assert!(
+            texts(&without_guides)
+                .iter()
+                .all(|(_, text)| *text != "guide")
+        );
         let without = Report {
             shapes: Vec::new(),
             ..report

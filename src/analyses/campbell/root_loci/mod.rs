@@ -145,9 +145,9 @@ impl Paths {
             return None;
         }
         let range = |of: fn(&Sample) -> f64| extremes(paths.iter().flatten().map(of));
-        let reach = range(|s| s.growth.abs())[1];
+        let fastest = range(|s| s.growth.abs())[1];
         // The factor leaves room for the labels at the outermost points.
-        let reach = 1.62 * if reach > 0.0 { reach } else { 1.0 };
+        let reach = 1.62 * if fastest > 0.0 { fastest } else { 1.0 };
         let [bottom, top] = range(|s| s.hz);
         let air = (0.08 * (top - bottom)).max(1e-3 * top.abs());
         let rpm = proper_range(range(|s| s.rpm));
@@ -195,10 +195,10 @@ impl Paths {
 
     fn over_speed(&self, entry: &RootLoci) -> Vec<Item> {
         let [first, last] = self.rpm;
-        let band = [entry.onset_rpm, entry.end_rpm]
+        let edges = [entry.onset_rpm, entry.end_rpm]
             .map(|rpm| rpm.clamp(first, last))
             .map(|rpm| [rpm, self.hz[0], self.hz[1]]);
-        let band = Item::Area(Area::new(band, Hue::FlutterShade, "flutter"));
+        let band = Item::Area(Area::new(edges, Hue::FlutterShade, "flutter"));
         let paths = self.drawn(entry, |s| [s.rpm, s.hz]);
         [band].into_iter().chain(paths).collect()
     }
@@ -216,16 +216,18 @@ impl Paths {
                 Some(Item::label(self.in_plane(sample), hue(sample).0, text))
             });
         let all = self.paths.iter().flatten();
-        let peak = all.max_by(|a, b| a.growth.total_cmp(&b.growth));
-        let peak = peak.filter(|s| s.growth > 0.0).map(|peak| {
-            let [rpm, growth] = [self.rpm(peak.rpm), two_digits(peak.growth)];
-            let text = format!("peak {rpm} rpm, {growth} 1/s");
-            let mirrored = "decaying (mirror image)".to_owned();
-            [
-                Item::label([peak.growth, peak.hz], Hue::Flutter, text),
-                Item::label([-peak.growth, peak.hz], Hue::Flutter, mirrored),
-            ]
-        });
+        let peak = all
+            .max_by(|a, b| a.growth.total_cmp(&b.growth))
+            .filter(|s| s.growth > 0.0)
+            .map(|peak| {
+                let [rpm, growth] = [self.rpm(peak.rpm), two_digits(peak.growth)];
+                let text = format!("peak {rpm} rpm, {growth} 1/s");
+                let mirrored = "decaying (mirror image)".to_owned();
+                [
+                    Item::label([peak.growth, peak.hz], Hue::Flutter, text),
+                    Item::label([-peak.growth, peak.hz], Hue::Flutter, mirrored),
+                ]
+            });
         begins.chain(peak.into_iter().flatten()).collect()
     }
 }

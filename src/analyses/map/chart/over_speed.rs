@@ -285,8 +285,8 @@ mod tests {
         assert!(pairs(&left[..1], &right[2..3], 1.0, 240.0).is_empty());
         // A gap of a column: the areas of the right saw are expected 30 % higher.
         let higher = [1300.0, 1950.0].map(area);
-        let mut found = pairs(&left, &higher, 1.3, 60.0);
-        found.sort_unstable();
-        assert_eq!(found, [(0, 0), (1, 1)]);
+        let mut found_above = pairs(&left, &higher, 1.3, 60.0);
+        found_above.sort_unstable();
+        assert_eq!(found_above, [(0, 0), (1, 1)]);
     }
 }
