@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sawflutter::analyses::campbell::{ModeShape, Sensitivity};
 use sawflutter::analyses::check::{self, Limits, LimitsFile};
-use sawflutter::analyses::compare::{Saw, compare as compare_saws};
+use sawflutter::analyses::compare::{LabelledSaw, Saw, compare as compare_saws};
 use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
 use sawflutter::analyses::gap::{self, Options as GapOptions};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
@@ -113,7 +113,7 @@ pub fn compare(
                 } else {
                     Saw::Scene(Box::new(arguments::scene(&text)?))
                 };
-                Ok((label, saw))
+                Ok(LabelledSaw { label, saw })
             })
             .collect::<Result<_, Failure>>()?;
         let progress = |done, of| meter.show_of("saws", done, of);

@@ -105,7 +105,9 @@ pub fn campbell_csv(report: &str) -> PyResult<String> {
 pub fn vtk_files(report: &str) -> PyResult<Vec<(String, String)>> {
     let report: Report = serde_json::from_str(report).map_err(Failure::from)?;
     let files = report.vtk_files().into_iter();
-    Ok(files.map(|(name, text)| (name.to_owned(), text)).collect())
+    Ok(files
+        .map(|file| (file.name.to_owned(), file.text))
+        .collect())
 }
 
 /// The colours of the figures, red, green and blue for each subject, as JSON.

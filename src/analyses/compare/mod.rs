@@ -24,6 +24,14 @@ pub enum Saw {
     Report(Box<Report>),
 }
 
+/// A saw with the label that names it in the comparison.
+pub struct LabelledSaw {
+    /// The label.
+    pub label: String,
+    /// The saw.
+    pub saw: Saw,
+}
+
 /// Reason for which saws could not be compared.
 #[derive(Debug, thiserror::Error)]
 pub enum CompareError {
@@ -44,12 +52,12 @@ pub enum CompareError {
 /// # Errors
 /// [`CompareError`] if there is no saw, or one cannot be analysed.
 pub fn compare(
-    saws: Vec<(String, Saw)>,
+    saws: Vec<LabelledSaw>,
     progress: Progress<'_>,
 ) -> Result<CompareReport, CompareError> {
     let ends = saws
         .iter()
-        .filter_map(|(_, saw)| match saw {
+        .filter_map(|labelled| match &labelled.saw {
             Saw::Scene(scene) if scene.sweep().is_none() => Some(end_of_sweep(scene)),
             _ => None,
         })
@@ -57,7 +65,7 @@ pub fn compare(
     let end_rad_per_s = ends.into_iter().fold(0.0, f64::max);
     let of = saws.len();
     let mut compared = Vec::new();
-    for (done, (label, saw)) in saws.into_iter().enumerate() {
+    for (done, LabelledSaw { label, saw }) in saws.into_iter().enumerate() {
         progress(done, of);
         compared.push(match saw {
             Saw::Report(report) => of_report(label, *report),

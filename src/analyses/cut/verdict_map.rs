@@ -47,7 +47,8 @@ const MODES: usize = 8;
 pub(super) fn verdict_map(
     saw: &SawInCut<'_>,
     scene: &Scene,
-    (turns_rad, load_levels): (&[f64], &[f64]),
+    turns_rad: &[f64],
+    load_levels: &[f64],
     progress: Progress<'_>,
 ) -> Result<VerdictMap, TransientError> {
     let speed = saw.run.speed_rad_per_s;

@@ -102,7 +102,7 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
         bands,
         stretching,
         campbell: chart.campbell,
-        response: ResponseMap::new(plate, (runup, &force), probe, highest),
+        response: ResponseMap::new(plate, runup, &force, probe, highest),
         warnings: chart
             .warnings
             .into_iter()
@@ -126,7 +126,8 @@ impl ResponseMap {
     /// The response over the speeds of a run-up, up to a frequency.
     fn new(
         plate: &Plate,
-        (runup, force): (&RunUpFile, &SideForce),
+        runup: &RunUpFile,
+        force: &SideForce,
         probe: Point,
         highest_rad_per_s: f64,
     ) -> Self {

@@ -200,7 +200,7 @@ fn speed(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<Spe
 /// A histogram of values; `None` without values. The number of bars is twice the cube root of the number of values
 /// (Rice's rule).
 fn histogram(values: &mut Values) -> io::Result<Option<Histogram>> {
-    let Some((from, to)) = values.range() else {
+    let Some([from, to]) = values.range() else {
         return Ok(None);
     };
     let even = (2.0 * (values.count() as f64).cbrt()).round();

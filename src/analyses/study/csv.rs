@@ -42,7 +42,7 @@ impl<W: Write> Table for CsvTable<'_, W> {
 
 /// Names of the columns.
 pub(super) fn columns(study: &Study) -> Vec<String> {
-    let paths = study.varying.iter().map(|(p, _)| p.path().to_owned());
+    let paths = (study.varying.iter()).map(|varying| varying.parameter.path().to_owned());
     let kept = study
         .criteria_of_nothing()
         .into_iter()

@@ -20,7 +20,7 @@ pub(super) struct Values {
     folder: PathBuf,
     disk: Option<BufWriter<File>>,
     count: usize,
-    range: Option<(f64, f64)>,
+    range: Option<[f64; 2]>,
 }
 
 impl Values {
@@ -42,8 +42,8 @@ impl Values {
     /// The error of writing to the disk.
     pub fn push(&mut self, value: f64) -> io::Result<()> {
         self.count += 1;
-        let (low, high) = self.range.unwrap_or((value, value));
-        self.range = Some((low.min(value), high.max(value)));
+        let [low, high] = self.range.unwrap_or([value; 2]);
+        self.range = Some([low.min(value), high.max(value)]);
         self.memory.push(value);
         if self.memory.len() > self.kept {
             self.spill()?;
@@ -57,7 +57,7 @@ impl Values {
     }
 
     /// Smallest and largest value; `None` without values.
-    pub fn range(&self) -> Option<(f64, f64)> {
+    pub fn range(&self) -> Option<[f64; 2]> {
         self.range
     }
 
@@ -100,7 +100,7 @@ impl Values {
         let mut wanted: Vec<usize> = ranks
             .iter()
             .flatten()
-            .flat_map(|(below, _)| [*below, below + 1])
+            .flat_map(|rank| [rank.below, rank.below + 1])
             .filter(|rank| *rank < self.count)
             .collect();
         wanted.sort_unstable();
@@ -224,7 +224,7 @@ mod tests {
                     .map(|share| quantile(&own, beyond, *share))
                     .collect();
                 assert_eq!(found, exact, "{count} {kept}");
-                assert_eq!(values.range(), Some((own[0], own[count - 1])));
+                assert_eq!(values.range(), Some([own[0], own[count - 1]]));
                 // Quantiles remain right after more values are added.
                 values.push(-1e9).unwrap();
                 assert_eq!(values.ranked(&[0, count]).unwrap(), [-1e9, own[count - 1]]);

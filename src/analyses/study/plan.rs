@@ -42,7 +42,7 @@ pub struct Study {
     gap: Option<GapCase>,
     to_rad_per_s: f64,
     /// The numbers that vary, with their distributions, in the order of the file.
-    pub(super) varying: Vec<(Parameter, Distribution)>,
+    pub(super) varying: Vec<Varying>,
     /// Number of saws in each point of the grid.
     drawn: usize,
     count: usize,
@@ -82,7 +82,7 @@ impl Study {
     /// [`StudyError`] that names the key, what is allowed and what to do.
     pub fn new(scene: Scene, file: StudyFile) -> Result<Self, StudyError> {
         let varying = varying(scene.file(), &file)?;
-        let (drawn, count) = counts(&file, &varying)?;
+        let Counts { drawn, count } = counts(&file, &varying)?;
         check_statistics(&file)?;
         let limits = file.limits.map(|l| limits(&l, &scene)).transpose()?;
         let gap = file.gap.map(|asked| gap(&asked, &scene)).transpose()?;
@@ -167,14 +167,14 @@ impl Study {
     pub fn values(&self, index: usize) -> Vec<f64> {
         let mut point = index / self.drawn;
         let mut values = vec![0.0; self.varying.len()];
-        for (value, (_, distribution)) in values.iter_mut().zip(&self.varying).rev() {
+        for (value, Varying { distribution, .. }) in values.iter_mut().zip(&self.varying).rev() {
             if let Distribution::Grid(grid) = distribution {
                 *value = grid[point % grid.len()];
                 point /= grid.len();
             }
         }
         let mut dimension = 0;
-        for (value, (_, distribution)) in values.iter_mut().zip(&self.varying) {
+        for (value, Varying { distribution, .. }) in values.iter_mut().zip(&self.varying) {
             if !matches!(distribution, Distribution::Grid(_)) {
                 let point = (index % self.drawn) as u64;
                 *value = distribution.at(even(point, dimension, self.file.seed));
@@ -186,7 +186,7 @@ impl Study {
 
     /// The scene of a saw, over the speeds of the study.
     pub(super) fn scene_of(&self, values: &[f64]) -> Result<Scene, SceneError> {
-        let parameters = self.varying.iter().map(|(parameter, _)| parameter);
+        let parameters = self.varying.iter().map(|varying| &varying.parameter);
         let numbers: Vec<(&Parameter, f64)> = parameters.zip(values.iter().copied()).collect();
         let scene = self.scene.file().with(&numbers)?;
         scene.swept((0.0, self.to_rad_per_s).into())
@@ -230,20 +230,24 @@ pub(crate) fn check_varies(key: &str, path: &str) -> Result<(), RefusedValue> {
     Err(RefusedValue::new(key, OPERATING_SPEED, allowed, remedy))
 }
 
-fn varying(
-    scene: &SceneFile,
-    file: &StudyFile,
-) -> Result<Vec<(Parameter, Distribution)>, StudyError> {
+/// A number that varies.
+#[derive(Debug, Clone)]
+pub(super) struct Varying {
+    pub parameter: Parameter,
+    pub distribution: Distribution,
+}
+
+fn varying(scene: &SceneFile, file: &StudyFile) -> Result<Vec<Varying>, StudyError> {
     if file.parameters.is_empty() {
         let allowed = "a list of the numbers that vary";
         let remedy = "name one, like blade.thickness_m; a single saw is analysed without a study";
         return Err(refuse("parameters", "an empty list", allowed, remedy));
     }
-    let mut varying: Vec<(Parameter, Distribution)> = Vec::new();
+    let mut varying: Vec<Varying> = Vec::new();
     for (k, entry) in file.parameters.iter().enumerate() {
         let parameter = Parameter::new(&entry.path);
         let key = format!("parameters[{k}].path");
-        if varying.iter().any(|(other, _)| *other == parameter) {
+        if varying.iter().any(|other| other.parameter == parameter) {
             let value = format!("{:?} again", entry.path);
             let remedy = "a number varies in one way";
             return Err(refuse(key, value, "named once", remedy));
@@ -258,17 +262,24 @@ fn varying(
         scene.with(&[(&parameter, nominal)]).map_err(unusable)?;
         let distribution_key = format!("parameters[{k}].distribution");
         let distribution = Distribution::new(&entry.distribution, nominal, &distribution_key)?;
-        varying.push((parameter, distribution));
+        varying.push(Varying {
+            parameter,
+            distribution,
+        });
     }
     Ok(varying)
 }
 
-/// Number of saws in each point of the grid, and of all saws.
-fn counts(
-    file: &StudyFile,
-    varying: &[(Parameter, Distribution)],
-) -> Result<(usize, usize), StudyError> {
-    let grids = varying.iter().filter_map(|(_, of)| match of {
+/// Numbers of saws.
+struct Counts {
+    /// Saws in each point of the grid.
+    drawn: usize,
+    /// All saws.
+    count: usize,
+}
+
+fn counts(file: &StudyFile, varying: &[Varying]) -> Result<Counts, StudyError> {
+    let grids = varying.iter().filter_map(|one| match &one.distribution {
         Distribution::Grid(values) => Some(values.len()),
         _ => None,
     });
@@ -295,7 +306,7 @@ fn counts(
         }
     };
     match drawn.saturating_mul(points) {
-        count if count <= MAX_SAWS => Ok((drawn, count)),
+        count if count <= MAX_SAWS => Ok(Counts { drawn, count }),
         count => {
             let allowed = format!("of at most {MAX_SAWS} saws in all");
             let remedy = "take fewer saws, or a coarser grid";

@@ -2,16 +2,26 @@
 
 use statrs::distribution::{Beta, ContinuousCDF};
 
-/// The rank, counted from 0, of the quantile of `share` among `total` values, and its fractional part (type 7
+/// A place among sorted values.
+pub struct Rank {
+    /// Rank of the value below, counted from 0.
+    pub below: usize,
+    /// Part of the way to the next value.
+    part: f64,
+}
+
+/// The rank of the quantile of `share` among `total` values (type 7
 /// of Hyndman and Fan, The American Statistician 50 (1996), 361). `None` if there are no values.
-pub fn rank(total: usize, share: f64) -> Option<(usize, f64)> {
+pub fn rank(total: usize, share: f64) -> Option<Rank> {
     let place = share * total.checked_sub(1)? as f64;
-    let below = place.floor();
-    Some((below as usize, place - below))
+    Some(Rank {
+        below: place.floor() as usize,
+        part: place - place.floor(),
+    })
 }
 
 /// The value at a fractional rank, by linear interpolation; `value` returns the value at an integer rank.
-pub fn between((below, part): (usize, f64), value: &dyn Fn(usize) -> Option<f64>) -> Option<f64> {
+pub fn between(Rank { below, part }: Rank, value: &dyn Fn(usize) -> Option<f64>) -> Option<f64> {
     let lower = value(below)?;
     if part == 0.0 {
         return Some(lower);

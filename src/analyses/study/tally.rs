@@ -142,7 +142,7 @@ impl<'a> Tally<'a> {
 
     /// The curve of reliability; `None` if every analysed saw can run at any speed of the study.
     fn reliability(&mut self) -> io::Result<Option<Reliability>> {
-        let Some((from, to)) = self.allowed.range() else {
+        let Some([from, to]) = self.allowed.range() else {
             return Ok(None);
         };
         let (saws, analysed) = (self.all.saws, self.all.analysed());
@@ -243,9 +243,9 @@ impl Lowest {
 fn place(study: &Study, saw: &Saw) -> Vec<GridNumber> {
     let numbers = study.varying.iter().zip(&saw.values);
     numbers
-        .filter(|((_, distribution), _)| matches!(distribution, Distribution::Grid(_)))
-        .map(|((parameter, _), value)| GridNumber {
-            parameter: parameter.path().to_owned(),
+        .filter(|(varying, _)| matches!(varying.distribution, Distribution::Grid(_)))
+        .map(|(varying, value)| GridNumber {
+            parameter: varying.parameter.path().to_owned(),
             value: *value,
         })
         .collect()

@@ -68,28 +68,15 @@ struct Forces {
 
 impl Forces {
     fn applied(&self, scene: Scene) -> anyhow::Result<Scene> {
-        let of = |option, path, text| Given { option, path, text };
         let given = [
-            of("power", "cut.power_w", self.power.as_ref()),
-            of("depth", "cut.depth_m", self.depth.as_ref()),
-            of(
-                "teeth-in-cut",
-                "cut.teeth_in_cut",
-                self.teeth_in_cut.as_ref(),
-            ),
-            of(
-                "tangential",
-                "cut.tangential_n_per_tooth",
-                self.tangential.as_ref(),
-            ),
-            of("radial", "cut.radial_n_per_tooth", self.radial.as_ref()),
-            of("lateral", "cut.lateral_n_per_tooth", self.lateral.as_ref()),
-            of("feed", "cut.feed_m_per_s", self.feed.as_ref()),
-            of(
-                "board-length",
-                "cut.board_length_m",
-                self.board_length.as_ref(),
-            ),
+            Given::new("power", "cut.power_w", &self.power),
+            Given::new("depth", "cut.depth_m", &self.depth),
+            Given::new("teeth-in-cut", "cut.teeth_in_cut", &self.teeth_in_cut),
+            Given::new("tangential", "cut.tangential_n_per_tooth", &self.tangential),
+            Given::new("radial", "cut.radial_n_per_tooth", &self.radial),
+            Given::new("lateral", "cut.lateral_n_per_tooth", &self.lateral),
+            Given::new("feed", "cut.feed_m_per_s", &self.feed),
+            Given::new("board-length", "cut.board_length_m", &self.board_length),
         ];
         let block = Block {
             name: "cut",

@@ -57,13 +57,12 @@ struct Course {
 
 impl Course {
     fn applied(&self, scene: Scene) -> anyhow::Result<Scene> {
-        let of = |option, path, text| Given { option, path, text };
         let given = [
-            of("from", "runup.from_rpm", self.from.as_ref()),
-            of("to", "runup.to_rpm", self.to.as_ref()),
-            of("seconds", "runup.duration_s", self.seconds.as_ref()),
-            of("force", "side_force.force_n", self.force.as_ref()),
-            of("angle", "side_force.angle_deg", self.angle.as_ref()),
+            Given::new("from", "runup.from_rpm", &self.from),
+            Given::new("to", "runup.to_rpm", &self.to),
+            Given::new("seconds", "runup.duration_s", &self.seconds),
+            Given::new("force", "side_force.force_n", &self.force),
+            Given::new("angle", "side_force.angle_deg", &self.angle),
         ];
         let block = Block {
             name: "runup",

@@ -48,36 +48,45 @@ pub fn in_field_units(
 /// Description of an allowed range: "must be …", or "is too large" for a bound that only prevents overflow.
 fn range(path: &str, allowed: &str, field: &Field, unit: FieldUnit) -> String {
     let with_unit = |text: String| format!("{text} {}", unit.unit).trim_end().to_owned();
-    let between = |(from, to): (f64, f64), word, digits| {
-        let [from, to] = [from, to].map(|value| shown_to(digits, value * unit.scale));
+    let between = |ends: [f64; 2], word, digits| {
+        let [from, to] = ends.map(|value| shown_to(digits, value * unit.scale));
         with_unit(format!("{from} {word} {to}"))
     };
     if let Some(ends) = ends(allowed) {
         return format!("must be between {}", between(ends, "and", DIGITS));
     }
-    let Some((word, bound)) = bound(allowed) else {
+    let Some(bound) = bound(allowed) else {
         return format!("must be {}", converted(path, allowed, unit));
     };
-    let usual = between(field.usual, "to", 3);
-    match (word, bound == 0.0) {
-        (_, true) => format!("must be {}; usual: {usual}", with_unit(format!("{word} 0"))),
+    let usual = between(field.usual.into(), "to", 3);
+    match (bound.word, bound.value == 0.0) {
+        (word, true) => format!("must be {}; usual: {usual}", with_unit(format!("{word} 0"))),
         ("at most", _) => format!("is too large; usual: {usual}"),
         _ => format!("is too small; usual: {usual}"),
     }
 }
 
 /// Reads both ends from a text such as "between 0 and 600".
-fn ends(allowed: &str) -> Option<(f64, f64)> {
+fn ends(allowed: &str) -> Option<[f64; 2]> {
     let (from, to) = allowed.strip_prefix("between ")?.split_once(" and ")?;
-    Some((from.parse().ok()?, to.parse().ok()?))
+    Some([from.parse().ok()?, to.parse().ok()?])
 }
 
-/// Reads the word and the number from a text such as "above 0, usual range 0.0001 to 0.04 m".
-fn bound(allowed: &str) -> Option<(&'static str, f64)> {
+/// A bound that a number must be above or below.
+struct Bound {
+    word: &'static str,
+    value: f64,
+}
+
+/// Reads a bound from a text such as "above 0, usual range 0.0001 to 0.04 m".
+fn bound(allowed: &str) -> Option<Bound> {
     let (bound, _) = allowed.split_once(',').unwrap_or((allowed, ""));
     ["above", "at least", "at most"]
         .into_iter()
-        .find_map(|word| Some((word, bound.strip_prefix(word)?.trim().parse().ok()?)))
+        .find_map(|word| {
+            let value = bound.strip_prefix(word)?.trim().parse().ok()?;
+            Some(Bound { word, value })
+        })
 }
 
 /// A word, separated from the brackets and punctuation around it.

@@ -199,6 +199,14 @@ pub fn common_turn(scene: &Scene, freed: &[Freed]) -> Option<usize> {
     angles.and_then(|angles| angles.first().copied())
 }
 
+/// Freed numbers by their effect.
+pub struct Parted {
+    /// Numbers that change the answer.
+    pub moving: Vec<Freed>,
+    /// Numbers that do not.
+    pub idle: Vec<Freed>,
+}
+
 /// Divides the freed numbers into those that change an answer and those that do not, such as the angle of a
 /// single pad. Each number alone takes every one of `shares`, while the other numbers are those of the scene or
 /// those of one other point, because its effect may depend on them. `answer` returns `None` for a saw without an
@@ -212,7 +220,7 @@ pub fn effective<A, E: Send>(
     shares: &[f64],
     answer: impl Fn(&[f64]) -> Result<Option<A>, E> + Sync,
     differ: impl Fn(&A, &A) -> bool + Sync,
-) -> Result<(Vec<Freed>, Vec<Freed>), E> {
+) -> Result<Parted, E> {
     let own: Vec<f64> = freed.iter().map(|f| f.share_of(&scene.file)).collect();
     let constant = common_turn(scene, freed);
     let moves = |k: usize| -> Result<bool, E> {
@@ -237,10 +245,15 @@ pub fn effective<A, E: Send>(
         .into_par_iter()
         .map(moves)
         .collect::<Result<Vec<bool>, E>>()?;
-    let pairs = freed.iter().cloned().zip(has_effect);
-    let (moving, idle): (Vec<_>, Vec<_>) = pairs.partition(|(_, moves)| *moves);
-    let freed = |pairs: Vec<(Freed, bool)>| pairs.into_iter().map(|(freed, _)| freed).collect();
-    Ok((freed(moving), freed(idle)))
+    let with = |effect: bool| {
+        let pairs = freed.iter().zip(&has_effect);
+        let own = pairs.filter(|(_, has_effect)| **has_effect == effect);
+        own.map(|(freed, _)| freed.clone()).collect()
+    };
+    Ok(Parted {
+        moving: with(true),
+        idle: with(false),
+    })
 }
 
 /// Point `index` of a sequence that fills the unit cube evenly in any number d of dimensions: multiples of the

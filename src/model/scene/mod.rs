@@ -65,7 +65,7 @@ pub use file::{
 #[doc(hidden)]
 pub use free_number::spread;
 pub use free_number::{Freed, NamedBounds};
-pub(crate) use free_number::{effective, is_logarithmic, scene_at};
+pub(crate) use free_number::{Parted, effective, is_logarithmic, scene_at};
 pub use friction::FrictionFile;
 pub(crate) use guide::{Guide, Lifting};
 pub(crate) use membrane::{Membrane, Temperature, TemperatureShape};

@@ -5,7 +5,7 @@ use super::chart_data::PanelData;
 use super::items::{Item, Label, Line, Upright};
 use super::label_placement::{Extent, push_apart};
 use super::painting::Ground;
-use super::style::{HAIRLINE, LABEL_SIZE, PAPER, QUIET, label_width, shorten_label, tint};
+use super::style::{Colour, HAIRLINE, LABEL_SIZE, PAPER, QUIET, label_width, shorten_label, tint};
 
 /// Space between the labels of vertical lines.
 const APART: f64 = 8.0;
@@ -46,6 +46,12 @@ pub fn end_room(panel: &PanelData) -> f64 {
     } else {
         0.0
     }
+}
+
+/// A place where a label may be written: a point of its baseline, and which part of the text is there.
+struct Place {
+    at: [f64; 2],
+    anchor: Anchor,
 }
 
 /// The labels of a panel, which keep apart from each other.
@@ -173,10 +179,11 @@ impl<'a> Labels<'a> {
 
     /// Writes a label at the first of some places that is inside the panel and free, and off marks and lines if there is
     /// such a place.
-    fn write(&mut self, text: &str, places: impl Iterator<Item = ([f64; 2], Lettering)>) {
-        let framed = places.map(|(at, letters)| {
-            let frame = text_frame(at, &letters, text).widened(AROUND);
-            (at, letters, frame)
+    fn write(&mut self, text: &str, colour: Colour, places: impl Iterator<Item = Place>) {
+        let framed = places.map(|place| {
+            let letters = Lettering::regular(LABEL_SIZE, colour, place.anchor);
+            let frame = text_frame(place.at, &letters, text).widened(AROUND);
+            (place.at, letters, frame)
         });
         let inside = self.ground.frame;
         let free: Vec<([f64; 2], Lettering, Frame)> = framed
@@ -201,7 +208,6 @@ impl<'a> Labels<'a> {
     /// Writes a label beside its point.
     fn draw_beside(&mut self, label: &Label) {
         let [x, y] = [self.ground.x.at(label.x), self.ground.y.at(label.y)];
-        let letters = |anchor| Lettering::regular(LABEL_SIZE, label.colour.colour(), anchor);
         let sides = [
             (0.0, OVER, Anchor::Middle),
             (ASIDE, BELOW, Anchor::Start),
@@ -216,8 +222,11 @@ impl<'a> Labels<'a> {
             (ASIDE, FAR_OVER, Anchor::Start),
             (-ASIDE, FAR_UNDER, Anchor::End),
         ];
-        let places = sides.map(|(aside, below, anchor)| ([x + aside, y + below], letters(anchor)));
-        self.write(&label.text, places.into_iter());
+        let places = sides.map(|(aside, below, anchor)| Place {
+            at: [x + aside, y + below],
+            anchor,
+        });
+        self.write(&label.text, label.colour.colour(), places.into_iter());
     }
 
     /// Writes a label on a curve, as close to its middle as there is room.
@@ -225,13 +234,15 @@ impl<'a> Labels<'a> {
         let points = line.x.iter().zip(&line.y);
         let drawn = points.map(|(x, y)| [self.ground.x.at(*x), self.ground.y.at(*y)]);
         let places = filled(&drawn.collect::<Vec<_>>());
-        let letters = Lettering::regular(LABEL_SIZE, line.colour.colour(), Anchor::Middle);
         let middle = places.len() / 2;
         let tried = (0..=middle)
             .flat_map(|off| [middle + off, middle - off])
             .filter_map(|k| places.get(k))
-            .map(|[x, y]| ([*x, y + 0.36 * LABEL_SIZE], letters));
-        self.write(&line.label, tried);
+            .map(|[x, y]| Place {
+                at: [*x, y + 0.36 * LABEL_SIZE],
+                anchor: Anchor::Middle,
+            });
+        self.write(&line.label, line.colour.colour(), tried);
     }
 }
 

@@ -19,7 +19,7 @@ const SEAM: f32 = 1.0;
 /// # Errors
 /// [`FigureError`] if the picture cannot be encoded.
 pub fn png(sheet: &Sheet) -> Result<Vec<u8>, FigureError> {
-    let (width, height) = sheet.size();
+    let [width, height] = sheet.size();
     let mut pixels = Vec::new();
     if let Some(mut picture) = Pixmap::new(width, height) {
         picture.fill(Color::WHITE);

@@ -5,8 +5,12 @@ use super::style::PAPER;
 
 /// Requires that every text is inside the sheet and overlaps no other.
 pub fn assert_tidy(sheet: &Sheet) {
-    let (width, height) = sheet.size();
-    let texts = texts(sheet);
+    let [width, height] = sheet.size();
+    let framed = |mark: &Mark| match mark {
+        Mark::Text(at, letters, text) => Some((text_frame(*at, letters, text), text.clone())),
+        _ => None,
+    };
+    let texts: Vec<(Frame, String)> = sheet.marks().iter().filter_map(framed).collect();
     for (i, (frame, text)) in texts.iter().enumerate() {
         let inside = frame.left >= 0.0
             && frame.top >= 0.0
@@ -63,10 +67,10 @@ fn upright(mark: &Mark) -> Option<[f64; 3]> {
     }
 }
 
-/// Texts of a sheet with their frames.
-pub fn texts(sheet: &Sheet) -> Vec<(Frame, &str)> {
+/// Texts of a sheet.
+pub fn texts(sheet: &Sheet) -> Vec<&str> {
     let text = |mark| match mark {
-        &Mark::Text(at, letters, ref text) => Some((text_frame(at, &letters, text), text.as_str())),
+        &Mark::Text(.., ref text) => Some(text.as_str()),
         _ => None,
     };
     sheet.marks().iter().filter_map(text).collect()

@@ -102,16 +102,15 @@ fn wave(entry: &CriticalSpeed) -> String {
     }
 }
 
-/// The operating speed and its position on the sheet, if it is on the axis.
-fn operating<'a>(chart: &'a Chart) -> Option<(&'a Upright, f64)> {
+/// The operating speed, if it is on the axis.
+fn operating<'a>(chart: &'a Chart) -> Option<&'a Upright> {
     let upright = chart.uprights(Role::Operating).next()?;
-    let is_shown = chart.speed.shows(upright.x);
-    is_shown.then(|| (upright, chart.speed.at(upright.x)))
+    chart.speed.shows(upright.x).then_some(upright)
 }
 
 /// Position of the operating speed on the sheet, if it is on the axis.
 pub fn operating_place(chart: &Chart) -> Option<f64> {
-    operating(chart).map(|(_, x)| x)
+    operating(chart).map(|upright| chart.speed.at(upright.x))
 }
 
 pub fn draw_operating(sheet: &mut Sheet, chart: &Chart) {
@@ -125,9 +124,10 @@ pub fn draw_operating(sheet: &mut Sheet, chart: &Chart) {
 /// Writes the operating speed above its line, or beside the line at the highest position that is free of other text
 /// and of curves.
 pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
-    let Some((Upright { label, .. }, x)) = operating(chart) else {
+    let Some(upright) = operating(chart) else {
         return;
     };
+    let (label, x) = (&upright.label, chart.speed.at(upright.x));
     let above = ([x, chart.upper.top - 6.0], Anchor::Middle);
     let sides = [(x + 6.0, Anchor::Start), (x - 6.0, Anchor::End)];
     let rows = (0..)

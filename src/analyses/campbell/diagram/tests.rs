@@ -48,9 +48,10 @@ fn labels_neither_overlap_nor_leave_the_sheet() {
 
 /// Texts of a figure that begin with a given word.
 fn starting_with(drawn: &Sheet, word: &str) -> Vec<String> {
-    let texts = texts(drawn).into_iter();
-    let own = texts.filter(|(_, text)| text.starts_with(word));
-    own.map(|(_, text)| text.to_owned()).collect()
+    let own = texts(drawn)
+        .into_iter()
+        .filter(|text| text.starts_with(word));
+    own.map(str::to_owned).collect()
 }
 
 #[test]

@@ -192,7 +192,7 @@ mod tests {
         let report = report(&[1000.0]);
         let sheet = sheet(&report).unwrap();
         assert_tidy(&sheet);
-        let all: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
+        let all = texts(&sheet);
         // The name "4 diameters" is above, and its shares are below the shape.
         let at = all.iter().rposition(|text| *text == "4 diameters").unwrap();
         assert!(all[at + 1].starts_with("n = 4: "), "{all:?}");
@@ -215,11 +215,7 @@ mod tests {
         let mut free = report.clone();
         free.scene.guides.clear();
         let without_guides = super::sheet(&free).unwrap();
-        assert!(
-            texts(&without_guides)
-                .iter()
-                .all(|(_, text)| *text != "guide")
-        );
+        assert!(!texts(&without_guides).contains(&"guide"));
         let without = Report {
             shapes: Vec::new(),
             ..report
