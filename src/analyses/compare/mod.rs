@@ -4,14 +4,12 @@ pub(crate) mod chart;
 mod outline;
 mod report;
 
-pub(crate) use outline::outline;
-use serde_json::Value;
-
 use crate::analyses::campbell::Report;
 use crate::analyses::check::rim_stiffness_at_rest_n_per_m;
-use crate::model::scene::{Scene, in_words};
+use crate::model::scene::{Entry, Scene, in_words};
 use crate::modes::branches::Progress;
 use crate::stability::{Analysis, AnalysisError, end_of_sweep};
+pub(crate) use outline::outline;
 
 pub use report::{CompareReport, ComparedSaw, Difference};
 
@@ -114,10 +112,10 @@ fn of_report(label: String, report: Report) -> ComparedSaw {
 fn differences(saws: &[ComparedSaw]) -> Vec<Difference> {
     let keys: Vec<_> = saws.iter().map(|saw| saw.scene.inputs()).collect();
     let mut found: Vec<Difference> = Vec::new();
-    for (path, _) in keys.iter().flatten() {
-        let value = |own: &Vec<(String, Value)>| {
-            let own = own.iter().find(|(own, _)| own == path);
-            own.map_or(String::new(), |(_, value)| in_words(value))
+    for Entry { path, .. } in keys.iter().flatten() {
+        let value = |own: &Vec<Entry>| {
+            let own = own.iter().find(|own| own.path == *path);
+            own.map_or(String::new(), |own| in_words(&own.value))
         };
         if found.iter().all(|known| known.path != *path) {
             let (path, values) = (path.clone(), keys.iter().map(value).collect());

@@ -153,15 +153,14 @@ impl Temperature {
             let allowed = "given by one of the two";
             return Err(RefusedValue::new("membrane.temperature", given, allowed, remedy).into());
         }
-        let (peak_rise_k, shape) = match typed.rim_rise_k {
-            Some(rise) => (rise, rim_shape(typed, blade)?),
-            None => table(typed, blade)?,
-        };
-        Ok(Temperature {
-            expansion_per_k: typed.expansion_per_k,
-            peak_rise_k,
-            shape,
-        })
+        match typed.rim_rise_k {
+            Some(peak_rise_k) => Ok(Temperature {
+                expansion_per_k: typed.expansion_per_k,
+                peak_rise_k,
+                shape: rim_shape(typed, blade)?,
+            }),
+            None => table(typed, blade),
+        }
     }
 
     /// Temperature rise at a radius, in K.
@@ -203,7 +202,7 @@ fn rim_shape(typed: &TemperatureFile, blade: &Blade) -> Result<TemperatureShape,
     })
 }
 
-fn table(typed: &TemperatureFile, blade: &Blade) -> Result<(f64, TemperatureShape), SceneError> {
+fn table(typed: &TemperatureFile, blade: &Blade) -> Result<Temperature, SceneError> {
     let key = "membrane.temperature.table";
     for (name, given) in [
         ("from_radius_m", typed.from_radius_m),
@@ -218,10 +217,10 @@ fn table(typed: &TemperatureFile, blade: &Blade) -> Result<(f64, TemperatureShap
     few(key, typed.table.len())?;
     let radii: Vec<f64> = typed.table.iter().map(|row| row.radius_m).collect();
     ascending(key, &radii, blade.outer_radius_m)?;
-    let mut rows: Vec<(f64, f64)> = typed
+    let mut rows: Vec<[f64; 2]> = typed
         .table
         .iter()
-        .map(|row| (row.radius_m, row.rise_k))
+        .map(|row| [row.radius_m, row.rise_k])
         .collect();
     let typed_peak = Profile::new(&rows).map_or(0.0, |profile| {
         profile.peak(blade.inner_radius_m, blade.outer_radius_m)
@@ -233,9 +232,13 @@ fn table(typed: &TemperatureFile, blade: &Blade) -> Result<(f64, TemperatureShap
         typed_peak
     };
     let share = if peak == 0.0 { 0.0 } else { 1.0 / peak };
-    rows.iter_mut().for_each(|(_, rise)| *rise *= share);
+    rows.iter_mut().for_each(|[_, rise]| *rise *= share);
     let profile = Profile::new(&rows).expect("a table that is not empty has rows");
-    Ok((peak, TemperatureShape::Table(profile)))
+    Ok(Temperature {
+        expansion_per_k: typed.expansion_per_k,
+        peak_rise_k: peak,
+        shape: TemperatureShape::Table(profile),
+    })
 }
 
 #[cfg(test)]

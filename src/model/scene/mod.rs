@@ -56,7 +56,7 @@ pub(crate) use cut::in_words as in_the_cut;
 pub use cut::{Cut, CutRun};
 pub use cut_file::{CutFile, CutSpeedFile};
 pub use damping::{DampingFile, ModeRatioRow};
-pub(crate) use entries::in_words;
+pub(crate) use entries::{Entry, in_words};
 pub use excitation::{ExcitationFile, ExcitationLine};
 pub use file::{
     Accuracy, ContactLaw, GuideFile, GuideShape, GuideSide, Measured, MeasuredRow, SceneFile,

@@ -54,7 +54,11 @@ fn the_gap_of_a_rolled_blade_has_converged() {
     let (edge, bands) = edge(ROLLED, |_| ());
     let at = |resolution| LyingBlade::new(&edge, &bands, resolution).at(1.0).unwrap();
     let plain = LyingBlade::new(&edge, &[], RESOLUTION).at(0.0).unwrap();
-    let (usual, fine) = (at(RESOLUTION), at((100, 36)));
+    let larger = Resolution {
+        max_diameters: 100,
+        radial_functions: 36,
+    };
+    let (usual, fine) = (at(RESOLUTION), at(larger));
     println!("{usual:?} {fine:?} {plain:?}");
     assert!((usual.gap_m - fine.gap_m).abs() < 1e-4 * plain.gap_m.abs());
 }
