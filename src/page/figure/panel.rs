@@ -1,7 +1,8 @@
 //! Draws a panel of a chart: axes, areas, curves, marks and labels.
 
-use super::axis::{
-    Axis, draw_horizontal, draw_horizontal_at, draw_vertical_at, name_below, name_upright,
+use super::axis::Axis;
+use super::axis_drawing::{
+    draw_horizontal, draw_horizontal_at, draw_vertical_at, name_below, name_upright,
 };
 use super::bands;
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
