@@ -171,10 +171,11 @@ fn instabilities(
     threshold_per_s: f64,
 ) -> Vec<InstabilityBand> {
     let bands = analysis.chart.instabilities.iter().enumerate();
-    let errors = |k: usize| analysis.estimates.as_ref()?.bands.get(k).copied();
+    let estimates = analysis.estimates.as_ref();
     bands
         .map(|(k, band)| {
-            let error = errors(k).unwrap_or_default();
+            let own = estimates.and_then(|estimates| estimates.bands.get(k));
+            let error = own.copied().unwrap_or_default();
             InstabilityBand {
                 estimated_relative_error: error.speed,
                 estimated_relative_growth_error: error.growth,
@@ -225,8 +226,8 @@ fn shape(plate: &Plate, described: &DescribedMode) -> Vec<HarmonicShape> {
             }
         })
         .collect();
-    let all = || shape.iter().flat_map(|s| s.cosine.iter().chain(&s.sine));
-    let largest = all().fold(f64::MIN_POSITIVE, |top, w| top.max(w.abs()));
+    let all = shape.iter().flat_map(|s| s.cosine.iter().chain(&s.sine));
+    let largest = all.fold(f64::MIN_POSITIVE, |top, w| top.max(w.abs()));
     for entry in &mut shape {
         let values = entry.cosine.iter_mut().chain(&mut entry.sine);
         values.for_each(|w| *w /= largest);

@@ -267,8 +267,8 @@ fn shown_radii(stress: Option<&MembraneStress>, a: f64, b: f64) -> Vec<f64> {
     let mut radii = Vec::new();
     for panel in knots.windows(2) {
         let (low, high) = (panel[0] * (1.0 + ASIDE), panel[1] * (1.0 - ASIDE));
-        let share = |k: usize| k as f64 / (SHOWN - 1) as f64;
-        radii.extend((0..SHOWN).map(|k| low + (high - low) * share(k)));
+        let shares = (0..SHOWN).map(|k| k as f64 / (SHOWN - 1) as f64);
+        radii.extend(shares.map(|share| low + (high - low) * share));
     }
     radii
 }

@@ -142,10 +142,10 @@ fn envelope(run: &CutAtSpeed, scale: &Scale) -> Vec<Item> {
     let grows = |c: &&CutFinding| {
         c.criterion == CutCriterion::Eigenvalues && c.verdict == Verdict::Unstable
     };
-    let in_cut = |t: &f64| (run.forces_from_s..=run.forces_to_s).contains(t);
+    let in_cut = run.forces_from_s..=run.forces_to_s;
     let record = run.time_s.iter().zip(&run.deflection_m);
     let peak = record
-        .filter(|(t, _)| in_cut(t))
+        .filter(|(t, _)| in_cut.contains(t))
         .max_by(|x, y| x.1.abs().total_cmp(&y.1.abs()));
     let (Some(eigenvalue), Some((peak_s, peak_m))) = (run.criteria.iter().find(grows), peak) else {
         return Vec::new();

@@ -254,11 +254,10 @@ fn chosen_plate(scene: &Scene, runs: &[CutRun]) -> Result<Plate, TransientError>
 /// Unusual numbers of the scene, and of speeds of the cut that the scene does not list.
 fn unusual_numbers(scene: &Scene, cut: &Cut, runs: &[CutRun]) -> Vec<String> {
     let file = scene.file();
-    let is_named = |rpm: f64| cut.runs.iter().any(|run| run.rpm == rpm);
     let asked = runs
         .iter()
         .map(|run| run.rpm)
-        .filter(|rpm| !is_named(*rpm))
+        .filter(|rpm| cut.runs.iter().all(|run| run.rpm != *rpm))
         .filter_map(|rpm| unusual_number(file, "the speed of the cut", "cut.speeds[].rpm", rpm));
     file.unusual_numbers().into_iter().chain(asked).collect()
 }

@@ -75,13 +75,12 @@ fn percent(share: f64) -> f64 {
 /// Limits of the criteria with given keys, with a word for each.
 fn limits(report: &StudyReport, keys: &[(&str, &str)]) -> Vec<Upright> {
     let criteria = report.all.passing.iter().flat_map(|p| &p.criteria);
-    let limit = |key: &str, rpm: f64| {
-        let (_, word) = keys.iter().find(|(name, _)| *name == key)?;
+    let limits = criteria.filter_map(|criterion| {
+        let (_, word) = keys.iter().find(|(key, _)| *key == criterion.key)?;
+        let rpm = criterion.asked_rpm;
         Some(mark(rpm, Hue::Alarm, format!("{word} {rpm:.0}")))
-    };
-    criteria
-        .filter_map(|criterion| limit(&criterion.key, criterion.asked_rpm))
-        .collect()
+    });
+    limits.collect()
 }
 
 /// A vertical line at a speed, red and solid for a limit.

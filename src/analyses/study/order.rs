@@ -202,10 +202,10 @@ mod tests {
         };
         let shares = [0.0, 0.001, 0.1, 0.25, 0.5, 0.75, 0.9, 0.999, 1.0];
         for (count, beyond) in [(1, 0), (2, 3), (999, 0), (1000, 40), (5003, 1)] {
-            let scale = |k: usize| [1500.0, -3.0, -3.0][k % 3];
+            let scales = [1500.0, -3.0, -3.0];
             let value = |k: usize, even: f64| match k % 5 {
                 0 => 1500.0,
-                _ => scale(k) * (1.0 + 0.01 * even),
+                _ => scales[k % 3] * (1.0 + 0.01 * even),
             };
             let mut sorted: Vec<f64> = (0..count).map(|k| value(k, draw())).collect();
             for kept in [10, 997, usize::MAX] {

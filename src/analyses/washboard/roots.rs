@@ -87,11 +87,11 @@ fn roots(saw: &DelayedSaw, stiffness: f64) -> Vec<Root> {
         .zip(found)
         .zip(done)
         .filter(|((_, lambda), done)| *done && is_root(saw, stiffness, *lambda));
-    let root = |(k, lambda): (&usize, c64)| Root {
+    let roots = accepted.map(|((k, lambda), _)| Root {
         lambda: upper(lambda),
         without: Some(all[*k]),
-    };
-    accepted.map(|(pair, _)| root(pair)).collect()
+    });
+    roots.collect()
 }
 
 /// A root in the right half plane other than the known ones, searched from several starting points.

@@ -116,11 +116,11 @@ pub fn next_row(scene: &SceneFile, rows: &[[f64; 2]], value: f64) -> [f64; 2] {
     let Some(last) = rows.len().checked_sub(1) else {
         return [rounded(inner(scene), 3), value];
     };
-    let widest = || (0..=last).max_by(|x, y| gap(x).total_cmp(&gap(y)));
     let at = if gap(&last) > 1e-3 * rim {
         last
     } else {
-        widest().unwrap_or(last)
+        let widest = (0..=last).max_by(|x, y| gap(x).total_cmp(&gap(y)));
+        widest.unwrap_or(last)
     };
     let next = rows.get(at + 1).unwrap_or(&rows[at]);
     [

@@ -188,14 +188,13 @@ pub fn scene_at(scene: &SceneFile, freed: &[Freed], shares: &[f64]) -> Result<Sc
 /// Index of the freed angle that a search keeps constant; `None` unless the angles of all guides are free. A common
 /// rotation of all guides changes no frequency of the idling saw, in which nothing else is fixed in space.
 pub fn common_turn(scene: &Scene, freed: &[Freed]) -> Option<usize> {
-    let of_guide = |index: usize| format!("guides[{index}].angle_deg");
-    let place = |index: usize| {
-        let path = of_guide(index);
-        freed.iter().position(|f| f.parameter.path() == path)
-    };
     let pads = scene.file.guides.iter().enumerate();
     let acting = pads.filter(|(_, pad)| pad.acts());
-    let angles: Option<Vec<usize>> = acting.map(|(index, _)| place(index)).collect();
+    let places = acting.map(|(index, _)| {
+        let path = format!("guides[{index}].angle_deg");
+        freed.iter().position(|f| f.parameter.path() == path)
+    });
+    let angles: Option<Vec<usize>> = places.collect();
     angles.and_then(|angles| angles.first().copied())
 }
 

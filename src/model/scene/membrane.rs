@@ -253,19 +253,20 @@ mod tests {
         })
     }
 
-    fn temperature(text: &str) -> (Blade, Temperature) {
+    fn temperature(text: &str) -> Temperature {
         let scene = scene(&format!("{{\"temperature\": {text}}}")).unwrap();
-        (scene.blade, scene.membrane.unwrap().temperature.unwrap())
+        scene.membrane.unwrap().temperature.unwrap()
     }
 
     #[test]
     fn a_rim_rise_is_straight_from_the_bore_unless_said_otherwise() {
-        let (blade, plain) = temperature(r#"{"expansion_per_k": 1.2e-5, "rim_rise_k": 20}"#);
+        let blade = Scene::paper().blade;
+        let plain = temperature(r#"{"expansion_per_k": 1.2e-5, "rim_rise_k": 20}"#);
         let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
         let rises = [a, 0.5 * (a + b), b].map(|r| plain.rise_k(&blade, r));
         assert!((rises[0]).abs() < 1e-12 && (rises[1] - 10.0).abs() < 1e-12);
         assert!((rises[2] - 20.0).abs() < 1e-12);
-        let (_, shaped) = temperature(
+        let shaped = temperature(
             r#"{"expansion_per_k": 1.2e-5, "rim_rise_k": 20, "from_radius_m": 0.3, "exponent": 2}"#,
         );
         assert_eq!(shaped.rise_k(&blade, 0.29), 0.0);
@@ -275,7 +276,8 @@ mod tests {
 
     #[test]
     fn a_table_is_its_peak_times_a_shape() {
-        let (blade, table) = temperature(
+        let blade = Scene::paper().blade;
+        let table = temperature(
             r#"{"expansion_per_k": 1.2e-5, "table": [{"radius_m": 0.1, "rise_k": 8},
                 {"radius_m": 0.3, "rise_k": -24}]}"#,
         );
@@ -292,9 +294,9 @@ mod tests {
             let text = format!(
                 r#"{{"expansion_per_k": 1.2e-5, "table": [{{"radius_m": 0.1, "rise_k": {rise}}}]}}"#
             );
-            let (blade, nothing) = temperature(&text);
+            let nothing = temperature(&text);
             assert_eq!(nothing.peak_rise_k, 0.0);
-            assert_eq!(nothing.rise_k(&blade, 0.2), 0.0);
+            assert_eq!(nothing.rise_k(&Scene::paper().blade, 0.2), 0.0);
         }
     }
 }

@@ -86,11 +86,10 @@ impl Unit {
     /// Parses a unit; `None` if the text is not a unit. An empty text is the unit of a dimensionless number.
     pub fn parse(text: &str) -> Option<Unit> {
         let words: Vec<&str> = text.split_whitespace().collect();
-        let ends = |word: &str| word.ends_with(SIGNS);
-        let begins = |word: &str| word.starts_with(SIGNS);
         // Two units that only a blank separates are refused: without the blank, `m s` would be read as
         // milliseconds.
-        if (words.windows(2)).any(|pair| !ends(pair[0]) && !begins(pair[1])) {
+        let is_apart = |pair: &[&str]| !pair[0].ends_with(SIGNS) && !pair[1].starts_with(SIGNS);
+        if words.windows(2).any(is_apart) {
             return None;
         }
         let text = words.concat();

@@ -38,7 +38,6 @@ fn no_growth(report: &Report, [from, to]: [f64; 2]) -> &'static str {
 
 /// Largest growth rate at the speeds shown, in 1/s, at least zero.
 fn greatest_growth(report: &Report, [from, to]: [f64; 2]) -> f64 {
-    let shown = |rpm: f64| from <= rpm && rpm <= to;
     let bands = report
         .instabilities
         .iter()
@@ -48,7 +47,7 @@ fn greatest_growth(report: &Report, [from, to]: [f64; 2]) -> f64 {
     let values = branches.flat_map(|branch| {
         let samples = branch.rpm.iter().zip(&branch.growth_per_s);
         samples
-            .filter(|(rpm, _)| shown(**rpm))
+            .filter(|(rpm, _)| from <= **rpm && **rpm <= to)
             .map(|(_, growth)| *growth)
     });
     let all = peaks.chain(values).filter(|g| g.is_finite());

@@ -79,8 +79,8 @@ fn label_critical(sheet: &mut Sheet, chart: &Chart, speeds: &[f64]) {
 /// Names of the waves that stand still at some critical speeds, in the order of the speeds: "n = 2", "n = 3 · 2",
 /// "n = 2 … 13".
 fn waves_at(chart: &Chart, speeds: &[f64]) -> String {
-    let entries = || chart.report.critical_speeds.iter();
-    let at = |rpm: &f64| entries().find(|entry| entry.rpm == *rpm);
+    let entries = &chart.report.critical_speeds;
+    let at = |rpm: &f64| entries.iter().find(|entry| entry.rpm == *rpm);
     let mut waves: Vec<String> = speeds.iter().filter_map(at).map(wave).collect();
     if waves.windows(2).all(|pair| pair[0] == pair[1]) {
         waves.truncate(1);

@@ -163,16 +163,14 @@ fn pairs(left: &[Area], right: &[Area], scale: f64, farthest: f64) -> Vec<[usize
 /// The areas of a kind, each as columns with an abscissa, a lower and an upper end. Areas of neighbouring saws that belong
 /// together are one; an area without a partner ends half way to the neighbour.
 fn chains(report: &MapReport, along: &Along, look: Look) -> Vec<Columns> {
-    let of = |saw: &MappedSaw| -> Vec<Area> {
-        let all = areas(saw, report.to_rpm).into_iter();
-        all.filter(|area| area.look == look).collect()
-    };
     let column = |x: f64, area: &Area| [x, area.rpm[0], area.rpm[1]];
     let mut done: Vec<Columns> = Vec::new();
     let mut open: Vec<Columns> = Vec::new();
     let mut before: Option<(&MappedSaw, Vec<Area>)> = None;
     for saw in &report.saws {
-        let (x, own) = (along.at(saw.x), of(saw));
+        let x = along.at(saw.x);
+        let mut own = areas(saw, report.to_rpm);
+        own.retain(|area| area.look == look);
         let mut next: Vec<Columns> = Vec::new();
         if let Some((left, others)) = &before {
             let scale = match [left, saw].map(|saw| saw.lowest_critical_rpm) {

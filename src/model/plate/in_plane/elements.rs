@@ -144,8 +144,8 @@ struct Reference {
 
 impl Reference {
     fn new() -> Self {
-        let angle = |k: usize| std::f64::consts::PI * k as f64 / DEGREE as f64;
-        let nodes: Vec<f64> = (0..=DEGREE).map(|k| -angle(k).cos()).collect();
+        let angles = (0..=DEGREE).map(|k| std::f64::consts::PI * k as f64 / DEGREE as f64);
+        let nodes: Vec<f64> = angles.map(|angle| -angle.cos()).collect();
         let of_node = |node: usize| {
             let mut slopes: [f64; DEGREE + 1] = std::array::from_fn(|k| {
                 if k == node {

@@ -266,15 +266,13 @@ fn in_radians(scene: &SceneFile) -> Vec<Unusual> {
 /// Whether angles of one kind seem to be in radians: all are within one turn, none is a usual number of degrees,
 /// and one is a round number of degrees when converted, or there are many different ones.
 fn seem_radians(angles: &[Entry<f64>]) -> bool {
-    let is_within = |value: f64| value.abs() <= TAU + 0.01;
-    let is_typed = |value: f64| (value / TYPED_DEG).fract() == 0.0;
     let mut distinct: Vec<f64> = angles.iter().map(|angle| angle.value).collect();
     distinct.sort_by(f64::total_cmp);
     distinct.dedup();
     let is_many = distinct.len() >= MANY_ANGLES;
     distinct
         .iter()
-        .all(|value| is_within(*value) && !is_typed(*value))
+        .all(|value| value.abs() <= TAU + 0.01 && (value / TYPED_DEG).fract() != 0.0)
         && (is_many || distinct.iter().any(|value| is_round_in_radians(*value)))
 }
 
