@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Context;
 use sawflutter::analyses::check::{self, CheckReport, Limits};
 use sawflutter::analyses::commands::CommandReport;
-use sawflutter::analyses::compare::{Saw, compare};
+use sawflutter::analyses::compare::{LabelledSaw, Saw, compare};
 use sawflutter::analyses::cut::{self, CutReport};
 use sawflutter::analyses::deflect::{Options, deflect};
 use sawflutter::analyses::fit::{self, FitReport, Measurement};
@@ -131,8 +131,9 @@ fn further(root: &Path) -> anyhow::Result<Vec<Figure>> {
     figures.retain(|(name, _)| *name == "modes.png");
 
     let saws = ["paper", "two-pads"].map(|name| {
-        let scene = draft(name, &|_| ())?;
-        Ok::<_, SceneError>((name.to_owned(), Saw::Scene(Box::new(scene))))
+        let saw = Saw::Scene(Box::new(draft(name, &|_| ())?));
+        let label = name.to_owned();
+        Ok::<_, SceneError>(LabelledSaw { label, saw })
     });
     let saws = saws.into_iter().collect::<Result<_, _>>()?;
     figures.extend(svgs(&compare(saws, &|_, _| ())?)?);

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sawflutter::analyses::campbell::{ModeShape, Sensitivity};
 use sawflutter::analyses::check::{self, Limits, LimitsFile};
-use sawflutter::analyses::compare::{Saw, compare as compare_saws};
+use sawflutter::analyses::compare::{LabelledSaw, Saw, compare as compare_saws};
 use sawflutter::analyses::fit::{self, Measurement, Options as FitOptions};
 use sawflutter::analyses::gap::{self, Options as GapOptions};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
@@ -83,8 +83,10 @@ fn analyze(options: &Options<'_>) -> PyResult<Work> {
         }
         if let Some(asked_rpm) = shapes_at_rpm {
             let range = SpeedRange::from(analysis.range_rad_per_s);
-            let asked = asked_rpm.iter().map(|rpm| range.speed_at("shapes", *rpm));
-            let asked = asked.collect::<Result<Vec<_>, _>>()?;
+            let asked = asked_rpm
+                .iter()
+                .map(|rpm| range.speed_at("shapes", *rpm))
+                .collect::<Result<Vec<_>, _>>()?;
             report.add_shapes(&analysis, &asked)?;
         }
         if sensitivity {
@@ -103,15 +105,17 @@ pub fn compare(
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     compute(py, progress, move |meter| {
-        let saws = saws.into_iter().map(|(label, text, is_report)| {
-            let saw = if is_report {
-                Saw::Report(Box::new(serde_json::from_str(&text)?))
-            } else {
-                Saw::Scene(Box::new(arguments::scene(&text)?))
-            };
-            Ok((label, saw))
-        });
-        let saws = saws.collect::<Result<_, Failure>>()?;
+        let saws = saws
+            .into_iter()
+            .map(|(label, text, is_report)| {
+                let saw = if is_report {
+                    Saw::Report(Box::new(serde_json::from_str(&text)?))
+                } else {
+                    Saw::Scene(Box::new(arguments::scene(&text)?))
+                };
+                Ok(LabelledSaw { label, saw })
+            })
+            .collect::<Result<_, Failure>>()?;
         let progress = |done, of| meter.show_of("saws", done, of);
         json(&compare_saws(saws, &progress)?)
     })
@@ -123,9 +127,10 @@ fn modes(options: &Options<'_>) -> PyResult<Work> {
     Ok(Box::new(move |scene, meter| {
         let chosen = ChosenBasis::new(scene, scene.tolerance())?;
         let range = chosen.range_rad_per_s;
-        let speeds = at_rpm.iter();
-        let speeds = speeds.map(|rpm| SpeedRange::from(range).speed_at("rpm", *rpm));
-        let speeds = speeds.collect::<Result<Vec<_>, _>>()?;
+        let speeds = at_rpm
+            .iter()
+            .map(|rpm| SpeedRange::from(range).speed_at("rpm", *rpm))
+            .collect::<Result<Vec<_>, _>>()?;
         let model =
             SpectralModel::with_critical(chosen.saw, chosen.critical, range, Strategy::Reduced)?;
         let mut entries = Vec::new();
@@ -151,10 +156,12 @@ fn check(options: &Options<'_>) -> PyResult<Work> {
     let max_amplitude_mm = options.get("max_amplitude_mm")?;
     let accept_unusual = options.get("accept_unusual")?;
     Ok(Box::new(move |scene, _| {
-        let limits = asked.limits(scene)?.with_rim_speed(max_rim_m_per_s)?;
         let limits = Limits {
             accept_unusual,
-            ..limits.with_amplitude(max_amplitude_mm)?
+            ..asked
+                .limits(scene)?
+                .with_rim_speed(max_rim_m_per_s)?
+                .with_amplitude(max_amplitude_mm)?
         };
         json(&check::check(scene, &limits)?)
     }))

@@ -94,8 +94,9 @@ pub fn tradeoff_chart(scene: &str, settings: &str) -> PyResult<String> {
 #[pyfunction]
 pub fn campbell_csv(report: &str) -> PyResult<String> {
     let report: Report = serde_json::from_str(report).map_err(Failure::from)?;
-    let table = report.campbell_csv();
-    let table = table.map_err(|error| Failure::Failed(error.to_string()))?;
+    let table = report
+        .campbell_csv()
+        .map_err(|error| Failure::Failed(error.to_string()))?;
     Ok(String::from_utf8_lossy(&table).into_owned())
 }
 
@@ -104,7 +105,9 @@ pub fn campbell_csv(report: &str) -> PyResult<String> {
 pub fn vtk_files(report: &str) -> PyResult<Vec<(String, String)>> {
     let report: Report = serde_json::from_str(report).map_err(Failure::from)?;
     let files = report.vtk_files().into_iter();
-    Ok(files.map(|(name, text)| (name.to_owned(), text)).collect())
+    Ok(files
+        .map(|file| (file.name.to_owned(), file.text))
+        .collect())
 }
 
 /// The colours of the figures, red, green and blue for each subject, as JSON.

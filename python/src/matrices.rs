@@ -23,7 +23,9 @@ pub fn matrices<'py>(
     basis: Option<(usize, usize)>,
 ) -> PyResult<(Bound<'py, PyDict>, usize, usize)> {
     let scene = arguments::scene(scene)?;
-    let basis = basis.map(|basis| resolution(basis, &scene)).transpose()?;
+    let basis = basis
+        .map(|basis| resolution(basis.into(), &scene))
+        .transpose()?;
     let (named, diameters, functions) = compute(py, None, move |_| {
         let plate = match basis {
             Some(resolution) => Plate::new(&scene, resolution),
@@ -66,14 +68,14 @@ pub fn functions_at<'py>(
             Failure::argument("radius_m", off, allowed, "name a point of the blade").into(),
         );
     }
-    let plate = Plate::new(&scene, resolution(basis, &scene)?);
+    let plate = Plate::new(&scene, resolution(basis.into(), &scene)?);
     let points = radius_m.iter().zip(&angle_rad);
     let values = points.flat_map(|(radius, angle)| plate.functions_at(*radius, *angle));
     let bytes: Vec<u8> = values.flat_map(f64::to_le_bytes).collect();
     Ok(PyBytes::new(py, &bytes))
 }
 
-fn resolution((diameters, radial): (usize, usize), scene: &Scene) -> Result<Resolution, Failure> {
+fn resolution([diameters, radial]: [usize; 2], scene: &Scene) -> Result<Resolution, Failure> {
     Ok(Resolution::new(diameters, radial, scene.blade())?)
 }
 

@@ -70,8 +70,7 @@ impl Study {
                 lock(&saws).push(saw);
                 Ok::<(), Failure>(())
             })?;
-            let saws = lock(&saws);
-            Ok(study::rows_of(&study, &saws))
+            Ok(study::rows_of(&study, &lock(&saws)))
         })?;
         Ok(PyBytes::new(py, &rows))
     }
@@ -107,11 +106,11 @@ impl Study {
             }
             log.append_processor(&study::processor())?;
             let missing = log.finished().clone().into_missing();
-            let log = Mutex::new(log);
+            let shared_log = Mutex::new(log);
             study.run(None, missing, &|saw| {
                 // A saw whose computation was stopped has no row.
                 stopped()?;
-                let mut log = lock(&log);
+                let mut log = lock(&shared_log);
                 log.append(&study, &saw)?;
                 meter.show(log.finished().done(), study.count());
                 Ok(())
@@ -137,8 +136,9 @@ impl Study {
         csv: PathBuf,
         parquet: PathBuf,
     ) -> PyResult<Vec<(&'static str, Bound<'py, PyBytes>)>> {
-        let files = py.detach(|| self.summed_up(&folder, &csv, &parquet))?;
-        let files = files.into_iter();
+        let files = py
+            .detach(|| self.summed_up(&folder, &csv, &parquet))?
+            .into_iter();
         Ok(files
             .map(|(name, b)| (name, PyBytes::new(py, &b)))
             .collect())
@@ -162,13 +162,13 @@ impl Study {
             return Err(Failure::argument("folder", value, allowed, remedy));
         }
         let create = |path: &Path| File::create(path).map(BufWriter::new);
-        let tables = || -> std::io::Result<Vec<Box<dyn Table + '_>>> {
+        let open_tables = || -> std::io::Result<Vec<Box<dyn Table + '_>>> {
             Ok(vec![
                 Box::new(CsvTable::new(study, create(csv)?)?),
                 Box::new(ParquetTable::new(study, create(parquet)?)?),
             ])
         };
-        let tables = tables().map_err(LogError::Tables)?;
+        let tables = open_tables().map_err(LogError::Tables)?;
         let report = study::sum_up(&rows, folder, tables)?;
         let mut files = Vec::new();
         for figure in report.figures() {

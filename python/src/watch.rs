@@ -75,9 +75,9 @@ pub fn compute<T: Send + 'static>(
     work: impl FnOnce(&Meter) -> Result<T, Failure> + Send + 'static,
 ) -> PyResult<T> {
     let (stop, meter) = (Cancellation::default(), Arc::new(Meter::default()));
-    let (sender, receiver) = channel();
+    let (sender, ticks) = channel();
     // A receiver belongs to one thread; the mutex shows this to the compiler.
-    let receiver = Mutex::new(receiver);
+    let receiver = Mutex::new(ticks);
     let (flag, gauge) = (stop.clone(), meter.clone());
     std::thread::spawn(move || {
         // The receiver is gone after a computation was stopped.
@@ -100,8 +100,10 @@ pub fn compute<T: Send + 'static>(
             Err(RecvTimeoutError::Timeout) => {
                 let remark = lock(&meter.remark).take();
                 let logged = remark.map_or(Ok(()), |text| log(py, &text));
-                let raised = py.check_signals().and(logged);
-                let raised = raised.and_then(|()| tell(meter.state()));
+                let raised = py
+                    .check_signals()
+                    .and(logged)
+                    .and_then(|()| tell(meter.state()));
                 if let Err(raised) = raised {
                     stop.cancel();
                     return Err(raised);

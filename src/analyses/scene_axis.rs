@@ -1,6 +1,6 @@
 //! The axis of a number of the scene.
 
-use crate::analyses::scene_number;
+use crate::analyses::scene_number::{self, FigureUnit};
 use crate::model::scene::is_logarithmic;
 use crate::page::figure::axis::{Spread, ends, ends_of_cells};
 use crate::page::figure::chart_data::AxisData;
@@ -28,13 +28,13 @@ impl Along {
     }
 
     fn new(path: &str, values: &[f64], ends: impl Fn(&[f64], Spread) -> [f64; 2]) -> Self {
-        let (unit, factor) = scene_number::unit(path);
+        let FigureUnit { symbol, factor } = scene_number::unit(path);
         let values: Vec<f64> = values.iter().map(|value| factor * value).collect();
         let spread = match values[..] {
             [first, .., last] if is_logarithmic(first, last) => Spread::Logarithmic,
             _ => Spread::Linear,
         };
-        let axis = AxisData::new(&scene_number::name(path), unit).spread(spread);
+        let axis = AxisData::new(&scene_number::name(path), symbol).spread(spread);
         Along {
             axis: axis.within(ends(&values, spread)),
             values,

@@ -3,8 +3,11 @@
 use crate::model::scene::Quantity;
 use crate::page::figure::axis::raised;
 
-/// Units of a scene that figures replace, the units in their place, and the factors to these.
-const HANDY: [(&str, &str, f64); 2] = [("m", "mm", 1e3), ("Pa", "GPa", 1e-9)];
+/// Units of a scene that figures replace, and the units in their place.
+const HANDY: [(&str, FigureUnit); 2] = [
+    ("m", FigureUnit::new("mm", 1e3)),
+    ("Pa", FigureUnit::new("GPa", 1e-9)),
+];
 
 /// Name of a number with a given path: "stiffness of guide 1"; the path itself if it is unknown.
 pub fn name(path: &str) -> String {
@@ -23,20 +26,37 @@ pub fn name(path: &str) -> String {
     }
 }
 
-/// Unit in which figures write a number with a given path, and the factor from the unit of the scene to it.
-pub fn unit(path: &str) -> (&'static str, f64) {
-    let own = Quantity::of(path).map_or("", |quantity| quantity.unit);
-    let handy = HANDY.iter().find(|(unit, ..)| *unit == own);
-    handy.map_or((own, 1.0), |(_, unit, factor)| (unit, *factor))
+/// Unit in which figures write a number.
+#[derive(Clone, Copy)]
+pub struct FigureUnit {
+    /// Symbol of the unit.
+    pub symbol: &'static str,
+    /// Factor from the unit of the scene to this one.
+    pub factor: f64,
+}
+
+impl FigureUnit {
+    /// A unit with this symbol and factor.
+    pub const fn new(symbol: &'static str, factor: f64) -> Self {
+        FigureUnit { symbol, factor }
+    }
+}
+
+/// Unit in which figures write a number with a given path.
+pub fn unit(path: &str) -> FigureUnit {
+    let symbol = Quantity::of(path).map_or("", |quantity| quantity.unit);
+    let handy = HANDY.iter().find(|(own, _)| *own == symbol);
+    let factor = 1.0;
+    handy.map_or(FigureUnit { symbol, factor }, |(_, unit)| *unit)
 }
 
 /// Name, value and unit of a number with a given path: "radius of guide 1: 250.3 mm". The value is in the unit of the
 /// scene.
 pub fn in_words(path: &str, value: f64) -> String {
-    let (unit, factor) = unit(path);
-    let space = if matches!(unit, "" | "°") { "" } else { " " };
+    let FigureUnit { symbol, factor } = unit(path);
+    let space = if matches!(symbol, "" | "°") { "" } else { " " };
     format!(
-        "{}: {}{space}{unit}",
+        "{}: {}{space}{symbol}",
         name(path),
         four_digits(factor * value)
     )

@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 
 use faer::c64;
-use sawflutter::analyses::campbell::{EventShape, ModeHarmonic, Report, ShapeOccasion};
+use sawflutter::analyses::campbell::{EventShape, ModeHarmonic, Report, ShapeOccasion, VtkFile};
 use sawflutter::model::scene::{Accuracy, Scene, rad_per_s};
 use sawflutter::stability::Analysis;
 
@@ -191,10 +191,10 @@ fn shares_of_harmonics_are_those_of_the_name() {
 fn the_grids_of_vtk_hold_the_deflections_of_their_phase() {
     let (_, report) = charted(&Scene::paper(), &[1000.0]);
     let files = report.vtk_files();
-    let (name, list) = &files[0];
-    assert_eq!(*name, "modes.pvd");
-    for (name, _) in &files[1..] {
-        assert_eq!(list.matches(name).count(), 1, "{name}");
+    let list = &files[0];
+    assert_eq!(list.name, "modes.pvd");
+    for VtkFile { name, .. } in &files[1..] {
+        assert_eq!(list.text.matches(name).count(), 1, "{name}");
     }
     let numbers = |text: &str, array: usize| -> Vec<f64> {
         let body = text.split("<DataArray").nth(array).unwrap();
@@ -211,7 +211,7 @@ fn the_grids_of_vtk_hold_the_deflections_of_their_phase() {
     let flutter = flutter.unwrap();
     // A quarter of a period later, Re(w e^{iπ/2}) = −Im w.
     for (phase, turned) in [(0, 0), (3, 1)] {
-        let text = &files[1 + phase].1;
+        let text = &files[1 + phase].text;
         let (points, values) = (numbers(text, 1), numbers(text, 5 + flutter));
         assert_eq!(points.len(), 3 * values.len());
         for k in [0, 77, 1234, values.len() - 1] {

@@ -171,8 +171,10 @@ impl<'a> Numbered<'a> {
     /// Number of the branch through a point.
     pub fn at(&self, point: (usize, usize)) -> Option<usize> {
         let branches = &self.campbell().branches;
-        let through = |branch: &Branch| branch.points.binary_search_by_key(&point.0, |p| p.0);
-        let is_through = |b: &Branch| through(b).is_ok_and(|at| b.points[at] == point);
+        let is_through = |branch: &Branch| {
+            let place = branch.points.binary_search_by_key(&point.0, |p| p.0);
+            place.is_ok_and(|at| branch.points[at] == point)
+        };
         let branch = branches.iter().position(is_through)?;
         Some(self.place[branch] + 1)
     }
@@ -260,10 +262,9 @@ fn standing_likeness(
 /// nearly equal frequency and different growth. A wave that damping alone destabilizes has no such partner.
 fn damped_partner(modes: &[DescribedMode], growing: c64) -> Option<usize> {
     let off = |m: &DescribedMode| (m.mode.lambda.im - growing.im).abs();
-    let decays = |m: &DescribedMode| m.mode.lambda.re < 0.0;
     let is_near = |m: &DescribedMode| off(m) < growing.re - m.mode.lambda.re;
     let modes = modes.iter().enumerate();
-    let partners = modes.filter(|(_, m)| decays(m) && is_near(m));
+    let partners = modes.filter(|(_, m)| m.mode.lambda.re < 0.0 && is_near(m));
     let nearest = partners.min_by(|x, y| off(x.1).total_cmp(&off(y.1)));
     nearest.map(|(k, _)| k)
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::model::scene::rpm;
+use crate::model::scene::{SpeedRange, rpm};
 use crate::stability::{Certificate, ContradictedBands, MiscountedModes, StabilityChart};
 
 /// Checks of the list of bands against the spectrum, by the Krein index, by counts of eigenvalues on the full
@@ -59,11 +59,11 @@ pub struct BandCertificate {
 }
 
 impl BandCertificate {
-    /// The certificate of a sweep over `range`, in rad/s.
+    /// The certificate of a sweep over `range`.
     pub(super) fn new(
         chart: &StabilityChart,
         is_undamped: bool,
-        range: (f64, f64),
+        range: SpeedRange,
         threshold_per_s: f64,
         max_backward_error: f64,
         max_listed_backward_error: Option<f64>,
@@ -103,7 +103,8 @@ impl BandCertificate {
 }
 
 /// Share of the sweep outside the unproven intervals, rounded down.
-fn proven_share(certificate: &Certificate, (from, to): (f64, f64)) -> Option<f64> {
+fn proven_share(certificate: &Certificate, range: SpeedRange) -> Option<f64> {
+    let (from, to) = (range.from_rad_per_s, range.to_rad_per_s);
     let unproven = certificate.unproven_rad_per_s.as_ref()?;
     let open: f64 = unproven.iter().map(|(a, b)| b - a).sum();
     let share = 1.0 - open / (to - from);
@@ -261,7 +262,7 @@ mod tests {
             unproven_rad_per_s: Some(vec![(2.0, 3.0), (5.0, 5.5)]),
             ..clean.clone()
         };
-        let share = proven_share(&counted, (0.0, 400.0));
+        let share = proven_share(&counted, (0.0, 400.0).into());
         assert_eq!(share, Some(0.9962));
         assert_eq!(
             statement(&counted, true, share),
@@ -273,7 +274,7 @@ mod tests {
                 unproven_rad_per_s: Some(Vec::new()),
                 ..clean.clone()
             },
-            (0.0, 400.0),
+            (0.0, 400.0).into(),
         );
         assert!(
             statement(&clean, true, whole)

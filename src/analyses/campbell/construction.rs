@@ -38,7 +38,7 @@ impl Analysis {
         let certificate = BandCertificate::new(
             &analysis.chart,
             model.is_conservative(),
-            analysis.range_rad_per_s,
+            analysis.range_rad_per_s.into(),
             scene.flutter_threshold_per_s(),
             errors.fold(0.0, f64::max),
             self.listed_backward_error,
@@ -112,8 +112,8 @@ fn root_loci(analysis: &Analysis, branches: &Numbered<'_>) -> Option<RootLoci> {
         .flat_map(|event| event.waves);
     let mut names: Vec<String> = waves.map(|waves| waves.in_words()).collect();
     names.reverse();
-    let names = names.into_iter().chain(std::iter::repeat(String::new()));
-    let paths = names.zip(&loci.paths).map(|(name, path)| RootPath {
+    let padded = names.into_iter().chain(std::iter::repeat(String::new()));
+    let paths = padded.zip(&loci.paths).map(|(name, path)| RootPath {
         name,
         growth_per_s: path.iter().map(|(lambda, _)| lambda.re).collect(),
         frequency_hz: path.iter().map(|(lambda, _)| lambda.im / TAU).collect(),
@@ -171,10 +171,11 @@ fn instabilities(
     threshold_per_s: f64,
 ) -> Vec<InstabilityBand> {
     let bands = analysis.chart.instabilities.iter().enumerate();
-    let errors = |k: usize| analysis.estimates.as_ref()?.bands.get(k).copied();
+    let estimates = analysis.estimates.as_ref();
     bands
         .map(|(k, band)| {
-            let error = errors(k).unwrap_or_default();
+            let own = estimates.and_then(|estimates| estimates.bands.get(k));
+            let error = own.copied().unwrap_or_default();
             InstabilityBand {
                 estimated_relative_error: error.speed,
                 estimated_relative_growth_error: error.growth,
@@ -225,8 +226,8 @@ fn shape(plate: &Plate, described: &DescribedMode) -> Vec<HarmonicShape> {
             }
         })
         .collect();
-    let all = || shape.iter().flat_map(|s| s.cosine.iter().chain(&s.sine));
-    let largest = all().fold(f64::MIN_POSITIVE, |top, w| top.max(w.abs()));
+    let all = shape.iter().flat_map(|s| s.cosine.iter().chain(&s.sine));
+    let largest = all.fold(f64::MIN_POSITIVE, |top, w| top.max(w.abs()));
     for entry in &mut shape {
         let values = entry.cosine.iter_mut().chain(&mut entry.sine);
         values.for_each(|w| *w /= largest);

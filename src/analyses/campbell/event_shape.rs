@@ -169,10 +169,9 @@ fn at_speed(
     let model = &analysis.model;
     let modes = model.describe(speed_rad_per_s, model.modes(speed_rad_per_s)?);
     // The mirror image λ = −σ + iω of a flutter mode λ = σ + iω is not shown separately.
-    let modes = modes
-        .iter()
-        .filter(|found| found.mode.kind != ModeKind::Decaying);
     let shown = modes
+        .iter()
+        .filter(|found| found.mode.kind != ModeKind::Decaying)
         .enumerate()
         .filter(|(place, found)| *place < LOWEST || found.mode.growth_per_s() > 0.0);
     let entries = shown.map(|(_, described)| {
@@ -232,9 +231,8 @@ fn harmonics(plate: &Plate, shape: &Col<c64>, share: &dyn Fn(usize) -> f64) -> V
     };
     let squares: Vec<f64> = (0..=plate.max_diameters()).map(square).collect();
     let least = VISIBLE * squares.iter().sum::<f64>();
-    let seen =
-        (squares.iter().enumerate()).filter(|(_, square)| **square > 0.0 && **square >= least);
-    let mut seen: Vec<ModeHarmonic> = seen
+    let mut seen: Vec<ModeHarmonic> = (squares.iter().enumerate())
+        .filter(|(_, square)| **square > 0.0 && **square >= least)
         .map(|(n, _)| profile(plate, shape, n, share(n)))
         .collect();
     seen.sort_by(|x, y| y.share.total_cmp(&x.share));
@@ -273,11 +271,14 @@ impl EventShape {
         };
         // Every deflection is divided by the largest deflection re + i·im, which thereby becomes 1.
         let size = square([re, im]);
-        let (re, im) = (re / size, -im / size);
+        let (factor_re, factor_im) = (re / size, -im / size);
         for wave in &mut self.harmonics {
             for part in [&mut wave.cosine, &mut wave.sine] {
                 for (x, y) in part.re.iter_mut().zip(&mut part.im) {
-                    (*x, *y) = (re * *x - im * *y, re * *y + im * *x);
+                    (*x, *y) = (
+                        factor_re * *x - factor_im * *y,
+                        factor_re * *y + factor_im * *x,
+                    );
                 }
             }
         }

@@ -80,8 +80,8 @@ impl Row<'_> {
             .bands
             .iter()
             .map(|band| Item::Band(Band::new(band, speeds)));
-        let critical = self.critical_rpm.iter().map(|rpm| [*rpm, CRITICAL]);
-        let critical = Points::new(critical, Hue::Ink, CRITICAL_SIZE, "critical speed");
+        let places = self.critical_rpm.iter().map(|rpm| [*rpm, CRITICAL]);
+        let critical = Points::new(places, Hue::Ink, CRITICAL_SIZE, "critical speed");
         let operating = report.scene.operating_rpm.map(|rpm| {
             let label = format!("operating {rpm:.0}");
             Upright {

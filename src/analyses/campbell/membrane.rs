@@ -163,9 +163,9 @@ impl BladeStress {
     /// Stress and limits of an analysis; `None` for a scene without membrane stress, temperature and straight edge.
     pub(super) fn new(scene: &Scene, analysis: &Analysis) -> Option<Self> {
         let plate = &analysis.model.plate;
-        let heat = analysis.heat.as_ref();
+        let heat_limits = analysis.heat.as_ref();
         let straight_edge = analysis.straight_edge.as_ref();
-        if plate.membrane.is_none() && heat.is_none() && straight_edge.is_none() {
+        if plate.membrane.is_none() && heat_limits.is_none() && straight_edge.is_none() {
             return None;
         }
         let stress = plate.membrane.as_ref();
@@ -176,7 +176,7 @@ impl BladeStress {
         );
         let at = |r: &f64| stress.map(|stress| stress.at(*r)).unwrap_or_default();
         let temperature = scene.membrane().and_then(|m| m.temperature.as_ref());
-        let heat = heat
+        let heat = heat_limits
             .zip(temperature)
             .map(|(limits, temperature)| ToleratedHeat {
                 rise_k: temperature.peak_rise_k,
@@ -267,8 +267,8 @@ fn shown_radii(stress: Option<&MembraneStress>, a: f64, b: f64) -> Vec<f64> {
     let mut radii = Vec::new();
     for panel in knots.windows(2) {
         let (low, high) = (panel[0] * (1.0 + ASIDE), panel[1] * (1.0 - ASIDE));
-        let share = |k: usize| k as f64 / (SHOWN - 1) as f64;
-        radii.extend((0..SHOWN).map(|k| low + (high - low) * share(k)));
+        let shares = (0..SHOWN).map(|k| k as f64 / (SHOWN - 1) as f64);
+        radii.extend(shares.map(|share| low + (high - low) * share));
     }
     radii
 }

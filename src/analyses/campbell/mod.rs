@@ -63,7 +63,7 @@ pub(crate) use self::outline::{answer, headline};
 pub(crate) use self::remarks::{lifting_off, side_force_in_words};
 pub use self::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
 pub use self::verdict::Verdict;
-pub use self::vtu::VTK_NAMES;
+pub use self::vtu::{VTK_NAMES, VtkFile};
 pub use crate::stability::{ContradictedBands, MiscountedModes, Sensitivity};
 
 pub use crate::modes::Direction;

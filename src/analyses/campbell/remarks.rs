@@ -181,7 +181,7 @@ fn uncalibrated(scene: &Scene) -> Option<String> {
 }
 
 fn thick(blade: &Blade) -> Option<String> {
-    let share = blade.thickness_range_m().1 / (blade.outer_radius_m - blade.inner_radius_m);
+    let share = blade.thickness_range_m()[1] / (blade.outer_radius_m - blade.inner_radius_m);
     (share > 0.1).then(|| {
         format!("the thickness is {share:.2} of the width of the ring; thin-plate theory is valid below 0.1")
     })
@@ -223,7 +223,7 @@ fn sagging(analysis: &Analysis) -> Option<String> {
     let measured = reading.measured.map(|(_, found)| found);
     let found = measured.or(reading.rolled).unwrap_or(reading.plain);
     let sag_m = found.sag_m.abs().max((found.sag_m - found.gap_m).abs());
-    let thickness_m = analysis.model.plate.blade.thickness_range_m().0;
+    let thickness_m = analysis.model.plate.blade.thickness_range_m()[0];
     (sag_m > thickness_m).then(|| {
         format!(
             "on the two points of membrane.straight_edge the blade sags by {} mm, {} times its thickness: the light gap is that of small deflections",

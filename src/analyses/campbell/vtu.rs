@@ -38,9 +38,17 @@ const QUADRILATERAL: u8 = 9;
 /// Title of a shape, and its complex deflections at the points of the grid.
 type Titled = (String, Vec<[f64; 2]>);
 
+/// A file for ParaView.
+pub struct VtkFile {
+    /// Name of the file.
+    pub name: &'static str,
+    /// Content of the file.
+    pub text: String,
+}
+
 impl Report {
-    /// The VTK files by name; empty if the report has no shapes.
-    pub fn vtk_files(&self) -> Vec<(&'static str, String)> {
+    /// The VTK files; none if the report has no shapes.
+    pub fn vtk_files(&self) -> Vec<VtkFile> {
         let Some(first) = self.shapes.first() else {
             return Vec::new();
         };
@@ -59,12 +67,14 @@ impl Report {
         let grids = VTK_NAMES[1..].iter().enumerate().map(|(phase, name)| {
             let mut text = String::new();
             // Writing to a string cannot fail.
-            let _ = grid(&mut text, (&radii, &angles), &shapes, phase);
-            (*name, text)
+            let _ = grid(&mut text, &radii, &angles, &shapes, phase);
+            VtkFile { name, text }
         });
-        std::iter::once((VTK_NAMES[0], list()))
-            .chain(grids)
-            .collect()
+        let list = VtkFile {
+            name: VTK_NAMES[0],
+            text: list(),
+        };
+        std::iter::once(list).chain(grids).collect()
     }
 }
 
@@ -82,7 +92,8 @@ fn list() -> String {
 
 fn grid(
     text: &mut String,
-    (radii_m, angles): (&[f64], &[f64]),
+    radii_m: &[f64],
+    angles: &[f64],
     shapes: &[Titled],
     phase: usize,
 ) -> std::fmt::Result {
@@ -99,19 +110,19 @@ fn grid(
     let all = radii_m
         .iter()
         .flat_map(|r| angles.iter().map(move |a| at(*r, *a)));
-    array(text, ("Float64", "points", 3), all)?;
+    array(text, "Float64", "points", 3, all)?;
     writeln!(text, "</Points>\n<Cells>")?;
     let corners = (0..cells).map(quadrilateral);
-    array(text, ("Int32", "connectivity", 1), corners)?;
+    array(text, "Int32", "connectivity", 1, corners)?;
     let ends = (1..=cells).map(|k| (4 * k).to_string());
-    array(text, ("Int32", "offsets", 1), ends)?;
+    array(text, "Int32", "offsets", 1, ends)?;
     let types = (0..cells).map(|_| QUADRILATERAL.to_string());
-    array(text, ("UInt8", "types", 1), types)?;
+    array(text, "UInt8", "types", 1, types)?;
     writeln!(text, "</Cells>\n<PointData>")?;
     let (sin, cos) = (TAU * phase as f64 / PHASES as f64).sin_cos();
     for (title, values) in shapes {
         let moment = values.iter().map(|[re, im]| short(re * cos - im * sin));
-        array(text, ("Float32", title, 1), moment)?;
+        array(text, "Float32", title, 1, moment)?;
     }
     writeln!(
         text,
@@ -145,7 +156,9 @@ fn title(number: usize, shape: &EventShape) -> String {
 
 fn array(
     text: &mut String,
-    (kind, name, components): (&str, &str, usize),
+    kind: &str,
+    name: &str,
+    components: usize,
     values: impl Iterator<Item = String>,
 ) -> std::fmt::Result {
     writeln!(

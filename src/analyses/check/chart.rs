@@ -67,8 +67,7 @@ fn speeds(report: &CheckReport, last: f64) -> Vec<Item> {
         label: "end of the sweep".to_owned(),
         name: "end of the sweep".to_owned(),
     });
-    let critical = report.critical_speeds_rpm.iter();
-    let critical = critical.map(|rpm| Upright {
+    let critical = report.critical_speeds_rpm.iter().map(|rpm| Upright {
         name: format!("critical speed {rpm:.0} rpm"),
         ..Upright::critical(*rpm, "")
     });
@@ -139,26 +138,26 @@ fn of_criterion(criterion: &Criterion, row: f64, last: f64) -> Vec<Item> {
         ..Line::new(LIMIT.map(|off| [asked, row + off]), Hue::Ink, "limit")
     };
     // A result that is not known gives the row its colour, too.
-    let result = [found.unwrap_or(f64::NAN), row];
+    let place = [found.unwrap_or(f64::NAN), row];
     let result = Points {
         said: said.into_iter().skip(1).collect(),
-        ..Points::new([result], hue, RESULT_SIZE, &criterion.name)
+        ..Points::new([place], hue, RESULT_SIZE, &criterion.name)
     };
     vec![Item::Line(bar), Item::Line(limit), Item::Points(result)]
 }
 
 fn stiffness(report: &CheckReport, speed: &AxisData) -> PanelData {
-    let curve = &report.rim_stiffness;
-    let largest = curve.n_per_m.iter().fold(0.0_f64, |top, k| top.max(*k));
+    let stiffness = &report.rim_stiffness;
+    let largest = stiffness.n_per_m.iter().fold(0.0_f64, |top, k| top.max(*k));
     let top = if largest > 0.0 {
         1.15e-3 * largest
     } else {
         1.0
     };
-    let points = curve
+    let points = stiffness
         .rpm
         .iter()
-        .zip(&curve.n_per_m)
+        .zip(&stiffness.n_per_m)
         .map(|(rpm, k)| [*rpm, 1e-3 * k]);
     let name = "lateral stiffness of the rim";
     let note = if largest > 0.0 {
@@ -229,7 +228,7 @@ mod tests {
             ..Limits::at(rad_per_s(1250.0))
         };
         let sheet = sheet(&chart(&check(&scene, &limits).unwrap()));
-        let said: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
+        let said = texts(&sheet);
         let with = |start: &str| said.iter().filter(|text| text.starts_with(start)).count();
         assert_eq!((with("PASS "), with("FAIL ")), (4, 1), "{said:?}");
         assert_eq!(with("operating 1250"), 1, "{said:?}");
@@ -256,6 +255,6 @@ mod tests {
         let [_, end] = chart(&report).panels[0].x.range.unwrap();
         assert!(highest < end, "{highest} {end}");
         let said = texts(&sheet);
-        assert!(said.iter().any(|(_, text)| *text == "end of the sweep"));
+        assert!(said.contains(&"end of the sweep"));
     }
 }

@@ -50,7 +50,7 @@ impl Limits {
                 typed_rpm(operating)
             ),
             Some(critical) => {
-                let share = apart(1e2 * operating / critical, 1e2 * margin).0;
+                let [share, _] = apart(1e2 * operating / critical, 1e2 * margin);
                 format!(
                     "{} rpm is {share} % of the first critical speed ({:.0} rpm)",
                     typed_rpm(operating),
@@ -98,7 +98,7 @@ impl Limits {
     pub(super) fn of_rim(&self, rim_radius_m: f64) -> Criterion {
         let found = self.max_rim_m_per_s / rim_radius_m;
         let operating = self.operating_rad_per_s;
-        let (now, most) = apart(operating * rim_radius_m, self.max_rim_m_per_s);
+        let [now, most] = apart(operating * rim_radius_m, self.max_rim_m_per_s);
         Criterion {
             key: "rim_speed".to_owned(),
             name: format!("rim speed of at most {most} m/s"),
@@ -173,7 +173,7 @@ fn typed_rpm(rad_per_s: f64) -> String {
 
 /// Criterion of a lower limit of a speed. A speed that is not reached within the sweep exceeds every limit.
 fn at_least(key: &str, name: &str, asked: f64, found: Option<f64>, nowhere: String) -> Criterion {
-    let (found_rpm, asked_rpm) = apart(rpm(found.unwrap_or(asked)), rpm(asked));
+    let [found_rpm, asked_rpm] = apart(rpm(found.unwrap_or(asked)), rpm(asked));
     Criterion {
         key: key.to_owned(),
         name: format!("{name} of at least {asked_rpm} rpm"),
@@ -185,16 +185,11 @@ fn at_least(key: &str, name: &str, asked: f64, found: Option<f64>, nowhere: Stri
 }
 
 /// Two numbers without decimals, or with as many as are needed to distinguish them.
-fn apart(first: f64, second: f64) -> (String, String) {
-    let with = |decimals: usize| {
-        (
-            format!("{first:.decimals$}"),
-            format!("{second:.decimals$}"),
-        )
-    };
+fn apart(first: f64, second: f64) -> [String; 2] {
+    let with = |decimals: usize| [first, second].map(|value| format!("{value:.decimals$}"));
     let mut different = (0..=MOST_DECIMALS)
         .map(with)
-        .filter(|(one, other)| one != other);
+        .filter(|[one, other]| one != other);
     different.next().unwrap_or_else(|| with(0))
 }
 

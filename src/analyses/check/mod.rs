@@ -22,6 +22,8 @@ mod report;
 mod rim;
 mod static_deflection;
 
+use faer::Scale;
+
 use crate::analyses::campbell::{
     InstabilityBand, Numbered, add_amplitudes, lifting_off, side_force_in_words,
 };
@@ -30,6 +32,7 @@ use crate::model::scene::{Scene, SceneError, SpeedRange, rpm};
 use crate::modes::SpectrumError;
 use crate::motion::stretched_blade::StretchedError;
 use crate::motion::stretched_blade::{Rise, saturations};
+use crate::motion::transient::lateral_load;
 use crate::stability::{Analysis, AnalysisError};
 pub(crate) use outline::outline;
 
@@ -74,7 +77,8 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
     let is_stiff = lowest_critical.is_none_or(|lowest| operating < lowest);
     let lateral = scene.cut().and_then(|cut| {
         let run = cut.at_rpm(rpm(operating)).ok()?;
-        Some((cut, run.lateral_n))
+        let load = lateral_load(plate, &cut.teeth.standing());
+        (run.lateral_n != 0.0).then(|| Scale(run.lateral_n) * load)
     });
     let bending =
         lowest_critical.and_then(|critical| StaticDeflection::new(plate, angle, lateral, critical));
@@ -152,9 +156,8 @@ fn analysed(scene: &Scene, least_end_rad_per_s: f64) -> Result<Analysis, CheckEr
 fn bands(analysis: &Analysis, saturations: &[Rise]) -> Vec<InstabilityBand> {
     let branches = Numbered::new(analysis);
     let threshold_per_s = analysis.scene.flutter_threshold_per_s();
-    let bands = analysis.chart.instabilities.iter();
     let entry = |band| InstabilityBand::in_chart(band, &branches, threshold_per_s);
-    let mut bands: Vec<InstabilityBand> = bands.map(entry).collect();
+    let mut bands: Vec<InstabilityBand> = analysis.chart.instabilities.iter().map(entry).collect();
     add_amplitudes(&mut bands, saturations);
     bands
 }

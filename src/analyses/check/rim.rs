@@ -72,8 +72,7 @@ mod tests {
     /// A clamped blade at an operating speed, and at a share of its first critical speed.
     fn clamped(operating_rpm: f64) -> Scene {
         let json = include_str!("../../../scenes/collar-400mm.json");
-        let saw = Scene::from_json(json).unwrap();
-        let saw = saw.edited(|saw| {
+        let saw = Scene::from_json(json).unwrap().edited(|saw| {
             (saw.accuracy, saw.operating_rpm) = (Accuracy::Draft, Some(operating_rpm));
         });
         saw.unwrap()
@@ -91,10 +90,10 @@ mod tests {
         let at_rest = compliance_m_per_n(&plate, rim_at_cut(&saw), 0.0).unwrap();
         let waves = crate::modes::critical_speeds(&system).unwrap();
         let critical = waves[0].speed_rad_per_s;
-        let waves = waves
+        let lowest = waves
             .iter()
             .filter(|c| (c.speed_rad_per_s / critical - 1.0).abs() < 1e-3);
-        let share: f64 = waves
+        let share: f64 = lowest
             .map(|c| {
                 let reached: f64 = point.transpose() * &c.shape;
                 reached * reached / (c.shape.transpose() * &system.stiffness * &c.shape)

@@ -7,10 +7,10 @@ use faer::{Col, Mat, Scale};
 
 use super::report::RimStiffness;
 use crate::model::plate::Plate;
-use crate::model::scene::{Cut, rpm};
+use crate::model::scene::rpm;
 use crate::model::system::GyroscopicSystem;
 use crate::modes::orthonormal;
-use crate::motion::transient::{at_point, lateral_load};
+use crate::motion::transient::at_point;
 use crate::stability::{Look, bracketed};
 
 /// Squared speeds, relative to the squared first critical speed, at which the response is solved on the full
@@ -39,12 +39,11 @@ pub struct StaticDeflection {
 }
 
 impl StaticDeflection {
-    /// The response below a critical speed, at the rim at an angle, and under lateral forces of a cut in N
-    /// per tooth. `None` if rigid motions are free, so that nothing holds the blade.
+    /// The response below a critical speed, at the rim at an angle, and under the lateral forces of a cut. `None` if rigid motions are free, so that nothing holds the blade.
     pub fn new(
         plate: &Plate,
         angle_rad: f64,
-        cut: Option<(&Cut, f64)>,
+        cut: Option<Col<f64>>,
         critical_rad_per_s: f64,
     ) -> Option<Self> {
         let system = GyroscopicSystem::of_plate(plate);
@@ -53,10 +52,6 @@ impl StaticDeflection {
         }
         let rim_radius_m = plate.blade.outer_radius_m;
         let rim = at_point(plate, (rim_radius_m, angle_rad));
-        let of_teeth = |(cut, lateral_n): (&Cut, f64)| {
-            Scale(lateral_n) * lateral_load(plate, &cut.teeth.standing())
-        };
-        let cut = cut.filter(|(_, force)| *force != 0.0).map(of_teeth);
         let mut responses: Vec<Col<f64>> = Vec::new();
         for share in SOLVED_AT {
             let stiffness = system.stiffness_at(share.sqrt() * critical_rad_per_s);

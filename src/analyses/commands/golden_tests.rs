@@ -118,8 +118,8 @@ fn pages_of_committed_reports_are_complete() {
         for outside in ["src=", "href=", "@import", "url("] {
             assert!(!page.contains(outside), "{name}: {outside}");
         }
-        let scene = page.split("id=\"scene\">").nth(1).unwrap();
-        let scene = Scene::from_json(scene.split("</script>").next().unwrap()).unwrap();
+        let text = page.split("id=\"scene\">").nth(1).unwrap();
+        let scene = Scene::from_json(text.split("</script>").next().unwrap()).unwrap();
         assert_eq!(scene.file(), report.scene(), "{name}");
     }
 }
@@ -132,8 +132,8 @@ fn the_reference_lists_the_files_of_every_command() {
     };
     let (files, reports) = (read("files"), read("reports"));
     for command in COMMANDS {
-        let row = format!("| `{}", command.name);
-        let row = files.lines().find(|line| line.starts_with(&row)).unwrap();
+        let start = format!("| `{}", command.name);
+        let row = files.lines().find(|line| line.starts_with(&start)).unwrap();
         assert!(row.contains(&format!("`{}`", command.file)), "{row}");
         for [_, svg] in command.figures {
             let name = svg.trim_end_matches(".svg");
@@ -181,8 +181,9 @@ fn interrupted(value: &Value) -> Vec<Vec<Option<f64>>> {
         let known = list.iter().flatten().filter(|value| **value != 0.0).count();
         known >= 2 && list.contains(&None)
     };
-    let lists = lists.into_iter().filter(is_one);
     lists
+        .into_iter()
+        .filter(is_one)
         .chain(inner.into_iter().flat_map(interrupted))
         .collect()
 }
@@ -218,31 +219,33 @@ fn shows(curve: &[Option<f64>], list: &[Option<f64>]) -> bool {
 /// A curve that shows the numbers of a list has a gap where the list has null.
 #[test]
 fn no_curve_of_a_committed_report_is_drawn_where_its_data_is_null() {
-    let shown = cases().into_par_iter().flat_map(|name| {
-        let path = Path::new(FOLDER).join(format!("reports/{name}.json"));
-        let text = std::fs::read_to_string(path).unwrap();
-        let lists = interrupted(&serde_json::from_str(&text).unwrap());
-        let report = read(&name);
-        let figures = report.command().figures.iter();
-        let charts = figures
-            .filter_map(|[png, _]| report.chart(png.trim_end_matches(".png")))
-            .map(|chart| serde_json::to_value(chart).unwrap());
-        let mut shown = Vec::new();
-        for curve in charts.flat_map(|chart| curves(&chart)) {
-            // The first row of a table may be left out, which is that of linear guides.
-            let suffixes = lists.iter().flat_map(|list| [&list[..], &list[1..]]);
-            for list in suffixes.filter(|list| shows(&curve, list)) {
-                let is_gap = curve
-                    .iter()
-                    .zip(list)
-                    .all(|(y, v)| v.is_some() || y.is_none());
-                assert!(is_gap, "{name}: {curve:?} {list:?}");
-                shown.push(report.command().name);
+    let shown: BTreeSet<&str> = cases()
+        .into_par_iter()
+        .flat_map(|name| {
+            let path = Path::new(FOLDER).join(format!("reports/{name}.json"));
+            let text = std::fs::read_to_string(path).unwrap();
+            let lists = interrupted(&serde_json::from_str(&text).unwrap());
+            let report = read(&name);
+            let figures = report.command().figures.iter();
+            let charts = figures
+                .filter_map(|[png, _]| report.chart(png.trim_end_matches(".png")))
+                .map(|chart| serde_json::to_value(chart).unwrap());
+            let mut shown = Vec::new();
+            for curve in charts.flat_map(|chart| curves(&chart)) {
+                // The first row of a table may be left out, which is that of linear guides.
+                let suffixes = lists.iter().flat_map(|list| [&list[..], &list[1..]]);
+                for list in suffixes.filter(|list| shows(&curve, list)) {
+                    let is_gap = curve
+                        .iter()
+                        .zip(list)
+                        .all(|(y, v)| v.is_some() || y.is_none());
+                    assert!(is_gap, "{name}: {curve:?} {list:?}");
+                    shown.push(report.command().name);
+                }
             }
-        }
-        shown
-    });
-    let shown: BTreeSet<&str> = shown.collect();
+            shown
+        })
+        .collect();
     assert!(
         ["gap", "response"]
             .iter()

@@ -27,32 +27,40 @@ const CRITICAL_SIZE: f64 = 7.0;
 /// Width of a band in the lower panel.
 const BAND: f64 = 9.0;
 
-/// The saws that are drawn, with their numbers from 0 on and their colours.
-fn drawn(report: &CompareReport) -> impl DoubleEndedIterator<Item = (usize, &ComparedSaw, Hue)> {
-    let saws = report.saws.iter().take(HUES.len()).enumerate();
-    saws.map(|(place, saw)| (place, saw, HUES[place]))
+/// The saws that are drawn.
+fn drawn(report: &CompareReport) -> &[ComparedSaw] {
+    &report.saws[..report.saws.len().min(HUES.len())]
 }
 
 /// Frequencies over speed, and critical speeds and bands of each saw, as numbers.
 pub fn chart(report: &CompareReport) -> ChartData {
-    let ends = drawn(report).flat_map(|(_, saw, _)| [saw.campbell.from_rpm, saw.campbell.to_rpm]);
+    let saws = drawn(report).iter();
+    let ends = saws
+        .clone()
+        .flat_map(|saw| [saw.campbell.from_rpm, saw.campbell.to_rpm]);
     let speed = AxisData::speed().within(proper_range(extremes(ends)));
-    let hz = drawn(report).map(|(_, saw, _)| shown_hz(saw));
-    let [_, hz] = proper_range([0.0, hz.fold(0.0, f64::max)]);
+    let tops = saws.clone().map(shown_hz);
+    let [_, hz] = proper_range([0.0, tops.fold(0.0, f64::max)]);
     // The first saw is drawn last, on top.
-    let frequencies = drawn(report)
+    let coloured = saws.clone().zip(HUES);
+    let frequencies = coloured
+        .clone()
         .rev()
-        .flat_map(|(_, saw, hue)| curves(saw, hue));
-    let speeds = drawn(report).flat_map(|(row, saw, hue)| events(row, saw, hue));
-    let labels: Vec<String> = drawn(report).map(|(_, saw, _)| saw.label.clone()).collect();
+        .flat_map(|(saw, hue)| curves(saw, hue));
+    let speeds = coloured
+        .enumerate()
+        .flat_map(|(row, (saw, hue))| events(row, saw, hue));
+    let labels: Vec<String> = saws.map(|saw| saw.label.clone()).collect();
     let names = labels
         .iter()
         .enumerate()
         .map(|(row, label)| (1.0 + row as f64, label.clone()));
-    let names = AxisData::new("", "").named(names);
+    let saw_axis = AxisData::new("", "").named(names);
     let count = labels.len() as f64;
-    let shown = labels.join(", ");
-    let shown = format!("critical speeds, bands and frequencies of {shown}");
+    let shown = format!(
+        "critical speeds, bands and frequencies of {}",
+        labels.join(", ")
+    );
     let mut facts = vec![report.condition(), shown];
     if labels.len() < report.saws.len() {
         facts.push(format!(
@@ -76,7 +84,7 @@ pub fn chart(report: &CompareReport) -> ChartData {
             },
             PanelData {
                 share: ROW * count,
-                ..PanelData::new(speed, names.within([0.4, count + 0.6]), speeds.collect())
+                ..PanelData::new(speed, saw_axis.within([0.4, count + 0.6]), speeds.collect())
             },
         ],
         columns: 1,
@@ -102,13 +110,16 @@ fn curves(saw: &ComparedSaw, hue: Hue) -> Vec<Item> {
     let mut items = Vec::new();
     for branch in &saw.campbell.branches {
         let samples = branch.rpm.len().min(branch.frequency_hz.len());
-        for ((grows, reflected), samples) in lines_by_look(samples, |i| Some(look(branch, i))) {
+        for (look, samples) in lines_by_look(samples, |i| Some(look(branch, i))) {
             let at = |i: usize| [branch.rpm[i], branch.frequency_hz[i]];
             let points = samples.into_iter().map(|i| i.map_or([f64::NAN; 2], at));
             let name = format!("{}: {}", saw.label, branch.name);
             items.push(Item::Line(Line {
-                width: if grows { STRONG_CURVE } else { CURVE },
-                dashed: reflected,
+                width: match look {
+                    Look::Growing => STRONG_CURVE,
+                    _ => CURVE,
+                },
+                dashed: look == Look::Reflected,
                 branch: Some(branch.branch),
                 ..Line::new(points, hue, &name)
             }));
@@ -117,18 +128,29 @@ fn curves(saw: &ComparedSaw, hue: Hue) -> Vec<Item> {
     items
 }
 
-/// Whether a branch grows between one of its samples and the next, and whether it is reflected without growing.
-fn look(branch: &BranchCurve, i: usize) -> (bool, bool) {
+#[derive(PartialEq)]
+enum Look {
+    Growing,
+    Reflected,
+    Other,
+}
+
+/// Look of a branch between one of its samples and the next.
+fn look(branch: &BranchCurve, i: usize) -> Look {
     let ends = [i, i + 1];
-    let grows = ends.map(|k| {
+    let grows = |k: usize| {
         branch
             .growth_per_s
             .get(k)
             .is_some_and(|g| *g > NEGLIGIBLE_PER_S)
-    });
-    let reflected = ends.map(|k| branch.krein_sign.get(k) == Some(&-1));
-    let grows = grows.contains(&true);
-    (grows, !grows && reflected.contains(&true))
+    };
+    if ends.into_iter().any(grows) {
+        Look::Growing
+    } else if ends.map(|k| branch.krein_sign.get(k)).contains(&Some(&-1)) {
+        Look::Reflected
+    } else {
+        Look::Other
+    }
 }
 
 /// Bands of a saw as strips in the colour of their kind, its critical speeds as dots, and its operating speed as a ring.
@@ -146,13 +168,13 @@ fn events(row: usize, saw: &ComparedSaw, hue: Hue) -> Vec<Item> {
             ..Line::new([[band.from_rpm, y], [band.to_rpm, y]], streak, &name)
         })
     });
-    let critical = saw.critical_speeds.iter().map(|entry| [entry.rpm, y]);
+    let places = saw.critical_speeds.iter().map(|entry| [entry.rpm, y]);
     let critical = Item::Points(Points {
         said: (saw.critical_speeds.iter())
             .map(|entry| format!("critical speed {:.1} rpm\n{}", entry.rpm, entry.name))
             .collect(),
         ..Points::new(
-            critical,
+            places,
             hue,
             CRITICAL_SIZE,
             &format!("{}: critical speeds", saw.label),
@@ -188,7 +210,7 @@ fn key() -> Vec<Item> {
 mod tests {
     use super::*;
     use crate::analyses::campbell::sample;
-    use crate::analyses::compare::{Saw, compare};
+    use crate::analyses::compare::{LabelledSaw, Saw, compare};
     use crate::page::figure::layout;
     use crate::page::figure::tidiness::texts;
 
@@ -196,10 +218,13 @@ mod tests {
     fn every_saw_has_its_row_and_nothing_is_cut_off() {
         let report = sample::empty_report("A saw");
         for count in [1, 2, 6, 9] {
-            let saw = |k: usize| (format!("saw {k}"), Saw::Report(Box::new(report.clone())));
+            let saw = |k: usize| LabelledSaw {
+                label: format!("saw {k}"),
+                saw: Saw::Report(Box::new(report.clone())),
+            };
             let compared = compare((1..=count).map(saw).collect(), &|_, _| ()).unwrap();
             let sheet = layout::sheet(&chart(&compared));
-            let all: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
+            let all = texts(&sheet);
             assert!(all.contains(&"saw 1"), "{all:?}");
             let mut texts = all.iter();
             let is_noted = texts.any(|text| text.contains("the first 6 of 9 saws"));

@@ -4,14 +4,12 @@ pub(crate) mod chart;
 mod outline;
 mod report;
 
-pub(crate) use outline::outline;
-use serde_json::Value;
-
 use crate::analyses::campbell::Report;
 use crate::analyses::check::rim_stiffness_at_rest_n_per_m;
-use crate::model::scene::{Scene, in_words};
+use crate::model::scene::{Entry, Scene, in_words};
 use crate::modes::branches::Progress;
 use crate::stability::{Analysis, AnalysisError, end_of_sweep};
+pub(crate) use outline::outline;
 
 pub use report::{CompareReport, ComparedSaw, Difference};
 
@@ -22,6 +20,14 @@ pub enum Saw {
     Scene(Box<Scene>),
     /// Report of a saw that was analysed before.
     Report(Box<Report>),
+}
+
+/// A saw with the label that names it in the comparison.
+pub struct LabelledSaw {
+    /// The label.
+    pub label: String,
+    /// The saw.
+    pub saw: Saw,
 }
 
 /// Reason for which saws could not be compared.
@@ -44,12 +50,12 @@ pub enum CompareError {
 /// # Errors
 /// [`CompareError`] if there is no saw, or one cannot be analysed.
 pub fn compare(
-    saws: Vec<(String, Saw)>,
+    saws: Vec<LabelledSaw>,
     progress: Progress<'_>,
 ) -> Result<CompareReport, CompareError> {
     let ends = saws
         .iter()
-        .filter_map(|(_, saw)| match saw {
+        .filter_map(|labelled| match &labelled.saw {
             Saw::Scene(scene) if scene.sweep().is_none() => Some(end_of_sweep(scene)),
             _ => None,
         })
@@ -57,7 +63,7 @@ pub fn compare(
     let end_rad_per_s = ends.into_iter().fold(0.0, f64::max);
     let of = saws.len();
     let mut compared = Vec::new();
-    for (done, (label, saw)) in saws.into_iter().enumerate() {
+    for (done, LabelledSaw { label, saw }) in saws.into_iter().enumerate() {
         progress(done, of);
         compared.push(match saw {
             Saw::Report(report) => of_report(label, *report),
@@ -106,10 +112,10 @@ fn of_report(label: String, report: Report) -> ComparedSaw {
 fn differences(saws: &[ComparedSaw]) -> Vec<Difference> {
     let keys: Vec<_> = saws.iter().map(|saw| saw.scene.inputs()).collect();
     let mut found: Vec<Difference> = Vec::new();
-    for (path, _) in keys.iter().flatten() {
-        let value = |own: &Vec<(String, Value)>| {
-            let own = own.iter().find(|(own, _)| own == path);
-            own.map_or(String::new(), |(_, value)| in_words(value))
+    for Entry { path, .. } in keys.iter().flatten() {
+        let value = |own: &Vec<Entry>| {
+            let own = own.iter().find(|own| own.path == *path);
+            own.map_or(String::new(), |own| in_words(&own.value))
         };
         if found.iter().all(|known| known.path != *path) {
             let (path, values) = (path.clone(), keys.iter().map(value).collect());

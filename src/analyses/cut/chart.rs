@@ -3,6 +3,7 @@
 
 use super::{CutAtSpeed, CutCriterion, CutFinding, CutReport, CutVerdict};
 use crate::analyses::campbell::Verdict;
+use crate::analyses::scene_number::FigureUnit;
 use crate::page::figure::axis::two_digits;
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};
 use crate::page::figure::heading;
@@ -39,7 +40,10 @@ struct Scale {
 impl Scale {
     fn of(runs: &[CutAtSpeed]) -> Self {
         let largest_m = runs.iter().map(largest_m).fold(0.0, f64::max);
-        let (unit, per_metre) = unit_of(largest_m);
+        let FigureUnit {
+            symbol: unit,
+            factor: per_metre,
+        } = unit_of(largest_m);
         let reach = if largest_m > 0.0 {
             // Deflections below a nanometre have no meaning, and their ticks would have too many digits.
             1.12 * per_metre * largest_m.max(1e-9)
@@ -59,19 +63,19 @@ fn largest_m(run: &CutAtSpeed) -> f64 {
     sizes.fold(0.0, f64::max)
 }
 
-/// Name of a unit in which a length has few digits, and factor from metres to this unit.
-fn unit_of(largest_m: f64) -> (&'static str, f64) {
+/// A unit in which a length has few digits.
+fn unit_of(largest_m: f64) -> FigureUnit {
     match largest_m {
-        w if w >= 1e-5 || w == 0.0 => ("mm", 1e3),
-        w if w >= 1e-8 => ("µm", 1e6),
-        _ => ("nm", 1e9),
+        w if w >= 1e-5 || w == 0.0 => FigureUnit::new("mm", 1e3),
+        w if w >= 1e-8 => FigureUnit::new("µm", 1e6),
+        _ => FigureUnit::new("nm", 1e9),
     }
 }
 
 /// A length in a unit in which it has few digits.
 fn length(metres: f64) -> String {
-    let (unit, per_metre) = unit_of(metres);
-    format!("{} {unit}", two_digits(per_metre * metres))
+    let FigureUnit { symbol, factor } = unit_of(metres);
+    format!("{} {symbol}", two_digits(factor * metres))
 }
 
 fn panel(run: &CutAtSpeed, scale: &Scale) -> PanelData {
@@ -138,10 +142,10 @@ fn envelope(run: &CutAtSpeed, scale: &Scale) -> Vec<Item> {
     let grows = |c: &&CutFinding| {
         c.criterion == CutCriterion::Eigenvalues && c.verdict == Verdict::Unstable
     };
-    let in_cut = |t: &f64| (run.forces_from_s..=run.forces_to_s).contains(t);
+    let in_cut = run.forces_from_s..=run.forces_to_s;
     let record = run.time_s.iter().zip(&run.deflection_m);
     let peak = record
-        .filter(|(t, _)| in_cut(t))
+        .filter(|(t, _)| in_cut.contains(t))
         .max_by(|x, y| x.1.abs().total_cmp(&y.1.abs()));
     let (Some(eigenvalue), Some((peak_s, peak_m))) = (run.criteria.iter().find(grows), peak) else {
         return Vec::new();
@@ -186,10 +190,9 @@ fn facts(run: &CutAtSpeed) -> Vec<String> {
         Some(_) => "with stretching, largest",
         None => "largest",
     };
-    let criteria = criteria.collect::<Vec<_>>().join(", ");
     vec![
         format!("{with} {}", length(largest_m(run))),
-        format!("{criteria}\u{a0}1/s"),
+        format!("{}\u{a0}1/s", criteria.collect::<Vec<_>>().join(", ")),
     ]
 }
 

@@ -101,8 +101,15 @@ pub(super) fn criteria(
     .collect()
 }
 
-/// The worst verdict, and the criterion of fastest growth that gives it (the first of equals).
-pub(super) fn worst(criteria: &[CutFinding]) -> (Verdict, CutCriterion) {
+/// The worst verdict.
+#[derive(Debug, PartialEq)]
+pub(super) struct Decision {
+    pub verdict: Verdict,
+    /// The criterion of fastest growth that gives the verdict, the first of equals.
+    pub by: CutCriterion,
+}
+
+pub(super) fn worst(criteria: &[CutFinding]) -> Decision {
     let unstable = |entry: &CutFinding| entry.verdict == Verdict::Unstable;
     let verdict = if criteria.iter().any(unstable) {
         Verdict::Unstable
@@ -119,8 +126,8 @@ pub(super) fn worst(criteria: &[CutFinding]) -> (Verdict, CutCriterion) {
             fastest = Some(entry);
         }
     }
-    let criterion = fastest.map_or(CutCriterion::Eigenvalues, |entry| entry.criterion);
-    (verdict, criterion)
+    let by = fastest.map_or(CutCriterion::Eigenvalues, |entry| entry.criterion);
+    Decision { verdict, by }
 }
 
 /// Whether a time history agrees with the eigenvalues.
@@ -190,15 +197,13 @@ mod tests {
         }
     }
 
-    fn entries(growths: &[(CutCriterion, f64)]) -> Vec<CutFinding> {
-        let scene = Scene::paper();
-        let entry = |(criterion, growth_per_s): &(CutCriterion, f64)| CutFinding {
-            criterion: *criterion,
-            verdict: Verdict::of(&scene, flutter(*growth_per_s)),
-            growth_per_s: *growth_per_s,
+    fn entry(criterion: CutCriterion, growth_per_s: f64) -> CutFinding {
+        CutFinding {
+            criterion,
+            verdict: Verdict::of(&Scene::paper(), flutter(growth_per_s)),
+            growth_per_s,
             frequency_hz: None,
-        };
-        growths.iter().map(entry).collect()
+        }
     }
 
     /// The threshold is 0.25 1/s. One criterion above it suffices and is named.
@@ -213,10 +218,10 @@ mod tests {
             ([0.0, 0.0, 0.1, 0.0], Verdict::Stable, MovingToothLoads),
             ([-3.0, -3.0001, -2.0, -1.0], Verdict::Stable, OutOfCut),
         ];
-        for (growths, verdict, decides) in cases {
+        for (growths, verdict, by) in cases {
             let criteria = [Eigenvalues, TimeHistory, MovingToothLoads, OutOfCut];
-            let pairs: Vec<_> = criteria.into_iter().zip(growths).collect();
-            assert_eq!(worst(&entries(&pairs)), (verdict, decides), "{growths:?}");
+            let entries = [0, 1, 2, 3].map(|k| entry(criteria[k], growths[k]));
+            assert_eq!(worst(&entries), Decision { verdict, by }, "{growths:?}");
         }
     }
 

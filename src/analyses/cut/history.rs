@@ -16,7 +16,7 @@ use super::record::{
     Growth, MAX_SAMPLES, Record, SAMPLE_S, fastest_mode_rad_per_s, longest_step_s,
 };
 use super::saw::{MODES, SawInCut};
-use super::stretching::{CutStretching, stretched_cut};
+use super::stretching::{CutStretching, StretchedCut, stretched_cut};
 
 /// One speed of a cut: eigenvalues and time history.
 #[derive(Debug)]
@@ -96,7 +96,7 @@ pub(super) fn cut_history(saw: &SawInCut<'_>, probe: Point) -> Result<CutHistory
     let [idle, in_cut] = growing.each_ref().map(|found| Growth::from(found.growing));
     let gauge = Gauge::new(plate, &saw.blade, probe);
     let (record, stretched) = if cut.stretching {
-        let (record, found) = stretched_cut(saw, probe, [idle, in_cut])?;
+        let StretchedCut { record, found } = stretched_cut(saw, probe, [idle, in_cut])?;
         (record, Some(found))
     } else {
         (record(saw, &gauge, [idle, in_cut])?, None)
@@ -186,8 +186,8 @@ fn propagator(
     system: &GyroscopicSystem,
     step_s: f64,
 ) -> Result<Propagator, TransientError> {
-    let load = lateral_load(saw.plate, &saw.cut.teeth.standing());
-    let load: Col<f64> = saw.blade.vector(&load);
+    let lateral = lateral_load(saw.plate, &saw.cut.teeth.standing());
+    let load: Col<f64> = saw.blade.vector(&lateral);
     let system = saw.blade.system(system);
     Propagator::new(&system, saw.run.speed_rad_per_s, &[load], step_s)
 }

@@ -26,34 +26,25 @@ pub fn chart(report: &CutReport) -> ChartData {
     } else {
         "Growth in the cut over the load"
     };
-    let panels = report
-        .runs
-        .iter()
-        .map(|run| {
-            if has_guides {
-                map(report, run)
-            } else {
-                over_load(report, run)
-            }
-        })
-        .map(|panel| PanelData {
-            share: 0.84,
-            ..panel
-        });
-    let stable = has_guides.then(|| Item::tinted_sample(Hue::Forward, STABLE_TINT, "stable"));
-    let facts = vec![of_saw(&report.scene.name, &report.condition)];
-    let panels: Vec<PanelData> = panels
-        .zip(&report.runs)
-        .map(|(panel, run)| PanelData {
+    let panel = |run| {
+        let drawn = if has_guides {
+            map(report, run)
+        } else {
+            over_load(report, run)
+        };
+        PanelData {
             title: format!("{} rpm", run.rpm),
             facts: forces(run),
-            ..panel
-        })
-        .collect();
+            share: 0.84,
+            ..drawn
+        }
+    };
+    let stable = has_guides.then(|| Item::tinted_sample(Hue::Forward, STABLE_TINT, "stable"));
+    let facts = vec![of_saw(&report.scene.name, &report.condition)];
     ChartData {
         columns: 2,
         key: stable.into_iter().collect(),
-        ..ChartData::new(title, facts, panels)
+        ..ChartData::new(title, facts, report.runs.iter().map(panel).collect())
     }
 }
 
@@ -93,10 +84,10 @@ fn map(report: &CutReport, run: &CutAtSpeed) -> PanelData {
         .within(proper_range(ends(&found.guide_angle_deg)));
     let load = load(run);
     let [low, high] = load.range.unwrap_or([0.0, 1.0]);
-    let stable = angle.range.unwrap_or([0.0, 1.0]).map(|x| [x, low, high]);
+    let region = angle.range.unwrap_or([0.0, 1.0]).map(|x| [x, low, high]);
     let stable = Area {
         tint: STABLE_TINT,
-        ..Area::new(stable, Hue::Forward, "stable")
+        ..Area::new(region, Hue::Forward, "stable")
     };
     let rows = found
         .growth_per_s
@@ -131,8 +122,9 @@ fn map(report: &CutReport, run: &CutAtSpeed) -> PanelData {
 fn own_points(report: &CutReport, run: &CutAtSpeed) -> Vec<Item> {
     let guide = report.scene.guides.first();
     let own_deg = guide.map_or(0.0, |guide| guide.angle_deg);
-    let by_power = run.by_power.as_ref();
-    let by_power = by_power
+    let by_power = run
+        .by_power
+        .as_ref()
         .map(|by_power| {
             let share = by_power.tangential_n_per_tooth / run.tangential_n_per_tooth;
             (share, Hue::Quiet, POWER_SIZE, "force that the power allows")
@@ -158,11 +150,15 @@ fn ring(at: [f64; 2], hue: Hue, size: f64, name: &str) -> [Item; 2] {
 fn over_load(report: &CutReport, run: &CutAtSpeed) -> PanelData {
     let load = load(run);
     let growth = [slowest_growth(report), fastest_growth(report)];
-    let threshold = report.flutter_threshold_per_s;
+    let threshold_per_s = report.flutter_threshold_per_s;
     let ends = load.range.unwrap_or([0.0, 1.0]);
     let threshold = Line {
         label: "unstable above".to_owned(),
-        ..Line::guide(ends.map(|x| [x, threshold]), Hue::Quiet, "unstable above")
+        ..Line::guide(
+            ends.map(|x| [x, threshold_per_s]),
+            Hue::Quiet,
+            "unstable above",
+        )
     };
     let points = run
         .map

@@ -74,14 +74,21 @@ const MAP_TURN_DEG: f64 = 30.0;
 /// Highest load level of the map.
 const MAP_LOAD: f64 = 1.5;
 
-/// Steps of the map in degrees and in load level. With 400 eigenproblems per speed the map is most of the
-/// work of a cut; a draft has 91.
-fn map_steps(accuracy: Accuracy) -> (f64, f64) {
-    match accuracy {
-        Accuracy::Draft => (5.0, 0.25),
-        Accuracy::Design | Accuracy::Reference => (2.5, 0.1),
-    }
+/// Steps of the map.
+struct MapSteps {
+    turn_deg: f64,
+    load_level: f64,
 }
+
+/// With 400 eigenproblems per speed the map is most of the work of a cut; a draft has 91.
+const FINE_STEPS: MapSteps = MapSteps {
+    turn_deg: 2.5,
+    load_level: 0.1,
+};
+const DRAFT_STEPS: MapSteps = MapSteps {
+    turn_deg: 5.0,
+    load_level: 0.25,
+};
 
 /// Number of parts of the computation at one speed: the saw under the forces, time history, teeth and map.
 const PARTS: usize = 4;
@@ -97,7 +104,10 @@ pub fn cut(
 ) -> Result<CutReport, TransientError> {
     let cut = scene.needed_cut().map_err(SceneError::from)?;
     let teeth = cut.teeth;
-    let (turn_deg, level) = map_steps(scene.accuracy());
+    let steps = match scene.accuracy() {
+        Accuracy::Draft => DRAFT_STEPS,
+        Accuracy::Design | Accuracy::Reference => FINE_STEPS,
+    };
     let stage_count = (teeth.pitch_rad().to_degrees() / STAGE_DEG).ceil() as usize;
     let cutting = Cutting {
         scene,
@@ -107,12 +117,12 @@ pub fn cut(
             // Without guides the map has no guide angle to vary.
             vec![0.0]
         } else {
-            even(-MAP_TURN_DEG, MAP_TURN_DEG, turn_deg)
+            even(-MAP_TURN_DEG, MAP_TURN_DEG, steps.turn_deg)
                 .into_iter()
                 .map(f64::to_radians)
                 .collect()
         },
-        load_levels: even(0.0, MAP_LOAD, level),
+        load_levels: even(0.0, MAP_LOAD, steps.load_level),
         stages: STAGES.max(stage_count),
         parts: Work::of("parts of the cut", PARTS * runs.len()),
     };
@@ -122,7 +132,7 @@ pub fn cut(
         let of = |done: usize, _| progress(index * points + done, runs.len() * points);
         found.push(cutting.at_speed(run, &of)?);
     }
-    let (thickness_m, _) = scene.blade().thickness_range_m();
+    let [thickness_m, _] = scene.blade().thickness_range_m();
     let of_run = |run| warnings(run, teeth.mean, thickness_m);
     Ok(CutReport {
         sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
@@ -164,15 +174,16 @@ impl Cutting<'_> {
         self.parts.advance();
         let history = cut_history(&saw, scene.probe())?;
         self.parts.advance();
-        let (tooth_passing, moving) = tooth_passing(&saw, scene.probe(), self.stages)?;
+        let loads = tooth_passing(&saw, scene.probe(), self.stages)?;
+        let tooth_passing = loads.found;
         self.parts.advance();
         let spline = on_spline(scene, &self.plate, cut, run)?;
-        let map = verdict_map(&saw, scene, (&self.turns_rad, &self.load_levels), progress)?;
+        let map = verdict_map(&saw, scene, &self.turns_rad, &self.load_levels, progress)?;
         self.parts.advance();
         let of = |growth: Growth| Verdict::of(scene, growth);
         let (idle, in_cut, fitted) = (history.idle(), history.in_cut(), history.fitted);
-        let criteria = criteria(scene, &history, moving, spline.as_ref());
-        let (growth, decided_by) = worst(&criteria);
+        let criteria = criteria(scene, &history, loads.moving, spline.as_ref());
+        let decision = worst(&criteria);
         // With stretching, only the record decides whether the blade leaves the model, because moving loads
         // are computed by the linear model only.
         let linear_until_s = history.record.linear_until_s;
@@ -190,9 +201,9 @@ impl Cutting<'_> {
             tangential_n_per_tooth: run.tangential_n,
             radial_n_per_tooth: run.radial_n,
             lateral_n_per_tooth: run.lateral_n,
-            verdict: CutVerdict::new(growth, leaves_model, at_critical_rpm.is_some()),
+            verdict: CutVerdict::new(decision.verdict, leaves_model, at_critical_rpm.is_some()),
             at_critical_rpm,
-            decided_by,
+            decided_by: decision.by,
             criteria,
             growth_per_s: in_cut.growth_per_s,
             frequency_hz: in_cut.growing_hz().or(dominant_hz),
@@ -243,11 +254,10 @@ fn chosen_plate(scene: &Scene, runs: &[CutRun]) -> Result<Plate, TransientError>
 /// Unusual numbers of the scene, and of speeds of the cut that the scene does not list.
 fn unusual_numbers(scene: &Scene, cut: &Cut, runs: &[CutRun]) -> Vec<String> {
     let file = scene.file();
-    let is_named = |rpm: f64| cut.runs.iter().any(|run| run.rpm == rpm);
     let asked = runs
         .iter()
         .map(|run| run.rpm)
-        .filter(|rpm| !is_named(*rpm))
+        .filter(|rpm| cut.runs.iter().all(|run| run.rpm != *rpm))
         .filter_map(|rpm| unusual_number(file, "the speed of the cut", "cut.speeds[].rpm", rpm));
     file.unusual_numbers().into_iter().chain(asked).collect()
 }

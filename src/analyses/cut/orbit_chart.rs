@@ -61,13 +61,13 @@ impl Scale {
 
 fn panel(run: &CutAtSpeed, spline: &SplineOrbit, scale: &Scale) -> PanelData {
     let reach = [-scale.reach, scale.reach];
-    let points = spline
+    let points: Vec<[f64; 2]> = spline
         .x_m
         .iter()
         .zip(&spline.y_m)
-        .map(|(x, y)| [x, y].map(|m| scale.per_metre * m));
-    let points: Vec<[f64; 2]> = points.collect();
-    let (before, settled) = points.split_at(spline.settled_from.min(points.len()));
+        .map(|(x, y)| [x, y].map(|m| scale.per_metre * m))
+        .collect();
+    let (start, rest) = points.split_at(spline.settled_from.min(points.len()));
     let zero = |ends: [[f64; 2]; 2]| {
         Item::Line(Line {
             tint: 0.6,
@@ -78,9 +78,9 @@ fn panel(run: &CutAtSpeed, spline: &SplineOrbit, scale: &Scale) -> PanelData {
     let before = Line {
         tint: BEFORE,
         width: HAIRLINE,
-        ..Line::new(before.iter().copied(), Hue::Forward, "before it is settled")
+        ..Line::new(start.iter().copied(), Hue::Forward, "before it is settled")
     };
-    let settled = Line::new(settled.iter().copied(), Hue::Forward, "orbit");
+    let settled = Line::new(rest.iter().copied(), Hue::Forward, "orbit");
     let end = Points::new(points.last().copied(), Hue::Forward, END_SIZE, "end");
     let clearance = clearance(scale.per_metre * spline.clearance_m);
     let items = [

@@ -41,6 +41,12 @@ const STEPS_A_PERIOD: f64 = 24.0;
 /// Time between evaluations of the slopes.
 const LOOK_S: f64 = 0.01;
 
+/// A cut with stretching.
+pub(super) struct StretchedCut {
+    pub record: Record,
+    pub found: CutStretching,
+}
+
 /// Integrates the idle saw, the cut, and the idle saw again with the potential of stretching, while the model
 /// is valid. The steps conserve the energy of an undamped blade.
 ///
@@ -51,7 +57,7 @@ pub(super) fn stretched_cut(
     saw: &SawInCut<'_>,
     probe: Point,
     growths: [Growth; 2],
-) -> Result<(Record, CutStretching), TransientError> {
+) -> Result<StretchedCut, TransientError> {
     with_modes(saw, probe, growths, MODES)
 }
 
@@ -60,7 +66,7 @@ fn with_modes(
     probe: Point,
     growths: [Growth; 2],
     modes: usize,
-) -> Result<(Record, CutStretching), TransientError> {
+) -> Result<StretchedCut, TransientError> {
     let (cut, run) = (saw.cut, saw.run);
     let reduced = basis(saw, modes);
     let blade = StretchedBlade::of_shapes(saw.plate, reduced.basis().to_owned())?;
@@ -89,7 +95,10 @@ fn with_modes(
         }
         start_s += duration_s;
     }
-    Ok((samples.record, samples.found))
+    Ok(StretchedCut {
+        record: samples.record,
+        found: samples.found,
+    })
 }
 
 /// Modes of the saw with and without the forces at its speed, and the deflections under the load.
@@ -327,7 +336,7 @@ mod tests {
             frequency_rad_per_s: predicted.frequency_rad_per_s,
             diverges: false,
         };
-        let (record, found) = stretched_cut(&saw, probe, [growth; 2]).unwrap();
+        let StretchedCut { record, found } = stretched_cut(&saw, probe, [growth; 2]).unwrap();
         let seen = largest(&record.deflection_m);
         let error = predicted.amplitude_m / seen - 1.0;
         println!("{predicted:?} {seen} {error} {found:?}");
@@ -347,7 +356,8 @@ mod tests {
             diverges: false,
         };
         let seen = [8, 12].map(|modes| {
-            let (record, _) = with_modes(&saw, Scene::paper().probe(), [none; 2], modes).unwrap();
+            let cut = with_modes(&saw, Scene::paper().probe(), [none; 2], modes).unwrap();
+            let record = cut.record;
             let upto = record.time_s.iter().take_while(|t| **t < 0.8).count();
             largest(&record.deflection_m[..upto])
         });

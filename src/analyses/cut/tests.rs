@@ -47,8 +47,8 @@ fn the_paper_saw_is_stable_at_1800_and_flutters_at_2800() {
     };
     let quiet = history_at(1800.0);
     assert_eq!(quiet.in_cut().growth_per_s, 0.0);
-    let fitted = quiet.fitted.unwrap().growth_per_s;
-    assert!(fitted.abs() < 1e-3, "{fitted:e}");
+    let quiet_growth = quiet.fitted.unwrap().growth_per_s;
+    assert!(quiet_growth.abs() < 1e-3, "{quiet_growth:e}");
 
     let loud = history_at(2800.0);
     let growth = loud.in_cut().growth_per_s;
@@ -107,7 +107,7 @@ fn passing_teeth_act_like_their_mean() {
     let passing_at = |rpm: f64, stages: usize| -> ToothPassing {
         let (cut, run) = (paper_cut(), run_at(rpm));
         let saw = SawInCut::new(&plate, &cut, &run).unwrap();
-        tooth_passing(&saw, probe, stages).unwrap().0
+        tooth_passing(&saw, probe, stages).unwrap().found
     };
     let passing = passing_at(2800.0, 8);
     let of_mean = passing.passing_growth_per_s / passing.mean_growth_per_s - 1.0;
@@ -136,7 +136,8 @@ fn the_map_holds_what_moved_guides_and_scaled_loads_do() {
     let map = verdict_map(
         &SawInCut::new(&plate, &cut, &run).unwrap(),
         &Scene::paper(),
-        (&turns, &levels),
+        &turns,
+        &levels,
         &|_, _| (),
     )
     .unwrap();

@@ -51,9 +51,15 @@ pub struct ToothPassing {
 /// growth is 0.25 1/s for multiples of 1.5, 2, 3 and 4.
 const SHAPES_UP_TO: f64 = 2.0;
 
-/// Compares stationary, mean and moving loads, with `stages` steps within a tooth period and constant forces in each. Beside
-/// the result it returns the growth under moving loads, which diverges if a motion does under their mean: a multiplier does
-/// not show this, because it leaves multiples of the tooth frequency open.
+/// Stationary, mean and moving loads compared.
+pub(super) struct LoadsCompared {
+    pub found: ToothPassing,
+    /// Growth under moving loads, which diverges if a motion does under their mean: a multiplier does not show this,
+    /// because it leaves multiples of the tooth frequency open.
+    pub moving: Growth,
+}
+
+/// Compares the loads, with `stages` steps within a tooth period and constant forces in each.
 ///
 /// # Errors
 /// [`TransientError`].
@@ -61,7 +67,7 @@ pub(super) fn tooth_passing(
     saw: &SawInCut<'_>,
     probe: Point,
     stages: usize,
-) -> Result<(ToothPassing, Growth), TransientError> {
+) -> Result<LoadsCompared, TransientError> {
     let speed = saw.run.speed_rad_per_s;
     let period_s = saw.cut.teeth.pitch_rad() / speed;
     let tooth_frequency_rad_per_s = std::f64::consts::TAU / period_s;
@@ -88,7 +94,7 @@ pub(super) fn tooth_passing(
         frequency_rad_per_s: 0.0,
         diverges: mean.diverges,
     };
-    Ok((found, moving))
+    Ok(LoadsCompared { found, moving })
 }
 
 /// The loads in the steps within a tooth period, in a reduced basis.

@@ -118,7 +118,7 @@ fn compared(scene: &Scene, rpm: f64) -> ToothPassing {
     let cut = scene.cut().unwrap();
     let run = cut.at_rpm(rpm).unwrap();
     let saw = SawInCut::new(&plate, cut, &run).unwrap();
-    let (found, _) = tooth_passing(&saw, scene.probe(), 32).unwrap();
+    let found = tooth_passing(&saw, scene.probe(), 32).unwrap().found;
     let exact = by_runge_kutta(&plate, cut, &run, 32, 16);
     let growth = found.passing_growth_per_s;
     assert!(

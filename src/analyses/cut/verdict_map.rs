@@ -9,7 +9,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::analyses::campbell::Verdict;
 use crate::model::scene::Scene;
-use crate::model::system::GyroscopicSystem;
 use crate::modes::branches::Progress;
 use crate::modes::{Growing, SpectrumError};
 use crate::motion::transient::{ReducedBlade, Snapshot, TransientError, lateral_load};
@@ -47,7 +46,8 @@ const MODES: usize = 8;
 pub(super) fn verdict_map(
     saw: &SawInCut<'_>,
     scene: &Scene,
-    (turns_rad, load_levels): (&[f64], &[f64]),
+    turns_rad: &[f64],
+    load_levels: &[f64],
     progress: Progress<'_>,
 ) -> Result<VerdictMap, TransientError> {
     let speed = saw.run.speed_rad_per_s;
@@ -117,10 +117,10 @@ fn map_basis(
     let load = lateral_load(saw.plate, &saw.cut.teeth.standing());
     let mut blade = ReducedBlade::new(saw.plate, &snapshots, MODES, &[load]);
     let highest = load_levels.iter().copied().fold(1.0, f64::max);
-    let place = |system: &GyroscopicSystem| &system.stiffness - &saw.idle_system.stiffness;
     for system in systems.iter().skip(1) {
         let mut heaviest = system.clone();
-        heaviest.stiffness += Scale(highest - 1.0) * place(system);
+        let of_cut = &system.stiffness - &saw.idle_system.stiffness;
+        heaviest.stiffness += Scale(highest - 1.0) * of_cut;
         blade = blade.with_buckled_shapes(&heaviest)?;
     }
     Ok(blade)

@@ -91,7 +91,7 @@ pub fn deflect(scene: &Scene, options: &Options) -> Result<DeflectReport, Deflec
         force_angle_deg: force.at.angle_deg,
         probe_radius_m: probe.radius_m,
         probe_angle_deg: probe.angle_deg,
-        beyond_thickness_rpm: reader.beyond_rpm(&found.up, scene.blade().thickness_range_m().0),
+        beyond_thickness_rpm: reader.beyond_rpm(&found.up, scene.blade().thickness_range_m()[0]),
         up: reader.sweep(&found.up)?,
         down: reader.sweep(&found.down)?,
         curves: found

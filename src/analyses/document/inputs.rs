@@ -1,13 +1,13 @@
 //! The table of the numbers of a scene.
 
-use crate::model::scene::{Quantity, SceneFile, in_words};
+use crate::model::scene::{Entry, Quantity, SceneFile, in_words};
 use crate::page::outline::{Column, Table, Value};
 use crate::page::text::shown;
 
 /// A table with the key, the meaning, and the value with its unit, of each number that the scene contains.
 pub fn inputs(scene: &SceneFile) -> Table {
     let columns = ["key", "meaning", "value"].map(Column::words);
-    let rows = scene.inputs().into_iter().map(|(path, value)| {
+    let rows = scene.inputs().into_iter().map(|Entry { path, value }| {
         let quantity = Quantity::of(&path);
         let meaning = quantity.map_or("", |quantity| quantity.name);
         let shown = match (value.as_f64(), quantity.map(|quantity| quantity.unit)) {

@@ -90,10 +90,11 @@ fn scene(text: &mut String, scene: &SceneFile) -> std::fmt::Result {
         writeln!(text, "<p>{}</p>", escaped(&line))?;
     }
     text.push_str(&inputs(scene).in_html());
-    let json = serde_json::to_string(scene).unwrap_or_default();
     // A text of the scene may contain `</script>`, which would end the element; JSON allows `<` to be
     // escaped.
-    let json = json.replace('<', "\\u003c");
+    let json = serde_json::to_string(scene)
+        .unwrap_or_default()
+        .replace('<', "\\u003c");
     writeln!(
         text,
         "<script type=\"application/json\" id=\"scene\">{json}</script>"

@@ -26,15 +26,17 @@ const ROOM: f64 = 0.025;
 /// Frequencies over speed, and residuals, as numbers.
 pub fn chart(report: &FitReport) -> ChartData {
     let last = report.curves.rpm.last().copied().unwrap_or(1.0);
-    let shown = report.residuals.iter().filter(|r| r.rpm <= last);
-    let fitted = shown.clone().filter(|r| r.fitted);
+    let in_sweep = report.residuals.iter().filter(|r| r.rpm <= last);
+    let fitted = in_sweep.clone().filter(|r| r.fitted);
     let highest = fitted
         .clone()
         .fold(1.0_f64, |top, r| top.max(r.measured_hz).max(r.fitted_hz));
     let largest = fitted.fold(1e-3_f64, |top, r| top.max(off(r).abs()));
     // The axis ends at round numbers, so that both signs have a tick.
     let reach = round_up(1.05 * largest);
-    let shown: Vec<&Residual> = shown.filter(|r| r.measured_hz <= 1.12 * highest).collect();
+    let shown: Vec<&Residual> = in_sweep
+        .filter(|r| r.measured_hz <= 1.12 * highest)
+        .collect();
     let speed = AxisData::speed().within([-ROOM * last, last]);
     let upper = PanelData {
         share: 1.2,

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::model::{Assigned, frequencies_hz, frequency_hz};
+use super::model::{Assigned, RankedMode, frequencies_hz, frequency_hz};
 use super::{Curves, Measurement, Residual};
 use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::Scene;
-use crate::modes::{LowestModes, Mode, SpectrumError};
+use crate::modes::{LowestModes, SpectrumError};
 
 /// A saw before and after a fit.
 pub struct Compared {
@@ -49,15 +49,15 @@ impl Compared {
             let fitted = Assigned::new(&self.fitted, row)?;
             let pairs = before.each().zip(fitted.each());
             for ((before, fitted), (column, measured_hz)) in pairs.zip(&row.pairs) {
-                let hz = |found: Option<(usize, &Mode)>| {
-                    found.map_or(0.0, |(_, mode)| frequency_hz(mode))
+                let hz = |found: &Option<RankedMode>| {
+                    found.as_ref().map_or(0.0, |found| frequency_hz(found.mode))
                 };
                 residuals.push(Residual {
                     rpm: row.rpm,
-                    place: fitted.map_or(column + 1, |(rank, _)| rank),
+                    place: fitted.as_ref().map_or(column + 1, |found| found.rank),
                     measured_hz: *measured_hz,
-                    before_hz: hz(before),
-                    fitted_hz: hz(fitted),
+                    before_hz: hz(&before),
+                    fitted_hz: hz(&fitted),
                     fitted: row.rpm <= to_rpm,
                 });
             }

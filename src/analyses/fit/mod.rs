@@ -37,7 +37,7 @@ mod table;
 
 use crate::model::plate::Resolution;
 use crate::model::scene::{
-    Freed, Scene, SceneError, SceneFile, effective, rad_per_s, scene_at, unusual_number,
+    Freed, Parted, Scene, SceneError, SceneFile, effective, rad_per_s, scene_at, unusual_number,
 };
 use crate::modes::SpectrumError;
 use crate::modes::branches::{Progress, even_speeds};
@@ -51,7 +51,7 @@ pub use measurement::{Columns, Measurement, Row};
 use model::Model;
 pub use options::Options;
 pub use report::{Curves, FitReport, FittedParameter, Residual, Start};
-use starts::{refined, search};
+use starts::{Searched, refined, search};
 
 /// Shares at which the effect of a number is examined.
 const LOOKED_AT: [f64; 3] = [0.1, 0.37, 0.83];
@@ -82,9 +82,15 @@ pub fn fit(
     let measurement = &measured.up_to(options.to_rpm);
     let coarse = match options.resolution {
         Some(resolution) => resolution,
-        None => basis(scene, measurement, scene.tolerance().max(COARSE_TOLERANCE))?.0,
+        None => {
+            let tolerance = scene.tolerance().max(COARSE_TOLERANCE);
+            basis(scene, measurement, tolerance)?.saw.plate.resolution
+        }
     };
-    let (freed, without_effect) = moving(scene, measurement, freed, coarse)?;
+    let Parted {
+        moving: freed,
+        idle: without_effect,
+    } = parted(scene, measurement, freed, coarse)?;
     check_determined(freed.len(), measurement.count())?;
     let model = |resolution| Model {
         scene: scene.file(),
@@ -92,21 +98,22 @@ pub fn fit(
         measurement,
         resolution,
     };
-    let (starts, candidates) = search(&model(coarse), options, progress)?;
-    let Some(best) = candidates.first() else {
+    let Searched { starts, candidates } = search(&model(coarse), options, progress)?;
+    let Some(best_start) = candidates.first() else {
         let starts = starts.len();
         return Err(FitError::NoStart { starts });
     };
     let (resolution, estimated_relative_error) = match options.resolution {
         Some(resolution) => (resolution, None),
         None => {
-            let near = scene_at(scene.file(), &freed, &best.shares)?;
-            let (resolution, error) = basis(&near, measurement, scene.tolerance())?;
-            (resolution, Some(error))
+            let near = scene_at(scene.file(), &freed, &best_start.shares)?;
+            let chosen = basis(&near, measurement, scene.tolerance())?;
+            let error = chosen.estimated_relative_error;
+            (chosen.saw.plate.resolution, Some(error))
         }
     };
     let fine = model(resolution);
-    let best = refined(&fine, &candidates)?.unwrap_or_else(|| best.clone());
+    let best = refined(&fine, &candidates)?.unwrap_or_else(|| best_start.clone());
     let spread = statistics(&fine, &best.shares, options.confidence)?;
     let before = fine.residuals_of_saw_hz(scene)?;
     let fitted = calibrated(scene, measurement, &freed, &best)?;
@@ -163,12 +170,12 @@ fn check_determined(free: usize, measured: usize) -> Result<(), FitError> {
 }
 
 /// Divides the freed numbers into those that change a measured frequency and the others.
-fn moving(
+fn parted(
     scene: &Scene,
     measurement: &Measurement,
     freed: &[Freed],
     resolution: Resolution,
-) -> Result<(Vec<Freed>, Vec<Freed>), SpectrumError> {
+) -> Result<Parted, SpectrumError> {
     let model = Model {
         scene: scene.file(),
         freed,
@@ -223,16 +230,15 @@ fn rms(residuals: &[f64]) -> f64 {
     (residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len() as f64).sqrt()
 }
 
-/// The basis for a tolerance up to the measured speeds, with its estimated error.
+/// The basis for a tolerance up to the measured speeds.
 fn basis(
     scene: &Scene,
     measurement: &Measurement,
     tolerance: f64,
-) -> Result<(Resolution, f64), FitError> {
+) -> Result<ChosenBasis, FitError> {
     let end_rad_per_s = rad_per_s(measurement.end_of_range_rpm());
     let swept = scene.swept((0.0, end_rad_per_s).into())?;
-    let chosen = ChosenBasis::new(&swept, tolerance)?;
-    Ok((chosen.saw.plate.resolution, chosen.estimated_relative_error))
+    Ok(ChosenBasis::new(&swept, tolerance)?)
 }
 
 /// The scene with the fitted numbers, and a note on their origin.

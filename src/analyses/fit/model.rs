@@ -58,8 +58,8 @@ impl Model<'_> {
             .map(|k| self.changed_components(shares, k))
             .collect();
         let (Ok(plate), Ok(changes)) = (self.plate(shares), changes) else {
-            let slopes = vec![f64::NAN; rows * columns];
-            let slopes = DenseMatrix::from_row_slice(rows, columns, &slopes);
+            let slopes =
+                DenseMatrix::from_row_slice(rows, columns, &vec![f64::NAN; rows * columns]);
             return Ok((vec![f64::NAN; rows], slopes));
         };
         let lowest = LowestModes::new(&plate);
@@ -88,7 +88,7 @@ impl Model<'_> {
         for row in &self.measurement.rows {
             let assigned = Assigned::new(lowest, row)?;
             for (found, (_, measured_hz)) in assigned.each().zip(&row.pairs) {
-                let mode = found.map(|(_, mode)| mode);
+                let mode = found.map(|found| found.mode);
                 residuals.push(mode.map_or(0.0, frequency_hz) - measured_hz);
                 visit(rad_per_s(row.rpm), mode);
             }
@@ -122,6 +122,12 @@ pub struct Assigned {
     found: Vec<Option<usize>>,
 }
 
+/// A mode with its rank, from 1.
+pub struct RankedMode<'a> {
+    pub rank: usize,
+    pub mode: &'a Mode,
+}
+
 impl Assigned {
     pub fn new(lowest: &LowestModes, row: &Row) -> Result<Self, SpectrumError> {
         let modes = lowest.at(rad_per_s(row.rpm), row.modes_needed())?;
@@ -136,10 +142,13 @@ impl Assigned {
         Ok(Assigned { modes, found })
     }
 
-    /// The mode of each measured frequency with its rank, from 1; `None` if the basis lacks it.
-    pub fn each(&self) -> impl Iterator<Item = Option<(usize, &Mode)>> {
-        let mode = |index: usize| (index + 1, &self.modes[index]);
-        self.found.iter().map(move |index| index.map(mode))
+    /// The mode of each measured frequency; `None` if the basis lacks it.
+    pub fn each(&self) -> impl Iterator<Item = Option<RankedMode<'_>>> {
+        let ranked = |index: usize| RankedMode {
+            rank: index + 1,
+            mode: &self.modes[index],
+        };
+        self.found.iter().map(move |index| index.map(ranked))
     }
 }
 

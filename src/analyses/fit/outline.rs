@@ -62,8 +62,8 @@ fn number(found: &FittedParameter, confidence: f64) -> Fact {
 fn deviations(report: &FitReport) -> Table {
     let mut speeds: Vec<f64> = report.residuals.iter().map(|r| r.rpm).collect();
     speeds.dedup();
-    let places = report.residuals.iter().map(|r| r.place).max().unwrap_or(0);
-    let places = 1..=places.min(FREQUENCIES);
+    let most = report.residuals.iter().map(|r| r.place).max().unwrap_or(0);
+    let places = 1..=most.min(FREQUENCIES);
     let is_partly = report.residuals.iter().any(|r| !r.fitted);
     let mut columns = vec![Column::of("speed", &SPEED)];
     columns.extend(

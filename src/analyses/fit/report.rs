@@ -130,14 +130,18 @@ const HIGH_CORRELATION: f64 = 0.95;
 /// calibration of the paper's Table 5 leaves 4 %.
 const MISFIT: f64 = 0.2;
 
+/// Result of a start.
+#[derive(Debug, PartialEq)]
+struct Rival<'a> {
+    values: &'a [f64],
+    rms_hz: f64,
+}
+
 impl FitReport {
     /// Remarks on the validity of a fit to these frequencies.
     pub(super) fn remarks(&self, used: &Measurement) -> Vec<String> {
         let mut remarks: Vec<String> = self.misfit(used).into_iter().collect();
-        remarks.extend(
-            self.rival()
-                .map(|(start, rms_hz)| self.rival_in_words(start, rms_hz)),
-        );
+        remarks.extend(self.rival().map(|rival| self.rival_in_words(rival)));
         for path in &self.without_effect {
             remarks.push(format!("{path} changes no measured frequency and was kept"));
         }
@@ -166,36 +170,37 @@ impl FitReport {
         remarks
     }
 
-    /// Numbers and rms, in Hz, of the best saw of another minimum that fits about as well: its sum of squares is within the
+    /// The best saw of another minimum that fits about as well: its sum of squares is within the
     /// region of confidence S ≤ S_min (1 + p/(m − p) F(p, m − p)) of the best one (Seber and Wild, *Nonlinear Regression*,
     /// 1989, §5.4), and a number is farther from that of the best start than the width of its interval. Starts are
     /// compared with each other, because all have the coarser basis.
-    fn rival(&self) -> Option<(&[f64], f64)> {
-        let reached = self
-            .starts
-            .iter()
-            .filter_map(|start| Some((start.to.as_deref()?, start.rms_hz?)));
-        let (best, least_hz) = reached
-            .clone()
-            .min_by(|one, other| one.1.total_cmp(&other.1))?;
+    fn rival(&self) -> Option<Rival<'_>> {
+        let reached = self.starts.iter().filter_map(|start| {
+            Some(Rival {
+                values: start.to.as_deref()?,
+                rms_hz: start.rms_hz?,
+            })
+        });
+        let in_order = |one: &Rival, other: &Rival| one.rms_hz.total_cmp(&other.rms_hz);
+        let best = reached.clone().min_by(in_order)?;
         let (free, left) = (self.parameters.len() as f64, self.degrees_of_freedom as f64);
         let quantile = FisherSnedecor::new(free, left)
             .ok()?
             .inverse_cdf(self.confidence);
-        let limit_hz = least_hz * (1.0 + free / left * quantile).sqrt();
+        let limit_hz = best.rms_hz * (1.0 + free / left * quantile).sqrt();
         let is_apart = |values: &[f64]| {
-            let pairs = values.iter().zip(best).zip(&self.parameters);
+            let pairs = values.iter().zip(best.values).zip(&self.parameters);
             pairs.into_iter().any(|((value, best), parameter)| {
                 let ends = parameter.interval_from.zip(parameter.interval_to);
                 ends.is_some_and(|(from, to)| (value - best).abs() > to - from)
             })
         };
         reached
-            .filter(|(values, rms_hz)| *rms_hz <= limit_hz && is_apart(values))
-            .min_by(|one, other| one.1.total_cmp(&other.1))
+            .filter(|other| other.rms_hz <= limit_hz && is_apart(other.values))
+            .min_by(in_order)
     }
 
-    fn rival_in_words(&self, values: &[f64], rms_hz: f64) -> String {
+    fn rival_in_words(&self, Rival { values, rms_hz }: Rival<'_>) -> String {
         let numbers: Vec<String> = self
             .parameters
             .iter()
@@ -237,7 +242,7 @@ mod tests {
             let mut other = report.clone();
             other.starts[1].to = Some(vec![radius_m, 2.07e7]);
             other.starts[1].rms_hz = Some(ratio * report.rms_hz);
-            other.rival().map(|(values, _)| values[0])
+            other.rival().map(|rival| rival.values[0])
         };
         assert_eq!(with(0.3, 1.14), Some(0.3));
         assert_eq!(with(0.3, 1.16), None);

@@ -16,7 +16,14 @@ const REFINED: usize = 3;
 /// Seed of the starts that are spread between the bounds.
 const SEED: u64 = 0;
 
-/// Minimizes from every start. Returns all starts, and the best few of different results, best first.
+/// Results of minimizing from every start.
+pub struct Searched {
+    pub starts: Vec<Start>,
+    /// The best few of different results, best first.
+    pub candidates: Vec<Found>,
+}
+
+/// Minimizes from every start.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -24,7 +31,7 @@ pub fn search(
     model: &Model<'_>,
     options: &Options,
     progress: Progress<'_>,
-) -> Result<(Vec<Start>, Vec<Found>), SpectrumError> {
+) -> Result<Searched, SpectrumError> {
     let freed = model.freed;
     let count = options.starts.max(1);
     let own: Vec<f64> = freed.iter().map(|f| f.share_of(model.scene)).collect();
@@ -54,17 +61,17 @@ pub fn search(
         .collect();
     let mut reached: Vec<Found> = found.into_iter().flatten().collect();
     reached.sort_by(|x, y| x.rms_hz.total_cmp(&y.rms_hz));
-    let mut distinct: Vec<Found> = Vec::new();
+    let mut candidates: Vec<Found> = Vec::new();
     for found in reached {
         let apart = |other: &Found| {
             let pairs = found.shares.iter().zip(&other.shares);
             pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) > 1e-2
         };
-        if distinct.len() < REFINED && distinct.iter().all(apart) {
-            distinct.push(found);
+        if candidates.len() < REFINED && candidates.iter().all(apart) {
+            candidates.push(found);
         }
     }
-    Ok((starts, distinct))
+    Ok(Searched { starts, candidates })
 }
 
 /// The best result of minimizing from candidates on a finer basis; `None` if none of them is a valid saw.

@@ -32,10 +32,7 @@ pub fn read(text: &str) -> Result<Table, FitError> {
     let separator = Separator::of(text);
     let mut records = separator.records(text)?;
     let header = Header::take(&mut records)?;
-    let numbers = records
-        .iter()
-        .flat_map(|r| r.cells.iter().map(|cell| (r.line, cell)));
-    let comma = has_decimal_comma(numbers, separator)?;
+    let comma = has_decimal_comma(&records, separator)?;
     let rows = records
         .into_iter()
         .map(|record| row(record, header.as_ref(), comma))
@@ -125,9 +122,8 @@ impl Separator {
             }
         }
         // Some spreadsheets write a first line such as "sep=;", which contains no data.
-        let blank = |record: &Record| record.cells.is_empty();
-        let hint = |record: &Record| record.cells[0].starts_with("sep=");
-        records.retain(|record| !blank(record) && !hint(record));
+        let is_hint = |cell: &String| cell.starts_with("sep=");
+        records.retain(|record| record.cells.first().is_some_and(|cell| !is_hint(cell)));
         Ok(records)
     }
 }
@@ -246,8 +242,9 @@ fn is_frequency(small: &str) -> bool {
         "hz", "freq", "fréq", "mode", "peak", "wave", "eigen", "diameter",
     ];
     let numbered = |prefix: &str| {
-        let rest = small.strip_prefix(prefix);
-        let rest = rest.map(|rest| rest.trim_start_matches(['_', ' ', '-', '.']));
+        let rest = small
+            .strip_prefix(prefix)
+            .map(|rest| rest.trim_start_matches(['_', ' ', '-', '.']));
         rest.is_some_and(|rest| rest.chars().all(|c| c.is_ascii_digit()))
     };
     words.iter().any(|word| small.contains(word))
@@ -285,10 +282,10 @@ fn last_number(name: &str) -> Option<u64> {
 
 /// Whether commas in numbers are decimal. A table that contains both points and commas, or commas that may
 /// separate thousands, is refused.
-fn has_decimal_comma<'a>(
-    cells: impl Iterator<Item = (u64, &'a String)>,
-    separator: Separator,
-) -> Result<bool, FitError> {
+fn has_decimal_comma(records: &[Record], separator: Separator) -> Result<bool, FitError> {
+    let cells = records
+        .iter()
+        .flat_map(|record| record.cells.iter().map(|cell| (record.line, cell)));
     let (mut comma, mut point, mut thousands) = (None, None, true);
     for (line, cell) in cells.filter(|(_, cell)| cell.contains([',', '.'])) {
         if cell.contains(',') && cell.contains('.') {

@@ -226,7 +226,7 @@ fn pads(scene: &Scene, hot: Option<&Deviation>) -> Vec<FrictionPad> {
     let blade = scene.blade();
     let lifting = scene.guides().iter().filter(|pad| pad.lifting.is_some());
     let entry = |(place, pad): (usize, &Guide)| {
-        let (from_m, to_m) = pad.typed.reach_m();
+        let [from_m, to_m] = pad.typed.reach_m();
         FrictionPad {
             guide: pad.index,
             from_radius_m: from_m.max(blade.inner_radius_m),

@@ -146,7 +146,7 @@ fn check_reached(blade: &Blade, guide: &Guide) -> Result<(), RefusedValue> {
     let (Some(lifting), Bore::Clamped(_)) = (guide.lifting, blade.bore) else {
         return Ok(());
     };
-    let (_, farthest_m) = guide.typed.reach_m();
+    let [_, farthest_m] = guide.typed.reach_m();
     let free_m = farthest_m.min(blade.outer_radius_m) - blade.inner_radius_m;
     let most_m = LARGEST_SLOPE * free_m + lifting.offset_m.abs();
     if lifting.gap_m <= most_m {

@@ -36,8 +36,8 @@ fn levels(values: impl Iterator<Item = f64>) -> Vec<f64> {
         return Vec::new();
     }
     let ten = 10f64.powf(raw.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * ten);
-    let step = step
+    let step = [1.0, 2.0, 5.0, 10.0]
+        .map(|digit| digit * ten)
         .into_iter()
         .find(|step| *step >= raw)
         .unwrap_or(10.0 * ten);

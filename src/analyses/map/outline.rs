@@ -60,11 +60,11 @@ fn verdict(report: &MapReport) -> String {
         saws.filter(|saw| saw.state == Some(state)).count()
     };
     let judged = report.saws.iter().filter(|saw| saw.state.is_some()).count();
-    let critical = report
+    let at_critical = report
         .saws
         .iter()
         .filter(|saw| saw.state == Some(StabilityState::Stable) && saw.at_critical_rpm.is_some());
-    let critical = match critical.count() {
+    let critical = match at_critical.count() {
         0 => String::new(),
         count => format!(
             " ({count} of them within {:.0} % of a critical speed)",

@@ -100,8 +100,7 @@ pub fn state_at(bands: &[InstabilityBand], rpm: f64) -> StabilityState {
 
 fn warnings(saws: &[MappedSaw]) -> Vec<String> {
     let mut lost = saws.iter().filter_map(|saw| saw.not_analysed.as_ref());
-    let first = lost.next();
-    let first = first.map(|reason| {
+    let first = lost.next().map(|reason| {
         format!(
             "{} of {} saws were not analysed and are blank; the first one: {reason}",
             1 + lost.count(),

@@ -91,7 +91,7 @@ fn range(rows: &[Vec<f64>]) -> [f64; 2] {
 fn over_two(report: &PlaceReport, map: &GoalMap, x: Along, y: Along) -> PanelData {
     let z: Vec<Vec<f64>> = (0..map.y.len()).map(|row| goals(map, row)).collect();
     let [low, high] = y.axis.range.unwrap_or([0.0, 1.0]);
-    let ground = x.axis.range.unwrap_or([0.0, 1.0]).map(|x| [x, low, high]);
+    let edges = x.axis.range.unwrap_or([0.0, 1.0]).map(|x| [x, low, high]);
     let heat = Heat {
         x: x.values.clone(),
         y: y.values.clone(),
@@ -109,7 +109,7 @@ fn over_two(report: &PlaceReport, map: &GoalMap, x: Along, y: Along) -> PanelDat
         ])
     };
     let marks = marks(report, place);
-    let ground = Area::new(ground, Hue::Blank, &limit(report));
+    let ground = Area::new(edges, Hue::Blank, &limit(report));
     let items = [Item::Area(ground), Item::Heat(heat)];
     PanelData {
         share: SHARES[0],
@@ -181,48 +181,45 @@ fn saws(report: &PlaceReport) -> Vec<Saw<'_>> {
         .collect()
 }
 
-/// Looks of the marks of the scene, the fragile saw and the best one.
-fn looks(is_fragile: bool) -> Vec<(Shape, Hue, f64, &'static str)> {
-    let fragile = is_fragile.then_some((
-        Shape::Ring,
-        Hue::Alarm,
-        FRAGILE_SIZE,
-        "better nominally, fragile",
-    ));
-    [(Shape::Ring, Hue::Ink, SCENE_SIZE, "the scene")]
+/// A ring around a saw.
+struct Ring {
+    hue: Hue,
+    size: f64,
+    name: &'static str,
+}
+
+/// Rings of the scene, the fragile saw and the best one.
+fn rings(is_fragile: bool) -> Vec<Ring> {
+    let ring = |hue, size, name| Ring { hue, size, name };
+    let fragile = ring(Hue::Alarm, FRAGILE_SIZE, "better nominally, fragile");
+    let best = "best in the worst case of its tolerances";
+    [ring(Hue::Ink, SCENE_SIZE, "the scene")]
         .into_iter()
-        .chain(fragile)
-        .chain([(
-            Shape::Ring,
-            Hue::Alarm,
-            BEST_SIZE,
-            "best in the worst case of its tolerances",
-        )])
+        .chain(is_fragile.then_some(fragile))
+        .chain([ring(Hue::Alarm, BEST_SIZE, best)])
         .collect()
 }
 
 /// Marks of the scene, the fragile optimum and the best saw.
 fn marks(report: &PlaceReport, place: impl Fn(&Saw) -> Option<[f64; 2]>) -> Vec<Item> {
-    let looks = looks(report.fragile_optimum.is_some());
+    let rings = rings(report.fragile_optimum.is_some());
     let saws = saws(report);
-    let rings = saws
-        .iter()
-        .zip(looks)
-        .filter_map(|(saw, (shape, hue, size, name))| {
-            let goal = saw.goal_rpm.map(|rpm| format!("{name}: {rpm:.0} rpm"));
-            Some(Item::Points(Points {
-                shape,
-                said: goal.into_iter().collect(),
-                ..Points::new([place(saw)?], hue, size, name)
-            }))
-        });
+    let drawn = saws.iter().zip(rings).filter_map(|(saw, ring)| {
+        let name = ring.name;
+        let goal = saw.goal_rpm.map(|rpm| format!("{name}: {rpm:.0} rpm"));
+        Some(Item::Points(Points {
+            shape: Shape::Ring,
+            said: goal.into_iter().collect(),
+            ..Points::new([place(saw)?], ring.hue, ring.size, name)
+        }))
+    });
     let cross = saws.last().and_then(&place).map(|at| {
         Item::Points(Points {
             shape: Shape::Cross,
             ..Points::new([at], Hue::Alarm, CROSS_SIZE, "best saw")
         })
     });
-    rings.chain(cross).collect()
+    drawn.chain(cross).collect()
 }
 
 /// Meaning of cells without a goal.
@@ -233,8 +230,8 @@ fn limit(report: &PlaceReport) -> String {
 }
 
 fn key(report: &PlaceReport, map: &GoalMap) -> Vec<Item> {
-    let looks = looks(report.fragile_optimum.is_some()).into_iter().rev();
-    let marks = looks.map(|(shape, hue, size, name)| Item::points_sample(size, shape, hue, name));
+    let rings = rings(report.fragile_optimum.is_some()).into_iter().rev();
+    let marks = rings.map(|ring| Item::points_sample(ring.size, Shape::Ring, ring.hue, ring.name));
     let is_lost = map.kept.iter().flatten().any(|kept| !kept);
     let lost = is_lost.then(|| Item::area_sample(Hue::Blank, &limit(report)));
     marks.chain(lost).collect()
@@ -343,7 +340,7 @@ mod tests {
     fn nothing_is_cut_off_or_hidden() {
         for y_path in [None, Some("guides[0].stiffness_n_per_m")] {
             let sheet = sheet(&chart(&report(y_path)).unwrap());
-            let all: Vec<&str> = texts(&sheet).iter().map(|(_, text)| *text).collect();
+            let all = texts(&sheet);
             assert!(
                 all.iter().any(|text| text.contains("below 1500 rpm")),
                 "{all:?}"

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use crate::model::plate::Resolution;
-use crate::model::scene::{Freed, Scene, SceneError, scene_at};
+use crate::model::scene::{Freed, Scene, SceneError, SpeedRange, scene_at};
 use crate::stability::ChosenBasis;
 
 use super::demands::Progress;
@@ -16,7 +16,7 @@ use super::outcome::{Computed, IDLE};
 use super::search::{Search, Tried, cheapest};
 
 /// First and last step of the refinement on the final basis, as shares of the bounds.
-const FINE_STEPS: (f64, f64) = (0.02, 1e-3);
+const FINE_STEPS: [f64; 2] = [0.02, 1e-3];
 
 /// A saw with its result and its neighbours.
 #[derive(Clone)]
@@ -87,10 +87,10 @@ pub fn basis_of_all(
     scene: &Scene,
     freed: &[Freed],
     candidates: &[Tried],
-    range: (f64, f64),
+    range: SpeedRange,
 ) -> Result<Resolution, PlaceError> {
     let basis_of = |saw: &Scene| -> Result<Resolution, PlaceError> {
-        let chosen = ChosenBasis::new(&saw.swept(range.into())?, scene.tolerance())?;
+        let chosen = ChosenBasis::new(&saw.swept(range)?, scene.tolerance())?;
         Ok(chosen.saw.plate.resolution)
     };
     let own = basis_of(scene)?;

@@ -8,10 +8,17 @@ use super::report::{GoalMap, Outcome};
 use super::search::{Search, Tried};
 
 /// Indices of the numbers along the axes: radius and angle of a pad if both are free, otherwise others.
-fn axes(paths: &[&str]) -> (usize, Option<usize>) {
+#[derive(Debug, PartialEq)]
+struct Axes {
+    x: usize,
+    y: Option<usize>,
+}
+
+fn axes(paths: &[&str]) -> Axes {
     let mut order: Vec<usize> = (0..paths.len()).collect();
     order.sort_by_key(|&i| (Quantity::kind_of(paths[i]), i));
-    (order[0], next(paths, &order))
+    let (x, y) = (order[0], next(paths, &order));
+    Axes { x, y }
 }
 
 /// Index of the number along the second axis: the next of the order that belongs to the pad of the first, or else the
@@ -23,16 +30,18 @@ fn next(paths: &[&str], order: &[usize]) -> Option<usize> {
     same.or(rest.first()).copied()
 }
 
+/// The map of a search, and the saws in its cells, best first.
+#[derive(Default)]
+pub struct Mapped {
+    pub map: Option<GoalMap>,
+    pub cells: Vec<Tried>,
+}
+
 /// Computes the map with `points` points along each axis, on the basis of the search; the other numbers have the
-/// shares `at`. Returns its saws too, best first.
-pub fn through(
-    search: &Search<'_>,
-    at: &[f64],
-    points: usize,
-    progress: Progress<'_>,
-) -> (GoalMap, Vec<Tried>) {
+/// shares `at`.
+pub fn through(search: &Search<'_>, at: &[f64], points: usize, progress: Progress<'_>) -> Mapped {
     let paths: Vec<&str> = search.freed.iter().map(|f| f.parameter.path()).collect();
-    let (x, y) = axes(&paths);
+    let Axes { x, y } = axes(&paths);
     let even = even_speeds((0.0, 1.0), points);
     let values = |k: usize| -> Vec<f64> {
         let shares = even.iter();
@@ -49,12 +58,12 @@ pub fn through(
     };
     let total = points * if y.is_some() { points } else { 1 };
     let see = |done| progress("map", done, total);
-    let cells = search.each(total, shares_of, &see, |shares, saw| {
+    let computed = search.each(total, shares_of, &see, |shares, saw| {
         let outcome = saw.as_ref().map(|saw| saw.outcome);
         (Tried::new(shares, saw.as_ref()), outcome)
     });
-    let (mut tried, outcomes): (Vec<Tried>, Vec<Option<Outcome>>) = cells.into_iter().unzip();
-    tried.sort_by(|x, y| x.cost.total_cmp(&y.cost));
+    let (mut cells, outcomes): (Vec<Tried>, Vec<Option<Outcome>>) = computed.into_iter().unzip();
+    cells.sort_by(|x, y| x.cost.total_cmp(&y.cost));
     let goal = |saw: &Option<Outcome>| saw.map(|saw| saw.goal_rpm);
     let kept = |saw: &Option<Outcome>| saw.is_some_and(|saw| saw.kept);
     let rows = || outcomes.chunks(points);
@@ -66,7 +75,10 @@ pub fn through(
         goal_rpm: rows().map(|row| row.iter().map(goal).collect()).collect(),
         kept: rows().map(|row| row.iter().map(kept).collect()).collect(),
     };
-    (map, tried)
+    Mapped {
+        map: Some(map),
+        cells,
+    }
 }
 
 #[cfg(test)]
@@ -81,8 +93,8 @@ mod tests {
             "guides[1].angle_deg",
             "guides[0].angle_deg",
         ];
-        assert_eq!(axes(&paths), (1, Some(3)));
-        assert_eq!(axes(&paths[..3]), (1, Some(0)));
-        assert_eq!(axes(&["blade.thickness_m"]), (0, None));
+        assert_eq!(axes(&paths), Axes { x: 1, y: Some(3) });
+        assert_eq!(axes(&paths[..3]), Axes { x: 1, y: Some(0) });
+        assert_eq!(axes(&["blade.thickness_m"]), Axes { x: 0, y: None });
     }
 }

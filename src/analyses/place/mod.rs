@@ -44,13 +44,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use crate::analyses::campbell::{InstabilityBand, statement};
-use crate::model::scene::{Freed, Scene, SceneError, effective, rpm};
+use crate::model::scene::{Freed, Parted, Scene, SceneError, effective, rpm};
 use crate::modes::Cancellation;
 use crate::stability::ChosenBasis;
 
 use choice::{Choice, Weighed, basis_of_all, settle};
 pub use demands::{Demands, GapDemands, Options, Progress, Tolerances};
 pub use error::PlaceError;
+use map::Mapped;
 use neighbours::Neighbours;
 use outcome::{Computed, IDLE, Question, REFUSED};
 pub use report::{
@@ -65,7 +66,7 @@ const COARSE_TOLERANCE: f64 = 5e-2;
 /// Smallest distance between samples that are refined, as a share of the bounds.
 const APART: f64 = 0.08;
 /// First and last step of a refinement, as shares of the bounds.
-const COARSE_STEPS: (f64, f64) = (0.08, 5e-3);
+const COARSE_STEPS: [f64; 2] = [0.08, 5e-3];
 /// Factor by which the refinement on the fine basis has fewer steps: it moves an optimum only a little, and each
 /// saw takes ten times as long.
 const SETTLED: u64 = 3;
@@ -97,21 +98,24 @@ pub fn place(
         tolerances: options.tolerances,
     };
     let all = Search::new(scene.file(), freed, question.clone());
-    let (freed, without_effect) = moving(scene, &all);
+    let Parted {
+        moving: freed,
+        idle: without_effect,
+    } = parted(scene, &all);
     if freed.is_empty() {
         return Err(PlaceError::NothingFree);
     }
-    let own: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
+    let typed: Vec<f64> = freed.iter().map(|f| f.share_of(scene.file())).collect();
     let coarse = Search::new(scene.file(), &freed, question.clone());
-    let (candidates, map) = look_everywhere(&coarse, &own, options, progress)?;
+    let Looked { candidates, map } = look_everywhere(&coarse, &typed, options, progress)?;
     if options.resolution.is_none() {
-        question.resolution = basis_of_all(scene, &freed, &candidates, question.range)?;
+        question.resolution = basis_of_all(scene, &freed, &candidates, question.range.into())?;
     }
     let fine = Search::new(scene.file(), &freed, question.clone());
     let settled = settle(&fine, &candidates, options.refine / SETTLED, progress);
-    let before = question.ask(scene)?;
+    let answer = question.ask(scene)?;
     let own = exact_shares(scene, &freed)?;
-    let before = Weighed::new(&fine, own, before);
+    let before = Weighed::new(&fine, own, answer);
     let Choice {
         scene: placed,
         saw: best,
@@ -222,16 +226,23 @@ fn parameters(
     numbers.collect()
 }
 
+/// Result of the search on the coarse basis.
+struct Looked {
+    /// Candidates for the finer basis: the results of the refinements, the original scene, the samples that are best
+    /// within their tolerances, and the samples and cells that are best at their nominal numbers, because the finer
+    /// basis may move a jump past a saw, or away from it.
+    candidates: Vec<Tried>,
+    map: Option<GoalMap>,
+}
+
 /// Samples the bounds, refines the best samples and draws the map through the best saw; a better cell of the
-/// map is refined too. Returns the candidates for the finer basis: the results of the refinements, the
-/// original scene, the samples that are best within their tolerances, and the samples and cells that are best at
-/// their nominal numbers, because the finer basis may move a jump past a saw, or away from it.
+/// map is refined too.
 fn look_everywhere(
     search: &Search<'_>,
     own: &[f64],
     options: &Options,
     progress: Progress<'_>,
-) -> Result<(Vec<Tried>, Option<GoalMap>), PlaceError> {
+) -> Result<Looked, PlaceError> {
     let samples = options.samples.max(1);
     let tried = search.sample(own, samples, &|done| progress("samples", done, samples));
     Cancellation::current().check()?;
@@ -248,10 +259,11 @@ fn look_everywhere(
     let refined = |start: &Tried| search.refine(start, COARSE_STEPS, options.refine, &see);
     let mut candidates: Vec<Tried> = starts.par_iter().map(refined).collect();
     let best = cheapest(&candidates).ok_or(PlaceError::NoSaw { tried: samples })?;
-    let mapped =
-        (options.map > 1).then(|| map::through(search, &best.shares, options.map, progress));
-    let (map, cells) = mapped.unzip();
-    let cells = cells.unwrap_or_default();
+    let Mapped { map, cells } = if options.map > 1 {
+        map::through(search, &best.shares, options.map, progress)
+    } else {
+        Mapped::default()
+    };
     let of_map = search.most_robust(&cells, 1, 0.0).pop();
     let better = of_map.filter(|cell| cell.cost < best.cost);
     candidates.extend(better.map(|cell| refined(&cell)));
@@ -263,11 +275,11 @@ fn look_everywhere(
     candidates.retain(|one| one.cost < REFUSED);
     candidates.sort_by(|x, y| x.cost.total_cmp(&y.cost));
     candidates.dedup_by(|x, y| x.shares == y.shares);
-    Ok((candidates, map))
+    Ok(Looked { candidates, map })
 }
 
 /// Divides the free numbers into those that move a critical speed or a band, and the others.
-fn moving(scene: &Scene, search: &Search<'_>) -> (Vec<Freed>, Vec<Freed>) {
+fn parted(scene: &Scene, search: &Search<'_>) -> Parted {
     let speeds = |shares: &[f64]| {
         let of = |saw: Computed| {
             let first = saw.bands.first();

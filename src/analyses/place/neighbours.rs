@@ -56,8 +56,9 @@ impl Neighbours {
     pub fn new(search: &Search<'_>, shares: &[f64], own: &Computed) -> Self {
         let numbers = shares.len();
         let of = |direction: &Vec<f64>| {
-            let (values, shares) = search.moved(shares, direction)?;
-            Some(Rated::new(values, search.computed(&shares).as_ref()))
+            let moved = search.moved(shares, direction)?;
+            let computed = search.computed(&moved.shares);
+            Some(Rated::new(moved.values, computed.as_ref()))
         };
         let directions = directions(numbers);
         let mut around: Vec<Option<Rated>> = directions.par_iter().map(of).collect();

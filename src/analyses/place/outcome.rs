@@ -57,7 +57,7 @@ impl Question {
         let (saw, critical) = resolved(charted, self.resolution, self.range.1)?;
         let critical_rad_per_s: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
         let lowest = critical_rad_per_s.first().copied();
-        let short = match (demands.min_critical_rad_per_s, lowest) {
+        let too_low = match (demands.min_critical_rad_per_s, lowest) {
             (Some(asked), Some(found)) => (1.0 - found / asked).max(0.0),
             // A blade without a critical speed satisfies every lower limit of the first critical speed.
             _ => 0.0,
@@ -88,7 +88,7 @@ impl Question {
             None => flutter.unwrap_or(self.range.1),
             Some(_) => window.map_or(0.0, |(from, to)| to - from),
         };
-        let short = short + beyond;
+        let short = too_low + beyond;
         Ok(Computed {
             outcome: Outcome {
                 goal_rpm: rpm(value_rad_per_s),

@@ -115,8 +115,8 @@ fn neighbours(text: &mut Outline, report: &PlaceReport, goal: &str) {
             rpm(more_rpm),
         ]
     });
-    let title = format!("{goal} with one dimension off by its tolerance");
-    let title = title[..1].to_uppercase() + &title[1..];
+    let sentence = format!("{goal} with one dimension off by its tolerance");
+    let title = sentence[..1].to_uppercase() + &sentence[1..];
     let table = Table::new(title, columns).showing(usize::MAX);
     text.table(table.with_rows(rows));
     let verdict = if report.fragile { "FRAGILE" } else { "robust" };

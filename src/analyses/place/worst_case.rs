@@ -37,10 +37,15 @@ pub fn directions(numbers: usize) -> Vec<Vec<f64>> {
     all
 }
 
+/// A saw beside another one. It may lie outside the bounds of the search.
+pub struct Moved {
+    pub values: Vec<f64>,
+    pub shares: Vec<f64>,
+}
+
 impl Search<'_> {
-    /// Values and shares of the neighbour in a direction. The neighbour may lie outside the bounds of the self.
-    /// `None` if it is not a valid saw: a pad cannot be beyond the rim.
-    pub fn moved(&self, shares: &[f64], direction: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+    /// The neighbour in a direction; `None` if it is not a valid saw: a pad cannot be beyond the rim.
+    pub fn moved(&self, shares: &[f64], direction: &[f64]) -> Option<Moved> {
         let numbers = self.freed.iter().zip(shares).zip(direction);
         let values: Vec<f64> = numbers
             .map(|((freed, share), direction)| {
@@ -51,7 +56,7 @@ impl Search<'_> {
         let pairs = self.freed.iter().zip(&values);
         let shares: Vec<f64> = pairs.map(|(freed, value)| freed.share(*value)).collect();
         let exists = scene_at(self.scene, self.freed, &shares).is_ok();
-        exists.then_some((values, shares))
+        exists.then_some(Moved { values, shares })
     }
 
     /// Cost of a saw in the worst case of its tolerances; if it exceeds a limit, that of the worst neighbour
@@ -62,10 +67,8 @@ impl Search<'_> {
             if worst > limit {
                 break;
             }
-            let cost_of = |direction: &Vec<f64>| {
-                let (_, shares) = self.moved(shares, direction)?;
-                Some(self.cost(&shares))
-            };
+            let cost_of =
+                |direction: &Vec<f64>| Some(self.cost(&self.moved(shares, direction)?.shares));
             let costs: Vec<Option<f64>> = some.par_iter().map(cost_of).collect();
             worst = costs.into_iter().flatten().fold(worst, f64::max);
         }
@@ -102,7 +105,7 @@ impl Search<'_> {
     pub fn refine(
         &self,
         start: &Tried,
-        (from, to): (f64, f64),
+        [from, to]: [f64; 2],
         budget: u64,
         see: &(dyn Fn() + Sync),
     ) -> Tried {

@@ -21,11 +21,11 @@ pub fn chart(report: &RunUpReport) -> ChartData {
         .critical_speeds
         .iter()
         .map(|entry| Item::Upright(Upright::critical(entry.rpm, &entry.name)));
-    let record = report.rpm.iter().zip(&report.deflection_m);
+    let samples = report.rpm.iter().zip(&report.deflection_m);
     let record = Line {
         width: 0.75 * CURVE,
         ..Line::new(
-            record.map(|(rpm, w)| [*rpm, 1e3 * w]),
+            samples.map(|(rpm, w)| [*rpm, 1e3 * w]),
             Hue::Forward,
             "deflection",
         )

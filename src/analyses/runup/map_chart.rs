@@ -99,8 +99,8 @@ impl Map<'_> {
         let value = |column: &Vec<f64>, row: usize| 1e3 * column.get(row).unwrap_or(&f64::NAN);
         let row = |row: usize| self.rows.iter().map(|column| value(column, row)).collect();
         let all = self.rows.iter().flatten().filter(|value| **value > 0.0);
-        let [_, strongest] = extremes(all.map(|value| 1e3 * value));
-        let strongest = if strongest > 0.0 { strongest } else { 1.0 };
+        let [_, top] = extremes(all.map(|value| 1e3 * value));
+        let strongest = if top > 0.0 { top } else { 1.0 };
         Heat {
             x: self.rpm.to_vec(),
             y: self.frequency_hz.to_vec(),

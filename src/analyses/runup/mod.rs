@@ -102,7 +102,7 @@ pub fn runup(scene: &Scene, progress: Progress<'_>) -> Result<RunUpReport, Trans
         bands,
         stretching,
         campbell: chart.campbell,
-        response: ResponseMap::new(plate, (runup, &force), probe, highest),
+        response: ResponseMap::new(plate, runup, &force, probe, highest),
         warnings: chart
             .warnings
             .into_iter()
@@ -126,7 +126,8 @@ impl ResponseMap {
     /// The response over the speeds of a run-up, up to a frequency.
     fn new(
         plate: &Plate,
-        (runup, force): (&RunUpFile, &SideForce),
+        runup: &RunUpFile,
+        force: &SideForce,
         probe: Point,
         highest_rad_per_s: f64,
     ) -> Self {
@@ -157,8 +158,8 @@ impl RunUpStretching {
 
 /// Evenly spaced values over a range with its ends.
 fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
-    let share = |k: usize| k as f64 / (count - 1) as f64;
-    (0..count).map(|k| from + (to - from) * share(k)).collect()
+    let shares = (0..count).map(|k| k as f64 / (count - 1) as f64);
+    shares.map(|share| from + (to - from) * share).collect()
 }
 
 fn in_rpm(rad_per_s: &[f64]) -> Vec<f64> {

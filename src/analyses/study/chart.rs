@@ -75,13 +75,12 @@ fn percent(share: f64) -> f64 {
 /// Limits of the criteria with given keys, with a word for each.
 fn limits(report: &StudyReport, keys: &[(&str, &str)]) -> Vec<Upright> {
     let criteria = report.all.passing.iter().flat_map(|p| &p.criteria);
-    let limit = |key: &str, rpm: f64| {
-        let (_, word) = keys.iter().find(|(name, _)| *name == key)?;
+    let limits = criteria.filter_map(|criterion| {
+        let (_, word) = keys.iter().find(|(key, _)| *key == criterion.key)?;
+        let rpm = criterion.asked_rpm;
         Some(mark(rpm, Hue::Alarm, format!("{word} {rpm:.0}")))
-    };
-    criteria
-        .filter_map(|criterion| limit(&criterion.key, criterion.asked_rpm))
-        .collect()
+    });
+    limits.collect()
 }
 
 /// A vertical line at a speed, red and solid for a limit.
@@ -113,8 +112,8 @@ impl Speed<'_> {
         let total = (found.saws + found.beyond).max(1) as f64;
         let percent = |saws: &usize| 100.0 * *saws as f64 / total;
         let counts = found.histogram.iter().flat_map(|bars| &bars.counts);
-        let most = counts.map(percent).fold(0.0, f64::max);
-        let most = if most > 0.0 { most } else { 100.0 };
+        let highest = counts.map(percent).fold(0.0, f64::max);
+        let most = if highest > 0.0 { highest } else { 100.0 };
         let bars = found.histogram.as_ref().map(|bars| {
             let count = bars.counts.len();
             let width = (bars.to_rpm - bars.from_rpm) / count as f64;
@@ -264,7 +263,7 @@ mod tests {
     fn quantiles_limits_and_saws_beyond_the_sweep_are_written() {
         let report = report(|share| Some(1480.0 + 80.0 * share));
         let sheet = sheet(&chart(&report));
-        let written: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
+        let written = texts(&sheet);
         // 1.5 × 1533.3 is 2300; a third of the saws exceed it.
         for expected in [
             "50 %: 1520",

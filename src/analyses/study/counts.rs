@@ -109,12 +109,12 @@ impl<'a> Counts<'a> {
         let (analysed, shares) = (self.analysed(), &self.study.file().quantiles);
         let passing = self.study.limits().map(|_| self.passing());
         let saws_within = self.limit_m().map(|_| self.within);
-        let numbers: Vec<NumberStatistics> = self
+        let mut numbers = self
             .gap
             .iter_mut()
             .map(|values| number(values, analysed, shares))
-            .collect::<io::Result<_>>()?;
-        let mut numbers = numbers.into_iter();
+            .collect::<io::Result<Vec<NumberStatistics>>>()?
+            .into_iter();
         let gap =
             numbers
                 .next()
@@ -200,11 +200,11 @@ fn speed(values: &mut Values, analysed: usize, shares: &[f64]) -> io::Result<Spe
 /// A histogram of values; `None` without values. The number of bars is twice the cube root of the number of values
 /// (Rice's rule).
 fn histogram(values: &mut Values) -> io::Result<Option<Histogram>> {
-    let Some((from, to)) = values.range() else {
+    let Some([from, to]) = values.range() else {
         return Ok(None);
     };
-    let bars = (2.0 * (values.count() as f64).cbrt()).round() as usize;
-    let bars = bars.clamp(1, MOST_BARS);
+    let even = (2.0 * (values.count() as f64).cbrt()).round();
+    let bars = (even as usize).clamp(1, MOST_BARS);
     let mut counts = vec![0; bars];
     values.each(&mut |rpm| {
         // If all values are equal, they are counted in the first bar.

@@ -42,7 +42,7 @@ impl<W: Write> Table for CsvTable<'_, W> {
 
 /// Names of the columns.
 pub(super) fn columns(study: &Study) -> Vec<String> {
-    let paths = study.varying.iter().map(|(p, _)| p.path().to_owned());
+    let paths = (study.varying.iter()).map(|varying| varying.parameter.path().to_owned());
     let kept = study
         .criteria_of_nothing()
         .into_iter()
@@ -149,8 +149,11 @@ fn found(study: &Study, cells: &[&str]) -> Option<Found> {
     };
     let limits = study.criteria_of_nothing().len();
     (limits_and_gap.len() == limits + study.gap_columns().len()).then_some(())?;
-    let (kept, gap) = limits_and_gap.split_at(limits);
-    let kept: Vec<bool> = kept.iter().map(|k| k.parse().ok()).collect::<Option<_>>()?;
+    let (words, gap) = limits_and_gap.split_at(limits);
+    let kept: Vec<bool> = words
+        .iter()
+        .map(|k| k.parse().ok())
+        .collect::<Option<_>>()?;
     Some(Found {
         lowest_critical_rpm: number(critical)?,
         flutter_rpm: number(flutter)?,
@@ -193,12 +196,16 @@ pub(super) fn bands_in_words(bands: &[InstabilityBand]) -> String {
 fn bands_of(text: &str) -> Option<Vec<InstabilityBand>> {
     let band = |text: &str| {
         let words: Vec<&str> = text.split(' ').collect();
-        let ([kind, from, to, closed], numbers) = words.split_first_chunk()?;
+        let ([kind_word, from, to, closed], number_words) = words.split_first_chunk()?;
         let kinds = [InstabilityKind::Divergence, InstabilityKind::Flutter];
-        let kind = kinds.into_iter().find(|own| own.to_string() == *kind)?;
+        let kind = kinds
+            .into_iter()
+            .find(|own| own.to_string() == *kind_word)?;
         let edges = [from.parse().ok()?, to.parse().ok()?];
-        let numbers: Option<Vec<f64>> = numbers.iter().map(|word| word.parse().ok()).collect();
-        let numbers = numbers?;
+        let numbers = number_words
+            .iter()
+            .map(|word| word.parse().ok())
+            .collect::<Option<Vec<f64>>>()?;
         let (&[peak_rpm, peak_growth_per_s, frequency_hz], counted) =
             numbers.split_first_chunk()?;
         Some(InstabilityBand {

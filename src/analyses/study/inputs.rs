@@ -92,7 +92,7 @@ mod tests {
         assert_eq!(one.difference(&other).unwrap(), words);
         other = one.clone();
         other.study.saws = Some(3);
-        let words = "study.saws is missing there and 3 here";
-        assert_eq!(one.difference(&other).unwrap(), words);
+        let missing = "study.saws is missing there and 3 here";
+        assert_eq!(one.difference(&other).unwrap(), missing);
     }
 }

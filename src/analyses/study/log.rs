@@ -241,8 +241,8 @@ impl Log {
 pub fn read_inputs(path: &Path) -> Result<Inputs, LogError> {
     let mut first = Vec::new();
     let file = File::open(path).map_err(io(path))?;
-    let mut file = BufReader::new(file.take(LONGEST_LINE));
-    file.read_until(b'\n', &mut first).map_err(io(path))?;
+    let mut reader = BufReader::new(file.take(LONGEST_LINE));
+    reader.read_until(b'\n', &mut first).map_err(io(path))?;
     let inputs = first
         .ends_with(b"\n")
         .then(|| serde_json::from_slice(&first));
@@ -376,8 +376,9 @@ pub fn rows_of(study: &Study, saws: &[Saw]) -> Vec<u8> {
 pub(super) fn row(line: &[u8], study: &Study) -> Option<Saw> {
     let line = line.strip_suffix(b"\n")?;
     let saw = if line.contains(&b'"') {
-        let mut reader = csv::ReaderBuilder::new();
-        let mut reader = reader.has_headers(false).from_reader(line);
+        let mut reader = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .from_reader(line);
         let mut record = csv::StringRecord::new();
         reader.read_record(&mut record).ok()?;
         saw(study, &mut record.iter())?

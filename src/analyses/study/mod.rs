@@ -44,6 +44,7 @@ mod sequence;
 mod statistics;
 mod table;
 mod tally;
+mod validation;
 
 pub use self::{
     csv::CsvTable,
@@ -62,13 +63,13 @@ pub(crate) use outline::{accuracy_of_saws, outline};
 #[doc(hidden)]
 pub use parquet::ParquetTable;
 pub use plan::Study;
-pub(crate) use plan::check_varies;
 pub use report::{
     GapStatistics, GridNumber, Group, Histogram, LimitStatistics, NumberQuantile, NumberStatistics,
     Passing, Quantile, Refusal, Reliability, ReliabilityPoint, SpeedStatistics, StudyReport,
     WorstSaw,
 };
 pub use saw::{Found, Outcome, Saw};
+pub(crate) use validation::check_varies;
 
 use crate::model::scene::Scene;
 use crate::modes::branches::Progress;

@@ -20,7 +20,7 @@ pub(super) struct Values {
     folder: PathBuf,
     disk: Option<BufWriter<File>>,
     count: usize,
-    range: Option<(f64, f64)>,
+    range: Option<[f64; 2]>,
 }
 
 impl Values {
@@ -42,8 +42,8 @@ impl Values {
     /// The error of writing to the disk.
     pub fn push(&mut self, value: f64) -> io::Result<()> {
         self.count += 1;
-        let (low, high) = self.range.unwrap_or((value, value));
-        self.range = Some((low.min(value), high.max(value)));
+        let [low, high] = self.range.unwrap_or([value; 2]);
+        self.range = Some([low.min(value), high.max(value)]);
         self.memory.push(value);
         if self.memory.len() > self.kept {
             self.spill()?;
@@ -57,7 +57,7 @@ impl Values {
     }
 
     /// Smallest and largest value; `None` without values.
-    pub fn range(&self) -> Option<(f64, f64)> {
+    pub fn range(&self) -> Option<[f64; 2]> {
         self.range
     }
 
@@ -100,15 +100,15 @@ impl Values {
         let mut wanted: Vec<usize> = ranks
             .iter()
             .flatten()
-            .flat_map(|(below, _)| [*below, below + 1])
+            .flat_map(|rank| [rank.below, rank.below + 1])
             .filter(|rank| *rank < self.count)
             .collect();
         wanted.sort_unstable();
         wanted.dedup();
         let found = self.ranked(&wanted)?;
         let value = |rank: usize| Some(found[wanted.binary_search(&rank).ok()?]);
-        let ranks = ranks.into_iter();
         Ok(ranks
+            .into_iter()
             .map(|rank| rank.and_then(|rank| between(rank, &value)))
             .collect())
     }
@@ -202,10 +202,10 @@ mod tests {
         };
         let shares = [0.0, 0.001, 0.1, 0.25, 0.5, 0.75, 0.9, 0.999, 1.0];
         for (count, beyond) in [(1, 0), (2, 3), (999, 0), (1000, 40), (5003, 1)] {
-            let scale = |k: usize| [1500.0, -3.0, -3.0][k % 3];
+            let scales = [1500.0, -3.0, -3.0];
             let value = |k: usize, even: f64| match k % 5 {
                 0 => 1500.0,
-                _ => scale(k) * (1.0 + 0.01 * even),
+                _ => scales[k % 3] * (1.0 + 0.01 * even),
             };
             let mut sorted: Vec<f64> = (0..count).map(|k| value(k, draw())).collect();
             for kept in [10, 997, usize::MAX] {
@@ -224,7 +224,7 @@ mod tests {
                     .map(|share| quantile(&own, beyond, *share))
                     .collect();
                 assert_eq!(found, exact, "{count} {kept}");
-                assert_eq!(values.range(), Some((own[0], own[count - 1])));
+                assert_eq!(values.range(), Some([own[0], own[count - 1]]));
                 // Quantiles remain right after more values are added.
                 values.push(-1e9).unwrap();
                 assert_eq!(values.ranked(&[0, count]).unwrap(), [-1e9, own[count - 1]]);

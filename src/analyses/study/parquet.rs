@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::sync::Arc;
 
 use parquet::basic::{ConvertedType, LogicalType, Repetition, Type as Physical};
-use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::data_type::{BoolType, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
@@ -138,33 +138,24 @@ fn schema(study: &Study) -> Result<TypePtr, ParquetError> {
 
 fn write(open: &mut SerializedColumnWriter<'_>, column: &Column) -> Result<(), ParquetError> {
     match column {
-        Column::Integers(cells) => {
-            let (values, levels) = dense(cells);
-            open.typed::<Int64Type>()
-                .write_batch(&values, Some(&levels), None)?;
-        }
-        Column::Numbers(cells) => {
-            let (values, levels) = dense(cells);
-            open.typed::<DoubleType>()
-                .write_batch(&values, Some(&levels), None)?;
-        }
-        Column::Answers(cells) => {
-            let (values, levels) = dense(cells);
-            open.typed::<BoolType>()
-                .write_batch(&values, Some(&levels), None)?;
-        }
+        Column::Integers(cells) => write_cells::<Int64Type, _>(open, cells, |cell| *cell),
+        Column::Numbers(cells) => write_cells::<DoubleType, _>(open, cells, |cell| *cell),
+        Column::Answers(cells) => write_cells::<BoolType, _>(open, cells, |cell| *cell),
         Column::Texts(cells) => {
-            let (values, levels) = dense(cells);
-            let values: Vec<ByteArray> = values.iter().map(|v| v.as_str().into()).collect();
-            open.typed::<ByteArrayType>()
-                .write_batch(&values, Some(&levels), None)?;
+            write_cells::<ByteArrayType, _>(open, cells, |cell| cell.as_str().into())
         }
     }
-    Ok(())
 }
 
-/// The present values, and for each row a definition level: 1 if its value is present, 0 if not.
-fn dense<T: Clone>(cells: &[Option<T>]) -> (Vec<T>, Vec<i16>) {
-    let levels = cells.iter().map(|cell| i16::from(cell.is_some())).collect();
-    (cells.iter().flatten().cloned().collect(), levels)
+/// Writes the present values, and for each row a definition level: 1 if its value is present, 0 if not.
+fn write_cells<D: DataType, T>(
+    open: &mut SerializedColumnWriter<'_>,
+    cells: &[Option<T>],
+    stored: impl Fn(&T) -> D::T,
+) -> Result<(), ParquetError> {
+    let values: Vec<D::T> = cells.iter().flatten().map(stored).collect();
+    let levels: Vec<i16> = cells.iter().map(|cell| i16::from(cell.is_some())).collect();
+    open.typed::<D>()
+        .write_batch(&values, Some(&levels), None)?;
+    Ok(())
 }

@@ -9,23 +9,16 @@
 use std::sync::OnceLock;
 
 use super::distribution::Distribution;
-use super::file::{GapFile, StudyError, StudyFile};
-use super::sequence::{DIMENSIONS, even};
-use crate::analyses::check::{Criterion, Limits, LimitsFile};
-use crate::analyses::gap::{self, GapCase};
+use super::file::{StudyError, StudyFile};
+use super::sequence::even;
+use super::validation::{Counts, Varying, check_statistics, counts, gap, limits, varying};
+use crate::analyses::check::{Criterion, Limits};
+use crate::analyses::gap::GapCase;
 use crate::model::plate::Resolution;
-use crate::model::scene::{
-    Given, Parameter, RefusedValue, Scene, SceneError, SceneFile, speed_rad_per_s,
-};
+use crate::model::scene::{Parameter, Scene, SceneError, speed_rad_per_s};
 use crate::modes::SpectrumError;
 use crate::stability::{AnalysisError, ChosenBasis, Evidence, end_of_sweep};
 
-/// Largest number of saws; their log has a size of about 600 GB.
-const MAX_SAWS: usize = u32::MAX as usize;
-/// Largest number of quantiles in a report.
-const MAX_QUANTILES: usize = 100;
-/// Range of the confidence: at a lower one an interval has no meaning, for a higher one a study has too few saws.
-const CONFIDENCE: (f64, f64) = (0.5, 0.999_999);
 /// Names of the columns of guides with a gap; the last exists only if the study has an amplitude.
 const GAP_COLUMNS: [&str; 3] = [
     "deflection_at_cut_m",
@@ -42,7 +35,7 @@ pub struct Study {
     gap: Option<GapCase>,
     to_rad_per_s: f64,
     /// The numbers that vary, with their distributions, in the order of the file.
-    pub(super) varying: Vec<(Parameter, Distribution)>,
+    pub(super) varying: Vec<Varying>,
     /// Number of saws in each point of the grid.
     drawn: usize,
     count: usize,
@@ -82,7 +75,7 @@ impl Study {
     /// [`StudyError`] that names the key, what is allowed and what to do.
     pub fn new(scene: Scene, file: StudyFile) -> Result<Self, StudyError> {
         let varying = varying(scene.file(), &file)?;
-        let (drawn, count) = counts(&file, &varying)?;
+        let Counts { drawn, count } = counts(&file, &varying)?;
         check_statistics(&file)?;
         let limits = file.limits.map(|l| limits(&l, &scene)).transpose()?;
         let gap = file.gap.map(|asked| gap(&asked, &scene)).transpose()?;
@@ -167,14 +160,14 @@ impl Study {
     pub fn values(&self, index: usize) -> Vec<f64> {
         let mut point = index / self.drawn;
         let mut values = vec![0.0; self.varying.len()];
-        for (value, (_, distribution)) in values.iter_mut().zip(&self.varying).rev() {
+        for (value, Varying { distribution, .. }) in values.iter_mut().zip(&self.varying).rev() {
             if let Distribution::Grid(grid) = distribution {
                 *value = grid[point % grid.len()];
                 point /= grid.len();
             }
         }
         let mut dimension = 0;
-        for (value, (_, distribution)) in values.iter_mut().zip(&self.varying) {
+        for (value, Varying { distribution, .. }) in values.iter_mut().zip(&self.varying) {
             if !matches!(distribution, Distribution::Grid(_)) {
                 let point = (index % self.drawn) as u64;
                 *value = distribution.at(even(point, dimension, self.file.seed));
@@ -186,7 +179,7 @@ impl Study {
 
     /// The scene of a saw, over the speeds of the study.
     pub(super) fn scene_of(&self, values: &[f64]) -> Result<Scene, SceneError> {
-        let parameters = self.varying.iter().map(|(parameter, _)| parameter);
+        let parameters = self.varying.iter().map(|varying| &varying.parameter);
         let numbers: Vec<(&Parameter, f64)> = parameters.zip(values.iter().copied()).collect();
         let scene = self.scene.file().with(&numbers)?;
         scene.swept((0.0, self.to_rad_per_s).into())
@@ -203,159 +196,6 @@ impl Study {
         let criteria = self.limits.map(|limits| limits.criteria(&nothing));
         criteria.unwrap_or_default()
     }
-}
-
-fn refuse(
-    key: impl Into<String>,
-    value: impl Given,
-    allowed: impl Into<String>,
-    remedy: &'static str,
-) -> StudyError {
-    RefusedValue::new(key, value, allowed, remedy).into()
-}
-
-/// Path of the speed at which saws are judged.
-const OPERATING_SPEED: &str = "operating_rpm";
-
-/// Refuses the operating speed as a number that varies: it changes no band, and every saw is judged at the same one.
-///
-/// # Errors
-/// [`RefusedValue`] for the key or option `key`.
-pub(crate) fn check_varies(key: &str, path: &str) -> Result<(), RefusedValue> {
-    if path != OPERATING_SPEED {
-        return Ok(());
-    }
-    let allowed = "a number that changes critical speeds or bands";
-    let remedy = "name another one; a map over one number has the speed as its vertical axis";
-    Err(RefusedValue::new(key, OPERATING_SPEED, allowed, remedy))
-}
-
-fn varying(
-    scene: &SceneFile,
-    file: &StudyFile,
-) -> Result<Vec<(Parameter, Distribution)>, StudyError> {
-    if file.parameters.is_empty() {
-        let allowed = "a list of the numbers that vary";
-        let remedy = "name one, like blade.thickness_m; a single saw is analysed without a study";
-        return Err(refuse("parameters", "an empty list", allowed, remedy));
-    }
-    let mut varying: Vec<(Parameter, Distribution)> = Vec::new();
-    for (k, entry) in file.parameters.iter().enumerate() {
-        let parameter = Parameter::new(&entry.path);
-        let key = format!("parameters[{k}].path");
-        if varying.iter().any(|(other, _)| *other == parameter) {
-            let value = format!("{:?} again", entry.path);
-            let remedy = "a number varies in one way";
-            return Err(refuse(key, value, "named once", remedy));
-        }
-        let unusable = |source| StudyError::Scene {
-            key: key.clone(),
-            source,
-        };
-        check_varies(&key, &entry.path)?;
-        let nominal = parameter.get(scene).map_err(unusable)?;
-        // This step refuses counts, which do not vary.
-        scene.with(&[(&parameter, nominal)]).map_err(unusable)?;
-        let key = format!("parameters[{k}].distribution");
-        let distribution = Distribution::new(&entry.distribution, nominal, &key)?;
-        varying.push((parameter, distribution));
-    }
-    Ok(varying)
-}
-
-/// Number of saws in each point of the grid, and of all saws.
-fn counts(
-    file: &StudyFile,
-    varying: &[(Parameter, Distribution)],
-) -> Result<(usize, usize), StudyError> {
-    let grids = varying.iter().filter_map(|(_, of)| match of {
-        Distribution::Grid(values) => Some(values.len()),
-        _ => None,
-    });
-    let points = grids.clone().fold(1, usize::saturating_mul);
-    let dimensions = varying.len() - grids.count();
-    let drawn = match (file.saws, dimensions) {
-        (None, 0) => 1,
-        (Some(saws), 0) => {
-            let remedy = "leave it out: the grids alone determine the saws";
-            return Err(refuse("saws", saws, "left out of a study of grids", remedy));
-        }
-        (Some(saws), 1..=DIMENSIONS) if saws > 0 => saws as usize,
-        (saws, 1..=DIMENSIONS) => {
-            let value = saws.map_or("missing".into(), |saws| saws.to_string());
-            let allowed = format!("between 1 and {}", u32::MAX);
-            let remedy = "1024 give a probability of passing to 3 %, 4096 to 1.5 %";
-            return Err(refuse("saws", value, allowed, remedy));
-        }
-        _ => {
-            let allowed = format!("at most {DIMENSIONS} numbers with a distribution");
-            let value = format!("a list with {dimensions} of them");
-            let remedy = "leave those out to which critical speeds and onsets are least sensitive";
-            return Err(refuse("parameters", value, allowed, remedy));
-        }
-    };
-    match drawn.saturating_mul(points) {
-        count if count <= MAX_SAWS => Ok((drawn, count)),
-        count => {
-            let allowed = format!("of at most {MAX_SAWS} saws in all");
-            let remedy = "take fewer saws, or a coarser grid";
-            Err(refuse(
-                "the study",
-                format!("one of {count} saws"),
-                allowed,
-                remedy,
-            ))
-        }
-    }
-}
-
-fn check_statistics(file: &StudyFile) -> Result<(), StudyError> {
-    if file.quantiles.len() > MAX_QUANTILES {
-        let value = format!("a list of {}", file.quantiles.len());
-        let allowed = format!("a list of at most {MAX_QUANTILES}");
-        return Err(refuse(
-            "quantiles",
-            value,
-            allowed,
-            "study.csv has every saw",
-        ));
-    }
-    if let Some(k) = (file.quantiles.iter()).position(|share| !(0.0..=1.0).contains(share)) {
-        let key = format!("quantiles[{k}]");
-        let remedy = "give it as a share: 0.05 for 5 %";
-        return Err(refuse(key, file.quantiles[k], "between 0 and 1", remedy));
-    }
-    if !(CONFIDENCE.0..=CONFIDENCE.1).contains(&file.confidence) {
-        let allowed = format!("between {} and {}", CONFIDENCE.0, CONFIDENCE.1);
-        let remedy = "0.95 is usual";
-        return Err(refuse("confidence", file.confidence, allowed, remedy));
-    }
-    Ok(())
-}
-
-/// Validates the block `limits` of the study.
-fn limits(file: &LimitsFile, scene: &Scene) -> Result<Limits, StudyError> {
-    let of_study = |refused: RefusedValue| RefusedValue {
-        key: format!("limits.{}", refused.key),
-        ..refused
-    };
-    Ok(file.limits(scene).map_err(of_study)?)
-}
-
-/// Validates the block `gap` of the study.
-fn gap(file: &GapFile, scene: &Scene) -> Result<GapCase, StudyError> {
-    let options = gap::Options {
-        rpm: file.rpm,
-        max_deviation_mm: file.max_deviation_mm,
-    };
-    let of_study = |refused: RefusedValue| match refused.key.as_str() {
-        "rpm" | "max_deviation_mm" | "amplitude_mm" => RefusedValue {
-            key: format!("gap.{}", refused.key),
-            ..refused
-        },
-        _ => refused,
-    };
-    Ok(GapCase::new(scene, &options, file.amplitude_mm).map_err(of_study)?)
 }
 
 #[cfg(test)]

@@ -97,16 +97,16 @@ impl<'a> Rows<'a> {
         visit: &mut dyn FnMut(&[Saw]) -> Result<(), LogError>,
     ) -> Result<(), LogError> {
         for (number, extents) in self.blocks.iter().enumerate() {
-            let mut saws: Vec<Option<Saw>> = Vec::new();
-            saws.resize_with(BLOCK.min(self.study.count() - number * BLOCK), || None);
+            let mut slots: Vec<Option<Saw>> = Vec::new();
+            slots.resize_with(BLOCK.min(self.study.count() - number * BLOCK), || None);
             for extent in extents {
                 for line in self.text(extent)?.split_inclusive(|byte| *byte == b'\n') {
                     if let Some(saw) = row(line, self.study) {
-                        saws[saw.index % BLOCK].get_or_insert(saw);
+                        slots[saw.index % BLOCK].get_or_insert(saw);
                     }
                 }
             }
-            let saws: Vec<Saw> = saws.into_iter().flatten().collect();
+            let saws: Vec<Saw> = slots.into_iter().flatten().collect();
             visit(&saws)?;
         }
         Ok(())

@@ -2,16 +2,26 @@
 
 use statrs::distribution::{Beta, ContinuousCDF};
 
-/// The rank, counted from 0, of the quantile of `share` among `total` values, and its fractional part (type 7
+/// A place among sorted values.
+pub struct Rank {
+    /// Rank of the value below, counted from 0.
+    pub below: usize,
+    /// Part of the way to the next value.
+    part: f64,
+}
+
+/// The rank of the quantile of `share` among `total` values (type 7
 /// of Hyndman and Fan, The American Statistician 50 (1996), 361). `None` if there are no values.
-pub fn rank(total: usize, share: f64) -> Option<(usize, f64)> {
+pub fn rank(total: usize, share: f64) -> Option<Rank> {
     let place = share * total.checked_sub(1)? as f64;
-    let below = place.floor();
-    Some((below as usize, place - below))
+    Some(Rank {
+        below: place.floor() as usize,
+        part: place - place.floor(),
+    })
 }
 
 /// The value at a fractional rank, by linear interpolation; `value` returns the value at an integer rank.
-pub fn between((below, part): (usize, f64), value: &dyn Fn(usize) -> Option<f64>) -> Option<f64> {
+pub fn between(Rank { below, part }: Rank, value: &dyn Fn(usize) -> Option<f64>) -> Option<f64> {
     let lower = value(below)?;
     if part == 0.0 {
         return Some(lower);
@@ -73,15 +83,15 @@ mod tests {
             (low - 0.025_f64.powf(0.1)).abs() < 1e-10 && high == 1.0,
             "{low}"
         );
-        let [low, high] = interval(0, 1000, 0.99);
+        let [low_of_all, high_of_all] = interval(0, 1000, 0.99);
         assert!(
-            (high - (1.0 - 0.005_f64.powf(1e-3))).abs() < 1e-10 && low == 0.0,
-            "{high}"
+            (high_of_all - (1.0 - 0.005_f64.powf(1e-3))).abs() < 1e-10 && low_of_all == 0.0,
+            "{high_of_all}"
         );
         for (passed, of) in [(7, 10), (1, 3), (930, 1000), (2000, 4096)] {
-            let [low, high] = interval(passed, of, 0.95);
-            let above: f64 = (passed..=of).map(|k| binomial(of, k, low)).sum();
-            let below: f64 = (0..=passed).map(|k| binomial(of, k, high)).sum();
+            let [low_of_all, high_of_all] = interval(passed, of, 0.95);
+            let above: f64 = (passed..=of).map(|k| binomial(of, k, low_of_all)).sum();
+            let below: f64 = (0..=passed).map(|k| binomial(of, k, high_of_all)).sum();
             assert!((above - 0.025).abs() < 1e-8, "{passed} of {of}: {above}");
             assert!((below - 0.025).abs() < 1e-8, "{passed} of {of}: {below}");
         }

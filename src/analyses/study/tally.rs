@@ -142,7 +142,7 @@ impl<'a> Tally<'a> {
 
     /// The curve of reliability; `None` if every analysed saw can run at any speed of the study.
     fn reliability(&mut self) -> io::Result<Option<Reliability>> {
-        let Some((from, to)) = self.allowed.range() else {
+        let Some([from, to]) = self.allowed.range() else {
             return Ok(None);
         };
         let (saws, analysed) = (self.all.saws, self.all.analysed());
@@ -183,8 +183,9 @@ impl<'a> Tally<'a> {
             // `out` is the number of saws that may fail. The margin is needed because the computed
             // value of 1000 × (1 − 0.9) is slightly below 100.
             let out = (saws as f64 * (1.0 - share) + 1e-6).floor() as usize;
-            let rank = out.checked_sub(saws - analysed);
-            let rank = rank.filter(|rank| *rank < self.allowed.count());
+            let rank = out
+                .checked_sub(saws - analysed)
+                .filter(|rank| *rank < self.allowed.count());
             let rpm = match rank {
                 Some(rank) => self.allowed.ranked(&[rank])?.first().copied(),
                 None => None,
@@ -242,9 +243,9 @@ impl Lowest {
 fn place(study: &Study, saw: &Saw) -> Vec<GridNumber> {
     let numbers = study.varying.iter().zip(&saw.values);
     numbers
-        .filter(|((_, distribution), _)| matches!(distribution, Distribution::Grid(_)))
-        .map(|((parameter, _), value)| GridNumber {
-            parameter: parameter.path().to_owned(),
+        .filter(|(varying, _)| matches!(varying.distribution, Distribution::Grid(_)))
+        .map(|(varying, value)| GridNumber {
+            parameter: varying.parameter.path().to_owned(),
             value: *value,
         })
         .collect()

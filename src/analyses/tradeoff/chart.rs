@@ -3,7 +3,7 @@
 use super::{Method, Setting};
 use crate::page::figure::axis::{Spread, extremes};
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};
-use crate::page::figure::items::{Item, Line, Points, Role, Shape, Upright};
+use crate::page::figure::items::{Item, Line, Points, Role, Upright};
 use crate::page::figure::palette::Hue;
 use crate::page::figure::style::{CURVE, STRONG_CURVE};
 use crate::page::figure::{Figure, layout};
@@ -48,19 +48,15 @@ pub fn chart(scene: &str, settings: &[Setting]) -> ChartData {
         .iter()
         .flat_map(|method| of_method(*method, settings));
     let items = allowed.into_iter().chain([front(settings)]).chain(methods);
-    let samples = METHODS.map(|method| {
-        let (hue, name) = look(method);
-        Item::points_sample(DOT_SIZE, Shape::Disc, hue, name)
-    });
+    let samples = METHODS.map(|method| Item::Points(dots(method, [])));
     let facts = vec![scene.to_owned(), "numbers: basis functions".to_owned()];
-    let panel = PanelData::new(
-        error.spread(Spread::Logarithmic),
-        time.spread(Spread::Logarithmic),
-        items.collect(),
-    );
     let panel = PanelData {
         share: 1.2,
-        ..panel
+        ..PanelData::new(
+            error.spread(Spread::Logarithmic),
+            time.spread(Spread::Logarithmic),
+            items.collect(),
+        )
     };
     ChartData {
         key: samples
@@ -73,8 +69,8 @@ pub fn chart(scene: &str, settings: &[Setting]) -> ChartData {
 
 /// Powers of ten around some values.
 fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    let [low, high] = extremes(values.map(|value| value.max(LEAST).log10()));
-    let low = low.floor();
+    let [lowest, high] = extremes(values.map(|value| value.max(LEAST).log10()));
+    let low = lowest.floor();
     [low, high.max(low + 1.0).ceil()].map(|log| 10f64.powf(log))
 }
 
@@ -84,18 +80,18 @@ fn place(setting: &Setting) -> [f64; 2] {
     [percent, setting.seconds.max(LEAST)]
 }
 
-fn look(method: Method) -> (Hue, &'static str) {
-    match method {
+fn dots(method: Method, places: impl IntoIterator<Item = [f64; 2]>) -> Points {
+    let (hue, name) = match method {
         Method::Reduced => (Hue::Forward, "chart, projected"),
         Method::Dense => (Hue::Backward, "chart, full model"),
         Method::CriticalSpeeds => (Hue::Divergence, "critical speeds"),
-    }
+    };
+    Points::new(places, hue, DOT_SIZE, name)
 }
 
 /// Connects the settings than which no other is both faster and more accurate.
 fn front(settings: &[Setting]) -> Item {
-    let front = settings.iter().filter(|s| s.on_front);
-    let mut front: Vec<[f64; 2]> = front.map(place).collect();
+    let mut front: Vec<[f64; 2]> = settings.iter().filter(|s| s.on_front).map(place).collect();
     front.sort_by(|x, y| x[0].total_cmp(&y[0]));
     let (width, tint) = FRONT;
     Item::Line(Line {
@@ -108,9 +104,10 @@ fn front(settings: &[Setting]) -> Item {
 /// The dots of a method, connected for one number of speeds, with the numbers of functions of its charts. The critical
 /// speeds have the same numbers in the same order, which are not written.
 fn of_method(method: Method, settings: &[Setting]) -> Vec<Item> {
-    let (hue, name) = look(method);
     let own = || settings.iter().filter(|s| s.method == method);
     let is_connected = |s: &&Setting| s.speeds == SPEEDS || !s.is_chart();
+    let dots = dots(method, own().map(place));
+    let (hue, name) = (dots.colour, &dots.name);
     let line = Line {
         tint: 0.6,
         width: CURVE,
@@ -123,13 +120,10 @@ fn of_method(method: Method, settings: &[Setting]) -> Vec<Item> {
             s.functions, s.speeds
         )
     };
-    let dots = Points {
-        said: own().map(say).collect(),
-        ..Points::new(own().map(place), hue, DOT_SIZE, name)
-    };
+    let said = own().map(say).collect();
     let numbered = own().filter(|s| s.is_chart() && s.speeds == SPEEDS);
     let numbers = numbered.map(|s| Item::label(place(s), hue, s.functions.to_string()));
-    [Item::Line(line), Item::Points(dots)]
+    [Item::Line(line), Item::Points(Points { said, ..dots })]
         .into_iter()
         .chain(numbers)
         .collect()
@@ -170,7 +164,7 @@ mod tests {
         let written = texts(&drawn);
         for setting in settings.iter().filter(|s| s.is_chart()) {
             let number = setting.functions.to_string();
-            assert!(written.iter().any(|(_, text)| *text == number), "{number}");
+            assert!(written.contains(&number.as_str()), "{number}");
         }
     }
 

@@ -45,7 +45,6 @@ struct Events {
 /// [`AnalysisError`] when an eigenproblem fails.
 pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, AnalysisError> {
     let chosen = ChosenBasis::new(scene, 1e-3)?;
-    let range = chosen.range_rad_per_s;
     // Every size contains the waves that stand still within the range.
     let needed = diameters_beyond(chosen.saw.plate.resolution);
     let sized =
@@ -61,14 +60,14 @@ pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, A
     add(Method::Dense, &SIZES[..DENSE_SIZES], SPEEDS);
     add(Method::CriticalSpeeds, SIZES, 0);
     let count = runs.len() + 1;
-    let truth = events(scene, Method::Reduced, sized(TRUTH), SPEEDS, range)?;
+    let truth = events(scene, Method::Reduced, sized(TRUTH), SPEEDS, &chosen)?;
     progress(1, count);
     let mut settings = Vec::new();
     for (done, (method, size, speeds)) in runs.into_iter().enumerate() {
         let resolution = sized(size);
         let timed = || -> Result<(Events, f64), AnalysisError> {
             let start = Instant::now();
-            let found = events(scene, method, resolution, speeds, range)?;
+            let found = events(scene, method, resolution, speeds, &chosen)?;
             Ok((found, start.elapsed().as_secs_f64()))
         };
         let (found, mut seconds) = timed()?;
@@ -109,8 +108,9 @@ fn events(
     method: Method,
     resolution: Resolution,
     speeds: usize,
-    range: (f64, f64),
+    chosen: &ChosenBasis,
 ) -> Result<Events, AnalysisError> {
+    let range = chosen.range_rad_per_s;
     let plate = Plate::new(scene, resolution);
     let below = |critical: &[NamedCriticalSpeed]| -> Vec<f64> {
         let speeds = critical.iter().map(|c| c.speed_rad_per_s);

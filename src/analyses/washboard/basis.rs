@@ -82,8 +82,11 @@ impl Motions {
         }
         let all = Shapes::new(&full, run.speed_rad_per_s)?;
         let arc = columns(&arc(&plate, washboarding))?;
-        let complete_to = complete_to(&plate, fastest).min(needed);
-        let (kept, complete_to) = all.kept(&plate, run.speed_rad_per_s, complete_to);
+        let searched_to = complete_to(&plate, fastest).min(needed);
+        let Kept {
+            count: kept,
+            complete_to,
+        } = all.kept(&plate, run.speed_rad_per_s, searched_to);
         let passing = washboarding.tooth_passing_rad_per_s(run.speed_rad_per_s);
         if complete_to < 0.5 * passing {
             return Err(WashboardError::Incomplete {
@@ -116,8 +119,13 @@ impl Motions {
         washboarding: &Washboarding,
         speed_rad_per_s: f64,
     ) -> Result<DelayedSaw, WashboardError> {
-        let arc = (&self.columns, self.flexibility.clone());
-        let saw = DelayedSaw::new(&self.system, arc, washboarding, speed_rad_per_s)?;
+        let saw = DelayedSaw::new(
+            &self.system,
+            &self.columns,
+            self.flexibility.clone(),
+            washboarding,
+            speed_rad_per_s,
+        )?;
         let undamped = |pole: &&faer::c64| pole.re.abs() <= LEAST_DAMPING * pole.norm();
         match saw.transfer.poles.iter().find(undamped) {
             Some(pole) => Err(WashboardError::Undamped {
@@ -180,6 +188,13 @@ struct Shapes {
     vectors: Mat<f64>,
 }
 
+/// The shapes that are kept.
+struct Kept {
+    count: usize,
+    /// Frequency in space up to which they represent the modes.
+    complete_to: f64,
+}
+
 impl Shapes {
     fn new(system: &GyroscopicSystem, speed_rad_per_s: f64) -> Result<Self, SpectrumError> {
         let gyroscopic = &system.gyroscopic;
@@ -199,16 +214,19 @@ impl Shapes {
             .partition_point(|square| *square <= omega * omega)
     }
 
-    /// Number of shapes that represent the modes up to a frequency in space; if these are too many, the
-    /// largest allowed number, with the frequency up to which it suffices.
-    fn kept(&self, plate: &Plate, speed: f64, complete_to: f64) -> (usize, f64) {
+    /// The shapes that represent the modes up to a frequency in space; if these are too many, the largest allowed
+    /// number.
+    fn kept(&self, plate: &Plate, speed: f64, complete_to: f64) -> Kept {
         let turned = most_turned(plate, speed, complete_to);
-        let kept = self.up_to(BEYOND_MODES * (complete_to + turned));
-        if kept <= MOST_SHAPES {
-            return (kept, complete_to);
+        let count = self.up_to(BEYOND_MODES * (complete_to + turned));
+        if count <= MOST_SHAPES {
+            return Kept { count, complete_to };
         }
         let highest = self.squares[MOST_SHAPES].max(0.0).sqrt();
-        (MOST_SHAPES, (highest / BEYOND_MODES - turned).max(0.0))
+        Kept {
+            count: MOST_SHAPES,
+            complete_to: (highest / BEYOND_MODES - turned).max(0.0),
+        }
     }
 
     /// Static flexibility, under forces on the arc, of the shapes beyond the first `kept`. It is positive

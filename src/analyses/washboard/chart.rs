@@ -25,8 +25,8 @@ const UNKNOWN: &str = "not searched or not confirmed above";
 /// The boundary and its frequencies, as numbers.
 pub fn chart(report: &WashboardReport) -> ChartData {
     let lobes = &report.lobes;
-    let ends = [lobes.rpm.first(), lobes.rpm.last()].map(|rpm| rpm.copied().unwrap_or(0.0));
-    let ends = proper_range(ends);
+    let sweep = [lobes.rpm.first(), lobes.rpm.last()];
+    let ends = proper_range(sweep.map(|rpm| rpm.copied().unwrap_or(0.0)));
     let speed = AxisData::speed().within(ends);
     let decades = decades(report);
     let per_rpm = report.tooth_passing_hz / report.rpm;
@@ -113,12 +113,12 @@ fn unknown_from(report: &WashboardReport, [least, _]: [f64; 2]) -> Line {
     let lobes = &report.lobes;
     let points = lobes.rpm.iter().enumerate().map(|(k, rpm)| {
         let [from, to] = unknown(report, k);
-        let from = if from < to {
+        let start = if from < to {
             from.max(0.1 * least)
         } else {
             f64::NAN
         };
-        [*rpm, from]
+        [*rpm, start]
     });
     Line {
         width: HAIRLINE,
@@ -149,8 +149,12 @@ fn said(report: &WashboardReport) -> Vec<String> {
             critical(report, k).map(|k| format!("a vibration grows above {} N/m", shown_to(3, k)));
         let [from, to] = unknown(report, k);
         let unknown = (from < to).then(|| format!("{UNKNOWN} {} N/m", shown_to(3, from)));
-        let hz = lobes.frequency_hz.get(k).copied().flatten();
-        let hz = hz.map(|hz| format!("{hz:.1} Hz"));
+        let hz = lobes
+            .frequency_hz
+            .get(k)
+            .copied()
+            .flatten()
+            .map(|hz| format!("{hz:.1} Hz"));
         let lines: Vec<String> = [Some(format!("{rpm:.0} rpm")), unknown, critical, hz]
             .into_iter()
             .flatten()

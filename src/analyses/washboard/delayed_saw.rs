@@ -40,12 +40,13 @@ impl DelayedSaw {
     /// [`SpectrumError`] if the eigenproblem fails.
     pub fn new(
         system: &GyroscopicSystem,
-        (columns, flexibility): (&Mat<f64>, DMatrix<f64>),
+        columns: &Mat<f64>,
+        flexibility: DMatrix<f64>,
         washboarding: &Washboarding,
         speed_rad_per_s: f64,
     ) -> Result<Self, SpectrumError> {
         Ok(DelayedSaw {
-            transfer: Transfer::new(system, (columns, flexibility), speed_rad_per_s)?,
+            transfer: Transfer::new(system, columns, flexibility, speed_rad_per_s)?,
             delay: Delay::new(washboarding, speed_rad_per_s),
             norms: [
                 system.velocity_at(speed_rad_per_s).norm_l2(),

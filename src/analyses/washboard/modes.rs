@@ -63,8 +63,8 @@ pub fn described(
     found.retain(|root| root.lambda.re > 0.0 || root.lambda.im <= motions.complete_to_rad_per_s);
     let growing = found.partition_point(|root| root.lambda.re > 0.0);
     found.truncate(LISTED.max(growing));
-    let found = found.into_iter();
     found
+        .into_iter()
         .filter_map(|root| mode(motions, washboarding, run, root))
         .collect()
 }
@@ -80,12 +80,13 @@ fn mode(
     let q = shape(motions, washboarding, speed, root.lambda);
     let pairs = vec![(root.lambda, q)];
     let mode = classify(&motions.system, speed, 0, pairs).pop()?;
-    let (re, im) = split(&mode.coordinates);
-    let (re, im) = (&motions.shapes * re, &motions.shapes * im);
+    let (reduced_re, reduced_im) = split(&mode.coordinates);
+    let (re, im) = (&motions.shapes * reduced_re, &motions.shapes * reduced_im);
     let lifted = Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i]));
     let passing = washboarding.tooth_passing_rad_per_s(speed);
-    let pattern = || Pattern::new(root.lambda.im, passing, run.feed_m_per_s);
-    let pattern = washboarding.is_even().then(pattern);
+    let pattern = washboarding
+        .is_even()
+        .then(|| Pattern::new(root.lambda.im, passing, run.feed_m_per_s));
     let name = ModeName::new(&motions.plate, &mode, &lifted, speed);
     Some(WashboardMode {
         name: name.in_shares(),

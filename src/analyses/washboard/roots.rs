@@ -82,16 +82,16 @@ fn roots(saw: &DelayedSaw, stiffness: f64) -> Vec<Root> {
             break;
         }
     }
-    let found = own
+    let accepted = own
         .iter()
         .zip(found)
         .zip(done)
         .filter(|((_, lambda), done)| *done && is_root(saw, stiffness, *lambda));
-    let root = |(k, lambda): (&usize, c64)| Root {
+    let roots = accepted.map(|((k, lambda), _)| Root {
         lambda: upper(lambda),
         without: Some(all[*k]),
-    };
-    found.map(|(pair, _)| root(pair)).collect()
+    });
+    roots.collect()
 }
 
 /// A root in the right half plane other than the known ones, searched from several starting points.

@@ -64,8 +64,8 @@ fn saw(frequencies: &[f64], overlap: f64, delays_s: &[f64]) -> DelayedSaw {
     let columns = Mat::from_fn(frequencies.len(), 1, |i, _| 1.0 - 0.2 * i as f64);
     let washboarding = cutting(1.0, overlap, delays_s);
     let system = system(frequencies, MODE.damping_ratio);
-    let arc = (&columns, DMatrix::zeros(1, 1));
-    DelayedSaw::new(&system, arc, &washboarding, 1.0).unwrap()
+    let flexibility = DMatrix::zeros(1, 1);
+    DelayedSaw::new(&system, &columns, flexibility, &washboarding, 1.0).unwrap()
 }
 
 /// The lowest of all lobes at a delay, by bisection of the closed form of each lobe.

@@ -28,7 +28,8 @@ impl Transfer {
     /// [`SpectrumError`] where the eigenproblem fails.
     pub fn new(
         system: &GyroscopicSystem,
-        (columns, flexibility): (&Mat<f64>, DMatrix<f64>),
+        columns: &Mat<f64>,
+        flexibility: DMatrix<f64>,
         speed_rad_per_s: f64,
     ) -> Result<Self, SpectrumError> {
         let (order, size) = (system.order(), columns.ncols());
@@ -173,7 +174,7 @@ mod tests {
         let order = system.order();
         let columns = Mat::from_fn(order, 2, |i, k| ((i + 3 * k) as f64).sin());
         let speed = rad_per_s(2500.0);
-        let transfer = Transfer::new(&system, (&columns, DMatrix::zeros(2, 2)), speed).unwrap();
+        let transfer = Transfer::new(&system, &columns, DMatrix::zeros(2, 2), speed).unwrap();
         let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
         for lambda in [(0.0, 70.0), (3.0, 900.0), (-20.0, 5000.0), (50.0, 0.0)] {
             let lambda = c64::new(lambda.0, lambda.1);
@@ -187,8 +188,8 @@ mod tests {
                 let error = (found[(i, k)] - exact[(i, k)]).norm() / exact[(i, k)].norm();
                 assert!(error < 1e-7, "{lambda}: {error}");
                 let difference = differences[(i, k)] / (step * 2.0);
-                let error = (slope[(i, k)] - difference).norm() / slope[(i, k)].norm();
-                assert!(error < 1e-4, "slope at {lambda}: {error}");
+                let slope_error = (slope[(i, k)] - difference).norm() / slope[(i, k)].norm();
+                assert!(slope_error < 1e-4, "slope at {lambda}: {slope_error}");
             }
         }
     }

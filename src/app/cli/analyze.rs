@@ -127,12 +127,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
                 !arguments.page.is_asked(),
                 "--report is given with several scenes, but a page is one saw's; name one scene, or use `sawflutter compare`"
             );
-            let scenes = paths.iter().map(read);
+            let as_read = paths.iter().map(read);
             let scenes: Vec<anyhow::Result<Scene>> = if arguments.keep_going {
-                scenes.collect()
+                as_read.collect()
             } else {
                 // Without `--keep-going`, no scene is computed if one of them is refused.
-                scenes
+                as_read
                     .map(|scene| scene.map(Ok))
                     .collect::<anyhow::Result<_>>()?
             };
@@ -166,7 +166,8 @@ fn one(arguments: &Arguments, scene: &Scene) -> anyhow::Result<()> {
     arguments.page.tried()?;
     let folder = arguments.output.folder()?;
     let report = report(arguments, scene)?;
-    let (files, json) = files(arguments, &report)?;
+    let json = serde_json::to_string_pretty(&report)?;
+    let files = files(arguments, &report, &json)?;
     arguments.page.write(&report)?;
     // A table of several scenes in this folder is from an earlier run and is removed.
     let optional = [&optional_names()[..], &batch::FILES].concat();
@@ -185,7 +186,8 @@ fn optional_names() -> Vec<&'static str> {
 fn into_folder(arguments: &Arguments, scene: &Scene, path: &Path) -> anyhow::Result<Report> {
     let folder = OutputFolder::open(path)?;
     let report = report(arguments, scene)?;
-    folder.write_together(&files(arguments, &report)?.0, &optional_names())?;
+    let json = serde_json::to_string_pretty(&report)?;
+    folder.write_together(&files(arguments, &report, &json)?, &optional_names())?;
     Ok(report)
 }
 
@@ -229,9 +231,8 @@ fn watched_report(
     Ok(report)
 }
 
-/// The files of a report, and its JSON.
-fn files(arguments: &Arguments, report: &Report) -> anyhow::Result<(Vec<NamedFile>, String)> {
-    let json = serde_json::to_string_pretty(report)?;
+/// The files of a report with this JSON.
+fn files(arguments: &Arguments, report: &Report, json: &str) -> anyhow::Result<Vec<NamedFile>> {
     let sweep = [report.campbell.from_rpm, report.campbell.to_rpm];
     let view = arguments.drawn.view(sweep)?;
     let details = arguments.output.details;
@@ -240,8 +241,8 @@ fn files(arguments: &Arguments, report: &Report) -> anyhow::Result<(Vec<NamedFil
     files.push(("campbell.csv", report.campbell_csv()?));
     if arguments.vtk {
         let vtk = report.vtk_files().into_iter();
-        files.extend(vtk.map(|(name, text)| (name, text.into_bytes())));
+        files.extend(vtk.map(|file| (file.name, file.text.into_bytes())));
     }
-    files.push((Report::COMMAND.file, json.clone().into_bytes()));
-    Ok((files, json))
+    files.push((Report::COMMAND.file, json.into()));
+    Ok(files)
 }

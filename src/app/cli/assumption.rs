@@ -17,6 +17,13 @@ pub struct Given<'a> {
     pub text: Option<&'a String>,
 }
 
+impl<'a> Given<'a> {
+    pub fn new(option: &'static str, path: &'static str, text: &'a Option<String>) -> Self {
+        let text = text.as_ref();
+        Given { option, path, text }
+    }
+}
+
 /// A block of a scene whose numbers options may give.
 pub struct Block<'a> {
     /// Key of the block.

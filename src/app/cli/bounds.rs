@@ -10,7 +10,7 @@ pub fn named_bounds(asked: &[String]) -> anyhow::Result<Vec<NamedBounds>> {
 
 /// Parses the path of an option and, if there is one, its range.
 pub fn range(option: &str, text: &str) -> anyhow::Result<NamedBounds> {
-    let Some((path, range)) = text.split_once('=') else {
+    let Some((name, range)) = text.split_once('=') else {
         return Ok((text.trim().to_owned(), None));
     };
     let Some((from, to)) = range.split_once("..") else {
@@ -18,7 +18,7 @@ pub fn range(option: &str, text: &str) -> anyhow::Result<NamedBounds> {
             "the range of {option} {text} must be two numbers (you gave {range:?}); write it like 0.15..0.3"
         );
     };
-    let path = path.trim();
+    let path = name.trim();
     let bound =
         |bound| number_of(path, bound).with_context(|| format!("{option} {text} was refused"));
     Ok((path.to_owned(), Some((bound(from)?, bound(to)?))))

@@ -99,9 +99,9 @@ fn limits(arguments: &Arguments, scene: &Scene) -> anyhow::Result<Limits> {
         min_flutter_rpm: arguments.min_flutter_rpm,
         min_critical_rpm: arguments.min_critical_rpm,
     };
-    let limits = asked.limits(scene);
-    let limits = limits.and_then(|limits| limits.with_rim_speed(arguments.max_rim_m_per_s));
-    let limits = limits
+    let limits = asked
+        .limits(scene)
+        .and_then(|limits| limits.with_rim_speed(arguments.max_rim_m_per_s))
         .and_then(|limits| limits.with_amplitude(arguments.max_amplitude_mm))
         .map_err(of_option)?;
     Ok(Limits {

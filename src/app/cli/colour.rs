@@ -41,20 +41,30 @@ impl Paint {
 
 /// The line with its verdict bold and coloured.
 fn painted(line: &str) -> String {
-    let Some((from, to, tone)) = verdict(line) else {
+    let Some(verdict) = verdict(line) else {
         return line.to_owned();
     };
-    let colour = match tone {
+    let colour = match verdict.tone {
         Tone::Good => 32,
         Tone::Doubtful => 33,
         Tone::Bad => 31,
     };
-    let (before, words, after) = (&line[..from], &line[from..to], &line[to..]);
+    let (before, words, after) = (
+        &line[..verdict.from],
+        &line[verdict.from..verdict.to],
+        &line[verdict.to..],
+    );
     format!("{before}\u{1b}[1;{colour}m{words}\u{1b}[0m{after}")
 }
 
-/// Start, end and tone of the words of a line that state whether a result is good; `None` if it has none.
-fn verdict(line: &str) -> Option<(usize, usize, Tone)> {
+/// Words of a line that state whether a result is good.
+struct Verdict {
+    from: usize,
+    to: usize,
+    tone: Tone,
+}
+
+fn verdict(line: &str) -> Option<Verdict> {
     let firsts = [
         ("Warning:", Tone::Doubtful),
         ("Unusual number", Tone::Doubtful),
@@ -65,18 +75,23 @@ fn verdict(line: &str) -> Option<(usize, usize, Tone)> {
     ];
     let first = firsts.iter().find(|(word, _)| line.starts_with(word));
     if let Some((word, tone)) = first {
-        return Some((0, word.len(), *tone));
+        return Some(Verdict {
+            from: 0,
+            to: word.len(),
+            tone: *tone,
+        });
     }
-    let answer = line
+    let from = line
         .find("? ")
         .filter(|_| line.starts_with("Can it run at"))?
         + 2;
-    let tone = match line.get(answer..answer + 2) {
+    let tone = match line.get(from..from + 2) {
         Some("YE") => Tone::Good,
         Some("NO") => Tone::Bad,
         _ => Tone::Doubtful,
     };
-    Some((answer, line.trim_end().len(), tone))
+    let to = line.trim_end().len();
+    Some(Verdict { from, to, tone })
 }
 
 #[cfg(test)]

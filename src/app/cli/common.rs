@@ -12,6 +12,7 @@ use anyhow::Context;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
+use super::assumption::Given;
 use super::colour::Paint;
 use super::output::{NamedFile, OutputFolder, Writing};
 use super::page::Page;
@@ -154,15 +155,13 @@ pub fn with_settings<'a>(
     scene.file().set(&settings).with_context(refused)
 }
 
-/// The scene with numbers of options that are short for `--set PATH=…`, each an option, a path and its text.
-pub fn with_shorthands(
-    mut scene: Scene,
-    given: &[(&str, &str, &Option<String>)],
-) -> anyhow::Result<Scene> {
-    for (option, path, text) in given {
+/// The scene with numbers of options that are short for `--set PATH=…`.
+pub fn with_shorthands(mut scene: Scene, given: &[Given<'_>]) -> anyhow::Result<Scene> {
+    for Given { option, path, text } in given {
         if let Some(text) = text {
-            let text = format!("{path}={text}");
-            scene = with_settings(&scene, std::iter::once(text.as_str()), option)?;
+            let setting = format!("{path}={text}");
+            let option = format!("--{option}");
+            scene = with_settings(&scene, std::iter::once(setting.as_str()), &option)?;
         }
     }
     Ok(scene)

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::analyses::campbell::Report;
-use crate::analyses::compare::{Saw, compare};
+use crate::analyses::compare::{LabelledSaw, Saw, compare};
 use crate::model::scene::Scene;
 use crate::page::text::{Kind, OtherEncodings};
 use anyhow::anyhow;
@@ -58,18 +58,22 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
 }
 
 /// Reads the saws and labels them.
-fn saws(arguments: &Arguments) -> anyhow::Result<Vec<(String, Saw)>> {
+fn saws(arguments: &Arguments) -> anyhow::Result<Vec<LabelledSaw>> {
     let mut saws = Vec::new();
     for path in &arguments.files {
         let label = unused(label(path), &saws);
-        saws.push((label, read(path, &arguments.changes)?));
+        let saw = read(path, &arguments.changes)?;
+        saws.push(LabelledSaw { label, saw });
     }
     if saws.is_empty() {
         let scene = arguments.changes.applied(Scene::paper())?;
-        saws.push(("built-in".to_owned(), Saw::Scene(Box::new(scene))));
+        saws.push(LabelledSaw {
+            label: "built-in".to_owned(),
+            saw: Saw::Scene(Box::new(scene)),
+        });
     }
     for variant in &arguments.variant {
-        let Saw::Scene(first) = &saws[0].1 else {
+        let Saw::Scene(first) = &saws[0].saw else {
             return Err(anyhow!(
                 "--variant {variant} is given, but the first file is a report; give its scene instead"
             ));
@@ -77,7 +81,8 @@ fn saws(arguments: &Arguments) -> anyhow::Result<Vec<(String, Saw)>> {
         let option = format!("--variant {variant}");
         let scene = with_settings(first, variant.split(','), &option)?;
         let label = unused(in_short(variant), &saws);
-        saws.push((label, Saw::Scene(Box::new(scene))));
+        let saw = Saw::Scene(Box::new(scene));
+        saws.push(LabelledSaw { label, saw });
     }
     anyhow::ensure!(
         saws.len() > 1,
@@ -135,9 +140,9 @@ fn label(path: &Path) -> String {
 }
 
 /// The label, with a number if another saw has it already.
-fn unused(label: String, saws: &[(String, Saw)]) -> String {
+fn unused(label: String, saws: &[LabelledSaw]) -> String {
     let numbered = (2..).map(|k| format!("{label}-{k}"));
     let mut names = std::iter::once(label.clone()).chain(numbered);
-    let free = names.find(|name| !saws.iter().any(|(taken, _)| taken == name));
+    let free = names.find(|name| !saws.iter().any(|taken| taken.label == *name));
     free.unwrap_or(label)
 }

@@ -50,10 +50,9 @@ struct Forces {
 
 impl Forces {
     fn applied(&self, scene: Scene) -> anyhow::Result<Scene> {
-        let given = |option, path, text| Given { option, path, text };
         let given = [
-            given("power", "cut.power_w", self.power.as_ref()),
-            given("depth", "cut.depth_m", self.depth.as_ref()),
+            Given::new("power", "cut.power_w", &self.power),
+            Given::new("depth", "cut.depth_m", &self.depth),
         ];
         let block = Block {
             name: "cut",

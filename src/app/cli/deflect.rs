@@ -3,6 +3,7 @@
 use crate::analyses::deflect::{DeflectError, Options, deflect};
 use clap::Args;
 
+use super::assumption::Given;
 use super::common::{Common, number, of_option, with_shorthands};
 use super::page::Page;
 use super::progress::watched;
@@ -35,7 +36,11 @@ pub struct Arguments {
 
 /// Follows the equilibria, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let given = [("--force-n", "side_force.force_n", &arguments.force_n)];
+    let given = [Given::new(
+        "force-n",
+        "side_force.force_n",
+        &arguments.force_n,
+    )];
     let scene = with_shorthands(arguments.common.scene()?, &given)?;
     let options = Options {
         to_rpm: arguments.to_rpm,

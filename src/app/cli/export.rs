@@ -26,13 +26,16 @@ pub struct Arguments {
     matrices: bool,
     /// Nodal diameters and radial functions of the basis, instead of what the accuracy takes
     #[arg(long, value_name = "N,J", value_parser = basis)]
-    basis: Option<(usize, usize)>,
+    basis: Option<Resolution>,
 }
 
 /// Parses nodal diameters and radial functions, like `16,8`.
-fn basis(text: &str) -> Result<(usize, usize), String> {
+fn basis(text: &str) -> Result<Resolution, String> {
     let numbers = text.split_once(',').and_then(|(diameters, radial)| {
-        Some((diameters.trim().parse().ok()?, radial.trim().parse().ok()?))
+        Some(Resolution {
+            max_diameters: diameters.trim().parse().ok()?,
+            radial_functions: radial.trim().parse().ok()?,
+        })
     });
     numbers.ok_or_else(|| "give two numbers, such as 16,8".to_owned())
 }
@@ -43,10 +46,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         bail!("say what to export: --matrices");
     }
     let scene = arguments.common.scene()?;
-    let of_size = |(diameters, radial)| Resolution::new(diameters, radial, scene.blade());
+    let checked = |asked: Resolution| {
+        Resolution::new(asked.max_diameters, asked.radial_functions, scene.blade())
+    };
     let asked = arguments
         .basis
-        .map(of_size)
+        .map(checked)
         .transpose()
         .map_err(of_option)?;
     let folder = arguments.common.folder()?;
@@ -137,7 +142,11 @@ mod tests {
 
     #[test]
     fn a_basis_is_two_numbers() {
-        assert_eq!(basis("16, 8"), Ok((16, 8)));
+        let asked = Resolution {
+            max_diameters: 16,
+            radial_functions: 8,
+        };
+        assert_eq!(basis("16, 8"), Ok(asked));
         for wrong in ["", "16", "a,b", "16,8,4"] {
             assert!(basis(wrong).is_err(), "{wrong}");
         }

@@ -3,6 +3,7 @@
 use crate::analyses::gap::{GapError, Options, gap};
 use clap::Args;
 
+use super::assumption::Given;
 use super::common::{Common, number, of_option, with_shorthands};
 use super::page::Page;
 use super::progress::watched;
@@ -49,18 +50,18 @@ pub struct Arguments {
 /// Evaluates the gaps, writes the files and prints the summary.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let given = [
-        ("--force-n", "side_force.force_n", &arguments.force_n),
-        (
-            "--oscillating-force-n",
+        Given::new("force-n", "side_force.force_n", &arguments.force_n),
+        Given::new(
+            "oscillating-force-n",
             "side_force.oscillating_n",
             &arguments.oscillating_force_n,
         ),
-        (
-            "--oscillating-order",
+        Given::new(
+            "oscillating-order",
             "side_force.order",
             &arguments.oscillating_order,
         ),
-        ("--friction", "friction.coefficient", &arguments.friction),
+        Given::new("friction", "friction.coefficient", &arguments.friction),
     ];
     let scene = with_shorthands(arguments.common.scene()?, &given)?;
     let options = Options {

@@ -130,13 +130,13 @@ mod tests {
     use crate::model::scene::QUANTITIES;
 
     /// The heading and the lines below of a key.
-    fn printed(path: &str) -> (String, String) {
+    fn printed(path: &str) -> [String; 2] {
         let schema = scene::json_schema();
         let key = scene::keys(&schema)
             .into_iter()
             .find(|key| key.path == path)
             .expect(path);
-        (heading(&key, &schema), lines(&key, &schema).join("\n"))
+        [heading(&key, &schema), lines(&key, &schema).join("\n")]
     }
 
     /// Every quantity of a scene is printed, so that users can find it.
@@ -144,19 +144,19 @@ mod tests {
     fn every_number_of_a_scene_is_a_key_with_a_meaning() {
         for quantity in QUANTITIES {
             let path = quantity.path.trim_end_matches("[]");
-            let (heading, meaning) = printed(path);
+            let [heading, meaning] = printed(path);
             assert!(!meaning.trim().is_empty(), "{path}");
             assert!(heading.contains("usual range "), "{heading}");
         }
-        let (heading, _) = printed("blade.outer_diameter_m");
+        let [heading, _] = printed("blade.outer_diameter_m");
         assert_eq!(
             heading,
             "blade.outer_diameter_m  [m]  required in blade  usual range 0.04 to 5"
         );
-        let (heading, _) = printed("mount.diameter_m");
+        let [of_mount, _] = printed("mount.diameter_m");
         assert!(
-            heading.contains("required in mount  of kind \"collar\""),
-            "{heading}"
+            of_mount.contains("required in mount  of kind \"collar\""),
+            "{of_mount}"
         );
     }
 
@@ -179,7 +179,7 @@ mod tests {
             ),
             ("accuracy", &["\"draft\": 1 %"]),
         ] {
-            let (_, lines) = printed(path);
+            let [_, lines] = printed(path);
             for word in words {
                 assert!(lines.contains(word), "{path}: {lines}");
             }

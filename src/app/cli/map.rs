@@ -84,11 +84,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
 }
 
 fn planned(arguments: &Arguments) -> anyhow::Result<Map> {
-    let scene = match &arguments.scene {
+    let typed = match &arguments.scene {
         Some(path) => read_scene(path)?,
         None => Scene::paper(),
     };
-    let scene = arguments.changes.applied(scene)?;
+    let scene = arguments.changes.applied(typed)?;
     let named = |option: &str, text: &str| -> anyhow::Result<Range> {
         let (path, bounds) = range(option, text)?;
         let (from, to) = bounds.with_context(|| {

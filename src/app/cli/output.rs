@@ -41,16 +41,12 @@ impl OutputFolder {
     }
 
     /// Writes the files of one run together, see [`Writing::finish`].
-    pub fn write_together(
-        &self,
-        files: &[(&'static str, Vec<u8>)],
-        optional: &[&str],
-    ) -> anyhow::Result<()> {
+    pub fn write_together(&self, files: &[NamedFile], optional: &[&str]) -> anyhow::Result<()> {
         self.staged(files)?.finish(optional)
     }
 
     /// Writes the files of one run to the disk under temporary names.
-    pub fn staged(&self, files: &[(&'static str, Vec<u8>)]) -> anyhow::Result<Writing<'_>> {
+    pub fn staged(&self, files: &[NamedFile]) -> anyhow::Result<Writing<'_>> {
         let mut writing = self.begin();
         for (name, content) in files {
             writing.stage_bytes(name, content)?;

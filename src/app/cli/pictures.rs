@@ -26,11 +26,11 @@ pub fn files(figures: &[Figure]) -> Result<Vec<NamedFile>, FigureError> {
         .par_iter()
         .map(|figure| {
             let [png, svg] = figure.names();
-            let (png, svg) = rayon::join(
+            rayon::join(
                 || Ok((png, figure.png()?)),
                 || Ok((svg, figure.svg()?.into_bytes())),
-            );
-            [png, svg]
+            )
+            .into()
         })
         .collect();
     files.into_iter().flatten().collect()

@@ -4,6 +4,7 @@ use crate::analyses::place::{Demands, GapDemands, Options, Tolerances, place};
 use crate::model::scene::{Freed, RefusedValue, Scene};
 use clap::{Args, ValueEnum};
 
+use super::assumption::Given;
 use super::bounds::named_bounds;
 use super::common::{Common, count, number, of_option, with_shorthands};
 use super::page::Page;
@@ -89,7 +90,11 @@ enum GoalName {
 
 /// Searches for the best place, writes the files and prints the summary. Returns whether the limit is kept.
 pub fn run(arguments: &Arguments) -> anyhow::Result<bool> {
-    let given = [("--force-n", "side_force.force_n", &arguments.force_n)];
+    let given = [Given::new(
+        "force-n",
+        "side_force.force_n",
+        &arguments.force_n,
+    )];
     let scene = with_shorthands(arguments.common.scene()?, &given)?;
     let demands = demands(arguments, &scene)?;
     let options = Options {

@@ -51,11 +51,10 @@ struct Course {
 
 impl Course {
     fn applied(&self, scene: Scene) -> anyhow::Result<Scene> {
-        let given = |option, path, text| Given { option, path, text };
         let given = [
-            given("to", "runup.to_rpm", self.to.as_ref()),
-            given("seconds", "runup.duration_s", self.seconds.as_ref()),
-            given("force", "side_force.force_n", self.force.as_ref()),
+            Given::new("to", "runup.to_rpm", &self.to),
+            Given::new("seconds", "runup.duration_s", &self.seconds),
+            Given::new("force", "side_force.force_n", &self.force),
         ];
         let block = Block {
             name: "runup",

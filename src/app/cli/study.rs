@@ -78,11 +78,10 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     if let Some(Command::Merge(merge)) = &arguments.merge {
         return run_merge(merge);
     }
-    let (scene, file) = (arguments.scene.as_deref(), arguments.study.as_deref());
-    let scene = read_scene(scene.context("a scene is missing")?)?;
-    let scene = arguments.changes.applied(scene)?;
-    let study = read_study(file.context("a study is missing")?)?;
-    let study = Study::new(scene, study).context("the study was refused")?;
+    let typed = read_scene(arguments.scene.as_deref().context("a scene is missing")?)?;
+    let scene = arguments.changes.applied(typed)?;
+    let file = read_study(arguments.study.as_deref().context("a study is missing")?)?;
+    let study = Study::new(scene, file).context("the study was refused")?;
     let folder = arguments.output.folder()?;
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);
     match &arguments.scheduler {
@@ -145,12 +144,12 @@ pub fn compute(study: &Study, shard: Shard, folder: &OutputFolder) -> anyhow::Re
         .into_missing()
         .filter(|index| shard.holds(*index));
     let bar = progress_bar(done, of);
-    let log = Arc::new(Mutex::new(log));
+    let shared_log = Arc::new(Mutex::new(log));
     #[cfg(feature = "explore")]
-    stop_when_interrupted(Arc::clone(&log), of);
+    stop_when_interrupted(Arc::clone(&shared_log), of);
     study.run(None, missing, &|saw| {
-        let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
-        log.append(study, &saw)?;
+        let mut shared_log = shared_log.lock().unwrap_or_else(PoisonError::into_inner);
+        shared_log.append(study, &saw)?;
         bar.inc(1);
         anyhow::Ok(())
     })?;

@@ -79,9 +79,9 @@ pub fn of_bands(
 
 fn facts(report: &Report) -> Vec<Fact> {
     let peaks = report.instabilities.iter().map(|b| b.peak_growth_per_s);
-    let share = report.operating.as_ref().and_then(|o| o.of_lowest_critical);
+    let of_lowest = report.operating.as_ref().and_then(|o| o.of_lowest_critical);
     let critical = report.critical_speeds.first().map(|critical| critical.rpm);
-    let [first_critical, share] = of_critical(critical, share);
+    let [first_critical, share] = of_critical(critical, of_lowest);
     let onsets = [report.flutter_speed_rpm, report.first_merge_rpm];
     let mut facts = vec![first_critical];
     facts.extend(of_bands(onsets, peaks));
@@ -135,8 +135,8 @@ mod tests {
             });
             let report = Analysis::new(&scene.unwrap()).unwrap().report();
             let told = serde_json::to_value(Told::new(&report)).unwrap();
-            let printed = report.summary();
-            let printed: Vec<&str> = printed.split_whitespace().collect();
+            let summary = report.summary();
+            let printed: Vec<&str> = summary.split_whitespace().collect();
             let lines = told["lines"].as_array().unwrap();
             let words: Vec<&str> = lines
                 .iter()

@@ -155,16 +155,16 @@ impl Charts {
             interim: Some(&interim),
             ..AnalysisOptions::default()
         };
-        let analysis = || Analysis::with_options(&scene, options);
-        let watched = self.under_way.watched(page, analysis);
+        let work = || Analysis::with_options(&scene, options);
+        let watched = self.under_way.watched(page, work);
         let analysis = watched.map_err(|error| Refusal::of(&error))??;
         let mut report = analysis.report();
         let (told, figure) = (Told::new(&report), report.campbell_chart());
         if fidelity == Fidelity::Draft {
             leave_out_what_is_not_shown(&mut report);
         }
-        let report = Arc::new(report);
-        let of_scene = (fidelity == Fidelity::Scene).then(|| report.clone());
+        let shared_report = Arc::new(report);
+        let of_scene = (fidelity == Fidelity::Scene).then(|| shared_report.clone());
         let chart = self.keep(page, analysis, of_scene);
         let milliseconds = (self.clock)() - started;
         serde_json::to_string(&Chart {
@@ -172,7 +172,7 @@ impl Charts {
             milliseconds,
             told,
             figure,
-            report: &report,
+            report: &shared_report,
         })
         .map_err(|error| Refusal::of(&error))
     }
@@ -184,9 +184,9 @@ impl Charts {
     pub fn influence(&self, asked: &str) -> Result<Vec<Influence>, Refusal> {
         let chart: usize = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
         let found = self.find(chart, |kept| (kept.analysis.clone(), kept.report.clone()));
-        let (analysis, report) = found.ok_or_else(|| Refusal::gone(chart))?;
+        let (analysis, kept) = found.ok_or_else(|| Refusal::gone(chart))?;
         let entries = Sensitivity::all(&analysis).map_err(|error| Refusal::of(&error))?;
-        let report = report.unwrap_or_else(|| Arc::new(analysis.report()));
+        let report = kept.unwrap_or_else(|| Arc::new(analysis.report()));
         Ok(influences(&entries, &report))
     }
 
@@ -197,8 +197,10 @@ impl Charts {
     /// [`Refusal`] if the scene is refused, or a computation fails or is cancelled.
     pub fn file(&self, kind: SavedFile, chart: usize, scene: &str) -> Result<Vec<u8>, Refusal> {
         let scene = Scene::from_json(scene)?;
-        let known = self.find(chart, |kept| kept.report.clone());
-        let known = known.flatten().filter(|known| known.scene == *scene.file());
+        let known = self
+            .find(chart, |kept| kept.report.clone())
+            .flatten()
+            .filter(|known| known.scene == *scene.file());
         kind.content(&scene, known)
     }
 
@@ -306,13 +308,13 @@ mod tests {
     fn a_draft_begins_with_the_size_of_the_last_one() {
         let charts = Charts::new(|| 0.0);
         let draw = |page: &str, to_rpm: f64, fidelity: Fidelity| {
-            let scene = Scene::paper().edited(|file| {
+            let saw = Scene::paper().edited(|file| {
                 file.accuracy = Accuracy::Draft;
                 file.sweep.as_mut().unwrap().to_rpm = to_rpm;
             });
-            let scene = serde_json::to_string(scene.unwrap().file()).unwrap();
-            let chart = charts.chart(page, &scene, fidelity, &drop).unwrap();
-            let chart: serde_json::Value = serde_json::from_str(&chart).unwrap();
+            let scene = serde_json::to_string(saw.unwrap().file()).unwrap();
+            let answer = charts.chart(page, &scene, fidelity, &drop).unwrap();
+            let chart: serde_json::Value = serde_json::from_str(&answer).unwrap();
             let name = chart["chart"].as_u64().unwrap() as usize;
             charts.named(name).unwrap().model.plate.resolution
         };
@@ -335,8 +337,8 @@ mod tests {
     #[test]
     fn a_file_is_made_of_the_chart_that_is_kept() {
         let charts = Charts::new(|| 0.0);
-        let scene = Scene::paper().edited(|file| file.accuracy = Accuracy::Draft);
-        let scene = serde_json::to_string(scene.unwrap().file()).unwrap();
+        let saw = Scene::paper().edited(|file| file.accuracy = Accuracy::Draft);
+        let scene = serde_json::to_string(saw.unwrap().file()).unwrap();
         charts.chart("one", &scene, Fidelity::Scene, &drop).unwrap();
         charts.influence("1").unwrap();
         let file = |chart: usize| {
@@ -344,19 +346,19 @@ mod tests {
             let seen = solved.clone();
             let progress =
                 Progress::new(move |stage| seen.store(stage.eigenproblems, Ordering::Relaxed));
-            let made = || charts.file(SavedFile::Report, chart, &scene);
-            let made = progress.watched(made).unwrap().unwrap();
+            let work = || charts.file(SavedFile::Report, chart, &scene);
+            let made = progress.watched(work).unwrap().unwrap();
             (made, solved.load(Ordering::Relaxed))
         };
         let (kept, computed) = (file(1), file(2));
         assert!(kept.0 == computed.0);
         assert!(kept.1 == 0 && computed.1 > 0, "{} {}", kept.1, computed.1);
         // A diagram of another scene is not used.
-        let other = Scene::paper()
+        let thicker = Scene::paper()
             .edited(|file| file.blade.thickness_m = 3e-3)
             .unwrap()
             .edited(|file| file.accuracy = Accuracy::Draft);
-        let other = serde_json::to_string(other.unwrap().file()).unwrap();
+        let other = serde_json::to_string(thicker.unwrap().file()).unwrap();
         let made = charts.file(SavedFile::Report, 1, &other).unwrap();
         assert!(made != kept.0);
     }

@@ -33,12 +33,12 @@ impl Ahead {
     pub fn new(scene: &Scene, interim: Interim<'_>) -> Self {
         let critical: Vec<f64> = interim.critical.iter().map(|c| c.speed_rad_per_s).collect();
         let (_, to) = interim.range_rad_per_s;
-        let uprights = interim
+        let uprights: Vec<Upright> = interim
             .critical
             .iter()
             .take_while(|c| c.speed_rad_per_s <= to)
-            .map(|c| Upright::critical(rpm(c.speed_rad_per_s), &c.name.in_words()));
-        let uprights: Vec<Upright> = uprights.collect();
+            .map(|c| Upright::critical(rpm(c.speed_rad_per_s), &c.name.in_words()))
+            .collect();
         let first = uprights.first().map(|upright| upright.x);
         let operating = scene.operating_rad_per_s();
         let share = operating.zip(critical.first());
@@ -67,9 +67,8 @@ impl Ahead {
             Item::Band(Band::new(&entry, [from, to].map(rpm)))
         };
         self.bands = Some(evidence.bands.iter().map(shaded).collect());
-        let onsets = flutter_onsets(evidence.bands, threshold);
+        let onsets = flutter_onsets(evidence.bands, threshold).map(|onset| onset.map(rpm));
         let growths = evidence.bands.iter().map(|band| band.peak_growth_per_s);
-        let onsets = onsets.map(|onset| onset.map(rpm));
         self.facts.extend(of_bands(onsets, growths));
         self.verdict = operating_rad_per_s.map(|speed| {
             let operating = OperatingPoint::from_evidence(evidence, speed);
@@ -121,13 +120,13 @@ mod tests {
         for scene in [paper, slow.unwrap(), damped.unwrap()] {
             let scene = serde_json::to_string(scene.file()).unwrap();
             let charts = Charts::new(|| 0.0);
-            let alone = charts.critical_speeds("one", &scene).unwrap();
-            let alone = serde_json::to_value(alone).unwrap();
-            let lines = Mutex::new(Vec::new());
-            let tell = |line: String| lines.lock().unwrap().push(line);
-            let chart = charts.chart("one", &scene, Fidelity::Draft, &tell);
-            let chart: Value = serde_json::from_str(&chart.unwrap()).unwrap();
-            let lines = lines.into_inner().unwrap();
+            let alone =
+                serde_json::to_value(charts.critical_speeds("one", &scene).unwrap()).unwrap();
+            let written = Mutex::new(Vec::new());
+            let tell = |line: String| written.lock().unwrap().push(line);
+            let answer = charts.chart("one", &scene, Fidelity::Draft, &tell);
+            let chart: Value = serde_json::from_str(&answer.unwrap()).unwrap();
+            let lines = written.into_inner().unwrap();
             let stages: Vec<Value> = lines
                 .iter()
                 .map(|line| serde_json::from_str::<Value>(line).unwrap()["ahead"].take())

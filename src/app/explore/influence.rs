@@ -24,13 +24,15 @@ pub fn influences(entries: &[Sensitivity], report: &Report) -> Vec<Influence> {
         let mut bands = report.instabilities.iter();
         bands.position(|band| band.counted_rpm.iter().any(begins))
     });
-    let changes = entries.iter().map(|entry| {
-        let of_critical = entry.of_first_critical();
-        let of_flutter = band.and_then(|band| entry.of_onset(band));
-        let rpm = |percent: Option<f64>, speed: Option<f64>| Some(0.01 * percent? * speed?);
-        [rpm(of_critical, critical), rpm(of_flutter, flutter)]
-    });
-    let changes: Vec<[Option<f64>; 2]> = changes.collect();
+    let changes: Vec<[Option<f64>; 2]> = entries
+        .iter()
+        .map(|entry| {
+            let of_critical = entry.of_first_critical();
+            let of_flutter = band.and_then(|band| entry.of_onset(band));
+            let rpm = |percent: Option<f64>, speed: Option<f64>| Some(0.01 * percent? * speed?);
+            [rpm(of_critical, critical), rpm(of_flutter, flutter)]
+        })
+        .collect();
     let size = |change: &[Option<f64>; 2]| {
         let sizes = change.iter().flatten().map(|rpm| rpm.abs());
         sizes.fold(0.0, f64::max)

@@ -109,24 +109,24 @@ fn free_angle(guides: &[GuideFile]) -> f64 {
 /// Radius and value of another row of a table over the radius. The first row is at the collar or bore and has the given
 /// value. A later one is between the last row and the rim or, if the last row is at the rim, where rows are farthest
 /// apart; its value is the mean of its neighbours.
-pub fn next_row(scene: &SceneFile, rows: &[(f64, f64)], value: f64) -> (f64, f64) {
+pub fn next_row(scene: &SceneFile, rows: &[[f64; 2]], value: f64) -> [f64; 2] {
     let rim = rim(scene);
-    let end = |k: usize| rows.get(k + 1).map_or(rim, |next| next.0);
-    let gap = |k: &usize| end(*k) - rows[*k].0;
+    let end = |k: usize| rows.get(k + 1).map_or(rim, |next| next[0]);
+    let gap = |k: &usize| end(*k) - rows[*k][0];
     let Some(last) = rows.len().checked_sub(1) else {
-        return (rounded(inner(scene), 3), value);
+        return [rounded(inner(scene), 3), value];
     };
-    let widest = || (0..=last).max_by(|x, y| gap(x).total_cmp(&gap(y)));
     let at = if gap(&last) > 1e-3 * rim {
         last
     } else {
-        widest().unwrap_or(last)
+        let widest = (0..=last).max_by(|x, y| gap(x).total_cmp(&gap(y)));
+        widest.unwrap_or(last)
     };
     let next = rows.get(at + 1).unwrap_or(&rows[at]);
-    (
-        rounded(0.5 * (rows[at].0 + end(at)), 4),
-        0.5 * (rows[at].1 + next.1),
-    )
+    [
+        rounded(0.5 * (rows[at][0] + end(at)), 4),
+        0.5 * (rows[at][1] + next[1]),
+    ]
 }
 
 /// A side force in N. Without a collar, it deflects the guides by about 1 % of the thickness of the blade at most, because the

@@ -29,17 +29,14 @@ struct Asked {
 /// [`Refusal`] if the request cannot be read, or the diagram is no longer kept.
 pub fn answer(charts: &Charts, asked: &str) -> Result<ModeShape, Refusal> {
     let asked: Asked = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
-    let found = charts.named(asked.chart);
-    let found = found
-        .as_deref()
-        .and_then(|analysis| Some((analysis, nearest(analysis, &asked)?)));
-    let (analysis, (speed, mode)) = found.ok_or_else(|| Refusal::gone(asked.chart))?;
-    Ok(ModeShape::new(&analysis.model.plate, speed, mode))
+    let found = charts
+        .named(asked.chart)
+        .and_then(|analysis| nearest(&analysis, &asked));
+    found.ok_or_else(|| Refusal::gone(asked.chart))
 }
 
-/// Finds the mode nearest to the requested frequency at the sampled speed nearest to the requested one; returns this
-/// speed in rad/s and the mode.
-fn nearest<'a>(analysis: &'a Analysis, asked: &Asked) -> Option<(f64, &'a DescribedMode)> {
+/// Finds the mode nearest to the requested frequency at the sampled speed nearest to the requested one.
+fn nearest(analysis: &Analysis, asked: &Asked) -> Option<ModeShape> {
     let samples = analysis.chart.campbell.samples.iter();
     let off = |value: f64, wanted: f64| (value - wanted).abs();
     let sample = samples.min_by(|x, y| {
@@ -48,5 +45,6 @@ fn nearest<'a>(analysis: &'a Analysis, asked: &Asked) -> Option<(f64, &'a Descri
     })?;
     let of = |mode: &DescribedMode| off(mode.mode.frequency_rad_per_s() / TAU, asked.frequency_hz);
     let mode = sample.modes.iter().min_by(|x, y| of(x).total_cmp(&of(y)))?;
-    Some((sample.speed_rad_per_s, mode))
+    let plate = &analysis.model.plate;
+    Some(ModeShape::new(plate, sample.speed_rad_per_s, mode))
 }

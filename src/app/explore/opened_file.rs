@@ -76,8 +76,7 @@ impl OpenedFile {
             return Err("the file is read-only".to_owned());
         }
         let words = |error: std::io::Error| error.to_string();
-        let mut file = tempfile::Builder::new();
-        let mut file = file
+        let mut file = tempfile::Builder::new()
             .prefix(".sawflutter-")
             .tempfile_in(folder)
             .map_err(words)?;
@@ -119,11 +118,11 @@ mod tests {
         let refusal = file.save("{}").unwrap_err();
         assert!(refusal.message.contains("name"), "{}", refusal.message);
         std::fs::write(&path, "by another program").unwrap();
-        let refusal = file.save(&paper()).unwrap_err();
+        let of_changed = file.save(&paper()).unwrap_err();
         assert!(
-            refusal.message.contains("another program"),
+            of_changed.message.contains("another program"),
             "{}",
-            refusal.message
+            of_changed.message
         );
         assert_eq!(std::fs::read(&path).unwrap(), b"by another program");
         let count = std::fs::read_dir(folder.path()).unwrap().count();

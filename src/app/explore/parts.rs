@@ -111,9 +111,9 @@ fn add_to_blade(scene: &mut SceneFile, part: &str) -> Option<()> {
                 .blade
                 .profile
                 .iter()
-                .map(|row| (row.radius_m, row.thickness_m))
+                .map(|row| [row.radius_m, row.thickness_m])
                 .collect();
-            let (radius_m, thickness_m) = next_row(scene, &rows, scene.blade.thickness_m);
+            let [radius_m, thickness_m] = next_row(scene, &rows, scene.blade.thickness_m);
             let profile = &mut scene.blade.profile;
             profile.push(ThicknessRow {
                 radius_m,
@@ -176,9 +176,9 @@ fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
             let rows: Vec<_> = temperature
                 .table
                 .iter()
-                .map(|row| (row.radius_m, row.rise_k))
+                .map(|row| [row.radius_m, row.rise_k])
                 .collect();
-            let (radius_m, rise_k) = next_row(scene, &rows, 0.0);
+            let [radius_m, rise_k] = next_row(scene, &rows, 0.0);
             // A scene must not have both a temperature table and a rise at the rim.
             (temperature.rim_rise_k, temperature.from_radius_m) = (None, None);
             temperature.exponent = None;
@@ -198,9 +198,9 @@ fn add_to_membrane(scene: &mut SceneFile, part: &str) -> Option<()> {
             let rows: Vec<_> = membrane
                 .residual_stress
                 .iter()
-                .map(|row| (row.radius_m, row.hoop_pa))
+                .map(|row| [row.radius_m, row.hoop_pa])
                 .collect();
-            let (radius_m, hoop_pa) = next_row(scene, &rows, 0.0);
+            let [radius_m, hoop_pa] = next_row(scene, &rows, 0.0);
             let stress = &mut membrane.residual_stress;
             stress.push(ResidualStressRow {
                 radius_m,

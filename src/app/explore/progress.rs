@@ -17,7 +17,13 @@ pub struct UnderWay {
 /// Callback for every stage.
 type Tell = Arc<dyn Fn(Stage) + Send + Sync>;
 
-type Stages = Arc<Mutex<HashMap<String, (usize, Stage)>>>;
+/// The latest computation for each page.
+type Stages = Arc<Mutex<HashMap<String, Latest>>>;
+
+struct Latest {
+    number: usize,
+    stage: Stage,
+}
 
 impl UnderWay {
     /// Calls `tell` with every stage of every diagram.
@@ -28,7 +34,7 @@ impl UnderWay {
     /// Stage of the diagram of a page; `None` if none is being computed.
     #[cfg(any(test, feature = "explore"))]
     pub fn stage(&self, page: &str) -> Option<Stage> {
-        locked(&self.stages).get(page).map(|(_, stage)| *stage)
+        locked(&self.stages).get(page).map(|latest| latest.stage)
     }
 
     /// Runs a function that computes a diagram of a page, and records its stages.
@@ -42,29 +48,33 @@ impl UnderWay {
     ) -> Result<T, rayon::ThreadPoolBuildError> {
         let number = 1 + self.begun.fetch_add(1, Ordering::Relaxed);
         let (stages, page_of, told) = (self.stages.clone(), page.to_owned(), self.told.clone());
-        locked(&stages).insert(page_of.clone(), (number, Stage::default()));
+        let stage = Stage::default();
+        locked(&stages).insert(page_of.clone(), Latest { number, stage });
         let progress = Progress::new(move |stage| {
             // A cancelled computation may still report stages after the next computation for the page has
             // started.
             if let Some(latest) = locked(&stages).get_mut(&page_of)
-                && latest.0 == number
+                && latest.number == number
             {
-                latest.1 = stage;
+                latest.stage = stage;
             }
             if let Some(told) = &told {
                 told(stage);
             }
         });
         let done = progress.watched(work);
-        let mut stages = locked(&self.stages);
-        if stages.get(page).is_some_and(|latest| latest.0 == number) {
-            stages.remove(page);
+        let mut running = locked(&self.stages);
+        if running
+            .get(page)
+            .is_some_and(|latest| latest.number == number)
+        {
+            running.remove(page);
         }
         done
     }
 }
 
-fn locked(stages: &Stages) -> MutexGuard<'_, HashMap<String, (usize, Stage)>> {
+fn locked(stages: &Stages) -> MutexGuard<'_, HashMap<String, Latest>> {
     stages.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

@@ -48,36 +48,45 @@ pub fn in_field_units(
 /// Description of an allowed range: "must be …", or "is too large" for a bound that only prevents overflow.
 fn range(path: &str, allowed: &str, field: &Field, unit: FieldUnit) -> String {
     let with_unit = |text: String| format!("{text} {}", unit.unit).trim_end().to_owned();
-    let between = |(from, to): (f64, f64), word, digits| {
-        let [from, to] = [from, to].map(|value| shown_to(digits, value * unit.scale));
+    let between = |ends: [f64; 2], word, digits| {
+        let [from, to] = ends.map(|value| shown_to(digits, value * unit.scale));
         with_unit(format!("{from} {word} {to}"))
     };
     if let Some(ends) = ends(allowed) {
         return format!("must be between {}", between(ends, "and", DIGITS));
     }
-    let Some((word, bound)) = bound(allowed) else {
+    let Some(bound) = bound(allowed) else {
         return format!("must be {}", converted(path, allowed, unit));
     };
-    let usual = between(field.usual, "to", 3);
-    match (word, bound == 0.0) {
-        (_, true) => format!("must be {}; usual: {usual}", with_unit(format!("{word} 0"))),
+    let usual = between(field.usual.into(), "to", 3);
+    match (bound.word, bound.value == 0.0) {
+        (word, true) => format!("must be {}; usual: {usual}", with_unit(format!("{word} 0"))),
         ("at most", _) => format!("is too large; usual: {usual}"),
         _ => format!("is too small; usual: {usual}"),
     }
 }
 
 /// Reads both ends from a text such as "between 0 and 600".
-fn ends(allowed: &str) -> Option<(f64, f64)> {
+fn ends(allowed: &str) -> Option<[f64; 2]> {
     let (from, to) = allowed.strip_prefix("between ")?.split_once(" and ")?;
-    Some((from.parse().ok()?, to.parse().ok()?))
+    Some([from.parse().ok()?, to.parse().ok()?])
 }
 
-/// Reads the word and the number from a text such as "above 0, usual range 0.0001 to 0.04 m".
-fn bound(allowed: &str) -> Option<(&'static str, f64)> {
+/// A bound that a number must be above or below.
+struct Bound {
+    word: &'static str,
+    value: f64,
+}
+
+/// Reads a bound from a text such as "above 0, usual range 0.0001 to 0.04 m".
+fn bound(allowed: &str) -> Option<Bound> {
     let (bound, _) = allowed.split_once(',').unwrap_or((allowed, ""));
     ["above", "at least", "at most"]
         .into_iter()
-        .find_map(|word| Some((word, bound.strip_prefix(word)?.trim().parse().ok()?)))
+        .find_map(|word| {
+            let value = bound.strip_prefix(word)?.trim().parse().ok()?;
+            Some(Bound { word, value })
+        })
 }
 
 /// A word, separated from the brackets and punctuation around it.
@@ -114,18 +123,17 @@ impl<'a> Word<'a> {
 /// other than the unit of the key, "and", "to" or "or", as in "30 diameters", is not converted.
 fn converted(path: &str, allowed: &str, unit: FieldUnit) -> String {
     let si = Quantity::of(path).map_or("", |quantity| quantity.unit);
-    let words: Vec<Word<'_>> = allowed.split(' ').map(Word::new).collect();
+    let mut words = allowed.split(' ').map(Word::new).peekable();
     let mut told: Vec<String> = Vec::new();
     // `last` contains the position of the last number without a unit, and its text with the unit.
     let mut last: Option<(usize, String)> = None;
-    let mut words = words.iter().peekable();
     while let Some(word) = words.next() {
-        let Some(number) = word.number() else {
+        let Some(given) = word.number() else {
             told.push(word.with(&named(path, word.core)));
             continue;
         };
-        let number = shown_to(DIGITS, number * unit.scale);
-        let is_end = |next: &&&Word<'_>| word.after.is_empty() && next.core == si && !si.is_empty();
+        let number = shown_to(DIGITS, given * unit.scale);
+        let is_end = |next: &&Word<'_>| word.after.is_empty() && next.core == si && !si.is_empty();
         if let Some(end) = words.peek().filter(is_end) {
             told.push(format!(
                 "{}{number} {}{}",
@@ -135,7 +143,7 @@ fn converted(path: &str, allowed: &str, unit: FieldUnit) -> String {
             words.next();
             continue;
         }
-        let joins = |next: &&Word<'_>| ["and", "to", "or"].contains(&next.core);
+        let joins = |next: &Word<'_>| ["and", "to", "or"].contains(&next.core);
         if word.after.is_empty() && !words.peek().is_none_or(joins) {
             told.push(word.with(word.core));
             continue;
@@ -215,9 +223,9 @@ mod tests {
         }
         *place = typed.clone();
         let text = scene.to_string();
-        let refusal = Refusal::from(Scene::from_json(&text).unwrap_err());
-        assert_eq!(refusal.key.as_deref(), Some(path));
-        let refusal = refusal.in_field(&text, units);
+        let raw = Refusal::from(Scene::from_json(&text).unwrap_err());
+        assert_eq!(raw.key.as_deref(), Some(path));
+        let refusal = raw.in_field(&text, units);
         refusal
             .told
             .unwrap_or_else(|| panic!("{path}: {}", refusal.message))

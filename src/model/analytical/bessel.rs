@@ -132,12 +132,12 @@ mod tests {
     #[test]
     fn values_agree_with_forty_digits() {
         for (n, x, [j, y, i, k]) in TABLE {
-            let found = four(n, x);
+            let functions = four(n, x);
             let found = [
-                found.j.value,
-                found.y.value,
-                found.scaled_i.value * x.exp(),
-                found.scaled_k.value * (-x).exp(),
+                functions.j.value,
+                functions.y.value,
+                functions.scaled_i.value * x.exp(),
+                functions.scaled_k.value * (-x).exp(),
             ];
             for (found, expected) in found.into_iter().zip([j, y, i, k]) {
                 let error = (found - expected).abs() / expected.abs();

@@ -112,8 +112,8 @@ mod tests {
         let [_, backward] = space_frequencies_rad_per_s(n, body, (1.0 - share) * speed);
         assert!((ratio * body + backward).abs() < 1e-12 * body);
         let critical = wave.critical_speed_rad_per_s().unwrap();
-        let body = wave.body_frequency_rad_per_s(critical);
-        assert!((body - 3.0 * critical).abs() < 1e-12 * body && critical < speed);
+        let at_critical = wave.body_frequency_rad_per_s(critical);
+        assert!((at_critical - 3.0 * critical).abs() < 1e-12 * at_critical && critical < speed);
         let tilt = FreeWave {
             nodal_diameters: 1,
             spin_stiffening: 1.0,

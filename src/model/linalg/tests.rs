@@ -153,10 +153,10 @@ fn two_damped_chains(masses: usize, damping: impl Fn(usize) -> f64) -> Mat<f64> 
         });
         &mirror * apart * &mirror
     };
-    let stiffness = chain(masses, 1.0);
-    let mut velocity = Scale(0.02) * &stiffness;
-    (0..masses).for_each(|i| velocity[(i, i)] += damping(i));
-    let (stiffness, velocity) = (of_both(&stiffness), of_both(&velocity));
+    let springs = chain(masses, 1.0);
+    let mut dampers = Scale(0.02) * &springs;
+    (0..masses).for_each(|i| dampers[(i, i)] += damping(i));
+    let (stiffness, velocity) = (of_both(&springs), of_both(&dampers));
     Mat::from_fn(2 * order, 2 * order, |i, k| match (i < order, k < order) {
         (true, _) => f64::from(u8::from(i + order == k)),
         (false, true) => -stiffness[(i - order, k)],

@@ -47,20 +47,21 @@ impl Rule {
 }
 
 /// Points, ascending, and weights of the Gauss–Legendre rule on [−1, 1].
-fn gauss(points: usize) -> Vec<(f64, f64)> {
+fn gauss(points: usize) -> Rule {
     let degree = NonZeroUsize::new(points).unwrap_or(NonZeroUsize::MIN);
     let mut pairs = gauss_quad::GaussLegendre::new(degree)
         .into_node_weight_pairs()
         .into_vec();
     pairs.sort_by(|x, y| x.0.total_cmp(&y.0));
-    pairs
+    let (points, weights) = pairs.into_iter().unzip();
+    Rule { points, weights }
 }
 
 /// Gauss–Legendre rule on [from, to], for a smooth integrand.
 pub fn smooth(from: f64, to: f64, points: usize) -> Rule {
     let half = 0.5 * (to - from);
     let mut rule = Rule::default();
-    for (x, w) in gauss(points) {
+    for (x, w) in gauss(points).iter() {
         rule.push(from + half * (1.0 + x), half * w);
     }
     rule
@@ -71,12 +72,12 @@ pub fn smooth(from: f64, to: f64, points: usize) -> Rule {
 pub fn graded(from: f64, to: f64, points: usize) -> Rule {
     let panels = (to / from).log2().ceil().max(1.0) as usize;
     let growth = (to / from).powf(1.0 / panels as f64);
-    let pairs = gauss(points);
+    let unit = gauss(points);
     let mut rule = Rule::default();
     for panel in 0..panels {
         let low = from * growth.powi(panel as i32);
         let half = 0.5 * (low * growth - low);
-        for &(x, w) in &pairs {
+        for (x, w) in unit.iter() {
             rule.push(low + half * (1.0 + x), half * w);
         }
     }
@@ -99,7 +100,7 @@ pub fn piecewise(edges: &[f64], points: usize) -> Rule {
 pub fn root_ended(from: f64, to: f64, points: usize) -> Rule {
     let half = 0.5 * (to - from);
     let mut rule = Rule::default();
-    for (t, w) in gauss(points) {
+    for (t, w) in gauss(points).iter() {
         let quarter = std::f64::consts::FRAC_PI_2;
         let (sin, cos) = (quarter * t).sin_cos();
         rule.push(from + half * (1.0 + sin), half * quarter * cos * w);

@@ -33,9 +33,9 @@ impl Resolution {
         blade: &Blade,
     ) -> Result<Self, RefusedValue> {
         let knots = RadialBasis::functions_at_knots(blade);
-        let most = |diameters: usize| MOST_FUNCTIONS.min(MOST_UNKNOWNS / (2 * diameters + 1));
         let diameters = max_diameters.clamp(2, MOST_DIAMETERS);
-        let (least, most) = (2 + knots, most(diameters) + knots);
+        let most_radial = MOST_FUNCTIONS.min(MOST_UNKNOWNS / (2 * diameters + 1));
+        let (least, most) = (2 + knots, most_radial + knots);
         if max_diameters == diameters && (least..=most).contains(&radial_functions) {
             return Ok(Resolution {
                 max_diameters,

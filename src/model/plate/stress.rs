@@ -133,8 +133,8 @@ mod tests {
             }
         }
         let [spline, sliding] = [Bore::Free, Bore::Clamped(InPlane::Free)].map(blade);
-        let sliding = CentrifugalStress::new(&sliding);
-        assert_eq!(CentrifugalStress::new(&spline), sliding);
+        let sliding_stress = CentrifugalStress::new(&sliding);
+        assert_eq!(CentrifugalStress::new(&spline), sliding_stress);
     }
 
     /// A central difference satisfies d(r σ_rr)/dr − σ_θθ + ρΩ²r² = 0.

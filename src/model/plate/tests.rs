@@ -41,8 +41,8 @@ fn a_clipped_pad_equals_its_midpoint_sum() {
             let y = -0.15 + (f64::from(k) + 0.5) * dy;
             let (r, psi) = (x.hypot(y), y.atan2(x));
             if (plate.blade.inner_radius_m..=plate.blade.outer_radius_m).contains(&r) {
-                let f = plate.functions_at(r, psi + pad.angle_deg.to_radians());
-                let f = faer::Col::from_fn(f.len(), |i| f[i]);
+                let values = plate.functions_at(r, psi + pad.angle_deg.to_radians());
+                let f = faer::Col::from_fn(values.len(), |i| values[i]);
                 sum += faer::Scale(2.0e7 * dx * dy / (0.15 * 0.30)) * &f * f.transpose();
             }
         }
@@ -81,8 +81,9 @@ fn a_round_pad_equals_its_midpoint_sum() {
                     radius_m + 0.5 * along * share * cos,
                     0.5 * across * share * sin,
                 );
-                let f = plate.functions_at(x.hypot(y), y.atan2(x) + pad.angle_deg.to_radians());
-                let f = faer::Col::from_fn(f.len(), |i| f[i]);
+                let values =
+                    plate.functions_at(x.hypot(y), y.atan2(x) + pad.angle_deg.to_radians());
+                let f = faer::Col::from_fn(values.len(), |i| values[i]);
                 sum += faer::Scale(2.0e7 * weight) * &f * f.transpose();
             }
         }

@@ -127,10 +127,10 @@ const MOST_BLADES: f64 = 10.0;
 
 impl BladeFile {
     /// Smallest and largest thickness as typed.
-    pub fn thickness_range_m(&self) -> (f64, f64) {
+    pub fn thickness_range_m(&self) -> [f64; 2] {
         let rows = self.profile.iter().map(|row| row.thickness_m);
-        rows.fold((self.thickness_m, self.thickness_m), |(low, high), own| {
-            (low.min(own), high.max(own))
+        rows.fold([self.thickness_m; 2], |[low, high], own| {
+            [low.min(own), high.max(own)]
         })
     }
 }
@@ -244,14 +244,14 @@ impl Blade {
     }
 
     /// Smallest and largest thickness of the moving ring.
-    pub fn thickness_range_m(&self) -> (f64, f64) {
+    pub fn thickness_range_m(&self) -> [f64; 2] {
         let (inner, outer) = (self.inner_radius_m, self.outer_radius_m);
-        let mut range = (self.thickness_at_bore_m(), self.thickness_at_bore_m());
+        let mut range = [self.thickness_at_bore_m(); 2];
         for radius in self.knots_m().into_iter().chain([inner, outer]) {
             let outside = (radius < outer).then(|| self.profile.map(|p| p.outside_m(radius)));
             let inside = (radius > inner).then(|| self.thickness_at_m(radius));
             for thickness in inside.into_iter().chain(outside.flatten()) {
-                range = (range.0.min(thickness), range.1.max(thickness));
+                range = [range[0].min(thickness), range[1].max(thickness)];
             }
         }
         range

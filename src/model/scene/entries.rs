@@ -8,35 +8,45 @@ use super::{RefusedValue, SceneFile};
 /// Keys that do not influence a computation.
 const NO_INPUTS: [&str; 4] = ["$schema", "name", "notes", "measured"];
 
+/// A value of a scene with its JSON path.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Entry<T = Value> {
+    pub path: String,
+    pub value: T,
+}
+
 impl SceneFile {
-    /// Every value that may influence a computation, with its JSON path, in the order of the file.
-    pub(crate) fn inputs(&self) -> Vec<(String, Value)> {
+    /// Every value that may influence a computation, in the order of the file.
+    pub(crate) fn inputs(&self) -> Vec<Entry> {
         let mut json = value(self);
         if let Some(keys) = json.as_object_mut() {
             keys.retain(|key, _| !NO_INPUTS.contains(&key.as_str()));
         }
         let mut found = Vec::new();
         below(json, "", &mut found);
-        found.retain(|(_, value)| !value.is_null());
+        found.retain(|entry| !entry.value.is_null());
         found
     }
 
-    /// Every value with its JSON path, in the order of the file. A number that is not finite is null.
-    pub(super) fn values(&self) -> Vec<(String, Value)> {
+    /// Every value, in the order of the file. A number that is not finite is null.
+    pub(super) fn values(&self) -> Vec<Entry> {
         let mut found = Vec::new();
         below(value(self), "", &mut found);
         found
     }
 
-    /// Every number, with its JSON path, in the order of the file.
-    pub(super) fn numbers(&self) -> Vec<(String, f64)> {
-        let number = |(path, value): (String, Value)| Some((path, value.as_f64()?));
+    /// Every number, in the order of the file.
+    pub(super) fn numbers(&self) -> Vec<Entry<f64>> {
+        let number = |Entry { path, value }: Entry| {
+            let value = value.as_f64()?;
+            Some(Entry { path, value })
+        };
         self.values().into_iter().filter_map(number).collect()
     }
 
     /// Checks that every number of a scene is in its allowed range. Rules that join several keys remain to be checked.
     pub(super) fn check_numbers(&self) -> Result<(), RefusedValue> {
-        for (path, value) in self.values() {
+        for Entry { path, value } in self.values() {
             let Some(quantity) = Quantity::of(&path) else {
                 continue;
             };
@@ -68,7 +78,7 @@ pub(crate) fn in_words(value: &Value) -> String {
 }
 
 /// Appends every text, number, truth value and null below a JSON value, with its path.
-fn below(value: Value, path: &str, found: &mut Vec<(String, Value)>) {
+fn below(value: Value, path: &str, found: &mut Vec<Entry>) {
     match value {
         Value::Object(json) => {
             let dot = if path.is_empty() { "" } else { "." };
@@ -81,6 +91,9 @@ fn below(value: Value, path: &str, found: &mut Vec<(String, Value)>) {
                 below(inner, &format!("{path}[{k}]"), found);
             }
         }
-        single => found.push((path.to_owned(), single)),
+        value => found.push(Entry {
+            path: path.to_owned(),
+            value,
+        }),
     }
 }

@@ -48,12 +48,13 @@ impl ExcitationLine {
         if typed.tooth_passing > 0 {
             let reason = "where excitation.tooth_passing is given";
             let teeth = needed_teeth(teeth, reason, "give the number of teeth")?;
-            let multiples = (1..=typed.tooth_passing).map(|multiple| ExcitationLine {
-                order: multiple.saturating_mul(teeth),
-                tooth_passing: Some(multiple),
-            });
+            let multiples: Vec<Self> = (1..=typed.tooth_passing)
+                .map(|multiple| ExcitationLine {
+                    order: multiple.saturating_mul(teeth),
+                    tooth_passing: Some(multiple),
+                })
+                .collect();
             // A line whose order is also a multiple of tooth passing is listed only as this multiple.
-            let multiples: Vec<Self> = multiples.collect();
             lines.retain(|line| multiples.iter().all(|other| other.order != line.order));
             lines.extend(multiples);
         }

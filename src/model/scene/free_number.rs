@@ -69,18 +69,16 @@ impl Freed {
     /// [`SceneError`] as for [`Freed::new`].
     pub fn with_usual_bounds(scene: &Scene, path: &str) -> Result<Self, SceneError> {
         let value = Parameter::new(path).get(&scene.file)?;
-        let (from, to) = match Quantity::kind_of(path) {
-            Kind::GuideRadius => (scene.blade.inner_radius_m, scene.blade.outer_radius_m),
-            Kind::Stiffness | Kind::Damping => (value / 30.0, value * 30.0),
-            Kind::Angle => (value - 60.0, value + 60.0),
-            Kind::Gap => (0.25 * value, 4.0 * value),
+        let [from, to] = match Quantity::kind_of(path) {
+            Kind::GuideRadius => [scene.blade.inner_radius_m, scene.blade.outer_radius_m],
+            Kind::Stiffness | Kind::Damping => [value / 30.0, value * 30.0],
+            Kind::Angle => [value - 60.0, value + 60.0],
+            Kind::Gap => [0.25 * value, 4.0 * value],
             Kind::Radius | Kind::Count | Kind::Other => {
-                (value - 0.2 * value.abs(), value + 0.2 * value.abs())
+                [value - 0.2 * value.abs(), value + 0.2 * value.abs()]
             }
-        };
-        let [from, to] = [from, to].map(|bound| {
-            Quantity::of(path).map_or(bound, |quantity| quantity.allowed.nearest(bound))
-        });
+        }
+        .map(|bound| Quantity::of(path).map_or(bound, |quantity| quantity.allowed.nearest(bound)));
         Freed::new(&scene.file, path, from, to)
     }
 
@@ -190,15 +188,22 @@ pub fn scene_at(scene: &SceneFile, freed: &[Freed], shares: &[f64]) -> Result<Sc
 /// Index of the freed angle that a search keeps constant; `None` unless the angles of all guides are free. A common
 /// rotation of all guides changes no frequency of the idling saw, in which nothing else is fixed in space.
 pub fn common_turn(scene: &Scene, freed: &[Freed]) -> Option<usize> {
-    let of_guide = |index: usize| format!("guides[{index}].angle_deg");
-    let place = |index: usize| {
-        let path = of_guide(index);
-        freed.iter().position(|f| f.parameter.path() == path)
-    };
     let pads = scene.file.guides.iter().enumerate();
     let acting = pads.filter(|(_, pad)| pad.acts());
-    let angles: Option<Vec<usize>> = acting.map(|(index, _)| place(index)).collect();
+    let places = acting.map(|(index, _)| {
+        let path = format!("guides[{index}].angle_deg");
+        freed.iter().position(|f| f.parameter.path() == path)
+    });
+    let angles: Option<Vec<usize>> = places.collect();
     angles.and_then(|angles| angles.first().copied())
+}
+
+/// Freed numbers by their effect.
+pub struct Parted {
+    /// Numbers that change the answer.
+    pub moving: Vec<Freed>,
+    /// Numbers that do not.
+    pub idle: Vec<Freed>,
 }
 
 /// Divides the freed numbers into those that change an answer and those that do not, such as the angle of a
@@ -214,7 +219,7 @@ pub fn effective<A, E: Send>(
     shares: &[f64],
     answer: impl Fn(&[f64]) -> Result<Option<A>, E> + Sync,
     differ: impl Fn(&A, &A) -> bool + Sync,
-) -> Result<(Vec<Freed>, Vec<Freed>), E> {
+) -> Result<Parted, E> {
     let own: Vec<f64> = freed.iter().map(|f| f.share_of(&scene.file)).collect();
     let constant = common_turn(scene, freed);
     let moves = |k: usize| -> Result<bool, E> {
@@ -235,14 +240,19 @@ pub fn effective<A, E: Send>(
         }
         Ok(false)
     };
-    let moving = (0..freed.len())
+    let has_effect = (0..freed.len())
         .into_par_iter()
         .map(moves)
         .collect::<Result<Vec<bool>, E>>()?;
-    let pairs = freed.iter().cloned().zip(moving);
-    let (moving, idle): (Vec<_>, Vec<_>) = pairs.partition(|(_, moves)| *moves);
-    let freed = |pairs: Vec<(Freed, bool)>| pairs.into_iter().map(|(freed, _)| freed).collect();
-    Ok((freed(moving), freed(idle)))
+    let with = |effect: bool| {
+        let pairs = freed.iter().zip(&has_effect);
+        let own = pairs.filter(|(_, has_effect)| **has_effect == effect);
+        own.map(|(freed, _)| freed.clone()).collect()
+    };
+    Ok(Parted {
+        moving: with(true),
+        idle: with(false),
+    })
 }
 
 /// Point `index` of a sequence that fills the unit cube evenly in any number d of dimensions: multiples of the

@@ -50,14 +50,14 @@ impl GuideFile {
     pub fn outline_m(&self) -> Vec<[f64; 2]> {
         let (sin, cos) = self.angle_deg.to_radians().sin_cos();
         let half = [self.radial_length_m, self.tangential_length_m].map(|side| 0.5 * side);
-        let corners: Vec<(f64, f64)> = match self.shape {
+        let unit_corners: Vec<(f64, f64)> = match self.shape {
             GuideShape::Rectangle => vec![(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)],
             GuideShape::Round => {
                 let turns = (0..ELLIPSE_CORNERS).map(|k| f64::from(k) / f64::from(ELLIPSE_CORNERS));
                 turns.map(|turn| (TAU * turn).sin_cos()).collect()
             }
         };
-        let corners = corners.iter().map(|(along, across)| {
+        let corners = unit_corners.iter().map(|(along, across)| {
             let (x, y) = (self.radius_m + along * half[0], across * half[1]);
             [x * cos - y * sin, x * sin + y * cos]
         });
@@ -80,8 +80,8 @@ impl GuideFile {
     }
 
     /// Half the lengths along and across the radius.
-    pub(crate) fn half_lengths_m(&self) -> (f64, f64) {
-        (0.5 * self.radial_length_m, 0.5 * self.tangential_length_m)
+    pub(crate) fn half_lengths_m(&self) -> [f64; 2] {
+        [0.5 * self.radial_length_m, 0.5 * self.tangential_length_m]
     }
 
     /// Area of the pad.
@@ -96,7 +96,7 @@ impl GuideFile {
     /// Radii of the circles about the axis that touch a side of the pad or pass through a corner. At these radii the
     /// arcs inside the pad are not smooth functions of the radius.
     pub(crate) fn touching_radii_m(&self) -> Vec<f64> {
-        let (a, b) = self.half_lengths_m();
+        let [a, b] = self.half_lengths_m();
         let c = self.radius_m;
         let (near, far) = (c - a, c + a);
         let mut radii = vec![near.abs(), far.abs()];
@@ -115,12 +115,12 @@ impl GuideFile {
     }
 
     /// Smallest and largest distance of the pad from the axis, including the part of the pad beside the blade.
-    pub(crate) fn reach_m(&self) -> (f64, f64) {
-        let nearest = (self.radius_m - self.half_lengths_m().0).max(0.0);
-        (
+    pub(crate) fn reach_m(&self) -> [f64; 2] {
+        let nearest = (self.radius_m - self.half_lengths_m()[0]).max(0.0);
+        [
             nearest,
             self.touching_radii_m().into_iter().fold(0.0, f64::max),
-        )
+        ]
     }
 }
 
@@ -136,7 +136,7 @@ pub fn guide(index: usize, pad: &GuideFile, blade: &Blade) -> Result<Guide, Scen
             "give both sides of the pad, or zero for both to make it a point spring",
         ));
     }
-    let (nearest_m, farthest_m) = pad.reach_m();
+    let [nearest_m, farthest_m] = pad.reach_m();
     let touches = if pad.is_point() {
         (blade.inner_radius_m..=blade.outer_radius_m).contains(&pad.radius_m)
     } else {

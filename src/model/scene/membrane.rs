@@ -153,15 +153,14 @@ impl Temperature {
             let allowed = "given by one of the two";
             return Err(RefusedValue::new("membrane.temperature", given, allowed, remedy).into());
         }
-        let (peak_rise_k, shape) = match typed.rim_rise_k {
-            Some(rise) => (rise, rim_shape(typed, blade)?),
-            None => table(typed, blade)?,
-        };
-        Ok(Temperature {
-            expansion_per_k: typed.expansion_per_k,
-            peak_rise_k,
-            shape,
-        })
+        match typed.rim_rise_k {
+            Some(peak_rise_k) => Ok(Temperature {
+                expansion_per_k: typed.expansion_per_k,
+                peak_rise_k,
+                shape: rim_shape(typed, blade)?,
+            }),
+            None => table(typed, blade),
+        }
     }
 
     /// Temperature rise at a radius, in K.
@@ -203,7 +202,7 @@ fn rim_shape(typed: &TemperatureFile, blade: &Blade) -> Result<TemperatureShape,
     })
 }
 
-fn table(typed: &TemperatureFile, blade: &Blade) -> Result<(f64, TemperatureShape), SceneError> {
+fn table(typed: &TemperatureFile, blade: &Blade) -> Result<Temperature, SceneError> {
     let key = "membrane.temperature.table";
     for (name, given) in [
         ("from_radius_m", typed.from_radius_m),
@@ -218,20 +217,28 @@ fn table(typed: &TemperatureFile, blade: &Blade) -> Result<(f64, TemperatureShap
     few(key, typed.table.len())?;
     let radii: Vec<f64> = typed.table.iter().map(|row| row.radius_m).collect();
     ascending(key, &radii, blade.outer_radius_m)?;
-    let mut rows: Vec<(f64, f64)> = typed
+    let mut rows: Vec<[f64; 2]> = typed
         .table
         .iter()
-        .map(|row| (row.radius_m, row.rise_k))
+        .map(|row| [row.radius_m, row.rise_k])
         .collect();
-    let peak = Profile::new(&rows).map_or(0.0, |profile| {
+    let typed_peak = Profile::new(&rows).map_or(0.0, |profile| {
         profile.peak(blade.inner_radius_m, blade.outer_radius_m)
     });
     // Division by a peak far below `MIN_RISE_K` could overflow, so a peak below this limit is taken as zero.
-    let peak = if peak.abs() < MIN_RISE_K { 0.0 } else { peak };
+    let peak = if typed_peak.abs() < MIN_RISE_K {
+        0.0
+    } else {
+        typed_peak
+    };
     let share = if peak == 0.0 { 0.0 } else { 1.0 / peak };
-    rows.iter_mut().for_each(|(_, rise)| *rise *= share);
+    rows.iter_mut().for_each(|[_, rise]| *rise *= share);
     let profile = Profile::new(&rows).expect("a table that is not empty has rows");
-    Ok((peak, TemperatureShape::Table(profile)))
+    Ok(Temperature {
+        expansion_per_k: typed.expansion_per_k,
+        peak_rise_k: peak,
+        shape: TemperatureShape::Table(profile),
+    })
 }
 
 #[cfg(test)]
@@ -246,19 +253,20 @@ mod tests {
         })
     }
 
-    fn temperature(text: &str) -> (Blade, Temperature) {
+    fn temperature(text: &str) -> Temperature {
         let scene = scene(&format!("{{\"temperature\": {text}}}")).unwrap();
-        (scene.blade, scene.membrane.unwrap().temperature.unwrap())
+        scene.membrane.unwrap().temperature.unwrap()
     }
 
     #[test]
     fn a_rim_rise_is_straight_from_the_bore_unless_said_otherwise() {
-        let (blade, plain) = temperature(r#"{"expansion_per_k": 1.2e-5, "rim_rise_k": 20}"#);
+        let blade = Scene::paper().blade;
+        let plain = temperature(r#"{"expansion_per_k": 1.2e-5, "rim_rise_k": 20}"#);
         let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
         let rises = [a, 0.5 * (a + b), b].map(|r| plain.rise_k(&blade, r));
         assert!((rises[0]).abs() < 1e-12 && (rises[1] - 10.0).abs() < 1e-12);
         assert!((rises[2] - 20.0).abs() < 1e-12);
-        let (_, shaped) = temperature(
+        let shaped = temperature(
             r#"{"expansion_per_k": 1.2e-5, "rim_rise_k": 20, "from_radius_m": 0.3, "exponent": 2}"#,
         );
         assert_eq!(shaped.rise_k(&blade, 0.29), 0.0);
@@ -268,7 +276,8 @@ mod tests {
 
     #[test]
     fn a_table_is_its_peak_times_a_shape() {
-        let (blade, table) = temperature(
+        let blade = Scene::paper().blade;
+        let table = temperature(
             r#"{"expansion_per_k": 1.2e-5, "table": [{"radius_m": 0.1, "rise_k": 8},
                 {"radius_m": 0.3, "rise_k": -24}]}"#,
         );
@@ -285,9 +294,9 @@ mod tests {
             let text = format!(
                 r#"{{"expansion_per_k": 1.2e-5, "table": [{{"radius_m": 0.1, "rise_k": {rise}}}]}}"#
             );
-            let (blade, nothing) = temperature(&text);
+            let nothing = temperature(&text);
             assert_eq!(nothing.peak_rise_k, 0.0);
-            assert_eq!(nothing.rise_k(&blade, 0.2), 0.0);
+            assert_eq!(nothing.rise_k(&Scene::paper().blade, 0.2), 0.0);
         }
     }
 }

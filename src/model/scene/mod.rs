@@ -57,13 +57,13 @@ pub(crate) use cut::in_words as in_the_cut;
 pub use cut::{Cut, CutRun};
 pub use cut_file::{CutFile, CutSpeedFile};
 pub use damping::{DampingFile, ModeRatioRow};
-pub(crate) use entries::in_words;
+pub(crate) use entries::{Entry, in_words};
 pub use excitation::{ExcitationFile, ExcitationLine};
 pub use file::{Accuracy, Measured, MeasuredRow, SceneFile, SweepFile};
 #[doc(hidden)]
 pub use free_number::spread;
 pub use free_number::{Freed, NamedBounds};
-pub(crate) use free_number::{effective, is_logarithmic, scene_at};
+pub(crate) use free_number::{Parted, effective, is_logarithmic, scene_at};
 pub use friction::FrictionFile;
 pub(crate) use guide::{Guide, Lifting};
 pub use guide_file::{ContactLaw, GuideFile, GuideShape, GuideSide};

@@ -66,8 +66,8 @@ mod tests {
         let paper = include_str!("../../../scenes/paper.json");
         let text = paper.replacen('{', &format!("{{ {first}"), 1);
         assert!(text.contains("\"teeth\": 42"));
-        let text = text.replace("\"teeth\": 42", &format!("\"teeth\": {teeth}"));
-        Scene::from_json(&text).map_err(|error| error.to_string())
+        let with_teeth = text.replace("\"teeth\": 42", &format!("\"teeth\": {teeth}"));
+        Scene::from_json(&with_teeth).map_err(|error| error.to_string())
     }
 
     #[test]

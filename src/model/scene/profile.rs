@@ -8,10 +8,12 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// The profile through rows (radius, value) with ascending radii; `None` without rows.
-    pub(super) fn new(rows: &[(f64, f64)]) -> Option<Self> {
-        let (radius_m, value): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
-        (!value.is_empty()).then_some(Profile { radius_m, value })
+    /// The profile through rows [radius, value] with ascending radii; `None` without rows.
+    pub(super) fn new(rows: &[[f64; 2]]) -> Option<Self> {
+        (!rows.is_empty()).then(|| Profile {
+            radius_m: rows.iter().map(|row| row[0]).collect(),
+            value: rows.iter().map(|row| row[1]).collect(),
+        })
     }
 
     /// Radii at which the slope changes.
@@ -105,7 +107,7 @@ mod tests {
 
     #[test]
     fn a_tent_has_the_area_and_the_moment_of_a_triangle() {
-        let tent = Profile::new(&[(1.0, 0.0), (2.0, 3.0), (3.0, 0.0)]).unwrap();
+        let tent = Profile::new(&[[1.0, 0.0], [2.0, 3.0], [3.0, 0.0]]).unwrap();
         assert_eq!([tent.at(0.5), tent.at(1.5), tent.at(4.0)], [0.0, 1.5, 0.0]);
         assert!((tent.integral(0.5, 4.0) - 3.0).abs() < 1e-15);
         // Its centre of area is at r = 2.
@@ -116,7 +118,7 @@ mod tests {
 
     #[test]
     fn beyond_its_ends_it_is_constant() {
-        let step = Profile::new(&[(1.0, -2.0), (2.0, 4.0)]).unwrap();
+        let step = Profile::new(&[[1.0, -2.0], [2.0, 4.0]]).unwrap();
         assert!((step.integral(0.0, 3.0) - (-2.0 + 1.0 + 4.0)).abs() < 1e-15);
         // Between 1 and 2 the areas of two triangles are added: −2 to 0 over a third, 0 to 4 over two thirds.
         let crossing = 0.5 * (2.0 / 3.0) * (1.0 + 0.0) + 0.5 * 4.0 * (2.0 / 3.0);

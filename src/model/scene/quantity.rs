@@ -141,8 +141,7 @@ impl Quantity {
             ("rpm", _) if value < 0.0 => TURNS_THE_OTHER_WAY,
             _ => "give a number in this range, in this unit",
         };
-        let allowed = allowed.trim_end();
-        RefusedValue::new(key, words, allowed, remedy)
+        RefusedValue::new(key, words, allowed.trim_end(), remedy)
     }
 
     /// The usual range for a reader: "usual range 0.04 to 5 m".

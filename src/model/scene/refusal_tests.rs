@@ -9,10 +9,10 @@ use crate::page::text::shown;
 /// Puts a value at a path like `guides.0.gap_m`.
 fn put(scene: &mut Value, path: &str, value: Value) {
     let (parent, key) = path.rsplit_once('.').unwrap_or(("", path));
-    let parent = scene.pointer_mut(&pointer(parent)).unwrap();
+    let holder = scene.pointer_mut(&pointer(parent)).unwrap();
     match key.parse::<usize>() {
-        Ok(index) => parent[index] = value,
-        Err(_) => parent[key] = value,
+        Ok(index) => holder[index] = value,
+        Err(_) => holder[key] = value,
     }
 }
 
@@ -48,23 +48,23 @@ fn with(changes: impl IntoIterator<Item = (String, Value)>) -> Value {
 }
 
 /// Ends of a range, each with a number just inside and one just outside.
-fn ends(quantity: &Quantity) -> [(f64, f64); 2] {
+fn ends(quantity: &Quantity) -> [[f64; 2]; 2] {
     let allowed = quantity.allowed;
     if quantity.kind == Kind::Count {
         return [
-            (allowed.from, allowed.from - 1.0),
-            (allowed.to, allowed.to + 1.0),
+            [allowed.from, allowed.from - 1.0],
+            [allowed.to, allowed.to + 1.0],
         ];
     }
     let below = if allowed.is_open_below {
-        (allowed.from.next_up(), allowed.from)
+        [allowed.from.next_up(), allowed.from]
     } else {
-        (allowed.from, allowed.from.next_down())
+        [allowed.from, allowed.from.next_down()]
     };
     let above = if allowed.is_open_above {
-        (allowed.to.next_down(), allowed.to)
+        [allowed.to.next_down(), allowed.to]
     } else {
-        (allowed.to, allowed.to.next_up())
+        [allowed.to, allowed.to.next_up()]
     };
     [below, above]
 }
@@ -92,7 +92,7 @@ fn every_number_out_of_its_range_is_refused_by_its_key() {
             };
             scene
         };
-        for (inside, outside) in ends(quantity) {
+        for [inside, outside] in ends(quantity) {
             let file = Scene::file_from_json(&put_there(inside).to_string()).unwrap();
             if let Err(error) = file.check_numbers() {
                 wrong.push(format!("{inside}: {error}"));

@@ -53,7 +53,7 @@ impl ResidualStress {
             .flat_map(|row| [Some(row.hoop_pa), row.radial_pa])
             .flatten();
         let largest = sizes.map(f64::abs).fold(0.0, f64::max);
-        let hoop: Vec<(f64, f64)> = rows.iter().map(|row| (row.radius_m, row.hoop_pa)).collect();
+        let hoop: Vec<[f64; 2]> = rows.iter().map(|row| [row.radius_m, row.hoop_pa]).collect();
         let Some(hoop) = Profile::new(&hoop) else {
             return Ok(None);
         };
@@ -151,6 +151,6 @@ fn force(hoop_pa: &Profile, blade: &Blade, from: f64) -> f64 {
 
 /// The value of [`force`] from the inner edge for a unit stress.
 fn even_force(blade: &Blade) -> f64 {
-    let unit = Profile::new(&[(blade.outer_radius_m, 1.0)]);
+    let unit = Profile::new(&[[blade.outer_radius_m, 1.0]]);
     unit.map_or(0.0, |unit| force(&unit, blade, blade.inner_radius_m))
 }

@@ -32,7 +32,7 @@ impl FromStr for Setting {
 
     /// Parses a text like `guides[0].stiffness_n_per_m=20 kN/mm`.
     fn from_str(text: &str) -> Result<Self, RefusedValue> {
-        let Some((path, value)) = text.split_once('=') else {
+        let Some((name, number)) = text.split_once('=') else {
             let allowed = "a path, =, and a number with or without a unit";
             let remedy = "write it like blade.thickness_m=2.6mm";
             return Err(RefusedValue::new(
@@ -42,8 +42,8 @@ impl FromStr for Setting {
                 remedy,
             ));
         };
-        let path = path.trim().to_owned();
-        let value = number_of(&path, value)?;
+        let path = name.trim().to_owned();
+        let value = number_of(&path, number)?;
         Ok(Setting { path, value })
     }
 }
@@ -65,7 +65,8 @@ pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
     if text.contains(',') {
         return Err(refused("write it with a decimal point"));
     }
-    let (digits, unit) = split(text);
+    let (digits, rest) = text.split_at(end_of_number(text));
+    let unit = rest.trim();
     let value: f64 = digits
         .parse()
         .map_err(|_| refused("write it like 0.0026 or 2.6mm"))?;
@@ -95,19 +96,16 @@ pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
     })
 }
 
-/// Splits a text into its leading number and the rest.
-fn split(text: &str) -> (&str, &str) {
-    let is_digit = |c: char| c.is_ascii_digit() || c == '.';
-    let exponent = |at: usize| {
-        let rest = text[at..].strip_prefix(['e', 'E']);
-        let rest = rest.map(|rest| rest.strip_prefix(['+', '-']).unwrap_or(rest));
-        rest.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
-    };
+/// End of the number with which a text begins.
+fn end_of_number(text: &str) -> usize {
     let mut end = text.len() - text.trim_start_matches(['+', '-']).len();
     end += text[end..]
-        .find(|c| !is_digit(c))
+        .find(|c: char| !(c.is_ascii_digit() || c == '.'))
         .unwrap_or(text.len() - end);
-    if exponent(end) {
+    let exponent = text[end..]
+        .strip_prefix(['e', 'E'])
+        .map(|rest| rest.strip_prefix(['+', '-']).unwrap_or(rest));
+    if exponent.is_some_and(|digits| digits.starts_with(|c: char| c.is_ascii_digit())) {
         end += 1;
         end += usize::from(text[end..].starts_with(['+', '-']));
         let rest = &text[end..];
@@ -115,7 +113,7 @@ fn split(text: &str) -> (&str, &str) {
             .find(|c: char| !c.is_ascii_digit())
             .unwrap_or(rest.len());
     }
-    (&text[..end], text[end..].trim())
+    end
 }
 
 fn unknown(path: &str) -> RefusedValue {

@@ -85,9 +85,9 @@ mod tests {
 
     #[test]
     fn the_papers_clearance_and_the_bore_are_the_only_defaults() {
-        let typed = r#"{ "teeth": 20, "pressure_angle_deg": 0,
+        let json = r#"{ "teeth": 20, "pressure_angle_deg": 0,
             "contact_stiffness_n_per_m_3_2": 7e9, "contact_damping_n_s_3_2_per_m_3_2": 0 }"#;
-        let typed: SplineFile = serde_json::from_str(typed).unwrap();
+        let typed: SplineFile = serde_json::from_str(json).unwrap();
         let blade = Scene::paper().blade;
         assert_eq!(typed.clearance_m, 0.25e-3);
         assert_eq!(typed.pitch_radius_on_m(&blade), blade.inner_radius_m);

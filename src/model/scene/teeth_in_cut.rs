@@ -85,8 +85,8 @@ mod tests {
     const TIMES: u32 = 200_000;
 
     fn times([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
-        let share = |k: u32| (f64::from(k) + 0.5) / f64::from(TIMES);
-        (0..TIMES).map(move |k| from + (to - from) * share(k))
+        let shares = (0..TIMES).map(|k| (f64::from(k) + 0.5) / f64::from(TIMES));
+        shares.map(move |share| from + (to - from) * share)
     }
 
     fn teeth(mean: f64) -> TeethInCut {

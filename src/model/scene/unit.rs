@@ -14,8 +14,8 @@ pub(super) struct Unit {
     powers: Powers,
 }
 
-const fn u(symbol: &'static str, factor: f64, powers: Powers) -> (&'static str, Unit) {
-    (symbol, Unit { factor, powers })
+const fn unit(factor: f64, powers: Powers) -> Unit {
+    Unit { factor, powers }
 }
 
 const LENGTH: Powers = [1.0, 0.0, 0.0, 0.0, 0.0];
@@ -27,10 +27,7 @@ const POWER: Powers = [2.0, 1.0, -3.0, 0.0, 0.0];
 const ANGLE: Powers = [0.0, 0.0, 0.0, 0.0, 1.0];
 const TURNING: Powers = [0.0, 0.0, -1.0, 0.0, 1.0];
 const NUMBER: Powers = [0.0; 5];
-const ONE: Unit = Unit {
-    factor: 1.0,
-    powers: NUMBER,
-};
+const ONE: Unit = unit(1.0, NUMBER);
 const TURN: f64 = 2.0 * std::f64::consts::PI;
 const POUND_KG: f64 = 0.453_592_37;
 const POUND_N: f64 = POUND_KG * 9.806_65;
@@ -38,37 +35,37 @@ const INCH_M: f64 = 0.0254;
 
 /// Units that take a prefix.
 const PREFIXED: [(&str, Unit); 9] = [
-    u("m", 1.0, LENGTH),
-    u("g", 1e-3, MASS),
-    u("s", 1.0, TIME),
-    u("K", 1.0, [0.0, 0.0, 0.0, 1.0, 0.0]),
-    u("N", 1.0, FORCE),
-    u("Pa", 1.0, PRESSURE),
-    u("W", 1.0, POWER),
-    u("Hz", 1.0, [0.0, 0.0, -1.0, 0.0, 0.0]),
-    u("rad", 1.0, ANGLE),
+    ("m", unit(1.0, LENGTH)),
+    ("g", unit(1e-3, MASS)),
+    ("s", unit(1.0, TIME)),
+    ("K", unit(1.0, [0.0, 0.0, 0.0, 1.0, 0.0])),
+    ("N", unit(1.0, FORCE)),
+    ("Pa", unit(1.0, PRESSURE)),
+    ("W", unit(1.0, POWER)),
+    ("Hz", unit(1.0, [0.0, 0.0, -1.0, 0.0, 0.0])),
+    ("rad", unit(1.0, ANGLE)),
 ];
 
 /// Units without a prefix. They are tried first, so that `min` is not read as milli-inch.
 const PLAIN: [(&str, Unit); 18] = [
     ("1", ONE),
-    u("%", 1e-2, NUMBER),
-    u("min", 60.0, TIME),
-    u("h", 3600.0, TIME),
-    u("°", TURN / 360.0, ANGLE),
-    u("deg", TURN / 360.0, ANGLE),
-    u("rev", TURN, ANGLE),
-    u("rpm", TURN / 60.0, TURNING),
-    u("rps", TURN, TURNING),
-    u("bar", 1e5, PRESSURE),
-    u("in", INCH_M, LENGTH),
-    u("inch", INCH_M, LENGTH),
-    u("ft", 12.0 * INCH_M, LENGTH),
-    u("lb", POUND_KG, MASS),
-    u("lbf", POUND_N, FORCE),
-    u("psi", POUND_N / (INCH_M * INCH_M), PRESSURE),
-    u("ksi", 1e3 * POUND_N / (INCH_M * INCH_M), PRESSURE),
-    u("hp", 550.0 * 12.0 * INCH_M * POUND_N, POWER),
+    ("%", unit(1e-2, NUMBER)),
+    ("min", unit(60.0, TIME)),
+    ("h", unit(3600.0, TIME)),
+    ("°", unit(TURN / 360.0, ANGLE)),
+    ("deg", unit(TURN / 360.0, ANGLE)),
+    ("rev", unit(TURN, ANGLE)),
+    ("rpm", unit(TURN / 60.0, TURNING)),
+    ("rps", unit(TURN, TURNING)),
+    ("bar", unit(1e5, PRESSURE)),
+    ("in", unit(INCH_M, LENGTH)),
+    ("inch", unit(INCH_M, LENGTH)),
+    ("ft", unit(12.0 * INCH_M, LENGTH)),
+    ("lb", unit(POUND_KG, MASS)),
+    ("lbf", unit(POUND_N, FORCE)),
+    ("psi", unit(POUND_N / (INCH_M * INCH_M), PRESSURE)),
+    ("ksi", unit(1e3 * POUND_N / (INCH_M * INCH_M), PRESSURE)),
+    ("hp", unit(550.0 * 12.0 * INCH_M * POUND_N, POWER)),
 ];
 
 const PREFIXES: [(char, f64); 9] = [
@@ -89,11 +86,10 @@ impl Unit {
     /// Parses a unit; `None` if the text is not a unit. An empty text is the unit of a dimensionless number.
     pub fn parse(text: &str) -> Option<Unit> {
         let words: Vec<&str> = text.split_whitespace().collect();
-        let ends = |word: &str| word.ends_with(SIGNS);
-        let begins = |word: &str| word.starts_with(SIGNS);
         // Two units that only a blank separates are refused: without the blank, `m s` would be read as
         // milliseconds.
-        if (words.windows(2)).any(|pair| !ends(pair[0]) && !begins(pair[1])) {
+        let is_apart = |pair: &[&str]| !pair[0].ends_with(SIGNS) && !pair[1].starts_with(SIGNS);
+        if words.windows(2).any(is_apart) {
             return None;
         }
         let text = words.concat();
@@ -143,8 +139,12 @@ fn power(rest: &mut &str) -> Option<Unit> {
         }
         None => {
             let is_one = rest.starts_with('1');
-            let end = rest.find(|c: char| !(c.is_alphabetic() || c == '°' || c == '%'));
-            let end = if is_one { 1 } else { end.unwrap_or(rest.len()) };
+            let letters = rest.find(|c: char| !(c.is_alphabetic() || c == '°' || c == '%'));
+            let end = if is_one {
+                1
+            } else {
+                letters.unwrap_or(rest.len())
+            };
             let (symbol, after) = rest.split_at(end);
             *rest = after;
             of_symbol(symbol)?
@@ -184,8 +184,8 @@ fn exponent(rest: &mut &str) -> Option<f64> {
         marked?;
         let (fraction, after) = inner.split_once(')')?;
         *rest = after;
-        let (above, below) = fraction.split_once('/').unwrap_or((fraction, "1"));
-        let (above, below): (f64, f64) = (above.parse().ok()?, below.parse().ok()?);
+        let (above_text, below_text) = fraction.split_once('/').unwrap_or((fraction, "1"));
+        let (above, below): (f64, f64) = (above_text.parse().ok()?, below_text.parse().ok()?);
         return (below != 0.0).then_some(above / below);
     }
     let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '-'));

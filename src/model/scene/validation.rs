@@ -68,23 +68,28 @@ impl TryFrom<SceneFile> for Scene {
 
 fn blade(file: &SceneFile) -> Result<Blade, SceneError> {
     let typed = &file.blade;
-    let (outer, bore) = (typed.outer_diameter_m, typed.inner_diameter_m);
+    let (outer, bore_diameter) = (typed.outer_diameter_m, typed.inner_diameter_m);
     let thickness_m = typed.thickness_m;
-    if bore >= outer {
+    if bore_diameter >= outer {
         let allowed = format!("less than blade.outer_diameter_m ({})", shown(outer));
         let remedy = "a bore is smaller than its blade; were the two exchanged?";
-        return Err(refuse("blade.inner_diameter_m", bore, allowed, remedy));
+        return Err(refuse(
+            "blade.inner_diameter_m",
+            bore_diameter,
+            allowed,
+            remedy,
+        ));
     }
     let (inner, bore) = match file.mount {
-        Mount::Spline {} => (bore, Bore::Free),
+        Mount::Spline {} => (bore_diameter, Bore::Free),
         Mount::Collar {
             diameter_m,
             in_plane,
         } => {
-            if !(bore..outer).contains(&diameter_m) {
+            if !(bore_diameter..outer).contains(&diameter_m) {
                 let allowed = format!(
                     "from the bore ({}) to below the rim ({})",
-                    shown(bore),
+                    shown(bore_diameter),
                     shown(outer)
                 );
                 let remedy = "give the outer diameter of the collar";

@@ -122,7 +122,8 @@ impl Contact {
         let mut q = Vector3::zeros();
         let total = |q: Vector3<f64>| self.energy_j(q) - load.dot(&q);
         for _ in 0..MAX_NEWTON_STEPS {
-            let (residual, tangent) = self.residual(q, load);
+            let residual = self.residual(q, load);
+            let tangent = self.tangent(q);
             if residual.norm() <= target {
                 return Some(q);
             }
@@ -134,7 +135,7 @@ impl Contact {
                 .solve(&residual)?;
             // Close to the equilibrium, differences of the energy are rounding errors, so that a smaller
             // residual suffices to accept the step.
-            let closer = self.residual(q + step, load).0.norm() < residual.norm();
+            let closer = self.residual(q + step, load).norm() < residual.norm();
             if closer || total(q + step) < total(q) {
                 q += step;
                 damping *= 0.25;
@@ -146,20 +147,23 @@ impl Contact {
         }
         // The approach of a flank is a displacement minus the gap. It has few digits if it is much smaller
         // than the gap, so that this tolerance is wider than `target`.
-        let (residual, _) = self.residual(q, load);
+        let residual = self.residual(q, load);
         (residual.norm() <= 1e-9 * load.norm()).then_some(q)
     }
 
-    /// Sum of the load and the elastic contact forces, and its derivative −∂/∂q, the stiffness of the contacts.
-    fn residual(&self, q: Vector3<f64>, load: Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
-        let mut force = load;
-        let mut tangent = Matrix3::zeros();
-        for touch in self.touches(q, Vector3::zeros()) {
-            force += touch.normal * touch.elastic_n;
+    /// Sum of the load and the elastic contact forces.
+    fn residual(&self, q: Vector3<f64>, load: Vector3<f64>) -> Vector3<f64> {
+        let touches = self.touches(q, Vector3::zeros());
+        touches.fold(load, |force, touch| force + touch.normal * touch.elastic_n)
+    }
+
+    /// Stiffness of the contacts, the derivative −∂/∂q of the residual.
+    fn tangent(&self, q: Vector3<f64>) -> Matrix3<f64> {
+        let touches = self.touches(q, Vector3::zeros());
+        touches.fold(Matrix3::zeros(), |sum, touch| {
             let slope = 1.5 * self.stiffness_n_per_m_3_2 * touch.approach_m.sqrt();
-            tangent += touch.normal * touch.normal.transpose() * slope;
-        }
-        (force, tangent)
+            sum + touch.normal * touch.normal.transpose() * slope
+        })
     }
 
     /// Length for scaling: gap plus approach of a single flank under the whole load, and at least a millionth of

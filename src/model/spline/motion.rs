@@ -7,7 +7,7 @@ use nalgebra::{Vector2, Vector3};
 
 use crate::model::scene::{Blade, SplineFile};
 
-use super::contact::{Contact, Touch};
+use super::contact::Contact;
 use super::load::PlaneLoad;
 use super::reaction::{Accumulator, MeanReaction};
 use super::{Run, SplineError, SplineRun, Start};
@@ -177,44 +177,28 @@ impl InPlaneMotion {
         }
     }
 
-    /// Angle of the arbor, displacement and velocity, in SI units.
-    fn unscaled(&self, t: f64, y: &State) -> (f64, Vector3<f64>, Vector3<f64>) {
+    fn unscaled(&self, t: f64, y: &State) -> Moment {
         let Scale {
             length_m,
             rate_per_s,
             ..
         } = self.scale;
-        (
-            self.speed_rad_per_s * t / rate_per_s,
-            Vector3::new(y[0], y[1], y[2]) * length_m,
-            Vector3::new(y[3], y[4], y[5]) * (length_m * rate_per_s),
-        )
+        Moment {
+            angle: self.speed_rad_per_s * t / rate_per_s,
+            q: Vector3::new(y[0], y[1], y[2]) * length_m,
+            velocity: Vector3::new(y[3], y[4], y[5]) * (length_m * rate_per_s),
+        }
     }
 
     /// Displacement and velocity in the frame of the arbor.
-    fn seen_from_arbor(
-        &self,
-        angle: f64,
-        q: Vector3<f64>,
-        velocity: Vector3<f64>,
-    ) -> (Vector3<f64>, Vector3<f64>) {
+    fn seen_from_arbor(&self, Moment { angle, q, velocity }: Moment) -> [Vector3<f64>; 2] {
         let relative = velocity - self.carried(q);
-        (turned(q, -angle), turned(relative, -angle))
+        [q, relative].map(|vector| turned(vector, -angle))
     }
 
     /// Velocity Ω × q of the point of the arbor under the centre.
     fn carried(&self, q: Vector3<f64>) -> Vector3<f64> {
         Vector3::new(-q.y, q.x, 0.0) * self.speed_rad_per_s
-    }
-
-    fn touches(
-        &self,
-        angle: f64,
-        q: Vector3<f64>,
-        velocity: Vector3<f64>,
-    ) -> impl Iterator<Item = Touch> {
-        let (q, speed) = self.seen_from_arbor(angle, q, velocity);
-        self.contact.touches(q, speed)
     }
 
     /// Averages the forces over the samples of whole revolutions, without the last sample, which repeats the first.
@@ -225,17 +209,22 @@ impl InPlaneMotion {
         for (index, y) in settled.iter().take(revolutions * samples).enumerate() {
             // The angle follows from the index, because times contain rounding errors.
             let angle = TAU * (index % samples) as f64 / samples as f64;
-            let (_, q, velocity) = self.unscaled(0.0, y);
-            sums.add(index, self.touches(angle, q, velocity));
+            let moment = Moment {
+                angle,
+                ..self.unscaled(0.0, y)
+            };
+            let [seen, relative] = self.seen_from_arbor(moment);
+            sums.add(index, self.contact.touches(seen, relative));
         }
         sums.mean(self.pitch_radius_m, self.load_n)
     }
 
     /// [Kinetic plus contact energy, potential of the load], in J.
     fn energies(&self, t: f64, y: &State) -> [f64; 2] {
-        let (angle, q, velocity) = self.unscaled(t, y);
+        let moment = self.unscaled(t, y);
+        let Moment { q, velocity, .. } = moment;
         let kinetic = 0.5 * velocity.component_mul(&velocity).dot(&self.inertia_kg);
-        let (seen, _) = self.seen_from_arbor(angle, q, velocity);
+        let [seen, _] = self.seen_from_arbor(moment);
         [kinetic + self.contact.energy_j(seen), -self.load_n.dot(&q)]
     }
 
@@ -251,6 +240,16 @@ impl InPlaneMotion {
         }
         defect / largest
     }
+}
+
+/// State of the motion in SI units.
+#[derive(Clone, Copy)]
+struct Moment {
+    /// Angle of the arbor.
+    angle: f64,
+    /// Displacement of the blade.
+    q: Vector3<f64>,
+    velocity: Vector3<f64>,
 }
 
 fn check(run: &Run) -> Result<(), SplineError> {
@@ -287,15 +286,16 @@ fn turned(v: Vector3<f64>, angle: f64) -> Vector3<f64> {
 
 impl ODE<f64, State> for InPlaneMotion {
     fn diff(&self, t: f64, y: &State, slope: &mut State) {
-        let (angle, q, velocity) = self.unscaled(t, y);
-        let (seen, relative) = self.seen_from_arbor(angle, q, velocity);
-        let mut force = Vector3::zeros();
+        let moment = self.unscaled(t, y);
+        let Moment { angle, q, .. } = moment;
+        let [seen, relative] = self.seen_from_arbor(moment);
+        let mut in_frame = Vector3::zeros();
         let mut lost_w = 0.0;
         for touch in self.contact.touches(seen, relative) {
-            force += touch.normal * touch.force_n;
+            in_frame += touch.normal * touch.force_n;
             lost_w += (touch.elastic_n - touch.force_n) * touch.normal.dot(&relative);
         }
-        let force = turned(force, angle);
+        let force = turned(in_frame, angle);
         let Scale {
             length_m,
             rate_per_s,

@@ -16,7 +16,7 @@ pub const LINEAR_THICKNESSES: f64 = 5.0;
 
 /// Largest deflection that is reported: [`LINEAR_THICKNESSES`] times the smallest thickness of the blade.
 pub fn linear_limit_m(blade: &Blade) -> f64 {
-    LINEAR_THICKNESSES * blade.thickness_range_m().0
+    LINEAR_THICKNESSES * blade.thickness_range_m()[0]
 }
 
 /// Deflection at the probe of a motion on a reduced basis, and the limit of the linear model.

@@ -181,8 +181,8 @@ impl Sheet {
     }
 
     /// Width and height in figure units.
-    pub fn size(&self) -> (u32, u32) {
-        (self.width, self.height)
+    pub fn size(&self) -> [u32; 2] {
+        [self.width, self.height]
     }
 
     /// The marks in drawing order.

@@ -10,7 +10,7 @@ pub fn of_saw(name: &str, condition: &str) -> String {
 
 /// Writes title and subtitle at the upper left, shortened to the width of the sheet.
 pub fn draw(sheet: &mut Sheet, title: &str, subtitle: &str) {
-    let room = f64::from(sheet.size().0) - 2.0 * MARGIN;
+    let room = f64::from(sheet.size()[0]) - 2.0 * MARGIN;
     let title = shorten(title, TITLE_SIZE, Weight::SemiBold, room);
     sheet.text([MARGIN, 38.0], Lettering::title(TITLE_SIZE, INK), &title);
     let letters = Lettering::regular(SUBTITLE_SIZE, QUIET, Anchor::Start);

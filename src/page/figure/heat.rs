@@ -23,27 +23,26 @@ fn ramp(colours: &[Colour], share: f64) -> Colour {
     plotters::style::RGBColor(mix(low.0, high.0), mix(low.1, high.1), mix(low.2, high.2))
 }
 
-/// Fills a cell around each point of a grid, which ends half way to the next points and at the ends of the axes.
-/// `colour` returns the colour of a column and a row, or `None` for a cell that is left out; neighbours along x of
+/// Fills the cells between edges. `colour` returns the colour of a column and a row, or `None` for a cell that is left out; neighbours along x of
 /// the same colour are joined to one rectangle.
 fn draw_grid(
     sheet: &mut Sheet,
-    (x_axis, x_values): (&Axis, &[f64]),
-    (y_axis, y_values): (&Axis, &[f64]),
+    x_edges: &[f64],
+    y_edges: &[f64],
     colour: impl Fn(usize, usize) -> Option<Colour>,
 ) {
-    let (x_edges, y_edges) = (edges(x_axis, x_values), edges(y_axis, y_values));
-    for row in 0..y_values.len() {
+    let columns = x_edges.len() - 1;
+    for (row, ends) in y_edges.windows(2).enumerate() {
         let mut from = 0;
-        while from < x_values.len() {
+        while from < columns {
             let shade = colour(from, row);
-            let run = (from..x_values.len()).take_while(|&column| colour(column, row) == shade);
+            let run = (from..columns).take_while(|&column| colour(column, row) == shade);
             let to = from + run.count();
             let frame = Frame {
                 left: x_edges[from],
                 right: x_edges[to],
-                top: y_edges[row].min(y_edges[row + 1]),
-                bottom: y_edges[row].max(y_edges[row + 1]),
+                top: ends[0].min(ends[1]),
+                bottom: ends[0].max(ends[1]),
             };
             if let Some(shade) = shade {
                 sheet.fill(frame, shade);
@@ -53,7 +52,7 @@ fn draw_grid(
     }
 }
 
-/// Positions on the sheet of the edges of cells: the ends of the axis, and half way between the values.
+/// Positions on the sheet of the edges of cells around values: the ends of the axis, and half way between the values.
 fn edges(axis: &Axis, values: &[f64]) -> Vec<f64> {
     let [first, last] = axis.places();
     let between = values
@@ -69,14 +68,23 @@ fn edges(axis: &Axis, values: &[f64]) -> Vec<f64> {
 pub fn draw_cells(sheet: &mut Sheet, heat: &Heat, x: &Axis, y: &Axis) {
     let colours: Vec<Colour> = heat.colours.iter().map(|colour| rgb(*colour)).collect();
     let scale = Axis::new(heat.range, [0.0, 1.0], heat.spread);
-    draw_grid(sheet, (x, &heat.x), (y, &heat.y), |column, row| {
-        let value = heat.z.get(row).and_then(|row| row.get(column)).copied();
-        let value = value.filter(|value| !value.is_nan())?;
-        Some(match colours[..] {
-            [only] => only,
-            _ => ramp(&colours, scale.at(value)),
-        })
-    });
+    draw_grid(
+        sheet,
+        &edges(x, &heat.x),
+        &edges(y, &heat.y),
+        |column, row| {
+            let value = heat
+                .z
+                .get(row)
+                .and_then(|row| row.get(column))
+                .copied()
+                .filter(|value| !value.is_nan())?;
+            Some(match colours[..] {
+                [only] => only,
+                _ => ramp(&colours, scale.at(value)),
+            })
+        },
+    );
 }
 
 /// A colour from its red, green and blue.
@@ -143,8 +151,8 @@ mod tests {
         let colours = [RGBColor(0, 0, 0), RGBColor(9, 9, 9)];
         draw_grid(
             &mut sheet,
-            (&x, &[0.0, 1.0, 2.0, 3.0]),
-            (&y, &[0.0, 1.0]),
+            &edges(&x, &[0.0, 1.0, 2.0, 3.0]),
+            &edges(&y, &[0.0, 1.0]),
             |column, row| Some(colours[usize::from(column + row > 1)]),
         );
         let frames: Vec<[f64; 4]> = sheet

@@ -294,8 +294,10 @@ impl Heat {
         colour: Colour,
         name: &str,
     ) -> Self {
-        let value = |column, row| if is_in(column, row) { 1.0 } else { f64::NAN };
-        let row = |row| (0..x.len()).map(|column| value(column, row)).collect();
+        let row = |row| {
+            let cells = (0..x.len()).map(|column| is_in(column, row));
+            cells.map(|own| if own { 1.0 } else { f64::NAN }).collect()
+        };
         Self {
             x: x.to_vec(),
             y: y.to_vec(),

@@ -67,8 +67,13 @@ impl Item {
 }
 
 /// Word of a sample, and width of its mark.
-fn measure(sample: &Item) -> (&str, f64) {
-    match sample {
+struct Measured<'a> {
+    word: &'a str,
+    mark: f64,
+}
+
+fn measure(sample: &Item) -> Measured<'_> {
+    let (word, mark) = match sample {
         Item::Line(line) => (&line.name, SAMPLE),
         Item::Points(points) => (&points.name, points.size),
         Item::Upright(upright) => (&upright.name, 2.0),
@@ -77,14 +82,15 @@ fn measure(sample: &Item) -> (&str, f64) {
         Item::Heat(heat) => (&heat.name, 16.0),
         Item::Bars(bars) => (&bars.name, 16.0),
         Item::Label(label) => (&label.text, 0.0),
-    }
+    };
+    Measured { word, mark }
 }
 
 /// The samples of each line of a key.
 fn lines(samples: &[Item], width: f64) -> Vec<&[Item]> {
     let mut room = 0.0;
     let begins = |sample: &Item| {
-        let (word, mark) = measure(sample);
+        let Measured { word, mark } = measure(sample);
         let needed = mark + AFTER_MARK + label_width(word);
         let begins = needed > room;
         room = if begins { width } else { room } - needed - AFTER_WORD;
@@ -110,9 +116,9 @@ pub fn draw(sheet: &mut Sheet, samples: &[Item], [left, top]: [f64; 2], width: f
         let baseline = top + LINE * row as f64 + 14.0;
         let mut x = left;
         for sample in line {
-            let (word, mark) = measure(sample);
+            let Measured { word: name, mark } = measure(sample);
             draw_sample(sheet, sample, [x, baseline - 4.0]);
-            let word = shorten_label(word, width - mark - AFTER_MARK);
+            let word = shorten_label(name, width - mark - AFTER_MARK);
             let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
             sheet.text([x + mark + AFTER_MARK, baseline], letters, &word);
             x += mark + AFTER_MARK + label_width(&word) + AFTER_WORD;
@@ -123,7 +129,7 @@ pub fn draw(sheet: &mut Sheet, samples: &[Item], [left, top]: [f64; 2], width: f
 /// Draws a mark with its left end at a point, at half the height of the letters.
 fn draw_sample(sheet: &mut Sheet, sample: &Item, [x, y]: [f64; 2]) {
     let box_of = |colour| (Frame::around([x + 8.0, y], 8.0), colour);
-    let (frame, colour) = match sample {
+    let (across, colour) = match sample {
         Item::Line(line) => {
             let stroke = stroke(line);
             let width = stroke.width.min(THICKEST);
@@ -144,7 +150,7 @@ fn draw_sample(sheet: &mut Sheet, sample: &Item, [x, y]: [f64; 2]) {
     let frame = Frame {
         top: y - 6.0,
         bottom: y + 6.0,
-        ..frame
+        ..across
     };
     sheet.fill(frame, colour);
 }

@@ -5,7 +5,7 @@ use super::chart_data::PanelData;
 use super::items::{Item, Label, Line, Upright};
 use super::label_placement::{Extent, push_apart};
 use super::painting::Ground;
-use super::style::{HAIRLINE, LABEL_SIZE, PAPER, QUIET, label_width, shorten_label, tint};
+use super::style::{Colour, HAIRLINE, LABEL_SIZE, PAPER, QUIET, label_width, shorten_label, tint};
 
 /// Space between the labels of vertical lines.
 const APART: f64 = 8.0;
@@ -46,6 +46,12 @@ pub fn end_room(panel: &PanelData) -> f64 {
     } else {
         0.0
     }
+}
+
+/// A place where a label may be written: a point of its baseline, and which part of the text is there.
+struct Place {
+    at: [f64; 2],
+    anchor: Anchor,
 }
 
 /// The labels of a panel, which keep apart from each other.
@@ -110,13 +116,14 @@ impl<'a> Labels<'a> {
     /// Draws the labels at the right ends of curves, to the right of the panel.
     fn draw_ends(&mut self, panel: &PanelData) {
         let frame = self.ground.frame;
-        let ends = ended(panel).filter_map(|line| {
-            let parts = self.ground.parts(line);
-            let points = parts.iter().flatten().copied();
-            let end = points.max_by(|a, b| a[0].total_cmp(&b[0]))?;
-            Some((line, end))
-        });
-        let ends: Vec<(&Line, [f64; 2])> = ends.collect();
+        let ends: Vec<(&Line, [f64; 2])> = ended(panel)
+            .filter_map(|line| {
+                let parts = self.ground.parts(line);
+                let points = parts.iter().flatten().copied();
+                let end = points.max_by(|a, b| a[0].total_cmp(&b[0]))?;
+                Some((line, end))
+            })
+            .collect();
         let extents = ends.iter().map(|(_, [_, y])| Extent {
             centre: *y,
             length: LINE,
@@ -126,13 +133,13 @@ impl<'a> Labels<'a> {
             .zip(push_apart(extents, [frame.top, frame.bottom]))
         {
             let Some(y) = place else { continue };
-            let at = [frame.right + LEADER, y];
+            let elbow = [frame.right + LEADER, y];
             self.sheet
-                .line([*end, at], Stroke::solid(QUIET, 0.6 * HAIRLINE));
+                .line([*end, elbow], Stroke::solid(QUIET, 0.6 * HAIRLINE));
             let colour = tint(line.colour.colour(), line.tint.max(0.8));
             let letters = Lettering::regular(LABEL_SIZE, colour, Anchor::Start);
             let label = shorten_label(&line.end, LONGEST);
-            let at = [at[0] + GAP, y + 0.36 * LABEL_SIZE];
+            let at = [elbow[0] + GAP, y + 0.36 * LABEL_SIZE];
             self.sheet.text(at, letters, &label);
         }
     }
@@ -172,20 +179,22 @@ impl<'a> Labels<'a> {
 
     /// Writes a label at the first of some places that is inside the panel and free, and off marks and lines if there is
     /// such a place.
-    fn write(&mut self, text: &str, places: impl Iterator<Item = ([f64; 2], Lettering)>) {
-        let framed = places.map(|(at, letters)| {
-            let frame = text_frame(at, &letters, text).widened(AROUND);
-            (at, letters, frame)
+    fn write(&mut self, text: &str, colour: Colour, places: impl Iterator<Item = Place>) {
+        let framed = places.map(|place| {
+            let letters = Lettering::regular(LABEL_SIZE, colour, place.anchor);
+            let frame = text_frame(place.at, &letters, text).widened(AROUND);
+            (place.at, letters, frame)
         });
         let inside = self.ground.frame;
-        let free = framed.filter(|(_, _, frame)| {
-            let is_inside = inside.left <= frame.left
-                && frame.right <= inside.right
-                && inside.top <= frame.top
-                && frame.bottom <= inside.bottom;
-            is_inside && !self.taken.iter().any(|other| other.overlaps(frame))
-        });
-        let free: Vec<([f64; 2], Lettering, Frame)> = free.collect();
+        let free: Vec<([f64; 2], Lettering, Frame)> = framed
+            .filter(|(_, _, frame)| {
+                let is_inside = inside.left <= frame.left
+                    && frame.right <= inside.right
+                    && inside.top <= frame.top
+                    && frame.bottom <= inside.bottom;
+                is_inside && !self.taken.iter().any(|other| other.overlaps(frame))
+            })
+            .collect();
         let is_clear = |(_, _, frame): &&([f64; 2], Lettering, Frame)| {
             !self.shunned.iter().any(|other| other.overlaps(frame))
         };
@@ -199,7 +208,6 @@ impl<'a> Labels<'a> {
     /// Writes a label beside its point.
     fn draw_beside(&mut self, label: &Label) {
         let [x, y] = [self.ground.x.at(label.x), self.ground.y.at(label.y)];
-        let letters = |anchor| Lettering::regular(LABEL_SIZE, label.colour.colour(), anchor);
         let sides = [
             (0.0, OVER, Anchor::Middle),
             (ASIDE, BELOW, Anchor::Start),
@@ -214,22 +222,27 @@ impl<'a> Labels<'a> {
             (ASIDE, FAR_OVER, Anchor::Start),
             (-ASIDE, FAR_UNDER, Anchor::End),
         ];
-        let places = sides.map(|(aside, below, anchor)| ([x + aside, y + below], letters(anchor)));
-        self.write(&label.text, places.into_iter());
+        let places = sides.map(|(aside, below, anchor)| Place {
+            at: [x + aside, y + below],
+            anchor,
+        });
+        self.write(&label.text, label.colour.colour(), places.into_iter());
     }
 
     /// Writes a label on a curve, as close to its middle as there is room.
     fn draw_on(&mut self, line: &Line) {
         let points = line.x.iter().zip(&line.y);
-        let places = points.map(|(x, y)| [self.ground.x.at(*x), self.ground.y.at(*y)]);
-        let places = filled(&places.collect::<Vec<_>>());
-        let letters = Lettering::regular(LABEL_SIZE, line.colour.colour(), Anchor::Middle);
+        let drawn = points.map(|(x, y)| [self.ground.x.at(*x), self.ground.y.at(*y)]);
+        let places = filled(&drawn.collect::<Vec<_>>());
         let middle = places.len() / 2;
         let tried = (0..=middle)
             .flat_map(|off| [middle + off, middle - off])
             .filter_map(|k| places.get(k))
-            .map(|[x, y]| ([*x, y + 0.36 * LABEL_SIZE], letters));
-        self.write(&line.label, tried);
+            .map(|[x, y]| Place {
+                at: [*x, y + 0.36 * LABEL_SIZE],
+                anchor: Anchor::Middle,
+            });
+        self.write(&line.label, line.colour.colour(), tried);
     }
 }
 

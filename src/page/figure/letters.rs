@@ -52,20 +52,27 @@ fn scaled(em: f64, weight: Weight) -> Option<PxScaleFont<&'static FontRef<'stati
     Some(font(weight)?.as_scaled((em * SIZE_PER_EM) as f32))
 }
 
-/// Letters of a text with their abscissae, and the abscissa of its end, with kerning, in the unit of `em`.
-fn laid_out(text: &str, em: f64, weight: Weight) -> Option<(Vec<(GlyphId, f32)>, f32)> {
+/// A line of text with kerning, in the unit of `em`.
+struct SetLine {
+    /// Letters with their abscissae.
+    letters: Vec<(GlyphId, f32)>,
+    /// Abscissa of the end.
+    end: f32,
+}
+
+fn laid_out(text: &str, em: f64, weight: Weight) -> Option<SetLine> {
     let font = scaled(em, weight)?;
-    let mut right = 0.0;
+    let mut end = 0.0;
     let mut letters: Vec<(GlyphId, f32)> = Vec::new();
     for letter in text.chars() {
         let glyph = font.glyph_id(letter);
-        right += letters
+        end += letters
             .last()
             .map_or(0.0, |(before, _)| font.kern(*before, glyph));
-        letters.push((glyph, right));
-        right += font.h_advance(glyph);
+        letters.push((glyph, end));
+        end += font.h_advance(glyph);
     }
-    Some((letters, right))
+    Some(SetLine { letters, end })
 }
 
 /// Outlines of the letters of a text that begins at the origin, on the baseline; ordinates are downwards. `None` if
@@ -74,7 +81,7 @@ pub fn outlines(text: &str, em: f64, weight: Weight) -> Option<Path> {
     let font = scaled(em, weight)?;
     let scale = font.scale_factor();
     let mut path = PathBuilder::new();
-    for (glyph, left) in laid_out(text, em, weight)?.0 {
+    for (glyph, left) in laid_out(text, em, weight)?.letters {
         let at = |p: Point| (left + scale.horizontal * p.x, -scale.vertical * p.y);
         let mut end = None;
         // A space has no outline.
@@ -109,7 +116,7 @@ pub fn text_width(text: &str, em: f64, weight: Weight) -> f64 {
     // Widths are truncated to sixteenths of the unit, so that rounding errors of the sum rarely change them.
     const FINE: f64 = 16.0;
     match laid_out(text, em * FINE, weight) {
-        Some((_, width)) => f64::from(width).trunc() / FINE,
+        Some(line) => f64::from(line.end).trunc() / FINE,
         None => 0.6 * em * text.chars().count() as f64,
     }
 }

@@ -5,6 +5,7 @@
 //! data are painted by the live page, matplotlib and plotly. This module knows no physics and writes no files.
 
 pub(crate) mod axis;
+pub(crate) mod axis_drawing;
 pub(crate) mod bands;
 pub(crate) mod canvas;
 pub(crate) mod chart_data;

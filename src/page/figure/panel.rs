@@ -1,7 +1,8 @@
 //! Draws a panel of a chart: axes, areas, curves, marks and labels.
 
-use super::axis::{
-    Axis, draw_horizontal, draw_horizontal_at, draw_vertical_at, name_below, name_upright,
+use super::axis::Axis;
+use super::axis_drawing::{
+    draw_horizontal, draw_horizontal_at, draw_vertical_at, name_below, name_upright,
 };
 use super::bands;
 use super::canvas::{Anchor, Frame, Lettering, Sheet, Stroke};
@@ -118,11 +119,9 @@ fn draw_title(sheet: &mut Sheet, panel: &PanelData, frame: &Frame, has_labels: b
         baseline -= FACT;
     }
     let title = shorten(&panel.title, SUBTITLE_SIZE, Weight::SemiBold, width);
-    let baseline = if panel.facts.is_empty() {
-        baseline
-    } else {
-        baseline - 2.0
-    };
+    if !panel.facts.is_empty() {
+        baseline -= 2.0;
+    }
     sheet.text(
         [frame.left, baseline],
         Lettering::title(SUBTITLE_SIZE, panel.colour.colour()),

@@ -19,7 +19,7 @@ const SEAM: f32 = 1.0;
 /// # Errors
 /// [`FigureError`] if the picture cannot be encoded.
 pub fn png(sheet: &Sheet) -> Result<Vec<u8>, FigureError> {
-    let (width, height) = sheet.size();
+    let [width, height] = sheet.size();
     let mut pixels = Vec::new();
     if let Some(mut picture) = Pixmap::new(width, height) {
         picture.fill(Color::WHITE);
@@ -111,12 +111,12 @@ fn whole_pixels(ends: [f64; 2]) -> [f32; 2] {
 /// Writes a text; its point lies on the baseline.
 fn write(picture: &mut Pixmap, [x, y]: [f64; 2], lettering: &Lettering, text: &str) {
     let width = text_width(text, lettering.em, lettering.weight);
-    let before = match lettering.anchor {
+    let offset = match lettering.anchor {
         Anchor::Start => 0.0,
         Anchor::Middle => 0.5 * width,
         Anchor::End => width,
     };
-    let (x, y, before) = (x as f32, y as f32, before as f32);
+    let (x, y, before) = (x as f32, y as f32, offset as f32);
     let place = if lettering.upright {
         Transform::from_row(0.0, -1.0, 1.0, 0.0, x, y + before)
     } else {

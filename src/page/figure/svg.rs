@@ -3,6 +3,7 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters_backend::BackendCoord;
 
 use super::FigureError;
 use super::canvas::{Anchor, Lettering, Mark, Sheet, Stroke};
@@ -20,21 +21,25 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// # Errors
 /// [`FigureError`] if plotters refuses a mark.
 pub fn svg(sheet: &Sheet) -> Result<String, FigureError> {
-    let (width, height) = sheet.size();
-    let fine_size = (width * FINE, height * FINE);
+    let [width, height] = sheet.size();
     let mut text = String::new();
     {
-        let area = SVGBackend::with_string(&mut text, fine_size).into_drawing_area();
+        let area =
+            SVGBackend::with_string(&mut text, (width * FINE, height * FINE)).into_drawing_area();
         area.fill(&PAPER).map_err(refused)?;
         draw(&area, sheet)?;
     }
-    Ok(finish_svg(&text, (width, height), fine_size))
+    Ok(finish_svg(&text, [width, height]))
 }
 
 /// Sets properties for which plotters has no option: size on the page, round joins, baselines and weights as in the
 /// PNG. Names of scenes cannot contain the replaced patterns, because their quotation marks are escaped.
-fn finish_svg(text: &str, (width, height): (u32, u32), fine_size: (u32, u32)) -> String {
-    let drawn_size = format!("<svg width=\"{}\" height=\"{}\"", fine_size.0, fine_size.1);
+fn finish_svg(text: &str, [width, height]: [u32; 2]) -> String {
+    let drawn_size = format!(
+        "<svg width=\"{}\" height=\"{}\"",
+        width * FINE,
+        height * FINE
+    );
     let shown_size = format!(
         "<svg width=\"{width}\" height=\"{height}\" stroke-linejoin=\"round\" stroke-linecap=\"butt\""
     );
@@ -143,7 +148,7 @@ fn dashes(points: &[[f64; 2]], [drawn, left_out]: [f64; 2]) -> Vec<Vec<[f64; 2]>
 }
 
 /// A point in the pixels of plotters.
-fn fine_point([x, y]: [f64; 2]) -> (i32, i32) {
+fn fine_point([x, y]: [f64; 2]) -> BackendCoord {
     let fine = |value: f64| (value * f64::from(FINE)).round() as i32;
     (fine(x), fine(y))
 }

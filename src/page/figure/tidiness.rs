@@ -13,8 +13,12 @@ pub fn tidy(sheet: Sheet) -> Sheet {
 }
 
 fn assert_tidy(sheet: &Sheet) {
-    let (width, height) = sheet.size();
-    let texts = texts(sheet);
+    let [width, height] = sheet.size();
+    let framed = |mark: &Mark| match mark {
+        Mark::Text(at, letters, text) => Some((text_frame(*at, letters, text), text.clone())),
+        _ => None,
+    };
+    let texts: Vec<(Frame, String)> = sheet.marks().iter().filter_map(framed).collect();
     for (i, (frame, text)) in texts.iter().enumerate() {
         let inside = frame.left >= 0.0
             && frame.top >= 0.0
@@ -73,10 +77,11 @@ fn upright(mark: &Mark) -> Option<[f64; 3]> {
     }
 }
 
-/// Texts of a sheet with their frames.
-pub fn texts(sheet: &Sheet) -> Vec<(Frame, &str)> {
+/// Texts of a sheet.
+#[cfg(test)]
+pub fn texts(sheet: &Sheet) -> Vec<&str> {
     let text = |mark| match mark {
-        &Mark::Text(at, letters, ref text) => Some((text_frame(at, &letters, text), text.as_str())),
+        &Mark::Text(.., ref text) => Some(text.as_str()),
         _ => None,
     };
     sheet.marks().iter().filter_map(text).collect()

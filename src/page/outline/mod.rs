@@ -90,10 +90,10 @@ impl Fact {
 
     /// The value with its unit, after the value before a search if that differs, and before the remark.
     pub fn in_words(&self) -> String {
-        let value = self.value.with_unit();
+        let now = self.value.with_unit();
         let before = self.before.as_ref().map(Value::in_words);
         let changed = before.filter(|before| *before != self.value.in_words());
-        let value = changed.map_or(value.clone(), |before| format!("{before} → {value}"));
+        let value = changed.map_or(now.clone(), |before| format!("{before} → {now}"));
         format!("{value} {}", self.remark).trim_end().to_owned()
     }
 }

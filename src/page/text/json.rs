@@ -77,13 +77,13 @@ fn meant(text: &str, error: &serde_json::Error) -> Option<String> {
         (None, [only]) if only.part == Part::Quoted => *only,
         _ => return None,
     };
-    let number = token.text.trim_matches('"');
-    let value: f64 = serde_json::from_str(number).ok()?;
+    let digits = token.text.trim_matches('"');
+    let value: f64 = serde_json::from_str(digits).ok()?;
     let number = match token.part {
         Part::Word if value.fract() != 0.0 || value.abs() > MOST_WHOLE => return None,
         // The sum has no negative zero, which the parser would read as a floating point number again.
         Part::Word => format!("{:.0}", value + 0.0),
-        _ => number.to_owned(),
+        _ => digits.to_owned(),
     };
     let mut next = text.to_owned();
     next.replace_range(token.start..token.end(), &format!(" {number} "));

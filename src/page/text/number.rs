@@ -14,8 +14,9 @@ pub fn shown(value: f64) -> String {
 /// A number rounded to a number of significant digits, at least one, without trailing zeros. Very small and
 /// large numbers have an exponent if this is shorter.
 pub fn shown_to(digits: usize, value: f64) -> String {
-    let rounded = format!("{value:.*e}", digits.saturating_sub(1));
-    let rounded: f64 = rounded.parse().unwrap_or(value);
+    let rounded: f64 = format!("{value:.*e}", digits.saturating_sub(1))
+        .parse()
+        .unwrap_or(value);
     let plain = rounded.to_string();
     if rounded == 0.0 || !rounded.is_finite() || PLAIN.contains(&rounded.abs()) {
         return plain;

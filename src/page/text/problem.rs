@@ -3,19 +3,34 @@
 use super::fault::{Fault, KeyedError, offset};
 use super::token::{Part, Token, tokens};
 
+/// A key, or nothing for the whole text, and what is wrong there.
+struct Problem {
+    key: String,
+    message: String,
+}
+
+impl Problem {
+    fn at(key: impl Into<String>, message: impl Into<String>) -> Self {
+        Problem {
+            key: key.into(),
+            message: message.into(),
+        }
+    }
+}
+
 /// Finds the key and the cause of an error of the parser, and a remedy.
 pub(super) fn explain(text: &str, fault: &Fault, whole: &str) -> KeyedError {
     let Fault { path, error } = fault;
-    let said = error.to_string();
-    let said = said.split(" at line ").next().unwrap_or_default();
+    let words = error.to_string();
+    let said = words.split(" at line ").next().unwrap_or_default();
     let line = error.line();
-    let (key, message) = match error.classify() {
-        _ if text.trim().is_empty() => (String::new(), "it is empty; give its keys in JSON".into()),
-        _ if !text.trim_start().starts_with('{') => (String::new(), no_object(text)),
+    let Problem { key, message } = match error.classify() {
+        _ if text.trim().is_empty() => Problem::at("", "it is empty; give its keys in JSON"),
+        _ if !text.trim_start().starts_with('{') => Problem::at("", no_object(text)),
         serde_json::error::Category::Data => of_data(path, said, line),
-        serde_json::error::Category::Eof => (String::new(), unfinished(text)),
+        serde_json::error::Category::Eof => Problem::at("", unfinished(text)),
         _ => of_syntax(text, path, error)
-            .unwrap_or_else(|| (path.clone(), format!("it is no JSON: {said} (line {line})"))),
+            .unwrap_or_else(|| Problem::at(path, format!("it is no JSON: {said} (line {line})"))),
     };
     KeyedError {
         key: if key.is_empty() { whole.into() } else { key },
@@ -72,14 +87,16 @@ fn below(path: &str, key: &str) -> String {
     }
 }
 
-/// Path and message for a text that is JSON, but has another structure than expected.
-fn of_data(path: &str, said: &str, line: usize) -> (String, String) {
+/// The problem of a text that is JSON, but has another structure than expected.
+fn of_data(path: &str, said: &str, line: usize) -> Problem {
     let names: Vec<&str> = said.split('`').skip(1).step_by(2).collect();
-    let (subject, known) = (names.first().copied().unwrap_or_default(), names.get(1..));
-    let known = known.unwrap_or_default();
+    let (subject, known) = (
+        names.first().copied().unwrap_or_default(),
+        names.get(1..).unwrap_or_default(),
+    );
     let begins = |kind: &str| said.starts_with(kind);
     let message = if begins("missing field") {
-        return (below(path, subject), "it is missing".into());
+        return Problem::at(below(path, subject), "it is missing");
     } else if begins("unknown field") {
         let moved = moved(&below(path, subject));
         let meant = moved.map_or_else(|| meant(subject, known), str::to_owned);
@@ -103,7 +120,7 @@ fn of_data(path: &str, said: &str, line: usize) -> (String, String) {
     } else {
         path.to_owned()
     };
-    (key, format!("{message} (line {line})"))
+    Problem::at(key, format!("{message} (line {line})"))
 }
 
 /// Message for a value of the wrong type.
@@ -215,9 +232,9 @@ fn meant(subject: &str, known: &[&str]) -> String {
     }
 }
 
-/// Path and message of the first common mistake before the place at which the parser stopped, for a text that is
+/// The first common mistake before the place at which the parser stopped, for a text that is
 /// not JSON.
-fn of_syntax(text: &str, path: &str, error: &serde_json::Error) -> Option<(String, String)> {
+fn of_syntax(text: &str, path: &str, error: &serde_json::Error) -> Option<Problem> {
     let stopped = offset(text, error);
     let all = tokens(text);
     let mut open = Vec::new();
@@ -246,13 +263,13 @@ fn of_syntax(text: &str, path: &str, error: &serde_json::Error) -> Option<(Strin
             } else {
                 path.to_owned()
             };
-            return Some((key, message));
+            return Some(Problem::at(key, message));
         }
         if let Some(problem) = of_word(token, begins_key) {
-            return Some((path.to_owned(), format!("{problem} (line {line})")));
+            return Some(Problem::at(path, format!("{problem} (line {line})")));
         }
     }
-    of_parser(error).map(|message| (path.to_owned(), message))
+    of_parser(error).map(|message| Problem::at(path, message))
 }
 
 /// A number with a decimal comma, like `0,0028`. In a list, where two whole numbers may follow each other, the part

@@ -47,12 +47,12 @@ fn power_of_ten_above(value: f64) -> Option<String> {
     if !(value.is_finite() && value > 0.0) {
         return None;
     }
-    let exponent = value.log10().floor();
-    let digit = (value / 10f64.powf(exponent) - 1e-9).ceil();
-    let (digit, exponent) = if digit >= 10.0 {
-        (1.0, exponent + 1.0)
+    let power = value.log10().floor();
+    let leading = (value / 10f64.powf(power) - 1e-9).ceil();
+    let (digit, exponent) = if leading >= 10.0 {
+        (1.0, power + 1.0)
     } else {
-        (digit.max(1.0), exponent)
+        (leading.max(1.0), power)
     };
     let raised = raised(&exponent.to_string());
     Some(if digit == 1.0 {

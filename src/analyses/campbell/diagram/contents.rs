@@ -30,12 +30,12 @@ pub fn describe(report: &Report, shown: &Shown, said: bool) -> ChartData {
         .iter()
         .map(|band| Item::Band(Band::new(band, shown.rpm)));
     let marks: Vec<Item> = bands.chain(uprights(report)).collect();
-    let mut upper = marks.clone();
-    upper.extend(safe_window(report));
-    upper.extend(branches(report, said));
-    upper.extend(excitation(report, shown));
-    upper.extend(measured(report, said));
-    upper.push(critical(report, said));
+    let mut upper_items = marks.clone();
+    upper_items.extend(safe_window(report));
+    upper_items.extend(branches(report, said));
+    upper_items.extend(excitation(report, shown));
+    upper_items.extend(measured(report, said));
+    upper_items.push(critical(report, said));
     let mut lower = growth::describe(report, shown.rpm, speed.clone(), said);
     lower.items.splice(0..0, marks);
     let upper = PanelData {
@@ -44,7 +44,7 @@ pub fn describe(report: &Report, shown: &Shown, said: bool) -> ChartData {
         ..PanelData::new(
             speed,
             AxisData::new("Im λ / 2π", "Hz").within([0.0, shown.hz]),
-            upper,
+            upper_items,
         )
     };
     ChartData {
@@ -188,8 +188,9 @@ fn excitation(report: &Report, shown: &Shown) -> Vec<Item> {
 fn measured(report: &Report, said: bool) -> Option<Item> {
     let measured = report.scene.measured.as_ref()?;
     let rows = measured.rows.iter();
-    let points = rows.flat_map(|row| row.seen_hz().map(|hz| [row.rpm, hz]));
-    let points: Vec<[f64; 2]> = points.collect();
+    let points: Vec<[f64; 2]> = rows
+        .flat_map(|row| row.seen_hz().map(|hz| [row.rpm, hz]))
+        .collect();
     let words = |[rpm, hz]: &[f64; 2]| {
         format!("{}\n{rpm:.0} rpm\n{} Hz", measured.source, shown_to(6, *hz))
     };

@@ -5,8 +5,8 @@ use crate::analyses::campbell::{InstabilityKind, Report};
 /// Size of the saw, numbers of its events, and verdict on flutter.
 pub fn facts(report: &Report) -> Vec<String> {
     let blade = &report.scene.blade;
-    let (least, largest) = blade.thickness_range_m();
-    let [diameter, least, largest] = [blade.outer_diameter_m, least, largest].map(millimetres);
+    let diameter = millimetres(blade.outer_diameter_m);
+    let [least, largest] = blade.thickness_range_m().map(millimetres);
     let size = if least == largest {
         format!("{diameter} mm diameter, {largest} mm thick")
     } else {

@@ -38,7 +38,6 @@ fn no_growth(report: &Report, [from, to]: [f64; 2]) -> &'static str {
 
 /// Largest growth rate at the speeds shown, in 1/s, at least zero.
 fn greatest_growth(report: &Report, [from, to]: [f64; 2]) -> f64 {
-    let shown = |rpm: f64| from <= rpm && rpm <= to;
     let bands = report
         .instabilities
         .iter()
@@ -48,7 +47,7 @@ fn greatest_growth(report: &Report, [from, to]: [f64; 2]) -> f64 {
     let values = branches.flat_map(|branch| {
         let samples = branch.rpm.iter().zip(&branch.growth_per_s);
         samples
-            .filter(|(rpm, _)| shown(**rpm))
+            .filter(|(rpm, _)| from <= **rpm && **rpm <= to)
             .map(|(_, growth)| *growth)
     });
     let all = peaks.chain(values).filter(|g| g.is_finite());
@@ -94,34 +93,35 @@ pub fn hides_decay(report: &Report) -> bool {
     grows(report) && !is_damped(report)
 }
 
-/// Range in 1/s and scale of the axis; `None` if the panel shows no curve.
-fn range(report: &Report, shown: [f64; 2]) -> Option<([f64; 2], Spread)> {
+/// Range of the axis, in 1/s; `None` if the panel shows no curve.
+fn range(report: &Report, shown: [f64; 2]) -> Option<[f64; 2]> {
     if !is_worth_showing(report) {
         return None;
     }
-    let growth = greatest_growth(report, shown);
-    let decay = greatest_decay(report);
-    let least = NEGLIGIBLE_PER_S.max(0.02 * growth.max(decay));
-    let growth = growth.max(least);
+    let fastest_growth = greatest_growth(report, shown);
+    let fastest_decay = greatest_decay(report);
+    let least = NEGLIGIBLE_PER_S.max(0.02 * fastest_growth.max(fastest_decay));
+    let growth = fastest_growth.max(least);
     let decay = if is_damped(report) {
-        decay.max(least)
+        fastest_decay.max(least)
     } else {
         0.0
     };
-    Some(([-decay, growth], spread(report, growth.max(decay))))
+    Some([-decay, growth])
 }
 
 /// The axis of growth rates below the labels of the bands; `None` if the panel shows no curve.
 pub fn axis(chart: &Chart, labels_height: f64) -> Option<Axis> {
-    let (range, spread) = range(chart.report, chart.speed.values())?;
+    let range = range(chart.report, chart.speed.values())?;
     let places = [chart.lower.bottom, chart.lower.top + labels_height];
-    Some(Axis::new(range, places, spread))
+    Some(Axis::new(range, places, spread(chart.report, range)))
 }
 
 /// Scale of the axis: by square roots if the largest growth of a band would be invisible on a linear axis.
 /// Divergence often grows thirty times as fast as flutter.
-fn spread(report: &Report, greatest: f64) -> Spread {
+fn spread(report: &Report, [low, high]: [f64; 2]) -> Spread {
     const VISIBLE: f64 = 0.12;
+    let greatest = high.max(-low);
     let invisible = |band: &InstabilityBand| band.peak_growth_per_s < VISIBLE * greatest;
     if report.instabilities.iter().any(invisible) {
         Spread::SignedRoot
@@ -179,7 +179,9 @@ pub fn describe(report: &Report, shown: [f64; 2], speed: AxisData, said: bool) -
     items.extend(bands.into_iter().map(|band| band_line(report, band, said)));
     let peaks = report.instabilities.iter();
     items.extend(peaks.map(|band| Item::Points(peak(band, said))));
-    let ([low, high], spread) = range(report, shown).unwrap_or(([0.0, 1.0], Spread::Linear));
+    let range = range(report, shown);
+    let spread = range.map_or(Spread::Linear, |range| spread(report, range));
+    let [low, high] = range.unwrap_or([0.0, 1.0]);
     let y = AxisData::new("Re λ", "1/s").within([HEADROOM * low, HEADROOM * high]);
     PanelData {
         note: if grows(report) {

@@ -64,8 +64,8 @@ fn draw_notes(sheet: &mut Sheet, chart: &Chart, labels: &BandLabels) {
         notes.push("decaying mirror images not shown".to_owned());
     }
     let room = f64::from(WIDTH) - MARGIN - PLOT_LEFT;
-    let notes = shorten_label(&notes.join(BETWEEN_FACTS), room);
+    let note_line = shorten_label(&notes.join(BETWEEN_FACTS), room);
     let letters = Lettering::regular(LABEL_SIZE, QUIET, Anchor::Start);
     let baseline = f64::from(HEIGHT) - NOTES_ABOVE_FOOT;
-    sheet.text([PLOT_LEFT, baseline], letters, &notes);
+    sheet.text([PLOT_LEFT, baseline], letters, &note_line);
 }

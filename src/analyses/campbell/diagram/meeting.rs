@@ -68,11 +68,13 @@ impl Coalescence {
 /// 65 speeds from the first to the last, with the smallest distances at both ends.
 fn between([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
     const STEPS: u32 = 64;
-    let angle = |i: u32| std::f64::consts::PI * f64::from(i) / f64::from(STEPS);
     (0..=STEPS).map(move |i| match i {
         0 => from,
         STEPS => to,
-        _ => from + (to - from) * (1.0 - angle(i).cos()) / 2.0,
+        _ => {
+            let angle = std::f64::consts::PI * f64::from(i) / f64::from(STEPS);
+            from + (to - from) * (1.0 - angle.cos()) / 2.0
+        }
     })
 }
 

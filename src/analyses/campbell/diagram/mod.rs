@@ -28,7 +28,8 @@ use plan::{
 };
 
 use super::Report;
-use crate::page::figure::axis::{Axis, SPEED, draw_horizontal, draw_vertical, name_below};
+use crate::page::figure::axis::{Axis, SPEED};
+use crate::page::figure::axis_drawing::{draw_horizontal, draw_vertical, name_below};
 use crate::page::figure::canvas::{Frame, Sheet, Stroke};
 use crate::page::figure::chart_data::ChartData;
 use crate::page::figure::style::{BETWEEN_FACTS, HAIRLINE, MARGIN, QUIET};

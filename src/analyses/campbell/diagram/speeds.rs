@@ -79,8 +79,8 @@ fn label_critical(sheet: &mut Sheet, chart: &Chart, speeds: &[f64]) {
 /// Names of the waves that stand still at some critical speeds, in the order of the speeds: "n = 2", "n = 3 · 2",
 /// "n = 2 … 13".
 fn waves_at(chart: &Chart, speeds: &[f64]) -> String {
-    let entries = || chart.report.critical_speeds.iter();
-    let at = |rpm: &f64| entries().find(|entry| entry.rpm == *rpm);
+    let entries = &chart.report.critical_speeds;
+    let at = |rpm: &f64| entries.iter().find(|entry| entry.rpm == *rpm);
     let mut waves: Vec<String> = speeds.iter().filter_map(at).map(wave).collect();
     if waves.windows(2).all(|pair| pair[0] == pair[1]) {
         waves.truncate(1);
@@ -102,16 +102,15 @@ fn wave(entry: &CriticalSpeed) -> String {
     }
 }
 
-/// The operating speed and its position on the sheet, if it is on the axis.
-fn operating<'a>(chart: &'a Chart) -> Option<(&'a Upright, f64)> {
+/// The operating speed, if it is on the axis.
+fn operating<'a>(chart: &'a Chart) -> Option<&'a Upright> {
     let upright = chart.uprights(Role::Operating).next()?;
-    let is_shown = chart.speed.shows(upright.x);
-    is_shown.then(|| (upright, chart.speed.at(upright.x)))
+    chart.speed.shows(upright.x).then_some(upright)
 }
 
 /// Position of the operating speed on the sheet, if it is on the axis.
 pub fn operating_place(chart: &Chart) -> Option<f64> {
-    operating(chart).map(|(_, x)| x)
+    operating(chart).map(|upright| chart.speed.at(upright.x))
 }
 
 pub fn draw_operating(sheet: &mut Sheet, chart: &Chart) {
@@ -125,21 +124,20 @@ pub fn draw_operating(sheet: &mut Sheet, chart: &Chart) {
 /// Writes the operating speed above its line, or beside the line at the highest position that is free of other text
 /// and of curves.
 pub fn label_operating(sheet: &mut Sheet, chart: &Chart) {
-    let Some((Upright { label, .. }, x)) = operating(chart) else {
+    let Some(upright) = operating(chart) else {
         return;
     };
+    let (label, x) = (&upright.label, chart.speed.at(upright.x));
     let above = ([x, chart.upper.top - 6.0], Anchor::Middle);
     let sides = [(x + 6.0, Anchor::Start), (x - 6.0, Anchor::End)];
     let rows = (0..)
         .map(|row| chart.upper.top + 16.0 + 4.0 * f64::from(row))
         .take_while(|baseline| *baseline < chart.upper.bottom - 6.0);
-    let candidates = rows.flat_map(|baseline| sides.map(|(x, anchor)| ([x, baseline], anchor)));
-    let candidates = std::iter::once(above)
-        .chain(candidates)
-        .map(|(at, anchor)| {
-            let letters = Lettering::regular(LABEL_SIZE, INK, anchor);
-            (at, letters, text_frame(at, &letters, label))
-        });
+    let beside = rows.flat_map(|baseline| sides.map(|(x, anchor)| ([x, baseline], anchor)));
+    let candidates = std::iter::once(above).chain(beside).map(|(at, anchor)| {
+        let letters = Lettering::regular(LABEL_SIZE, INK, anchor);
+        (at, letters, text_frame(at, &letters, label))
+    });
     let cost = |frame: &Frame| {
         let outside = frame.left < chart.upper.left || frame.right > chart.upper.right;
         let crossed = waves::is_crossed(chart, frame);

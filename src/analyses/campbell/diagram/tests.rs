@@ -47,9 +47,10 @@ fn labels_neither_overlap_nor_leave_the_sheet() {
 
 /// Texts of a figure that begin with a given word.
 fn starting_with(drawn: &Sheet, word: &str) -> Vec<String> {
-    let texts = texts(drawn).into_iter();
-    let own = texts.filter(|(_, text)| text.starts_with(word));
-    own.map(|(_, text)| text.to_owned()).collect()
+    let own = texts(drawn)
+        .into_iter()
+        .filter(|text| text.starts_with(word));
+    own.map(str::to_owned).collect()
 }
 
 #[test]
@@ -74,12 +75,12 @@ fn critical_speeds_have_the_waves_that_stand_still() {
     // Of two joined labels the lower one may have more diameters.
     let mut tensioned = busy_report();
     tensioned.critical_speeds[0].nodal_diameters = 3;
-    let drawn = sheet(&tensioned, CampbellView::default());
-    assert_eq!(starting_with(&drawn, "n = ")[0], "n = 3 · 2");
+    let with_tension = sheet(&tensioned, CampbellView::default());
+    assert_eq!(starting_with(&with_tension, "n = ")[0], "n = 3 · 2");
     tensioned.critical_speeds[1].name = "2 (66 %) + 3 (34 %)".to_owned();
-    let drawn = sheet(&tensioned, CampbellView::default());
-    assert_eq!(starting_with(&drawn, "n = ")[0], "n = 3 · 2+3");
-    assert_eq!(starting_with(&drawn, "nodal diameters").len(), 1);
+    let with_mixed_name = sheet(&tensioned, CampbellView::default());
+    assert_eq!(starting_with(&with_mixed_name, "n = ")[0], "n = 3 · 2+3");
+    assert_eq!(starting_with(&with_mixed_name, "nodal diameters").len(), 1);
 }
 
 /// The sweep has 193 bands within ten thousand rpm.
@@ -273,8 +274,12 @@ fn the_numbers_of_the_diagram_are_those_of_the_report() {
             .collect();
         drawn.sort_by(|a, b| a[0].total_cmp(&b[0]));
         drawn.dedup();
-        let samples = branch.rpm.iter().zip(&branch.frequency_hz);
-        let samples: Vec<[f64; 2]> = samples.map(|(rpm, hz)| [*rpm, *hz]).collect();
+        let samples: Vec<[f64; 2]> = branch
+            .rpm
+            .iter()
+            .zip(&branch.frequency_hz)
+            .map(|(rpm, hz)| [*rpm, *hz])
+            .collect();
         assert_eq!(drawn, samples);
     }
     assert!(lines.iter().all(|line| line.said.len() == line.x.len()));
@@ -295,9 +300,9 @@ fn the_certificate_is_written_and_violations_are_red() {
     report.certificate.krein_violations = 2;
     report.certificate.statement = wrong.to_owned();
     let _drawn = sheet(&report, CampbellView::default());
-    let svg = report.campbell_svg().unwrap();
-    assert!(svg.contains(wrong));
-    assert!(svg.contains("fill=\"#C8102E\""));
+    let warned = report.campbell_svg().unwrap();
+    assert!(warned.contains(wrong));
+    assert!(warned.contains("fill=\"#C8102E\""));
     report.certificate.speeds_checked = 0;
     assert!(!report.campbell_svg().unwrap().contains("Krein"));
 }

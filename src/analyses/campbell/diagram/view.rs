@@ -33,15 +33,15 @@ pub struct Shown {
 impl CampbellView {
     pub(super) fn of(self, report: &Report) -> Shown {
         let sweep = [report.campbell.from_rpm, report.campbell.to_rpm];
-        let from = self.from_rpm.map_or(sweep[0], |rpm| rpm.max(sweep[0]));
-        let to = self
+        let first_rpm = self.from_rpm.map_or(sweep[0], |rpm| rpm.max(sweep[0]));
+        let last_rpm = self
             .to_rpm
-            .map_or_else(|| last_readable(report, from), |rpm| rpm.min(sweep[1]));
-        let [from, to] = proper_range([from, to]);
-        let hz = self
+            .map_or_else(|| last_readable(report, first_rpm), |rpm| rpm.min(sweep[1]));
+        let [from, to] = proper_range([first_rpm, last_rpm]);
+        let highest = self
             .to_hz
             .unwrap_or_else(|| waves::highest_shown_hz(report, [from, to]));
-        let [_, hz] = proper_range([0.0, hz]);
+        let [_, hz] = proper_range([0.0, highest]);
         Shown {
             rpm: [from, to],
             hz,
@@ -76,9 +76,9 @@ pub fn left_out(report: &Report, [from, to]: [f64; 2], labelled: usize) -> Vec<S
         ));
     }
     let is_shown = |b: &&InstabilityBand| b.from_rpm <= to && from <= b.to_rpm;
-    let shown = report.instabilities.iter().filter(is_shown);
-    let weak = shown.clone().filter(|band| !is_shaded([from, to], band));
-    let (shown, weak) = (shown.count(), weak.count());
+    let drawn = report.instabilities.iter().filter(is_shown);
+    let unshaded = drawn.clone().filter(|band| !is_shaded([from, to], band));
+    let (shown, weak) = (drawn.count(), unshaded.count());
     let threshold = report.flutter_threshold_per_s;
     let of_weak = match weak {
         0 => String::new(),

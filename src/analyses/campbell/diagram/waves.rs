@@ -155,6 +155,12 @@ fn places(branch: &BranchCurve, chart: &Chart) -> Vec<[f64; 2]> {
         .collect()
 }
 
+/// A branch that leaves the panel, and where on its edge.
+struct Exit<'a> {
+    branch: &'a BranchCurve,
+    at: f64,
+}
+
 pub fn label_branches(sheet: &mut Sheet, chart: &Chart) {
     let branches = &chart.report.campbell.branches;
     let mut on_the_right = Vec::new();
@@ -165,24 +171,24 @@ pub fn label_branches(sheet: &mut Sheet, chart: &Chart) {
             continue;
         };
         if x > chart.upper.right - 2.0 {
-            on_the_right.push((branch, y));
+            on_the_right.push(Exit { branch, at: y });
         } else if y < chart.upper.top + 0.5 {
-            above.push((branch, x));
+            above.push(Exit { branch, at: x });
         }
     }
     label_ends(sheet, chart, &on_the_right);
     label_exits(sheet, chart, &above);
 }
 
-/// Labels, to the right of the panel, of branches that end there at given heights.
-fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[(&BranchCurve, f64)]) {
-    let labels = ends.iter().map(|&(_, centre)| Extent {
-        centre,
+/// Labels, to the right of the panel, of branches that end there.
+fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[Exit]) {
+    let labels = ends.iter().map(|end| Extent {
+        centre: end.at,
         length: LINE_HEIGHT,
     });
     let room = [chart.upper.top, chart.upper.bottom + LINE_HEIGHT];
     let centres = push_apart(labels, room);
-    for ((branch, end), centre) in ends.iter().zip(centres) {
+    for (Exit { branch, at: end }, centre) in ends.iter().zip(centres) {
         let Some(centre) = centre.filter(|c| (c - end).abs() < FARTHEST_LABEL) else {
             continue;
         };
@@ -198,11 +204,11 @@ fn label_ends(sheet: &mut Sheet, chart: &Chart, ends: &[(&BranchCurve, f64)]) {
     }
 }
 
-/// Labels, above the panel, of branches that leave it through its upper edge at given abscissae.
-fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[(&BranchCurve, f64)]) {
-    let extent = |&(branch, x): &(_, f64)| Extent::of_label(x, &short_label(branch), 8.0);
+/// Labels, above the panel, of branches that leave it through its upper edge.
+fn label_exits(sheet: &mut Sheet, chart: &Chart, exits: &[Exit]) {
+    let extent = |exit: &Exit| Extent::of_label(exit.at, &short_label(exit.branch), 8.0);
     let centres = push_apart(exits.iter().map(extent), chart.upper.across());
-    for ((branch, exit), centre) in exits.iter().zip(centres) {
+    for (Exit { branch, at: exit }, centre) in exits.iter().zip(centres) {
         let Some(centre) = centre.filter(|c| (c - exit).abs() < FARTHEST_EXIT_LABEL) else {
             continue;
         };

@@ -63,8 +63,12 @@ fn shown(shapes: &[EventShape]) -> Vec<&EventShape> {
     };
     let (events, singles): (Vec<_>, Vec<_>) = shapes.iter().partition(is_event);
     let room = MOST.saturating_sub(singles.len());
-    let events = events.into_iter().take(room);
-    events.chain(singles).take(MOST).collect()
+    events
+        .into_iter()
+        .take(room)
+        .chain(singles)
+        .take(MOST)
+        .collect()
 }
 
 fn facts(report: &Report, shown: usize) -> String {
@@ -188,7 +192,7 @@ mod tests {
     fn every_event_has_a_panel_and_nothing_is_cut_off() {
         let report = report(&[1000.0]);
         let sheet = sheet(&report).unwrap();
-        let all: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
+        let all = texts(&sheet);
         // The name "4 diameters" is above, and its shares are below the shape.
         let at = all.iter().rposition(|text| *text == "4 diameters").unwrap();
         assert!(all[at + 1].starts_with("n = 4: "), "{all:?}");
@@ -210,8 +214,8 @@ mod tests {
         );
         let mut free = report.clone();
         free.scene.guides.clear();
-        let sheet = super::sheet(&free).unwrap();
-        assert!(texts(&sheet).iter().all(|(_, text)| *text != "guide"));
+        let without_guides = super::sheet(&free).unwrap();
+        assert!(!texts(&without_guides).contains(&"guide"));
         let without = Report {
             shapes: Vec::new(),
             ..report

@@ -61,8 +61,9 @@ fn size(report: &Report) -> String {
 
 /// The thickness in millimetres, or its smallest and largest value.
 fn thickness(blade: &BladeFile) -> String {
-    let (least, largest) = blade.thickness_range_m();
-    let [least, largest] = [least, largest].map(|thickness_m| 1e3 * thickness_m);
+    let [least, largest] = blade
+        .thickness_range_m()
+        .map(|thickness_m| 1e3 * thickness_m);
     if least == largest {
         format!("{largest:.2} mm")
     } else {

@@ -15,8 +15,7 @@ pub fn whirl(text: &mut Outline, report: &Report) {
         StabilityState::Flutter => "UNSTABLE, flutter",
         StabilityState::OutsideSweep => "outside the sweep",
     };
-    let critical = whirl.at_critical_rpm;
-    let critical = critical.map_or(String::new(), |rpm| {
+    let critical = whirl.at_critical_rpm.map_or(String::new(), |rpm| {
         format!(", within 5 % of the critical speed {rpm:.1} rpm")
     });
     let title = format!("Modes at {} rpm: {state}{critical}", whirl.rpm);

@@ -89,29 +89,24 @@ fn items(path: &[Sample], name: &str, place: impl Fn(&Sample) -> [f64; 2]) -> Ve
         let growth = shown_to(3, s.growth);
         format!("{name}\n{:.1} rpm\n{:.3} Hz\n{growth} 1/s", s.rpm, s.hz)
     };
-    let look = |i: usize| Some(hue(colour_giver(path, i)));
+    let look = |i: usize| Some(shade(colour_giver(path, i)));
     let lines = lines_by_look(path.len(), look);
     let mut items: Vec<Item> = Vec::new();
-    for ((colour, tint), samples) in lines {
+    for (shade, samples) in lines {
         let at = |i: &Option<usize>| i.map_or([f64::NAN; 2], |i| place(&path[i]));
         let said = |i: &Option<usize>| i.map_or_else(String::new, |i| say(&path[i]));
         items.push(Item::Line(Line {
-            tint,
+            tint: shade.tint,
             said: samples.iter().map(said).collect(),
-            ..Line::new(samples.iter().map(at), colour, name)
+            ..Line::new(samples.iter().map(at), shade.hue, name)
         }));
     }
-    for of in [
-        (Hue::Forward, 1.0),
-        (Hue::Backward, 1.0),
-        (Hue::Flutter, 1.0),
-        (Hue::Flutter, 0.5),
-    ] {
-        let own = path.iter().filter(|s| hue(s) == of);
+    for of in [FORWARD, BACKWARD, GROWING, DECAYING] {
+        let own = path.iter().filter(|s| shade(s) == of);
         items.push(Item::Points(Points {
-            tint: of.1,
+            tint: of.tint,
             said: own.clone().map(say).collect(),
-            ..Points::new(own.map(&place), of.0, DOT_SIZE, name)
+            ..Points::new(own.map(&place), of.hue, DOT_SIZE, name)
         }));
     }
     items
@@ -145,9 +140,9 @@ impl Paths {
             return None;
         }
         let range = |of: fn(&Sample) -> f64| extremes(paths.iter().flatten().map(of));
-        let reach = range(|s| s.growth.abs())[1];
+        let fastest = range(|s| s.growth.abs())[1];
         // The factor leaves room for the labels at the outermost points.
-        let reach = 1.62 * if reach > 0.0 { reach } else { 1.0 };
+        let reach = 1.62 * if fastest > 0.0 { fastest } else { 1.0 };
         let [bottom, top] = range(|s| s.hz);
         let air = (0.08 * (top - bottom)).max(1e-3 * top.abs());
         let rpm = proper_range(range(|s| s.rpm));
@@ -195,10 +190,10 @@ impl Paths {
 
     fn over_speed(&self, entry: &RootLoci) -> Vec<Item> {
         let [first, last] = self.rpm;
-        let band = [entry.onset_rpm, entry.end_rpm]
+        let edges = [entry.onset_rpm, entry.end_rpm]
             .map(|rpm| rpm.clamp(first, last))
             .map(|rpm| [rpm, self.hz[0], self.hz[1]]);
-        let band = Item::Area(Area::new(band, Hue::FlutterShade, "flutter"));
+        let band = Item::Area(Area::new(edges, Hue::FlutterShade, "flutter"));
         let paths = self.drawn(entry, |s| [s.rpm, s.hz]);
         [band].into_iter().chain(paths).collect()
     }
@@ -213,30 +208,49 @@ impl Paths {
                 let sample = path.first().filter(|s| s.sign != 0)?;
                 let sign = if sample.sign > 0 { "+" } else { "\u{2212}" };
                 let text = format!("({sign}) {}", shorten_label(&own.name, LONGEST));
-                Some(Item::label(self.in_plane(sample), hue(sample).0, text))
+                Some(Item::label(self.in_plane(sample), shade(sample).hue, text))
             });
         let all = self.paths.iter().flatten();
-        let peak = all.max_by(|a, b| a.growth.total_cmp(&b.growth));
-        let peak = peak.filter(|s| s.growth > 0.0).map(|peak| {
-            let [rpm, growth] = [self.rpm(peak.rpm), two_digits(peak.growth)];
-            let text = format!("peak {rpm} rpm, {growth} 1/s");
-            let mirrored = "decaying (mirror image)".to_owned();
-            [
-                Item::label([peak.growth, peak.hz], Hue::Flutter, text),
-                Item::label([-peak.growth, peak.hz], Hue::Flutter, mirrored),
-            ]
-        });
+        let peak = all
+            .max_by(|a, b| a.growth.total_cmp(&b.growth))
+            .filter(|s| s.growth > 0.0)
+            .map(|peak| {
+                let [rpm, growth] = [self.rpm(peak.rpm), two_digits(peak.growth)];
+                let text = format!("peak {rpm} rpm, {growth} 1/s");
+                let mirrored = "decaying (mirror image)".to_owned();
+                [
+                    Item::label([peak.growth, peak.hz], Hue::Flutter, text),
+                    Item::label([-peak.growth, peak.hz], Hue::Flutter, mirrored),
+                ]
+            });
         begins.chain(peak.into_iter().flatten()).collect()
     }
 }
 
-/// Colour of an eigenvalue, and its share in a mixture with the colour of the paper.
-fn hue(s: &Sample) -> (Hue, f64) {
+/// A colour, and its share in a mixture with the colour of the paper.
+#[derive(Clone, Copy, PartialEq)]
+struct Shade {
+    hue: Hue,
+    tint: f64,
+}
+
+const FORWARD: Shade = Shade::new(Hue::Forward, 1.0);
+const BACKWARD: Shade = Shade::new(Hue::Backward, 1.0);
+const GROWING: Shade = Shade::new(Hue::Flutter, 1.0);
+const DECAYING: Shade = Shade::new(Hue::Flutter, 0.5);
+
+impl Shade {
+    const fn new(hue: Hue, tint: f64) -> Self {
+        Shade { hue, tint }
+    }
+}
+
+fn shade(s: &Sample) -> Shade {
     match s.sign {
-        1 => (Hue::Forward, 1.0),
-        -1 => (Hue::Backward, 1.0),
-        _ if s.growth > 0.0 => (Hue::Flutter, 1.0),
-        _ => (Hue::Flutter, 0.5),
+        1 => FORWARD,
+        -1 => BACKWARD,
+        _ if s.growth > 0.0 => GROWING,
+        _ => DECAYING,
     }
 }
 

@@ -28,10 +28,10 @@ fn facts(report: &MapReport) -> Vec<String> {
         .rpm
         .map(|rpm| format!("areas at {rpm:.0} rpm"))
         .filter(|_| report.y.is_some());
-    let lost = report.saws.iter().filter(|saw| saw.not_analysed.is_some());
-    let lost = match lost.count() {
+    let blank = report.saws.iter().filter(|saw| saw.not_analysed.is_some());
+    let lost = match blank.count() {
         0 => None,
-        lost => Some(format!("{lost} not analysed")),
+        blank => Some(format!("{blank} not analysed")),
     };
     let threshold = format!(
         "flutter counts from {} 1/s on",

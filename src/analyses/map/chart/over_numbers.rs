@@ -105,21 +105,25 @@ pub fn panel(report: &MapReport, y: &MapAxis) -> PanelData {
     PanelData::new(across.axis, up.axis, items)
 }
 
-fn look(quantity: Contoured) -> (Hue, bool, &'static str) {
-    match quantity {
+/// A contour of a quantity.
+fn line_of(quantity: Contoured, points: impl IntoIterator<Item = [f64; 2]>) -> Line {
+    let (hue, dashed, name) = match quantity {
         Contoured::FlutterSpeed => (Hue::Flutter, false, "flutter speed [rpm]"),
         Contoured::LowestCriticalSpeed => (Hue::Forward, true, "first critical speed [rpm]"),
+    };
+    Line {
+        dashed,
+        ..Line::new(points, hue, name)
     }
 }
 
 /// A contour with its speed in rpm.
 fn line(contour: &Contour, x: &Along, y: &Along) -> Line {
-    let (hue, dashed, name) = look(contour.quantity);
     let points = contour.points.iter();
+    let places = points.map(|[a, b]| [x.at(*a), y.at(*b)]);
     Line {
-        dashed,
         label: contour.rpm.to_string(),
-        ..Line::new(points.map(|[a, b]| [x.at(*a), y.at(*b)]), hue, name)
+        ..line_of(contour.quantity, places)
     }
 }
 
@@ -136,13 +140,8 @@ pub fn key(report: &MapReport) -> Vec<Item> {
             let class = Heat::class([&[], &[]], |_, _| false, state.colour(), &state.name());
             Item::Heat(class)
         });
-    let contours = [Contoured::FlutterSpeed, Contoured::LowestCriticalSpeed].map(|quantity| {
-        let (hue, dashed, name) = look(quantity);
-        Item::Line(Line {
-            dashed,
-            ..Line::new([], hue, name)
-        })
-    });
+    let contours = [Contoured::FlutterSpeed, Contoured::LowestCriticalSpeed]
+        .map(|quantity| Item::Line(line_of(quantity, [])));
     let scene = Item::points_sample(SCENE_SIZE, Shape::Ring, Hue::Ink, "the scene");
     states.chain(contours).chain([scene]).collect()
 }

@@ -18,15 +18,25 @@ const WIDEST_WEAK: f64 = 0.03;
 const DOT_SIZE: f64 = 4.0;
 const NOT_ANALYSED: &str = "not analysed";
 
-/// A function that returns a speed of a saw in rpm; `None` if the saw has no such speed in the sweep.
-type Speed = fn(&MappedSaw) -> Option<f64>;
+/// A speed that is drawn as a curve.
+struct Speed {
+    hue: Hue,
+    name: &'static str,
+    /// The speed of a saw; `None` if the saw has no such speed in the sweep.
+    rpm_of: fn(&MappedSaw) -> Option<f64>,
+}
 
-/// The speeds that are drawn as curves.
-const SPEEDS: [(Hue, &str, Speed); 2] = [
-    (Hue::Forward, "first critical speed", |saw| {
-        saw.lowest_critical_rpm
-    }),
-    (Hue::Alarm, "flutter speed", |saw| saw.flutter_speed_rpm),
+const SPEEDS: [Speed; 2] = [
+    Speed {
+        hue: Hue::Forward,
+        name: "first critical speed",
+        rpm_of: |saw| saw.lowest_critical_rpm,
+    },
+    Speed {
+        hue: Hue::Alarm,
+        name: "flutter speed",
+        rpm_of: |saw| saw.flutter_speed_rpm,
+    },
 ];
 
 /// Columns of an area, each with an abscissa, a lower and an upper end.
@@ -53,9 +63,9 @@ impl Look {
     /// Kinds in drawing order.
     const ALL: [Look; 3] = [Look::Weak, Look::Flutter, Look::Divergence];
 
-    /// Colour and its share, and name.
-    fn described(self) -> (Hue, f64, &'static str) {
-        match self {
+    /// An area of columns with an abscissa, a lower and an upper end.
+    fn area(self, columns: Columns) -> Item {
+        let (hue, tint, name) = match self {
             Look::Divergence => (Hue::DivergenceStreak, 0.8, "divergence"),
             Look::Flutter => (Hue::FlutterStreak, 0.9, "flutter"),
             Look::Weak => (
@@ -63,12 +73,7 @@ impl Look {
                 0.4,
                 "flutter below the threshold, unless the band is wide",
             ),
-        }
-    }
-
-    /// An area of columns with an abscissa, a lower and an upper end.
-    fn area(self, columns: Columns) -> Item {
-        let (hue, tint, name) = self.described();
+        };
         Item::Area(items::Area {
             tint,
             stepped: false,
@@ -85,8 +90,8 @@ pub fn panel(report: &MapReport) -> PanelData {
         let chains = chains(report, &along, look).into_iter();
         all.extend(chains.map(|columns| look.area(columns)));
     }
-    for (hue, name, of) in SPEEDS {
-        all.extend(curve(report, &along, (hue, name), of));
+    for speed in SPEEDS {
+        all.extend(curve(report, &along, &speed));
     }
     all.extend(marks(report, &along));
     PanelData::new(
@@ -118,7 +123,7 @@ fn areas(saw: &MappedSaw, to_rpm: f64) -> Vec<Area> {
 /// Pairs of areas of two neighbouring saws that are joined. Their order is kept, and the sum of the distances of their
 /// middle speeds is as small as possible. `scale` is the ratio of the speeds of the right saw to those of the left one,
 /// and `farthest` the largest distance of a pair in rpm.
-fn pairs(left: &[Area], right: &[Area], scale: f64, farthest: f64) -> Vec<(usize, usize)> {
+fn pairs(left: &[Area], right: &[Area], scale: f64, farthest: f64) -> Vec<[usize; 2]> {
     let middle = |area: &Area| 0.5 * (area.rpm[0] + area.rpm[1]);
     let (rows, columns) = (left.len() + 1, right.len() + 1);
     // `cost[i][j]` is the smallest sum of distances for the first `i` areas on the left and the first `j` on
@@ -141,7 +146,7 @@ fn pairs(left: &[Area], right: &[Area], scale: f64, farthest: f64) -> Vec<(usize
     while i > 0 && j > 0 {
         if cost[i][j] == cost[i - 1][j - 1] + distance(i - 1, j - 1) {
             (i, j) = (i - 1, j - 1);
-            pairs.push((i, j));
+            pairs.push([i, j]);
         } else if cost[i][j] == cost[i - 1][j] + alone {
             i -= 1;
         } else {
@@ -154,16 +159,14 @@ fn pairs(left: &[Area], right: &[Area], scale: f64, farthest: f64) -> Vec<(usize
 /// The areas of a kind, each as columns with an abscissa, a lower and an upper end. Areas of neighbouring saws that belong
 /// together are one; an area without a partner ends half way to the neighbour.
 fn chains(report: &MapReport, along: &Along, look: Look) -> Vec<Columns> {
-    let of = |saw: &MappedSaw| -> Vec<Area> {
-        let all = areas(saw, report.to_rpm).into_iter();
-        all.filter(|area| area.look == look).collect()
-    };
     let column = |x: f64, area: &Area| [x, area.rpm[0], area.rpm[1]];
     let mut done: Vec<Columns> = Vec::new();
     let mut open: Vec<Columns> = Vec::new();
     let mut before: Option<(&MappedSaw, Vec<Area>)> = None;
     for saw in &report.saws {
-        let (x, own) = (along.at(saw.x), of(saw));
+        let x = along.at(saw.x);
+        let mut own = areas(saw, report.to_rpm);
+        own.retain(|area| area.look == look);
         let mut next: Vec<Columns> = Vec::new();
         if let Some((left, others)) = &before {
             let scale = match [left, saw].map(|saw| saw.lowest_critical_rpm) {
@@ -173,9 +176,9 @@ fn chains(report: &MapReport, along: &Along, look: Look) -> Vec<Columns> {
             let middle = along.half_way(left.x, saw.x);
             let pairs = pairs(others, &own, scale, JOINED * report.to_rpm);
             for (j, area) in own.iter().enumerate() {
-                let partner = pairs.iter().find(|(_, right)| *right == j);
+                let partner = pairs.iter().find(|[_, right]| *right == j);
                 let mut chain = match partner {
-                    Some((left, _)) => std::mem::take(&mut open[*left]),
+                    Some([left, _]) => std::mem::take(&mut open[*left]),
                     None => vec![column(middle, area)],
                 };
                 chain.push(column(x, area));
@@ -196,9 +199,9 @@ fn chains(report: &MapReport, along: &Along, look: Look) -> Vec<Columns> {
 }
 
 /// Dots at a speed of each saw, joined where neighbours differ little.
-fn curve(report: &MapReport, along: &Along, (hue, name): (Hue, &str), of: Speed) -> [Item; 2] {
+fn curve(report: &MapReport, along: &Along, speed: &Speed) -> [Item; 2] {
     let points = report.saws.iter().map(|saw| {
-        let rpm = of(saw).filter(|rpm| *rpm <= report.to_rpm);
+        let rpm = (speed.rpm_of)(saw).filter(|rpm| *rpm <= report.to_rpm);
         [along.at(saw.x), rpm.unwrap_or(f64::NAN)]
     });
     let mut line: Vec<[f64; 2]> = Vec::new();
@@ -210,8 +213,8 @@ fn curve(report: &MapReport, along: &Along, (hue, name): (Hue, &str), of: Speed)
         line.push(point);
     }
     [
-        Item::Line(Line::new(line, hue, name)),
-        Item::Points(Points::new(points, hue, DOT_SIZE, name)),
+        Item::Line(Line::new(line, speed.hue, speed.name)),
+        Item::Points(Points::new(points, speed.hue, DOT_SIZE, speed.name)),
     ]
 }
 
@@ -253,7 +256,7 @@ fn marks(report: &MapReport, along: &Along) -> Vec<Item> {
 /// Samples of the areas, the curves and the number of the scene.
 pub fn key(report: &MapReport) -> Vec<Item> {
     let looks = Look::ALL.iter().rev().map(|look| look.area(Vec::new()));
-    let curves = SPEEDS.map(|(hue, name, _)| Item::line_sample(CURVE, false, hue, name));
+    let curves = SPEEDS.map(|speed| Item::line_sample(CURVE, false, speed.hue, speed.name));
     let is_blank = report.saws.iter().any(|saw| saw.not_analysed.is_some());
     let blank = is_blank.then(|| Item::area_sample(Hue::Blank, NOT_ANALYSED));
     looks
@@ -277,12 +280,12 @@ mod tests {
         let right = [1030.0, 1530.0, 1800.0, 2030.0].map(area);
         let mut found = pairs(&left, &right, 1.0, 240.0);
         found.sort_unstable();
-        assert_eq!(found, [(0, 0), (1, 1), (2, 3)]);
+        assert_eq!(found, [[0, 0], [1, 1], [2, 3]]);
         assert!(pairs(&left[..1], &right[2..3], 1.0, 240.0).is_empty());
         // A gap of a column: the areas of the right saw are expected 30 % higher.
         let higher = [1300.0, 1950.0].map(area);
-        let mut found = pairs(&left, &higher, 1.3, 60.0);
-        found.sort_unstable();
-        assert_eq!(found, [(0, 0), (1, 1)]);
+        let mut found_above = pairs(&left, &higher, 1.3, 60.0);
+        found_above.sort_unstable();
+        assert_eq!(found_above, [[0, 0], [1, 1]]);
     }
 }

@@ -61,7 +61,7 @@ fn nothing_is_cut_off_and_the_key_names_what_is_drawn() {
     for with_y in [false, true] {
         let report = report(with_y);
         let sheet = sheet(&chart(&report));
-        let all: Vec<&str> = texts(&sheet).into_iter().map(|(_, text)| text).collect();
+        let all = texts(&sheet);
         assert!(all.iter().any(|text| text.contains("[mm]")), "{all:?}");
         assert!(all.contains(&"not analysed"), "{all:?}");
         assert_eq!(all.contains(&"2100"), with_y, "{all:?}");

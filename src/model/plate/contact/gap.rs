@@ -66,10 +66,22 @@ struct Point {
     offset_m: f64,
 }
 
-/// Number of points of a pad over each smooth interval of the radius, and over the angle. If the whole pad of the
+/// Numbers of points of a pad.
+#[derive(Clone, Copy)]
+struct PointCounts {
+    /// Over each smooth interval of the radius.
+    radial: usize,
+    /// Over each arc.
+    angular: usize,
+}
+
+/// If the whole pad of the
 /// built-in saw touches, the force has an error of 3e-5 (5e-3 with five points over the radius); if only a part of
 /// it touches, the energy has an error of 0.5 %.
-const POINTS: (usize, usize) = (8, 8);
+const POINTS: PointCounts = PointCounts {
+    radial: 8,
+    angular: 8,
+};
 /// Share of the gap, on each side of its end, within which the second derivative of Ψ rises.
 const ROUNDED: f64 = 0.01;
 
@@ -79,28 +91,25 @@ impl GapPotential {
         Self::with_points(plate, basis, POINTS)
     }
 
-    fn with_points(
-        plate: &Plate,
-        basis: MatRef<'_, f64>,
-        (radial, angular): (usize, usize),
-    ) -> Option<Self> {
+    fn with_points(plate: &Plate, basis: MatRef<'_, f64>, counts: PointCounts) -> Option<Self> {
         let lifting = plate.lifting.as_ref()?;
         let mut points = Vec::new();
         let mut values = Vec::new();
         let mut film = Col::zeros(basis.ncols());
         for (pad, (guide, law)) in lifting.pads.iter().enumerate() {
             let stiffness = guide.stiffness_n_per_m - law.film_stiffness_n_per_m;
-            for (place, share) in places(plate, guide, radial, angular) {
+            for place in places(plate, guide, counts) {
+                let share = place.share;
                 points.push(Point {
                     pad,
-                    radius_m: place.0,
+                    radius_m: place.radius_m,
                     stiffness_n_per_m: share * stiffness,
                     film_n_per_m: share * law.film_stiffness_n_per_m,
                     gap_m: law.gap_m,
                     side: law.side,
                     offset_m: law.offset_m,
                 });
-                let functions = plate.functions_at(place.0, place.1);
+                let functions = plate.functions_at(place.radius_m, place.angle_rad);
                 let shapes = basis.transpose() * Col::from_fn(functions.len(), |i| functions[i]);
                 film += Scale(share * law.film_stiffness_n_per_m * law.offset_m) * &shapes;
                 values.push(shapes);
@@ -220,24 +229,37 @@ impl GapPotential {
     }
 }
 
-/// Radius and angle of the Gauss points of a pad, each with its share of the area of the whole pad.
-fn places(plate: &Plate, pad: &GuideFile, radial: usize, angular: usize) -> Vec<((f64, f64), f64)> {
+/// A Gauss point of a pad.
+struct Place {
+    radius_m: f64,
+    angle_rad: f64,
+    /// Share of the area of the whole pad.
+    share: f64,
+}
+
+fn places(plate: &Plate, pad: &GuideFile, counts: PointCounts) -> Vec<Place> {
     let mut places = Vec::new();
-    for circle in circles(plate, pad, radial) {
-        let Some(arcs) = circle.arcs else {
-            places.push(((circle.radius_m, pad.angle_rad()), circle.weight));
+    for circle in circles(plate, pad, counts.radial) {
+        let mut push = |angle: f64, weight: f64| {
+            places.push(Place {
+                radius_m: circle.radius_m,
+                angle_rad: pad.angle_rad() + angle,
+                share: circle.weight * weight,
+            });
+        };
+        let Some(arcs) = &circle.arcs else {
+            push(0.0, 1.0);
             continue;
         };
-        for (low, high) in arcs {
+        for &[low, high] in arcs {
             let whole = if low == 0.0 {
-                vec![(-high, high)]
+                vec![[-high, high]]
             } else {
-                vec![(-high, -low), (low, high)]
+                vec![[-high, -low], [low, high]]
             };
-            for (low, high) in whole {
-                for (angle, weight) in quadrature::smooth(low, high, angular).iter() {
-                    let place = (circle.radius_m, pad.angle_rad() + angle);
-                    places.push((place, circle.weight * weight));
+            for [from, to] in whole {
+                for (angle, weight) in quadrature::smooth(from, to, counts.angular).iter() {
+                    push(angle, weight);
                 }
             }
         }

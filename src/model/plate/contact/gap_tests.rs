@@ -58,8 +58,11 @@ fn force_and_stiffness_are_derivatives_of_the_potential() {
         let error = (slope - gradient[i]).abs();
         assert!(error < 1e-6 * gradient.norm_max(), "{i}: {error:e}");
         let column = (gaps.gradient(&up) - gaps.gradient(&down)) * faer::Scale(0.5 / step);
-        let error = (column - hessian.col(i)).norm_max();
-        assert!(error < 1e-3 * hessian.norm_max(), "{i}: {error:e}");
+        let hessian_error = (column - hessian.col(i)).norm_max();
+        assert!(
+            hessian_error < 1e-3 * hessian.norm_max(),
+            "{i}: {hessian_error:e}"
+        );
     }
 }
 
@@ -215,7 +218,11 @@ fn points_of_a_pad_converge() {
         let gaps = GapPotential::with_points(&plate, identity.as_ref(), points).unwrap();
         (gaps.energy_j(&tilt), gaps.forces_n(&tilt)[0])
     };
-    let (usual, fine) = (of(POINTS), of((40, 64)));
+    let many = PointCounts {
+        radial: 40,
+        angular: 64,
+    };
+    let (usual, fine) = (of(POINTS), of(many));
     println!("{usual:?} {fine:?}");
     assert!((usual.0 / fine.0 - 1.0).abs() < 5e-3, "{usual:?} {fine:?}");
     assert!((usual.1 / fine.1 - 1.0).abs() < 0.01, "{usual:?} {fine:?}");

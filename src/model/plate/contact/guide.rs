@@ -40,7 +40,7 @@ pub(super) fn circles(plate: &Plate, pad: &GuideFile, points: usize) -> Vec<Circ
         }];
     }
     let mut circles = Vec::new();
-    for (low, high) in smooth_radii(&plate.blade, pad) {
+    for [low, high] in smooth_radii(&plate.blade, pad) {
         let rule = quadrature::root_ended(low, high, points);
         circles.extend(rule.iter().map(|(r, w)| Circle {
             radius_m: r,
@@ -53,29 +53,29 @@ pub(super) fn circles(plate: &Plate, pad: &GuideFile, points: usize) -> Vec<Circ
 
 /// Intervals of r, clipped to the blade, in whose interior the arcs are smooth. An interval ends where a circle
 /// touches a side of the pad or passes through a corner, and at the edges of the blade.
-fn smooth_radii(blade: &Blade, pad: &GuideFile) -> Vec<(f64, f64)> {
+fn smooth_radii(blade: &Blade, pad: &GuideFile) -> Vec<[f64; 2]> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let mut cuts = pad.touching_radii_m();
     cuts.extend(blade.edges_m());
     cuts.retain(|r| (a..=b).contains(r));
     cuts.sort_by(f64::total_cmp);
     cuts.windows(2)
-        .map(|pair| (pair[0], pair[1]))
-        .filter(|(low, high)| high - low > 1e-12 * b)
-        .filter(|(low, high)| !arcs(pad, 0.5 * (low + high)).is_empty())
+        .map(|pair| [pair[0], pair[1]])
+        .filter(|[low, high]| high - low > 1e-12 * b)
+        .filter(|[low, high]| !arcs(pad, 0.5 * (low + high)).is_empty())
         .collect()
 }
 
 /// Arcs with 0 ≤ ψ ≤ π of the circle of radius r inside the pad, see [`Circle`].
-fn arcs(pad: &GuideFile, r: f64) -> Vec<(f64, f64)> {
+fn arcs(pad: &GuideFile, r: f64) -> Vec<[f64; 2]> {
     match pad.shape {
         GuideShape::Rectangle => arcs_in_rectangle(pad, r),
         GuideShape::Round => arcs_in_ellipse(pad, r),
     }
 }
 
-fn arcs_in_rectangle(pad: &GuideFile, r: f64) -> Vec<(f64, f64)> {
-    let (along, half) = pad.half_lengths_m();
+fn arcs_in_rectangle(pad: &GuideFile, r: f64) -> Vec<[f64; 2]> {
+    let [along, half] = pad.half_lengths_m();
     let (near, far) = (pad.radius_m - along, pad.radius_m + along);
     if near >= r || far <= -r {
         return Vec::new();
@@ -83,17 +83,17 @@ fn arcs_in_rectangle(pad: &GuideFile, r: f64) -> Vec<(f64, f64)> {
     let from = (far / r).min(1.0).acos();
     let to = (near / r).max(-1.0).acos();
     let rise = (half / r).min(1.0).asin();
-    [(0.0, rise), (PI - rise, PI)]
+    [[0.0, rise], [PI - rise, PI]]
         .into_iter()
-        .map(|(low, high)| (low.max(from), high.min(to)))
-        .filter(|(low, high)| high > low)
+        .map(|[low, high]| [low.max(from), high.min(to)])
+        .filter(|[low, high]| high > low)
         .collect()
 }
 
 /// Arcs in the ellipse with half-axes a and b about the radius c: with u = cos ψ, the point at ψ is inside where
 /// (r u − c)²/a² + r² (1 − u²)/b² ≤ 1, a quadratic inequality for u.
-fn arcs_in_ellipse(pad: &GuideFile, r: f64) -> Vec<(f64, f64)> {
-    let (a, b) = pad.half_lengths_m();
+fn arcs_in_ellipse(pad: &GuideFile, r: f64) -> Vec<[f64; 2]> {
+    let [a, b] = pad.half_lengths_m();
     let c = pad.radius_m;
     let square = (r / a).powi(2) - (r / b).powi(2);
     let linear = -2.0 * r * c / (a * a);
@@ -107,6 +107,6 @@ fn arcs_in_ellipse(pad: &GuideFile, r: f64) -> Vec<(f64, f64)> {
     ends.sort_by(f64::total_cmp);
     ends.windows(2)
         .filter(|pair| pair[1] > pair[0] && value(0.5 * (pair[0] + pair[1])) < 0.0)
-        .map(|pair| (pair[1].acos(), pair[0].acos()))
+        .map(|pair| [pair[1].acos(), pair[0].acos()])
         .collect()
 }

@@ -15,7 +15,7 @@ pub struct Circle {
     /// Quadrature weight of the circle for each radian of its arcs, as a share of the whole patch.
     pub weight: f64,
     /// Arcs with 0 ≤ ψ ≤ π, each of which has a mirror image at −ψ; `None` for the point ψ = 0.
-    pub arcs: Option<Vec<(f64, f64)>>,
+    pub arcs: Option<Vec<[f64; 2]>>,
 }
 
 /// Mean of φᵢφⱼ over a patch as one J × J matrix for each k = |n ± m|: Q_k = Σ weight R_j R_l ∫ cos kψ dψ, where ψ
@@ -114,10 +114,10 @@ impl PatchHarmonics {
 }
 
 /// ∫ cos kψ dψ over the arcs and their mirror images.
-fn cosine_integral(arcs: &[(f64, f64)], k: usize) -> f64 {
+fn cosine_integral(arcs: &[[f64; 2]], k: usize) -> f64 {
     let k = k as f64;
     arcs.iter()
-        .map(|(low, high)| {
+        .map(|[low, high]| {
             if k == 0.0 {
                 2.0 * (high - low)
             } else {

@@ -35,7 +35,7 @@ impl Wood {
         let circle = |radius_m: f64, weight: f64| Circle {
             radius_m,
             weight,
-            arcs: Some(vec![(0.0, half)]),
+            arcs: Some(vec![[0.0, half]]),
         };
         if self.typed.depth_m == 0.0 {
             return vec![circle(outer, 1.0 / arc_rad)];

@@ -44,34 +44,38 @@ type Traction = [[f64; 2]; 2];
 
 /// The traction of order m at the rim, where the outward normal is +r.
 pub fn traction_at_rim(blade: &Blade, loads: &[RimForce], order: usize) -> Traction {
-    let forces = loads
-        .iter()
-        .map(|load| (load.angle_rad, load.radial_n, load.tangential_n));
     let b = blade.outer_radius_m;
-    traction(b * blade.thickness_at_m(b), forces, order)
+    traction(b * blade.thickness_at_m(b), loads.iter().copied(), order)
 }
 
 /// The traction of order m at the bore, where the outward normal is −r, so that an outward force causes
 /// compression.
 pub fn traction_at_bore(blade: &Blade, reaction: &[BoreForce], order: usize) -> Traction {
-    let forces = reaction
-        .iter()
-        .map(|force| (force.angle_rad, -force.radial_n, -force.tangential_n));
+    let forces = reaction.iter().map(|force| RimForce {
+        angle_rad: force.angle_rad,
+        radial_n: -force.radial_n,
+        tangential_n: -force.tangential_n,
+    });
     let area_per_angle_m2 = blade.inner_radius_m * blade.thickness_at_bore_m();
     traction(area_per_angle_m2, forces, order)
 }
 
 /// Order m of the traction Σ F/(rh) δ(θ − θ_k): (1/π) ΣF cos mθ_k /(rh) and (1/π) ΣF sin mθ_k /(rh), half of
-/// this for m = 0. Each force is (θ_k, radial, tangential).
+/// this for m = 0.
 fn traction(
     area_per_angle_m2: f64,
-    forces: impl Iterator<Item = (f64, f64, f64)>,
+    forces: impl Iterator<Item = RimForce>,
     order: usize,
 ) -> Traction {
     let mean = if order == 0 { 0.5 } else { 1.0 };
     let per_newton = mean / (PI * area_per_angle_m2);
     let mut fields = Traction::default();
-    for (angle_rad, radial_n, tangential_n) in forces {
+    for force in forces {
+        let RimForce {
+            angle_rad,
+            radial_n,
+            tangential_n,
+        } = force;
         let (sin, cos) = (order as f64 * angle_rad).sin_cos();
         fields[0][0] += per_newton * radial_n * cos;
         fields[0][1] += per_newton * tangential_n * sin;

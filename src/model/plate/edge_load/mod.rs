@@ -84,10 +84,10 @@ impl EdgeStress {
 
     /// The harmonic of order m at radius r; zero beyond [`EdgeStress::max_order`].
     pub fn harmonic(&self, order: usize, radius_m: f64) -> HarmonicStress {
-        let Some([even, odd]) = self.harmonics.get(order) else {
+        let Some(parts) = self.harmonics.get(order) else {
             return HarmonicStress::default();
         };
-        let (even, odd) = (even.at(radius_m), odd.at(radius_m));
+        let [even, odd] = parts.each_ref().map(|part| part.at(radius_m));
         HarmonicStress {
             radial_pa: [even.radial_pa, odd.radial_pa],
             hoop_pa: [even.hoop_pa, odd.hoop_pa],

@@ -124,13 +124,14 @@ fn uniform_pressure_moves_the_frequencies_as_the_closed_form_does() {
     let found = squared_frequencies(&plate, &stiffness, 1)[0];
     assert!((found / exact - 1.0).abs() < 1e-5, "{found} {exact}");
 
-    let pressure = 5.0e6;
-    let loads = uniform_tension(&plate.blade, pressure, 11);
-    let stiffness = edge_stiffness(&plate, &EdgeStress::new(&plate.blade, &loads, 10));
+    let strong_pressure = 5.0e6;
+    let strong_loads = uniform_tension(&plate.blade, strong_pressure, 11);
+    let strong_stiffness =
+        edge_stiffness(&plate, &EdgeStress::new(&plate.blade, &strong_loads, 10));
     for n in 2..=5 {
-        let loaded = squared_frequencies(&plate, &stiffness, n)[0];
+        let loaded = squared_frequencies(&plate, &strong_stiffness, n)[0];
         let bending = &plate.harmonics[n].bending;
-        let block = lame_block(&plate, pressure, n);
+        let block = lame_block(&plate, strong_pressure, n);
         let direct = Mat::from_fn(8, 8, |j, k| bending[(j, k)] + block[(j, k)])
             .self_adjoint_eigenvalues(Side::Lower)
             .unwrap()[0];

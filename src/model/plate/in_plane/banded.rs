@@ -69,8 +69,7 @@ pub struct BandedFactor(Banded);
 impl BandedFactor {
     /// Replaces `columns` right sides, stored row by row, by the solutions.
     pub fn solve(&self, x: &mut [f64], columns: usize) {
-        let Banded { rows, width } = &self.0;
-        let width = *width;
+        let (rows, width) = (&self.0.rows, self.0.width);
         for i in 0..rows.len() {
             let (known, rest) = x.split_at_mut(columns * i);
             let own = &mut rest[..columns];

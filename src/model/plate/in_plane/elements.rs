@@ -58,9 +58,14 @@ impl Elements {
         DEGREE * element..DEGREE * (element + 1) + 1
     }
 
+    /// Number of displacement components: a field of order 0 is radial.
+    pub fn components(&self) -> usize {
+        if self.order == 0.0 { 1 } else { 2 }
+    }
+
     /// Inner and outer radius of an element.
-    pub fn ends_m(&self, element: usize) -> (f64, f64) {
-        (self.edges_m[element], self.edges_m[element + 1])
+    pub fn ends_m(&self, element: usize) -> [f64; 2] {
+        [self.edges_m[element], self.edges_m[element + 1]]
     }
 
     /// Index of the element that contains a radius; at an edge of two elements, that of the inner one.
@@ -86,13 +91,13 @@ impl Elements {
 
     /// Coordinate x ∈ [−1, 1] of a radius in an element.
     fn mapped(&self, element: usize, radius_m: f64) -> f64 {
-        let (from, to) = self.ends_m(element);
+        let [from, to] = self.ends_m(element);
         2.0 * (radius_m - from) / (to - from) - 1.0
     }
 
     /// Slopes in 1/m at the nodes of an element of the polynomial with the given values there.
     pub fn slopes_at_nodes(&self, element: usize, values: [f64; DEGREE + 1]) -> [f64; DEGREE + 1] {
-        let (from, to) = self.ends_m(element);
+        let [from, to] = self.ends_m(element);
         std::array::from_fn(|node| {
             let slopes = self.reference.slopes[node].iter();
             slopes.zip(values).map(|(s, v)| s * v).sum::<f64>() / (0.5 * (to - from))
@@ -101,7 +106,7 @@ impl Elements {
 
     /// Strains at a radius: ε_rr = u′, ε_θθ = (u + mv)/r, γ_rθ = v′ − (v + mu)/r.
     pub fn unit_strains(&self, element: usize, radius_m: f64) -> UnitStrains {
-        let (from, to) = self.ends_m(element);
+        let [from, to] = self.ends_m(element);
         let half = 0.5 * (to - from);
         let values = self.values(element, radius_m);
         let slopes = self.reference.slopes(&values);
@@ -139,8 +144,8 @@ struct Reference {
 
 impl Reference {
     fn new() -> Self {
-        let angle = |k: usize| std::f64::consts::PI * k as f64 / DEGREE as f64;
-        let nodes: Vec<f64> = (0..=DEGREE).map(|k| -angle(k).cos()).collect();
+        let angles = (0..=DEGREE).map(|k| std::f64::consts::PI * k as f64 / DEGREE as f64);
+        let nodes: Vec<f64> = angles.map(|angle| -angle.cos()).collect();
         let of_node = |node: usize| {
             let mut slopes: [f64; DEGREE + 1] = std::array::from_fn(|k| {
                 if k == node {

@@ -75,13 +75,12 @@ impl InPlaneField {
     /// Solves harmonic m. Loads of m = 1 must be balanced; for m = 0 only the radial part is solved.
     pub fn new(blade: &Blade, order: usize, load: &InPlaneLoad<'_>) -> Self {
         let elements = Elements::new(blade, order, load.knots_m);
-        let components = if order == 0 { 1 } else { 2 };
+        let components = elements.components();
         let unknowns = components * elements.nodes();
         let mut stiffness = Banded::new(unknowns, components * (DEGREE + 1));
         let mut right = vec![0.0; unknowns];
         for element in 0..elements.count() {
-            let system = (&mut stiffness, right.as_mut_slice());
-            assemble(blade, load, &elements, (element, components), system);
+            assemble(blade, load, &elements, element, &mut stiffness, &mut right);
         }
         let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
         let (at_bore, at_rim) = (blade.thickness_at_bore_m(), blade.thickness_at_m(b));
@@ -100,7 +99,7 @@ impl InPlaneField {
         }
         stiffness.factored().solve(&mut right, 1);
         InPlaneField {
-            nodes: at_nodes(&elements, &right, components),
+            nodes: at_nodes(&elements, &right),
             elements,
             material: blade.material,
         }
@@ -129,11 +128,8 @@ impl InPlaneField {
 }
 
 /// Displacements and slopes u, u′, v, v′ at the nodes of each element.
-fn at_nodes(
-    elements: &Elements,
-    solution: &[f64],
-    components: usize,
-) -> Vec<[[f64; DEGREE + 1]; 4]> {
+fn at_nodes(elements: &Elements, solution: &[f64]) -> Vec<[[f64; DEGREE + 1]; 4]> {
+    let components = elements.components();
     (0..elements.count())
         .map(|element| {
             let first = elements.nodes_of(element).start;
@@ -153,10 +149,12 @@ fn assemble(
     blade: &Blade,
     load: &InPlaneLoad<'_>,
     elements: &Elements,
-    (element, components): (usize, usize),
-    (stiffness, right): (&mut Banded, &mut [f64]),
+    element: usize,
+    stiffness: &mut Banded,
+    right: &mut [f64],
 ) {
-    let (from, to) = elements.ends_m(element);
+    let components = elements.components();
+    let [from, to] = elements.ends_m(element);
     let first = components * elements.nodes_of(element).start;
     let Material {
         youngs_modulus_pa: e,

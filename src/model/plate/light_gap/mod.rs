@@ -14,6 +14,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::Resolution;
 use super::harmonic::HarmonicBlock;
 use super::membrane::{MembraneStress, membrane_stiffness};
 use super::radial::RadialBasis;
@@ -26,7 +27,10 @@ use crate::page::text::shown_to;
 /// power of the number of diameters: 20 leave an error of 5e-4 of the gap, 60 an error of 2e-5. The stress has kinks at the
 /// bands, so that 16 functions leave an error of 6e-4 at seven tenths of buckling, which falls with the fifth power of their
 /// number.
-const RESOLUTION: (usize, usize) = (60, 28);
+const RESOLUTION: Resolution = Resolution {
+    max_diameters: 60,
+    radial_functions: 28,
+};
 /// Largest roll tension, relative to that at which the blade buckles, that may explain a measured gap. The deflection is
 /// inversely proportional to the distance from buckling, and is no longer small beyond this limit.
 const BEFORE_BUCKLING: f64 = 0.9;
@@ -104,9 +108,10 @@ struct Wave {
 }
 
 impl LyingBlade {
-    fn new(edge: &StraightEdge, bands: &[RollBand], (most, functions): (usize, usize)) -> Self {
+    fn new(edge: &StraightEdge, bands: &[RollBand], resolution: Resolution) -> Self {
+        let most = resolution.max_diameters;
         let blade = &edge.blade;
-        let basis = RadialBasis::new(blade, functions);
+        let basis = RadialBasis::new(blade, resolution.radial_functions);
         let centrifugal = CentrifugalStress::new(blade);
         let stress = MembraneStress::new(blade, &Membrane::of_bands(bands));
         let stiffness = stress.map(|stress| membrane_stiffness(&basis, &stress, 0..=most));
@@ -163,13 +168,13 @@ impl LyingBlade {
 
     /// Smallest positive factor at which K_b + s K_m is singular.
     fn buckling_factor(&self) -> Option<f64> {
-        let largest = |wave: &Wave| {
+        let largest_of = |wave: &Wave| {
             let lower = wave.bending.clone().cholesky()?.unpack();
             let half = lower.solve_lower_triangular(&wave.rolled)?;
             let relative = lower.solve_lower_triangular(&half.transpose())?;
             Some(-symmetric_eigenvalues(view(&relative)).ok()?[0])
         };
-        let largest = self.waves.iter().filter_map(largest).fold(0.0, f64::max);
+        let largest = self.waves.iter().filter_map(largest_of).fold(0.0, f64::max);
         (largest > 0.0).then(|| 1.0 / largest)
     }
 

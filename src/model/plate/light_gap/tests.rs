@@ -54,7 +54,11 @@ fn the_gap_of_a_rolled_blade_has_converged() {
     let (edge, bands) = edge(ROLLED, |_| ());
     let at = |resolution| LyingBlade::new(&edge, &bands, resolution).at(1.0).unwrap();
     let plain = LyingBlade::new(&edge, &[], RESOLUTION).at(0.0).unwrap();
-    let (usual, fine) = (at(RESOLUTION), at((100, 36)));
+    let larger = Resolution {
+        max_diameters: 100,
+        radial_functions: 36,
+    };
+    let (usual, fine) = (at(RESOLUTION), at(larger));
     println!("{usual:?} {fine:?} {plain:?}");
     assert!((usual.gap_m - fine.gap_m).abs() < 1e-4 * plain.gap_m.abs());
 }
@@ -188,8 +192,8 @@ fn a_measured_gap_gives_the_eigenstrain_that_causes_it() {
     let text = ROLLED
         .replace("3e-4", "1e-5")
         .replace("{}", &format!("{{\"measured_gap_m\": {gap_m}}}"));
-    let (again, bands) = edge(&text, |_| ());
-    let (factor, found) = StraightEdgeReading::new(&again, &bands)
+    let (again, bands_again) = edge(&text, |_| ());
+    let (factor, found) = StraightEdgeReading::new(&again, &bands_again)
         .unwrap()
         .measured
         .unwrap();

@@ -208,11 +208,11 @@ impl MembraneStress {
 
     /// Number of Gauss points per panel that integrate the product of the stress and two of J functions.
     fn points(&self, functions: usize) -> usize {
-        let degree = |(_, part): &(MembraneSource, Part)| match part {
+        let degree_of = |(_, part): &(MembraneSource, Part)| match part {
             Part::Residual(_) => 1,
             Part::Eigen(strain, _) => strain.degree(),
         };
-        let degree = self.parts.iter().map(degree).max().unwrap_or(0);
+        let degree = self.parts.iter().map(degree_of).max().unwrap_or(0);
         functions + degree / 2 + 12
     }
 }

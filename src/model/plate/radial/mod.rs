@@ -37,8 +37,8 @@ pub(crate) struct RadialBasis {
     /// Three-term recurrence x pⱼ = offᵢ₊₁ pⱼ₊₁ + diagⱼ pⱼ + offⱼ pⱼ₋₁; `off[0]` scales p₀.
     diag: Vec<f64>,
     off: Vec<f64>,
-    /// (cos, sin) of the rotation that makes the first function of n = 1 the rigid tilt.
-    tilt: Option<(f64, f64)>,
+    /// Rotation of the first two functions that makes the first one of n = 1 the rigid tilt.
+    tilt: Option<Turn>,
     knots: Option<KnotFunctions>,
     /// Rule for integrals over the radius; the weights do not contain r.
     rule: Rule,
@@ -46,11 +46,26 @@ pub(crate) struct RadialBasis {
     mass_rule: Rule,
 }
 
+/// Cosine and sine of a rotation.
+#[derive(Debug, Clone, Copy)]
+struct Turn {
+    cos: f64,
+    sin: f64,
+}
+
+/// A function (r − r_k)₊^p.
+#[derive(Debug, Clone, Copy)]
+struct TruncatedPower {
+    /// Knot r_k.
+    knot_m: f64,
+    /// Exponent p.
+    power: i32,
+}
+
 /// Truncated powers, and the coefficients that orthonormalize them together with the polynomials.
 #[derive(Debug, Clone)]
 struct KnotFunctions {
-    /// Knot r_k, in m, and exponent p of each function (r − r_k)₊^p.
-    powers: Vec<(f64, i32)>,
+    powers: Vec<TruncatedPower>,
     /// Row j: coefficients of the first j + 1 of p₀, p₁, powers, p₂ … in function j.
     rows: Vec<Vec<f64>>,
 }
@@ -106,7 +121,7 @@ impl RadialBasis {
     /// Highest polynomial degree of the functions between the knots.
     pub(crate) fn degree(&self) -> usize {
         let powers = self.knots.iter().flat_map(|knots| &knots.powers);
-        let highest = powers.map(|(_, power)| *power as usize).max().unwrap_or(0);
+        let highest = powers.map(|own| own.power as usize).max().unwrap_or(0);
         let clamp = if self.clamped { 2 } else { 0 };
         clamp + highest.max(self.diag.len() - 1)
     }
@@ -145,8 +160,8 @@ impl RadialBasis {
         }
     }
 
-    /// (cos, sin) of the rotation of the first two functions that makes the first one proportional to r.
-    fn tilt_turn(&self) -> (f64, f64) {
+    /// The rotation of the first two functions that makes the first one proportional to r.
+    fn tilt_turn(&self) -> Turn {
         let mut coefficient = [0.0; 2];
         for (r, w) in self.mass_rule.iter() {
             let p = self.unturned(r).value;
@@ -154,7 +169,10 @@ impl RadialBasis {
             coefficient[1] += w * r * p[1];
         }
         let norm = coefficient[0].hypot(coefficient[1]);
-        (coefficient[0] / norm, coefficient[1] / norm)
+        Turn {
+            cos: coefficient[0] / norm,
+            sin: coefficient[1] / norm,
+        }
     }
 
     /// x ∈ [−1, 1] for r ∈ [a, b].
@@ -172,7 +190,7 @@ impl RadialBasis {
     }
 
     /// Gram–Schmidt orthogonalization, repeated because one pass loses digits.
-    fn knot_functions(&self, powers: Vec<(f64, i32)>) -> KnotFunctions {
+    fn knot_functions(&self, powers: Vec<TruncatedPower>) -> KnotFunctions {
         let mass = &self.mass_rule;
         let raw: Vec<Vec<f64>> = mass
             .points
@@ -189,10 +207,11 @@ impl RadialBasis {
             for _ in 0..2 {
                 for (known, known_row) in done.iter().zip(&rows) {
                     let share = dot(&mass.weights, known, &values);
-                    let all = values.iter_mut().zip(known);
+                    let all = values
+                        .iter_mut()
+                        .zip(known)
+                        .chain(row.iter_mut().zip(known_row));
                     all.for_each(|(value, known)| *value -= share * known);
-                    let all = row.iter_mut().zip(known_row);
-                    all.for_each(|(factor, known)| *factor -= share * known);
                 }
             }
             let norm = dot(&mass.weights, &values, &values).sqrt();
@@ -205,25 +224,27 @@ impl RadialBasis {
     }
 
     /// p₀, p₁, the truncated powers, p₂ … at a radius.
-    fn with_powers(&self, powers: &[(f64, i32)], r: f64) -> RadialValues {
+    fn with_powers(&self, powers: &[TruncatedPower], r: f64) -> RadialValues {
         let mut values = self.polynomials(r);
         let [c, dc, ddc] = self.clamp(r);
-        let truncated = powers.iter().map(|&(knot_m, power)| {
-            let t = ((r - knot_m) / self.width_m).max(0.0);
-            let p = f64::from(power);
-            let e = [
-                t.powi(power),
-                p * t.powi(power - 1) / self.width_m,
-                p * (p - 1.0) * t.powi(power - 2) / self.width_m.powi(2),
-            ];
-            let beyond = if r > knot_m { 1.0 } else { 0.0 };
-            [
-                c * e[0],
-                dc * e[0] + c * e[1],
-                ddc * e[0] + 2.0 * dc * e[1] + c * e[2] * beyond,
-            ]
-        });
-        let truncated: Vec<[f64; 3]> = truncated.collect();
+        let truncated: Vec<[f64; 3]> = powers
+            .iter()
+            .map(|&TruncatedPower { knot_m, power }| {
+                let t = ((r - knot_m) / self.width_m).max(0.0);
+                let p = f64::from(power);
+                let e = [
+                    t.powi(power),
+                    p * t.powi(power - 1) / self.width_m,
+                    p * (p - 1.0) * t.powi(power - 2) / self.width_m.powi(2),
+                ];
+                let beyond = if r > knot_m { 1.0 } else { 0.0 };
+                [
+                    c * e[0],
+                    dc * e[0] + c * e[1],
+                    ddc * e[0] + 2.0 * dc * e[1] + c * e[2] * beyond,
+                ]
+            })
+            .collect();
         let RadialValues {
             value,
             slope,
@@ -296,7 +317,7 @@ impl RadialBasis {
 
     /// Converts a J × J block from the functions of n ≠ 1 to those of n (rows) and m (columns) nodal diameters.
     pub(crate) fn turned(&self, n: usize, m: usize, mut block: DMatrix<f64>) -> DMatrix<f64> {
-        let Some((cos, sin)) = self.tilt else {
+        let Some(Turn { cos, sin }) = self.tilt else {
             return block;
         };
         let turn = Matrix2::new(cos, sin, -sin, cos);
@@ -313,7 +334,7 @@ impl RadialBasis {
 }
 
 /// The knots that get functions, with the powers of each.
-fn knot_powers(blade: &Blade) -> Vec<(f64, i32)> {
+fn knot_powers(blade: &Blade) -> Vec<TruncatedPower> {
     let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
     let apart = MIN_SPACING * (b - a);
     let steps = blade.knots_m().into_iter().map(|r| (r, &AT_STEP[..]));
@@ -330,7 +351,9 @@ fn knot_powers(blade: &Blade) -> Vec<(f64, i32)> {
     }
     kept.sort_by(|x, y| x.0.total_cmp(&y.0));
     kept.into_iter()
-        .flat_map(|(radius, powers)| powers.iter().map(move |&power| (radius, power)))
+        .flat_map(|(knot_m, powers)| {
+            (powers.iter()).map(move |&power| TruncatedPower { knot_m, power })
+        })
         .collect()
 }
 
@@ -351,7 +374,7 @@ fn mass_rule(blade: &Blade, area: &Rule) -> Rule {
     rule
 }
 
-fn rotate(values: &mut [f64], (cos, sin): (f64, f64)) {
+fn rotate(values: &mut [f64], Turn { cos, sin }: Turn) {
     let (first, second) = (values[0], values[1]);
     values[0] = cos * first + sin * second;
     values[1] = -sin * first + cos * second;

@@ -80,9 +80,9 @@ fn lower_bound(blade: &Blade, waves: &[EvenWave<'_>], count: usize) -> f64 {
             .map(|i| compliance[(i, i)].sqrt().recip())
             .collect();
         let scaled = Mat::from_fn(count, count, |i, k| compliance[(i, k)] * unit[i] * unit[k]);
-        let work = Col::from_fn(count, |i| work[i] * unit[i]);
-        let solution = scaled.partial_piv_lu().solve(&work);
-        energy += 0.5 * (solution.transpose() * &work);
+        let scaled_work = Col::from_fn(count, |i| work[i] * unit[i]);
+        let solution = scaled.partial_piv_lu().solve(&scaled_work);
+        energy += 0.5 * (solution.transpose() * &scaled_work);
     }
     energy
 }
@@ -113,7 +113,7 @@ fn strain_of(waves: &[EvenWave<'_>], m: usize, r: f64) -> [f64; 3] {
 /// energy.
 #[test]
 fn truncated_stress_functions_bound_it_from_below() {
-    let plate = plate((4, 8), |_| ());
+    let plate = plate([4, 8], |_| ());
     let stretching = Stretching::new(&plate).unwrap();
     let bowl = |r: f64| [r * r * (1.0 - r), 2.0 * r - 3.0 * r * r, 2.0 - 6.0 * r];
     let tilt = |r: f64| [0.3 * r * r, 0.6 * r, 0.6];
@@ -237,7 +237,7 @@ fn steps_tapers_and_collars_have_the_energy_of_a_shooting_method() {
         },
     ];
     for (index, edit) in edits.iter().enumerate() {
-        let plate = plate((2, 6), edit);
+        let plate = plate([2, 6], edit);
         let stretching = Stretching::new(&plate).unwrap();
         let a = plate.blade.inner_radius_m;
         let shape: &dyn Fn(f64) -> f64 = &|r| (r - a).powi(2) * (1.0 + 2.0 * r);

@@ -27,6 +27,12 @@ pub struct Nodes {
     degrees_of_freedom: usize,
 }
 
+/// Share of the strain at a node in the strain at a point, where r² e is a polynomial.
+pub struct NodeShare {
+    pub node: usize,
+    pub share: f64,
+}
+
 impl Nodes {
     /// The nodes of a plate.
     pub fn new(plate: &Plate) -> Self {
@@ -93,9 +99,8 @@ impl Nodes {
         within.collect()
     }
 
-    /// Nodes of the interval that contains a radius, each with the strain at this radius for a unit strain at
-    /// the node and zero at the others: r² e is a polynomial.
-    pub fn interpolated(&self, radius_m: f64) -> Vec<(usize, f64)> {
+    /// The nodes of the interval that contains a radius, for the strain there.
+    pub fn interpolated(&self, radius_m: f64) -> Vec<NodeShare> {
         let next = self.edges_m.partition_point(|edge| *edge < radius_m);
         let interval = next.saturating_sub(1).min(self.edges_m.len() - 2);
         let (from, to) = (self.edges_m[interval], self.edges_m[interval + 1]);
@@ -106,7 +111,10 @@ impl Nodes {
         nodes
             .map(|(k, value)| {
                 let ratio = self.radii_m[first + k] / radius_m;
-                (first + k, value * ratio * ratio)
+                NodeShare {
+                    node: first + k,
+                    share: value * ratio * ratio,
+                }
             })
             .collect()
     }

@@ -7,16 +7,25 @@ use super::test_blades::{Wave, plate, projected};
 use super::*;
 use crate::model::linalg::SymmetricEigen;
 
-/// Results of CalculiX: load in N (zero for the linear response to one newton), position, deflection in m.
-/// The deflections are extrapolated to zero thickness, for which plate theory is exact.
-fn calculix() -> Vec<(f64, String, f64)> {
+/// A result of CalculiX, extrapolated to zero thickness, for which plate theory is exact.
+struct Calculated {
+    /// Zero for the linear response to one newton.
+    load_n: f64,
+    place: String,
+    deflection_m: f64,
+}
+
+fn calculix() -> Vec<Calculated> {
     let table = include_str!("../../../../tests/reference/large_deflection_point.csv");
     let rows = table.lines().filter(|line| line.starts_with("point,"));
     rows.map(|row| {
         let cells: Vec<&str> = row.split(',').collect();
         let thin_mm: f64 = cells[7].parse().expect("a number");
-        let load_n = cells[1].parse().unwrap_or(0.0);
-        (load_n, cells[2].to_owned(), 1e-3 * thin_mm)
+        Calculated {
+            load_n: cells[1].parse().unwrap_or(0.0),
+            place: cells[2].to_owned(),
+            deflection_m: 1e-3 * thin_mm,
+        }
     })
     .collect()
 }
@@ -30,7 +39,7 @@ struct SupportedBlade {
 }
 
 impl SupportedBlade {
-    fn new(resolution: (usize, usize), shapes: usize, load: (f64, f64)) -> Self {
+    fn new(resolution: [usize; 2], shapes: usize, load_radius_m: f64) -> Self {
         let plate = plate(resolution, |_| ());
         let order = plate.degrees_of_freedom();
         let mut bending: Mat<f64> = Mat::zeros(order, order);
@@ -56,8 +65,8 @@ impl SupportedBlade {
             .collect();
         let on_even = Mat::from_fn(even.len(), even.len(), |i, k| supported[(even[i], even[k])]);
         let modes = SymmetricEigen::new(on_even.as_ref()).unwrap();
-        let force = functions(&plate, load.0, load.1);
-        let force = Col::from_fn(even.len(), |i| force[even[i]]);
+        let full_force = functions(&plate, load_radius_m, 0.0);
+        let force = Col::from_fn(even.len(), |i| full_force[even[i]]);
         let answer = on_even.llt(Side::Lower).unwrap().solve(&force);
         let mut vectors = Mat::zeros(order, shapes);
         for (i, &row) in even.iter().enumerate() {
@@ -75,10 +84,10 @@ impl SupportedBlade {
     }
 
     /// Deflections under increasing loads, in the functions of the plate, by Newton's method.
-    fn bent(&self, loads_n: &[f64], load: (f64, f64)) -> Vec<Col<f64>> {
+    fn bent(&self, loads_n: &[f64], load_radius_m: f64) -> Vec<Col<f64>> {
         let stretching = Stretching::new(&self.plate).unwrap();
         let reduced = ReducedStretching::new(&stretching, self.shapes.as_ref()).unwrap();
-        let force = self.shapes.transpose() * functions(&self.plate, load.0, load.1);
+        let force = self.shapes.transpose() * functions(&self.plate, load_radius_m, 0.0);
         let mut p = Col::zeros(self.shapes.ncols());
         let mut all = Vec::new();
         for load_n in loads_n {
@@ -110,15 +119,15 @@ fn a_blade_under_a_point_load_bends_as_three_dimensional_elements_do() {
     let table = calculix();
     let mut loads_n: Vec<f64> = table
         .iter()
-        .map(|row| row.0)
+        .map(|row| row.load_n)
         .filter(|load| *load > 0.0)
         .collect();
     loads_n.dedup();
     let rim_m = 0.355;
     let bases = [12, 20].map(|diameters| {
-        let blade = SupportedBlade::new((diameters, 8), 24, (rim_m, 0.0));
+        let blade = SupportedBlade::new([diameters, 8], 24, rim_m);
         (
-            blade.bent(&loads_n, (rim_m, 0.0)),
+            blade.bent(&loads_n, rim_m),
             blade,
             (diameters * diameters) as f64,
         )
@@ -135,7 +144,8 @@ fn a_blade_under_a_point_load_bends_as_three_dimensional_elements_do() {
         });
         (fine.1 * fine.0 - coarse.1 * coarse.0) / (fine.1 - coarse.1)
     };
-    for (load, place, expected) in &table {
+    for row in &table {
+        let (load, place, expected) = (&row.load_n, &row.place, row.deflection_m);
         let Some(index) = loads_n.iter().position(|own| own == load) else {
             continue;
         };
@@ -148,10 +158,10 @@ fn a_blade_under_a_point_load_bends_as_three_dimensional_elements_do() {
 /// U₄ of a saddle with a ripple that is not a polynomial, over n_max and J.
 #[test]
 fn the_potential_converges_in_both_directions() {
-    let energy = |resolution: (usize, usize)| {
+    let energy = |resolution: [usize; 2]| {
         let plate = plate(resolution, |_| ());
         // w = r² cos 2θ / (1 + cos θ/2) / (1 + r), by its Fourier series over 128 points.
-        let parts: Vec<(usize, f64)> = (0..=resolution.0)
+        let parts: Vec<(usize, f64)> = (0..=resolution[0])
             .map(|n| {
                 let sum: f64 = (0..128)
                     .map(|k| f64::from(k) * std::f64::consts::TAU / 128.0)
@@ -179,13 +189,13 @@ fn the_potential_converges_in_both_directions() {
         let stretching = Stretching::new(&plate).unwrap();
         stretching.energy_j(&projected(&plate, &waves)).unwrap()
     };
-    let exact = energy((20, 9));
+    let exact = energy([20, 9]);
     // Coefficients fall as (2 − √3)ⁿ = 0.27ⁿ around the blade, and as 0.09ʲ over the radius.
-    for (resolution, most) in [((6, 9), 2e-2), ((10, 9), 3e-4), ((14, 9), 3e-6)] {
+    for (resolution, most) in [([6, 9], 2e-2), ([10, 9], 3e-4), ([14, 9], 3e-6)] {
         let error = energy(resolution) / exact - 1.0;
         assert!(error.abs() < most, "{resolution:?}: {error:e}");
     }
-    for (resolution, most) in [((20, 3), 2e-2), ((20, 4), 2e-3), ((20, 6), 2e-5)] {
+    for (resolution, most) in [([20, 3], 2e-2), ([20, 4], 2e-3), ([20, 6], 2e-5)] {
         let error = energy(resolution) / exact - 1.0;
         assert!(error.abs() < most, "{resolution:?}: {error:e}");
     }

@@ -25,16 +25,17 @@ impl ReducedStretching {
         let slopes = (0..order)
             .map(|k| stretching.slopes(&basis.col(k).to_owned()))
             .collect::<Result<Vec<_>, _>>()?;
-        let pairs: Vec<(usize, usize)> = pairs(order).collect();
+        let pairs: Vec<[usize; 2]> = pairs(order).collect();
         let columns: Vec<Vec<f64>> = pairs
             .par_iter()
-            .map(|&(a, b)| stretching.relaxed(&Strain::of(&slopes[a], &slopes[b])))
+            .map(|&[a, b]| stretching.relaxed(&Strain::of(&slopes[a], &slopes[b])))
             .collect();
         let height = columns.first().map_or(0, Vec::len);
         // The product p_a p_b occurs once in the strain for a = b, and twice for a > b, where p_b p_a has the
         // same column. The potential is U₄ = |Z e|².
         let relaxed = Mat::from_fn(height, pairs.len(), |i, k| {
-            let times = if pairs[k].0 == pairs[k].1 { 1.0 } else { 2.0 };
+            let [a, b] = pairs[k];
+            let times = if a == b { 1.0 } else { 2.0 };
             times * columns[k][i]
         });
         Ok(ReducedStretching {
@@ -89,7 +90,7 @@ impl ReducedStretching {
     pub fn energy_with(&self, coordinates: &Col<f64>, tension: &Col<f64>) -> f64 {
         let pairs = pairs(self.order).zip(tension.iter());
         let sum: f64 = pairs
-            .map(|((a, b), tension)| coordinates[a] * coordinates[b] * tension)
+            .map(|([a, b], tension)| coordinates[a] * coordinates[b] * tension)
             .sum();
         0.5 * sum
     }
@@ -138,7 +139,7 @@ impl ReducedStretching {
                 expected: self.order,
             });
         }
-        let products: Vec<f64> = pairs(self.order).map(|(a, b)| p[a] * p[b]).collect();
+        let products: Vec<f64> = pairs(self.order).map(|[a, b]| p[a] * p[b]).collect();
         Ok(Col::from_fn(products.len(), |i| products[i]))
     }
 
@@ -146,7 +147,7 @@ impl ReducedStretching {
     /// diagonal.
     fn symmetric(&self, tension: &Col<f64>) -> Mat<f64> {
         let mut matrix = Mat::zeros(self.order, self.order);
-        for (i, (a, b)) in pairs(self.order).enumerate() {
+        for (i, [a, b]) in pairs(self.order).enumerate() {
             matrix[(a, b)] += tension[i];
             matrix[(b, a)] += tension[i];
         }
@@ -161,6 +162,6 @@ fn pair(a: usize, b: usize) -> usize {
 }
 
 /// Iterates over the pairs a ≥ b in the order of the products.
-fn pairs(order: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..order).flat_map(|a| (0..=a).map(move |b| (a, b)))
+fn pairs(order: usize) -> impl Iterator<Item = [usize; 2]> {
+    (0..order).flat_map(|a| (0..=a).map(move |b| [a, b]))
 }

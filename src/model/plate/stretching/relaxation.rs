@@ -7,7 +7,7 @@ use crate::model::plate::quadrature;
 use crate::model::scene::{Blade, Bore, InPlane, Material};
 
 use super::StretchingError;
-use super::nodes::Nodes;
+use super::nodes::{NodeShare, Nodes};
 
 /// Matrix Z of harmonic m: |Z e|² is the energy, in J, of the strains e at the nodes, which vary as (cos mθ,
 /// cos mθ, sin mθ), or as these rotated by a quarter wave.
@@ -44,9 +44,9 @@ impl Relaxed {
     ) -> Result<Self, StretchingError> {
         let points = Points::new(blade, nodes, elements);
         let displacements = points.displacements(elements, 3 * nodes.len(), fixed(blade, order));
-        let left = points.left(elements, &displacements, 3 * nodes.len());
         let turns = if order == 0 { 1.0 } else { 2.0 };
-        let left = Scale((std::f64::consts::PI * turns).sqrt()) * left;
+        let left = Scale((std::f64::consts::PI * turns).sqrt())
+            * points.left(elements, &displacements, 3 * nodes.len());
         if !left.norm_max().is_finite() {
             return Err(StretchingError::NotFinite { harmonic: order });
         }
@@ -124,8 +124,7 @@ struct Points(Vec<Point>);
 struct Point {
     element: usize,
     unit: UnitStrains,
-    /// Index of each node of the interval, with the strain at this point for a unit strain at the node.
-    strains: Vec<(usize, f64)>,
+    strains: Vec<NodeShare>,
     /// Factors [(rr, rr), (rr, tt), (tt, tt), (rt, rt)] of √(weight ℂ), triangular.
     root: [f64; 4],
     /// Weight of the rule times r h, in m³.
@@ -143,7 +142,7 @@ impl Points {
         let plane = (e / (1.0 - nu * nu)).sqrt();
         let across = (1.0 - nu * nu).sqrt();
         let of_element = |element: usize| {
-            let (from, to) = elements.ends_m(element);
+            let [from, to] = elements.ends_m(element);
             let rule = quadrature::graded(from, to, count);
             let points: Vec<Point> = rule
                 .iter()
@@ -187,8 +186,8 @@ impl Points {
                 }
                 let row = strains * (first + i);
                 for (part, stress) in stress.iter().enumerate() {
-                    for &(node, strain) in &point.strains {
-                        forces[row + part * nodes + node] -= stress * strain;
+                    for NodeShare { node, share } in &point.strains {
+                        forces[row + part * nodes + node] -= stress * share;
                     }
                 }
             }
@@ -216,8 +215,8 @@ impl Points {
                         *sum += unit[part] * u;
                     }
                 }
-                for &(node, strain) in &point.strains {
-                    sum[part * nodes + node] += strain;
+                for NodeShare { node, share } in &point.strains {
+                    sum[part * nodes + node] += share;
                 }
             }
             let [radial, coupled, hoop, shear] = point.root;
@@ -250,17 +249,17 @@ mod tests {
     #[test]
     fn the_elements_are_fine_enough() {
         for (functions, bore_m) in [(4, 0.2), (8, 0.2), (12, 0.2), (12, 0.02), (16, 0.5)] {
-            let plate = plate((2, functions), |saw| saw.blade.inner_diameter_m = bore_m);
+            let plate = plate([2, functions], |saw| saw.blade.inner_diameter_m = bore_m);
             let blade = &plate.blade;
             let nodes = Nodes::new(&plate);
             for order in [0, 1, 2, 9, 24] {
                 let mut knots = nodes.divisions_m(DEGREE, HALF_WAVES);
-                let usual = Elements::new(blade, order, &knots);
-                let ends = (0..usual.count()).map(|element| usual.ends_m(element));
-                knots.extend(ends.flat_map(|(from, to)| [from, (from * to).sqrt()]));
-                let halved = Elements::new(blade, order, &knots);
-                assert_eq!(halved.count(), 2 * usual.count());
-                let [usual, halved] = [usual, halved]
+                let coarse = Elements::new(blade, order, &knots);
+                let ends = (0..coarse.count()).map(|element| coarse.ends_m(element));
+                knots.extend(ends.flat_map(|[from, to]| [from, (from * to).sqrt()]));
+                let fine = Elements::new(blade, order, &knots);
+                assert_eq!(fine.count(), 2 * coarse.count());
+                let [usual, halved] = [coarse, fine]
                     .map(|elements| Relaxed::on(&elements, blade, &nodes, order).unwrap());
                 let energies = |z: &Relaxed| -> Vec<f64> {
                     let square = |unit: usize| z.rows.iter().map(move |row| row[unit].powi(2));
@@ -268,9 +267,9 @@ mod tests {
                         .map(|unit| square(unit).sum())
                         .collect()
                 };
-                let (usual, halved) = (energies(&usual), energies(&halved));
-                let largest = halved.iter().copied().fold(0.0, f64::max);
-                for (usual, halved) in usual.iter().zip(&halved) {
+                let (usual_energies, halved_energies) = (energies(&usual), energies(&halved));
+                let largest = halved_energies.iter().copied().fold(0.0, f64::max);
+                for (usual, halved) in usual_energies.iter().zip(&halved_energies) {
                     let error = (usual - halved).abs() / largest;
                     assert!(error < 1e-9, "{functions} {bore_m} {order}: {error:e}");
                 }

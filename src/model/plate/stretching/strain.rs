@@ -12,6 +12,12 @@ pub struct Slopes {
     nodes: usize,
 }
 
+/// Both slopes of a wave of n nodal diameters, n positive or negative.
+struct SlopeWave<'a> {
+    n: isize,
+    parts: &'a [Parts; 2],
+}
+
 impl Slopes {
     /// Zero slopes.
     pub fn none(max_diameters: usize, nodes: usize) -> Self {
@@ -41,13 +47,17 @@ impl Slopes {
     }
 
     /// Iterates over all n, positive and negative, whose slopes are not zero.
-    fn present(&self) -> impl Iterator<Item = (isize, &[Parts; 2])> {
+    fn present(&self) -> impl Iterator<Item = SlopeWave<'_>> {
         let waves = self.waves.iter().enumerate();
         waves.flat_map(|(n, wave)| {
             let n = n as isize;
             let both = if n == 0 { 1 } else { 2 };
-            wave.iter()
-                .flat_map(move |wave| [(n, wave), (-n, wave)].into_iter().take(both))
+            wave.iter().flat_map(move |parts| {
+                [n, -n]
+                    .map(|n| SlopeWave { n, parts })
+                    .into_iter()
+                    .take(both)
+            })
         })
     }
 }
@@ -74,19 +84,19 @@ impl Strain {
     pub fn of(v: &Slopes, w: &Slopes) -> Self {
         let mut strain = Strain::none(2 * (v.waves.len() - 1), v.nodes);
         let nodes = v.nodes;
-        for (n, left) in v.present() {
-            for (k, right) in w.present() {
-                let Ok(m) = usize::try_from(n + k) else {
+        for left in v.present() {
+            for right in w.present() {
+                let Ok(m) = usize::try_from(left.n + right.n) else {
                     continue;
                 };
-                let [re, im] = &mut strain.harmonics[m];
-                let (re_rr, re) = re.split_at_mut(nodes);
+                let [real, imaginary] = &mut strain.harmonics[m];
+                let (re_rr, re) = real.split_at_mut(nodes);
                 let (re_tt, re_rt) = re.split_at_mut(nodes);
-                let (im_rr, im) = im.split_at_mut(nodes);
+                let (im_rr, im) = imaginary.split_at_mut(nodes);
                 let (im_tt, im_rt) = im.split_at_mut(nodes);
-                let [left_sign, right_sign] = [n, k].map(conjugation);
-                let [[vr, vri], [vt, vti]] = left;
-                let [[wr, wri], [wt, wti]] = right;
+                let [left_sign, right_sign] = [left.n, right.n].map(conjugation);
+                let [[vr, vri], [vt, vti]] = left.parts;
+                let [[wr, wri], [wt, wti]] = right.parts;
                 for j in 0..nodes {
                     let (ar, ai) = (0.5 * vr[j], 0.5 * left_sign * vri[j]);
                     let (br, bi) = (0.5 * vt[j], 0.5 * left_sign * vti[j]);
@@ -114,35 +124,36 @@ impl Strain {
         for n in 0..forces.waves.len() as isize {
             let mut radial = [vec![0.0; nodes], vec![0.0; nodes]];
             let mut hoop = radial.clone();
-            for (k, wave) in w.present() {
-                self.add_force(n + k, (k, wave), (&mut radial, &mut hoop));
+            for wave in w.present() {
+                self.add_force(n + wave.n, &wave, &mut radial, &mut hoop);
             }
             forces.waves[n as usize] = Some([radial, hoop]);
         }
         forces
     }
 
-    /// Adds the force that the stress of harmonic m exerts with the wave k of w.
+    /// Adds the force that the stress of harmonic m exerts with a wave of w.
     fn add_force(
         &self,
         m: isize,
-        (k, [[wr, wri], [wt, wti]]): (isize, &[Parts; 2]),
-        ([fr, fri], [ft, fti]): (&mut Parts, &mut Parts),
+        wave: &SlopeWave<'_>,
+        [fr, fri]: &mut Parts,
+        [ft, fti]: &mut Parts,
     ) {
+        let [[wr, wri], [wt, wti]] = wave.parts;
         let nodes = self.nodes;
         let [re, im] = &self.harmonics[m.unsigned_abs()];
         // The stresses of harmonic −m are the complex conjugates of those of m, except that the stored shear
         // iτ also changes its sign. Since m and −m are added separately, each has half the weight of m = 0.
         let share = if m == 0 { 2.0 } else { 1.0 };
-        let (side, wave_side) = (conjugation(m), -conjugation(k));
+        let (side, wave_side) = (conjugation(m), -conjugation(wave.n));
         for j in 0..nodes {
             let (cr, ci) = (share * wr[j], share * wave_side * wri[j]);
             let (dr, di) = (share * wt[j], share * wave_side * wti[j]);
             let (rr, rri) = (re[j], side * im[j]);
             let (tt, tti) = (re[nodes + j], side * im[nodes + j]);
             // The shear stress τ is −i times the stored value iτ.
-            let (rt, rti) = (im[2 * nodes + j], -re[2 * nodes + j]);
-            let (rt, rti) = (rt, side * rti);
+            let (rt, rti) = (im[2 * nodes + j], side * -re[2 * nodes + j]);
             fr[j] += cr * rr - ci * rri + dr * rt - di * rti;
             fri[j] += cr * rri + ci * rr + dr * rti + di * rt;
             ft[j] += dr * tt - di * tti + cr * rt - ci * rti;

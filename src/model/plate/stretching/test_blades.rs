@@ -6,15 +6,15 @@ use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::{InPlane, Mount, Scene, SceneFile, ThicknessRow};
 
 /// The paper's blade without guides, modified.
-pub fn plate(resolution: (usize, usize), edit: impl FnOnce(&mut SceneFile)) -> Plate {
+pub fn plate(resolution: [usize; 2], edit: impl FnOnce(&mut SceneFile)) -> Plate {
     let scene = Scene::paper().edited(|saw| {
         saw.guides.clear();
         saw.cut = None;
         edit(saw);
     });
     let resolution = Resolution {
-        max_diameters: resolution.0,
-        radial_functions: resolution.1,
+        max_diameters: resolution[0],
+        radial_functions: resolution[1],
     };
     Plate::new(&scene.expect("a saw"), resolution)
 }
@@ -42,7 +42,7 @@ pub fn collar(saw: &mut SceneFile, in_plane: InPlane) {
 }
 
 /// Blades on a spline, in both kinds of collar, and with a profile on a spline and in a collar.
-pub fn all(resolution: (usize, usize)) -> [Plate; 5] {
+pub fn all(resolution: [usize; 2]) -> [Plate; 5] {
     [
         plate(resolution, |_| ()),
         plate(resolution, |saw| collar(saw, InPlane::Free)),

@@ -6,6 +6,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::SceneFile;
+use super::entries::Entry;
 use super::quantities::{QUANTITIES, typical_value};
 use super::quantity::{Kind, Quantity, Typical};
 use crate::page::text::{shown, shown_to};
@@ -66,7 +67,7 @@ struct Unusual {
     /// Reason for which the number is unusual.
     why: String,
     /// Another unit that the number may be in, and its value when converted from it.
-    meant: Option<(&'static str, f64)>,
+    meant: Option<Meant>,
 }
 
 impl SceneFile {
@@ -99,7 +100,7 @@ pub fn unusual_number(scene: &SceneFile, label: &str, path: &str, value: f64) ->
 fn out_of_range(scene: &SceneFile) -> Vec<Unusual> {
     let rows = scene.measured.iter().flat_map(|measured| &measured.rows);
     let largest_rpm = rows.map(|row| row.rpm).fold(0.0, f64::max);
-    let judged = |(path, value): (String, f64)| {
+    let judged = |Entry { path, value }: Entry<f64>| {
         let quantity = Quantity::of(&path)?;
         // Only the largest measured speed is compared with the usual range: lower ones, down to rest, are usual.
         let is_slower = quantity.path == "measured.rows[].rpm" && value < largest_rpm;
@@ -107,6 +108,15 @@ fn out_of_range(scene: &SceneFile) -> Vec<Unusual> {
         (!is_slower).then(|| usual.judged(&path, value, quantity.unit))?
     };
     scene.numbers().into_iter().filter_map(judged).collect()
+}
+
+/// A number in the unit in which it was probably meant.
+#[derive(Debug, Clone, Copy)]
+struct Meant {
+    /// The unit.
+    unit: &'static str,
+    /// The number converted from it.
+    value: f64,
 }
 
 impl Usual {
@@ -133,20 +143,20 @@ impl Usual {
             };
         }
         let rpm = |rim_m_per_s: f64| 60.0 * rim_m_per_s / (PI * diameter_m);
-        let from = rpm(RIM_M_PER_S.0);
-        let to = if is_run {
+        let slowest = rpm(RIM_M_PER_S.0);
+        let fastest = if is_run {
             to.min(rpm(RIM_M_PER_S.1))
         } else {
             to
         };
         let words = if is_run {
-            format!("saws of this diameter run at {from:.0} to {to:.0} rpm")
+            format!("saws of this diameter run at {slowest:.0} to {fastest:.0} rpm")
         } else {
-            format!("saws of this diameter run at {from:.0} rpm or more")
+            format!("saws of this diameter run at {slowest:.0} rpm or more")
         };
         Usual {
-            from,
-            to,
+            from: slowest,
+            to: fastest,
             typical: rpm(TYPICAL_RIM_M_PER_S),
             words,
         }
@@ -166,27 +176,30 @@ impl Usual {
         })
     }
 
-    /// Unit from which a conversion makes the number usual, and the converted value. Of several units, the one
-    /// whose converted value is nearest to the typical value is chosen.
-    fn meant(&self, value: f64, unit: &str) -> Option<(&'static str, f64)> {
+    /// The number in the unit from which a conversion makes it usual. Of several units, the one whose converted value is
+    /// nearest to the typical value is chosen.
+    fn meant(&self, value: f64, unit: &str) -> Option<Meant> {
         let of_unit = MISTAKEN.iter().filter(|(own, _, _)| *own == unit);
-        let meant = of_unit.map(|(_, other, factor)| (*other, value * factor));
-        let usual = meant.filter(|(_, value)| self.has(*value));
-        let distance = |value: f64| (value / self.typical).ln().abs();
-        usual.min_by(|x, y| distance(x.1).total_cmp(&distance(y.1)))
+        let meant = of_unit.map(|(_, other, factor)| Meant {
+            unit: other,
+            value: value * factor,
+        });
+        let usual = meant.filter(|meant| self.has(meant.value));
+        let distance = |meant: &Meant| (meant.value / self.typical).ln().abs();
+        usual.min_by(|x, y| distance(x).total_cmp(&distance(y)))
     }
 }
 
 impl Unusual {
     fn unit_meant(&self) -> Option<&'static str> {
-        self.meant.map(|(unit, _)| unit)
+        self.meant.map(|meant| meant.unit)
     }
 
     fn sentence(&self) -> String {
         let Unusual { path, why, .. } = self;
         let remedy = match self.meant {
-            Some((other, meant)) => {
-                format!("are these {other}? That would be {}", self.with_unit(meant))
+            Some(Meant { unit, value }) => {
+                format!("are these {unit}? That would be {}", self.with_unit(value))
             }
             None => "is it in the unit that ends the key's name?".into(),
         };
@@ -212,8 +225,8 @@ fn together(group: &[Unusual]) -> String {
     let each: Vec<String> = group
         .iter()
         .map(|one| {
-            let meant = one.meant.map_or(one.value, |(_, meant)| meant);
-            let (value, meant) = (shown(one.value), one.with_unit(meant));
+            let meant_value = one.meant.map_or(one.value, |meant| meant.value);
+            let (value, meant) = (shown(one.value), one.with_unit(meant_value));
             format!(
                 "{} is {value} (that would be {meant}; {})",
                 one.path, one.why
@@ -227,9 +240,9 @@ fn together(group: &[Unusual]) -> String {
 /// Angles that seem to be in radians.
 fn in_radians(scene: &SceneFile) -> Vec<Unusual> {
     let typed = scene.numbers();
-    let of_path = |general: &str| -> Vec<(String, f64)> {
-        let own = typed.iter().filter(|(path, value)| {
-            *value != 0.0 && Quantity::of(path).is_some_and(|q| q.path == general)
+    let of_path = |general: &str| -> Vec<Entry<f64>> {
+        let own = typed.iter().filter(|entry| {
+            entry.value != 0.0 && Quantity::of(&entry.path).is_some_and(|q| q.path == general)
         });
         own.cloned().collect()
     };
@@ -237,28 +250,29 @@ fn in_radians(scene: &SceneFile) -> Vec<Unusual> {
     let angles = QUANTITIES.iter().filter(|q| q.kind == Kind::Angle);
     let groups = angles.map(|quantity| of_path(quantity.path));
     let suspect = groups.filter(|group| seem_radians(group));
-    let unusual = |(path, value): (String, f64)| Unusual {
+    let unusual = |Entry { path, value }: Entry<f64>| Unusual {
         path,
         value,
         unit: "°",
         why: "angles are rarely set to such a fraction of a degree".to_owned(),
-        meant: Some((RADIANS, (100.0 * value.to_degrees()).round() / 100.0)),
+        meant: Some(Meant {
+            unit: RADIANS,
+            value: (100.0 * value.to_degrees()).round() / 100.0,
+        }),
     };
     suspect.flatten().map(unusual).collect()
 }
 
 /// Whether angles of one kind seem to be in radians: all are within one turn, none is a usual number of degrees,
 /// and one is a round number of degrees when converted, or there are many different ones.
-fn seem_radians(angles: &[(String, f64)]) -> bool {
-    let is_within = |value: f64| value.abs() <= TAU + 0.01;
-    let is_typed = |value: f64| (value / TYPED_DEG).fract() == 0.0;
-    let mut distinct: Vec<f64> = angles.iter().map(|(_, value)| *value).collect();
+fn seem_radians(angles: &[Entry<f64>]) -> bool {
+    let mut distinct: Vec<f64> = angles.iter().map(|angle| angle.value).collect();
     distinct.sort_by(f64::total_cmp);
     distinct.dedup();
     let is_many = distinct.len() >= MANY_ANGLES;
     distinct
         .iter()
-        .all(|value| is_within(*value) && !is_typed(*value))
+        .all(|value| value.abs() <= TAU + 0.01 && (value / TYPED_DEG).fract() != 0.0)
         && (is_many || distinct.iter().any(|value| is_round_in_radians(*value)))
 }
 

@@ -27,7 +27,7 @@ const RATIOS: (f64, f64) = (0.1, 10.0);
 pub(crate) struct ThicknessProfile {
     hub_m: f64,
     /// Rows (radius, thickness), of which the first `count` are in use.
-    rows: [(f64, f64); MAX_ROWS],
+    rows: [[f64; 2]; MAX_ROWS],
     count: usize,
 }
 
@@ -51,7 +51,7 @@ impl ThicknessProfile {
         }
         let mut profile = ThicknessProfile {
             hub_m,
-            rows: [(0.0, 0.0); MAX_ROWS],
+            rows: [[0.0; 2]; MAX_ROWS],
             count: rows.len(),
         };
         for (index, row) in rows.iter().enumerate() {
@@ -73,19 +73,19 @@ impl ThicknessProfile {
                     remedy,
                 ));
             }
-            profile.rows[index] = (row.radius_m, row.thickness_m);
+            profile.rows[index] = [row.radius_m, row.thickness_m];
         }
         Ok(Some(profile))
     }
 
-    fn rows(&self) -> &[(f64, f64)] {
+    fn rows(&self) -> &[[f64; 2]] {
         &self.rows[..self.count]
     }
 
     /// Thickness at a radius; at a step, that of the inner side.
     pub fn at_m(&self, radius_m: f64) -> f64 {
         self.between(
-            self.rows().partition_point(|(r, _)| *r < radius_m),
+            self.rows().partition_point(|[r, _]| *r < radius_m),
             radius_m,
         )
     }
@@ -93,7 +93,7 @@ impl ThicknessProfile {
     /// Thickness at a radius; at a step, that of the outer side.
     pub(super) fn outside_m(&self, radius_m: f64) -> f64 {
         self.between(
-            self.rows().partition_point(|(r, _)| *r <= radius_m),
+            self.rows().partition_point(|[r, _]| *r <= radius_m),
             radius_m,
         )
     }
@@ -104,16 +104,16 @@ impl ThicknessProfile {
         let Some(before) = next.checked_sub(1) else {
             return self.hub_m;
         };
-        let (from, start) = rows[before];
+        let [from, start] = rows[before];
         match rows.get(next) {
-            Some((to, end)) => start + (end - start) * ((radius_m - from) / (to - from)),
+            Some([to, end]) => start + (end - start) * ((radius_m - from) / (to - from)),
             None => start,
         }
     }
 
     /// Radii at which the thickness is not smooth, ascending.
     pub(super) fn knots_m(&self) -> Vec<f64> {
-        let mut knots: Vec<f64> = self.rows().iter().map(|(radius, _)| *radius).collect();
+        let mut knots: Vec<f64> = self.rows().iter().map(|[radius, _]| *radius).collect();
         knots.dedup();
         knots
     }
