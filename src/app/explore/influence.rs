@@ -19,11 +19,7 @@ pub struct Influence {
 pub fn influences(entries: &[Sensitivity], report: &Report) -> Vec<Influence> {
     let critical = report.critical_speeds.first().map(|critical| critical.rpm);
     let flutter = report.flutter_speed_rpm;
-    let band = flutter.and_then(|rpm| {
-        let begins = |[from, _]: &[f64; 2]| *from == rpm;
-        let mut bands = report.instabilities.iter();
-        bands.position(|band| band.counted_rpm.iter().any(begins))
-    });
+    let band = report.flutter_band();
     let changes: Vec<[Option<f64>; 2]> = entries
         .iter()
         .map(|entry| {
