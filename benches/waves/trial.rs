@@ -45,7 +45,7 @@ impl Model {
         let [guided] = &components[..] else {
             panic!("a free blade")
         };
-        let modes = waves::modes(plate, guided, (0.0, to), window);
+        let modes = waves::modes(plate, guided.first, &guided.full, (0.0, to), window);
         let reduced = modes.expect("no eigenproblem fails").model;
         times.push(busy_s());
         let scope = Scope {

@@ -6,23 +6,7 @@ use crate::model::scene::{Scene, SceneFile, Setting, number_of};
 use anyhow::Context;
 
 use super::common::of_option;
-
-/// An option for a number of a block.
-pub struct Given<'a> {
-    /// Name of the option, without dashes.
-    pub option: &'static str,
-    /// Path of the number in the scene.
-    pub path: &'static str,
-    /// Text of the option; `None` if it is not given.
-    pub text: Option<&'a String>,
-}
-
-impl<'a> Given<'a> {
-    pub fn new(option: &'static str, path: &'static str, text: &'a Option<String>) -> Self {
-        let text = text.as_ref();
-        Given { option, path, text }
-    }
-}
+use super::shorthand::Given;
 
 /// A block of a scene whose numbers options may give.
 pub struct Block<'a> {

@@ -12,7 +12,6 @@ use anyhow::Context;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
-use super::assumption::Given;
 use super::colour::Paint;
 use super::output::{NamedFile, OutputFolder, Writing};
 use super::page::Page;
@@ -153,18 +152,6 @@ pub fn with_settings<'a>(
         .collect::<Result<Vec<Setting>, _>>()
         .with_context(refused)?;
     scene.file().set(&settings).with_context(refused)
-}
-
-/// The scene with numbers of options that are short for `--set PATH=…`.
-pub fn with_shorthands(mut scene: Scene, given: &[Given<'_>]) -> anyhow::Result<Scene> {
-    for Given { option, path, text } in given {
-        if let Some(text) = text {
-            let setting = format!("{path}={text}");
-            let option = format!("--{option}");
-            scene = with_settings(&scene, std::iter::once(setting.as_str()), &option)?;
-        }
-    }
-    Ok(scene)
 }
 
 /// Parses the number of an option.

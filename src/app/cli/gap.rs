@@ -3,10 +3,10 @@
 use crate::analyses::gap::{GapError, Options, gap};
 use clap::Args;
 
-use super::assumption::Given;
-use super::common::{Common, number, of_option, with_shorthands};
+use super::common::{Common, number, of_option};
 use super::page::Page;
 use super::progress::watched;
+use super::shorthand::{Given, with_shorthands};
 
 pub const EXAMPLES: &str = "\
 Examples:

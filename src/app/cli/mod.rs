@@ -27,6 +27,7 @@ mod response;
 mod runup;
 mod scheduler;
 mod schema;
+mod shorthand;
 mod study;
 mod tradeoff;
 mod washboard;

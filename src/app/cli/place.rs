@@ -4,11 +4,11 @@ use crate::analyses::place::{Demands, GapDemands, Options, Tolerances, place};
 use crate::model::scene::{Freed, RefusedValue, Scene};
 use clap::{Args, ValueEnum};
 
-use super::assumption::Given;
 use super::bounds::named_bounds;
-use super::common::{Common, count, number, of_option, with_shorthands};
+use super::common::{Common, count, number, of_option};
 use super::page::Page;
 use super::progress::watched;
+use super::shorthand::{Given, with_shorthands};
 
 pub const EXAMPLES: &str = "\
 Examples:

@@ -4,11 +4,12 @@ use crate::analyses::runup::runup;
 use crate::model::scene::{Scene, typical_block};
 use clap::Args;
 
-use super::assumption::{Block, Given};
+use super::assumption::Block;
 use super::block_text::pasted;
 use super::common::Common;
 use super::page::Page;
 use super::progress::watched;
+use super::shorthand::Given;
 
 pub const EXAMPLES: &str = "\
 Examples:

@@ -9,12 +9,12 @@ use faer::c64;
 use rayon::prelude::*;
 
 use super::arnoldi::{lowest_eigenpairs, nearly_lowest_eigenpairs};
+use super::chart_height::{CHART_MODES, Strategy, chart_height};
 use super::critical_speed::NamedCriticalSpeed;
 use super::error::SpectrumError;
 use super::full_model::FullModel;
 use super::interval::{Interval, StandingWave};
 use super::mode::{classify, is_seen, krein_index};
-use super::model::{CHART_MODES, Strategy, chart_height};
 use super::vectors::Eigenpair;
 use super::work::WorkCounters;
 use crate::model::system::GyroscopicSystem;

@@ -12,6 +12,7 @@ use faer::{Col, Mat, c64};
 use crate::model::plate::Plate;
 
 use super::assembled_plate::Assembled;
+use super::chart_height::{Strategy, chart_height};
 use super::companion::companion_eigenpairs;
 use super::component::{Component, Solution};
 use super::critical_speed::{NamedCriticalSpeed, searched_range};
@@ -21,7 +22,7 @@ use super::error::SpectrumError;
 use super::full_model::FullModel;
 use super::guided_reduction::{Guided, heights, of_guided};
 use super::interval::{interval_at, states_at};
-use super::mode::{Mode, ModeKind, classify, is_seen};
+use super::mode::{Mode, ModeKind, classify};
 use super::mode_name::ModeName;
 use super::projection::Projection;
 use super::scale::frequency_scale;
@@ -32,20 +33,6 @@ use super::work::{Cancellation, WorkCounters};
 mod named_mode;
 #[cfg(test)]
 mod planted_fault;
-
-/// Method by which the modes at a speed are computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Strategy {
-    /// Projection on the low modes at a few speeds.
-    #[default]
-    Reduced,
-    /// Projection as in [`Strategy::Reduced`] with larger errors, for a preview.
-    Sketch,
-    /// Projection on those modes alone that can form bands; no diagram is possible.
-    Bands,
-    /// Every eigenvalue of the full model at every speed: slow, a reference for tests.
-    Dense,
-}
 
 /// A mode with its name, shape and backward error.
 #[derive(Debug, Clone)]
@@ -80,26 +67,6 @@ pub struct SpectralModel {
     /// Work done so far.
     pub counters: WorkCounters,
     full: OnceLock<FullModel>,
-}
-
-/// Number of modes that a diagram shows at the lowest speed.
-pub(super) const CHART_MODES: usize = 12;
-/// Height of a diagram, relative to the highest of these modes.
-pub(crate) const ABOVE_LAST: f64 = 1.02;
-
-/// A frequency slightly above that of the twelfth mode, or of the last one if there are fewer, from the
-/// eigenvalues of one speed in ascending order. For a damped blade only oscillating modes count; if there are
-/// none, |λ| replaces the frequency.
-pub(super) fn chart_height(lambdas: &[c64], is_conservative: bool) -> Option<f64> {
-    let last = |sizes: Vec<f64>| sizes.get(CHART_MODES - 1).or(sizes.last()).copied();
-    let of_seen = lambdas
-        .iter()
-        .filter(|lambda| is_conservative || is_seen(**lambda))
-        .map(|lambda| lambda.im.abs());
-    let of_all = lambdas.iter().map(|lambda| lambda.norm());
-    last(of_seen.collect())
-        .or_else(|| last(of_all.collect()))
-        .map(|frequency| ABOVE_LAST * frequency)
 }
 
 /// At rest the two waves of equal n are degenerate. A rotation by this share of the blade's frequency scale
@@ -183,7 +150,7 @@ impl SpectralModel {
         let range = searched_range(&self.critical, range);
         let window = self.complete_to_rad_per_s;
         for component in &mut self.components {
-            let modes = waves::modes(&self.plate, component, range, window)?;
+            let modes = waves::modes(&self.plate, component.first, &component.full, range, window)?;
             let error = modes.model.tail();
             if error > TAIL {
                 self.unsettled_rad_per_s = self.unsettled_rad_per_s.max(error * window);
@@ -204,7 +171,8 @@ impl SpectralModel {
                 Solution::Waves(modes) => found.extend(modes.model.components()),
                 _ => {
                     let window = self.complete_to_rad_per_s;
-                    let modes = waves::modes(&self.plate, component, range, window)?;
+                    let modes =
+                        waves::modes(&self.plate, component.first, &component.full, range, window)?;
                     found.extend(modes.model.components());
                 }
             }

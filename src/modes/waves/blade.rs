@@ -6,11 +6,9 @@
 
 use faer::{Mat, Scale};
 
-use super::near_block::STRONG;
 use crate::model::linalg::SymmetricEigen;
 use crate::model::plate::Plate;
 use crate::model::system::GyroscopicSystem;
-use crate::modes::component::Component;
 
 /// Matrices of one number of nodal diameters, cosines before sines.
 pub struct Block {
@@ -52,27 +50,29 @@ pub struct Saw {
 }
 
 impl Saw {
-    /// Blocks and dampers of a component of a plate for a window in 1/s. The trace of what the columns leave out, relative to the
-    /// stiffness of the free blade plus h², is at most [`COLUMNS`].
-    pub fn new(plate: &Plate, component: &Component, window: f64) -> Self {
-        let own = component.first..component.first + component.full.order();
+    /// Blocks and dampers of the component of a plate that begins at the unknown `first`, for a window in 1/s. The trace of what the
+    /// columns leave out, relative to the stiffness of the free blade plus h², is at most [`COLUMNS`].
+    pub fn new(plate: &Plate, first: usize, full: &GyroscopicSystem, window: f64) -> Self {
+        let own = first..first + full.order();
         let blocks: Vec<Block> = (0..=plate.max_diameters())
             .filter(|n| own.contains(&plate.offset(*n)))
             .map(|n| Block {
                 diameters: n,
-                first: plate.offset(n) - component.first,
+                first: plate.offset(n) - first,
                 radial: plate.radial_functions(),
                 system: GyroscopicSystem::of_harmonic(plate, n),
             })
             .collect();
         let dampers = match plate.contact.damping() {
             Some(dampers) => columns(&(Scale(window) * dampers), &weights(&blocks, window)),
-            None => Mat::zeros(component.full.order(), 0),
+            None => Mat::zeros(full.order(), 0),
         };
         Saw { blocks, dampers }
     }
 }
 
+/// Force of a damper beside the stiffness of the far waves, at the top of the window, above which it is kept.
+pub const STRONG: f64 = 0.1;
 /// Trace of what the columns leave out, a thousandth of the force from which on a damper is strong.
 const COLUMNS: f64 = 1e-3 * STRONG;
 /// Largest number of columns.

@@ -1,12 +1,12 @@
 //! A reduced model by waves: near waves of the blade, with all others eliminated.
 //!
 //! The equation of motion in space is L(λ)q = (λ² + λ(2ΩG + C) + K + Ω²S + ΩN) q = 0. Near waves x of the free blade,
-//! those with ω − nΩ below a cut or reflected, and the displacements of strong dampers are kept (`near`). With all
+//! those with ω − nΩ below a cut or reflected, and the displacements of strong dampers are kept (`near_block`). With all
 //! others eliminated, L = [A B; C F],
 //!
 //! (A − B F⁻¹ C)(λ) = K̃ + λC̃ + λ²M̃ + λ³s₃ + λ⁴s₄ + …
 //!
-//! (`elimination`), at the nodes of a Chebyshev series in the speed (`over_speed`). No eigenproblem of
+//! (`elimination`), at the nodes of a Chebyshev series in the speed (`speed_series`). No eigenproblem of
 //! the full matrices is needed. The eigenvalues are those of all terms together (`pair`, `roots`), or one of them
 //! (`newton`); λ is in units of the window, the frequency up to which the eigenvalues are wanted.
 
@@ -30,10 +30,10 @@ use near_block::Near;
 pub use speed_series::WaveModel;
 use speed_series::at_nodes;
 
-use super::component::Component;
 use super::error::SpectrumError;
 use super::projection::Projection;
 use crate::model::plate::Plate;
+use crate::model::system::GyroscopicSystem;
 
 /// Waves up to this multiple of the window are kept: the series in λ converges as the inverse powers of it.
 const CUT: f64 = 2.5;
@@ -46,18 +46,19 @@ const SPAN: f64 = 1e-6;
 /// relaxes just within the cut, with 1e-9 by less than 1e-12.
 const WHOLE: f64 = 1e-9;
 
-/// The modes of a component of a plate over a range of speeds, in rad/s, for eigenvalues up to a frequency, in rad/s.
+/// The modes of the component of a plate that begins at the unknown `first`, over a range of speeds, in rad/s, for eigenvalues up to a frequency, in rad/s.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
 pub fn modes(
     plate: &Plate,
-    component: &Component,
+    first: usize,
+    full: &GyroscopicSystem,
     range: (f64, f64),
     window_rad_per_s: f64,
 ) -> Result<WaveModes, SpectrumError> {
-    let (full, window) = (&component.full, window_rad_per_s);
-    let mut saw = Saw::new(plate, component, window);
+    let window = window_rad_per_s;
+    let mut saw = Saw::new(plate, first, full, window);
     // The far waves too relax at the rate 1/η, up to which alone the series in λ converges. If this is below the cut, the series
     // of the saw without damping gives the vectors of far waves.
     let damping = plate.damping.as_ref();

@@ -7,11 +7,8 @@
 
 use faer::Mat;
 
-use super::blade::{Block, Saw};
+use super::blade::{Block, STRONG, Saw};
 use crate::model::linalg::SymmetricEigen;
-
-/// Force of a damper beside the stiffness of the far waves, at the top of the window, above which it is kept.
-pub const STRONG: f64 = 0.1;
 
 /// The waves of one block over an interval.
 pub struct NearBlock {

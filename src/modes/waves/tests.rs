@@ -5,6 +5,7 @@ use faer::{Col, c64};
 use super::*;
 use crate::model::plate::Resolution;
 use crate::model::scene::{DampingFile, Scene, SceneFile, WoodFile, rad_per_s};
+use crate::modes::component::Component;
 use crate::modes::vectors::real_times;
 use crate::modes::{companion_eigenpairs, derivative, eigenvalues};
 
@@ -30,7 +31,9 @@ fn error_of(plate: &Plate) -> f64 {
     let system = &component.full;
     let to = rad_per_s(TO_RPM);
     let window = 2.0 * to;
-    let model = modes(plate, component, (0.0, to), window).unwrap().model;
+    let model = modes(plate, component.first, system, (0.0, to), window)
+        .unwrap()
+        .model;
     let mut worst = 0.0_f64;
     for k in 0..7 {
         let speed = to * (f64::from(k) + 0.4) / 7.0;
@@ -62,7 +65,14 @@ fn newton_finds_the_eigenvalue_next_to_an_expected_one() {
     let plate = Plate::new(&scene.unwrap(), RESOLUTION);
     let to = rad_per_s(TO_RPM);
     let component = &Component::of(&plate)[0];
-    let WaveModes { model, .. } = modes(&plate, component, (0.0, to), 2.0 * to).unwrap();
+    let WaveModes { model, .. } = modes(
+        &plate,
+        component.first,
+        &component.full,
+        (0.0, to),
+        2.0 * to,
+    )
+    .unwrap();
     let system = &component.full;
     let speed = 0.4 * to;
     for (lambda, x) in companion_eigenpairs(system, speed).unwrap().iter().take(8) {
@@ -151,7 +161,14 @@ fn vectors_of_all_waves_are_those_of_the_full_matrices() {
     let plate = Plate::new(&scene.unwrap(), RESOLUTION);
     let component = &Component::of(&plate)[0];
     let to = rad_per_s(TO_RPM);
-    let modes = modes(&plate, component, (0.0, to), 2.0 * to).unwrap();
+    let modes = modes(
+        &plate,
+        component.first,
+        &component.full,
+        (0.0, to),
+        2.0 * to,
+    )
+    .unwrap();
     let mut compared = 0;
     for k in 0..4 {
         let speed = to * (f64::from(k) + 0.4) / 4.0;

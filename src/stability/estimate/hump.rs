@@ -1,6 +1,6 @@
 //! Flutter of two coalesced modes in small systems: changes of onset and growth by a larger basis.
 
-use super::{BandError, magnitude};
+use super::band_error::{BandError, magnitude};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::{HamiltonianReduction, State};
 use crate::stability::band::Instability;

@@ -1,11 +1,14 @@
 //! Estimated errors of each result of an analysis.
 
+mod band_error;
 mod damped;
 mod hump;
 
 use faer::{Col, Mat, c64};
 use rayon::prelude::*;
 
+pub use self::band_error::BandError;
+use self::band_error::magnitude;
 use self::damped::fastest;
 use self::hump::merged;
 
@@ -33,44 +36,6 @@ pub struct Estimates {
     pub bands: Vec<BandError>,
 }
 
-/// Estimated errors of a band; `None` if the larger basis gives no estimate.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct BandError {
-    /// Relative error of the onset and the end.
-    pub speed: Option<f64>,
-    /// Relative error of the largest growth rate.
-    pub growth: Option<f64>,
-}
-
-impl BandError {
-    /// Errors of a band, from the changes by the larger basis. A band is the coalescence of two waves whose
-    /// errors may cancel by chance, so the error of the critical speeds is added. Relative to the width of
-    /// the band, its edges are no more accurate than its growth.
-    fn of(self, band: &Instability, critical: f64) -> Self {
-        // The width is taken relative to the end, because a band may begin at rest.
-        let width = (band.to_rad_per_s - band.from_rad_per_s) / band.to_rad_per_s;
-        let of_width = match band.kind {
-            InstabilityKind::Divergence => WIDTH_REMAINDER * critical / width,
-            InstabilityKind::Flutter => 0.0,
-        };
-        let growth = self
-            .growth
-            .map(|difference| GROWTH_REMAINDER * difference + 2.0 * critical + of_width);
-        let by_growth = 2.0 * growth.unwrap_or(0.0) * width;
-        BandError {
-            speed: Some(REMAINDER.get() * self.speed.unwrap_or(0.0) + critical + by_growth),
-            growth,
-        }
-    }
-}
-
-/// Factor for the estimated errors of growth rates, which converge less evenly than speeds: on twelve random
-/// saws the true error was up to 2.9 times the estimate without the factor.
-const GROWTH_REMAINDER: f64 = 3.0;
-/// Share of the error of a critical speed that the difference of two critical speeds has even if the
-/// estimated errors of both cancel. Of 176 bands of random saws, two (narrower than a hundredth of their
-/// speed) had errors of growth that correspond to a share of 0.07.
-const WIDTH_REMAINDER: f64 = 0.1;
 /// Speeds, as shares of the range, near which the errors of drawn frequencies are estimated.
 const LOOKS: [f64; 3] = [0.0, 0.5, 1.0];
 
@@ -259,11 +224,6 @@ impl Estimates {
             growth: magnitude(after.growth / before.growth - 1.0),
         })
     }
-}
-
-/// Magnitude of a relative difference, if it is finite.
-fn magnitude(difference: f64) -> Option<f64> {
-    difference.is_finite().then_some(difference.abs())
 }
 
 /// Divergence of a small system between two critical speeds.
