@@ -28,8 +28,8 @@ fn turned(
     (to, after): (f64, f64),
     halvings: usize,
 ) -> Option<f64> {
-    let turn = after - before;
-    let turn = turn - TAU * (turn / TAU).round();
+    let change = after - before;
+    let turn = change - TAU * (change / TAU).round();
     if turn.abs() < LARGEST_TURN {
         return Some(turn);
     }

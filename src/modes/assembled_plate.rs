@@ -93,8 +93,10 @@ impl Assembled {
                 .map(|c| critical_speeds(&c.full))
                 .collect(),
         };
-        let found = found.map_err(|error| buckling::explained(&self.plate, error))?;
-        Ok(named(&self.plate, &self.components, found))
+        match found {
+            Ok(found) => Ok(named(&self.plate, &self.components, found)),
+            Err(error) => Err(buckling::explained(&self.plate, error)),
+        }
     }
 
     /// The lowest `count` modes at rest, ascending, without damping and without free rigid motions.
@@ -210,10 +212,10 @@ mod tests {
                 let off = found.speed_rad_per_s / exact.speed_rad_per_s - 1.0;
                 assert!(off.abs() < ROUNDING, "{what}: {off:e}");
             }
-            let found = modes_at_rest_by(structure, only, 12).expect(&what);
+            let at_rest = modes_at_rest_by(structure, only, 12).expect(&what);
             let mass = Mat::identity(only.full.order(), only.full.order());
-            let exact = singular_multiples(&only.full.stiffness, &[], &mass).unwrap();
-            for (found, (square, _)) in found.iter().zip(&exact) {
+            let squares = singular_multiples(&only.full.stiffness, &[], &mass).unwrap();
+            for (found, (square, _)) in at_rest.iter().zip(&squares) {
                 let off = found.frequency_rad_per_s / square.sqrt() - 1.0;
                 assert!(off.abs() < ROUNDING, "{what}: {off:e}");
             }

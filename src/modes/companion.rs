@@ -158,16 +158,16 @@ mod tests {
             send.send(companion_eigenpairs(&system, 0.0).unwrap())
         });
         let limit = Duration::from_secs(60);
-        let whole = receive
+        let pairs = receive
             .recv_timeout(limit)
             .expect("an end of the iteration");
-        let harmonics = Component::of(&twice_every_wave());
-        let harmonics = harmonics.iter().map(|component| &component.full);
-        let mut apart: Vec<c64> = harmonics
-            .flat_map(|system| companion_eigenpairs(system, 0.0).unwrap())
+        let components = Component::of(&twice_every_wave());
+        let mut apart: Vec<c64> = components
+            .iter()
+            .flat_map(|component| companion_eigenpairs(&component.full, 0.0).unwrap())
             .flat_map(with_conjugate)
             .collect();
-        let whole: Vec<c64> = whole.into_iter().flat_map(with_conjugate).collect();
+        let whole: Vec<c64> = pairs.into_iter().flat_map(with_conjugate).collect();
         assert_eq!(whole.len(), apart.len());
         let largest = whole.last().expect("eigenvalues").norm();
         for lambda in whole {

@@ -216,14 +216,14 @@ mod tests {
                 -0.5 * (0.5 * sum + speed * speed + sign * double_square.signum() * product.sqrt())
             };
             let found = DoubleEigenvalue::next_to(&system, 1.02 * exact, double * 1.03).unwrap();
-            let off = found.speed_rad_per_s / exact - 1.0;
-            assert!(off.abs() < 1e-9, "{found:?} {exact}");
+            let of_speed = found.speed_rad_per_s / exact - 1.0;
+            assert!(of_speed.abs() < 1e-9, "{found:?} {exact}");
             assert!((found.lambda - double).norm() < 1e-6, "{found:?} {double}");
             let h = 1e-5;
             let slope = |of: &dyn Fn(f64) -> f64| (of(exact + h) - of(exact - h)) / (2.0 * h);
             let difference = slope(&|speed| square(speed, 1.0));
-            let off = found.square_slope / difference - 1.0;
-            assert!(off.abs() < 1e-6, "{found:?} {difference}");
+            let of_slope = found.square_slope / difference - 1.0;
+            assert!(of_slope.abs() < 1e-6, "{found:?} {difference}");
             // The slope of the root of a square.
             let mean = slope(&|speed| square(speed, -1.0)) / (2.0 * double);
             assert!((found.mean_slope - mean).norm() < 1e-6, "{found:?} {mean}");

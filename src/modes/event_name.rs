@@ -101,8 +101,8 @@ impl EventName {
             .zip(sums)
             .filter(|(_, sum)| *sum >= least)
             .filter_map(|((parts, direction), _)| {
-                let weighed = |part| (part, Part::weight(part, omega).abs());
-                let weighed = parts.into_iter().map(weighed).collect();
+                let weight = |part| (part, Part::weight(part, omega).abs());
+                let weighed = parts.into_iter().map(weight).collect();
                 EventWaves::new(direction, weighed, |part| part.named(plate))
             });
         EventName {

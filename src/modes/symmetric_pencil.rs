@@ -37,9 +37,9 @@ pub fn singular_multiples(
     let unstable = || SpectrumError::UnstableAtRest { order };
     let factor = stiffness.llt(Side::Lower).map_err(|_| unstable())?;
     let lower = factor.L();
-    let mut whitened = softening.clone();
-    solve_lower_triangular_in_place(lower, whitened.as_mut(), Par::Seq);
-    let mut whitened = whitened.transpose().to_owned();
+    let mut rows = softening.clone();
+    solve_lower_triangular_in_place(lower, rows.as_mut(), Par::Seq);
+    let mut whitened = rows.transpose().to_owned();
     solve_lower_triangular_in_place(lower, whitened.as_mut(), Par::Seq);
     let eigen = SymmetricEigen::new(whitened.as_ref()).map_err(SpectrumError::at(0.0))?;
     let noise = 1e-14 * whitened.norm_l2();

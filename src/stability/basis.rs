@@ -230,8 +230,8 @@ mod tests {
         let exact = Assembled::from(Plate::new(&thin, resolution((70, LADDER[0].1))))
             .critical_speeds_below(top)
             .unwrap();
-        let small = Plate::new(&thin, resolution(LADDER[0]));
-        let small = below(&SpectralModel::critical_speeds(&small).unwrap());
+        let small_plate = Plate::new(&thin, resolution(LADDER[0]));
+        let small = below(&SpectralModel::critical_speeds(&small_plate).unwrap());
         assert!(small < exact, "{small} {exact}");
         let (saw, critical) = resolved(&thin, resolution(LADDER[0]), top).unwrap();
         assert!(saw.plate.max_diameters() > LADDER[0].0);

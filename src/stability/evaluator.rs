@@ -274,8 +274,8 @@ impl<'a> SignatureEvaluator<'a> {
     /// The signature at a sampled speed.
     fn seen_at(&self, speed_rad_per_s: f64) -> Option<Signature> {
         let seen = self.seen.lock().ok()?;
-        let mut seen = seen.iter();
-        seen.find(|signature| signature.speed_rad_per_s == speed_rad_per_s)
+        seen.iter()
+            .find(|signature| signature.speed_rad_per_s == speed_rad_per_s)
             .cloned()
     }
 

@@ -214,12 +214,12 @@ impl<'a> Heating<'a> {
             for (place, wave) in found.into_iter().enumerate() {
                 let diameters = wave.name.diameters();
                 let is_same = |curve: &HeatCurve| curve.name.diameters() == diameters;
-                let index = if free {
+                let known = if free {
                     curves.iter().position(is_same)
                 } else {
                     (place < curves.len()).then_some(place)
                 };
-                let index = index.unwrap_or_else(|| {
+                let index = known.unwrap_or_else(|| {
                     curves.push(HeatCurve {
                         name: wave.name.clone(),
                         rise_k: Vec::new(),
@@ -261,8 +261,8 @@ impl<'a> Heating<'a> {
             let kept = if free { 1 } else { CURVES };
             lowest.push(found.into_iter().take(kept).collect());
         }
-        let mut lowest = named(plate, &self.model.components, lowest);
-        lowest.truncate(CURVES);
-        Ok(lowest)
+        let mut found = named(plate, &self.model.components, lowest);
+        found.truncate(CURVES);
+        Ok(found)
     }
 }

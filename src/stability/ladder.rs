@@ -48,8 +48,8 @@ pub(crate) fn diameters_beyond(size: Resolution) -> usize {
 pub(crate) fn ahead(size: Resolution) -> Resolution {
     let rung = rung_of(size);
     let mut sizes = LADDER.into_iter().chain(BEYOND);
-    let larger = sizes.nth(rung + steps_ahead(rung));
-    let larger = resolution(larger.unwrap_or(BEYOND[1]));
+    let ahead = sizes.nth(rung + steps_ahead(rung));
+    let larger = resolution(ahead.unwrap_or(BEYOND[1]));
     let diameters = (size.max_diameters * larger.max_diameters).div_ceil(LADDER[rung].0);
     Resolution {
         max_diameters: larger.max_diameters.max(diameters),

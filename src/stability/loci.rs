@@ -94,13 +94,13 @@ impl Pair {
         let [(first, first_slope), (second, second_slope)] = self.sloped;
         let step = speed - self.speed;
         let mean = 0.5 * (first + second + (first_slope + second_slope) * step);
-        let half = 0.5 * (first - second);
-        let square = half * half + half * (first_slope - second_slope) * step;
-        let half = square.re.abs().sqrt();
+        let known = 0.5 * (first - second);
+        let square = known * known + known * (first_slope - second_slope) * step;
+        let size = square.re.abs().sqrt();
         let half = if is_coalesced {
-            c64::new(half, 0.0)
+            c64::new(size, 0.0)
         } else {
-            c64::new(0.0, half)
+            c64::new(0.0, size)
         };
         [c64::new(0.0, mean.im), half]
     }

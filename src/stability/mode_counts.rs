@@ -234,8 +234,8 @@ impl<'a> ModeCounts<'a> {
         };
         let found: Vec<Result<Vec<MiscountedModes>, SpectrumError>> =
             signatures.par_iter().map(at).collect();
-        let found: Vec<Vec<MiscountedModes>> = found.into_iter().collect::<Result<_, _>>()?;
-        Ok(found.into_iter().flatten().collect())
+        let all = found.into_iter().collect::<Result<Vec<_>, _>>()?;
+        Ok(all.into_iter().flatten().collect())
     }
 
     /// Compares ascending claims at a speed with counts; inconclusive counts contradict nothing.

@@ -75,11 +75,11 @@ impl Search<'_> {
     /// The errors of the eigenproblems.
     pub fn pieces(&self, speeds: &[f64]) -> Result<Vec<Piece>, SpectrumError> {
         let least = LEAST_WIDTH * speeds.last().copied().unwrap_or(0.0);
-        let samples: Vec<Option<Sample>> = speeds
+        let solved: Vec<Option<Sample>> = speeds
             .par_iter()
             .map(|&speed| (self.solve)(speed))
             .collect::<Result<_, _>>()?;
-        let samples: Vec<Arc<Sample>> = samples.into_iter().flatten().map(Arc::new).collect();
+        let samples: Vec<Arc<Sample>> = solved.into_iter().flatten().map(Arc::new).collect();
         let work = &Work::of("pieces of the search", samples.len().saturating_sub(1));
         let pieces: Vec<Vec<Piece>> = samples
             .par_windows(2)
@@ -176,8 +176,8 @@ impl Search<'_> {
             };
             places[0].len() <= most
         };
-        let parts = partition(self.plane, ends.map(Arc::as_ref), self.top_rad_per_s);
-        let parts = parts.filter(|parts| parts.iter().all(is_fit))?;
+        let parts = partition(self.plane, ends.map(Arc::as_ref), self.top_rad_per_s)
+            .filter(|parts| parts.iter().all(is_fit))?;
         Some(grouped_by(ends, &parts))
     }
 

@@ -52,11 +52,11 @@ impl Proof<'_> {
         let is_uncritical = |a: &End, b: &End| !self.evaluator.spans_critical(a.speed, b.speed);
         let stretches: Vec<&[End]> = ends.chunk_by(is_uncritical).collect();
         let step = &Work::of("stretches of the proof", stretches.len());
-        let open: Vec<Result<Vec<(f64, f64)>, SpectrumError>> = stretches
+        let within: Vec<Result<Vec<(f64, f64)>, SpectrumError>> = stretches
             .into_par_iter()
             .map(|stretch| self.within(stretch, (&[], least), step))
             .collect();
-        let mut open: Vec<(f64, f64)> = open
+        let mut open: Vec<(f64, f64)> = within
             .into_iter()
             .collect::<Result<Vec<_>, _>>()?
             .into_iter()

@@ -146,8 +146,8 @@ impl<'a> Reach<'a> {
             to_rad_per_s: limit(&waves.speeds_rad_per_s),
             lowest_rad_per_s: waves.speeds_rad_per_s.first().copied(),
         };
-        let most = most_unknowns(saw) / LADDER[0].1;
-        let most = ((most - 1) / 2).min(SWEPT + waves.lowest_diameters);
+        let blocks = most_unknowns(saw) / LADDER[0].1;
+        let most = ((blocks - 1) / 2).min(SWEPT + waves.lowest_diameters);
         if needed.diameters > most {
             self.check_sweep(saw, most.min(MOST_DIAMETERS))?;
         }

@@ -107,8 +107,8 @@ impl Analysis {
         modes_at_rad_per_s: f64,
     ) -> Result<Vec<Sensitivity>, SensitivityError> {
         let scene = &self.scene;
-        let modes = self.model.modes(modes_at_rad_per_s)?;
-        let modes = self.model.describe(modes_at_rad_per_s, modes);
+        let found = self.model.modes(modes_at_rad_per_s)?;
+        let modes = self.model.describe(modes_at_rad_per_s, found);
         let mergings: Vec<Option<Merging>> = self
             .chart
             .instabilities

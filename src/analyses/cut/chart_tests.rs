@@ -36,8 +36,7 @@ fn speeds_of_any_size_keep_their_labels_apart() {
     for factors in [&[1.0, 1e-9, 1e-5, 1e4, 2.0][..], &[1e-7, 1e-9], &[0.0]] {
         let mut report = cut_report(factors);
         let [cut, map] = [chart::chart(&report), map_chart::chart(&report)];
-        let _drawn = layout::sheet(&cut);
-        let _drawn = layout::sheet(&map);
+        let _drawn = [&cut, &map].map(layout::sheet);
         assert_eq!(cut.panels.len(), factors.len());
         assert!(cut.panels.windows(2).all(|pair| pair[0].y == pair[1].y));
         // A saw without guides, of which every motion decays: its map has no angle, and its mark is in the panel.

@@ -39,8 +39,8 @@ impl Document<'_> {
     /// # Errors
     /// [`FigureError`] if a figure cannot be drawn.
     pub fn page(&self) -> Result<String, FigureError> {
-        let figures = self.figures.iter().map(Figure::svg);
-        let figures = figures.collect::<Result<Vec<String>, _>>()?;
+        let drawn = self.figures.iter().map(Figure::svg);
+        let figures = drawn.collect::<Result<Vec<String>, _>>()?;
         let mut text = String::new();
         // Writing to a string cannot fail, so that the result is ignored.
         let _ = write_page(&mut text, self, &figures);

@@ -219,9 +219,9 @@ impl Operator for SquaredInverse {
         velocity.add_product(1.0, x, &mut load);
         let u = Scale(-1.0) * inverse.times(&load);
         let v = x + &u;
-        let mut load = &v - &u;
-        velocity.add_product(1.0, u.as_ref(), &mut load);
-        let w = Scale(-1.0) * inverse.transposed_times(&load);
+        let mut second = &v - &u;
+        velocity.add_product(1.0, u.as_ref(), &mut second);
+        let w = Scale(-1.0) * inverse.transposed_times(&second);
         let mut p = u - &w;
         velocity.add_product(0.5, w.as_ref(), &mut p);
         stacked(&w, &p)

@@ -186,8 +186,8 @@ pub fn sample(
     let step = Work::of("speeds of the chart", speeds.len());
     let done = std::sync::atomic::AtomicUsize::new(0);
     let sampled = |speed_rad_per_s: &f64| {
-        let modes = model.drawn_modes(*speed_rad_per_s)?;
-        let modes = model.describe(*speed_rad_per_s, modes);
+        let drawn = model.drawn_modes(*speed_rad_per_s)?;
+        let modes = model.describe(*speed_rad_per_s, drawn);
         let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
         progress(so_far, speeds.len());
         step.advance();

@@ -87,8 +87,8 @@ impl Columns {
             let largest = |x: &usize, y: &usize| diagonal[*x].total_cmp(&diagonal[*y]);
             let pivot = (0..order).max_by(largest)?;
             let known = columns.subcols(0, count);
-            let column = relative.column(pivot) - known * known.row(pivot).transpose();
-            let column = Scale(diagonal[pivot].sqrt().recip()) * column;
+            let rest = relative.column(pivot) - known * known.row(pivot).transpose();
+            let column = Scale(diagonal[pivot].sqrt().recip()) * rest;
             for (i, d) in diagonal.iter_mut().enumerate() {
                 *d -= column[i] * column[i];
             }
@@ -96,9 +96,9 @@ impl Columns {
             columns.col_mut(count).copy_from(column);
             count += 1;
         };
-        let rests = rests.try_into().ok()?;
         let unknowns = relative.unscaled(columns.subcols(0, count));
-        Some(Self::of_unknowns(unknowns, is_exact, rests, harmonics))
+        let of_stages = rests.try_into().ok()?;
+        Some(Self::of_unknowns(unknowns, is_exact, of_stages, harmonics))
     }
 
     /// The columns for solves, in the unknowns of the plate.

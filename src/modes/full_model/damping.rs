@@ -32,9 +32,9 @@ impl Damping {
         if plate.contact.nonconservative_stiffness().is_some() {
             return None;
         }
-        let dampers = plate.contact.damping();
-        let retardation = proportion(plate.contact.stiffness(), dampers);
-        let dampers = match (retardation, dampers) {
+        let of_contact = plate.contact.damping();
+        let retardation = proportion(plate.contact.stiffness(), of_contact);
+        let dampers = match (retardation, of_contact) {
             (None, Some(dampers)) => Some(Columns::new(dampers, harmonics, Kept::Few)?),
             _ => None,
         };

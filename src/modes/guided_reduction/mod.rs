@@ -237,8 +237,8 @@ impl<'a> Builder<'a> {
             let modes = classify(system, speed, 0, pairs.clone());
             if krein_index(&modes) >= index || 2 * count >= system.order() {
                 let highest = modes.iter().filter(|mode| mode.kind.krein_index() > 0);
-                let height = highest.fold(0.0, |top, mode| mode.frequency_rad_per_s().max(top));
-                let height = REFLECTED_MARGIN.get() * height.max(0.1 * scale);
+                let top = highest.fold(0.0, |top, mode| mode.frequency_rad_per_s().max(top));
+                let height = REFLECTED_MARGIN.get() * top.max(0.1 * scale);
                 return Ok((height, (!is_damped).then_some(Snapshot { speed, pairs })));
             }
             count *= 2;

@@ -45,13 +45,12 @@ impl AddedFunctions {
         let kept = kept(plate, larger, 0..=plate.max_diameters());
         Cancellation::current().check()?;
         let is_large = larger.degrees_of_freedom() >= LARGE;
-        let structured = is_large
+        let nearly = is_large
             .then(|| StructuredStiffness::nearly(larger))
             .flatten();
         // The dense method reports a blade that is unstable at rest, so it is used unless the structured
         // model proves that the stiffness at rest has no negative eigenvalue.
-        let structured =
-            structured.filter(|larger| larger.full.critical_speeds_below(0.0) == Some(0));
+        let structured = nearly.filter(|larger| larger.full.critical_speeds_below(0.0) == Some(0));
         if let Some(larger) = structured {
             return Ok(AddedFunctions::Structured {
                 larger: Box::new(larger),

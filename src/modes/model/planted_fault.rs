@@ -21,8 +21,8 @@ impl SpectralModel {
         let mut waves = modes.iter().filter(|m| m.kind == ModeKind::Positive);
         let (re, im) = split(&waves.nth(place).unwrap().coordinates);
         self.project_again(|basis, _| {
-            let lost = [&re, &im].map(|part| basis.transpose() * part);
-            let lost = orthonormal(basis.ncols(), &lost, SPAN_TOLERANCE);
+            let parts = [&re, &im].map(|part| basis.transpose() * part);
+            let lost = orthonormal(basis.ncols(), &parts, SPAN_TOLERANCE);
             let whole = lost.qr().compute_Q();
             let kept = whole.subcols(lost.ncols(), basis.ncols() - lost.ncols());
             basis * kept

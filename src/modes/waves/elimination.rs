@@ -108,8 +108,8 @@ impl Elimination {
             in_waves(system.damping.as_ref(), window.recip()),
             in_waves(Some(&system.gyroscopic), 2.0 / window),
         ];
-        let columns = turned(&blocks, &near.dampers);
-        let columns = Mat::from_fn(order, strong, |i, k| columns[(places[i], k)] / window);
+        let dampers = turned(&blocks, &near.dampers);
+        let columns = Mat::from_fn(order, strong, |i, k| dampers[(places[i], k)] / window);
         for (k, weight) in near.weights.iter().enumerate() {
             let (z, g) = (k, strong + order + k);
             for i in 0..order {
@@ -165,11 +165,11 @@ impl Elimination {
         if far_waves == 0 {
             return Reduced { terms, solved };
         }
-        let far = |matrix: &Mat<f64>| matrix.get(size.., size..).to_owned();
+        let of_far = |matrix: &Mat<f64>| matrix.get(size.., size..).to_owned();
         let by_far = |matrix: &Mat<f64>| matrix.get(..size, size..).to_owned();
         let by_kept = |matrix: &Mat<f64>| matrix.get(size.., ..size).to_owned();
-        let factors = far(&stiffness).partial_piv_lu();
-        let far = far(&velocity);
+        let factors = of_far(&stiffness).partial_piv_lu();
+        let far = of_far(&velocity);
         let [by_far, by_kept] = [
             [by_far(&stiffness), by_far(&velocity)],
             [by_kept(&stiffness), by_kept(&velocity)],
@@ -191,9 +191,9 @@ impl Elimination {
             solved.push(right);
         }
         // The forces of dampers are no part of a shape.
-        let solved = solved.iter().map(|g| g.subrows(0, far_waves).to_owned());
+        let of_waves = solved.iter().map(|g| g.subrows(0, far_waves).to_owned());
         Reduced {
-            solved: solved.collect(),
+            solved: of_waves.collect(),
             terms,
         }
     }

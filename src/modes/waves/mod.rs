@@ -85,11 +85,10 @@ pub fn modes(
     if undamped.is_some() {
         return WaveModes::whole(projection, range, scale);
     }
-    let near = elimination.near();
     Ok(WaveModes {
+        near: elimination.near(),
         model: WaveModel::of(&terms, range, elimination.diameters, scale),
         projection,
-        near,
     })
 }
 

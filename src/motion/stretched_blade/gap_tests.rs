@@ -99,9 +99,9 @@ fn limits_of_the_gap_are_the_linear_pad_and_none() {
         lifting(pad, 4e-5);
         pad.film_stiffness_n_per_m = pad.stiffness_n_per_m;
     });
-    let found = deflection(&filled, 5.0, 1000.0, place);
     // This blade has more shapes.
-    assert!((found / linear - 1.0).abs() < 2e-3, "{found:e} {linear:e}");
+    let full = deflection(&filled, 5.0, 1000.0, place);
+    assert!((full / linear - 1.0).abs() < 2e-3, "{full:e} {linear:e}");
     let bare = deflection(
         &plate(true, |pad| pad.stiffness_n_per_m = 0.0),
         5.0,
@@ -143,15 +143,15 @@ fn a_blade_that_nothing_holds_within_its_gaps_is_refused() {
         lifting(pad, 4e-5);
         pad.film_stiffness_n_per_m = 1e4;
     });
-    let blade = StretchedBlade::up_to(&film, 0.0, place, MODES).unwrap();
-    assert!(blade.settled(0.0, &blade.flat()).is_ok());
+    let filmed = StretchedBlade::up_to(&film, 0.0, place, MODES).unwrap();
+    assert!(filmed.settled(0.0, &filmed.flat()).is_ok());
     let right = plate(false, |pad| {
         lifting(pad, 4e-5);
         pad.side = GuideSide::Right;
     });
-    let blade = StretchedBlade::up_to(&right, 0.0, place, MODES).unwrap();
-    let away = blade.pressed(5.0, place).unwrap();
-    let away = away.settled(0.0, &away.flat());
+    let held = StretchedBlade::up_to(&right, 0.0, place, MODES).unwrap();
+    let pushed = held.pressed(5.0, place).unwrap();
+    let away = pushed.settled(0.0, &pushed.flat());
     assert!(
         matches!(away, Err(StretchedError::Escapes { .. })),
         "{away:?}"

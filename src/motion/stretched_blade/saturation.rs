@@ -167,8 +167,7 @@ impl StretchedBlade {
     ) -> Result<f64, StretchedError> {
         let mut sum = 0.0;
         for phase in 0..PHASES {
-            let turn = TAU * phase as f64 / PHASES as f64;
-            let turn = c64::new(turn.cos(), turn.sin());
+            let turn = c64::cis(TAU * phase as f64 / PHASES as f64);
             let p = Col::from_fn(pair.growing.nrows(), |i| {
                 2.0 * ((pair.growing[i] * first + pair.decaying[i] * second) * turn).re
             });

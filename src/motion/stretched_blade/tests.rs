@@ -151,8 +151,8 @@ fn one_shape() -> (StretchedBlade, f64, f64) {
     let plate = paper().conservative();
     let several = StretchedBlade::new(&plate, 16).unwrap();
     let (critical, shape) = several.pitchforks().unwrap().swap_remove(0);
-    let one = several.shapes() * &shape;
-    let one = Mat::from_fn(one.nrows(), 1, |i, _| one[i]);
+    let lifted = several.shapes() * &shape;
+    let one = Mat::from_fn(lifted.nrows(), 1, |i, _| lifted[i]);
     let blade = StretchedBlade::on(plate.clone(), &GyroscopicSystem::of_plate(&plate), one)
         .unwrap()
         .pressed(2.0, (0.355, 0.4))
@@ -364,8 +364,8 @@ fn a_deflection_without_a_direction_is_refused() {
 #[test]
 fn unrestrained_blades_and_other_ranges_are_refused() {
     let free = Scene::paper().edited(|saw| saw.guides.clear()).unwrap();
-    let free = StretchedBlade::new(&Plate::new(&free, RESOLUTION), 8);
-    assert!(matches!(free, Err(StretchedError::NotHeld)));
+    let unheld = StretchedBlade::new(&Plate::new(&free, RESOLUTION), 8);
+    assert!(matches!(unheld, Err(StretchedError::NotHeld)));
     let none = StretchedBlade::new(&paper(), 0);
     assert!(matches!(none, Err(StretchedError::Shapes { given: 0, .. })));
     let blade = StretchedBlade::new(&paper(), 4).unwrap();

@@ -182,8 +182,8 @@ impl RunUpHistory {
         state: &State,
         (speed_rad_per_s, time_s): (f64, f64),
     ) -> Result<bool, TransientError> {
-        let deflection = gauge.at_probe(&state.displacement);
-        let deflection = finite(deflection, rpm(speed_rad_per_s), time_s)?;
+        let read = gauge.at_probe(&state.displacement);
+        let deflection = finite(read, rpm(speed_rad_per_s), time_s)?;
         if gauge.beyond(deflection) {
             self.linear_until_rad_per_s = Some(speed_rad_per_s);
             return Ok(false);

@@ -101,8 +101,8 @@ mod tests {
             shapes[(plate.offset(n) + j, 0)] = modes.U()[(j, 0)];
             shapes[(plate.offset(n) + size + j, 1)] = modes.U()[(j, 0)];
         }
-        let stretching = Stretching::new(&plate).unwrap();
-        let stretching = ReducedStretching::new(&stretching, shapes.as_ref()).unwrap();
+        let full = Stretching::new(&plate).unwrap();
+        let stretching = ReducedStretching::new(&full, shapes.as_ref()).unwrap();
         let system = GyroscopicSystem::of_plate(&plate).project(shapes.as_ref());
         let unit = Col::from_fn(2, |k| if k == 0 { 1.0 } else { 0.0 });
         let cubic = 4.0 * stretching.energy_j(&unit).unwrap();
@@ -136,12 +136,12 @@ mod tests {
     #[test]
     fn a_large_motion_keeps_its_energy() {
         let plate = Plate::new(&Scene::paper(), SMALL).conservative();
-        let system = GyroscopicSystem::of_plate(&plate);
-        let modes = system.stiffness.self_adjoint_eigen(Side::Lower).unwrap();
+        let full = GyroscopicSystem::of_plate(&plate);
+        let modes = full.stiffness.self_adjoint_eigen(Side::Lower).unwrap();
         let shapes = modes.U().subcols(0, 10);
-        let stretching = Stretching::new(&plate).unwrap();
-        let stretching = ReducedStretching::new(&stretching, shapes).unwrap();
-        let system = system.project(shapes);
+        let full_stretching = Stretching::new(&plate).unwrap();
+        let stretching = ReducedStretching::new(&full_stretching, shapes).unwrap();
+        let system = full.project(shapes);
         let speed = rad_per_s(2300.0);
         let forces: [&dyn Force; 1] = [&stretching];
         let newmark = Newmark::new(&system, (speed, 0.0), &[], 1e-3).with_forces(&forces);

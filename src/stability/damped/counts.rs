@@ -55,11 +55,10 @@ impl Counts {
         if !full.is_structured() {
             return Ok(Counts::default());
         }
-        let spectra: Result<Vec<Spectrum>, SpectrumError> = speeds(bands, range)
+        let spectra: Vec<Spectrum> = speeds(bands, range)
             .par_iter()
             .map(|&speed| solver.at(speed))
-            .collect();
-        let spectra = spectra?;
+            .collect::<Result<_, _>>()?;
         let counted: Vec<Option<Option<MiscountedModes>>> = spectra
             .par_iter()
             .map(|spectrum| counted(full, spectrum, solver.highest()))
@@ -140,8 +139,8 @@ mod tests {
         let growing = sound.values.iter().position(|v| v.re > 0.01).unwrap();
         let mut missing = sound.clone();
         missing.values.remove(growing);
-        let found = counted(full, &missing, solver.highest()).unwrap().unwrap();
-        assert_eq!(found.missing, 1);
+        let lost = counted(full, &missing, solver.highest()).unwrap().unwrap();
+        assert_eq!(lost.missing, 1);
         let mut invented = sound.clone();
         let decaying = &mut invented.values[usize::from(growing == 0)];
         decaying.re = decaying.re.abs() + 0.1;

@@ -102,12 +102,13 @@ fn computed(
                 && off.re.abs() <= allowed
                 && (slope - point.slope).norm() <= ALIKE * steepness
         };
-        let found = found.filter(is_same);
-        Ok(found.map_or(point, |(lambda, slope)| CurvePoint {
-            lambda,
-            slope,
-            ..point
-        }))
+        Ok(found
+            .filter(is_same)
+            .map_or(point, |(lambda, slope)| CurvePoint {
+                lambda,
+                slope,
+                ..point
+            }))
     };
     (0..curve.len()).map(of).collect()
 }

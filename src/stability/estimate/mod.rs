@@ -63,10 +63,10 @@ impl Estimates {
             .map(|share| range.0 + share * (range.1 - range.0))
             .into_iter()
             .filter_map(|speed| smallest(samples, |sample| (sample.speed_rad_per_s - speed).abs()));
-        let drawn = looks.flat_map(|sample| {
+        let errors = looks.flat_map(|sample| {
             larger.frequency_errors(&model.components, sample.speed_rad_per_s, &sample.modes)
         });
-        let drawn = REMAINDER.get() * drawn.flatten().fold(0.0, f64::max);
+        let drawn = REMAINDER.get() * errors.flatten().fold(0.0, f64::max);
         let least = critical.iter().copied().fold(0.0, f64::max);
         let mut estimates = Estimates {
             larger,

@@ -39,11 +39,11 @@ pub(super) fn quadruples(
     evaluator: &SignatureEvaluator<'_>,
     pieces: &[Piece],
 ) -> Result<Vec<Quadruple>, SpectrumError> {
-    let found: Vec<Option<Quadruple>> = stretches(pieces)
+    let followed: Vec<Option<Quadruple>> = stretches(pieces)
         .par_iter()
         .map(|stretch| Quadruple::new(evaluator, stretch))
         .collect::<Result<_, _>>()?;
-    let mut found: Vec<Quadruple> = found.into_iter().flatten().collect();
+    let mut found: Vec<Quadruple> = followed.into_iter().flatten().collect();
     found.sort_by(|x, y| x.begin.speed().total_cmp(&y.begin.speed()));
     Ok(found)
 }
@@ -210,9 +210,9 @@ fn sharp(evaluator: &SignatureEvaluator<'_>, speed: f64, mode: SignedMode) -> Si
     let near = |found: f64, expected: f64, slope: f64| {
         (found - expected).abs() <= LIKENESS * mode.lambda.re + slope.abs() * shift
     };
-    let found = evaluator.next_to(speed, mode.lambda);
+    let next = evaluator.next_to(speed, mode.lambda);
     // The iteration may lead to the mirror image −σ + iω.
-    let found = found.map(|(lambda, slope)| {
+    let found = next.map(|(lambda, slope)| {
         if lambda.re < 0.0 {
             (-lambda.conj(), -slope.conj())
         } else {

@@ -74,7 +74,7 @@ fn labels_neither_overlap_nor_leave_the_sheet() {
         }
         let mut report = report(loci);
         report.scene.name = "Sägeblatt <&> ".repeat(40);
-        let _drawn = sheet(&chart(&report).unwrap());
+        let _with_long_names = sheet(&chart(&report).unwrap());
     }
     let _drawn = sheet(&chart(&report(cut_short())).unwrap());
 }

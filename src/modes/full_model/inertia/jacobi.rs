@@ -116,11 +116,11 @@ mod tests {
                 }
                 let unit = v.transpose() * v - &identity;
                 assert!(unit.amax() <= 1e-13, "order {order}: {}", unit.amax());
-                let mut values = found.values;
-                values.sort_by(f64::total_cmp);
+                let mut ascending = found.values;
+                ascending.sort_by(f64::total_cmp);
                 let mut exact: Vec<f64> = matrix.symmetric_eigenvalues().iter().copied().collect();
                 exact.sort_by(f64::total_cmp);
-                for (x, y) in values.iter().zip(&exact) {
+                for (x, y) in ascending.iter().zip(&exact) {
                     let error = (x - y).abs();
                     let most = order as f64 * LEFT * x.abs() + 1e-12 * matrix.amax();
                     assert!(error <= most, "order {order}: {x} {y}");

@@ -134,7 +134,7 @@ fn counts_hold_under_edge_loads_heat_and_stiff_points() {
             saw.guides[0].tangential_length_m,
         ) = (0.0, 0.0);
     });
-    let stiff = Plate::new(&stiff.unwrap(), small());
+    let stiff_plate = Plate::new(&stiff.unwrap(), small());
     let heated = Scene::paper().edited(|saw| {
         let heat = serde_json::json!({
             "temperature": { "expansion_per_k": 1.2e-5, "rim_rise_k": 15.0 },
@@ -142,14 +142,14 @@ fn counts_hold_under_edge_loads_heat_and_stiff_points() {
         saw.membrane = serde_json::from_value(heat).ok();
         assert!(saw.membrane.is_some());
     });
-    let heated = Plate::new(&heated.unwrap(), small());
+    let heated_plate = Plate::new(&heated.unwrap(), small());
     let loads = [(0.1, 900.0, -300.0), (-0.2, 400.0, 100.0)].map(|(angle_rad, x, y)| RimForce {
         angle_rad,
         radial_n: x,
         tangential_n: y,
     });
     let cut = Plate::new(&Scene::paper(), small()).with_edge_loads(&loads);
-    for (plate, is_dense) in [(stiff, false), (heated, false), (cut, true)] {
+    for (plate, is_dense) in [(stiff_plate, false), (heated_plate, false), (cut, true)] {
         let (basis, system) = (FullModel::new(&plate), GyroscopicSystem::of_plate(&plate));
         assert_eq!(basis.is_dense(), is_dense);
         for place in places(&mut draw, 30) {

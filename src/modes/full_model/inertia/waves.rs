@@ -192,9 +192,9 @@ impl Waves {
                 difference[place] += turned / d;
             }
         }
-        let stiff = self.stiff_compliance[bound as usize]
+        let compliance = self.stiff_compliance[bound as usize]
             .get_or_init(|| self.stiff_compliance(harmonics, bound, rest));
-        let stiff = Scale(1.0 / self.stiff_share(bounds, bound)?) * stiff;
+        let stiff = Scale(1.0 / self.stiff_share(bounds, bound)?) * compliance;
         let columns = stiff.ncols();
         let core = self.core([&sum, &difference], &resonant, stiff);
         (negative + negative_eigenvalues(&core)?).checked_sub(columns)
@@ -252,8 +252,7 @@ impl Waves {
                 *scaled = x * w;
             }
         }
-        let scaled = scaled.subrows(0, rows);
-        let mixed = sine.transpose() * scaled;
+        let mixed = sine.transpose() * scaled.subrows(0, rows);
         let near = resonant.len();
         let mut core = Mat::zeros(near + count, near + count);
         for (i, wave) in resonant.iter().enumerate() {
