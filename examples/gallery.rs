@@ -44,8 +44,8 @@ fn main() -> anyhow::Result<()> {
     println!("paper, further commands");
     // A study of a thousand saws takes minutes. Its report is read; docs/tutorials/thousand-saws.md describes how it is
     // computed.
-    let report = std::fs::read_to_string(figures.join("paper-study.json"))?;
-    let report: StudyReport = serde_json::from_str(&report)?;
+    let content = std::fs::read_to_string(figures.join("paper-study.json"))?;
+    let report: StudyReport = serde_json::from_str(&content)?;
     for (name, png) in pngs(&report)? {
         std::fs::write(figures.join(format!("paper-{name}")), png)?;
     }
@@ -103,8 +103,9 @@ fn stretched(scene: &Scene) -> anyhow::Result<Vec<Figure>> {
         pngs(&cut(&draft)?)?,
         pngs(&runup(&draft, &|_, _| ())?)?,
         pngs(&deflect(scene, &Options::default())?)?,
-    ];
-    let all = all.into_iter().flatten();
+    ]
+    .into_iter()
+    .flatten();
     Ok(all
         .filter_map(|(name, png)| Some((named(name)?, png)))
         .collect())
@@ -130,12 +131,14 @@ fn further(root: &Path) -> anyhow::Result<Vec<Figure>> {
     let mut figures = pngs(&report)?;
     figures.retain(|(name, _)| *name == "modes.png");
 
-    let saws = ["paper", "two-pads"].map(|name| {
-        let saw = Saw::Scene(Box::new(draft(name, &|_| ())?));
-        let label = name.to_owned();
-        Ok::<_, SceneError>(LabelledSaw { label, saw })
-    });
-    let saws = saws.into_iter().collect::<Result<_, _>>()?;
+    let saws = ["paper", "two-pads"]
+        .map(|name| {
+            let saw = Saw::Scene(Box::new(draft(name, &|_| ())?));
+            let label = name.to_owned();
+            Ok::<_, SceneError>(LabelledSaw { label, saw })
+        })
+        .into_iter()
+        .collect::<Result<_, _>>()?;
     figures.extend(svgs(&compare(saws, &|_, _| ())?)?);
 
     let excited = draft("paper", &|saw| {
@@ -149,11 +152,11 @@ fn further(root: &Path) -> anyhow::Result<Vec<Figure>> {
         saw.guides[0].contact = ContactLaw::OneSided;
         saw.guides[0].gap_m = Some(5e-5);
     })?;
-    let options = gap::Options {
+    let gap_options = gap::Options {
         rpm: Some(1200.0),
         ..Default::default()
     };
-    figures.extend(svgs(&gap(&gapped, &options)?)?.into_iter().take(1));
+    figures.extend(svgs(&gap(&gapped, &gap_options)?)?.into_iter().take(1));
 
     let thickness = Range {
         path: "blade.thickness_m".to_owned(),
@@ -201,8 +204,9 @@ fn fit(scene: &Scene) -> anyhow::Result<FitReport> {
     let own = scene.file().measured.as_ref().context("it is measured")?;
     let measurement = Measurement::of_scene(own);
     let freed = ["radius_m", "stiffness_n_per_m"]
-        .map(|name| Freed::with_usual_bounds(scene, &format!("guides[0].{name}")));
-    let freed = freed.into_iter().collect::<Result<Vec<_>, _>>()?;
+        .map(|name| Freed::with_usual_bounds(scene, &format!("guides[0].{name}")))
+        .into_iter()
+        .collect::<Result<Vec<_>, _>>()?;
     let options = fit::Options {
         to_rpm: 1250.0,
         ..Default::default()

@@ -186,8 +186,10 @@ fn bands_of_a_place() -> Result<(), Failure> {
 fn placed() -> Result<(), Failure> {
     let scene = Scene::paper();
     let paths = ["radius_m", "angle_deg", "stiffness_n_per_m"];
-    let freed = paths.map(|key| Freed::with_usual_bounds(&scene, &format!("guides[0].{key}")));
-    let freed: Vec<Freed> = freed.into_iter().collect::<Result<_, _>>()?;
+    let freed: Vec<Freed> = paths
+        .map(|key| Freed::with_usual_bounds(&scene, &format!("guides[0].{key}")))
+        .into_iter()
+        .collect::<Result<_, _>>()?;
     let (demands, options) = (Demands::default(), Options::default());
     place(&scene, &freed, &demands, &options, &|_, _, _| ())?;
     Ok(())

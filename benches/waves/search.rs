@@ -81,9 +81,9 @@ fn sample(model: &WaveModel, speed: f64, scope: Scope, plane: Plane) -> Sample {
     }
     let mut squares = Vec::new();
     for root in &roots {
-        let (lambda, slope) = (root.lambda, root.slope);
+        let (lambda, own_slope) = (root.lambda, root.slope);
         let is_part = |part: f64| part.abs() > REAL * (lambda.norm() + 1e-3 * window);
-        let (square, slope) = (lambda * lambda, finite(2.0 * lambda * slope));
+        let (square, slope) = (lambda * lambda, finite(2.0 * lambda * own_slope));
         let real = |z: c64| c64::new(z.re, 0.0);
         match (is_part(lambda.re), is_part(lambda.im)) {
             // Both modes of a quadruple ±σ + iω have Im λ > 0, and their squares are conjugates.

@@ -77,8 +77,11 @@ fn dense(system: &GyroscopicSystem, speed: f64, unit: f64) -> Vec<c64> {
         (false, true) => -stiffness[(i - n, k)],
         (false, false) => -velocity[(i - n, k - n)],
     });
-    let values = companion.eigenvalues().expect("converges");
-    let values = values.into_iter().map(|value: c64| value * unit);
+    let values = companion
+        .eigenvalues()
+        .expect("converges")
+        .into_iter()
+        .map(|value: c64| value * unit);
     values.filter(|value| value.im >= 0.0).collect()
 }
 
@@ -147,10 +150,10 @@ fn compared(name: &str, file: &SceneFile, e: f64) -> bool {
 
 /// Compares the saws whose names contain a word; whether all are right.
 pub fn run(word: &str) -> bool {
-    let e = std::env::var("E_MS")
+    let typed = std::env::var("E_MS")
         .ok()
         .and_then(|e| e.parse::<f64>().ok());
-    let e = 1e-3 * e.unwrap_or(100.0);
+    let e = 1e-3 * typed.unwrap_or(100.0);
     let all = scenes::named();
     let right = all
         .iter()

@@ -253,8 +253,8 @@ fn schema_prints_the_schema_of_a_scene() {
 #[test]
 fn a_closed_pipe_is_no_failure() {
     let folder = TempDir::new().unwrap();
-    let scene = write_scene(&folder, &quick_scene());
-    let scene = scene.to_str().unwrap();
+    let scene_path = write_scene(&folder, &quick_scene());
+    let scene = scene_path.to_str().unwrap();
     let runs: [&[&str]; 3] = [
         &["schema"],
         &["analyze", scene],
@@ -331,8 +331,8 @@ fn the_chart_in_the_cut_is_beside_that_of_the_idling_saw() {
     assert!((in_cut.teeth - 3.7659).abs() < 1e-4, "{}", in_cut.teeth);
     let own = &default_run().report;
     // A search for bands alone reaches the onset from other speeds than a chart does.
-    let (idle, charted) = (idling.flutter_speed_rpm, own.flutter_speed_rpm);
-    let (idle, charted) = (idle.unwrap(), charted.unwrap());
+    let (idle_rpm, charted_rpm) = (idling.flutter_speed_rpm, own.flutter_speed_rpm);
+    let (idle, charted) = (idle_rpm.unwrap(), charted_rpm.unwrap());
     assert!((idle / charted - 1.0).abs() < 1e-9, "{idle} {charted}");
     let said = text(&output.stdout);
     for expected in [
@@ -344,14 +344,17 @@ fn the_chart_in_the_cut_is_beside_that_of_the_idling_saw() {
     }
     assert_in_80_columns(said);
     // The default speed is the operating speed; a saw of another scene has no cut.
-    let output = run(&["--in-cut", "--json"]);
-    let report: Report = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(report.in_cut.map(|in_cut| in_cut.rpm), Some(1800.0));
+    let by_default = run(&["--in-cut", "--json"]);
+    let report_by_default: Report = serde_json::from_slice(&by_default.stdout).unwrap();
+    assert_eq!(
+        report_by_default.in_cut.map(|in_cut| in_cut.rpm),
+        Some(1800.0)
+    );
     let quick = TempDir::new().unwrap();
     let mut scene = quick_scene();
     scene.cut = None;
     let path = write_scene(&quick, &scene);
-    let output = run(&[path.to_str().unwrap(), "--in-cut"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).contains("the scene has no cut"));
+    let refused = run(&[path.to_str().unwrap(), "--in-cut"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(&refused.stderr).contains("the scene has no cut"));
 }

@@ -31,8 +31,8 @@ fn a_number_that_is_set_is_that_of_a_scene_with_it() {
     let found = report(&[&plain[..], &set].concat(), &folder);
     file.blade.thickness_m = 0.0026;
     file.operating_rpm = Some(750.0);
-    let scene = write_scene(&folder, &file);
-    let typed = report(&["analyze", scene.to_str().unwrap()], &folder);
+    let typed_scene = write_scene(&folder, &file);
+    let typed = report(&["analyze", typed_scene.to_str().unwrap()], &folder);
     assert_eq!(found.scene, file);
     assert_eq!(
         serde_json::to_string(&found).unwrap(),
@@ -114,8 +114,8 @@ fn a_scene_without_a_run_up_takes_one_from_options_and_says_what_is_assumed() {
     let mut file = quick_scene();
     file.runup = None;
     file.operating_rpm = Some(1000.0);
-    let scene = write_scene(&folder, &file);
-    let scene = scene.to_str().unwrap();
+    let scene_path = write_scene(&folder, &file);
+    let scene = scene_path.to_str().unwrap();
     let options = ["runup", scene, "--seconds", "500ms", "--force", "-5N"];
     let (found, said) = scene_of(&options, "runup.json", &folder);
     let runup = found.runup.unwrap();
@@ -133,8 +133,8 @@ fn a_scene_without_a_cut_takes_one_from_options_and_says_what_is_assumed() {
     file.cut = None;
     file.operating_rpm = Some(1000.0);
     file.blade.teeth = Some(40);
-    let scene = write_scene(&folder, &file);
-    let scene = scene.to_str().unwrap();
+    let scene_path = write_scene(&folder, &file);
+    let scene = scene_path.to_str().unwrap();
     let options = ["cut", scene, "--power", "0.01kW"];
     let (found, said) = scene_of(&options, "cut.json", &folder);
     let cut = found.cut.unwrap();
@@ -155,8 +155,8 @@ fn a_scene_without_a_cut_takes_one_from_options_and_says_what_is_assumed() {
 #[test]
 fn a_page_is_written_beside_the_files_or_refused() {
     let folder = TempDir::new().unwrap();
-    let scene = write_scene(&folder, &quick_scene());
-    let scene = scene.to_str().unwrap();
+    let scene_path = write_scene(&folder, &quick_scene());
+    let scene = scene_path.to_str().unwrap();
     let page = folder.path().join("page.html");
     let found = report(
         &["analyze", scene, "--report", page.to_str().unwrap()],

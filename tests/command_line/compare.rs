@@ -71,11 +71,11 @@ fn a_comparison_has_the_results_of_each_saw_alone() {
         assert_eq!(of.critical_speeds, report.critical_speeds);
         assert_eq!(of.instabilities, report.instabilities);
         assert_eq!(of.operating, report.operating);
-        let check = sawflutter()
+        let output = sawflutter()
             .args(["check", path, "--json"])
             .output()
             .unwrap();
-        let check: CheckReport = serde_json::from_slice(&check.stdout).unwrap();
+        let check: CheckReport = serde_json::from_slice(&output.stdout).unwrap();
         let stiffness = of.rim_stiffness_at_rest_n_per_m.unwrap();
         let expected = check.rim_stiffness_at_rest_n_per_m;
         assert!(
@@ -86,11 +86,11 @@ fn a_comparison_has_the_results_of_each_saw_alone() {
 
     // Reports of earlier runs are compared as well.
     let report = out(&alone).join("report.json");
-    let output = run(
+    let with_report = run(
         &["compare", report.to_str().unwrap(), &first, "--json"],
         &folder,
     );
-    let of_report: CompareReport = serde_json::from_slice(&output.stdout).unwrap();
+    let of_report: CompareReport = serde_json::from_slice(&with_report.stdout).unwrap();
     assert_eq!(of_report.saws[0].label, "out");
     assert_eq!(
         of_report.saws[0].instabilities,

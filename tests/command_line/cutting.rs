@@ -17,14 +17,14 @@ fn the_built_in_cut_is_stable_at_1800_and_unstable_at_2800() {
     let folder = TempDir::new().unwrap();
     let output = run(&["cut", "--details"], &folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    let expected = [
+    let expected_files = [
         "cut-map.png",
         "cut-map.svg",
         "cut.json",
         "cut.png",
         "cut.svg",
     ];
-    assert_eq!(names_in(&out(&folder)), expected);
+    assert_eq!(names_in(&out(&folder)), expected_files);
     let summary = text(&output.stdout);
     assert!(
         summary.contains("UNSTABLE") && summary.contains("agrees"),

@@ -60,8 +60,7 @@ impl Server {
         let host = line
             .trim()
             .strip_prefix("http://")
-            .and_then(|l| l.strip_suffix('/'));
-        let host = host
+            .and_then(|l| l.strip_suffix('/'))
             .unwrap_or_else(|| panic!("no address: {line}"))
             .to_owned();
         Server { child, host }
@@ -113,9 +112,9 @@ fn a_draft_is_the_librarys_draft_and_modes_can_be_asked_for() {
     assert_eq!(answer.status, 200);
     let mut found = answer.last_line();
     let paper_saw = Scene::paper();
-    let scene =
-        paper_saw.edited(|saw| (saw.accuracy, saw.tolerance) = (Accuracy::Draft, Some(2e-2)));
-    let scene = scene.unwrap();
+    let scene = paper_saw
+        .edited(|saw| (saw.accuracy, saw.tolerance) = (Accuracy::Draft, Some(2e-2)))
+        .unwrap();
     let sketch = AnalysisOptions {
         detail: Detail::Sketch,
         ..AnalysisOptions::default()
@@ -201,8 +200,8 @@ fn bad_and_boundless_requests_are_refused() {
     // No blade survives 3e6 rpm, and no basis represents the waves of such a sweep.
     let endless = paper().replace("\"to_rpm\":3000.0", "\"to_rpm\":3000000.0");
     assert_ne!(endless, paper());
-    let refusal = server.ask("POST /chart/draft", &[], &endless).last_line();
-    assert_eq!(refusal["refusal"]["key"], "sweep.to_rpm");
+    let too_fast = server.ask("POST /chart/draft", &[], &endless).last_line();
+    assert_eq!(too_fast["refusal"]["key"], "sweep.to_rpm");
     for (line, status) in [
         ("GET /../Cargo.toml", 404),
         ("GET /page/../../Cargo.toml", 404),
@@ -263,14 +262,15 @@ fn an_interrupt_ends_the_program() {
 /// prints its text.
 #[test]
 fn page_and_program_word_a_missing_block_equally() {
-    let saw = Scene::paper().edited(|saw| {
-        saw.cut = None;
-        saw.runup = None;
-        saw.measured = None;
-        saw.operating_rpm = None;
-        saw.guides.clear();
-    });
-    let saw = saw.unwrap();
+    let saw = Scene::paper()
+        .edited(|saw| {
+            saw.cut = None;
+            saw.runup = None;
+            saw.measured = None;
+            saw.operating_rpm = None;
+            saw.guides.clear();
+        })
+        .unwrap();
     let folder = TempDir::new().unwrap();
     let path = write_scene(&folder, saw.file());
     let cases: [(&str, &[&str], RefusedValue); 6] = [

@@ -76,8 +76,8 @@ fn pushed(rpm: f64, lateral_n: f64) -> SceneFile {
 fn a_cut_that_deflects_the_blade_beyond_the_model_is_not_called_stable() {
     for (rpm, leaves) in [(1200.0, true), (1800.0, false)] {
         let force_n = 4.5;
-        let (_, json) = done("cut", &pushed(rpm, 0.01 * force_n));
-        let little: CutReport = serde_json::from_slice(&json).unwrap();
+        let (_, little_json) = done("cut", &pushed(rpm, 0.01 * force_n));
+        let little: CutReport = serde_json::from_slice(&little_json).unwrap();
         let run = &little.runs[0];
         assert_eq!(run.verdict, CutVerdict::Stable);
         let largest = [
@@ -115,8 +115,8 @@ fn a_cut_in_a_band_of_divergence_or_beside_a_critical_speed_is_not_called_stable
     let saw = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft);
     let report = Analysis::new(&saw.unwrap()).unwrap().report();
     let mut bands = report.instabilities.iter();
-    let band = bands.find(|band| band.kind == InstabilityKind::Divergence);
-    let (band, critical) = (band.unwrap(), report.critical_speeds[0].rpm);
+    let found = bands.find(|band| band.kind == InstabilityKind::Divergence);
+    let (band, critical) = (found.unwrap(), report.critical_speeds[0].rpm);
     for (rpm, verdict) in [
         (band.peak_rpm, CutVerdict::Unstable),
         (critical - 2.0, CutVerdict::AtCritical),
@@ -182,8 +182,13 @@ fn no_deflection_of_a_cut_is_beyond_the_linear_model() {
         }
         assert!(report.runs.iter().any(|run| run.linear_until_s.is_some()));
         for line in summary.lines().filter(|line| line.ends_with(" mm")) {
-            let mm = line.trim_end_matches(" mm").rsplit(' ').next().unwrap();
-            let mm: f64 = mm.parse().unwrap();
+            let mm: f64 = line
+                .trim_end_matches(" mm")
+                .rsplit(' ')
+                .next()
+                .unwrap()
+                .parse()
+                .unwrap();
             assert!(mm <= 14.0, "{line}");
         }
     }

@@ -134,9 +134,9 @@ fn a_cause_is_named_once() {
     let message = refusal(&run(&["analyze", missing.to_str().unwrap()], &folder));
     assert_eq!(message.matches("No such file").count(), 1, "{message}");
     assert_eq!(message.matches("missing.json").count(), 1, "{message}");
-    let message = refusal(&run(&["analyze", folder.path().to_str().unwrap()], &folder));
-    assert!(message.contains("is a directory"), "{message}");
-    assert!(!message.contains("refused"), "{message}");
+    let of_folder = refusal(&run(&["analyze", folder.path().to_str().unwrap()], &folder));
+    assert!(of_folder.contains("is a directory"), "{of_folder}");
+    assert!(!of_folder.contains("refused"), "{of_folder}");
 }
 
 #[test]
@@ -298,9 +298,9 @@ fn control_characters_are_not_sent_to_the_terminal() {
     let folder = TempDir::new().unwrap();
     let mut file = quick_scene();
     file.name = "evil \u{1b}]0;title\u{7} \u{9b}2J \u{202e}was".into();
-    let scene = write_scene(&folder, &file);
+    let scene_path = write_scene(&folder, &file);
     let steering = |c: char| (c.is_control() && c != '\n') || c == '\u{202e}';
-    let scene = scene.to_str().unwrap();
+    let scene = scene_path.to_str().unwrap();
     for arguments in [
         &["analyze", scene][..],
         &["analyze", scene, "--json"],
@@ -326,8 +326,8 @@ fn files_of_another_saw_do_not_stay() {
     let folder = TempDir::new().unwrap();
     let out = out(&folder);
     std::fs::create_dir(&out).unwrap();
-    let scene = write_scene(&folder, &quick_scene());
-    let scene = scene.to_str().unwrap();
+    let scene_path = write_scene(&folder, &quick_scene());
+    let scene = scene_path.to_str().unwrap();
     for (arguments, optional) in [
         (
             &["analyze", scene][..],
@@ -374,8 +374,8 @@ fn numbers_in_other_units_are_warned_of() {
         text(&own.stdout)
     );
     file.blade.material.density_kg_per_m3 = 7.8;
-    let scene = write_scene(&folder, &file);
-    let scene = scene.to_str().unwrap();
+    let scene_path = write_scene(&folder, &file);
+    let scene = scene_path.to_str().unwrap();
     let output = run(&["analyze", scene], &folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
     // The summary breaks its lines at blanks.
@@ -402,8 +402,8 @@ fn a_check_with_a_number_of_another_unit_fails() {
     let mut file = crate::common::scene("collar-400mm").file().clone();
     file.accuracy = Accuracy::Draft;
     file.blade.material.density_kg_per_m3 = 7.85;
-    let scene = write_scene(&folder, &file);
-    let scene = scene.to_str().unwrap();
+    let scene_path = write_scene(&folder, &file);
+    let scene = scene_path.to_str().unwrap();
     let check = |rpm: &str, more: &[&str]| {
         let arguments = [&["check", scene, "--operating-rpm", rpm], more].concat();
         let output = run(&arguments, &folder);

@@ -114,20 +114,20 @@ fn parts_of_a_map_are_put_together_over_two_numbers() {
         ];
         [&of[..], &["--y", numbers[1]], more].concat()
     }
-    let page = folder.path().join("page.html");
+    let page_path = folder.path().join("page.html");
     for part in ["1/2", "2/2"] {
         let output = run(&line(&["--shard", part]), &folder);
         assert!(output.status.success(), "{}", text(&output.stderr));
         assert!(text(&output.stdout).contains("without --shard"));
     }
-    let output = run(&line(&["--report", page.to_str().unwrap()]), &folder);
+    let output = run(&line(&["--report", page_path.to_str().unwrap()]), &folder);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let map: MapReport = written(&folder, "map.json");
     assert_eq!(map.saws.len(), 9);
     let rows: Vec<f64> = map.rows().map(|row| row[0].y.unwrap()).collect();
     assert_eq!(rows, [0.6, 0.66, 0.72]);
     assert!(!map.contours.is_empty());
-    let page = std::fs::read_to_string(page).unwrap();
+    let page = std::fs::read_to_string(page_path).unwrap();
     assert!(page.contains("Flutter speed") && page.contains("<svg"));
 }
 
@@ -183,16 +183,17 @@ fn numbers_that_are_none_and_ranges_without_ends_are_refused() {
 /// The verdict of an analysis counts a critical speed beyond the sweep too, if the saw runs within 5 % of it.
 #[test]
 fn a_saw_runs_at_a_critical_speed_that_lies_just_beyond_the_sweep() {
-    let scene = Scene::paper().edited(|file| {
-        (file.accuracy, file.measured) = (Accuracy::Draft, None);
-        file.guides.clear();
-        file.operating_rpm = Some(1450.0);
-        file.sweep = Some(SweepFile {
-            from_rpm: 0.0,
-            to_rpm: 1450.0,
-        });
-    });
-    let scene = scene.unwrap();
+    let scene = Scene::paper()
+        .edited(|file| {
+            (file.accuracy, file.measured) = (Accuracy::Draft, None);
+            file.guides.clear();
+            file.operating_rpm = Some(1450.0);
+            file.sweep = Some(SweepFile {
+                from_rpm: 0.0,
+                to_rpm: 1450.0,
+            });
+        })
+        .unwrap();
     let alone = Analysis::new(&scene).unwrap();
     let alone_rpm = alone.critical_rpm_at(rad_per_s(1450.0)).unwrap();
     let x = Range {

@@ -12,10 +12,10 @@ use super::program::{sawflutter, text};
 /// A square matrix as NumPy reads it, and its order.
 fn matrix(bytes: &[u8]) -> DMatrix<f64> {
     let header = usize::from(u16::from_le_bytes([bytes[8], bytes[9]])) + 10;
-    let numbers = bytes[header..]
+    let numbers: Vec<f64> = bytes[header..]
         .chunks(8)
-        .map(|eight| f64::from_le_bytes(eight.try_into().unwrap()));
-    let numbers: Vec<f64> = numbers.collect();
+        .map(|eight| f64::from_le_bytes(eight.try_into().unwrap()))
+        .collect();
     let order = numbers.len().isqrt();
     assert_eq!(order * order, numbers.len());
     DMatrix::from_row_slice(order, order, &numbers)
@@ -26,8 +26,8 @@ fn matrix(bytes: &[u8]) -> DMatrix<f64> {
 /// has the lowest frequency of two diameters.
 #[test]
 fn blocks_of_the_matrices_are_where_their_description_says() {
-    let stepped = std::fs::read_to_string(crate::common::path("scenes/gallery/stepped-rim.json"));
-    let stepped: Value = serde_json::from_str(&stepped.unwrap()).unwrap();
+    let content = std::fs::read_to_string(crate::common::path("scenes/gallery/stepped-rim.json"));
+    let stepped: Value = serde_json::from_str(&content.unwrap()).unwrap();
     for absent in [&["rim"][..], &["profile"], &[]] {
         let mut scene = stepped.clone();
         scene["guides"] = json!([]);
@@ -44,8 +44,8 @@ fn blocks_of_the_matrices_are_where_their_description_says() {
                 .args([name, path, "--out"])
                 .arg(out)
                 .args(more)
-                .output();
-            let done = done.unwrap();
+                .output()
+                .unwrap();
             assert!(done.status.success(), "{}", text(&done.stderr));
             text(&done.stdout).to_owned()
         };

@@ -166,8 +166,8 @@ fn files_other_than_scenes_are_refused() {
     let twice = format!("{0}{0}", paper_with(THICKNESS, THICKNESS));
     let message = refused_text(twice.as_bytes());
     assert!(message.contains("trailing"), "{message}");
-    let message = refused_text(b"{\"name\": \"\xff\xfe\"}");
-    assert!(message.contains("UTF-8"), "{message}");
+    let of_bytes = refused_text(b"{\"name\": \"\xff\xfe\"}");
+    assert!(of_bytes.contains("UTF-8"), "{of_bytes}");
 }
 
 #[test]
@@ -176,8 +176,8 @@ fn a_directory_and_a_missing_file_are_refused_by_name() {
     let message = refused(folder.path());
     assert!(message.contains("is a directory"), "{message}");
     let missing = folder.path().join("no-such-scene.json");
-    let message = refused(&missing);
-    assert!(message.contains("no-such-scene.json"), "{message}");
+    let of_missing = refused(&missing);
+    assert!(of_missing.contains("no-such-scene.json"), "{of_missing}");
 }
 
 /// A sparse file of 1 TB of zeros, which must not be read to its end, in a process limited to half a gigabyte of

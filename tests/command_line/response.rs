@@ -38,11 +38,11 @@ fn the_deflection_at_rest_is_the_force_over_the_stiffness_of_the_rim() {
     let summary = text(&output.stdout);
     assert_in_80_columns(summary);
     let report: ResponseReport = written(&folder, "response.json");
-    let check = sawflutter()
+    let checked = sawflutter()
         .args(["check", &path, "--json"])
         .output()
         .unwrap();
-    let check: CheckReport = serde_json::from_slice(&check.stdout).unwrap();
+    let check: CheckReport = serde_json::from_slice(&checked.stdout).unwrap();
     let expected = 2.0 / check.rim_stiffness_at_rest_n_per_m;
     let at_rest = report.lines[0].amplitude_m[0].unwrap();
     // The basis of the draft lacks the waves of many diameters in which a point force deflects its own place; `check` has

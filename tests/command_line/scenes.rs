@@ -59,11 +59,11 @@ fn every_study_suits_its_scene() {
         let file = StudyFile::from_json(&text).unwrap_or_else(|error| panic!("{error}"));
         assert!(!file.notes.is_empty(), "{}", path.display());
         let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
-        let scene = scene_paths().into_iter().find(|scene| {
+        let path = scene_paths().into_iter().find(|scene| {
             let name = scene.file_stem().unwrap().to_string_lossy().into_owned();
             stem.starts_with(&format!("{name}-"))
         });
-        let scene = Scene::from_path(scene.expect("a scene of this name")).unwrap();
+        let scene = Scene::from_path(path.expect("a scene of this name")).unwrap();
         let study = Study::new(scene, file).unwrap_or_else(|error| panic!("{error}"));
         assert!(study.count() > 1);
     }

@@ -124,8 +124,8 @@ fn parts_merge_to_the_bytes_of_one_run_on_any_number_of_threads() {
     let whole = bench
         .command("whole", &[])
         .env("RAYON_NUM_THREADS", "1")
-        .output();
-    let whole = whole.unwrap();
+        .output()
+        .unwrap();
     assert_done(&whole);
     for part in ["1/3", "2/3", "3/3"] {
         let out = if part == "2/3" { "elsewhere" } else { "parts" };
@@ -145,8 +145,8 @@ fn parts_merge_to_the_bytes_of_one_run_on_any_number_of_threads() {
     assert_eq!(words(&whole), words(&merged));
     assert!(words(&whole).lines().all(|line| line.chars().count() <= 80));
     // The texts on the worst saw and on reliability agree with the report.
-    let report = std::fs::read_to_string(bench.path("whole/study.json")).unwrap();
-    let report: StudyReport = serde_json::from_str(&report).unwrap();
+    let content = std::fs::read_to_string(bench.path("whole/study.json")).unwrap();
+    let report: StudyReport = serde_json::from_str(&content).unwrap();
     let worst = &report.worst_lowest_critical[0];
     let line = format!(
         "Lowest first critical speed: {:.1} rpm, saw {}",
@@ -278,12 +278,15 @@ fn a_log_of_another_study_is_refused_and_left_alone() {
         "{message}"
     );
     bench.write_study(20);
-    let refused = bench.run("out", &["--accuracy", "design"]);
-    assert!(text(&refused.stderr).contains(r#"scene.accuracy is "draft" there and "design" here"#));
+    let other_accuracy = bench.run("out", &["--accuracy", "design"]);
+    assert!(
+        text(&other_accuracy.stderr)
+            .contains(r#"scene.accuracy is "draft" there and "design" here"#)
+    );
     assert_eq!(std::fs::read(bench.path("out/study.log")).unwrap(), log);
     std::fs::write(bench.path("out/study-1-of-2.log"), "my notes\n").unwrap();
-    let refused = bench.run("out", &["--shard", "1/2"]);
-    assert!(text(&refused.stderr).contains("study-1-of-2.log is no log of a study"));
+    let other_log = bench.run("out", &["--shard", "1/2"]);
+    assert!(text(&other_log.stderr).contains("study-1-of-2.log is no log of a study"));
     assert_eq!(
         std::fs::read(bench.path("out/study-1-of-2.log")).unwrap(),
         b"my notes\n"

@@ -123,8 +123,8 @@ fn rim_stiffness_past_the_first_critical_speed_is_left_out() {
     let before: CheckReport = serde_json::from_str(&check("1250", true)).unwrap();
     let softer = before.rim_stiffness_n_per_m.unwrap();
     assert!(0.0 < softer && softer < before.rim_stiffness_at_rest_n_per_m);
-    let words = check("1250", false).replace("\n  ", " ");
-    assert!(words.contains("N/mm at the operating speed"), "{words}");
+    let at_1250 = check("1250", false).replace("\n  ", " ");
+    assert!(at_1250.contains("N/mm at the operating speed"), "{at_1250}");
 }
 
 /// A terminal or pager that wraps longer lines would break the columns of the examples.
@@ -206,8 +206,8 @@ fn an_unrestrained_blade_does_not_pass() {
     let mut file = Scene::paper().file().clone();
     file.guides.clear();
     file.accuracy = Accuracy::Draft;
-    let scene = write_scene(&folder, &file);
-    let scene = scene.to_str().unwrap();
+    let scene_path = write_scene(&folder, &file);
+    let scene = scene_path.to_str().unwrap();
     let output = run(&["check", scene, "--operating-rpm", "600"], &folder);
     let shown = text(&output.stdout);
     assert_eq!(output.status.code(), Some(1), "{shown}");

@@ -56,9 +56,12 @@ fn the_verdict_comes_first_and_is_that_of_the_report() {
         "{summary}"
     );
     // Without the delayed force, and below the boundary, nothing grows.
-    let small = write_scene(&folder, &resaw(|saw| delayed(saw).stiffness_n_per_m = 15e3));
-    let output = run(&["washboard", small.to_str().unwrap(), "--json"], &folder);
-    let small: WashboardReport = serde_json::from_slice(&output.stdout).unwrap();
+    let small_path = write_scene(&folder, &resaw(|saw| delayed(saw).stiffness_n_per_m = 15e3));
+    let small_output = run(
+        &["washboard", small_path.to_str().unwrap(), "--json"],
+        &folder,
+    );
+    let small: WashboardReport = serde_json::from_slice(&small_output.stdout).unwrap();
     assert_eq!(
         (small.verdict, small.growing_eigenvalues),
         (Verdict::Stable, Some(0))

@@ -132,8 +132,11 @@ fn all_eigenvalues(system: &GyroscopicSystem, speed_rad_per_s: f64) -> Vec<c64> 
         (false, true) => -stiffness[(i - n, k)],
         (false, false) => -velocity[(i - n, k - n)],
     });
-    let values = companion.eigenvalues().unwrap();
-    let values = values.into_iter().map(|value: c64| value * scale);
+    let values = companion
+        .eigenvalues()
+        .unwrap()
+        .into_iter()
+        .map(|value: c64| value * scale);
     values.filter(|value| value.im >= 0.0).collect()
 }
 
@@ -149,8 +152,8 @@ fn speeds(bands: &[Instability], critical: &[f64], (from, to): (f64, f64)) -> Ve
     marks.sort_by(f64::total_cmp);
     let middles = marks
         .windows(2)
-        .filter(|pair| pair[1] > pair[0] * (1.0 + 1e-6));
-    let middles = middles.map(|pair| 0.5 * (pair[0] + pair[1]));
+        .filter(|pair| pair[1] > pair[0] * (1.0 + 1e-6))
+        .map(|pair| 0.5 * (pair[0] + pair[1]));
     let even = (1..=20).map(|k| from + (to - from) * (f64::from(k) - 0.5) / 20.0);
     let lowest = critical.first().copied().unwrap_or(0.0);
     let mut speeds: Vec<f64> = even.chain(middles).filter(|s| *s > lowest).collect();

@@ -102,8 +102,8 @@ pub fn holds(bands: &[Instability], all: &[c64], speed: f64) -> Result<(), Strin
 /// The peak growth of the bands of a saw, or the first error of its list.
 pub fn peak_growth_of_bands(file: &SceneFile) -> Result<f64, String> {
     let range = (0.0, 1.9 * lowest_critical(file));
-    let model = SpectralModel::new(Plate::new(&scene(file), SMALL), range, Solver::Reduced);
-    let model = model.unwrap();
+    let model =
+        SpectralModel::new(Plate::new(&scene(file), SMALL), range, Solver::Reduced).unwrap();
     let chart = chart(&model, range, 31, &|_, _| ()).unwrap();
     let violations = &chart.certificate.violations_rad_per_s;
     if !violations.is_empty() {

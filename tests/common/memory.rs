@@ -37,8 +37,8 @@ pub fn functions_and_megabytes(tolerance: f64, seconds: u64) -> (u64, f64) {
         std::thread::sleep(LOOK_EVERY);
     };
     assert!(ended.success());
-    let report = std::fs::read(out(&folder).join("report.json")).unwrap();
-    let report: serde_json::Value = serde_json::from_slice(&report).unwrap();
+    let content = std::fs::read(out(&folder).join("report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_slice(&content).unwrap();
     let accuracy = &report["accuracy"];
     assert_eq!(accuracy["reached"], true);
     let functions = accuracy["degrees_of_freedom"].as_u64().unwrap();

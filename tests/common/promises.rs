@@ -102,10 +102,13 @@ impl Promise {
 pub fn promises(saw: &Saw, tolerances: &[f64], truth: Resolution) -> Vec<Promise> {
     let chosen = |tolerance: &f64| ChosenBasis::new(&saw.scene, *tolerance).unwrap();
     let all: Vec<ChosenBasis> = tolerances.iter().map(chosen).collect();
-    let to = all.iter().map(|chosen| chosen.range_rad_per_s.1);
-    let to = to.fold(0.0, f64::max);
-    let truth = Assembled::from(Plate::new(&saw.scene, truth));
-    let truth = truth.critical_speeds(Some(&|_| to)).unwrap();
+    let to = all
+        .iter()
+        .map(|chosen| chosen.range_rad_per_s.1)
+        .fold(0.0, f64::max);
+    let truth = Assembled::from(Plate::new(&saw.scene, truth))
+        .critical_speeds(Some(&|_| to))
+        .unwrap();
     let promise = |(chosen, tolerance): (&ChosenBasis, &f64)| {
         let top = chosen.range_rad_per_s.1;
         let within = chosen.critical.iter().filter(|c| c.speed_rad_per_s <= top);

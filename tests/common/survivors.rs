@@ -40,8 +40,8 @@ pub enum Keys {
 pub fn scenes(count: usize, keys: Keys) -> Vec<Scene> {
     let mut rng = rng();
     let files = (0..count).map(|_| {
-        let bytes = drawn(&mut rng);
-        let mut bytes = Bytes(&bytes);
+        let drawn_bytes = drawn(&mut rng);
+        let mut bytes = Bytes(&drawn_bytes);
         let file = draw::scene_file(&mut bytes);
         match keys {
             Keys::Plain => file,
@@ -57,10 +57,10 @@ pub fn scenes(count: usize, keys: Keys) -> Vec<Scene> {
 pub fn sawing_scenes(count: usize) -> Vec<Scene> {
     let mut rng = rng();
     let files = (0..count).map(|_| {
-        let bytes = drawn(&mut rng);
-        let mut bytes = Bytes(&bytes);
-        let file = draw::scene_file(&mut bytes);
-        let mut file = draw::with_details(&mut bytes, file);
+        let drawn_bytes = drawn(&mut rng);
+        let mut bytes = Bytes(&drawn_bytes);
+        let plain = draw::scene_file(&mut bytes);
+        let mut file = draw::with_details(&mut bytes, plain);
         file.blade.teeth = Some(24);
         file.operating_rpm = Some(1200.0);
         // Thinner blades have thousands of modes below the tooth passing frequency.

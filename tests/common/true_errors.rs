@@ -50,9 +50,9 @@ pub fn compare_at_rest(
     let unit = (blade.flexural_rigidity_n_m() / blade.mass_per_area_kg_per_m2()).sqrt()
         / blade.outer_radius_m.powi(2);
     for mode in &report.modes_at_rest {
-        let (n, s) = (mode.nodal_diameters, mode.nodal_circles);
+        let (n, circles) = (mode.nodal_diameters, mode.nodal_circles);
         // Rigid heave and tilt have no frequency: the first listed mode of n = 0 and 1 has a circle.
-        let s = s - usize::from(bc == "FF" && n <= 1);
+        let s = circles - usize::from(bc == "FF" && n <= 1);
         let same = |r: &&AnnulusRoot| (r.bc.as_str(), r.ratio, r.n, r.s) == (bc, ratio, n, s);
         let Some(root) = roots.iter().find(same) else {
             continue;
@@ -136,8 +136,10 @@ impl Truth {
 }
 
 pub fn compare(saw: &Saw, truth: &Truth, tolerance: f64, ratios: &mut Ratios) {
-    let scene = saw.scene.edited(|saw| saw.tolerance = Some(tolerance));
-    let scene = scene.unwrap();
+    let scene = saw
+        .scene
+        .edited(|saw| saw.tolerance = Some(tolerance))
+        .unwrap();
     let analysis = Analysis::new(&scene).unwrap();
     let report = analysis.report();
     let estimates = analysis.estimates.as_ref().unwrap();
@@ -182,8 +184,8 @@ pub fn compare(saw: &Saw, truth: &Truth, tolerance: f64, ratios: &mut Ratios) {
             continue;
         }
         ratios.growth.add(off / (growth + ROUNDING), place);
-        let error = (found.from_rad_per_s / truth.from_rad_per_s - 1.0).abs();
-        ratios.onsets.add(error / (speed + ROUNDING), place);
+        let onset_error = (found.from_rad_per_s / truth.from_rad_per_s - 1.0).abs();
+        ratios.onsets.add(onset_error / (speed + ROUNDING), place);
     }
 }
 
@@ -262,8 +264,11 @@ pub fn compare_damped(
         let estimates = analysis.estimates.as_ref().unwrap();
         for (found, error) in analysis.bands().iter().zip(&estimates.bands) {
             let away = |b: &Instability| (b.peak_rad_per_s / found.peak_rad_per_s - 1.0).abs();
-            let same = truth.bands().iter().filter(|b| b.kind == found.kind);
-            let same = same.min_by(|x, y| away(x).total_cmp(&away(y)));
+            let same = truth
+                .bands()
+                .iter()
+                .filter(|b| b.kind == found.kind)
+                .min_by(|x, y| away(x).total_cmp(&away(y)));
             // The largest basis does not have this band, or the band ends otherwise at the end of the range.
             let Some(truth) = same.filter(|b| away(b) < 1e-2 && b.closed == found.closed) else {
                 continue;
@@ -271,15 +276,15 @@ pub fn compare_damped(
             let Some((estimate, speed)) = error.growth.zip(error.speed) else {
                 continue;
             };
-            let off = (found.peak_growth_per_s / truth.peak_growth_per_s - 1.0).abs();
+            let growth_off = (found.peak_growth_per_s / truth.peak_growth_per_s - 1.0).abs();
             let place = || {
                 format!(
-                    "{what}, {tolerance:e}, {found}: off by {off:.1e}, estimated {estimate:.1e}"
+                    "{what}, {tolerance:e}, {found}: off by {growth_off:.1e}, estimated {estimate:.1e}"
                 )
             };
-            growth.add(off / (estimate + ROUNDING), place);
-            let off = (found.from_rad_per_s / truth.from_rad_per_s - 1.0).abs();
-            onsets.add(off / (speed + ROUNDING), place);
+            growth.add(growth_off / (estimate + ROUNDING), place);
+            let onset_off = (found.from_rad_per_s / truth.from_rad_per_s - 1.0).abs();
+            onsets.add(onset_off / (speed + ROUNDING), place);
         }
     }
 }

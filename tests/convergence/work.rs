@@ -10,12 +10,13 @@ use sawflutter::model::scene::{Accuracy, Scene, SweepFile};
 use sawflutter::stability::Analysis;
 
 fn analysis(accuracy: Accuracy, to_rpm: f64) -> (Scene, Analysis) {
-    let scene = Scene::paper().edited(|saw| {
-        saw.accuracy = accuracy;
-        let from_rpm = 0.0;
-        saw.sweep = Some(SweepFile { from_rpm, to_rpm });
-    });
-    let scene = scene.unwrap();
+    let scene = Scene::paper()
+        .edited(|saw| {
+            saw.accuracy = accuracy;
+            let from_rpm = 0.0;
+            saw.sweep = Some(SweepFile { from_rpm, to_rpm });
+        })
+        .unwrap();
     let analysis = Analysis::new(&scene).unwrap();
     (scene, analysis)
 }

@@ -30,8 +30,9 @@ fn table_5(scene: &Scene) -> Measurement {
 #[test]
 fn the_calibration_of_the_papers_saw_is_found_from_a_distant_start() {
     // On the basis of `design`, which takes a minute, the result is 0.1940 m, 2.08e7 N/m, 0.983 Hz.
-    let calibrated = scene("paper").edited(|saw| saw.accuracy = Accuracy::Draft);
-    let calibrated = calibrated.unwrap();
+    let calibrated = scene("paper")
+        .edited(|saw| saw.accuracy = Accuracy::Draft)
+        .unwrap();
     let far = with(&calibrated, &[(RADIUS, 0.33), (STIFFNESS, 2e5)]);
     let free = freed(
         &far,
@@ -284,8 +285,9 @@ fn a_start_outside_the_bounds_is_reported_unchanged() {
 /// A tap test has zero speed only: the pad is recovered from frequencies at rest of a finer basis.
 #[test]
 fn a_tap_test_at_rest_recovers_the_pad() {
-    let saw = scene("paper").edited(|saw| saw.accuracy = Accuracy::Draft);
-    let saw = saw.unwrap();
+    let saw = scene("paper")
+        .edited(|saw| saw.accuracy = Accuracy::Draft)
+        .unwrap();
     let numbers = [(RADIUS, 0.24), (STIFFNESS, 9e6)];
     let fine = Resolution {
         max_diameters: 16,
@@ -401,8 +403,11 @@ fn speeds_in_thousands_of_rpm_are_noticed() {
         ..Options::default()
     };
     let fit = fit(&saw, &measurement, &free, &options, &|_, _| ()).unwrap();
-    let summary = fit.summary();
-    let summary = summary.split_whitespace().collect::<Vec<_>>().join(" ");
+    let summary = fit
+        .summary()
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ");
     let said = "are these thousands of rpm? That would be 1250 rpm";
     assert!(summary.contains(said), "{summary}");
 }

@@ -146,20 +146,20 @@ fn an_angle_without_effect_is_fixed_and_named() {
         &two,
         &[(ANGLE, -90.0, 0.0), ("guides[1].angle_deg", 30.0, 90.0)],
     );
-    let found = place(&two, &both, &Demands::default(), &quick());
-    assert_eq!(found.without_effect, [ANGLE]);
+    let found_both = place(&two, &both, &Demands::default(), &quick());
+    assert_eq!(found_both.without_effect, [ANGLE]);
 }
 
 /// If saw and bounds are turned by 40°, the best saw is turned by 40°.
 #[test]
 fn the_best_place_turns_with_the_saw() {
-    let here = swept("two-pads");
-    let there = with(&here, &[(ANGLE, -10.0), ("guides[1].angle_deg", 100.0)]);
+    let saw_here = swept("two-pads");
+    let saw_there = with(&saw_here, &[(ANGLE, -10.0), ("guides[1].angle_deg", 100.0)]);
     let best = |saw: &Scene, from: f64| {
         let free = freed(saw, &[(ANGLE, from, from + 60.0)]);
         place(saw, &free, &Demands::default(), &quick())
     };
-    let (here, there) = (best(&here, -90.0), best(&there, -50.0));
+    let (here, there) = (best(&saw_here, -90.0), best(&saw_there, -50.0));
     assert_close(
         "flutter speed",
         there.best.goal_rpm,
@@ -246,11 +246,12 @@ fn where_no_saw_keeps_the_limit_the_nearest_is_answered() {
 /// A rim that is hotter than the blade tolerates buckles it: the search tries such saws and counts them.
 #[test]
 fn saws_that_cannot_be_computed_are_counted() {
-    let saw = scene("gallery/heated-rim").swept(SpeedRange {
-        from_rad_per_s: 0.0,
-        to_rad_per_s: rad_per_s(4000.0),
-    });
-    let saw = saw.unwrap();
+    let saw = scene("gallery/heated-rim")
+        .swept(SpeedRange {
+            from_rad_per_s: 0.0,
+            to_rad_per_s: rad_per_s(4000.0),
+        })
+        .unwrap();
     let free = freed(&saw, &[("membrane.temperature.rim_rise_k", 0.0, 66.0)]);
     let found = place(&saw, &free, &Demands::default(), &quick());
     assert!(found.failed_saws > 0 && found.failed_saws < found.saws);
@@ -286,13 +287,14 @@ fn a_limit_on_the_critical_speed_is_active_and_kept() {
 /// Without such demands the gap has no effect.
 #[test]
 fn the_gap_is_as_narrow_as_the_deflection_demands() {
-    let saw = swept("paper").edited(|saw| {
-        saw.operating_rpm = Some(1000.0);
-        let pad = &mut saw.guides[0];
-        (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(8e-5));
-        saw.side_force = Some(SideForceFile::of(2.0));
-    });
-    let saw = saw.unwrap();
+    let saw = swept("paper")
+        .edited(|saw| {
+            saw.operating_rpm = Some(1000.0);
+            let pad = &mut saw.guides[0];
+            (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(8e-5));
+            saw.side_force = Some(SideForceFile::of(2.0));
+        })
+        .unwrap();
     let free = freed(&saw, &[("guides[0].gap_m", 2e-5, 1e-4)]);
     let demands = Demands {
         gap: GapDemands::new(&saw, Some(0.15), Some(0.3)).unwrap(),
@@ -305,8 +307,9 @@ fn the_gap_is_as_narrow_as_the_deflection_demands() {
     };
     let found = place(&saw, &free, &demands, &few);
     assert!(!found.before.kept && found.best.kept && found.improved);
-    let map = gap::gap(&placed(&found), &gap::Options::default());
-    let map = map.unwrap().deviation;
+    let map = gap::gap(&placed(&found), &gap::Options::default())
+        .unwrap()
+        .deviation;
     let of = |own: &[f64], value: f64| {
         let place = own.iter().position(|own| (own / value - 1.0).abs() < 1e-9);
         place.unwrap()
@@ -491,10 +494,10 @@ fn a_robust_saw_next_to_fragile_cells_of_the_map_is_found() {
         rpm(speed.unwrap())
     };
     let saws = within_tolerances(&known, &[RADIUS, ANGLE]);
-    let known = saws.iter().map(flutter).fold(f64::INFINITY, f64::min);
+    let known_rpm = saws.iter().map(flutter).fold(f64::INFINITY, f64::min);
     let worst = worst_rpm(&found);
-    println!("{worst} of a known {known} rpm");
-    assert!(worst > 0.995 * known, "{worst} {known}");
+    println!("{worst} of a known {known_rpm} rpm");
+    assert!(worst > 0.995 * known_rpm, "{worst} {known_rpm}");
 }
 
 /// Below 1600 rpm no saw flutters, so that none is better than another: the result is the start, to the last digit and

@@ -86,12 +86,12 @@ fn a_saw_of_a_study_is_as_accurate_as_an_analysis_of_its_own() {
     assert_eq!(saws, last_first);
     let nominal = Onsets::new(&paper).unwrap().functions;
     for saw in &saws {
-        let own = Scene::paper().edited(|file| {
+        let scene = Scene::paper().edited(|file| {
             (file.tolerance, file.guides[0].radius_m) = (Some(tolerance), saw.values[0]);
             file.guides[0].stiffness_n_per_m = saw.values[1];
             file.sweep.as_mut().unwrap().to_rpm = 2500.0;
         });
-        let own = Onsets::new(&own.unwrap()).unwrap();
+        let own = Onsets::new(&scene.unwrap()).unwrap();
         let found = saw.found().unwrap();
         assert!(found.functions >= nominal, "{saw:?}");
         assert!(found.estimated_relative_error <= tolerance, "{saw:?}");
@@ -138,8 +138,9 @@ fn the_probability_of_passing_is_that_of_the_distribution() {
 /// Studies of the paper's saw, at the value of its scene and at another one.
 #[test]
 fn a_saw_of_a_study_is_the_one_that_analyze_and_check_see() {
-    let paper = Scene::paper();
-    let paper = paper.edited(|saw| saw.accuracy = Accuracy::Draft).unwrap();
+    let paper = Scene::paper()
+        .edited(|saw| saw.accuracy = Accuracy::Draft)
+        .unwrap();
     let text = r#"{ "name": "pads", "to_rpm": 2400,
         "parameters": [{ "path": "guides[0].angle_deg",
                          "distribution": { "kind": "grid", "values": [-55, -80] } }],
@@ -150,15 +151,16 @@ fn a_saw_of_a_study_is_the_one_that_analyze_and_check_see() {
             min_flutter_rad_per_s: Some(rad_per_s(2300.0)),
             ..Limits::at(rad_per_s(1800.0))
         };
-        let own = paper.edited(|own| own.guides[0].angle_deg = saw.values[0]);
-        let own = own.unwrap();
+        let own = paper
+            .edited(|own| own.guides[0].angle_deg = saw.values[0])
+            .unwrap();
         let found = saw.found().unwrap();
         let criteria = check(&own, &limits).unwrap().criteria;
         let of_speeds = criteria.iter().take(found.kept.len());
         let passed: Vec<bool> = of_speeds.map(|c| c.passed).collect();
         assert_eq!(found.kept, passed);
-        let own = own.edited(|own| own.sweep.as_mut().unwrap().to_rpm = 2400.0);
-        let analysis = Analysis::new(&own.unwrap()).unwrap();
+        let wider = own.edited(|own| own.sweep.as_mut().unwrap().to_rpm = 2400.0);
+        let analysis = Analysis::new(&wider.unwrap()).unwrap();
         assert!(analysis.flutter_speed_rad_per_s.is_some());
         // The search for bands uses fewer modes than the chart, each accurate to 1e-8.
         for (one, other) in [
@@ -326,14 +328,15 @@ fn an_invalid_study_is_refused_by_key() {
 /// linear chart; the pads carry the side force; deflections are those of the map of gaps.
 #[test]
 fn a_study_says_what_the_gap_does() {
-    let saw = scene("paper").edited(|saw| {
-        (saw.accuracy, saw.operating_rpm) = (Accuracy::Draft, Some(1000.0));
-        saw.sweep.as_mut().unwrap().to_rpm = 1700.0;
-        let pad = &mut saw.guides[0];
-        (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5));
-        saw.side_force = Some(SideForceFile::of(2.0));
-    });
-    let saw = saw.unwrap();
+    let saw = scene("paper")
+        .edited(|saw| {
+            (saw.accuracy, saw.operating_rpm) = (Accuracy::Draft, Some(1000.0));
+            saw.sweep.as_mut().unwrap().to_rpm = 1700.0;
+            let pad = &mut saw.guides[0];
+            (pad.contact, pad.gap_m) = (ContactLaw::OneSided, Some(4e-5));
+            saw.side_force = Some(SideForceFile::of(2.0));
+        })
+        .unwrap();
     let asked = |amplitude_mm: f64| {
         let json = format!(
             r#"{{ "name": "gap", "to_rpm": 1700,
@@ -363,11 +366,11 @@ fn a_study_says_what_the_gap_does() {
         assert_close("pad force", numbers[1].unwrap(), 2.0, 1e-5);
     }
     let free = saw.edited(|saw| saw.guides.clear()).unwrap();
-    let free = rpm(Onsets::new(&free)
+    let free_rpm = rpm(Onsets::new(&free)
         .unwrap()
         .lowest_critical_rad_per_s
         .unwrap());
-    assert_close("inside the gap", inside[2][2].unwrap(), free, 2e-3);
+    assert_close("inside the gap", inside[2][2].unwrap(), free_rpm, 2e-3);
     let (beyond, _) = asked(20.0);
     let linear = rpm(Onsets::new(&saw)
         .unwrap()

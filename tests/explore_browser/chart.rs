@@ -78,15 +78,15 @@ fn the_answer_is_the_one_that_the_program_prints() {
                 .value("getComputedStyle(document.querySelector('#verdict strong'), '::before').content")
                 .await;
             assert_eq!(shown, json!(format!("\"{mark}\"")));
-            let told = page
+            let json = page
                 .value("[...document.querySelectorAll('#verdict strong, #verdict .reasons span')].map((line) => line.textContent)")
                 .await;
-            let told: Vec<String> = serde_json::from_value(told).unwrap();
+            let told: Vec<String> = serde_json::from_value(json).unwrap();
             assert!(told.iter().any(|line| line.contains(says)), "{told:?}");
             page.screenshot(&format!("1280-{class}.png")).await;
-            let (_, printed) = page.command(&["analyze"]).await;
-            let (told, printed) = (told.join(" "), words(&printed));
-            assert!(printed.contains(&told), "{told}\n{printed}");
+            let (_, printed_text) = page.command(&["analyze"]).await;
+            let (told_words, printed) = (told.join(" "), words(&printed_text));
+            assert!(printed.contains(&told_words), "{told_words}\n{printed}");
         }
         page.close().await;
     });
@@ -103,15 +103,15 @@ fn a_branch_that_is_pointed_at_moves_on_the_blade() {
         let plot = page.find("#campbell .u-over").await;
         let middle = hand(&page).move_to_element_center(&plot);
         middle.perform().await.unwrap();
-        let told = "document.querySelector('#mode').textContent.includes('Krein')";
+        let is_told = "document.querySelector('#mode').textContent.includes('Krein')";
         for _ in 0..60 {
-            if page.value(told).await == json!(true) {
+            if page.value(is_told).await == json!(true) {
                 break;
             }
             let lower = hand(&page).move_by_offset(0, 3);
             lower.perform().await.unwrap();
         }
-        page.wait(told).await;
+        page.wait(is_told).await;
         hand(&page).move_to(2, 2).perform().await.unwrap();
         page.wait("!document.querySelector('#mode').textContent.includes('Krein')")
             .await;
@@ -202,8 +202,8 @@ fn a_chart_of_an_earlier_scene_is_not_shown_as_the_present_one() {
         assert!(told.contains("before the last change"), "{told}");
         page.settle().await;
         assert_eq!(page.value(marked).await, json!(false));
-        let told = page.text("#computed").await;
-        assert!(told.starts_with("reference accuracy"), "{told}");
+        let told_again = page.text("#computed").await;
+        assert!(told_again.starts_with("reference accuracy"), "{told_again}");
         page.close().await;
     });
 }
@@ -332,8 +332,8 @@ fn several_saws_are_pinned_listed_and_taken_out() {
             json!(["as delivered", "thick", "thick (2)", "as it is now"])
         );
         let column = "[...document.querySelectorAll('#pinned tbody tr')].map((row) => row.cells[1].textContent)";
-        let speeds = page.value(column).await;
-        let mut speeds: Vec<&str> = speeds
+        let cells = page.value(column).await;
+        let mut speeds: Vec<&str> = cells
             .as_array()
             .unwrap()
             .iter()

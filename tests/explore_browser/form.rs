@@ -116,8 +116,8 @@ fn heat_is_set_by_its_field() {
         );
         page.screenshot("1280-heat.png").await;
         let out = page.command_line().await;
-        let report = std::fs::read(out.join("report.json")).unwrap();
-        let report: Value = serde_json::from_slice(&report).unwrap();
+        let content = std::fs::read(out.join("report.json")).unwrap();
+        let report: Value = serde_json::from_slice(&content).unwrap();
         assert!(same(&page.value("sawflutter.report()").await, &report));
         page.close().await;
     });
@@ -295,12 +295,12 @@ fn undo_in_a_field_undoes_the_scene() {
         field.send_keys("9").await.unwrap();
         field.send_keys(Key::Control + "z").await.unwrap();
         assert_eq!(page.value(thickness).await, json!([0.003, "3"]));
-        let field = page.find("[id='blade.thickness_m']").await;
-        field.send_keys(Key::Control + "z").await.unwrap();
+        let field_again = page.find("[id='blade.thickness_m']").await;
+        field_again.send_keys(Key::Control + "z").await.unwrap();
         page.settle().await;
         assert_eq!(page.value(thickness).await, json!([0.0028, "2.8"]));
-        let field = page.find("[id='blade.thickness_m']").await;
-        field.send_keys(Key::Control + "y").await.unwrap();
+        let last_field = page.find("[id='blade.thickness_m']").await;
+        last_field.send_keys(Key::Control + "y").await.unwrap();
         page.settle().await;
         assert_eq!(page.value(thickness).await, json!([0.003, "3"]));
         page.close().await;

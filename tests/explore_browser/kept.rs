@@ -183,9 +183,9 @@ fn a_file_that_is_no_scene_leaves_the_scene_and_a_table_becomes_points() {
         assert_eq!(rows[0], json!({ "rpm": 0, "frequencies_hz": [9.5, 11] }));
         // The table has the speed in its last column, a missing wave, and another order of columns: the page reads it
         // as `sawflutter fit` does.
-        let table = "f2,f1,f3,rpm\n27.5,9.5,43,0\n,4.5,40,500\n";
+        let named_table = "f2,f1,f3,rpm\n27.5,9.5,43,0\n,4.5,40,500\n";
         page.script(&format!(
-            "sawflutter.open(new File([{table:?}], 'shop.csv'))"
+            "sawflutter.open(new File([{named_table:?}], 'shop.csv'))"
         ))
         .await;
         page.wait("sawflutter.state.scene.measured.source === 'shop.csv'")

@@ -31,10 +31,10 @@ fn the_page_is_readable_on_a_small_and_on_a_dark_screen() {
                 let paper = page
                     .value("getComputedStyle(document.body).backgroundColor")
                     .await;
-                let end = page
+                let bottom = page
                     .value("document.querySelector('#campbell').getBoundingClientRect().bottom")
                     .await;
-                let (end, height) = (end.as_f64().unwrap(), f64::from(height));
+                let (end, height) = (bottom.as_f64().unwrap(), f64::from(height));
                 assert!(end <= height, "blade and chart are not seen together");
                 assert_eq!(paper == json!("rgb(255, 255, 255)"), scheme == "light");
             }
@@ -313,10 +313,10 @@ fn a_slider_and_the_chart_are_seen_together_on_a_small_screen() {
         page.wait("document.querySelector('.docked') !== null")
             .await;
         page.screenshot("390-slider.png").await;
-        let seen = page
+        let json = page
             .value("[document.querySelector('#campbell canvas'), document.getElementById('guides[0].stiffness_n_per_m')].map((part) => part.getBoundingClientRect()).map(({ top, bottom }) => [top, bottom])")
             .await;
-        let seen: [[f64; 2]; 2] = serde_json::from_value(seen).unwrap();
+        let seen: [[f64; 2]; 2] = serde_json::from_value(json).unwrap();
         assert!(
             seen[0][0] >= 0.0 && seen[0][1] <= seen[1][0] && seen[1][1] <= 844.0,
             "{seen:?}"

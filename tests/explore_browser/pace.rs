@@ -44,11 +44,11 @@ fn a_chart_is_drawn_once_and_in_few_strokes() {
             page.settle().await;
             page.script(COUNT).await;
             // Critical speeds and bands are drawn before their chart.
-            let charts = "sawflutter.computed.length + sawflutter.ahead";
-            let before = page.value(charts).await.as_u64().unwrap();
+            let count = "sawflutter.computed.length + sawflutter.ahead";
+            let before = page.value(count).await.as_u64().unwrap();
             page.enter("blade.thickness_m", "3").await;
             page.settle().await;
-            let charts = page.value(charts).await.as_u64().unwrap() - before;
+            let charts = page.value(count).await.as_u64().unwrap() - before;
             let drawn = page.value("drawn").await;
             let count = |what: &str| drawn[what].as_u64().unwrap();
             // Each chart clears two canvases, the diagram and the growth rates.

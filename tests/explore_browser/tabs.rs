@@ -58,7 +58,7 @@ fn a_long_computation_leaves_all_other_tabs_their_charts_and_influences() {
                 .iter()
                 .any(|word| told.starts_with(word))
         };
-        let told = "document.querySelector('#panel-study .start .remark').textContent || document.querySelector('#panel-study pre')?.textContent || ''";
+        let script = "document.querySelector('#panel-study .start .remark').textContent || document.querySelector('#panel-study pre')?.textContent || ''";
         page.script(begin).await;
         page.wait("document.querySelector('#panel-study progress').value > 0")
             .await;
@@ -69,11 +69,11 @@ fn a_long_computation_leaves_all_other_tabs_their_charts_and_influences() {
             page.wait("[...document.querySelectorAll('.influence .words')].some((words) => words.textContent !== '')")
                 .await;
             page.script(begin).await;
-            let told = page.value(told).await;
-            assert!(goes_on(told.as_str().unwrap()), "{told}");
+            let script = page.value(script).await;
+            assert!(goes_on(script.as_str().unwrap()), "{script}");
         }
         page.driver.switch_to_window(first).await.unwrap();
-        let told = page.value(told).await;
+        let told = page.value(script).await;
         assert!(goes_on(told.as_str().unwrap()), "{told}");
         page.close().await;
     });

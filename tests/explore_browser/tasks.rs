@@ -197,8 +197,12 @@ fn the_influence_of_a_number_is_what_changing_it_does() {
         page.settle().await;
         let words = "document.querySelector(\"[id='blade.thickness_m']\").closest('.field').querySelector('.words')";
         page.wait(&format!("{words}.textContent !== ''")).await;
-        let told = page.value(&format!("{words}.textContent")).await;
-        let told = told.as_str().unwrap().to_owned();
+        let told = page
+            .value(&format!("{words}.textContent"))
+            .await
+            .as_str()
+            .unwrap()
+            .to_owned();
         let critical = "sawflutter.report().critical_speeds[0].rpm";
         let before = page.value(critical).await.as_f64().unwrap();
         page.enter("blade.thickness_m", "2.828").await;
@@ -339,8 +343,8 @@ fn answers_are_in_the_units_of_the_form() {
                 .unwrap()
         };
         let (out, _) = page.command(&["runup"]).await;
-        let report = std::fs::read(out.join("runup.json")).unwrap();
-        let report: Value = serde_json::from_slice(&report).unwrap();
+        let content = std::fs::read(out.join("runup.json")).unwrap();
+        let report: Value = serde_json::from_slice(&content).unwrap();
         let deflections = report["deflection_m"].as_array().unwrap().iter();
         let largest = deflections
             .map(|w| w.as_f64().unwrap().abs())

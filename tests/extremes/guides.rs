@@ -53,8 +53,11 @@ fn secular(file: &SceneFile, resolution: Resolution, stiffness: f64) -> Vec<f64>
             });
         }
     }
-    let sines = waves.iter().map(|w| w.inverse_critical_speed_squared_s2);
-    let sines = sines.filter(|mu| *mu > 0.0).map(|mu| mu.recip().sqrt());
+    let sines = waves
+        .iter()
+        .map(|w| w.inverse_critical_speed_squared_s2)
+        .filter(|mu| *mu > 0.0)
+        .map(|mu| mu.recip().sqrt());
     let mut critical = critical_speeds_rad_per_s(stiffness, &waves);
     critical.extend(sines);
     critical.sort_by(f64::total_cmp);

@@ -79,11 +79,11 @@ fn problems_too_large_for_memory_are_refused_with_the_number() {
     let plate = Plate::new(&scene(&unguided()), SMALL);
     let range = (0.0, rad_per_s(1000.0));
     let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
-    let message = match sample(&model, &even_speeds(range, 10_000_000), &|_, _| ()) {
+    let of_sweep = match sample(&model, &even_speeds(range, 10_000_000), &|_, _| ()) {
         Err(error @ CampbellError::TooLarge { .. }) => error.to_string(),
         other => panic!("{:?}", other.map(|samples| samples.len())),
     };
-    assert!(message.contains("more than 1024 MiB"), "{message}");
+    assert!(of_sweep.contains("more than 1024 MiB"), "{of_sweep}");
 }
 
 /// The error for a sweep whose chart would not fit states where the sweep may end: at a critical speed, because each
@@ -106,8 +106,8 @@ fn the_error_for_too_large_a_chart_states_where_its_sweep_may_end() {
         "{hopeless}"
     );
     let most = 1024.0 * 1e7 / *needed_mb as f64;
-    let critical = SpectralModel::critical_speeds(&plate).unwrap();
-    let critical = critical.iter().map(|c| c.speed_rad_per_s);
+    let events = SpectralModel::critical_speeds(&plate).unwrap();
+    let critical = events.iter().map(|c| c.speed_rad_per_s);
     let within: Vec<f64> = critical.filter(|speed| *speed < range.1).collect();
     let sides = (-30..=30)
         .filter(|k| *k != 0)

@@ -100,11 +100,11 @@ fn classes(model: &SpectralModel, speed: f64, pads: usize) -> Vec<Class> {
         let Some(class) = class_of(&described.name, pads) else {
             continue;
         };
-        let class = &mut classes[class];
+        let counted = &mut classes[class];
         match described.mode.kind {
-            ModeKind::Positive => class.positive.push(described.mode.frequency_rad_per_s()),
-            ModeKind::Negative => class.reflected.push(described.mode.frequency_rad_per_s()),
-            _ => class.is_unstable = true,
+            ModeKind::Positive => counted.positive.push(described.mode.frequency_rad_per_s()),
+            ModeKind::Negative => counted.reflected.push(described.mode.frequency_rad_per_s()),
+            _ => counted.is_unstable = true,
         }
     }
     classes
@@ -208,15 +208,16 @@ fn branches_are_permuted_and_never_lost() {
 /// The number of threads does not change a result: reports agree to the last byte, and so do two runs.
 #[test]
 fn any_number_of_threads_writes_the_same_report() {
-    let scene = Scene::paper().edited(|saw| {
-        saw.accuracy = Accuracy::Draft;
-        // The range contains a critical pair, two narrow bands and the interval between them.
-        saw.sweep = Some(SweepFile {
-            from_rpm: 1500.0,
-            to_rpm: 2300.0,
-        });
-    });
-    let scene = scene.unwrap();
+    let scene = Scene::paper()
+        .edited(|saw| {
+            saw.accuracy = Accuracy::Draft;
+            // The range contains a critical pair, two narrow bands and the interval between them.
+            saw.sweep = Some(SweepFile {
+                from_rpm: 1500.0,
+                to_rpm: 2300.0,
+            });
+        })
+        .unwrap();
     let report = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)

@@ -92,8 +92,10 @@ impl Saw {
 
     /// Growing eigenvalues of the full model.
     fn growing(&self, speed: f64) -> Vec<c64> {
-        let all = companion_eigenpairs(&self.system, speed).unwrap();
-        let all = all.into_iter().map(|(lambda, _)| lambda);
+        let all = companion_eigenpairs(&self.system, speed)
+            .unwrap()
+            .into_iter()
+            .map(|(lambda, _)| lambda);
         // Smaller growth may be rounding of zero divided by damping, or its root.
         all.filter(|lambda| lambda.re > 1e-3).collect()
     }
@@ -160,8 +162,12 @@ fn assert_peak(saw: &Saw, band: &Instability, range: (f64, f64)) {
     };
     let within = even_speeds((from, to), 3).into_iter().filter(alone);
     for speed in within {
-        let fastest = saw.growing(speed).into_iter().filter(same_kind);
-        let fastest = fastest.map(|l| l.re).fold(0.0, f64::max);
+        let fastest = saw
+            .growing(speed)
+            .into_iter()
+            .filter(same_kind)
+            .map(|l| l.re)
+            .fold(0.0, f64::max);
         assert!(
             fastest <= 1.02 * peak + 2e-3,
             "{what} {fastest} at {}",
@@ -253,8 +259,11 @@ fn assert_grows(saw: &Saw, range: (f64, f64)) {
     let is_clear = |s: &f64| events.iter().all(|event| (event / s - 1.0).abs() > 1e-5);
     speeds.retain(|s| range.0 < *s && *s < range.1 && is_clear(s));
     for speed in speeds {
-        let all = companion_eigenpairs(&saw.system, speed).unwrap();
-        let all: Vec<c64> = all.into_iter().map(|(lambda, _)| lambda).collect();
+        let all: Vec<c64> = companion_eigenpairs(&saw.system, speed)
+            .unwrap()
+            .into_iter()
+            .map(|(lambda, _)| lambda)
+            .collect();
         let held = holds(&bands, &all, speed);
         assert!(held.is_ok(), "{}: {}", told(range), held.unwrap_err());
     }

@@ -17,6 +17,9 @@ fn bands_of_damped_saws_are_those_of_every_eigenvalue() {
         strongest.set(strongest.get().max(growth));
         Ok(())
     });
-    let strongest = strongest.get();
-    assert!(strongest > 0.25, "the draw tests nothing: {strongest} 1/s");
+    let strongest_coupling = strongest.get();
+    assert!(
+        strongest_coupling > 0.25,
+        "the draw tests nothing: {strongest_coupling} 1/s"
+    );
 }

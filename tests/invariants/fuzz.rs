@@ -26,8 +26,8 @@ fn drawn_scenes_on_a_small_basis() {
 #[test]
 fn drawn_scenes_analyzed_in_full() {
     let scenes = scenes(40, Keys::Plain);
-    let charted = |scene| assert_survives(scene, draw::survives_analysis);
-    let charted = scenes.par_iter().take(2).filter(|s| charted(s)).count();
+    let survives = |scene| assert_survives(scene, draw::survives_analysis);
+    let charted = scenes.par_iter().take(2).filter(|s| survives(s)).count();
     println!("{charted} of 2 are charted, the others refused");
     assert!(charted > 0);
 }
@@ -35,8 +35,8 @@ fn drawn_scenes_analyzed_in_full() {
 #[test]
 fn washboarding_of_drawn_saws() {
     let scenes = sawing_scenes(60);
-    let looked_at = |scene| assert_survives(scene, draw::survives_washboard);
-    let looked_at = scenes.par_iter().take(4).filter(|s| looked_at(s)).count();
+    let survives = |scene| assert_survives(scene, draw::survives_washboard);
+    let looked_at = scenes.par_iter().take(4).filter(|s| survives(s)).count();
     println!("{looked_at} of 4 are looked at, the others refused");
     assert!(looked_at > 0);
 }

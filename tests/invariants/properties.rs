@@ -69,8 +69,8 @@ fn mirrored_pads_give_the_same_spectrum() {
         let off = distance(&original, &eigenvalues(&mirrored, speed));
         prop_assert!(off <= 1e-9, "mirrored: {}", off);
         // The mirrored saw alone: the saw rotates in the opposite direction.
-        let off = distance(&original, &eigenvalues(&file, -speed));
-        prop_assert!(off <= 1e-9, "other way: {}", off);
+        let off_backwards = distance(&original, &eigenvalues(&file, -speed));
+        prop_assert!(off_backwards <= 1e-9, "other way: {}", off_backwards);
         Ok(())
     });
 }
@@ -185,8 +185,8 @@ fn the_mass_matrix_is_one() {
             };
             let ring = simpson * (b - a) / f64::from(3 * radii) * r * TAU / f64::from(angles);
             for k in 0..angles {
-                let f = plate.functions_at(r, TAU * f64::from(k) / f64::from(angles));
-                let f = faer::Col::from_fn(size, |i| f[i]);
+                let functions = plate.functions_at(r, TAU * f64::from(k) / f64::from(angles));
+                let f = faer::Col::from_fn(size, |i| functions[i]);
                 let weight = ring * plate.blade.mass_per_area_kg_per_m2();
                 mass += faer::Scale(weight) * &f * f.transpose();
             }

@@ -37,8 +37,7 @@ fn ten_thousand_scenes_with_all_keys_at_two_speeds() {
 #[test]
 #[ignore = "a trial"]
 fn a_hundred_and_fifty_charts_on_a_small_basis() {
-    let scenes = scenes(1500, Keys::Plain);
-    let scenes = scenes.into_iter().take(150).collect();
+    let scenes = scenes(1500, Keys::Plain).into_iter().take(150).collect();
     survive("charts of drawn scenes", scenes, |scene| {
         draw::survives_chart(scene);
         true
@@ -48,16 +47,14 @@ fn a_hundred_and_fifty_charts_on_a_small_basis() {
 #[test]
 #[ignore = "a trial"]
 fn twenty_four_analyses() {
-    let scenes = scenes(160, Keys::Plain);
-    let scenes = scenes.into_iter().take(24).collect();
+    let scenes = scenes(160, Keys::Plain).into_iter().take(24).collect();
     survive("analyses of drawn scenes", scenes, draw::survives_analysis);
 }
 
 #[test]
 #[ignore = "a trial"]
 fn sixty_four_analyses_of_washboarding() {
-    let scenes = sawing_scenes(600);
-    let scenes = scenes.into_iter().take(64).collect();
+    let scenes = sawing_scenes(600).into_iter().take(64).collect();
     survive(
         "washboarding of drawn scenes",
         scenes,

@@ -118,8 +118,11 @@ fn the_determinant_in_double_precision_has_the_roots_of_the_tables() {
     ] {
         let mut worst = Worst::default();
         for root in crate::common::table::<AnnulusRoot>(name) {
-            let found = plate(&root.bc, root.ratio, root.nu).roots(root.n, root.s + 1);
-            let found = found.get(root.s).copied().unwrap_or(f64::NAN);
+            let found = plate(&root.bc, root.ratio, root.nu)
+                .roots(root.n, root.s + 1)
+                .get(root.s)
+                .copied()
+                .unwrap_or(f64::NAN);
             worst.add(relative_error(found, root.lambda2), || format!("{root:?}"));
         }
         assert_eq!(worst.count, count, "{name}");

@@ -208,9 +208,10 @@ static DAMPED_PAD: LazyLock<Analysis> = LazyLock::new(|| {
 fn a_damped_pad_flutters_where_modes_meet_and_not_where_damping_feeds_a_wave() {
     let analysis = &*DAMPED_PAD;
     let scene = &analysis.scene;
-    let undamped = scene.edited(|file| file.guides[0].damping_n_s_per_m = 0.0);
-    let undamped = undamped.unwrap();
-    let undamped = Analysis::new(&undamped).unwrap();
+    let plain = scene
+        .edited(|file| file.guides[0].damping_n_s_per_m = 0.0)
+        .unwrap();
+    let undamped = Analysis::new(&plain).unwrap();
     let (found, expected) = (
         analysis.flutter_speed_rad_per_s.unwrap(),
         undamped.flutter_speed_rad_per_s.unwrap(),
@@ -367,8 +368,8 @@ fn damping_does_not_change_the_branch_of_a_divergence() {
 fn a_heavily_damped_blade_lists_the_modes_that_oscillate() {
     const RETARDATION_S: f64 = 2e-4;
     let damped = analysis_of(0.0, RETARDATION_S);
-    let undamped = damped.scene.edited(|saw| saw.damping = None).unwrap();
-    let undamped = Analysis::new(&undamped).unwrap();
+    let plain = damped.scene.edited(|saw| saw.damping = None).unwrap();
+    let undamped = Analysis::new(&plain).unwrap();
     assert_eq!(damped.overdamped_at_rest, 0);
     assert!(damped.modes_at_rest.len() >= 10);
     let pairs = damped.modes_at_rest.iter().zip(&undamped.modes_at_rest);
@@ -432,8 +433,10 @@ fn slow_tilts_in_air_that_turns_obey_their_equation() {
         let modes = model.modes(speed).unwrap();
         for expected in [-half + root, -half - root] {
             let upper = c64::new(expected.re, expected.im.abs());
-            let off = modes.iter().map(|mode| (mode.lambda - upper).norm());
-            let off = off.fold(f64::INFINITY, f64::min);
+            let off = modes
+                .iter()
+                .map(|mode| (mode.lambda - upper).norm())
+                .fold(f64::INFINITY, f64::min);
             assert!(off < 1e-6, "{} rpm: {upper} is off by {off:e}", rpm(speed));
         }
     }

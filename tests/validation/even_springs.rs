@@ -47,8 +47,8 @@ fn waves_of(plate: &Plate, n: usize, speed: f64) -> Vec<BodyWave> {
     let size = block.bending.nrows();
     let inertia = DMatrix::identity(size, size) * (n * n) as f64;
     let eigen = SymmetricEigen::new(&block.bending + (&block.spin + inertia) * (speed * speed));
-    let values = plate.functions_at(RADIUS_M, 0.0);
-    let values = DVector::from_row_slice(&values[plate.offset(n)..plate.offset(n) + size]);
+    let functions = plate.functions_at(RADIUS_M, 0.0);
+    let values = DVector::from_row_slice(&functions[plate.offset(n)..plate.offset(n) + size]);
     let mut waves: Vec<BodyWave> = (0..size)
         .map(|k| BodyWave {
             nodal_diameters: n,
@@ -281,8 +281,10 @@ impl Compared {
         critical: &[(usize, f64)],
         bands: &[Instability],
     ) {
-        let split = critical.iter().filter(|(n, _)| springs.diverges(*n));
-        let split: Vec<_> = split.collect();
+        let split: Vec<_> = critical
+            .iter()
+            .filter(|(n, _)| springs.diverges(*n))
+            .collect();
         assert_eq!(bands.len(), split.len(), "{} springs", springs.count);
         for (band, &&(n, speed)) in bands.iter().zip(&split) {
             // The wave with its nodes at the springs does not move them.
@@ -298,8 +300,8 @@ impl Compared {
 /// Bands of the blade on springs, compared with those that Chen's rules predict from its unguided waves.
 fn compared(strategy: Strategy) -> Compared {
     let (free, top, cases) = cases();
-    let critical = SpectralModel::critical_speeds(&free).unwrap();
-    let mut critical: Vec<(usize, f64)> = critical
+    let mut critical: Vec<(usize, f64)> = SpectralModel::critical_speeds(&free)
+        .unwrap()
         .iter()
         .map(|c| (c.name.diameters(), c.speed_rad_per_s))
         .filter(|(_, speed)| *speed < top)

@@ -66,8 +66,8 @@ fn events_of_a_weak_pad_have_the_names_of_free_waves() {
             }
             InstabilityKind::Flutter => {
                 let branches = free.campbell.branches.iter();
-                let here = branches.filter_map(|b| Some((b, at(b, band.peak_rpm)?)));
-                let mut here: Vec<(f64, i8, String)> = here
+                let mut here: Vec<(f64, i8, String)> = branches
+                    .filter_map(|b| Some((b, at(b, band.peak_rpm)?)))
                     .map(|(b, (hz, sign))| ((hz - band.frequency_hz).abs(), sign, named(b, sign)))
                     .collect();
                 here.sort_by(|x, y| x.0.total_cmp(&y.0));

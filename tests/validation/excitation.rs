@@ -68,8 +68,11 @@ fn crossings_are_the_eigenvalues_of_the_problem_in_the_square_of_the_speed() {
             .filter(|speed| (range[0]..=range[1]).contains(&rpm(*speed)))
             .filter(|speed| f64::from(order) * speed < 0.98 * top)
             .collect();
-        let own = found.iter().filter(|c| c.line.order == order);
-        let own: Vec<f64> = own.map(|c| c.speed_rad_per_s).collect();
+        let own: Vec<f64> = found
+            .iter()
+            .filter(|c| c.line.order == order)
+            .map(|c| c.speed_rad_per_s)
+            .collect();
         assert!(
             own.len() >= expected.len(),
             "{order}: {own:?} for {expected:?}"
@@ -155,8 +158,8 @@ fn lines_of_a_free_blade_cross_at_the_closed_form() {
     let told = entry
         .crossings
         .iter()
-        .find(|c| (c.rpm / rpm(speed) - 1.0).abs() < 1e-8);
-    let told = told.expect("told");
+        .find(|c| (c.rpm / rpm(speed) - 1.0).abs() < 1e-8)
+        .expect("told");
     assert_eq!(told.mode, "2 diameters, backward");
     assert!((told.frequency_hz - speed / TAU).abs() < 1e-6);
 }

@@ -105,9 +105,9 @@ fn a_follower_load_flutters_where_two_waves_of_equal_diameters_coalesce() {
 
 #[test]
 fn a_follower_load_is_neither_symmetrised_nor_called_conservative() {
-    let plate = sprung(1e5);
-    assert!(plate.is_conservative());
-    let plate = loaded(&plate, -100.0);
+    let unloaded = sprung(1e5);
+    assert!(unloaded.is_conservative());
+    let plate = loaded(&unloaded, -100.0);
     assert!(!plate.is_conservative());
     let system = GyroscopicSystem::of_plate(&plate);
     assert!(!system.is_conservative());

@@ -72,8 +72,8 @@ fn the_report_of_a_loaded_saw_includes_the_idling_one() {
     let own = Onsets::new(&scene.idling().unwrap()).unwrap();
     assert_eq!(told.flutter_speed_rpm, own.flutter_speed_rad_per_s.map(rpm));
     assert_eq!(told.instabilities.len(), own.instabilities.len());
-    let plain = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft);
-    let plain = Analysis::new(&plain.unwrap()).unwrap().report();
+    let scene = Scene::paper().edited(|saw| saw.accuracy = Accuracy::Draft);
+    let plain = Analysis::new(&scene.unwrap()).unwrap().report();
     let critical: Vec<f64> = plain.critical_speeds.iter().map(|c| c.rpm).collect();
     assert_eq!(told.critical_speeds_rpm, critical);
     assert!(plain.in_cut.is_none());
@@ -121,9 +121,9 @@ fn wood_over_the_whole_blade_is_an_elastic_foundation() {
                     "{n} {j} {k}"
                 );
                 let loss = system.damping.as_ref().expect("damped")[(first + j, first + k)];
-                let expected = if j == k { damping / area / mass } else { 0.0 };
+                let expected_damping = if j == k { damping / area / mass } else { 0.0 };
                 assert!(
-                    (loss - expected).abs() < 1e-10 * damping / area / mass,
+                    (loss - expected_damping).abs() < 1e-10 * damping / area / mass,
                     "{n} {j} {k}"
                 );
             }
@@ -135,8 +135,8 @@ fn wood_over_the_whole_blade_is_an_elastic_foundation() {
         let own = nalgebra::DMatrix::from_fn(size, size, |j, k| stiffness[(first + j, first + k)]);
         own.symmetric_eigenvalues().min().sqrt()
     };
-    let free = Plate::new(&scene.idling().unwrap(), SMALL);
-    let free = own(&GyroscopicSystem::of_plate(&free).stiffness);
+    let idle = Plate::new(&scene.idling().unwrap(), SMALL);
+    let free = own(&GyroscopicSystem::of_plate(&idle).stiffness);
     let expected = on_a_bed_rad_per_s(free, stiffness / area, mass);
     assert!(relative_error(own(&system.stiffness), expected) < 1e-9);
 }
@@ -166,8 +166,8 @@ fn a_small_patch_is_a_point_spring_and_an_arc_many_of_them() {
     let mut sum = faer::Mat::<f64>::zeros(stiffness.nrows(), stiffness.ncols());
     for i in 0..points {
         let angle = 17.0 + arc * ((f64::from(i) + 0.5) / f64::from(points) - 0.5);
-        let values = plate.functions_at(rim, angle.to_radians());
-        let values = faer::Col::from_fn(values.len(), |i| values[i]);
+        let functions = plate.functions_at(rim, angle.to_radians());
+        let values = faer::Col::from_fn(functions.len(), |i| functions[i]);
         sum += faer::Scale(k / f64::from(points)) * &values * values.transpose();
     }
     let error = (&stiffness - &sum).norm_l2() / sum.norm_l2();
@@ -178,11 +178,11 @@ fn a_small_patch_is_a_point_spring_and_an_arc_many_of_them() {
         arc_deg: Some(1e-2),
         ..WoodFile::default()
     });
-    let values = plate.functions_at(rim - 5e-5, 17.0_f64.to_radians());
-    let values = faer::Col::from_fn(values.len(), |i| values[i]);
+    let functions = plate.functions_at(rim - 5e-5, 17.0_f64.to_radians());
+    let values = faer::Col::from_fn(functions.len(), |i| functions[i]);
     let point = faer::Scale(k) * &values * values.transpose();
-    let error = (&stiffness - &point).norm_l2() / point.norm_l2();
-    assert!(error < 1e-5, "a small patch: {error:e}");
+    let point_error = (&stiffness - &point).norm_l2() / point.norm_l2();
+    assert!(point_error < 1e-5, "a small patch: {point_error:e}");
 }
 
 /// Damping makes the certificate of Krein signs impossible, and the chart names the comparison used instead.
@@ -266,8 +266,8 @@ fn the_response_in_the_cut_is_that_of_the_whole_matrices() {
     let places = [
         (points.force_radius_m, points.force_angle_deg),
         (report.probe_radius_m, report.probe_angle_deg),
-    ];
-    let places = places.map(|(radius_m, deg)| functions(plate, (radius_m, deg.to_radians())));
+    ]
+    .map(|(radius_m, deg)| functions(plate, (radius_m, deg.to_radians())));
     for place in (0..points.frequency_hz.len()).step_by(97) {
         let at = (rad_per_s(points.rpm), TAU * points.frequency_hz[place]);
         let expected = receptance(&system, places.each_ref(), at);
@@ -332,9 +332,9 @@ fn every_command_has_the_same_saw_in_the_cut() {
 /// A force so small that the blade does not stretch.
 #[test]
 fn a_small_force_in_the_cut_deflects_the_blade_as_the_whole_matrices_say() {
-    let scene = against_wood();
-    let scene = scene.edited(|saw| saw.side_force = Some(SideForceFile::of(1e-4)));
-    let scene = scene.unwrap();
+    let scene = against_wood()
+        .edited(|saw| saw.side_force = Some(SideForceFile::of(1e-4)))
+        .unwrap();
     let options = deflect::Options {
         to_rpm: Some(1300.0),
     };

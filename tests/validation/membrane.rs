@@ -201,8 +201,9 @@ fn spline_blade(bore: f64, rises: &[f64], shift: f64) -> Scene {
     let outer = file.blade.outer_diameter_m;
     file.blade.inner_diameter_m = bore * outer;
     let radius = |k: usize| 0.5 * outer * (bore + (1.0 - bore) * k as f64 / 4.0);
-    let rows = rises.iter().enumerate();
-    let rows: Vec<_> = rows
+    let rows: Vec<_> = rises
+        .iter()
+        .enumerate()
         .map(|(k, rise)| serde_json::json!({ "radius_m": radius(k), "rise_k": rise + shift }))
         .collect();
     let temperature = serde_json::json!({ "expansion_per_k": 1.2e-5, "table": rows });

@@ -179,8 +179,7 @@ fn the_free_blade_is_never_unstable() {
 /// The frequency of the branch of a critical speed is zero at that speed.
 #[test]
 fn critical_speeds_of_the_free_blade_belong_to_backward_waves() {
-    let report = Analysis::new(&scene("free-blade")).unwrap();
-    let report = report.report();
+    let report = Analysis::new(&scene("free-blade")).unwrap().report();
     assert!(!report.critical_speeds.is_empty());
     for critical in &report.critical_speeds {
         let number = critical.branch.expect("it has a branch");

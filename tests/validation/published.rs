@@ -124,11 +124,11 @@ fn five_equal_springs_split_and_couple_the_waves_of_chens_rules() {
 fn a_compressive_edge_load_moves_frequencies_and_bands_as_chen_found() {
     let change = |file: &mut SceneFile| file.accuracy = Accuracy::Draft;
     let loaded = Analysis::new(&published("chen-edge-load", change)).unwrap();
-    let idling = published("chen-edge-load", |file| {
+    let unloaded = published("chen-edge-load", |file| {
         change(file);
         file.cut = None;
     });
-    let idling = Analysis::new(&idling).unwrap();
+    let idling = Analysis::new(&unloaded).unwrap();
     let frequency = |analysis: &Analysis, rpm: f64, n: usize, direction: Direction| {
         let speed = rad_per_s(rpm);
         let modes = analysis.model.modes(speed).unwrap();

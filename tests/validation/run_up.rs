@@ -30,18 +30,19 @@ fn growth_of_all_modes(plate: &Plate) -> f64 {
 #[test]
 fn overlapping_bands_divide_the_growth_of_all_modes() {
     for damping_n_s_per_m in [0.0, 0.5] {
-        let scene = Scene::paper().edited(|saw| {
-            saw.accuracy = Accuracy::Draft;
-            saw.guides[0].damping_n_s_per_m = damping_n_s_per_m;
-            saw.runup = Some(RunUpFile {
-                from_rpm: SPEEDS_RPM[0],
-                to_rpm: SPEEDS_RPM[1],
-                duration_s: DURATION_S,
-                stretching: false,
-            });
-            saw.side_force = Some(SideForceFile::of(1e-6));
-        });
-        let scene = scene.unwrap();
+        let scene = Scene::paper()
+            .edited(|saw| {
+                saw.accuracy = Accuracy::Draft;
+                saw.guides[0].damping_n_s_per_m = damping_n_s_per_m;
+                saw.runup = Some(RunUpFile {
+                    from_rpm: SPEEDS_RPM[0],
+                    to_rpm: SPEEDS_RPM[1],
+                    duration_s: DURATION_S,
+                    stretching: false,
+                });
+                saw.side_force = Some(SideForceFile::of(1e-6));
+            })
+            .unwrap();
         let bands = runup(&scene, &|_, _| ()).unwrap().bands;
         let overlap = bands
             .windows(2)

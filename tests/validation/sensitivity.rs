@@ -24,11 +24,11 @@ fn analysis_of(scene: &Scene) -> Analysis {
 /// The scene with one number changed by a share of the change of a sensitivity.
 fn moved(scene: &Scene, path: &str, share: f64) -> Scene {
     let parameter = Parameter::new(path);
-    let value = parameter.get(scene.file()).unwrap();
+    let own = parameter.get(scene.file()).unwrap();
     let value = if path.ends_with("angle_deg") {
-        value + share
+        own + share
     } else {
-        value * (1.0 + 0.01 * share)
+        own * (1.0 + 0.01 * share)
     };
     scene.file().with(&[(&parameter, value)]).unwrap()
 }
@@ -59,17 +59,18 @@ fn sensitivities_agree_where_a_rigid_motion_is_free() {
 /// saw are too narrow for differences of their onsets.
 #[test]
 fn critical_speeds_of_a_stepped_blade_with_heavy_teeth_move_as_reported() {
-    let stepped = Scene::paper().edited(|saw| {
-        saw.blade.profile = vec![ThicknessRow {
-            radius_m: 0.26,
-            thickness_m: 2.4e-3,
-        }];
-        saw.blade.rim = Some(RimFile {
-            mass_per_tooth_kg: 0.004,
-            radius_m: Some(0.345),
-        });
-    });
-    let stepped = stepped.unwrap();
+    let stepped = Scene::paper()
+        .edited(|saw| {
+            saw.blade.profile = vec![ThicknessRow {
+                radius_m: 0.26,
+                thickness_m: 2.4e-3,
+            }];
+            saw.blade.rim = Some(RimFile {
+                mass_per_tooth_kg: 0.004,
+                radius_m: Some(0.345),
+            });
+        })
+        .unwrap();
     let found = analysis_of(&stepped)
         .sensitivities(rad_per_s(1000.0))
         .unwrap();
@@ -85,8 +86,8 @@ fn critical_speeds_of_a_stepped_blade_with_heavy_teeth_move_as_reported() {
         let [low, high] = [-share, share].map(|s| critical(&moved(&stepped, path, s)).unwrap());
         for (k, told) in told.critical_speeds_percent.iter().enumerate() {
             let told = 0.01 * told;
-            let difference = high[k].speed_rad_per_s - low[k].speed_rad_per_s;
-            let difference = difference / (2.0 * share * middle[k].speed_rad_per_s);
+            let apart = high[k].speed_rad_per_s - low[k].speed_rad_per_s;
+            let difference = apart / (2.0 * share * middle[k].speed_rad_per_s);
             let error = (told - difference).abs();
             assert!(error < 1e-6 * 0.01, "{path} {k}: {told} for {difference}");
         }
@@ -97,25 +98,27 @@ fn critical_speeds_of_a_stepped_blade_with_heavy_teeth_move_as_reported() {
 /// its onset changes as differences of the onset predict, and not as that critical speed does.
 #[test]
 fn the_onset_of_divergence_moves_with_its_coalescence() {
-    let scene = Scene::paper().edited(|saw| {
-        (saw.spline, saw.cut, saw.runup, saw.probe, saw.measured) = (None, None, None, None, None);
-        saw.blade.outer_diameter_m = 0.6687;
-        saw.blade.inner_diameter_m = 0.199;
-        saw.blade.thickness_m = 0.002392;
-        saw.mount = Mount::Collar {
-            diameter_m: 0.199,
-            in_plane: InPlane::Fixed,
-        };
-        saw.guides[0] = GuideFile {
-            radius_m: 0.239,
-            angle_deg: -7.5,
-            radial_length_m: 0.111,
-            tangential_length_m: 0.0502,
-            stiffness_n_per_m: 113_900.0,
-            ..saw.guides[0]
-        };
-    });
-    let scene = scene.unwrap();
+    let scene = Scene::paper()
+        .edited(|saw| {
+            (saw.spline, saw.cut, saw.runup, saw.probe, saw.measured) =
+                (None, None, None, None, None);
+            saw.blade.outer_diameter_m = 0.6687;
+            saw.blade.inner_diameter_m = 0.199;
+            saw.blade.thickness_m = 0.002392;
+            saw.mount = Mount::Collar {
+                diameter_m: 0.199,
+                in_plane: InPlane::Fixed,
+            };
+            saw.guides[0] = GuideFile {
+                radius_m: 0.239,
+                angle_deg: -7.5,
+                radial_length_m: 0.111,
+                tangential_length_m: 0.0502,
+                stiffness_n_per_m: 113_900.0,
+                ..saw.guides[0]
+            };
+        })
+        .unwrap();
     let of = |scene: &Scene| dense_analysis(scene, RESOLUTION, [2110.0, 2200.0], 12);
     let middle = of(&scene);
     let diverges = |a: &Analysis| {
@@ -138,10 +141,10 @@ fn the_onset_of_divergence_moves_with_its_coalescence() {
         "guides[0].stiffness_n_per_m",
         "guides[0].radius_m",
     ] {
-        let told = found.iter().find(|own| own.parameter == path).expect(path);
+        let entry = found.iter().find(|own| own.parameter == path).expect(path);
         let [low, high] = [-share, share].map(|s| onset(&of(&moved(&scene, path, s))));
         let difference = (high - low) / (2.0 * share * onset(&middle));
-        let told = 0.01 * told.onsets_percent[place].expect("an onset");
+        let told = 0.01 * entry.onsets_percent[place].expect("an onset");
         assert!(
             (told - difference).abs() < 1e-5 * 0.01_f64.max(difference.abs()),
             "{path}: {told} {difference}"

@@ -34,8 +34,9 @@ fn at(shape: &EventShape, k: usize, angle_rad: f64) -> [f64; 2] {
 fn shapes_of_a_free_blade_are_cosines_of_its_nodal_diameters() {
     let scene = Scene::from_path(crate::common::path("scenes/free-blade.json")).unwrap();
     let (_, report) = charted(&scene, &[]);
-    let standing = report.shapes.iter();
-    let standing: Vec<_> = standing
+    let standing: Vec<_> = report
+        .shapes
+        .iter()
         .filter(|shape| shape.occasion == ShapeOccasion::CriticalSpeed)
         .collect();
     assert_eq!(standing.len(), report.critical_speeds.len());
@@ -197,9 +198,16 @@ fn the_grids_of_vtk_hold_the_deflections_of_their_phase() {
         assert_eq!(list.text.matches(name).count(), 1, "{name}");
     }
     let numbers = |text: &str, array: usize| -> Vec<f64> {
-        let body = text.split("<DataArray").nth(array).unwrap();
-        let body = body.split_once('>').unwrap().1;
-        let body = body.split_once("</DataArray>").unwrap().0;
+        let body = text
+            .split("<DataArray")
+            .nth(array)
+            .unwrap()
+            .split_once('>')
+            .unwrap()
+            .1
+            .split_once("</DataArray>")
+            .unwrap()
+            .0;
         body.split_whitespace()
             .map(|n| n.parse().unwrap())
             .collect()
@@ -207,8 +215,8 @@ fn the_grids_of_vtk_hold_the_deflections_of_their_phase() {
     let flutter = report
         .shapes
         .iter()
-        .position(|s| s.occasion == ShapeOccasion::Flutter);
-    let flutter = flutter.unwrap();
+        .position(|s| s.occasion == ShapeOccasion::Flutter)
+        .unwrap();
     // A quarter of a period later, Re(w e^{iπ/2}) = −Im w.
     for (phase, turned) in [(0, 0), (3, 1)] {
         let text = &files[1 + phase].text;

@@ -27,8 +27,10 @@ fn saw(gap_m: Option<f64>) -> Scene {
 
 /// K(Ω)⁻¹ applied to a load, by another library, on all functions.
 fn answer(system: &GyroscopicSystem, speed: f64, load: &DVector<f64>) -> DVector<f64> {
-    let k = system.stiffness_at(speed);
-    let k = DMatrix::from_fn(k.nrows(), k.ncols(), |i, j| k[(i, j)]);
+    let stiffness = system.stiffness_at(speed);
+    let k = DMatrix::from_fn(stiffness.nrows(), stiffness.ncols(), |i, j| {
+        stiffness[(i, j)]
+    });
     k.lu().solve(load).expect("stiff below the critical speed")
 }
 

@@ -203,8 +203,10 @@ fn washboarding_is_that_of_a_collocated_delay() {
         assert!(report.modes.len() >= 8);
         for mode in &report.modes {
             let lambda = c64::new(mode.growth_per_s, TAU * mode.frequency_hz);
-            let nearest = values.iter().map(|value| (value - lambda).norm());
-            let nearest = nearest.fold(f64::INFINITY, f64::min);
+            let nearest = values
+                .iter()
+                .map(|value| (value - lambda).norm())
+                .fold(f64::INFINITY, f64::min);
             assert!(nearest < 2e-4 * lambda.norm(), "{}: {nearest}", mode.name);
         }
         let growing = values.iter().filter(|value| value.re > 0.0).count();
@@ -254,14 +256,15 @@ fn without_overlap_it_is_wood_on_the_rim() {
     let report = report(&scene);
     assert_eq!(report.critical_stiffness_n_per_m, None);
     assert_eq!(report.verdict, Verdict::Stable);
-    let sprung = scene.edited(|saw| {
-        let cut = saw.cut.as_mut().expect("a cut");
-        cut.wood = Some(WoodFile {
-            stiffness_n_per_m: report.stiffness_n_per_m,
-            ..WoodFile::default()
-        });
-    });
-    let sprung = sprung.unwrap();
+    let sprung = scene
+        .edited(|saw| {
+            let cut = saw.cut.as_mut().expect("a cut");
+            cut.wood = Some(WoodFile {
+                stiffness_n_per_m: report.stiffness_n_per_m,
+                ..WoodFile::default()
+            });
+        })
+        .unwrap();
     let cut = sprung.cut().unwrap();
     let resolution = Resolution {
         max_diameters: report.max_diameters,
@@ -273,8 +276,10 @@ fn without_overlap_it_is_wood_on_the_rim() {
     let exact = companion_eigenpairs(&system, rad_per_s(report.rpm)).unwrap();
     for mode in &report.modes {
         let lambda = c64::new(mode.growth_per_s, TAU * mode.frequency_hz);
-        let nearest = exact.iter().map(|(value, _)| (value - lambda).norm());
-        let nearest = nearest.fold(f64::INFINITY, f64::min);
+        let nearest = exact
+            .iter()
+            .map(|(value, _)| (value - lambda).norm())
+            .fold(f64::INFINITY, f64::min);
         assert!(nearest < 2e-4 * lambda.norm(), "{}: {nearest}", mode.name);
     }
 }
@@ -315,6 +320,9 @@ fn an_undamped_and_a_loose_saw_are_refused() {
             .washboarding
             .clone();
     });
-    let error = look(&loose.unwrap()).unwrap_err();
-    assert!(matches!(error, WashboardError::Loose), "{error}");
+    let loose_error = look(&loose.unwrap()).unwrap_err();
+    assert!(
+        matches!(loose_error, WashboardError::Loose),
+        "{loose_error}"
+    );
 }

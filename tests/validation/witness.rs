@@ -88,9 +88,9 @@ fn two_solvers_agree_on_every_scene() {
                 .iter()
                 .enumerate()
             {
-                let second = by_nalgebra(system, speed);
+                let solved = by_nalgebra(system, speed);
                 let place = || format!("{name}, part {part}, {rpm} rpm");
-                let second = second.unwrap_or_else(|| panic!("no convergence: {}", place()));
+                let second = solved.unwrap_or_else(|| panic!("no convergence: {}", place()));
                 for lambda in by_faer(system, speed) {
                     if lambda.norm() < RIGID * unit_of_frequency(&system.stiffness) {
                         rigid += 1;

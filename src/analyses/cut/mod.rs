@@ -74,22 +74,6 @@ const MAP_TURN_DEG: f64 = 30.0;
 /// Highest load level of the map.
 const MAP_LOAD: f64 = 1.5;
 
-/// Steps of the map.
-struct MapSteps {
-    turn_deg: f64,
-    load_level: f64,
-}
-
-/// With 400 eigenproblems per speed the map is most of the work of a cut; a draft has 91.
-const FINE_STEPS: MapSteps = MapSteps {
-    turn_deg: 2.5,
-    load_level: 0.1,
-};
-const DRAFT_STEPS: MapSteps = MapSteps {
-    turn_deg: 5.0,
-    load_level: 0.25,
-};
-
 /// Number of parts of the computation at one speed: the saw under the forces, time history, teeth and map.
 const PARTS: usize = 4;
 
@@ -104,9 +88,10 @@ pub fn cut(
 ) -> Result<CutReport, TransientError> {
     let cut = scene.needed_cut().map_err(SceneError::from)?;
     let teeth = cut.teeth;
-    let steps = match scene.accuracy() {
-        Accuracy::Draft => DRAFT_STEPS,
-        Accuracy::Design | Accuracy::Reference => FINE_STEPS,
+    // With 400 eigenproblems per speed the map is most of the work of a cut; a draft has 91.
+    let (turn_deg, load_level) = match scene.accuracy() {
+        Accuracy::Draft => (5.0, 0.25),
+        Accuracy::Design | Accuracy::Reference => (2.5, 0.1),
     };
     let stage_count = (teeth.pitch_rad().to_degrees() / STAGE_DEG).ceil() as usize;
     let cutting = Cutting {
@@ -117,12 +102,12 @@ pub fn cut(
             // Without guides the map has no guide angle to vary.
             vec![0.0]
         } else {
-            even(-MAP_TURN_DEG, MAP_TURN_DEG, steps.turn_deg)
+            even(-MAP_TURN_DEG, MAP_TURN_DEG, turn_deg)
                 .into_iter()
                 .map(f64::to_radians)
                 .collect()
         },
-        load_levels: even(0.0, MAP_LOAD, steps.load_level),
+        load_levels: even(0.0, MAP_LOAD, load_level),
         stages: STAGES.max(stage_count),
         parts: Work::of("parts of the cut", PARTS * runs.len()),
     };

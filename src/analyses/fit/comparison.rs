@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::model::{Assigned, RankedMode, frequencies_hz, frequency_hz};
+use super::model::{Assigned, frequencies_hz, frequency_hz};
 use super::{Curves, Measurement, Residual};
 use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::Scene;
@@ -47,14 +47,11 @@ impl Compared {
         for row in &measured.rows {
             let before = Assigned::new(&self.before, row)?;
             let fitted = Assigned::new(&self.fitted, row)?;
-            let pairs = before.each().zip(fitted.each());
-            for ((before, fitted), (column, measured_hz)) in pairs.zip(&row.pairs) {
-                let hz = |found: &Option<RankedMode>| {
-                    found.as_ref().map_or(0.0, |found| frequency_hz(found.mode))
-                };
+            for (k, (column, measured_hz)) in row.pairs.iter().enumerate() {
+                let hz = |assigned: &Assigned| assigned.mode(k).map_or(0.0, frequency_hz);
                 residuals.push(Residual {
                     rpm: row.rpm,
-                    place: fitted.as_ref().map_or(column + 1, |found| found.rank),
+                    place: 1 + fitted.place(k).unwrap_or(*column),
                     measured_hz: *measured_hz,
                     before_hz: hz(&before),
                     fitted_hz: hz(&fitted),

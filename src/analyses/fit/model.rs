@@ -87,8 +87,8 @@ impl Model<'_> {
         let mut residuals = Vec::new();
         for row in &self.measurement.rows {
             let assigned = Assigned::new(lowest, row)?;
-            for (found, (_, measured_hz)) in assigned.each().zip(&row.pairs) {
-                let mode = found.map(|found| found.mode);
+            for (column, (_, measured_hz)) in row.pairs.iter().enumerate() {
+                let mode = assigned.mode(column);
                 residuals.push(mode.map_or(0.0, frequency_hz) - measured_hz);
                 visit(rad_per_s(row.rpm), mode);
             }
@@ -122,12 +122,6 @@ pub struct Assigned {
     found: Vec<Option<usize>>,
 }
 
-/// A mode with its rank, from 1.
-pub struct RankedMode<'a> {
-    pub rank: usize,
-    pub mode: &'a Mode,
-}
-
 impl Assigned {
     pub fn new(lowest: &LowestModes, row: &Row) -> Result<Self, SpectrumError> {
         let modes = lowest.at(rad_per_s(row.rpm), row.modes_needed())?;
@@ -142,13 +136,14 @@ impl Assigned {
         Ok(Assigned { modes, found })
     }
 
-    /// The mode of each measured frequency; `None` if the basis lacks it.
-    pub fn each(&self) -> impl Iterator<Item = Option<RankedMode<'_>>> {
-        let ranked = |index: usize| RankedMode {
-            rank: index + 1,
-            mode: &self.modes[index],
-        };
-        self.found.iter().map(move |index| index.map(ranked))
+    /// Place among the modes, from 0, of a measured frequency; `None` if the basis lacks it.
+    pub fn place(&self, column: usize) -> Option<usize> {
+        self.found[column]
+    }
+
+    /// The mode of a measured frequency.
+    pub fn mode(&self, column: usize) -> Option<&Mode> {
+        Some(&self.modes[self.place(column)?])
     }
 }
 

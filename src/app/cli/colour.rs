@@ -49,18 +49,15 @@ fn painted(line: &str) -> String {
         Tone::Doubtful => 33,
         Tone::Bad => 31,
     };
-    let (before, words, after) = (
-        &line[..verdict.from],
-        &line[verdict.from..verdict.to],
-        &line[verdict.to..],
-    );
+    let (before, rest) = line.split_at(verdict.from);
+    let (words, after) = rest.split_at(verdict.length);
     format!("{before}\u{1b}[1;{colour}m{words}\u{1b}[0m{after}")
 }
 
 /// Words of a line that state whether a result is good.
 struct Verdict {
     from: usize,
-    to: usize,
+    length: usize,
     tone: Tone,
 }
 
@@ -77,7 +74,7 @@ fn verdict(line: &str) -> Option<Verdict> {
     if let Some((word, tone)) = first {
         return Some(Verdict {
             from: 0,
-            to: word.len(),
+            length: word.len(),
             tone: *tone,
         });
     }
@@ -90,8 +87,8 @@ fn verdict(line: &str) -> Option<Verdict> {
         Some("NO") => Tone::Bad,
         _ => Tone::Doubtful,
     };
-    let to = line.trim_end().len();
-    Some(Verdict { from, to, tone })
+    let length = line.trim_end().len() - from;
+    Some(Verdict { from, length, tone })
 }
 
 #[cfg(test)]

@@ -19,12 +19,21 @@ fn chain(order: usize, unit: f64) -> Mat<f64> {
     })
 }
 
-/// Value k of a chain in its unit, 4 sin²(kπ/2(N + 1)), and its vector sin(ikπ/(N + 1)), i and k from 1 on.
-fn wave_of_chain(order: usize, k: usize) -> (f64, Col<f64>) {
-    let phase = (k + 1) as f64 * PI / (order + 1) as f64;
+/// Phase kπ/(N + 1) of a chain, k from 1 on.
+fn phase_of_chain(order: usize, k: usize) -> f64 {
+    (k + 1) as f64 * PI / (order + 1) as f64
+}
+
+/// Value k of a chain in its unit, 4 sin²(kπ/2(N + 1)).
+fn value_of_chain(order: usize, k: usize) -> f64 {
+    4.0 * (0.5 * phase_of_chain(order, k)).sin().powi(2)
+}
+
+/// Vector k of a chain, sin(ikπ/(N + 1)).
+fn shape_of_chain(order: usize, k: usize) -> Col<f64> {
     let norm = (2.0 / (order + 1) as f64).sqrt();
-    let shape = Col::from_fn(order, |i| norm * ((i + 1) as f64 * phase).sin());
-    (4.0 * (0.5 * phase).sin().powi(2), shape)
+    let phase = phase_of_chain(order, k);
+    Col::from_fn(order, |i| norm * ((i + 1) as f64 * phase).sin())
 }
 
 /// Units of a stiffness in 1/s², which is 1e10 and more, and others. Without scaling the vectors of the larger ones are
@@ -36,7 +45,7 @@ fn symmetric_values_and_vectors_are_those_of_a_chain_of_springs_in_any_unit() {
         let found = SymmetricEigen::new(matrix.as_ref()).unwrap();
         let values = symmetric_eigenvalues(matrix.as_ref()).unwrap();
         for (k, alone) in values.into_iter().enumerate() {
-            let (value, shape) = wave_of_chain(LARGE, k);
+            let (value, shape) = (value_of_chain(LARGE, k), shape_of_chain(LARGE, k));
             for found in [found.values[k], alone] {
                 let error = (found / unit - value).abs();
                 assert!(error < 1e-13, "{unit:e} {k}: {error:e}");
@@ -169,7 +178,7 @@ fn two_damped_chains(masses: usize, damping: impl Fn(usize) -> f64) -> Mat<f64> 
 #[test]
 fn vectors_of_double_pairs_satisfy_their_equation_and_are_independent() {
     for (masses, unit) in [(5, 1.0), (10, 1e100), (10, 1e-100), (30, 1.0)] {
-        let frequency = wave_of_chain(masses, masses / 2).0.sqrt();
+        let frequency = value_of_chain(masses, masses / 2).sqrt();
         let critical = 2.0 * frequency - 0.02 * frequency * frequency;
         let uneven = |i| 0.01 + 0.03 * i as f64 / masses as f64;
         let light = two_damped_chains(masses, uneven);
@@ -233,7 +242,8 @@ fn singular_values_and_vectors_are_those_of_the_springs_of_a_chain() {
         });
         let found = RightSingular::new(elongations.as_ref()).unwrap();
         for k in 0..LARGE {
-            let (value, shape) = wave_of_chain(LARGE, LARGE - 1 - k);
+            let place = LARGE - 1 - k;
+            let (value, shape) = (value_of_chain(LARGE, place), shape_of_chain(LARGE, place));
             let error = (found.values[k] / unit - value.sqrt()).abs();
             assert!(error < 1e-13, "{unit:e} {k}: {error:e}");
             let along = (found.vectors.col(k).transpose() * &shape).abs();

@@ -80,9 +80,9 @@ fn upright(mark: &Mark) -> Option<[f64; 3]> {
 /// Texts of a sheet.
 #[cfg(test)]
 pub fn texts(sheet: &Sheet) -> Vec<&str> {
-    let text = |mark| match mark {
-        &Mark::Text(.., ref text) => Some(text.as_str()),
+    let texts = sheet.marks().iter().filter_map(|mark| match mark {
+        Mark::Text(.., text) => Some(text.as_str()),
         _ => None,
-    };
-    sheet.marks().iter().filter_map(text).collect()
+    });
+    texts.collect()
 }

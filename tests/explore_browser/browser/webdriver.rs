@@ -138,8 +138,8 @@ impl WebDriver {
     }
 
     pub async fn screenshot(&self, path: &Path) -> Answer<()> {
-        let picture = self.get("screenshot").await?;
-        let picture = from_base64(picture.as_str().expect("a picture"));
+        let screenshot = self.get("screenshot").await?;
+        let picture = from_base64(screenshot.as_str().expect("a picture"));
         std::fs::write(path, picture).map_err(|error| Refused(format!("{path:?}: {error}")))
     }
 
@@ -268,9 +268,10 @@ async fn command(port: u16, method: &str, path: &str, content: Option<&Value>) -
          Content-Type: application/json; charset=utf-8\r\nContent-Length: {}\r\n\r\n{content}",
         content.len()
     );
-    let heard = tokio::time::timeout(LIMIT, exchange(port, said.as_bytes())).await;
-    let heard = heard.map_err(|_| Refused(format!("no answer to {method} {path} {content}")))?;
-    let heard = heard.map_err(|error| Refused(format!("{method} {path} {content}: {error}")))?;
+    let heard = tokio::time::timeout(LIMIT, exchange(port, said.as_bytes()))
+        .await
+        .map_err(|_| Refused(format!("no answer to {method} {path} {content}")))?
+        .map_err(|error| Refused(format!("{method} {path} {content}: {error}")))?;
     let answer: Value = serde_json::from_slice(&heard)
         .map_err(|error| Refused(format!("{method} {path} {content}: {error}")))?;
     match &answer["value"]["error"] {
@@ -332,10 +333,10 @@ fn from_base64(text: &str) -> Vec<u8> {
     let digits: Vec<u8> = text.bytes().filter(|c| *c != b'=').map(digit).collect();
     let mut bytes = Vec::with_capacity(digits.len() * 3 / 4);
     for four in digits.chunks(4) {
-        let bits = four
+        let digits = four
             .iter()
             .fold(0_u32, |bits, digit| bits << 6 | u32::from(*digit));
-        let bits = bits << (6 * (4 - four.len()));
+        let bits = digits << (6 * (4 - four.len()));
         bytes.extend_from_slice(&bits.to_be_bytes()[1..four.len()]);
     }
     bytes

@@ -100,8 +100,10 @@ const RESOLUTION: Resolution = Resolution {
 
 /// Frequencies of the library in the turning frame, in rad/s, ascending.
 fn frequencies(plate: &Plate, n: usize, speed: f64) -> Vec<f64> {
-    let k = plate.harmonics[n].body_frame_stiffness(speed);
-    let k = DMatrix::from_fn(k.nrows(), k.ncols(), |i, j| k[(i, j)]);
+    let stiffness = plate.harmonics[n].body_frame_stiffness(speed);
+    let k = DMatrix::from_fn(stiffness.nrows(), stiffness.ncols(), |i, j| {
+        stiffness[(i, j)]
+    });
     let mut squares: Vec<f64> = k.symmetric_eigenvalues().iter().copied().collect();
     squares.sort_by(f64::total_cmp);
     squares.into_iter().map(|s| s.max(0.0).sqrt()).collect()
@@ -192,11 +194,12 @@ fn a_profile_of_one_thickness_is_the_plain_blade() {
     let plain = Plate::new(&saw(|saw| saw.blade.profile.clear()), RESOLUTION);
     for rest in [0.0, 1e-9] {
         let thickness = HUB * (1.0 - rest);
-        let same = saw(|saw| saw.blade.profile = rows(&[(0.16, HUB), (0.16, thickness)]));
-        let same = Plate::new(&same, RESOLUTION);
+        let scene = saw(|saw| saw.blade.profile = rows(&[(0.16, HUB), (0.16, thickness)]));
+        let same = Plate::new(&scene, RESOLUTION);
         for n in 0..=5 {
-            let pairs = frequencies(&plain, n, 200.0).into_iter();
-            let pairs = pairs.zip(frequencies(&same, n, 200.0));
+            let pairs = frequencies(&plain, n, 200.0)
+                .into_iter()
+                .zip(frequencies(&same, n, 200.0));
             for (one, other) in pairs.skip(usize::from(n <= 1)).take(3) {
                 assert!(relative_error(other, one) < 1e-6, "{n}: {other} for {one}");
             }
@@ -243,8 +246,8 @@ fn finite_elements_give_the_edge_stiffness_of_the_series() {
         tangential_n: -1000.0,
     }];
     let buckled = |profile: Vec<ThicknessRow>| {
-        let plate = Plate::new(&saw(|saw| saw.blade.profile = profile), RESOLUTION);
-        let plate = plate.with_edge_loads(&loads);
+        let plate =
+            Plate::new(&saw(|saw| saw.blade.profile = profile), RESOLUTION).with_edge_loads(&loads);
         let system = sawflutter::model::system::GyroscopicSystem::of_plate(&plate);
         let k = DMatrix::from_fn(system.order(), system.order(), |i, j| {
             system.stiffness[(i, j)]

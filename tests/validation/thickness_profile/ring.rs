@@ -142,10 +142,17 @@ impl Ring {
             k.view((first, first), (keep, keep)).into_owned(),
             m.view((first, first), (keep, keep)).into_owned(),
         );
-        let inverse = m.cholesky().expect("definite").l().try_inverse();
-        let inverse: DMatrix<f64> = inverse.expect("a triangle");
-        let squares = (&inverse * k * inverse.transpose()).symmetric_eigenvalues();
-        let mut squares: Vec<f64> = squares.iter().copied().collect();
+        let inverse: DMatrix<f64> = m
+            .cholesky()
+            .expect("definite")
+            .l()
+            .try_inverse()
+            .expect("a triangle");
+        let mut squares: Vec<f64> = (&inverse * k * inverse.transpose())
+            .symmetric_eigenvalues()
+            .iter()
+            .copied()
+            .collect();
         squares.sort_by(f64::total_cmp);
         squares.into_iter().map(|s| s.max(0.0).sqrt()).collect()
     }

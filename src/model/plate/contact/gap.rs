@@ -66,39 +66,32 @@ struct Point {
     offset_m: f64,
 }
 
-/// Numbers of points of a pad.
-#[derive(Clone, Copy)]
-struct PointCounts {
-    /// Over each smooth interval of the radius.
-    radial: usize,
-    /// Over each arc.
-    angular: usize,
-}
-
-/// If the whole pad of the
+/// Number of points of a pad over each smooth interval of the radius, and over the angle. If the whole pad of the
 /// built-in saw touches, the force has an error of 3e-5 (5e-3 with five points over the radius); if only a part of
 /// it touches, the energy has an error of 0.5 %.
-const POINTS: PointCounts = PointCounts {
-    radial: 8,
-    angular: 8,
-};
+const POINTS: usize = 8;
 /// Share of the gap, on each side of its end, within which the second derivative of Ψ rises.
 const ROUNDED: f64 = 0.01;
 
 impl GapPotential {
     /// The potential on the shapes that are the columns of `basis`, N × r; `None` if no pad lifts off.
     pub fn new(plate: &Plate, basis: MatRef<'_, f64>) -> Option<Self> {
-        Self::with_points(plate, basis, POINTS)
+        Self::with_points(plate, basis, POINTS, POINTS)
     }
 
-    fn with_points(plate: &Plate, basis: MatRef<'_, f64>, counts: PointCounts) -> Option<Self> {
+    fn with_points(
+        plate: &Plate,
+        basis: MatRef<'_, f64>,
+        radial: usize,
+        angular: usize,
+    ) -> Option<Self> {
         let lifting = plate.lifting.as_ref()?;
         let mut points = Vec::new();
         let mut values = Vec::new();
         let mut film = Col::zeros(basis.ncols());
         for (pad, (guide, law)) in lifting.pads.iter().enumerate() {
             let stiffness = guide.stiffness_n_per_m - law.film_stiffness_n_per_m;
-            for place in places(plate, guide, counts) {
+            for place in places(plate, guide, radial, angular) {
                 let share = place.share;
                 points.push(Point {
                     pad,
@@ -237,9 +230,9 @@ struct Place {
     share: f64,
 }
 
-fn places(plate: &Plate, pad: &GuideFile, counts: PointCounts) -> Vec<Place> {
+fn places(plate: &Plate, pad: &GuideFile, radial: usize, angular: usize) -> Vec<Place> {
     let mut places = Vec::new();
-    for circle in circles(plate, pad, counts.radial) {
+    for circle in circles(plate, pad, radial) {
         let mut push = |angle: f64, weight: f64| {
             places.push(Place {
                 radius_m: circle.radius_m,
@@ -258,7 +251,7 @@ fn places(plate: &Plate, pad: &GuideFile, counts: PointCounts) -> Vec<Place> {
                 vec![[-high, -low], [low, high]]
             };
             for [from, to] in whole {
-                for (angle, weight) in quadrature::smooth(from, to, counts.angular).iter() {
+                for (angle, weight) in quadrature::smooth(from, to, angular).iter() {
                     push(angle, weight);
                 }
             }

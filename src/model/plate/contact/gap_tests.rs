@@ -214,15 +214,12 @@ fn points_of_a_pad_converge() {
     let mut tilt = Col::zeros(order);
     tilt[plate.offset(1)] = 4e-4;
     let identity = Mat::<f64>::identity(order, order);
-    let of = |points| {
-        let gaps = GapPotential::with_points(&plate, identity.as_ref(), points).unwrap();
+    let of = |radial, angular| {
+        let points = GapPotential::with_points(&plate, identity.as_ref(), radial, angular);
+        let gaps = points.unwrap();
         (gaps.energy_j(&tilt), gaps.forces_n(&tilt)[0])
     };
-    let many = PointCounts {
-        radial: 40,
-        angular: 64,
-    };
-    let (usual, fine) = (of(POINTS), of(many));
+    let (usual, fine) = (of(POINTS, POINTS), of(40, 64));
     println!("{usual:?} {fine:?}");
     assert!((usual.0 / fine.0 - 1.0).abs() < 5e-3, "{usual:?} {fine:?}");
     assert!((usual.1 / fine.1 - 1.0).abs() < 0.01, "{usual:?} {fine:?}");
