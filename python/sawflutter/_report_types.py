@@ -38,7 +38,7 @@ Cause: TypeAlias = Literal["side_force", "run_out", "flatness", "imbalance", "os
 
 SteadyState: TypeAlias = Literal["bounded", "unbounded", "beyond_model", "none"]
 
-Method: TypeAlias = Literal["reduced", "dense", "critical_speeds"]
+Method: TypeAlias = Literal["reduced", "searched", "dense", "critical_speeds"]
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)

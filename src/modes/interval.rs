@@ -20,7 +20,7 @@ use crate::model::system::GyroscopicSystem;
 use crate::model::tuning::Tuned;
 
 /// Modes up to this multiple of the window are included, because some of them enter it between two speeds.
-pub(super) const SPAN_MARGIN: Tuned = Tuned::new("spectrum/interval::SPAN_MARGIN", 1.5);
+pub(super) const SPAN_MARGIN: Tuned = Tuned::new("modes/interval::SPAN_MARGIN", 1.5);
 
 /// Eigenpairs at a speed, in the coordinates of a projection.
 #[derive(Debug, Clone)]

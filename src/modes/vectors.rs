@@ -75,11 +75,13 @@ pub fn orthonormal(rows: usize, vectors: &[Col<f64>], tolerance: f64) -> Mat<f64
     independent(&matrix, tolerance)
 }
 
-/// Orthonormal basis of the span of columns, as [`orthonormal`].
+/// Orthonormal basis of the span of columns, as [`orthonormal`]: the pivots of A = QR are those of R, which has few rows, so that
+/// products of matrices do most of the work.
 pub fn independent(columns: &Mat<f64>, tolerance: f64) -> Mat<f64> {
-    let qr = columns.col_piv_qr();
-    let rank = (0..columns.nrows().min(columns.ncols()))
+    let tall = columns.qr();
+    let qr = tall.thin_R().col_piv_qr();
+    let rank = (0..qr.thin_R().nrows())
         .take_while(|&k| qr.thin_R()[(k, k)].abs() > tolerance)
         .count();
-    qr.compute_thin_Q().subcols(0, rank).to_owned()
+    tall.compute_thin_Q() * qr.compute_thin_Q().subcols(0, rank)
 }

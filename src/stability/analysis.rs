@@ -5,6 +5,7 @@ use faer::c64;
 use super::band::{Instability, InstabilityKind};
 use super::basis::{ChosenBasis, FALL};
 use super::basis_limit::OutOfReach;
+use super::certification::Depth;
 use super::chart::{CHART_SPEEDS, StabilityChart, drawn};
 use super::detail::Detail;
 use super::error::AnalysisError;
@@ -36,6 +37,7 @@ const SKETCH_SPEEDS: usize = 25;
 fn charted(
     model: &SpectralModel,
     range: (f64, f64),
+    depth: Depth,
     options: AnalysisOptions<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
     let full = AnalysisOptions {
@@ -43,9 +45,9 @@ fn charted(
         ..options
     };
     match (model.plate.is_axisymmetric(), options.detail) {
-        (true, _) => drawn(model, range, FREE_CHART_SPEEDS, full),
-        (false, Detail::Full) => drawn(model, range, CHART_SPEEDS, full),
-        (false, Detail::Sketch) => drawn(model, range, SKETCH_SPEEDS, options),
+        (true, _) => drawn(model, range, (FREE_CHART_SPEEDS, depth), full),
+        (false, Detail::Full) => drawn(model, range, (CHART_SPEEDS, depth), full),
+        (false, Detail::Sketch) => drawn(model, range, (SKETCH_SPEEDS, Depth::Counts), options),
     }
 }
 
@@ -198,7 +200,8 @@ impl Analysis {
             Detail::Sketch => Strategy::Sketch,
         };
         let model = SpectralModel::with_critical(saw, critical, range, strategy)?;
-        let mut chart = charted(&model, range, options)?;
+        let depth = Depth::of(scene.accuracy());
+        let mut chart = charted(&model, range, depth, options)?;
         let (overdamped, modes_at_rest): (Vec<_>, Vec<_>) = modes_at_rest(&model, &chart)?
             .into_iter()
             .partition(|mode| mode.mode.is_overdamped());

@@ -2,7 +2,7 @@
 
 use super::band::Instability;
 use super::certificate::Certificate;
-use super::certification::{GROWTH_FLOOR, contradictions};
+use super::certification::{Depth, GROWTH_FLOOR, contradictions};
 use super::damped;
 use super::error::AnalysisError;
 use super::options::AnalysisOptions;
@@ -45,7 +45,7 @@ impl StabilityChart {
     }
 }
 
-/// Charts a range of speeds in full detail, sampled at `count` even speeds and near events.
+/// Charts a range of speeds in full detail, sampled at `count` even speeds and near events, with a proof for the speeds between.
 ///
 /// # Errors
 /// [`AnalysisError`] when an eigenproblem fails.
@@ -55,22 +55,35 @@ pub fn chart(
     count: usize,
     progress: Progress<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
+    chart_to_depth(model, range, (count, Depth::Proof), progress)
+}
+
+/// The [`chart`] with checks of its bands to some depth.
+///
+/// # Errors
+/// The errors of [`chart`].
+pub(crate) fn chart_to_depth(
+    model: &SpectralModel,
+    range: (f64, f64),
+    (count, depth): (usize, Depth),
+    progress: Progress<'_>,
+) -> Result<StabilityChart, AnalysisError> {
     let options = AnalysisOptions {
         progress,
         ..AnalysisOptions::default()
     };
-    drawn(model, range, count, options)
+    drawn(model, range, (count, depth), options)
 }
 
 /// Charts a range of speeds with the detail and the callbacks of options.
 pub(super) fn drawn(
     model: &SpectralModel,
     range: (f64, f64),
-    count: usize,
+    (count, depth): (usize, Depth),
     options: AnalysisOptions<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
     let (samples, instabilities, certificate) = if model.is_conservative() {
-        undamped::charted(model, range, count, options)?
+        undamped::charted(model, range, (count, depth), options)?
     } else {
         damped::charted(model, range, count, options)?
     };

@@ -59,9 +59,11 @@ pub use basis::ChosenBasis;
 pub(crate) use basis::{end_of_sweep, resolved};
 pub use basis_limit::OutOfReach;
 pub use certificate::{Certificate, ContradictedBands};
+pub(crate) use certification::Depth;
 pub use chart::StabilityChart;
 #[doc(hidden)]
 pub use chart::chart;
+pub(crate) use chart::chart_to_depth;
 pub use detail::Detail;
 pub use error::AnalysisError;
 pub use estimate::Estimates;

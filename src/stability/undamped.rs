@@ -22,7 +22,7 @@ pub(super) const WITHIN_BANDS: [f64; 6] = [-0.02, 0.02, 0.15, 0.85, 0.98, 1.02];
 pub(super) fn charted(
     model: &SpectralModel,
     range: (f64, f64),
-    count: usize,
+    (count, depth): (usize, Depth),
     options: AnalysisOptions<'_>,
 ) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
     let AnalysisOptions {
@@ -43,9 +43,9 @@ pub(super) fn charted(
     } else {
         search_speeds(model, range, SEARCH_SPEEDS)
     };
-    let (within_bands, closeness, depth) = match detail {
-        Detail::Full => (WITHIN_BANDS.as_slice(), Closeness::FIGURE, Depth::Proof),
-        Detail::Sketch => ([].as_slice(), Closeness::SKETCH, Depth::Counts),
+    let (within_bands, closeness) = match detail {
+        Detail::Full => (WITHIN_BANDS.as_slice(), Closeness::FIGURE),
+        Detail::Sketch => ([].as_slice(), Closeness::SKETCH),
     };
     branches::check_room(model, &speeds)?;
     let searched = || {

@@ -142,15 +142,14 @@ pub(crate) fn statement(
             "{certain} of {tried} counts on the full model were certain and agree"
         )),
     }
-    if let Some(share) = proven_share {
-        agree.push(if share == 1.0 {
-            "the whole sweep is proven free of unlisted bands".to_owned()
-        } else {
-            format!(
-                "{} % of the sweep proven free of unlisted bands",
-                (1e3 * share).floor() / 10.0
-            )
-        });
+    match proven_share {
+        None if agree.is_empty() => (),
+        None => agree.push("searched, not proven".to_owned()),
+        Some(1.0) => agree.push("the whole sweep is proven free of unlisted bands".to_owned()),
+        Some(share) => agree.push(format!(
+            "{} % of the sweep proven free of unlisted bands",
+            (1e3 * share).floor() / 10.0
+        )),
     }
     if certificate.searched_again {
         agree.push("after a second search on the full model".to_owned());
@@ -252,10 +251,13 @@ mod tests {
             ..Certificate::default()
         };
         let says = |certificate: &Certificate| statement(certificate, true, None);
-        assert_eq!(says(&clean), "Krein index matches at 567 of 567 speeds");
+        assert_eq!(
+            says(&clean),
+            "Krein index matches at 567 of 567 speeds, searched, not proven"
+        );
         assert_eq!(
             statement(&clean, false, None),
-            "growing modes match the bands at 567 of 567 speeds"
+            "growing modes match the bands at 567 of 567 speeds, searched, not proven"
         );
         let counted = Certificate {
             full_basis_counts: 143,
@@ -290,11 +292,11 @@ mod tests {
         };
         assert_eq!(
             with_counts(0, 4),
-            "none of 4 counts on the full model was certain"
+            "none of 4 counts on the full model was certain, searched, not proven"
         );
         assert_eq!(
             with_counts(3, 1),
-            "3 of 4 counts on the full model were certain and agree"
+            "3 of 4 counts on the full model were certain and agree, searched, not proven"
         );
         let wrong = contradicted(clean);
         assert_eq!(

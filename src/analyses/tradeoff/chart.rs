@@ -14,7 +14,12 @@ const LEAST: f64 = 1e-12;
 const ALLOWED: [(f64, &str); 3] = [(1.0, "draft"), (0.1, "design"), (0.01, "reference")];
 /// Number of speeds of the charts that a line connects.
 const SPEEDS: usize = 51;
-const METHODS: [Method; 3] = [Method::Reduced, Method::Dense, Method::CriticalSpeeds];
+const METHODS: [Method; 4] = [
+    Method::Reduced,
+    Method::Searched,
+    Method::Dense,
+    Method::CriticalSpeeds,
+];
 const DOT_SIZE: f64 = 8.0;
 /// Width of the line along the best settings, and share of its colour.
 const FRONT: (f64, f64) = (2.0 * STRONG_CURVE, 0.25);
@@ -83,6 +88,7 @@ fn place(setting: &Setting) -> [f64; 2] {
 fn dots(method: Method, places: impl IntoIterator<Item = [f64; 2]>) -> Points {
     let (hue, name) = match method {
         Method::Reduced => (Hue::Forward, "chart, projected"),
+        Method::Searched => (Hue::Flutter, "chart, not proven"),
         Method::Dense => (Hue::Backward, "chart, full model"),
         Method::CriticalSpeeds => (Hue::Divergence, "critical speeds"),
     };
@@ -101,8 +107,8 @@ fn front(settings: &[Setting]) -> Item {
     })
 }
 
-/// The dots of a method, connected for one number of speeds, with the numbers of functions of its charts. The critical
-/// speeds have the same numbers in the same order, which are not written.
+/// The dots of a method, connected for one number of speeds, with the numbers of functions of its charts. Charts without
+/// proof and critical speeds have the same numbers in the same order, which are not written.
 fn of_method(method: Method, settings: &[Setting]) -> Vec<Item> {
     let own = || settings.iter().filter(|s| s.method == method);
     let is_connected = |s: &&Setting| s.speeds == SPEEDS || !s.is_chart();
@@ -121,7 +127,8 @@ fn of_method(method: Method, settings: &[Setting]) -> Vec<Item> {
         )
     };
     let said = own().map(say).collect();
-    let numbered = own().filter(|s| s.is_chart() && s.speeds == SPEEDS);
+    let is_numbered = matches!(method, Method::Reduced | Method::Dense);
+    let numbered = own().filter(|s| is_numbered && s.speeds == SPEEDS);
     let numbers = numbered.map(|s| Item::label(place(s), hue, s.functions.to_string()));
     [Item::Line(line), Item::Points(Points { said, ..dots })]
         .into_iter()
@@ -154,6 +161,7 @@ mod tests {
                 let dense = (k < 2).then(|| setting(Method::Dense, k, 4.0 * time));
                 [
                     setting(Method::Reduced, k, 0.1 * time),
+                    setting(Method::Searched, k, 0.08 * time),
                     setting(Method::CriticalSpeeds, k, 1e-3 * time),
                 ]
                 .into_iter()

@@ -12,8 +12,8 @@ use crate::model::scene::Scene;
 use crate::modes::branches::Progress;
 use crate::modes::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
 use crate::stability::{
-    AnalysisError, ChosenBasis, InstabilityKind, LADDER, PAST_THE_RANGE, chart, diameters_beyond,
-    resolution,
+    AnalysisError, ChosenBasis, Depth, InstabilityKind, LADDER, PAST_THE_RANGE, chart_to_depth,
+    diameters_beyond, resolution,
 };
 
 /// Sizes of the basis that are measured: all that a tolerance may choose, except the largest.
@@ -54,6 +54,7 @@ pub fn tradeoff(scene: &Scene, progress: Progress<'_>) -> Result<Vec<Setting>, A
         runs.extend(sizes.iter().map(|size| (method, *size, speeds)));
     };
     add(Method::Reduced, SIZES, SPEEDS);
+    add(Method::Searched, SIZES, SPEEDS);
     for speeds in OTHER_SPEEDS {
         add(Method::Reduced, &[MIDDLE_SIZE], speeds);
     }
@@ -123,13 +124,17 @@ fn events(
                 onsets: Vec::new(),
             });
         }
-        Method::Reduced => Strategy::Reduced,
+        Method::Reduced | Method::Searched => Strategy::Reduced,
         Method::Dense => Strategy::Dense,
+    };
+    let depth = match method {
+        Method::Searched => Depth::Counts,
+        _ => Depth::Proof,
     };
     let saw = Assembled::from(plate);
     let critical = saw.critical_speeds(Some(&|_| PAST_THE_RANGE * range.1))?;
     let model = SpectralModel::with_critical(saw, critical, range, strategy)?;
-    let bands = chart(&model, range, speeds, &|_, _| ())?.instabilities;
+    let bands = chart_to_depth(&model, range, (speeds, depth), &|_, _| ())?.instabilities;
     let flutter = bands
         .iter()
         .filter(|band| band.kind == InstabilityKind::Flutter);

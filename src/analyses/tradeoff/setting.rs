@@ -7,8 +7,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
-    /// The whole chart on the reduced model, as in `analyze`.
+    /// The whole chart on the reduced model with its proof, as in `analyze` at `design`.
     Reduced,
+    /// The whole chart on the reduced model without proof, as in `analyze` at `draft`.
+    Searched,
     /// The whole chart from all eigenvalues of the full model at every speed.
     Dense,
     /// Critical speeds alone.
@@ -41,6 +43,6 @@ pub struct Setting {
 impl Setting {
     /// Whether the method finds bands.
     pub fn is_chart(&self) -> bool {
-        matches!(self.method, Method::Reduced | Method::Dense)
+        self.method != Method::CriticalSpeeds
     }
 }

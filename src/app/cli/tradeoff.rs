@@ -99,6 +99,7 @@ fn name(method: Method) -> &'static str {
     match method {
         Method::Reduced => "chart, projected",
         Method::Dense => "chart, full model",
+        Method::Searched => "chart, not proven",
         Method::CriticalSpeeds => "critical speeds",
     }
 }

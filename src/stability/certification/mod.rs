@@ -11,15 +11,27 @@ use super::pieces::{Piece, Search};
 use super::proof::Proof;
 use super::search_result::Found;
 use super::signature::Signature;
+use crate::model::scene::Accuracy;
 use crate::modes::{SpectralModel, SpectrumError};
 
 /// Depth of the checks of a list of bands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Depth {
-    /// Krein index and bands at every speed, and counts on the full model at a few: for studies of many saws.
+pub(crate) enum Depth {
+    /// Krein index and bands at every speed, and counts on the full model at a few: for studies of many saws, and for charts that
+    /// are wanted soon.
     Counts,
     /// The checks of `Counts`, further counts beside and within every band, and a proof for the speeds between.
     Proof,
+}
+
+impl Depth {
+    /// Depth for a chart of a named accuracy: `draft` does without the proof.
+    pub(super) fn of(accuracy: Accuracy) -> Self {
+        match accuracy {
+            Accuracy::Draft => Depth::Counts,
+            Accuracy::Design | Accuracy::Reference => Depth::Proof,
+        }
+    }
 }
 
 /// Relative error allowed for the square of an eigenvalue between two speeds of the search, which only
@@ -85,7 +97,7 @@ fn searched(
         evaluator.at_all(speeds)?;
         // `full` is `None` for a free blade. Its waves are uncoupled, so they cross and never coalesce.
         let certificate = Certificate {
-            unproven_rad_per_s: (depth == Depth::Proof).then(Vec::new),
+            unproven_rad_per_s: Some(Vec::new()),
             ..evaluator.certificate()
         };
         return Ok((Vec::new(), certificate));

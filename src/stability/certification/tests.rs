@@ -4,6 +4,7 @@ use super::*;
 use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::{Accuracy, Scene, rad_per_s, rpm};
 use crate::modes::Strategy;
+use crate::stability::Analysis;
 use crate::stability::undamped::search_speeds;
 
 fn paper(accuracy: Accuracy) -> (SpectralModel, Vec<f64>) {
@@ -85,6 +86,21 @@ fn nearly_all_speeds_are_proven_and_the_others_are_at_edges() {
     }
 }
 
+/// Every band that the proof finds complete is found without it, too.
+#[test]
+fn a_draft_has_the_bands_of_a_proven_chart_and_says_that_it_is_not_proven() {
+    let [draft, design] = [Accuracy::Draft, Accuracy::Design].map(|accuracy| {
+        let scene = Scene::paper().edited(|saw| saw.accuracy = accuracy);
+        Analysis::new(&scene.unwrap()).unwrap()
+    });
+    let unproven = |saw: &Analysis| saw.chart.certificate.unproven_rad_per_s.clone();
+    assert!(unproven(&draft).is_none() && unproven(&design).is_some());
+    assert!(draft.chart.certificate.is_clean() && draft.chart.certificate.full_basis_counts > 0);
+    assert!(are_same(draft.bands(), design.bands(), 5e-3));
+    let statement = draft.report().certificate.statement;
+    assert!(statement.ends_with("searched, not proven"), "{statement}");
+}
+
 /// Reference: dense eigenvalues at random speeds in the proven intervals.
 #[test]
 fn proven_speeds_have_no_unstable_mode_besides_the_bands() {
@@ -127,7 +143,7 @@ fn a_missing_mode_is_found_and_the_search_repeated_without_it() {
             !certificate.miscounts.is_empty(),
             "{speed} {place}: {certificate:?}"
         );
-        let (found, certificate) = bands(&model, whole(&speeds), &speeds, Depth::Proof).unwrap();
+        let (found, certificate) = bands(&model, whole(&speeds), &speeds, Depth::Counts).unwrap();
         assert!(
             certificate.searched_again && certificate.is_clean(),
             "{certificate:?}"
@@ -163,7 +179,7 @@ fn a_projection_on_too_few_speeds_is_detected() {
         let (without, _) = searched_once(&model, &speeds);
         let is_wrong = !are_same(&without, &sound.bands, 1e-4);
         wrong += usize::from(is_wrong);
-        let (found, certificate) = bands(&model, whole(&speeds), &speeds, Depth::Proof).unwrap();
+        let (found, certificate) = bands(&model, whole(&speeds), &speeds, Depth::Counts).unwrap();
         assert!(certificate.searched_again || !is_wrong, "{kept:?}");
         assert!(are_same(&found, &sound.bands, 1e-4), "{kept:?}");
         assert!(certificate.is_clean(), "{kept:?} {certificate:?}");

@@ -48,7 +48,7 @@ fn in_one_line(certificate: &BandCertificate) -> String {
         return certificate.statement.clone();
     }
     let proven = match certificate.proven_share {
-        None => ", not proven".to_owned(),
+        None => "; searched, not proven".to_owned(),
         Some(1.0) => "; proven for the whole sweep".to_owned(),
         Some(share) => format!(
             "; proven for {} % of the sweep",
