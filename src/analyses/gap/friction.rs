@@ -6,6 +6,7 @@
 //! changes, or it is known that it cannot settle. All numbers are those of one temperature. The effect of the force of friction on the
 //! motion is neglected.
 
+use crate::model::plate::heated_disk::{Cooling, radii_m, rises_k};
 use crate::model::scene;
 use crate::model::scene::{
     FrictionFile, Guide, Scene, TemperatureFile, TemperatureRow, rad_per_s, typical_value,
@@ -17,7 +18,6 @@ use crate::stability::Analysis;
 
 use super::GapError;
 use super::deviation::MODES;
-use super::heated_disk::{Cooling, radii_m, rises_k};
 use super::numbers::first_critical_of_linear;
 use super::pressed::{Deviation, PressedBlade};
 use super::report::{FrictionHeat, FrictionPad};

@@ -25,7 +25,6 @@ pub(crate) mod chart;
 mod deviation;
 mod friction;
 pub(crate) mod friction_chart;
-mod heated_disk;
 pub(crate) mod map_chart;
 mod numbers;
 mod oscillating_blade;

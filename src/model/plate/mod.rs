@@ -33,7 +33,7 @@ pub use edge_load::{BoreForce, EdgeStress, RimForce, edge_stiffness};
 #[doc(hidden)]
 pub use harmonic::HarmonicBlock;
 pub use light_gap::{LightGap, StraightEdgeReading};
-pub(crate) use membrane::{MembraneSource, MembraneStress, membrane_stiffness};
+pub(crate) use membrane::{MembraneSource, MembraneStress, heated_disk, membrane_stiffness};
 pub(crate) use radial::RadialBasis;
 pub use stretching::{ReducedStretching, Stretching, StretchingError};
 
