@@ -3,12 +3,13 @@
 use std::f64::consts::PI;
 
 use crate::analyses::campbell::InstabilityBand;
+use crate::model::plate::Resolution;
 use crate::model::scene::{ContactLaw, GuideFile, GuideSide, Scene, rpm};
 use crate::modes::Work;
 use crate::stability::{Analysis, Instability, Onsets};
 
-use super::GapError;
-use super::numbers::first_critical;
+use super::critical_speed::first_critical_of_linear;
+use super::error::GapError;
 use super::report::AtAmplitude;
 
 /// The part of the report over the amplitude at the guides.
@@ -210,4 +211,17 @@ fn half_way(analysis: &Analysis, smallest_gap_m: f64) -> Result<Option<f64>, Gap
         }
     }
     Ok(Some(smallest_gap_m * high.exp()))
+}
+
+/// First critical speed, in rad/s, with the mean stiffness of the guides over an oscillation.
+///
+/// # Errors
+/// [`GapError`].
+pub(super) fn first_critical(
+    scene: &Scene,
+    resolution: Resolution,
+    amplitude_m: f64,
+) -> Result<Option<f64>, GapError> {
+    let (scene, _) = at_amplitude(scene, amplitude_m)?;
+    first_critical_of_linear(&scene, resolution)
 }

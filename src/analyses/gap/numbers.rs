@@ -1,13 +1,13 @@
 //! Numbers of one saw with guides with a gap, for studies and placements of many.
 
-use crate::model::plate::{Plate, Resolution};
+use crate::model::plate::Resolution;
 use crate::model::scene::{RefusedValue, Scene, rpm, speed_rad_per_s};
-use crate::modes::Assembled;
+use crate::motion::stretched_blade::{Deviation, PressedBlade};
 
-use super::amplitude::at_amplitude;
+use super::amplitude::{at_amplitude, first_critical};
 use super::deviation::MODES;
-use super::pressed::{Deviation, PressedBlade};
-use super::{GapError, Options};
+use super::error::GapError;
+use super::options::Options;
 
 /// Speed and amplitude for which [`GapNumbers`] are computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,7 +101,7 @@ impl GapCase {
         resolution: Resolution,
     ) -> Result<Option<Deviation>, GapError> {
         let pressed = PressedBlade::new(scene, resolution, self.rpm, MODES)?;
-        pressed.deviation(scene.file().side_force_n(), self.rpm)
+        Ok(pressed.deviation(scene.file().side_force_n(), self.rpm)?)
     }
 
     /// The numbers of a saw on a basis.
@@ -120,31 +120,4 @@ impl GapCase {
             critical_at_amplitude_rpm,
         })
     }
-}
-
-/// First critical speed, in rad/s, with guides of their full stiffness.
-///
-/// # Errors
-/// [`GapError`].
-pub(super) fn first_critical_of_linear(
-    scene: &Scene,
-    resolution: Resolution,
-) -> Result<Option<f64>, GapError> {
-    let saw = Assembled::from(Plate::new(scene, resolution));
-    // With a limit of zero the search ends at the first critical speed.
-    let critical = saw.critical_speeds(Some(&|_| 0.0))?;
-    Ok(critical.first().map(|c| c.speed_rad_per_s))
-}
-
-/// First critical speed, in rad/s, with the mean stiffness of the guides over an oscillation.
-///
-/// # Errors
-/// [`GapError`].
-pub(super) fn first_critical(
-    scene: &Scene,
-    resolution: Resolution,
-    amplitude_m: f64,
-) -> Result<Option<f64>, GapError> {
-    let (scene, _) = at_amplitude(scene, amplitude_m)?;
-    first_critical_of_linear(&scene, resolution)
 }

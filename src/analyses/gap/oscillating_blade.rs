@@ -12,8 +12,8 @@ use crate::modes::Cancellation;
 use crate::motion::stretched_blade::{Sites, StretchedBlade};
 use crate::motion::transient::reduced_system;
 
-use super::GapError;
 use super::balance::{Balance, Growth, Periodic, Term};
+use super::error::GapError;
 use super::oscillation_report::{OscillationAt, OscillationPad, OscillationPlace};
 use super::oscillators::Oscillators;
 

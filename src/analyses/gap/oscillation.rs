@@ -11,7 +11,7 @@ use crate::model::scene::rpm;
 use crate::modes::Work;
 use crate::stability::Analysis;
 
-use super::GapError;
+use super::error::GapError;
 use super::oscillating_blade::{HARMONICS, OscillatingBlade, amplitude_m};
 use super::oscillation_report::{Oscillation, OscillationAt, OscillationLine};
 use super::oscillators::Oscillators;

@@ -1,6 +1,7 @@
 //! The text of guides with a gap.
 
-use super::{AtAmplitude, DeviationMap, FrictionHeat, GapReport, Oscillation, OscillationAt};
+use super::oscillation_report::{Oscillation, OscillationAt};
+use super::report::{AtAmplitude, DeviationMap, FrictionHeat, GapReport};
 use crate::model::scene::ContactLaw;
 use crate::page::outline::{
     Column, FORCE, FREQUENCY, Fact, KELVIN, LENGTH, Outline, PERCENT, SPEED, Table, Value,
