@@ -20,7 +20,6 @@
 //! ```
 
 mod amplitude;
-mod balance;
 pub(crate) mod chart;
 mod critical_speed;
 mod deviation;
@@ -30,11 +29,10 @@ pub(crate) mod friction_chart;
 pub(crate) mod map_chart;
 mod numbers;
 mod options;
-mod oscillating_blade;
 mod oscillation;
 pub(crate) mod oscillation_chart;
+mod oscillation_reading;
 mod oscillation_report;
-mod oscillators;
 mod outline;
 mod report;
 mod settling;
@@ -52,9 +50,9 @@ pub use report::{AtAmplitude, BasisError, DeviationMap, FrictionHeat, FrictionPa
 use amplitude::AmplitudeChart;
 use deviation::deviation_map;
 use oscillation::oscillation;
-use oscillators::Oscillators;
 
 use crate::model::scene::{Guide, GuideSide, Scene, rad_per_s, rpm};
+use crate::motion::steady::Oscillators;
 use crate::stability::Analysis;
 
 /// Computes the chart over the amplitude, the deflection over gap, force and speed, and, if they are asked for, oscillation

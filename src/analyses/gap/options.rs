@@ -1,10 +1,9 @@
 //! Speed and limit of the deflection, and the scenes that are answered.
 
 use crate::model::scene::{Blade, Bore, Guide, RefusedValue, Scene, speed_rad_per_s};
+use crate::motion::steady::Oscillators;
 use crate::motion::stretched_blade::LARGEST_SLOPE;
 use crate::page::text::shown_to;
-
-use super::oscillators::Oscillators;
 
 /// Options of [`gap`](super::gap()).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

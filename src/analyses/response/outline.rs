@@ -1,6 +1,6 @@
 //! The text of a response.
 
-use super::{FrequencyResponse, ResponseLine, ResponseReport, SteadyState};
+use super::report::{FrequencyResponse, ResponseLine, ResponseReport, SteadyState};
 use crate::page::outline::{Column, FREQUENCY, Fact, LENGTH, Outline, SPEED, Table};
 use crate::page::text::shown_to;
 
