@@ -97,13 +97,14 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
         let larger = Plate::new(scene, ahead(plate.resolution));
         let finer = Solver::new(&larger, scene);
         let loads = excitations(&larger)?;
-        for (line, load) in lines
-            .iter_mut()
-            .zip(&loads)
-            .filter(|(line, _)| is_beyond(line))
-        {
+        for ((line, load), (.., resonances)) in lines.iter_mut().zip(&loads).zip(&families) {
+            if !is_beyond(line) || resonances.is_empty() {
+                continue;
+            }
+            // The solutions beside the resonances contain the motions that the load excites.
+            let places: Vec<f64> = resonances.iter().map(|(speed, _)| *speed).collect();
             let mut family = Family::new(&finer.system, &load.vector)?;
-            finer.deflections(&mut family, load, &even(range, operating))?;
+            finer.deflections(&mut family, load, &places)?;
             line.state_error(&Solver::resonances(&family, load, range)?);
         }
     }
