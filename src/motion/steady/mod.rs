@@ -9,6 +9,8 @@
 
 mod along;
 mod balance;
+#[cfg(test)]
+mod diagram_tests;
 mod family;
 mod load;
 mod oscillating_blade;

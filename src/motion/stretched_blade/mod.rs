@@ -313,6 +313,8 @@ fn finite(what: &'static str, value: f64) -> Result<f64, StretchedError> {
 #[cfg(test)]
 pub(crate) mod basis_tests;
 #[cfg(test)]
+mod diagram_tests;
+#[cfg(test)]
 mod gap_tests;
 #[cfg(test)]
 mod tests;
