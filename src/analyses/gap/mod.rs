@@ -47,11 +47,11 @@ pub use oscillation_report::{
 pub(crate) use outline::outline;
 pub use report::{AtAmplitude, BasisError, DeviationMap, FrictionHeat, FrictionPad, GapReport};
 
-use amplitude::AmplitudeChart;
+use amplitude::{AmplitudeChart, pushes};
 use deviation::deviation_map;
 use oscillation::oscillation;
 
-use crate::model::scene::{Guide, GuideSide, Scene, rad_per_s, rpm};
+use crate::model::scene::{Scene, rad_per_s, rpm};
 use crate::motion::steady::Oscillators;
 use crate::stability::Analysis;
 
@@ -111,22 +111,20 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
 
 /// Remark on guides whose force has a mean over an oscillation, which moves the blade.
 fn shifting(scene: &Scene) -> Option<String> {
-    let is_shifting = |guide: &&Guide| {
-        let law = guide.lifting;
-        law.is_some_and(|law| law.offset_m != 0.0 || law.side != GuideSide::Both)
-    };
-    let guides = scene.guides().iter().filter(is_shifting);
+    let guides = scene.guides().iter().filter(|guide| pushes(guide));
     let names: Vec<String> = guides
         .map(|guide| format!("guides[{}]", guide.index))
         .collect();
     (!names.is_empty()).then(|| {
         format!(
             "over an oscillation {} also push the blade aside on average, because of an offset or a missing side: the chart over the \
-             amplitude neglects this shift, and holds for oscillations about the flat blade",
+             amplitude holds for oscillations about the position of the blade at rest in which the mean forces of its guides balance",
             names.join(", ")
         )
     })
 }
 
+#[cfg(test)]
+mod mean_tests;
 #[cfg(test)]
 mod tests;

@@ -4,7 +4,7 @@ use crate::model::plate::Resolution;
 use crate::model::scene::{RefusedValue, Scene, rpm, speed_rad_per_s};
 use crate::motion::stretched_blade::{Deviation, PressedBlade};
 
-use super::amplitude::{at_amplitude, first_critical};
+use super::amplitude::{OscillatingSaw, first_critical};
 use super::deviation::MODES;
 use super::error::GapError;
 use super::options::Options;
@@ -72,7 +72,10 @@ impl GapCase {
     /// [`GapError::Scene`].
     pub fn at_amplitude(&self, scene: &Scene) -> Result<Scene, GapError> {
         match self.amplitude_m {
-            Some(amplitude_m) => Ok(at_amplitude(scene, amplitude_m)?.0),
+            Some(amplitude_m) => {
+                let resolution = Resolution::of(scene.accuracy());
+                Ok(OscillatingSaw::new(scene, resolution)?.at(amplitude_m)?.0)
+            }
             None => Ok(scene.clone()),
         }
     }
@@ -111,7 +114,10 @@ impl GapCase {
     pub fn numbers(&self, scene: &Scene, resolution: Resolution) -> Result<GapNumbers, GapError> {
         let found = self.deviation(scene, resolution)?;
         let critical_at_amplitude_rpm = match self.amplitude_m {
-            Some(amplitude_m) => first_critical(scene, resolution, amplitude_m)?.map(rpm),
+            Some(amplitude_m) => {
+                let saw = OscillatingSaw::new(scene, resolution)?;
+                first_critical(&saw, resolution, amplitude_m)?.map(rpm)
+            }
             None => None,
         };
         Ok(GapNumbers {

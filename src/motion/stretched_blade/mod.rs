@@ -159,6 +159,13 @@ impl StretchedBlade {
         self
     }
 
+    /// The blade with the forces that its pads have on average over an oscillation, with one amplitude at all of them, in the same
+    /// basis.
+    pub(crate) fn over_oscillation(mut self, amplitude_m: f64) -> Self {
+        self.gaps = self.gaps.map(|gaps| gaps.over_oscillation(amplitude_m));
+        self
+    }
+
     /// The potential of stretching in the basis.
     pub(crate) fn stretching(&self) -> &ReducedStretching {
         &self.stretching
