@@ -2183,7 +2183,8 @@ class GapReport(Entry):
     half_way_amplitude_m: float | None
     """Amplitude at which the first critical speed lies half way between that of the free blade
     and that of the linear chart: at smaller amplitudes the chart is that of the free blade.
-    Null if the two differ by less than 0.1 %."""
+    Null if the two differ by less than 0.1 %, and if no amplitude changes it as far, because
+    guides on one side push the blade out of their reach."""
 
     deviation: Deviation
     """The deflection at the cut."""

@@ -149,7 +149,7 @@ class GapResults(Result, GapReport):
 
     def _facts(self) -> str:
         half = self.half_way_amplitude_m
-        at = "no difference" if half is None else f"half way at {1e3 * half:.4g} mm"
+        at = "half way at no amplitude" if half is None else f"half way at {1e3 * half:.4g} mm"
         return f"smallest gap {1e3 * self.smallest_gap_m:g} mm, first critical speed: {at}"
 
 

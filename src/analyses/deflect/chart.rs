@@ -1,6 +1,6 @@
 //! Equilibria over speed, and the frequencies of small motions about them beside the frequencies of the flat blade.
 
-use super::{DeflectReport, EquilibriumCurve, Jump, SlowSweep};
+use super::report::{DeflectReport, EquilibriumCurve, Jump, SlowSweep};
 use crate::page::figure::axis::proper_range;
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};
 use crate::page::figure::items::{Band, Item, Line, Points, Role, Shape, Upright, lines_by_look};

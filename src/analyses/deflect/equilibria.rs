@@ -2,8 +2,8 @@
 
 use faer::Col;
 
-use super::pressed::{steep, under};
-use super::{DeflectError, Options};
+use super::error::DeflectError;
+use super::options::{Options, steep};
 use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::{Scene, SideForce, rad_per_s};
 use crate::modes::{Cancellation, Work};
@@ -59,7 +59,8 @@ impl Equilibria {
         let range = analysis.range_rad_per_s;
         let plate = &analysis.model.plate;
         let parts = Work::of("parts of the deflection", PARTS);
-        let blade = under(force, plate, range.1, MODES.min(plate.degrees_of_freedom()))?;
+        let blade =
+            StretchedBlade::under(force, plate, range.1, MODES.min(plate.degrees_of_freedom()))?;
         if let Some(gentle_n) = gentler(force, &blade, range.0)? {
             return Err(steep(force, gentle_n).into());
         }
@@ -155,7 +156,9 @@ fn resolved(
     mut blade: StretchedBlade,
     range: (f64, f64),
 ) -> Result<(StretchedBlade, Sweep, Option<f64>), DeflectError> {
-    let on = |modes: usize| under(force, plate, range.1, modes.min(plate.degrees_of_freedom()));
+    let on = |modes: usize| {
+        StretchedBlade::under(force, plate, range.1, modes.min(plate.degrees_of_freedom()))
+    };
     let mut modes = MODES;
     loop {
         let more = modes + modes / 2;

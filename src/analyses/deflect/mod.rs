@@ -20,43 +20,26 @@
 
 pub(crate) mod chart;
 mod equilibria;
+mod error;
+mod options;
 mod outline;
 mod point_load;
-mod pressed;
 mod reading;
 mod report;
 #[cfg(test)]
 mod tests;
 
+pub use error::DeflectError;
+pub use options::Options;
 pub(crate) use outline::outline;
 pub(crate) use point_load::compliance_m_per_n;
-pub use pressed::Options;
 pub use report::{Arc, DeflectReport, EquilibriumCurve, Jump, SlowSweep, Turn};
 
-use crate::model::scene::{RefusedValue, Scene, SceneError};
-use crate::motion::stretched_blade::StretchedError;
-use crate::stability::AnalysisError;
+use crate::model::scene::Scene;
 
 use equilibria::Equilibria;
 use point_load::basis_error;
 use reading::Reader;
-
-/// Reason for which the equilibria of a blade could not be computed.
-#[derive(Debug, thiserror::Error)]
-pub enum DeflectError {
-    /// The force or the speed is out of range.
-    #[error(transparent)]
-    Refused(#[from] RefusedValue),
-    /// The scene refuses the requested range of speeds.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// The saw could not be analysed.
-    #[error(transparent)]
-    Analysis(#[from] AnalysisError),
-    /// No equilibrium was found, or equilibria are not isolated.
-    #[error(transparent)]
-    Stretched(#[from] StretchedError),
-}
 
 /// Follows the equilibria over the scene's sweep, or up to the requested speed.
 ///

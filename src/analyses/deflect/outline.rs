@@ -1,6 +1,6 @@
 //! The text of equilibria over speed.
 
-use super::{Arc, DeflectReport, Jump, SlowSweep};
+use super::report::{Arc, DeflectReport, Jump, SlowSweep};
 use crate::model::scene::ContactLaw;
 use crate::motion::stretched_blade::{LARGEST_SLOPE, TurnKind};
 use crate::page::outline::{Column, FREQUENCY, LENGTH, Outline, SPEED, Table, Value};

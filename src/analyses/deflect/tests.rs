@@ -3,11 +3,10 @@
 use faer::Col;
 
 use super::equilibria::MODES;
-use super::pressed::under;
 use super::*;
 use crate::model::plate::Plate;
 use crate::model::scene::{Accuracy, SideForceFile, rad_per_s};
-use crate::motion::stretched_blade::Equilibrium;
+use crate::motion::stretched_blade::{Equilibrium, StretchedBlade};
 use crate::stability::ChosenBasis;
 
 /// The paper's saw under a side force.
@@ -108,7 +107,8 @@ fn every_equilibrium_that_the_blade_reaches_is_on_a_curve() {
     let report = deflect(&draft(), &options).unwrap();
     let speed = rad_per_s(2000.0);
     let plate = plate(2200.0);
-    let blade = under(&draft().side_force(), &plate, rad_per_s(2200.0), MODES).unwrap();
+    let blade =
+        StretchedBlade::under(&draft().side_force(), &plate, rad_per_s(2200.0), MODES).unwrap();
     let probe = draft().probe();
     let mut seen = Vec::new();
     for k in 0..12 {

@@ -3,12 +3,14 @@
 use std::f64::consts::PI;
 
 use crate::analyses::campbell::InstabilityBand;
-use crate::model::scene::{ContactLaw, GuideFile, GuideSide, Scene, rpm};
+use crate::model::plate::{Plate, Resolution};
+use crate::model::scene::{ContactLaw, Guide, GuideFile, GuideSide, Scene, rpm};
 use crate::modes::Work;
+use crate::motion::stretched_blade::{StretchedBlade, StretchedError};
 use crate::stability::{Analysis, Instability, Onsets};
 
-use super::GapError;
-use super::numbers::first_critical;
+use super::critical_speed::first_critical_of_linear;
+use super::error::GapError;
 use super::report::AtAmplitude;
 
 /// The part of the report over the amplitude at the guides.
@@ -30,7 +32,7 @@ const FARTHEST: f64 = 1e3;
 /// Number of times that the search for the amplitude half way halves its interval of logarithms.
 const HALVINGS: usize = 24;
 /// Relative difference below which two critical speeds are taken to be equal.
-const SAME: f64 = 1e-3;
+pub(super) const SAME: f64 = 1e-3;
 
 /// Equivalent stiffness of a spring that acts beyond a gap on both sides, relative to its stiffness, for a sinusoidal
 /// oscillation of the given amplitude over the gap (describing function):
@@ -71,19 +73,75 @@ pub(super) fn equivalent_stiffness(guide: &GuideFile, amplitude_m: f64) -> f64 {
     film + shares * (stiffness - film)
 }
 
-/// The scene with one-sided guides replaced by linear ones of their mean stiffness, and the ratio of each to the full
-/// stiffness.
-///
-/// # Errors
-/// [`GapError::Scene`].
-pub(super) fn at_amplitude(scene: &Scene, amplitude_m: f64) -> Result<(Scene, Vec<f64>), GapError> {
-    let mut shares = Vec::new();
-    let linear = with_linear_guides(scene, |guide| {
-        let mean = equivalent_stiffness(guide, amplitude_m);
-        shares.push(mean / guide.stiffness_n_per_m);
-        mean
-    })?;
-    Ok((linear, shares))
+/// A saw whose blade oscillates at its guides about the position to which they push it on average.
+pub(super) struct OscillatingSaw<'a> {
+    scene: &'a Scene,
+    /// The blade at rest, if an offset or a missing side pushes it.
+    pushed: Option<StretchedBlade>,
+}
+
+/// Number of modes at rest of a blade that is pushed.
+const MODES: usize = 24;
+
+impl<'a> OscillatingSaw<'a> {
+    /// The saw of a scene, on a basis.
+    ///
+    /// # Errors
+    /// [`GapError::Stretched`].
+    pub fn new(scene: &'a Scene, resolution: Resolution) -> Result<Self, GapError> {
+        let pushed = scene.guides().iter().any(pushes).then(|| {
+            let plate = Plate::new(scene, resolution);
+            StretchedBlade::new(&plate, MODES.min(plate.degrees_of_freedom()))
+        });
+        let pushed = pushed.transpose()?;
+        Ok(OscillatingSaw { scene, pushed })
+    }
+
+    /// Mean deflection of the blade at each one-sided guide over an oscillation: mean and first harmonic of the forces belong together.
+    ///
+    /// # Errors
+    /// [`GapError::Stretched`].
+    pub fn means_m(&self, amplitude_m: f64) -> Result<Vec<f64>, GapError> {
+        let guides = self.scene.guides().iter();
+        let flat = vec![0.0; guides.filter(|guide| guide.lifting.is_some()).count()];
+        let Some(blade) = &self.pushed else {
+            return Ok(flat);
+        };
+        let blade = blade.clone().over_oscillation(amplitude_m);
+        match blade.settled(0.0, &blade.flat()) {
+            Ok(found) => Ok(blade
+                .gaps()
+                .map_or(flat, |gaps| gaps.mean_deflections_m(&found.coordinates))),
+            // A blade that reaches no guide stays where it is.
+            Err(StretchedError::Loose) => Ok(flat),
+            Err(other) => Err(other.into()),
+        }
+    }
+
+    /// The scene with one-sided guides replaced by linear ones of their mean stiffness, and the ratio of each to the full stiffness.
+    ///
+    /// # Errors
+    /// [`GapError`].
+    pub fn at(&self, amplitude_m: f64) -> Result<(Scene, Vec<f64>), GapError> {
+        let mut means_m = self.means_m(amplitude_m)?.into_iter();
+        let mut shares = Vec::new();
+        let linear = with_linear_guides(self.scene, |guide| {
+            let guide = GuideFile {
+                offset_m: guide.offset_m - means_m.next().unwrap_or_default(),
+                ..*guide
+            };
+            let mean = equivalent_stiffness(&guide, amplitude_m);
+            shares.push(mean / guide.stiffness_n_per_m);
+            mean
+        })?;
+        Ok((linear, shares))
+    }
+}
+
+/// Whether the force of a guide has a mean over an oscillation about the flat blade.
+pub(super) fn pushes(guide: &Guide) -> bool {
+    let law = guide.lifting;
+    law.is_some_and(|law| law.offset_m != 0.0 || law.side != GuideSide::Both)
 }
 
 /// The scene with one-sided guides replaced by linear ones of the given stiffness, in N/m.
@@ -135,9 +193,10 @@ impl AmplitudeChart {
         let smallest_gap_m = gaps
             .filter_map(|guide| guide.gap_m)
             .fold(f64::INFINITY, f64::min);
+        let oscillating = OscillatingSaw::new(&swept, linear.model.plate.resolution)?;
         let work = Work::of("amplitudes", SHARES.len() + 1);
         let at = |amplitude_m: Option<f64>| -> Result<AtAmplitude, GapError> {
-            let (scene, stiffness_shares) = at_amplitude(&swept, amplitude_m.unwrap_or_default())?;
+            let (scene, stiffness_shares) = oscillating.at(amplitude_m.unwrap_or_default())?;
             let found = Onsets::beside(&scene, linear.model.plate.resolution)?;
             work.advance();
             Ok(AtAmplitude {
@@ -190,7 +249,8 @@ fn bands(analysis: &Analysis, found: &[Instability]) -> Vec<InstabilityBand> {
 fn half_way(analysis: &Analysis, smallest_gap_m: f64) -> Result<Option<f64>, GapError> {
     // All amplitudes use one basis, so that their critical speeds differ only by the stiffness of the guides.
     let resolution = analysis.model.plate.resolution;
-    let at = |amplitude_m: f64| first_critical(&analysis.scene, resolution, amplitude_m);
+    let oscillating = OscillatingSaw::new(&analysis.scene, resolution)?;
+    let at = |amplitude_m: f64| first_critical(&oscillating, resolution, amplitude_m);
     let linear = analysis.model.critical.first();
     let [Some(free), Some(linear)] = [at(0.0)?, linear.map(|c| c.speed_rad_per_s)] else {
         return Ok(None);
@@ -200,6 +260,9 @@ fn half_way(analysis: &Analysis, smallest_gap_m: f64) -> Result<Option<f64>, Gap
     }
     let middle = 0.5 * (free + linear);
     let is_free = |speed: f64| (speed < middle) == (free < middle);
+    if at(FARTHEST * smallest_gap_m)?.is_none_or(is_free) {
+        return Ok(None);
+    }
     let (mut low, mut high) = (0.0_f64, FARTHEST.ln());
     for _ in 0..HALVINGS {
         let between = 0.5 * (low + high);
@@ -210,4 +273,17 @@ fn half_way(analysis: &Analysis, smallest_gap_m: f64) -> Result<Option<f64>, Gap
         }
     }
     Ok(Some(smallest_gap_m * high.exp()))
+}
+
+/// First critical speed, in rad/s, with the mean stiffness of the guides over an oscillation.
+///
+/// # Errors
+/// [`GapError`].
+pub(super) fn first_critical(
+    saw: &OscillatingSaw<'_>,
+    resolution: Resolution,
+    amplitude_m: f64,
+) -> Result<Option<f64>, GapError> {
+    let (scene, _) = saw.at(amplitude_m)?;
+    first_critical_of_linear(&scene, resolution)
 }

@@ -1,6 +1,6 @@
 //! Speeds over the amplitude at guides with a gap, and the deflection at the cut over the gap.
 
-use super::{AtAmplitude, GapReport};
+use super::report::{AtAmplitude, GapReport};
 use crate::analyses::campbell::InstabilityKind;
 use crate::page::figure::axis::{Axis, Spread, extremes, tick_label};
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};

@@ -5,10 +5,10 @@ use rayon::prelude::*;
 use crate::model::scene::Scene;
 use crate::modes::Work;
 use crate::modes::branches::even_speeds;
+use crate::motion::stretched_blade::{Deviation, PressedBlade};
 use crate::stability::Analysis;
 
-use super::GapError;
-use super::pressed::{Deviation, PressedBlade};
+use super::error::GapError;
 use super::report::{BasisError, DeviationMap};
 
 /// Gaps of guides without a gap, relative to the given ones: at rest the force of a pad has no kink in a flat blade.
@@ -62,7 +62,7 @@ pub(super) fn deviation_map(
     let blade = blade_of(scene, MODES)?;
     let rows = gap_factors.par_iter().map(|factor| {
         let pressed = blade.with_gaps(factor.max(NO_GAP));
-        let under = |force: f64| pressed.deviation(force, rpm);
+        let under = |force: f64| -> Result<_, GapError> { Ok(pressed.deviation(force, rpm)?) };
         let at = |speed: f64| -> Result<Option<Deviation>, GapError> {
             let found = pressed.deviation(force_n, speed)?;
             Ok(found.filter(|found| found.largest_m <= thickness_m))

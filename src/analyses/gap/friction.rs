@@ -6,20 +6,19 @@
 //! changes, or it is known that it cannot settle. All numbers are those of one temperature. The effect of the force of friction on the
 //! motion is neglected.
 
+use crate::model::plate::heated_disk::{Cooling, radii_m, rises_k};
 use crate::model::scene;
 use crate::model::scene::{
     FrictionFile, Guide, Scene, TemperatureFile, TemperatureRow, rad_per_s, typical_value,
 };
 use crate::modes::{SpectrumError, Work};
-use crate::motion::stretched_blade::StretchedError;
+use crate::motion::stretched_blade::{Deviation, PressedBlade, StretchedError};
 use crate::page::text::shown_to;
 use crate::stability::Analysis;
 
-use super::GapError;
+use super::critical_speed::first_critical_of_linear;
 use super::deviation::MODES;
-use super::heated_disk::{Cooling, radii_m, rises_k};
-use super::numbers::first_critical_of_linear;
-use super::pressed::{Deviation, PressedBlade};
+use super::error::GapError;
 use super::report::{FrictionHeat, FrictionPad};
 use super::settling::{End, MOST, Settling, settled};
 
@@ -62,7 +61,7 @@ impl Loop<'_> {
             let warm = self.warm(rise_k)?;
             let resolution = self.analysis.model.plate.resolution;
             let blade = PressedBlade::new(&warm, resolution, rpm, MODES);
-            let Some(blade) = unless_buckled(blade)? else {
+            let Some(blade) = unless_buckled(blade.map_err(GapError::from))? else {
                 return Ok(None);
             };
             let (deviation, contacts) = blade.with_contacts(scene.file().side_force_n(), rpm)?;

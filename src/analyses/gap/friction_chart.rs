@@ -1,6 +1,6 @@
 //! Temperature of a blade that its pads heat, over the radius.
 
-use super::{FrictionHeat, FrictionPad, GapReport};
+use super::report::{FrictionHeat, FrictionPad, GapReport};
 use crate::page::figure::axis::{proper_range, tick_label, two_digits};
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};
 use crate::page::figure::heading;

@@ -1,7 +1,7 @@
 //! The deflection at the cut over gap and side force, and over gap and speed, with the line of the largest deflection
 //! allowed.
 
-use super::GapReport;
+use super::report::GapReport;
 use crate::page::figure::axis::{Spread, ends_of_cells, extremes};
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};
 use crate::page::figure::heading;

@@ -1,13 +1,13 @@
 //! Numbers of one saw with guides with a gap, for studies and placements of many.
 
-use crate::model::plate::{Plate, Resolution};
+use crate::model::plate::Resolution;
 use crate::model::scene::{RefusedValue, Scene, rpm, speed_rad_per_s};
-use crate::modes::Assembled;
+use crate::motion::stretched_blade::{Deviation, PressedBlade};
 
-use super::amplitude::at_amplitude;
+use super::amplitude::{OscillatingSaw, first_critical};
 use super::deviation::MODES;
-use super::pressed::{Deviation, PressedBlade};
-use super::{GapError, Options};
+use super::error::GapError;
+use super::options::Options;
 
 /// Speed and amplitude for which [`GapNumbers`] are computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,7 +72,10 @@ impl GapCase {
     /// [`GapError::Scene`].
     pub fn at_amplitude(&self, scene: &Scene) -> Result<Scene, GapError> {
         match self.amplitude_m {
-            Some(amplitude_m) => Ok(at_amplitude(scene, amplitude_m)?.0),
+            Some(amplitude_m) => {
+                let resolution = Resolution::of(scene.accuracy());
+                Ok(OscillatingSaw::new(scene, resolution)?.at(amplitude_m)?.0)
+            }
             None => Ok(scene.clone()),
         }
     }
@@ -101,7 +104,7 @@ impl GapCase {
         resolution: Resolution,
     ) -> Result<Option<Deviation>, GapError> {
         let pressed = PressedBlade::new(scene, resolution, self.rpm, MODES)?;
-        pressed.deviation(scene.file().side_force_n(), self.rpm)
+        Ok(pressed.deviation(scene.file().side_force_n(), self.rpm)?)
     }
 
     /// The numbers of a saw on a basis.
@@ -111,7 +114,10 @@ impl GapCase {
     pub fn numbers(&self, scene: &Scene, resolution: Resolution) -> Result<GapNumbers, GapError> {
         let found = self.deviation(scene, resolution)?;
         let critical_at_amplitude_rpm = match self.amplitude_m {
-            Some(amplitude_m) => first_critical(scene, resolution, amplitude_m)?.map(rpm),
+            Some(amplitude_m) => {
+                let saw = OscillatingSaw::new(scene, resolution)?;
+                first_critical(&saw, resolution, amplitude_m)?.map(rpm)
+            }
             None => None,
         };
         Ok(GapNumbers {
@@ -120,31 +126,4 @@ impl GapCase {
             critical_at_amplitude_rpm,
         })
     }
-}
-
-/// First critical speed, in rad/s, with guides of their full stiffness.
-///
-/// # Errors
-/// [`GapError`].
-pub(super) fn first_critical_of_linear(
-    scene: &Scene,
-    resolution: Resolution,
-) -> Result<Option<f64>, GapError> {
-    let saw = Assembled::from(Plate::new(scene, resolution));
-    // With a limit of zero the search ends at the first critical speed.
-    let critical = saw.critical_speeds(Some(&|_| 0.0))?;
-    Ok(critical.first().map(|c| c.speed_rad_per_s))
-}
-
-/// First critical speed, in rad/s, with the mean stiffness of the guides over an oscillation.
-///
-/// # Errors
-/// [`GapError`].
-pub(super) fn first_critical(
-    scene: &Scene,
-    resolution: Resolution,
-    amplitude_m: f64,
-) -> Result<Option<f64>, GapError> {
-    let (scene, _) = at_amplitude(scene, amplitude_m)?;
-    first_critical_of_linear(&scene, resolution)
 }

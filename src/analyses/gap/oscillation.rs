@@ -7,14 +7,15 @@
 
 use rayon::prelude::*;
 
+use crate::model::plate::Plate;
 use crate::model::scene::rpm;
 use crate::modes::Work;
+use crate::motion::steady::{HARMONICS, OscillatingBlade, Oscillators, loads};
 use crate::stability::Analysis;
 
-use super::GapError;
-use super::oscillating_blade::{HARMONICS, OscillatingBlade, amplitude_m};
+use super::error::GapError;
+use super::oscillation_reading::reading;
 use super::oscillation_report::{Oscillation, OscillationAt, OscillationLine};
-use super::oscillators::Oscillators;
 
 /// Number of modes at rest in the basis, in addition to the responses to the loads.
 const MODES: usize = 16;
@@ -37,10 +38,12 @@ pub(super) fn oscillation(
 ) -> Result<Oscillation, GapError> {
     let scene = &analysis.scene;
     let to = analysis.range_rad_per_s.1.max(speed_rad_per_s);
+    let plate = Plate::new(scene, analysis.model.plate.resolution);
+    let excitations = loads(&plate, scene, 0.0)?;
     let of_modes = |modes: usize| {
         let asked = (speed_rad_per_s, to);
-        let resolution = analysis.model.plate.resolution;
-        OscillatingBlade::new(scene, resolution, oscillators, asked, modes)
+        let causes = (oscillators, excitations.clone());
+        OscillatingBlade::new(&plate, scene, causes, asked, modes)
     };
     let work = Work::of("oscillations", SPEEDS + 2);
     let finer = of_modes(MORE_MODES)?;
@@ -64,14 +67,14 @@ pub(super) fn oscillation(
     let mut motions: Vec<_> = motions.into_iter().map(|(found, _)| found).collect();
     blade.follow(&mut motions, &speeds);
     let found = motions[place].as_ref();
-    let own_m = found.map(|at| amplitude_m(&at.motion, &blade.cut));
+    let own_m = found.map(|at| at.motion.amplitude(&blade.cut));
     let change = |other: f64| own_m.map(|own| (other / own - 1.0).abs());
-    let fine_m = fine.map(|at| amplitude_m(&at.motion, &finer.cut));
+    let fine_m = fine.map(|at| at.motion.amplitude(&finer.cut));
     let thickness_m = scene.blade().thickness_m;
     let pairs = motions.iter().zip(&speeds);
     let over_speed: Vec<Option<OscillationAt>> = pairs
         .map(|(found, speed)| {
-            let at = blade.read(*speed, found.as_ref()?);
+            let at = reading(&blade, *speed, found.as_ref()?);
             (at.stable && at.largest_deflection_m <= thickness_m).then_some(at)
         })
         .collect();
@@ -93,7 +96,7 @@ pub(super) fn oscillation(
         oscillating_force_n: force.map_or(0.0, |force| force.amplitude_n),
         oscillating_order: force.map_or(0, |force| force.order),
         lines: (0..HARMONICS).map(line).collect(),
-        at: found.map(|at| blade.read(speed_rad_per_s, at)),
+        at: found.map(|at| reading(&blade, speed_rad_per_s, at)),
         still_deflection_m,
         harmonics_error_share: found.map(|at| at.neglected_share),
         neglected_share: motions

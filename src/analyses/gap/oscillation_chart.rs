@@ -1,7 +1,8 @@
 //! Oscillation of the blade between guides with a gap, over the speed: amplitudes of the harmonics at the probe, and
 //! mean and amplitude of the deflection at the cut.
 
-use super::{GapReport, Oscillation, OscillationLine};
+use super::oscillation_report::{Oscillation, OscillationLine};
+use super::report::GapReport;
 use crate::page::figure::axis::{Spread, extremes};
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};
 use crate::page::figure::heading;

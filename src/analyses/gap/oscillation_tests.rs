@@ -36,6 +36,19 @@ fn saw(change: impl FnOnce(&mut GuideFile)) -> Scene {
     scene.unwrap()
 }
 
+/// The blade of a scene in a basis for its oscillations.
+fn oscillating(
+    scene: &Scene,
+    resolution: Resolution,
+    asked: (f64, f64),
+    modes: usize,
+) -> OscillatingBlade {
+    let plate = Plate::new(scene, resolution);
+    let oscillators = Oscillators::of(scene).unwrap();
+    let loads = loads(&plate, scene, 0.0).unwrap();
+    OscillatingBlade::new(&plate, scene, (&oscillators, loads), asked, modes).unwrap()
+}
+
 /// Complex amplitude of a part of a motion.
 fn harmonic(place: &OscillationPlace, part: usize) -> c64 {
     let phase = place.phase_deg[part].to_radians();
@@ -70,14 +83,16 @@ fn without_a_gap_the_motion_is_the_linear_response() {
     assert_eq!(oscillators.base_order(), 1);
     assert_eq!(oscillators.name_of(2), "flatness, imbalance");
     let to = analysis.range_rad_per_s.1;
-    let resolution = analysis.model.plate.resolution;
-    let asked = (speed, to);
-    let scene = &analysis.scene;
-    let blade = OscillatingBlade::new(scene, resolution, &oscillators, asked, MODES).unwrap();
+    let blade = oscillating(
+        &analysis.scene,
+        analysis.model.plate.resolution,
+        (speed, to),
+        MODES,
+    );
     let speeds = (1..=SPEEDS).map(|k| to * k as f64 / SPEEDS as f64);
     let motions = speeds.chain([speed]).filter_map(|speed| {
         let (found, _) = blade.at(speed).unwrap();
-        Some((speed, blade.read(speed, &found?)))
+        Some((speed, reading(&blade, speed, &found?)))
     });
     let largest = |order: u32| {
         let own = linear.lines.iter().filter(|line| line.order == order);
@@ -150,9 +165,9 @@ fn compare_with_time_history(turning: bool, oscillating_n: f64, base: u32) {
     let oscillators = Oscillators::of(&scene).unwrap();
     assert_eq!(oscillators.base_order(), base);
     let asked = (speed, rad_per_s(1400.0));
-    let blade = OscillatingBlade::new(&scene, SMALL, &oscillators, asked, 10).unwrap();
+    let blade = oscillating(&scene, SMALL, asked, 10);
     let (found, _) = blade.at(speed).unwrap();
-    let at = blade.read(speed, &found.unwrap());
+    let at = reading(&blade, speed, &found.unwrap());
     let growth_per_s = at.growth_per_s.unwrap();
     assert!(growth_per_s <= 0.0, "{at:?}");
     // Without lifting off there would be one harmonic only. The oscillating force is too small for a large second one.

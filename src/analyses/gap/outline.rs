@@ -1,6 +1,8 @@
 //! The text of guides with a gap.
 
-use super::{AtAmplitude, DeviationMap, FrictionHeat, GapReport, Oscillation, OscillationAt};
+use super::amplitude::SAME;
+use super::oscillation_report::{Oscillation, OscillationAt};
+use super::report::{AtAmplitude, DeviationMap, FrictionHeat, GapReport};
 use crate::model::scene::ContactLaw;
 use crate::page::outline::{
     Column, FORCE, FREQUENCY, Fact, KELVIN, LENGTH, Outline, PERCENT, SPEED, Table, Value,
@@ -57,7 +59,15 @@ const MEANING: &str = "The chart over the amplitude is the linear one with the m
 
 fn half_way(report: &GapReport) -> String {
     let gap = gaps(report);
+    let first = |at: &AtAmplitude| at.critical_rpm.first().copied();
+    let differs = match (first(&report.free), first(&report.linear)) {
+        (Some(free), Some(linear)) => (free / linear - 1.0).abs() >= SAME,
+        (free, linear) => free.is_some() != linear.is_some(),
+    };
     match report.half_way_amplitude_m {
+        None if differs => format!(
+            "At no amplitude of vibration the guides ({gap}) hold the blade half as linear ones do: they push it out of their reach"
+        ),
         None => {
             format!("The first critical speed inside the {gap} is that of linear guides to 0.1 %")
         }

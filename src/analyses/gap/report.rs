@@ -39,7 +39,8 @@ pub struct GapReport {
     /// The linear chart of the scene, with guides of their full stiffness.
     pub linear: AtAmplitude,
     /// Amplitude at which the first critical speed lies half way between that of the free blade and that of the linear
-    /// chart: at smaller amplitudes the chart is that of the free blade. Null if the two differ by less than 0.1 %.
+    /// chart: at smaller amplitudes the chart is that of the free blade. Null if the two differ by less than 0.1 %,
+    /// and if no amplitude changes it as far, because guides on one side push the blade out of their reach.
     pub half_way_amplitude_m: Option<f64>,
     /// The deflection at the cut.
     pub deviation: DeviationMap,

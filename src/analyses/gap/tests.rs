@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::pressed::Deviation;
 use super::*;
 use crate::model::scene::{Accuracy, ContactLaw, FrictionFile, Scene, SideForceFile};
+use crate::motion::stretched_blade::{Deviation, PressedBlade};
 
 fn lifting(gap_m: f64) -> Scene {
     let scene = Scene::paper().edited(|file| {
@@ -88,7 +88,7 @@ fn the_chart_over_the_amplitude_joins_the_free_blade_and_the_linear_one() {
     // The limits of speed are those at which the deflection passes the limit, none beyond the first critical speed.
     let analysis = Analysis::new(&scene).unwrap();
     let size = analysis.model.plate.resolution;
-    let blade = pressed::PressedBlade::new(&scene, size, 2000.0, deviation::MODES).unwrap();
+    let blade = PressedBlade::new(&scene, size, 2000.0, deviation::MODES).unwrap();
     let mut found = 0;
     for (factor, speed) in map.gap_factors.iter().zip(&map.speed_within_rpm) {
         let speed = speed.unwrap_or_default();
@@ -189,7 +189,7 @@ fn without_a_gap_and_far_within_it_the_blade_is_linear_at_every_speed() {
     for (place, scene) in saws(0.0, offset_m).into_iter().enumerate() {
         let plate = Plate::new(&scene, SMALL);
         let order = plate.degrees_of_freedom();
-        let pressed = pressed::PressedBlade::new(&scene, SMALL, 1500.0, order).unwrap();
+        let pressed = PressedBlade::new(&scene, SMALL, 1500.0, order).unwrap();
         let rim = (plate.blade.outer_radius_m, scene.cut_angle_rad());
         let functions = crate::motion::transient::at_point(&plate, rim);
         let of = |scene: &Scene| {
@@ -225,7 +225,7 @@ fn without_a_gap_and_far_within_it_the_blade_is_linear_at_every_speed() {
                 pressed.with_gaps(1e-6).deviation(force_n, rpm)
             } else {
                 let flat = scene.edited(|file| file.guides[0].offset_m = 0.0).unwrap();
-                let pressed = pressed::PressedBlade::new(&flat, SMALL, 1500.0, order).unwrap();
+                let pressed = PressedBlade::new(&flat, SMALL, 1500.0, order).unwrap();
                 pressed.with_gaps(1e-6).deviation(force_n, rpm)
             };
             let own = own.unwrap().unwrap().deviation_m;
@@ -257,7 +257,7 @@ fn without_a_gap_and_far_within_it_the_blade_is_linear_at_every_speed() {
 fn pads_and_films_balance_the_side_force_at_every_speed() {
     for film in [0.0, 2e4] {
         for scene in &saws(film, 3e-6)[..2] {
-            let pressed = pressed::PressedBlade::new(scene, SMALL, 1500.0, 40).unwrap();
+            let pressed = PressedBlade::new(scene, SMALL, 1500.0, 40).unwrap();
             for rpm in SPEEDS_RPM {
                 for (factor, force_n) in [(1e-4, 2.0), (100.0, -2.0), (1e3, 5.0), (1e4, 50.0)] {
                     let found = pressed
@@ -479,7 +479,7 @@ fn pads_with_one_offset_move_the_blade_by_it() {
             max_diameters: 8,
             radial_functions: 4,
         };
-        let blade = pressed::PressedBlade::new(&scene, resolution, 1000.0, 24).unwrap();
+        let blade = PressedBlade::new(&scene, resolution, 1000.0, 24).unwrap();
         blade.deviation(3.0, 1000.0).unwrap().unwrap()
     };
     let (flat, moved) = (of(0.0), of(1.2e-4));

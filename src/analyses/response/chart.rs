@@ -1,6 +1,6 @@
 //! Steady-state amplitude, phase and deviation of the board over the speed; amplitude and phase over the frequency.
 
-use super::{FrequencyResponse, ResponseLine, ResponseReport};
+use super::report::{FrequencyResponse, ResponseLine, ResponseReport};
 use crate::analyses::campbell::InstabilityKind;
 use crate::page::figure::axis::{Spread, extremes};
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};

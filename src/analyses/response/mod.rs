@@ -11,12 +11,9 @@
 //! the linear model are not reported.
 
 pub(crate) mod chart;
-mod family;
-mod load;
 mod options;
 mod outline;
 mod points;
-mod reduced_model;
 mod report;
 mod solver;
 mod speeds;
@@ -24,14 +21,11 @@ mod speeds;
 mod tests;
 mod warnings;
 
-pub(crate) use family::solution;
-pub(crate) use load::{Load, loads};
+pub use crate::motion::steady::Cause;
 pub use options::Options;
 pub(crate) use outline::outline;
-pub(crate) use reduced_model::State;
 pub use report::{
-    Cause, FrequencyResponse, OperatingResponse, Resonance, ResponseLine, ResponseReport,
-    SteadyState,
+    FrequencyResponse, OperatingResponse, Resonance, ResponseLine, ResponseReport, SteadyState,
 };
 
 use std::f64::consts::TAU;
@@ -39,8 +33,8 @@ use std::f64::consts::TAU;
 use crate::model::plate::Plate;
 use crate::model::scene::{RefusedValue, Scene, SceneError, USUAL_SIDE_FORCE_N, rad_per_s, rpm};
 use crate::modes::SpectrumError;
+use crate::motion::steady::{Family, loads};
 use crate::stability::{Analysis, AnalysisError, ahead};
-use family::Family;
 use solver::{Motion, Solver};
 use speeds::{even, near};
 use warnings::warnings;
@@ -71,7 +65,7 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
     let (force_n, is_assumed) = constant_force_n(scene);
     let analysis = Analysis::new(scene)?;
     let plate = &analysis.model.plate;
-    let excitations = |plate| loads(plate, scene, force_n).map_err(|waves| rigid(waves, scene));
+    let excitations = |plate| loads(plate, scene, force_n);
     let loads = excitations(plate)?;
     let range = analysis.range_rad_per_s;
     let within = |speed: &f64| (range.0..=range.1).contains(speed);
@@ -103,13 +97,14 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
         let larger = Plate::new(scene, ahead(plate.resolution));
         let finer = Solver::new(&larger, scene);
         let loads = excitations(&larger)?;
-        for (line, load) in lines
-            .iter_mut()
-            .zip(&loads)
-            .filter(|(line, _)| is_beyond(line))
-        {
+        for ((line, load), (.., resonances)) in lines.iter_mut().zip(&loads).zip(&families) {
+            if !is_beyond(line) || resonances.is_empty() {
+                continue;
+            }
+            // The solutions beside the resonances contain the motions that the load excites.
+            let places: Vec<f64> = resonances.iter().map(|(speed, _)| *speed).collect();
             let mut family = Family::new(&finer.system, &load.vector)?;
-            finer.deflections(&mut family, load, &even(range, operating))?;
+            finer.deflections(&mut family, load, &places)?;
             line.state_error(&Solver::resonances(&family, load, range)?);
         }
     }
@@ -210,17 +205,4 @@ fn constant_force_n(scene: &Scene) -> (f64, bool) {
         0.0 if !turning && scene.oscillating_force().is_none() => (USUAL_SIDE_FORCE_N, true),
         given => (given, false),
     }
-}
-
-/// The refusal of a run-out or of a lack of flatness that is a rigid motion of the blade.
-pub(crate) fn rigid(waves: usize, scene: &Scene) -> RefusedValue {
-    let excitation = scene.file().response.unwrap_or_default();
-    let (key, value) = match waves {
-        1 => ("response.runout_m", excitation.runout_m),
-        _ => ("response.flatness_m", excitation.flatness_m),
-    };
-    let allowed = "0 for a blade that tilts freely on its arbor";
-    let remedy =
-        "such a blade has no run-out of its own; give flatness_m, or a mount with a collar";
-    RefusedValue::new(key, value, allowed, remedy)
 }

@@ -1,6 +1,6 @@
 //! The text of a response.
 
-use super::{FrequencyResponse, ResponseLine, ResponseReport, SteadyState};
+use super::report::{FrequencyResponse, ResponseLine, ResponseReport, SteadyState};
 use crate::page::outline::{Column, FREQUENCY, Fact, LENGTH, Outline, SPEED, Table};
 use crate::page::text::shown_to;
 
@@ -120,26 +120,22 @@ fn largest(line: &ResponseLine) -> Fact {
 /// Amplitude of each excitation at the probe, at the first speed and at the operating speed.
 fn amplitudes(report: &ResponseReport) -> Table {
     let operating = report.operating.as_ref();
-    let columns = [
-        Column::words("excitation"),
-        Column::of(format!("{:.0} rpm", report.from_rpm), &LENGTH),
-        Column::of(
-            operating.map_or("operating".to_owned(), |o| format!("{:.0} rpm", o.rpm)),
-            &LENGTH,
-        ),
-    ];
-    let rows = report.lines.iter().enumerate().map(|(place, line)| {
-        let at_rest = line.amplitude_m.first().copied().flatten();
-        let at_operating = operating.and_then(|o| o.amplitude_m.get(place).copied().flatten());
-        [
-            line.name.clone().into(),
-            LENGTH.digits(4, at_rest),
-            LENGTH.digits(4, at_operating),
-        ]
-    });
-    Table::new("Amplitude at the probe", columns)
-        .showing(usize::MAX)
-        .with_rows(rows)
+    let speeds = [report.from_rpm]
+        .into_iter()
+        .chain(operating.map(|at| at.rpm));
+    let amplitude = |rpm: f64| Column::of(format!("{rpm:.0} rpm"), &LENGTH);
+    let columns = [Column::words("excitation")]
+        .into_iter()
+        .chain(speeds.map(amplitude));
+    let mut table = Table::new("Amplitude at the probe", columns).showing(usize::MAX);
+    for (place, line) in report.lines.iter().enumerate() {
+        let first = line.amplitude_m.first().copied().flatten();
+        let at_operating = operating.map(|at| at.amplitude_m.get(place).copied().flatten());
+        let cells = [first].into_iter().chain(at_operating);
+        let name = line.name.clone().into();
+        table.row([name].into_iter().chain(cells.map(|m| LENGTH.digits(4, m))));
+    }
+    table
 }
 
 fn resonances(line: &ResponseLine) -> Table {

@@ -4,14 +4,13 @@ use std::f64::consts::TAU;
 
 use faer::{Col, c64};
 
-use super::family::Family;
-use super::reduced_model::State;
 use super::report::FrequencyResponse;
 use super::solver::{Motion, Solver};
 use crate::model::plate::Plate;
 use crate::model::scene::rpm;
 use crate::modes::SpectrumError;
 use crate::modes::branches::even_speeds;
+use crate::motion::steady::{Family, State};
 
 /// Number of evenly spaced frequencies.
 const FREQUENCIES: usize = 401;

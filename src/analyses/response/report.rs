@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::analyses::campbell::InstabilityBand;
 use crate::model::scene::SceneFile;
+use crate::motion::steady::Cause;
 
 /// Report of steady-state responses (`response.json`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -53,23 +54,6 @@ pub struct ResponseReport {
     pub instabilities: Vec<InstabilityBand>,
     /// Remarks on the validity of the result.
     pub warnings: Vec<String>,
-}
-
-/// Cause of an excitation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[schemars(rename = "CauseEntry")]
-pub enum Cause {
-    /// Constant lateral force, fixed in space.
-    SideForce,
-    /// One wave around the rim.
-    RunOut,
-    /// Two waves around the rim.
-    Flatness,
-    /// Imbalance beside the middle plane.
-    Imbalance,
-    /// Side force that oscillates with a multiple of the rotation frequency.
-    OscillatingForce,
 }
 
 /// Response to one cause with one order.

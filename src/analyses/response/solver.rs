@@ -4,14 +4,12 @@ use std::f64::consts::TAU;
 
 use faer::{Col, c64};
 
-use super::family::Family;
-use super::load::Load;
-use super::reduced_model::State;
-use super::report::{Cause, Resonance, ResponseLine, SteadyState};
+use super::report::{Resonance, ResponseLine, SteadyState};
 use crate::model::plate::Plate;
 use crate::model::scene::{Scene, rpm};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::SpectrumError;
+use crate::motion::steady::{Cause, Family, Load, State};
 use crate::motion::transient::{at_point, linear_limit_m};
 use crate::stability::{Analysis, StabilityState};
 

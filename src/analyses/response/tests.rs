@@ -3,7 +3,6 @@
 
 use std::f64::consts::TAU;
 
-use super::family::{reading, solution};
 use super::*;
 use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::{
@@ -12,6 +11,7 @@ use crate::model::scene::{
 };
 use crate::model::system::GyroscopicSystem;
 use crate::modes::branches::even_speeds;
+use crate::motion::steady::{State, reading, solution};
 use crate::stability::{ChosenBasis, StabilityState};
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, c64};

@@ -36,7 +36,7 @@ pub use edge_load::{BoreForce, EdgeStress, RimForce, edge_stiffness};
 pub use harmonic::HarmonicBlock;
 pub use light_gap::{LightGap, StraightEdgeReading};
 pub use matrices::Plate;
-pub(crate) use membrane::{MembraneSource, MembraneStress, membrane_stiffness};
+pub(crate) use membrane::{MembraneSource, MembraneStress, heated_disk, membrane_stiffness};
 pub use resolution::Resolution;
 pub(crate) use resolution::{MOST_DIAMETERS, MOST_UNKNOWNS};
 pub use stretching::{ReducedStretching, Stretching, StretchingError};

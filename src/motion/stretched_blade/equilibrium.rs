@@ -24,6 +24,18 @@ pub(super) const ITERATIONS: usize = 30;
 /// Relative size of the last correction; that of the next would be its square.
 pub(super) const LAST: f64 = 1e-8;
 
+impl Equilibrium {
+    /// The equilibrium with the eigenvalues of ∂²V/∂p² there, ascending.
+    pub(super) fn of(coordinates: Col<f64>, speed_rad_per_s: f64, values: &[f64]) -> Self {
+        let zero = -ROUNDING * values.last().copied().unwrap_or_default().abs();
+        Equilibrium {
+            speed_rad_per_s,
+            coordinates,
+            negative_eigenvalues: values.iter().filter(|value| **value < zero).count(),
+        }
+    }
+}
+
 impl StretchedBlade {
     /// Deflection of an equilibrium at a point of the blade.
     pub fn deflection_m(&self, equilibrium: &Equilibrium, radius_m: f64, angle_rad: f64) -> f64 {
@@ -184,12 +196,7 @@ impl StretchedBlade {
         speed_rad_per_s: f64,
     ) -> Result<Equilibrium, StretchedError> {
         let values = self.stiffnesses(&p, speed_rad_per_s)?;
-        let zero = -ROUNDING * values.last().copied().unwrap_or_default().abs();
-        Ok(Equilibrium {
-            negative_eigenvalues: values.iter().filter(|value| **value < zero).count(),
-            coordinates: p,
-            speed_rad_per_s,
-        })
+        Ok(Equilibrium::of(p, speed_rad_per_s, &values))
     }
 
     pub(super) fn not_found(&self, p: &Col<f64>, speed_rad_per_s: f64) -> StretchedError {

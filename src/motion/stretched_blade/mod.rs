@@ -24,6 +24,7 @@ mod branch;
 mod equilibrium;
 mod flutter_rise;
 mod potential_minimum;
+mod pressed_blade;
 mod rise;
 mod saturation;
 mod sites;
@@ -32,6 +33,7 @@ mod sweep;
 pub use branch::{Branch, Extent, Turn, TurnKind};
 pub use equilibrium::Equilibrium;
 pub use flutter_rise::FlutterRise;
+pub(crate) use pressed_blade::{Deviation, PressedBlade};
 pub use rise::{Rise, saturations};
 pub use saturation::Saturation;
 pub use sites::Sites;
@@ -154,6 +156,13 @@ impl StretchedBlade {
     /// The blade with the gaps of its pads multiplied by a factor, in the same basis.
     pub fn with_gaps(mut self, factor: f64) -> Self {
         self.gaps = self.gaps.map(|gaps| gaps.scaled(factor));
+        self
+    }
+
+    /// The blade with the forces that its pads have on average over an oscillation, with one amplitude at all of them, in the same
+    /// basis.
+    pub(crate) fn over_oscillation(mut self, amplitude_m: f64) -> Self {
+        self.gaps = self.gaps.map(|gaps| gaps.over_oscillation(amplitude_m));
         self
     }
 
@@ -310,6 +319,8 @@ fn finite(what: &'static str, value: f64) -> Result<f64, StretchedError> {
 
 #[cfg(test)]
 pub(crate) mod basis_tests;
+#[cfg(test)]
+mod diagram_tests;
 #[cfg(test)]
 mod gap_tests;
 #[cfg(test)]

@@ -57,7 +57,7 @@ impl StretchedBlade {
             if step.norm_l2() <= LAST * p.norm_l2().max(size) {
                 if is_minimum {
                     self.directed(&p)?;
-                    return self.at(p, speed_rad_per_s);
+                    return Ok(Equilibrium::of(p, speed_rad_per_s, &modes.values));
                 }
                 let lowest = modes.vectors.col(0);
                 let forced = lowest.transpose() * &self.force;

@@ -10,6 +10,8 @@
 //! −k_f/A ∫ o w dA. Within ±g/100 of the gap the second derivative of Ψ rises linearly, as Newton's method
 //! requires. The integral is a sum over Gauss points of the pad, each of which is a point of contact.
 
+use std::f64::consts::TAU;
+
 use faer::{Col, Mat, MatRef, Scale};
 
 use crate::model::scene::{Guide, GuideFile, GuideSide};
@@ -70,6 +72,8 @@ struct Point {
 /// built-in saw touches, the force has an error of 3e-5 (5e-3 with five points over the radius); if only a part of
 /// it touches, the energy has an error of 0.5 %.
 const POINTS: usize = 8;
+/// Number of phases of an oscillation over which the potential is averaged.
+const PHASES: usize = 16;
 /// Share of the gap, on each side of its end, within which the second derivative of Ψ rises.
 const ROUNDED: f64 = 0.01;
 
@@ -122,6 +126,42 @@ impl GapPotential {
             point.gap_m *= factor;
         }
         self
+    }
+
+    /// The potential averaged over an oscillation about the deflections, with one amplitude at all points: each point is one with a share
+    /// of the stiffness at each of several phases.
+    pub fn over_oscillation(self, amplitude_m: f64) -> Self {
+        let phases = || (0..PHASES).map(|k| TAU * (k as f64 + 0.5) / PHASES as f64);
+        let share = 1.0 / PHASES as f64;
+        let moved = |point: &Point| {
+            let point = *point;
+            phases().map(move |phase| Point {
+                stiffness_n_per_m: share * point.stiffness_n_per_m,
+                film_n_per_m: share * point.film_n_per_m,
+                offset_m: point.offset_m - amplitude_m * phase.sin(),
+                ..point
+            })
+        };
+        let columns = self.shapes.ncols() * PHASES;
+        GapPotential {
+            points: self.points.iter().flat_map(moved).collect(),
+            shapes: Mat::from_fn(self.shapes.nrows(), columns, |i, k| {
+                self.shapes[(i, k / PHASES)]
+            }),
+            ..self
+        }
+    }
+
+    /// Mean deflection of the blade over each pad that lifts off, weighted by the stiffness.
+    pub fn mean_deflections_m(&self, coordinates: &Col<f64>) -> Vec<f64> {
+        let w = self.shapes.transpose() * coordinates;
+        let mut sums = vec![(0.0, 0.0); self.pads];
+        for (k, point) in self.points.iter().enumerate() {
+            let (sum, whole) = &mut sums[point.pad];
+            *sum += point.stiffness_n_per_m * w[k];
+            *whole += point.stiffness_n_per_m;
+        }
+        sums.into_iter().map(|(sum, whole)| sum / whole).collect()
     }
 
     /// Deflections at the points, in m, relative to the middle between the faces of the pad.

@@ -15,6 +15,7 @@
 //! Reference: Timoshenko & Goodier, *Theory of Elasticity*, 3rd ed., section 150.
 
 mod eigenstrain;
+pub(crate) mod heated_disk;
 
 pub use eigenstrain::Eigenstrain;
 

@@ -104,17 +104,20 @@ impl ReducedStretching {
     pub fn hessian_with(&self, coordinates: &Col<f64>, tension: &Col<f64>) -> Mat<f64> {
         let mut hessian = self.symmetric(tension);
         let p = coordinates;
-        // The derivative ∂z/∂pₐ of the products z has one nonzero entry for each b, so that Q ∂z/∂pₐ is a sum
-        // of r columns of Q.
-        for a in 0..self.order {
-            let mut tension = vec![0.0; self.quartic.nrows()];
-            for b in 0..self.order {
-                let share = if a == b { 2.0 * p[a] } else { p[b] };
-                let column = self.quartic.col_as_slice(pair(a, b));
-                for (sum, stiffness) in tension.iter_mut().zip(column) {
+        // The derivative ∂z/∂pₐ of the products z has one nonzero entry for each b, so that Q ∂z/∂pₐ is a sum of r columns of Q. Each
+        // column, of the pair (a, b), is read once for both sums of which it is a part, because Q exceeds the cache of a processor.
+        let mut tensions = Mat::<f64>::zeros(self.quartic.nrows(), self.order);
+        for (k, [a, b]) in pairs(self.order).enumerate() {
+            let column = self.quartic.col_as_slice(k);
+            for (sum, share) in [(a, p[b]), (b, p[a])] {
+                let sums = tensions.col_as_slice_mut(sum).iter_mut();
+                for (sum, stiffness) in sums.zip(column) {
                     *sum += share * stiffness;
                 }
             }
+        }
+        for a in 0..self.order {
+            let tension = tensions.col_as_slice(a);
             for b in 0..=a {
                 let along: f64 = (0..self.order)
                     .map(|c| {

@@ -1,8 +1,7 @@
-//! The range of speeds, and a blade under the side force.
+//! The range of speeds, and the refusal of a force.
 
-use crate::model::plate::Plate;
 use crate::model::scene::{RefusedValue, SideForce, speed_rad_per_s};
-use crate::motion::stretched_blade::{LARGEST_SLOPE, StretchedBlade, StretchedError};
+use crate::motion::stretched_blade::LARGEST_SLOPE;
 use crate::page::text::{rounded_down, shown_to};
 
 /// Options of the computation of equilibria.
@@ -37,15 +36,4 @@ pub(super) fn steep(force: &SideForce, gentle_n: f64) -> RefusedValue {
         allowed,
         "give a smaller force",
     )
-}
-
-/// A blade under a side force, on a reduced basis of `modes` modes at rest and the shapes needed for equilibria up to a speed.
-pub(super) fn under(
-    force: &SideForce,
-    plate: &Plate,
-    to_rad_per_s: f64,
-    modes: usize,
-) -> Result<StretchedBlade, StretchedError> {
-    StretchedBlade::up_to(plate, to_rad_per_s, force.at.polar(), modes)?
-        .pressed(force.force_n, force.at.polar())
 }

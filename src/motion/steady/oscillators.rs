@@ -17,7 +17,7 @@ const LARGEST_RATIO: u32 = 3;
 
 impl Oscillators {
     /// The causes of a scene; `None` if there are none.
-    pub(super) fn of(scene: &Scene) -> Option<Self> {
+    pub fn of(scene: &Scene) -> Option<Self> {
         let turning = scene.file().response.unwrap_or_default();
         let force = scene.oscillating_force();
         (force.is_some() || turning.excites()).then_some(Oscillators { force, turning })
@@ -42,7 +42,7 @@ impl Oscillators {
 
     /// Name of the part of the motion with an order: the causes with this order, or the contact, which adds other multiples
     /// of the base order.
-    pub(super) fn name_of(&self, order: u32) -> String {
+    pub fn name_of(&self, order: u32) -> String {
         let causes = self.causes();
         let own = causes.iter().filter(|(_, other)| *other == order);
         let names: Vec<&str> = own.map(|(name, _)| *name).collect();
@@ -54,7 +54,7 @@ impl Oscillators {
     }
 
     /// The greatest common divisor of all orders, of which the orders of the motion are multiples.
-    pub(super) fn base_order(&self) -> u32 {
+    pub fn base_order(&self) -> u32 {
         let divisor = |mut a: u32, mut b: u32| {
             while b > 0 {
                 (a, b) = (b, a % b);
@@ -69,7 +69,7 @@ impl Oscillators {
     ///
     /// # Errors
     /// [`RefusedValue`].
-    pub(super) fn checked(self) -> Result<(), RefusedValue> {
+    pub fn checked(self) -> Result<(), RefusedValue> {
         let order = self.force.map_or(0, |force| force.order);
         if order <= LARGEST_RATIO * self.base_order() {
             return Ok(());

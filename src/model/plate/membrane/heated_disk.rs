@@ -8,11 +8,10 @@
 use std::f64::consts::TAU;
 
 use crate::model::scene::Blade;
-use crate::modes::branches::even_speeds;
 
 /// Conduction and convection of a blade.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Cooling {
+pub struct Cooling {
     /// Conductivity k.
     pub conductivity_w_per_m_k: f64,
     /// Heat transfer coefficient α of each face.
@@ -27,17 +26,24 @@ const SHOWN: usize = 60;
 const FINER: usize = 8;
 
 /// Radii of the temperatures, some of the nodes.
-pub(super) fn radii_m(blade: &Blade) -> Vec<f64> {
-    even_speeds((blade.inner_radius_m, blade.outer_radius_m), SHOWN + 1)
+pub fn radii_m(blade: &Blade) -> Vec<f64> {
+    evenly(blade, SHOWN)
 }
 
 /// Radii of the nodes, at the ends of the elements.
 fn nodes_m(blade: &Blade) -> Vec<f64> {
-    even_speeds((blade.inner_radius_m, blade.outer_radius_m), ELEMENTS + 1)
+    evenly(blade, ELEMENTS)
+}
+
+/// The ends of equal intervals between bore and rim.
+fn evenly(blade: &Blade, intervals: usize) -> Vec<f64> {
+    let (bore, rim) = (blade.inner_radius_m, blade.outer_radius_m);
+    let at = |k: usize| bore + (rim - bore) * k as f64 / intervals as f64;
+    (0..=intervals).map(at).collect()
 }
 
 /// Temperature rises at [`radii_m`] in K, under sources of a power in W at a radius in m.
-pub(super) fn rises_k(blade: &Blade, cooling: &Cooling, sources: &[(f64, f64)]) -> Vec<f64> {
+pub fn rises_k(blade: &Blade, cooling: &Cooling, sources: &[(f64, f64)]) -> Vec<f64> {
     let rises = at_nodes(blade, cooling, sources);
     rises.into_iter().step_by(FINER).collect()
 }

@@ -1,9 +1,13 @@
 //! The balance compared with chosen motions, with the describing function, and with eigenvalues of linear motions.
 
-use faer::mat;
+use faer::{c64, mat};
 
+use std::f64::consts::{PI, TAU};
+
+use super::super::along::Along;
+use super::super::periodic::function;
 use super::*;
-use crate::analyses::gap::equivalent_share;
+use crate::motion::transient::Force;
 
 /// A spring on the first coordinate beyond a gap on both sides, or on one side only.
 struct Stop {
@@ -147,7 +151,8 @@ fn one_harmonic_is_the_describing_function() {
         let near = Periodic(mat![[0.0, 2.0 * gap, 0.0]]);
         let found = balance.refined(&near, &load).unwrap();
         let amplitude = found.harmonic(1, &Col::full(1, 1.0)).re;
-        let share = equivalent_share(amplitude.abs() / gap);
+        let over = gap / amplitude.abs();
+        let share = 1.0 - 2.0 / PI * (over.asin() + over * (1.0 - over * over).sqrt());
         let needed = amplitude * (stiffness * share - frequency * frequency);
         assert!(
             (needed / force - 1.0).abs() < 2e-3,
@@ -169,7 +174,7 @@ fn the_growth_of_a_linear_motion_is_its_eigenvalue() {
     let frequency = 7.0;
     let balance = Balance::new(&system, SPEED, (frequency, 2), &[], 1e-3);
     let motion = balance.motion(&Col::zeros(2), &balance.no_load()).unwrap();
-    let growth = balance.along(&motion).unwrap().growth().unwrap();
+    let growth = Along::new(&balance, &motion).unwrap().growth().unwrap();
     assert!(
         (growth.per_s - slowest.re).abs() < 1e-3 * slowest.re.abs(),
         "{growth:?} {slowest}"
@@ -257,7 +262,11 @@ fn histories_leave_unstable_oscillations_and_return_to_stable_ones() {
             (found / amplitude - 1.0).abs() < 0.03,
             "{found} {amplitude}"
         );
-        let growth = balance.along(&motion).unwrap().growth().unwrap().per_s;
+        let growth = Along::new(&balance, &motion)
+            .unwrap()
+            .growth()
+            .unwrap()
+            .per_s;
         let velocity: f64 = (1..=9)
             .map(|k| k as f64 * frequency * motion.0[(0, 2 * k)])
             .sum();
@@ -297,7 +306,7 @@ fn the_decay_of_a_mode_far_above_the_motion_is_resolved() {
     let system = single(natural * natural, damping);
     let balance = Balance::new(&system, 0.0, (TAU * 0.8, 6), &[], 1e-3);
     let motion = balance.motion(&Col::zeros(1), &balance.no_load()).unwrap();
-    let growth = balance.along(&motion).unwrap().growth().unwrap();
+    let growth = Along::new(&balance, &motion).unwrap().growth().unwrap();
     assert!(
         (growth.per_s + 0.5 * damping).abs() < 0.01 * damping,
         "{growth:?}"
@@ -346,7 +355,7 @@ fn compare_harmonics(frequency: f64) {
         let mut load = balance.no_load();
         load[(0, 1)] = force;
         let motion = balance.motion(&Col::zeros(1), &load).unwrap();
-        let neglected = balance.along(&motion).unwrap().neglected();
+        let neglected = Along::new(&balance, &motion).unwrap().neglected();
         (motion, neglected)
     };
     let (_, neglected) = solve(6);

@@ -7,9 +7,12 @@ use std::f64::consts::TAU;
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Scale, c64};
 
-use super::{Balance, LEAST_TIMES, Periodic, forces, function, stiffnesses, times};
 use crate::model::linalg::{real_eigenvalues, symmetric_eigenvalues};
 use crate::model::system::dynamic_stiffness;
+
+use super::balance::{Balance, LEAST_TIMES};
+use super::periodic::{Periodic, function, times};
+use super::term::{forces, stiffnesses};
 
 /// Number of steps of the monodromy matrix in a period of the highest frequency that it resolves; they change this frequency by
 /// 0.02 %, and its decay by 0.06 %.
@@ -42,7 +45,8 @@ pub struct Along<'a> {
 }
 
 impl<'a> Along<'a> {
-    pub(super) fn new(balance: &'a Balance<'a>, motion: &'a Periodic) -> Option<Self> {
+    /// Linearizes every force along a motion; `None` if an eigenproblem fails.
+    pub fn new(balance: &'a Balance<'a>, motion: &'a Periodic) -> Option<Self> {
         let order = balance.order();
         let harmonic = balance.harmonics as f64 * balance.frequency_rad_per_s;
         let mut along = Along {

@@ -5,53 +5,33 @@
 //! functions (alternating frequency/time method). The equations are solved by Newton's method. A correction is shortened until
 //! the following one, from the same derivatives, is smaller: this test does not depend on the scaling of the equations.
 //!
-//! [`Along`] contains the small motions about a periodic one.
-//!
 //! References: T. M. Cameron & J. H. Griffin, J. Appl. Mech. 56 (1989), 149–154; P. Deuflhard, *Newton Methods for Nonlinear
 //! Problems*, 2004, chapter 3.
 
-mod along;
-
-use std::f64::consts::TAU;
-
 use faer::linalg::solvers::Solve;
-use faer::{Col, Mat, Scale, c64};
+use faer::{Col, Mat, Scale};
 
 use crate::model::system::GyroscopicSystem;
-use crate::motion::transient::Force;
 
-pub(super) use along::{Along, Growth};
-
-/// A force that depends on the displacement.
-#[derive(Clone, Copy)]
-pub(super) struct Term<'a> {
-    /// The force.
-    pub force: &'a dyn Force,
-    /// Whether the force is a polynomial of third degree, whose harmonics and those of its derivatives follow from a few times of the
-    /// period.
-    pub is_cubic: bool,
-}
+use super::periodic::{Periodic, times};
+use super::term::{Term, flat, forces, stiffnesses};
 
 /// The equations of the balance of a system at one speed.
-pub(super) struct Balance<'a> {
-    stiffness: Mat<f64>,
-    velocity: Mat<f64>,
-    frequency_rad_per_s: f64,
-    harmonics: usize,
-    terms: &'a [Term<'a>],
+pub struct Balance<'a> {
+    pub(super) stiffness: Mat<f64>,
+    pub(super) velocity: Mat<f64>,
+    pub(super) frequency_rad_per_s: f64,
+    pub(super) harmonics: usize,
+    pub(super) terms: &'a [Term<'a>],
     /// Norm of coordinates relative to which small motions converge.
     size: f64,
 }
-
-/// A periodic motion: columns a₀, a₁, b₁, a₂, b₂, …
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Periodic(Mat<f64>);
 
 /// Number of times in a period for each coefficient under forces of contact; the beginning and the end of a contact are
 /// resolved to the distance of two times.
 const TIMES: usize = 16;
 /// Smallest number of times in a period under forces of contact.
-const LEAST_TIMES: usize = 192;
+pub(super) const LEAST_TIMES: usize = 192;
 /// Number of times in a period for each coefficient under cubic forces. They have at most three times the harmonics of the motion,
 /// and their derivatives twice, which then do not alias into those of the motion.
 const TIMES_OF_CUBIC: usize = 2;
@@ -88,12 +68,12 @@ impl<'a> Balance<'a> {
         }
     }
 
-    fn order(&self) -> usize {
+    pub(super) fn order(&self) -> usize {
         self.stiffness.nrows()
     }
 
     /// Number of coefficients of a coordinate.
-    fn width(&self) -> usize {
+    pub(super) fn width(&self) -> usize {
         1 + 2 * self.harmonics
     }
 
@@ -172,11 +152,6 @@ impl<'a> Balance<'a> {
         None
     }
 
-    /// Every force linearized along a motion; `None` if an eigenproblem fails.
-    pub fn along<'b>(&'b self, motion: &'b Periodic) -> Option<Along<'b>> {
-        Along::new(self, motion)
-    }
-
     fn shaped(&self, vector: &Col<f64>) -> Mat<f64> {
         let order = self.order();
         Mat::from_fn(order, self.width(), |i, k| vector[k * order + i])
@@ -204,7 +179,7 @@ impl<'a> Balance<'a> {
     }
 
     /// Number of times in a period at which a force is evaluated.
-    fn count(&self, term: &Term<'_>) -> usize {
+    pub(super) fn count(&self, term: &Term<'_>) -> usize {
         if term.is_cubic {
             self.width() * TIMES_OF_CUBIC
         } else {
@@ -268,81 +243,6 @@ impl<'a> Balance<'a> {
     }
 }
 
-impl Term<'_> {
-    /// The share of the force if contact has a share of its stiffness.
-    fn share(&self, of_contact: f64) -> f64 {
-        if self.is_cubic { 1.0 } else { of_contact }
-    }
-}
-
-/// Values of the first functions of time at the times of a period, and the weights of these times in their coefficients.
-fn times(count: usize, width: usize) -> (Mat<f64>, Mat<f64>) {
-    let at = Mat::from_fn(width, count, |k, time| {
-        function(k, TAU * time as f64 / count as f64)
-    });
-    let back = Mat::from_fn(count, width, |time, k| {
-        let norm = if k == 0 { 1.0 } else { 2.0 };
-        norm / count as f64 * at[(k, time)]
-    });
-    (at, back)
-}
-
-/// A force at some deflections, a column each.
-fn forces(term: &Term<'_>, deflections: &Mat<f64>) -> Mat<f64> {
-    let mut forces = Mat::zeros(deflections.nrows(), deflections.ncols());
-    for (deflection, mut column) in deflections.col_iter().zip(forces.col_iter_mut()) {
-        let mut force = Col::zeros(deflection.nrows());
-        term.force.add_to(&deflection.to_owned(), &mut force);
-        column.copy_from(&force);
-    }
-    forces
-}
-
-/// The stiffness of a force at some deflections, a column each, with the columns of the matrix below each other.
-fn stiffnesses(term: &Term<'_>, deflections: &Mat<f64>) -> Mat<f64> {
-    let order = deflections.nrows();
-    let mut all = Mat::zeros(order * order, deflections.ncols());
-    for (deflection, mut column) in deflections.col_iter().zip(all.col_iter_mut()) {
-        let mut own = Mat::zeros(order, order);
-        term.force.add_stiffness(&deflection.to_owned(), &mut own);
-        column.copy_from(flat(&own));
-    }
-    all
-}
-
-/// The k-th of the functions 1, cos φ, sin φ, cos 2φ, sin 2φ, … at a phase φ.
-fn function(k: usize, phase: f64) -> f64 {
-    let (sin, cos) = (k.div_ceil(2) as f64 * phase).sin_cos();
-    match k {
-        0 => 1.0,
-        _ if k % 2 == 1 => cos,
-        _ => sin,
-    }
-}
-
-/// The columns of a matrix, one below the other.
-fn flat(matrix: &Mat<f64>) -> Col<f64> {
-    let rows = matrix.nrows();
-    Col::from_fn(rows * matrix.ncols(), |i| matrix[(i % rows, i / rows)])
-}
-
-impl Periodic {
-    /// q at a phase ωt.
-    pub fn at(&self, phase: f64) -> Col<f64> {
-        &self.0 * Col::from_fn(self.0.ncols(), |k| function(k, phase))
-    }
-
-    /// Mean of cᵀq.
-    pub fn mean(&self, probe: &Col<f64>) -> f64 {
-        probe.transpose() * self.0.col(0)
-    }
-
-    /// W of the part Re W e^{ikωt} of cᵀq.
-    pub fn harmonic(&self, k: usize, probe: &Col<f64>) -> c64 {
-        let [cos, sin] = [2 * k - 1, 2 * k].map(|k| probe.transpose() * self.0.col(k));
-        c64::new(cos, -sin)
-    }
-}
-
 #[cfg(test)]
+#[path = "balance_tests.rs"]
 mod tests;

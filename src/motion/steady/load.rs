@@ -9,11 +9,29 @@
 //! moment is mrhΩ², the load −mrhΩ² ∂φ/∂r.
 
 use faer::{Col, c64};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-use super::report::Cause;
 use crate::model::linalg::SymmetricEigen;
 use crate::model::plate::Plate;
-use crate::model::scene::Scene;
+use crate::model::scene::{RefusedValue, Scene};
+
+/// Cause of an excitation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "CauseEntry")]
+pub enum Cause {
+    /// Constant lateral force, fixed in space.
+    SideForce,
+    /// One wave around the rim.
+    RunOut,
+    /// Two waves around the rim.
+    Flatness,
+    /// Imbalance beside the middle plane.
+    Imbalance,
+    /// Side force that oscillates with a multiple of the rotation frequency.
+    OscillatingForce,
+}
 
 /// A load f e^{ikΩt}.
 #[derive(Debug, Clone)]
@@ -60,8 +78,8 @@ const RIGID: f64 = 1e-9;
 /// The loads on the blade of a scene: a constant side force in N, shape and imbalance, and the oscillating side force.
 ///
 /// # Errors
-/// The number of nodal diameters of a shape that the excitation has, but that is a rigid motion of the blade.
-pub fn loads(plate: &Plate, scene: &Scene, force_n: f64) -> Result<Vec<Load>, usize> {
+/// [`RefusedValue`] if the excitation has a shape that is a rigid motion of the blade.
+pub fn loads(plate: &Plate, scene: &Scene, force_n: f64) -> Result<Vec<Load>, RefusedValue> {
     let mut loads = Vec::new();
     let (rim, place) = (plate.blade.outer_radius_m, scene.side_force().at.polar());
     let typed = scene.file().response.unwrap_or_default();
@@ -77,7 +95,7 @@ pub fn loads(plate: &Plate, scene: &Scene, force_n: f64) -> Result<Vec<Load>, us
             loads.push(Load {
                 cause,
                 order: n as u32,
-                vector: shape_load(plate, n, amplitude_m).ok_or(n)?,
+                vector: shape_load(plate, n, amplitude_m).ok_or_else(|| rigid(n, scene))?,
             });
         }
     }
@@ -136,4 +154,17 @@ fn shape_load(plate: &Plate, n: usize, amplitude_m: f64) -> Option<Col<c64>> {
     let scale = softest * amplitude_m * plate.angular_norm(n) / at_rim;
     let radial: Vec<f64> = (0..shape.nrows()).map(|j| scale * shape[j]).collect();
     Some(turning(plate, n, &radial))
+}
+
+/// The refusal of a run-out or of a lack of flatness that is a rigid motion of the blade.
+fn rigid(waves: usize, scene: &Scene) -> RefusedValue {
+    let excitation = scene.file().response.unwrap_or_default();
+    let (key, value) = match waves {
+        1 => ("response.runout_m", excitation.runout_m),
+        _ => ("response.flatness_m", excitation.flatness_m),
+    };
+    let allowed = "0 for a blade that tilts freely on its arbor";
+    let remedy =
+        "such a blade has no run-out of its own; give flatness_m, or a mount with a collar";
+    RefusedValue::new(key, value, allowed, remedy)
 }

@@ -1,11 +1,12 @@
-//! Stationary deflection of a blade under a side force.
+//! A blade under a side force: its stationary deflection between pads that lift off.
 
 use crate::model::plate::{Plate, Resolution};
-use crate::model::scene::{Scene, rad_per_s};
+use crate::model::scene::{Scene, SideForce, rad_per_s};
 use crate::modes::Cancellation;
-use crate::motion::stretched_blade::{Equilibrium, LARGEST_SLOPE, Sites, StretchedBlade};
 
-use super::GapError;
+use super::equilibrium::Equilibrium;
+use super::sites::Sites;
+use super::{LARGEST_SLOPE, StretchedBlade, StretchedError};
 
 /// A stationary deflection of the blade, and its contact with the pads.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +30,24 @@ impl Deviation {
 }
 
 /// Radius in m and magnitude of the force in N at each point of contact.
-pub(super) type Contacts = Vec<(f64, f64)>;
+type Contacts = Vec<(f64, f64)>;
+
+impl StretchedBlade {
+    /// The blade of a plate under a side force, on a reduced basis of `modes` modes at rest and the shapes needed for equilibria up to
+    /// a speed.
+    ///
+    /// # Errors
+    /// [`StretchedError`] as for [`StretchedBlade::up_to`].
+    pub(crate) fn under(
+        force: &SideForce,
+        plate: &Plate,
+        to_rad_per_s: f64,
+        modes: usize,
+    ) -> Result<Self, StretchedError> {
+        Self::up_to(plate, to_rad_per_s, force.at.polar(), modes)?
+            .pressed(force.force_n, force.at.polar())
+    }
+}
 
 /// A blade whose deflections under side forces can be computed.
 pub(crate) struct PressedBlade {
@@ -45,13 +63,13 @@ impl PressedBlade {
     /// The blade of a scene for speeds up to `to_rpm`, on a basis of `modes` modes at rest.
     ///
     /// # Errors
-    /// [`GapError`].
+    /// [`StretchedError`].
     pub fn new(
         scene: &Scene,
         resolution: Resolution,
         to_rpm: f64,
         modes: usize,
-    ) -> Result<Self, GapError> {
+    ) -> Result<Self, StretchedError> {
         let plate = Plate::new(scene, resolution);
         let place = scene.side_force().at.polar();
         let modes = modes.min(plate.degrees_of_freedom());
@@ -76,8 +94,8 @@ impl PressedBlade {
     /// The deflection under a side force at a speed; `None` if slopes exceed 0.1 and the model is not valid.
     ///
     /// # Errors
-    /// [`GapError`].
-    pub fn deviation(&self, force_n: f64, rpm: f64) -> Result<Option<Deviation>, GapError> {
+    /// [`StretchedError`].
+    pub fn deviation(&self, force_n: f64, rpm: f64) -> Result<Option<Deviation>, StretchedError> {
         let (_, found) = self.settled(force_n, rpm)?;
         Ok(self.valid(&found))
     }
@@ -85,12 +103,12 @@ impl PressedBlade {
     /// As [`PressedBlade::deviation`], with the points of contact.
     ///
     /// # Errors
-    /// [`GapError`].
-    pub(super) fn with_contacts(
+    /// [`StretchedError`].
+    pub fn with_contacts(
         &self,
         force_n: f64,
         rpm: f64,
-    ) -> Result<(Option<Deviation>, Contacts), GapError> {
+    ) -> Result<(Option<Deviation>, Contacts), StretchedError> {
         let (blade, found) = self.settled(force_n, rpm)?;
         Ok((self.valid(&found), blade.contacts(&found)))
     }
@@ -99,12 +117,12 @@ impl PressedBlade {
     /// equilibrium; `None` if the model is not valid.
     ///
     /// # Errors
-    /// [`GapError`].
+    /// [`StretchedError`].
     pub fn change_with(
         &self,
         finer: &PressedBlade,
         (force_n, rpm): (f64, f64),
-    ) -> Result<Option<f64>, GapError> {
+    ) -> Result<Option<f64>, StretchedError> {
         let (coarse, found) = self.settled(force_n, rpm)?;
         let fine = finer.blade.clone().pressed(force_n, finer.place)?;
         let from = fine.shapes().transpose() * (coarse.shapes() * &found.coordinates);
@@ -114,7 +132,11 @@ impl PressedBlade {
     }
 
     /// The blade under a side force, and the equilibrium to which it moves from the flat shape.
-    fn settled(&self, force_n: f64, rpm: f64) -> Result<(StretchedBlade, Equilibrium), GapError> {
+    fn settled(
+        &self,
+        force_n: f64,
+        rpm: f64,
+    ) -> Result<(StretchedBlade, Equilibrium), StretchedError> {
         Cancellation::current().check()?;
         let blade = self.blade.clone().pressed(force_n, self.place)?;
         let found = blade.settled(rad_per_s(rpm), &blade.flat())?;
