@@ -192,10 +192,10 @@ fn compare_with_time_history(turning: bool, oscillating_n: f64, base: u32) {
     let mut state = MovingState::still(rest.coordinates);
     let (mut mean, mut first) = (0.0, c64::new(0.0, 0.0));
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    // Until the last period, small motions decay to less than two hundredths.
+    // Until the last period, small motions decay to less than three thousandths.
     let decay = -growth_per_s;
-    let periods = (4.0 * frequency / TAU / decay).ceil() as u32;
-    assert!((20..800).contains(&periods), "{periods}");
+    let periods = (6.0 * frequency / TAU / decay).ceil() as u32;
+    assert!((20..1200).contains(&periods), "{periods}");
     let periods = 1 + periods;
     for step in 0..periods * steps {
         let now = sizes(step);

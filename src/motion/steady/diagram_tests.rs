@@ -141,6 +141,14 @@ fn oscillations_of_a_collared_blade_are_those_of_time_histories() {
     assert_eq!(compared, SPEEDS_RPM.len());
 }
 
+/// A pad that the blade hardly reaches touches with an edge.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "many steps: run it in release")]
+fn oscillations_that_hardly_reach_a_pad_are_those_of_time_histories() {
+    let compared = compare(&saws(2e-5, 0.3, 0.2)[0], &[450.0, 1050.0]);
+    assert_eq!(compared, 2);
+}
+
 #[test]
 #[cfg_attr(debug_assertions, ignore = "many steps: run it in release")]
 fn a_history_leaves_an_unstable_oscillation_between_wider_gaps() {
