@@ -62,3 +62,28 @@ fn the_mean_over_an_oscillation_is_that_of_the_time_history() {
         }
     }
 }
+
+/// At an amplitude far above gap and offset the pads are linear, as they are without a gap; the energy of the oscillation in them, a million
+/// times that of the deflection, does not spoil it.
+#[test]
+fn the_mean_over_a_large_oscillation_is_the_deflection_between_linear_pads() {
+    let [_, (_, two), _] = saws(4e-5, 0.0, 0.0);
+    for offset_m in [2e-5, 1.5e-4] {
+        let guides_out_of_line = two
+            .edited(|file| file.guides[1].offset_m = offset_m)
+            .unwrap();
+        let closed = with_pads(&guides_out_of_line, |pad| pad.gap_m = Some(1e-12));
+        let means_m = |scene: &Scene, amplitude_m: f64| {
+            let saw = OscillatingSaw::new(scene, SMALL).unwrap();
+            saw.means_m(amplitude_m).unwrap()
+        };
+        let linear = means_m(&closed, 0.0);
+        for amplitude_m in [4e-3, 1e-2, 4e-2, 0.4] {
+            let found = means_m(&guides_out_of_line, amplitude_m);
+            for (found, linear) in found.iter().zip(&linear) {
+                let off = (found - linear).abs();
+                assert!(off < 1e-2 * offset_m, "{amplitude_m}: {found:e} {linear:e}");
+            }
+        }
+    }
+}

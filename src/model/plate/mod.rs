@@ -1,6 +1,6 @@
 //! Matrices of the spinning plate and of its contacts and loads.
 //!
-//! A [`Scene`] and a [`Resolution`], the size of the basis, give a [`Plate`], the matrices of the scene in
+//! A [`Scene`](crate::model::scene::Scene) and a [`Resolution`], the size of the basis, give a [`Plate`], the matrices of the scene in
 //! this basis. This module solves no eigenvalue problem.
 //!
 //! The deflection of a Kirchhoff plate on a < r < b is w(r, θ, t) = Σ qᵢ(t) φᵢ(r, θ) in the frame fixed in

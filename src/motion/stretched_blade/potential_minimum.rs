@@ -16,7 +16,7 @@ const LONGEST: f64 = 0.1;
 const PUSH: f64 = 1e-4;
 /// Relative size of the last correction, compared with the deflection or a thickness.
 const LAST: f64 = 1e-9;
-/// Rounding of V, relative to the energy of the deflection in the stiffest mode.
+/// Rounding of V, relative to V and to the energy of the deflection in the stiffest mode.
 const ROUNDING: f64 = 1e-15;
 /// Smaller stiffnesses, relative to the largest, are replaced by this value, so that steps are bounded.
 const SOFTEST: f64 = super::ROUNDING;
@@ -85,8 +85,9 @@ impl StretchedBlade {
                 let tensed = self.stretching.tension(&next)?;
                 let lower = self.potential_with(&next, &tensed, speed_rad_per_s);
                 // Where the potential is nearly constant, such as just above a pitchfork, its last digits are
-                // rounding errors of the stiffest mode.
-                let rounding = ROUNDING * modes.values[order - 1].abs() * next.squared_norm_l2();
+                // rounding errors of the stiffest mode, or of V itself, which pads over a large oscillation make large.
+                let stiffest = modes.values[order - 1].abs() * next.squared_norm_l2();
+                let rounding = ROUNDING * (stiffest + energy.abs());
                 if lower <= energy + 1e-4 * share * slope.min(0.0) + rounding {
                     (p, tension, energy) = (next, tensed, lower);
                     break;
