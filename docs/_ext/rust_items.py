@@ -32,12 +32,27 @@ def definitions() -> dict[str, tuple[str, ...]]:
     return {name: tuple(dict.fromkeys(files)) for name, files in found.items()}
 
 
+IMPLEMENTATION = re.compile(r"^impl\b[^{]*?(\w+)(?:<[^{]*>)? \{", re.MULTILINE)
+
+
+@cache
+def implementations() -> dict[str, tuple[str, ...]]:
+    """Files with functions of each type."""
+    found: dict[str, list[str]] = {}
+    for path in sorted(SOURCES.rglob("*.rs")):
+        inside = path.relative_to(SOURCES.parent).as_posix()
+        for name in set(IMPLEMENTATION.findall(path.read_text(encoding="utf-8"))):
+            found.setdefault(name, []).append(inside)
+    return {name: tuple(files) for name, files in found.items()}
+
+
 def file_of(item: str) -> str | None:
     """The file of `Type::function`, `function` or `Type`."""
     owner, _, name = item.rpartition("::")
     files = definitions().get(name, ())
     if owner:
-        owners = definitions().get(owner.rpartition("::")[2], ())
+        kind = owner.rpartition("::")[2]
+        owners = definitions().get(kind, ()) + implementations().get(kind, ())
         folders = tuple(file.removesuffix(".rs").removesuffix("/mod") for file in owners)
         same = [file for file in files if file in owners]
         files = tuple(same or [file for file in files if file.startswith(folders)])
