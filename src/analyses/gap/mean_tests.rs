@@ -87,3 +87,29 @@ fn the_mean_over_a_large_oscillation_is_the_deflection_between_linear_pads() {
         }
     }
 }
+
+/// A pad whose film is as stiff as its contact is a linear spring at every amplitude: it holds the blade as one without a gap does.
+#[test]
+fn a_pad_with_a_film_as_stiff_as_its_contact_holds_the_blade_at_every_amplitude() {
+    let [_, (_, two), _] = saws(4e-5, 0.0, 0.0);
+    let out_of_line = two.edited(|file| file.guides[1].offset_m = 1e-4).unwrap();
+    let filmed = with_pads(&out_of_line, |pad| {
+        pad.film_stiffness_n_per_m = pad.stiffness_n_per_m
+    });
+    let closed = with_pads(&out_of_line, |pad| pad.gap_m = Some(1e-12));
+    let linear = OscillatingSaw::new(&closed, SMALL)
+        .unwrap()
+        .means_m(0.0)
+        .unwrap();
+    let saw = OscillatingSaw::new(&filmed, SMALL).unwrap();
+    for amplitude_m in [0.0, 1e-5, 1e-3] {
+        for (found, linear) in saw.means_m(amplitude_m).unwrap().iter().zip(&linear) {
+            assert!(
+                (found - linear).abs() < 1e-6,
+                "{amplitude_m}: {found:e} {linear:e}"
+            );
+        }
+        let (_, shares) = saw.at(amplitude_m).unwrap();
+        assert_eq!(shares, [1.0, 1.0]);
+    }
+}

@@ -152,14 +152,16 @@ impl GapPotential {
         }
     }
 
-    /// Mean deflection of the blade over each pad that lifts off, weighted by the stiffness.
+    /// Mean deflection of the blade over each pad that lifts off.
     pub fn mean_deflections_m(&self, coordinates: &Col<f64>) -> Vec<f64> {
         let w = self.shapes.transpose() * coordinates;
         let mut sums = vec![(0.0, 0.0); self.pads];
         for (k, point) in self.points.iter().enumerate() {
             let (sum, whole) = &mut sums[point.pad];
-            *sum += point.stiffness_n_per_m * w[k];
-            *whole += point.stiffness_n_per_m;
+            // Contact and film together are as stiff as the pad at each point, also where the film alone is.
+            let share = point.stiffness_n_per_m + point.film_n_per_m;
+            *sum += share * w[k];
+            *whole += share;
         }
         sums.into_iter().map(|(sum, whole)| sum / whole).collect()
     }
@@ -270,6 +272,7 @@ struct Place {
     share: f64,
 }
 
+/// The Gauss points of a pad.
 fn places(plate: &Plate, pad: &GuideFile, radial: usize, angular: usize) -> Vec<Place> {
     let mut places = Vec::new();
     for circle in circles(plate, pad, radial) {
