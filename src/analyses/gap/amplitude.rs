@@ -222,7 +222,7 @@ impl AmplitudeChart {
                 instabilities: bands(linear, &linear.chart.instabilities),
                 flutter_speed_rpm: linear.flutter_speed_rad_per_s.map(rpm),
             },
-            half_way_m: half_way(linear, smallest_gap_m)?,
+            half_way_m: half_way(linear, &oscillating, smallest_gap_m)?,
             free,
         })
     }
@@ -246,11 +246,14 @@ fn bands(analysis: &Analysis, found: &[Instability]) -> Vec<InstabilityBand> {
 }
 
 /// The amplitude at which the first critical speed is the mean of that of the free blade and that of the linear chart.
-fn half_way(analysis: &Analysis, smallest_gap_m: f64) -> Result<Option<f64>, GapError> {
+fn half_way(
+    analysis: &Analysis,
+    oscillating: &OscillatingSaw<'_>,
+    smallest_gap_m: f64,
+) -> Result<Option<f64>, GapError> {
     // All amplitudes use one basis, so that their critical speeds differ only by the stiffness of the guides.
     let resolution = analysis.model.plate.resolution;
-    let oscillating = OscillatingSaw::new(&analysis.scene, resolution)?;
-    let at = |amplitude_m: f64| first_critical(&oscillating, resolution, amplitude_m);
+    let at = |amplitude_m: f64| first_critical(oscillating, resolution, amplitude_m);
     let linear = analysis.model.critical.first();
     let [Some(free), Some(linear)] = [at(0.0)?, linear.map(|c| c.speed_rad_per_s)] else {
         return Ok(None);

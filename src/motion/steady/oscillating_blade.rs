@@ -26,9 +26,7 @@ const MOST_HARMONICS: usize = 24;
 const MORE_HARMONICS: f64 = 1.6;
 /// Largest amplitude of the neglected harmonics at the cut, relative to that of the motion.
 const NEGLECTED: f64 = 1e-2;
-/// Such an amplitude of the harmonics beyond the largest number, at which no more are tried: their linear response overestimates them by
-/// up to 2.5 where a mass rings on its stop (`balance_tests`).
-const HOPELESS: f64 = 5e-2;
+
 /// A blade in a basis for its oscillations at some speed.
 pub struct OscillatingBlade {
     /// The blade under its steady side force.
@@ -195,7 +193,7 @@ impl OscillatingBlade {
         let mut last: Option<Periodic> = None;
         let mut harmonics = HARMONICS;
         loop {
-            let (found, beyond) = self.balanced(speed_rad_per_s, harmonics, |balance, load| {
+            let (found, largest) = self.balanced(speed_rad_per_s, harmonics, |balance, load| {
                 let motion = match &last {
                     None => begin(balance, load)?,
                     Some(near) => balance.refined(near, load)?,
@@ -205,17 +203,17 @@ impl OscillatingBlade {
             if found.neglected_share <= NEGLECTED {
                 return Some(found);
             }
-            if harmonics == MOST_HARMONICS || beyond.share > HOPELESS {
+            if harmonics == MOST_HARMONICS {
                 return None;
             }
             let more = (MORE_HARMONICS * harmonics as f64).ceil() as usize;
-            harmonics = more.max(beyond.largest).min(MOST_HARMONICS);
+            harmonics = more.max(largest).min(MOST_HARMONICS);
             last = Some(found.motion);
         }
     }
 
-    /// A motion with its growth if it has the harmonics that it needs, and those that it neglects.
-    fn found(&self, balance: &Balance<'_>, motion: Periodic) -> Option<(Found, Beyond)> {
+    /// A motion with its growth if it has the harmonics that it needs, and the order of the largest one that it neglects.
+    fn found(&self, balance: &Balance<'_>, motion: Periodic) -> Option<(Found, usize)> {
         let along = Along::new(balance, &motion)?;
         let sizes: Vec<(usize, f64)> = along
             .neglected()
@@ -225,17 +223,10 @@ impl OscillatingBlade {
                 (*k, at_cut.norm())
             })
             .collect();
-        let amplitude = motion.amplitude(&self.cut);
-        let share_above = |least: usize| {
-            let above = sizes.iter().filter(|(k, _)| *k > least);
-            above.map(|(_, size)| size).sum::<f64>() / amplitude
-        };
-        let neglected_share = share_above(0);
+        let all = sizes.iter().map(|(_, size)| size).sum::<f64>();
+        let neglected_share = all / motion.amplitude(&self.cut);
         let largest = sizes.iter().max_by(|a, b| a.1.total_cmp(&b.1));
-        let beyond = Beyond {
-            largest: largest.map_or(0, |(k, _)| *k),
-            share: share_above(MOST_HARMONICS),
-        };
+        let largest_order = largest.map_or(0, |(k, _)| *k);
         let growth = if neglected_share <= NEGLECTED {
             along.growth()
         } else {
@@ -246,7 +237,7 @@ impl OscillatingBlade {
             neglected_share,
             motion,
         };
-        Some((found, beyond))
+        Some((found, largest_order))
     }
 
     /// Solves the balance of a number of harmonics at a speed, under all loads.
@@ -263,14 +254,6 @@ impl OscillatingBlade {
         let load = self.load(balance.no_load(), speed_rad_per_s);
         solve(&balance, &load)
     }
-}
-
-/// Harmonics that a motion neglects.
-struct Beyond {
-    /// Order of the largest.
-    largest: usize,
-    /// Amplitude at the cut of those beyond the largest number, relative to that of the motion.
-    share: f64,
 }
 
 /// A motion and its stability.
