@@ -107,8 +107,8 @@ pub struct Moving {
 }
 
 impl History {
-    /// The blade at a speed; for a deflection at rest only with a viscous damping in 1/s of all its motions, because terms of its velocity
-    /// do not change this deflection.
+    /// The blade at a speed. With `damping_per_s` all its motions have this viscous damping in place of their own terms of velocity, which
+    /// do not change a deflection at rest.
     pub fn new(
         scene: &Scene,
         speed_rad_per_s: f64,

@@ -46,7 +46,8 @@ const SPAN: f64 = 1e-6;
 /// relaxes just within the cut, with 1e-9 by less than 1e-12.
 const WHOLE: f64 = 1e-9;
 
-/// The modes of the component of a plate that begins at the unknown `first`, over a range of speeds, in rad/s, for eigenvalues up to a frequency, in rad/s.
+/// The modes of the component of a plate that begins at the unknown `first`, over a range of speeds, in rad/s, for eigenvalues
+/// up to a frequency, in rad/s.
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.

@@ -117,9 +117,8 @@ impl<'a> Along<'a> {
             .collect()
     }
 
-    /// The fastest growth of small motions; `None` if the eigenvalues are
-    /// not found. The monodromy matrix is that of the implicit midpoint rule, which keeps the energy of an undamped blade at constant
-    /// stiffness.
+    /// The fastest growth of small motions; `None` if the eigenvalues are not found. The monodromy matrix is that of the implicit
+    /// midpoint rule, which keeps the energy of an undamped blade at constant stiffness.
     pub fn growth(&self) -> Option<Growth> {
         let balance = self.balance;
         let order = balance.order();

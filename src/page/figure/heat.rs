@@ -23,8 +23,8 @@ fn ramp(colours: &[Colour], share: f64) -> Colour {
     plotters::style::RGBColor(mix(low.0, high.0), mix(low.1, high.1), mix(low.2, high.2))
 }
 
-/// Fills the cells between edges. `colour` returns the colour of a column and a row, or `None` for a cell that is left out; neighbours along x of
-/// the same colour are joined to one rectangle.
+/// Fills the cells between edges. `colour` returns the colour of a column and a row, or `None` for a cell that is left out;
+/// neighbours along x of the same colour are joined to one rectangle.
 fn draw_grid(
     sheet: &mut Sheet,
     x_edges: &[f64],
