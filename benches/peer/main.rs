@@ -7,9 +7,9 @@ use std::time::Instant;
 
 use sawflutter::analyses::place::{Demands, Options, place};
 use sawflutter::analyses::study::{Study, StudyFile};
+use sawflutter::model::evenly_spaced;
 use sawflutter::model::plate::{Plate, Resolution};
 use sawflutter::model::scene::{Accuracy, Freed, Scene, SceneFile, SweepFile, rad_per_s};
-use sawflutter::modes::branches::even_speeds;
 use sawflutter::modes::{Assembled, SpectralModel, Strategy};
 use sawflutter::stability::{
     Analysis, AnalysisOptions, ChosenBasis, Detail, chart, search_bands, undamped_bands,
@@ -230,7 +230,10 @@ fn sweep() -> Result<Vec<Vec<f64>>, Failure> {
         let frequencies = modes.iter().map(|m| m.frequency_rad_per_s());
         Ok(frequencies.take(LOW_MODES).collect())
     };
-    even_speeds(range(), SWEEP).par_iter().map(lowest).collect()
+    evenly_spaced(range(), SWEEP)
+        .par_iter()
+        .map(lowest)
+        .collect()
 }
 
 /// Shortest time of the work in s.

@@ -4,7 +4,8 @@ use super::basis::ChosenBasis;
 use super::chart::CHART_SPEEDS;
 use super::error::AnalysisError;
 use super::undamped::with_critical_speeds;
-use crate::modes::branches::{check_memory, even_speeds};
+use crate::model::evenly_spaced;
+use crate::modes::branches::check_memory;
 use crate::modes::{clear_range, highest_reflected, waves_within};
 
 /// A guided saw is assumed to have this share of the modes of its free blade in the window. The paper's saw has 1.2 times as
@@ -25,7 +26,7 @@ pub(super) fn check_room(chosen: &ChosenBasis) -> Result<(), AnalysisError> {
     let window = highest_reflected(plate, to)?;
     let waves = waves_within(plate, to, window)?;
     let modes = (REMAINING * waves as f64) as usize;
-    let even = even_speeds((from, to), CHART_SPEEDS);
+    let even = evenly_spaced((from, to), CHART_SPEEDS);
     let speeds = with_critical_speeds((plate, critical), (from, to), even);
     Ok(check_memory((plate, critical), modes, &speeds)?)
 }

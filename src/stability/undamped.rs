@@ -8,6 +8,7 @@ use super::error::AnalysisError;
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP};
 use super::options::AnalysisOptions;
 use super::signature::Signature;
+use crate::model::evenly_spaced;
 use crate::model::plate::Plate;
 use crate::modes::branches::{self, Closeness, SpeedSample};
 use crate::modes::{NamedCriticalSpeed, SpectralModel, SpectrumError, clear_range, searched_range};
@@ -29,7 +30,7 @@ pub(super) fn charted(
         detail, progress, ..
     } = options;
     let drawn = clear_range(&model.critical, range);
-    let even = branches::even_speeds(drawn, count);
+    let even = evenly_spaced(drawn, count);
     let speeds = match detail {
         Detail::Full => with_critical_speeds((&model.plate, &model.critical), drawn, even),
         // A sketch of a guided blade needs no speeds beside critical ones, because its branches are followed
@@ -91,7 +92,7 @@ pub fn undamped_bands(
 /// and the last are slightly outside the range, away from every critical speed.
 pub(super) fn search_speeds(model: &SpectralModel, range: (f64, f64), count: usize) -> Vec<f64> {
     let searched = searched_range(&model.critical, range);
-    let even = branches::even_speeds(searched, count);
+    let even = evenly_spaced(searched, count);
     from_lowest_critical(
         model,
         with_critical_speeds((&model.plate, &model.critical), searched, even),

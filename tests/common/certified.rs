@@ -6,16 +6,16 @@
 
 use proptest::strategy::{Strategy as _, ValueTree};
 use proptest::test_runner::TestRunner;
+use sawflutter::model::evenly_spaced;
 use sawflutter::model::plate::{Plate, Resolution};
 use sawflutter::model::scene::{GuideFile, Scene, SceneFile, rpm};
-use sawflutter::modes::branches::even_speeds;
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Instability, InstabilityKind, undamped_bands};
 
 pub fn bands_of(model: &SpectralModel, range: (f64, f64), count: usize) -> Vec<Instability> {
     let (bands, certificate) = undamped_bands(model, range, count).unwrap();
     let lowest = model.critical[0].speed_rad_per_s;
-    let speeds = even_speeds(range, count);
+    let speeds = evenly_spaced(range, count);
     let above = speeds.iter().filter(|speed| **speed > lowest).count();
     assert!(certificate.speeds_checked >= above);
     assert_eq!(

@@ -5,9 +5,9 @@ use faer::c64;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
+use sawflutter::model::evenly_spaced;
 use sawflutter::model::plate::Plate;
 use sawflutter::model::scene::{DampingFile, SceneFile, rpm};
-use sawflutter::modes::branches::even_speeds;
 use sawflutter::modes::{SpectralModel, Strategy as Solver};
 use sawflutter::stability::{Instability, InstabilityKind, chart};
 
@@ -128,7 +128,7 @@ pub fn peak_growth_of_bands(file: &SceneFile) -> Result<f64, String> {
 /// Even speeds, the middles and the peaks of the bands, none of them at an edge.
 fn speeds(bands: &[Instability], range: (f64, f64)) -> Vec<f64> {
     let middle = |b: &Instability| 0.5 * (b.from_rad_per_s + b.to_rad_per_s);
-    let mut speeds = even_speeds(range, 24);
+    let mut speeds = evenly_spaced(range, 24);
     speeds.extend(bands.iter().map(middle));
     speeds.extend(bands.iter().map(|b| b.peak_rad_per_s));
     let is_edge = |speed: f64, edge: f64| (edge / speed - 1.0).abs() < 1e-5;

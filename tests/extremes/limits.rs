@@ -1,8 +1,9 @@
 //! Limits of the method: the program warns of unreliable numbers, and refuses problems that would not fit into memory.
 
+use sawflutter::model::evenly_spaced;
 use sawflutter::model::plate::{Plate, Resolution};
 use sawflutter::model::scene::{Accuracy, Scene, SceneFile, rad_per_s, rpm};
-use sawflutter::modes::branches::{CampbellError, even_speeds, sample};
+use sawflutter::modes::branches::{CampbellError, sample};
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::Analysis;
 
@@ -79,7 +80,7 @@ fn problems_too_large_for_memory_are_refused_with_the_number() {
     let plate = Plate::new(&scene(&unguided()), SMALL);
     let range = (0.0, rad_per_s(1000.0));
     let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
-    let of_sweep = match sample(&model, &even_speeds(range, 10_000_000), &|_, _| ()) {
+    let of_sweep = match sample(&model, &evenly_spaced(range, 10_000_000), &|_, _| ()) {
         Err(error @ CampbellError::TooLarge { .. }) => error.to_string(),
         other => panic!("{:?}", other.map(|samples| samples.len())),
     };
@@ -97,7 +98,7 @@ fn the_error_for_too_large_a_chart_states_where_its_sweep_may_end() {
         Err(error) => error,
         Ok(_) => panic!("{} speeds fit", speeds.len()),
     };
-    let hopeless = refusal(even_speeds(range, 10_000_000));
+    let hopeless = refusal(evenly_spaced(range, 10_000_000));
     let CampbellError::TooLarge { needed_mb, .. } = &hopeless else {
         panic!("{hopeless}");
     };
@@ -116,7 +117,7 @@ fn the_error_for_too_large_a_chart_states_where_its_sweep_may_end() {
         .iter()
         .flat_map(|c| sides.clone().map(move |side| c * side));
     // All speeds that fit are even, except a hundred.
-    let even = even_speeds(range, most as usize - 100);
+    let even = evenly_spaced(range, most as usize - 100);
     let mut speeds: Vec<f64> = even.into_iter().chain(beside).collect();
     speeds.sort_by(f64::total_cmp);
     let message = refusal(speeds).to_string();

@@ -5,9 +5,10 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 use proptest::prelude::*;
+use sawflutter::model::evenly_spaced;
 use sawflutter::model::plate::Plate;
 use sawflutter::model::scene::{Accuracy, GuideFile, Scene, SceneFile, SweepFile};
-use sawflutter::modes::branches::{Campbell, even_speeds, sample};
+use sawflutter::modes::branches::{Campbell, sample};
 use sawflutter::modes::{ModeKind, ModeName, SpectralModel, Strategy as Solver};
 use sawflutter::stability::{Analysis, InstabilityKind, chart, undamped_bands};
 
@@ -155,7 +156,7 @@ fn evenly_spaced_pads_merge_only_waves_of_one_class() {
         // The test is meaningful only if waves of different classes and signs have crossed. This occurs above the
         // first critical speed, at which the first wave is reflected.
         let first = model.critical[0].speed_rad_per_s;
-        let spectra: Vec<Vec<Class>> = even_speeds((first, range.1), 101)
+        let spectra: Vec<Vec<Class>> = evenly_spaced((first, range.1), 101)
             .into_iter()
             .map(|speed| classes(&model, speed, count))
             .collect();
@@ -180,7 +181,7 @@ fn branches_are_permuted_and_never_lost() {
         let range = (0.0, 1.6 * lowest_critical(&file));
         let plate = Plate::new(&scene(&file), SMALL);
         let model = SpectralModel::new(plate, range, Solver::Reduced).unwrap();
-        let samples = sample(&model, &even_speeds(range, count), &|_, _| ()).unwrap();
+        let samples = sample(&model, &evenly_spaced(range, count), &|_, _| ()).unwrap();
         let campbell = Campbell::track(samples.clone(), model.complete_to_rad_per_s);
         let mut met: Vec<Vec<usize>> = campbell
             .samples

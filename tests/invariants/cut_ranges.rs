@@ -1,10 +1,10 @@
 //! The bands of a range are those of a longer range, cut at its ends, also if an end is at an event or next to it.
 
 use faer::c64;
+use sawflutter::model::evenly_spaced;
 use sawflutter::model::plate::Plate;
 use sawflutter::model::scene::{Scene, SceneFile, rpm};
 use sawflutter::model::system::GyroscopicSystem;
-use sawflutter::modes::branches::even_speeds;
 use sawflutter::modes::{
     NamedCriticalSpeed, SpectralModel, Strategy as Solver, companion_eigenpairs,
 };
@@ -160,7 +160,7 @@ fn assert_peak(saw: &Saw, band: &Instability, range: (f64, f64)) {
         });
         covering.count() == 1
     };
-    let within = even_speeds((from, to), 3).into_iter().filter(alone);
+    let within = evenly_spaced((from, to), 3).into_iter().filter(alone);
     for speed in within {
         let fastest = saw
             .growing(speed)
@@ -253,7 +253,7 @@ fn assert_grows(saw: &Saw, range: (f64, f64)) {
             told(range)
         );
     }
-    let mut speeds = even_speeds(range, 6);
+    let mut speeds = evenly_spaced(range, 6);
     speeds.extend([range.0 * (1.0 + 1e-9), range.1 * (1.0 - 1e-9)]);
     let events = saw.events();
     let is_clear = |s: &f64| events.iter().all(|event| (event / s - 1.0).abs() > 1e-5);

@@ -37,12 +37,13 @@ pub(crate) use outline::outline;
 use std::f64::consts::TAU;
 
 use crate::analyses::campbell::{Verdict, lifting_off};
+use crate::model::evenly_spaced;
 use crate::model::plate::Plate;
 use crate::model::scene::{
     Accuracy, Cut, CutRun, Scene, SceneError, SpeedRange, in_the_cut, rpm, unusual_number,
 };
 use crate::modes::Work;
-use crate::modes::branches::{Progress, even_speeds};
+use crate::modes::branches::Progress;
 use crate::motion::transient::{TransientError, linear_limit_m};
 use crate::stability::ChosenBasis;
 
@@ -249,5 +250,5 @@ fn unusual_numbers(scene: &Scene, cut: &Cut, runs: &[CutRun]) -> Vec<String> {
 
 /// Evenly spaced values over a range with its ends, a step apart.
 fn even(from: f64, to: f64, step: f64) -> Vec<f64> {
-    even_speeds((from, to), 1 + ((to - from) / step).round() as usize)
+    evenly_spaced((from, to), 1 + ((to - from) / step).round() as usize)
 }

@@ -35,12 +35,13 @@ mod report;
 mod starts;
 mod table;
 
+use crate::model::evenly_spaced;
 use crate::model::plate::Resolution;
 use crate::model::scene::{
     Freed, Parted, Scene, SceneError, SceneFile, effective, rad_per_s, scene_at, unusual_number,
 };
 use crate::modes::SpectrumError;
-use crate::modes::branches::{Progress, even_speeds};
+use crate::modes::branches::Progress;
 use crate::stability::ChosenBasis;
 pub(crate) use outline::outline;
 
@@ -135,7 +136,7 @@ pub fn fit(
         degrees_of_freedom: spread.degrees_of_freedom,
         rms_hz: best.rms_hz,
         rms_before_hz: rms(&before),
-        curves: compared.curves(even_speeds((0.0, end_rpm), CURVE_SPEEDS), deepest)?,
+        curves: compared.curves(evenly_spaced((0.0, end_rpm), CURVE_SPEEDS), deepest)?,
         residuals,
         starts,
         max_diameters: resolution.max_diameters,

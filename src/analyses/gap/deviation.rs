@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
+use crate::model::evenly_spaced;
 use crate::model::scene::Scene;
 use crate::modes::Work;
-use crate::modes::branches::even_speeds;
 use crate::motion::stretched_blade::{Deviation, PressedBlade};
 use crate::stability::Analysis;
 
@@ -55,7 +55,7 @@ pub(super) fn deviation_map(
     let thickness_m = scene.blade().thickness_m;
     let gap_factors: Vec<f64> = [0.0].into_iter().chain(factors()).collect();
     let forces_n: Vec<f64> = factors().map(|factor| factor * force_n).collect();
-    let speeds_rpm = even_speeds((0.0, end_rpm), SPEEDS);
+    let speeds_rpm = evenly_spaced((0.0, end_rpm), SPEEDS);
     let critical = analysis.model.critical.first();
     let critical_rpm = critical.map(|first| crate::model::scene::rpm(first.speed_rad_per_s));
     let work = Work::of("gaps", gap_factors.len() + 1);

@@ -6,10 +6,10 @@ use faer::{Col, c64};
 
 use super::report::FrequencyResponse;
 use super::solver::{Motion, Solver};
+use crate::model::evenly_spaced;
 use crate::model::plate::Plate;
 use crate::model::scene::rpm;
 use crate::modes::SpectrumError;
-use crate::modes::branches::even_speeds;
 use crate::motion::steady::{Family, State};
 
 /// Number of evenly spaced frequencies.
@@ -34,7 +34,7 @@ impl FrequencyResponse {
     ) -> Result<Self, SpectrumError> {
         let values = plate.functions_at(radius_m, angle_rad);
         let load = Col::from_fn(values.len(), |i| c64::new(values[i], 0.0));
-        let mut frequencies = even_speeds((0.0, end), FREQUENCIES);
+        let mut frequencies = evenly_spaced((0.0, end), FREQUENCIES);
         let (mut receptance, mut unbounded) = (Vec::new(), Vec::new());
         if !motion.is_unstable(speed) {
             let mut family = Family::new(&solver.system, &load)?;

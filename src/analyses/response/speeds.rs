@@ -1,6 +1,6 @@
 //! Speeds at which the response is computed.
 
-use crate::modes::branches::even_speeds;
+use crate::model::evenly_spaced;
 
 /// Number of evenly spaced speeds.
 const SPEEDS: usize = 481;
@@ -11,7 +11,7 @@ const BESIDE: usize = 10;
 
 /// Evenly spaced speeds, and the operating speed.
 pub(super) fn even(range: (f64, f64), operating: Option<f64>) -> Vec<f64> {
-    let mut speeds = even_speeds(range, SPEEDS);
+    let mut speeds = evenly_spaced(range, SPEEDS);
     speeds.extend(operating);
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();

@@ -9,9 +9,10 @@ use super::WashboardError;
 use super::count::LoopGains;
 use super::delayed_saw::{Boundary, DelayedSaw};
 use super::report::Lobes;
+use crate::model::evenly_spaced;
 use crate::model::scene::rpm;
 use crate::modes::Cancellation;
-use crate::modes::branches::{Progress, even_speeds};
+use crate::modes::branches::Progress;
 
 /// The boundary at one speed.
 #[derive(Debug, Clone, Copy)]
@@ -64,7 +65,7 @@ pub(super) fn lobe_points(
         })
     };
     let [from, to] = DIAGRAM.map(|share| share * speed);
-    let mut speeds = even_speeds((from, to), SPEEDS);
+    let mut speeds = evenly_spaced((from, to), SPEEDS);
     let mut points: Vec<LobePoint> = Vec::new();
     for _ in 0..=HALVINGS {
         let more = speeds.into_par_iter().map(look);

@@ -54,6 +54,7 @@ impl Plate {
         }
         let samples = [0, 1].map(|n| {
             sampled_radii(scene.blade())
+                .into_iter()
                 .map(|r| basis.evaluate(n, r).value)
                 .collect()
         });

@@ -8,6 +8,7 @@ use super::membrane::MembraneStress;
 use super::radial::RadialBasis;
 use super::resolution::Resolution;
 use super::stress::CentrifugalStress;
+use crate::model::evenly_spaced;
 use crate::model::scene::{Blade, DampingFile};
 
 /// The matrices of a scene in a basis, M = 1. Terms that the scene does not contain are not assembled.
@@ -40,9 +41,8 @@ pub struct Plate {
 /// Number of sampled radii, which resolves every nodal circle of a mode in a diagram.
 const SAMPLED_RADII: usize = 41;
 
-pub(super) fn sampled_radii(blade: &Blade) -> impl Iterator<Item = f64> + use<> {
-    let (a, b) = (blade.inner_radius_m, blade.outer_radius_m);
-    (0..SAMPLED_RADII).map(move |k| a + (b - a) * k as f64 / (SAMPLED_RADII - 1) as f64)
+pub(super) fn sampled_radii(blade: &Blade) -> Vec<f64> {
+    evenly_spaced((blade.inner_radius_m, blade.outer_radius_m), SAMPLED_RADII)
 }
 
 impl Plate {
@@ -92,7 +92,7 @@ impl Plate {
 
     /// 41 radii, evenly spaced from edge to edge, in m.
     pub fn sampled_radii_m(&self) -> impl Iterator<Item = f64> + '_ {
-        sampled_radii(&self.blade)
+        sampled_radii(&self.blade).into_iter()
     }
 
     /// Every basis function φᵢ at a point of the blade, in 1/√kg: N values in the order of the

@@ -82,15 +82,6 @@ pub struct Campbell {
     pub branches: Vec<Branch>,
 }
 
-/// `count` evenly spaced speeds over a range, including its ends, in the unit of the range.
-#[doc(hidden)]
-pub fn even_speeds((from, to): (f64, f64), count: usize) -> Vec<f64> {
-    let last = count.max(2) - 1;
-    (0..=last)
-        .map(|k| from + (to - from) * k as f64 / last as f64)
-        .collect()
-}
-
 /// Memory allowed for the modes of a chart, in MiB; usual saws need at most a tenth of it.
 const MEMORY_BUDGET_MB: usize = 1024;
 
@@ -246,6 +237,7 @@ impl Campbell {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::evenly_spaced;
     use crate::model::plate::{Plate, Resolution};
     use crate::model::scene::{Scene, rad_per_s};
     use crate::modes::Strategy;
@@ -262,7 +254,7 @@ mod tests {
         );
         let range = (0.0, rad_per_s(3000.0));
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
-        let samples = sample(&model, &even_speeds(range, 31), &|_, _| ()).unwrap();
+        let samples = sample(&model, &evenly_spaced(range, 31), &|_, _| ()).unwrap();
         let campbell = Campbell::track(samples, model.complete_to_rad_per_s);
         // Branches that leave the chart at its top are shorter.
         let whole = campbell.branches.iter().filter(|b| b.points.len() > 10);

@@ -3,11 +3,12 @@
 use faer::Col;
 use faer::linalg::solvers::Solve;
 
+use crate::model::evenly_spaced;
 use crate::model::plate::Plate;
 use crate::model::scene::{Point, RunUpFile, SideForce, rpm};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::Cancellation;
-use crate::modes::branches::{Progress, even_speeds};
+use crate::modes::branches::Progress;
 
 use super::linear_limit::{Gauge, finite};
 use super::reduced_blade::{ReducedBlade, Snapshot, at_point};
@@ -41,7 +42,7 @@ pub(super) const MAX_SAMPLES: usize = 30_000;
 pub(super) fn reduced_blade(plate: &Plate, runup: &RunUpFile, force: &SideForce) -> ReducedBlade {
     let system = GyroscopicSystem::of_plate(plate);
     let range = (runup.speeds().from_rad_per_s, runup.speeds().to_rad_per_s);
-    let snapshots: Vec<Snapshot<'_>> = even_speeds(range, SNAPSHOTS)
+    let snapshots: Vec<Snapshot<'_>> = evenly_spaced(range, SNAPSHOTS)
         .into_iter()
         .map(|speed_rad_per_s| Snapshot {
             system: &system,

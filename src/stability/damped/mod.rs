@@ -21,6 +21,7 @@ use super::options::AnalysisOptions;
 use super::partition::Plane;
 use super::pieces::{Piece, Search};
 use super::undamped::with_critical_speeds;
+use crate::model::evenly_spaced;
 use crate::model::tuning::Tuned;
 use crate::modes::branches::{self, SpeedSample};
 use crate::modes::{Mode, SpectralModel, SpectrumError, clear_range};
@@ -46,7 +47,7 @@ pub(super) fn charted(
     let speeds = with_critical_speeds(
         (&model.plate, &model.critical),
         drawn,
-        branches::even_speeds(drawn, count),
+        evenly_spaced(drawn, count),
     );
     let closeness = Closeness::of(options.detail);
     let searched = || {
@@ -117,7 +118,7 @@ pub(super) fn bands(
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let closeness = Closeness::of(detail);
     let solver = Solver::new(model, range)?;
-    let speeds = branches::even_speeds(range, SEARCH_SPEEDS);
+    let speeds = evenly_spaced(range, SEARCH_SPEEDS);
     let searched: Vec<(Vec<Piece>, Vec<Instability>)> = (0..solver.components())
         .into_par_iter()
         .map(|component| searched(&solver, component, &speeds, closeness.tolerance))

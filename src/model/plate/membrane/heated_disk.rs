@@ -7,6 +7,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::model::evenly_spaced;
 use crate::model::scene::Blade;
 
 /// Conduction and convection of a blade.
@@ -27,19 +28,12 @@ const FINER: usize = 8;
 
 /// Radii of the temperatures, some of the nodes.
 pub fn radii_m(blade: &Blade) -> Vec<f64> {
-    evenly(blade, SHOWN)
+    evenly_spaced((blade.inner_radius_m, blade.outer_radius_m), SHOWN + 1)
 }
 
 /// Radii of the nodes, at the ends of the elements.
 fn nodes_m(blade: &Blade) -> Vec<f64> {
-    evenly(blade, ELEMENTS)
-}
-
-/// The ends of equal intervals between bore and rim.
-fn evenly(blade: &Blade, intervals: usize) -> Vec<f64> {
-    let (bore, rim) = (blade.inner_radius_m, blade.outer_radius_m);
-    let at = |k: usize| bore + (rim - bore) * k as f64 / intervals as f64;
-    (0..=intervals).map(at).collect()
+    evenly_spaced((blade.inner_radius_m, blade.outer_radius_m), ELEMENTS + 1)
 }
 
 /// Temperature rises at [`radii_m`] in K, under sources of a power in W at a radius in m.
