@@ -8,7 +8,7 @@ mod timing;
 use std::hint::black_box;
 
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{Accuracy, Scene, rad_per_s};
+use sawflutter::model::scene::{Accuracy, Scene, SpeedRange};
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::chart;
 
@@ -21,7 +21,7 @@ fn main() {
         let critical = SpectralModel::critical_speeds(&whole);
         black_box(critical.expect("critical speeds"));
     });
-    let range = (0.0, rad_per_s(3000.0));
+    let range = SpeedRange::between_rpm(0.0, 3000.0);
     time("sweep", 5, || {
         let model = SpectralModel::new(plate(), range, Strategy::Reduced).expect("a model");
         black_box(chart(&model, range, 101, &|_, _| ()).expect("a chart"));

@@ -7,7 +7,7 @@ use std::hint::black_box;
 
 use faer::{Col, Mat};
 use sawflutter::model::plate::{Plate, ReducedStretching, Resolution, Stretching};
-use sawflutter::model::scene::{Accuracy, Scene, rad_per_s};
+use sawflutter::model::scene::{Accuracy, Scene, SpeedRange, rad_per_s};
 use sawflutter::motion::stretched_blade::{Extent, StretchedBlade};
 
 use timing::time;
@@ -38,7 +38,7 @@ fn main() {
     let blade = StretchedBlade::new(&plate, 30).expect("a blade");
     let (critical, shape) = blade.pitchforks().expect("speeds").swap_remove(0);
     let start = blade.leaned(1.001 * critical, &shape).expect("a lean");
-    let range = (start.speed_rad_per_s, rad_per_s(3000.0));
+    let range = SpeedRange::new(start.speed_rad_per_s, rad_per_s(3000.0));
     let count = |upwards| {
         blade
             .branch(&start, upwards, range, Extent::Whole)

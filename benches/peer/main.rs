@@ -9,7 +9,7 @@ use sawflutter::analyses::place::{Demands, Options, place};
 use sawflutter::analyses::study::{Study, StudyFile};
 use sawflutter::model::evenly_spaced;
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{Accuracy, Freed, Scene, SceneFile, SweepFile, rad_per_s};
+use sawflutter::model::scene::{Accuracy, Freed, Scene, SceneFile, SpeedRange, SweepFile};
 use sawflutter::modes::{Assembled, SpectralModel, Strategy};
 use sawflutter::stability::{
     Analysis, AnalysisOptions, ChosenBasis, Detail, chart, search_bands, undamped_bands,
@@ -177,7 +177,7 @@ fn bands_of_a_place() -> Result<(), Failure> {
         radial_functions: 5,
     };
     let saw = Assembled::from(Plate::new(&Scene::paper(), resolution));
-    let critical = saw.critical_speeds(Some(&|_| 1.05 * range().1))?;
+    let critical = saw.critical_speeds(Some(&|_| 1.05 * range().to_rad_per_s))?;
     search_bands(saw, critical, range())?;
     Ok(())
 }
@@ -203,14 +203,14 @@ fn peak_memory_mb() -> Option<f64> {
     Some(kilobytes / 1024.0)
 }
 
-fn range() -> (f64, f64) {
-    (0.0, rad_per_s(3000.0))
+fn range() -> SpeedRange {
+    SpeedRange::between_rpm(0.0, 3000.0)
 }
 
 fn charted(resolution: Resolution) -> Result<(), Failure> {
     let plate = Plate::new(&Scene::paper(), resolution);
     let saw = Assembled::from(plate);
-    let critical = saw.critical_speeds(Some(&|_| 1.05 * range().1))?;
+    let critical = saw.critical_speeds(Some(&|_| 1.05 * range().to_rad_per_s))?;
     let model = SpectralModel::with_critical(saw, critical, range(), Strategy::Reduced)?;
     chart(&model, range(), CHART_SPEEDS, &|_, _| ())?;
     Ok(())
@@ -230,7 +230,7 @@ fn sweep() -> Result<Vec<Vec<f64>>, Failure> {
         let frequencies = modes.iter().map(|m| m.frequency_rad_per_s());
         Ok(frequencies.take(LOW_MODES).collect())
     };
-    evenly_spaced(range(), SWEEP)
+    evenly_spaced(range().ends(), SWEEP)
         .par_iter()
         .map(lowest)
         .collect()

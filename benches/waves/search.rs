@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
+use sawflutter::model::evenly_spaced;
 use sawflutter::modes::waves::WaveModel;
 use sawflutter::stability::{Grouped, Piece, Plane, Sample, Search};
 
@@ -131,10 +132,8 @@ impl Searched {
                 noise_per_s: scope.noise_per_s,
                 solve: &solve,
             };
-            let (from, to) = component.range_rad_per_s();
-            let found = search.pieces(
-                &[0, 1, 2, 3, 4, 5, 6, 7, 8].map(|k| from + (to - from) * f64::from(k) / 8.0),
-            );
+            let speeds = evenly_spaced(component.range_rad_per_s().ends(), 9);
+            let found = search.pieces(&speeds);
             found.expect("no eigenproblem fails")
         };
         Searched {

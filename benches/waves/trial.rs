@@ -2,7 +2,7 @@
 
 use faer::{Mat, Scale, c64};
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{Scene, SceneFile};
+use sawflutter::model::scene::{Scene, SceneFile, SpeedRange};
 use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::modes::waves::{self, WaveModel};
 use sawflutter::modes::{Component, LowestModes};
@@ -45,7 +45,13 @@ impl Model {
         let [guided] = &components[..] else {
             panic!("a free blade")
         };
-        let modes = waves::modes(plate, guided.first, &guided.full, (0.0, to), window);
+        let modes = waves::modes(
+            plate,
+            guided.first,
+            &guided.full,
+            SpeedRange::new(0.0, to),
+            window,
+        );
         let reduced = modes.expect("no eigenproblem fails").model;
         times.push(busy_s());
         let scope = Scope {

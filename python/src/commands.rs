@@ -11,7 +11,7 @@ use sawflutter::analyses::gap::{self, Options as GapOptions};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
 use sawflutter::analyses::{cut, deflect, response, runup, washboard};
-use sawflutter::model::scene::{Freed, NamedBounds, Scene, SpeedRange};
+use sawflutter::model::scene::{Freed, NamedBounds, Scene};
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
 use serde::Serialize;
@@ -82,7 +82,7 @@ fn analyze(options: &Options<'_>) -> PyResult<Work> {
             report.add_amplitudes(&analysis)?;
         }
         if let Some(asked_rpm) = shapes_at_rpm {
-            let range = SpeedRange::from(analysis.range_rad_per_s);
+            let range = analysis.range_rad_per_s;
             let asked = asked_rpm
                 .iter()
                 .map(|rpm| range.speed_at("shapes", *rpm))
@@ -129,7 +129,7 @@ fn modes(options: &Options<'_>) -> PyResult<Work> {
         let range = chosen.range_rad_per_s;
         let speeds = at_rpm
             .iter()
-            .map(|rpm| SpeedRange::from(range).speed_at("rpm", *rpm))
+            .map(|rpm| range.speed_at("rpm", *rpm))
             .collect::<Result<Vec<_>, _>>()?;
         let model =
             SpectralModel::with_critical(chosen.saw, chosen.critical, range, Strategy::Reduced)?;

@@ -10,6 +10,7 @@ use super::error::SpectrumError;
 use super::event_name::EventName;
 use super::symmetric_pencil::singular_multiples;
 use super::vectors::complex;
+use crate::model::scene::SpeedRange;
 
 /// A speed at which K(Ω) is singular: a wave stands still in space.
 #[derive(Debug, Clone)]
@@ -61,19 +62,20 @@ const CLEAR: f64 = 2e-4;
 /// Range of the search for the bands of a given range. It is slightly wider, so that no eigenvalue is near zero
 /// at its ends and, except by chance, none is about to coalesce there if the given range ends at the edge of a
 /// band.
-pub(crate) fn searched_range(
-    critical: &[NamedCriticalSpeed],
-    (from, to): (f64, f64),
-) -> (f64, f64) {
-    let [below, above] = [from * (1.0 - CLEAR), to * (1.0 + CLEAR)];
-    (clear_below(critical, below), clear_above(critical, above))
+pub(crate) fn searched_range(critical: &[NamedCriticalSpeed], range: SpeedRange) -> SpeedRange {
+    let [from, to] = range.ends();
+    SpeedRange::new(
+        clear_below(critical, from * (1.0 - CLEAR)),
+        clear_above(critical, to * (1.0 + CLEAR)),
+    )
 }
 
 /// The part of a range between the first and the last speed at which no eigenvalue is near zero; the whole
 /// range if there are no such speeds.
-pub(crate) fn clear_range(critical: &[NamedCriticalSpeed], (from, to): (f64, f64)) -> (f64, f64) {
-    let clear = (clear_above(critical, from), clear_below(critical, to));
-    if clear.0 < clear.1 { clear } else { (from, to) }
+pub(crate) fn clear_range(critical: &[NamedCriticalSpeed], range: SpeedRange) -> SpeedRange {
+    let [from, to] = range.ends();
+    let clear = SpeedRange::new(clear_above(critical, from), clear_below(critical, to));
+    if clear.width() > 0.0 { clear } else { range }
 }
 
 /// The lowest speed, from a given one on, that is not near a critical speed.

@@ -90,7 +90,7 @@ impl LowestModes {
 mod tests {
     use super::*;
     use crate::model::plate::Resolution;
-    use crate::model::scene::{Scene, rad_per_s};
+    use crate::model::scene::{Scene, SpeedRange, rad_per_s};
     use crate::modes::{SpectralModel, Strategy};
 
     /// The saw is at rest, above critical speeds, in a band of divergence and in a flutter band.
@@ -104,7 +104,7 @@ mod tests {
         for scene in [Scene::paper(), free] {
             let plate = Plate::new(&scene, resolution);
             let lowest = LowestModes::new(&plate);
-            let range = (0.0, rad_per_s(2600.0));
+            let range = SpeedRange::between_rpm(0.0, 2600.0);
             let model = SpectralModel::new(plate, range, Strategy::Dense).unwrap();
             for speed in [0.0, 800.0, 1540.0, 2260.0, 2500.0].map(rad_per_s) {
                 let found = lowest.at(speed, 6).unwrap();

@@ -21,7 +21,7 @@ use super::options::AnalysisOptions;
 use super::room::check_room;
 use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
 use crate::model::plate::{Resolution, StraightEdgeReading};
-use crate::model::scene::{Accuracy, Scene, SceneError, rad_per_s, rpm};
+use crate::model::scene::{Accuracy, Scene, SceneError, SpeedRange, rad_per_s, rpm};
 use crate::modes::branches::CampbellError;
 use crate::modes::{DescribedMode, SpectralModel, SpectrumError, Strategy};
 use crate::page::text::rounded_down;
@@ -36,7 +36,7 @@ const SKETCH_SPEEDS: usize = 25;
 
 fn charted(
     model: &SpectralModel,
-    range: (f64, f64),
+    range: SpeedRange,
     depth: Depth,
     options: AnalysisOptions<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
@@ -56,7 +56,7 @@ fn root_loci(
     model: &SpectralModel,
     chart: &StabilityChart,
     onset_rad_per_s: f64,
-    range_rad_per_s: (f64, f64),
+    range_rad_per_s: SpeedRange,
 ) -> Result<Option<RootLoci>, SpectrumError> {
     let begins = |band: &&Instability| {
         band.kind == InstabilityKind::Flutter && band.from_rad_per_s == onset_rad_per_s
@@ -86,7 +86,7 @@ pub struct Analysis {
     /// Model that gives the modes at any speed of the range.
     pub model: SpectralModel,
     /// Range of speeds, in rad/s.
-    pub range_rad_per_s: (f64, f64),
+    pub range_rad_per_s: SpeedRange,
     /// Speed up to which no wave with more nodal diameters than the basis can stand still, in rad/s: at least the
     /// end of the range and the first critical speed.
     pub complete_to_rad_per_s: f64,
@@ -165,7 +165,7 @@ impl Analysis {
             })) if scene.sweep().is_none() => rad_per_s(rounded_down(2, end)),
             analysed => return analysed,
         };
-        let shorter = scene.swept((0.0, end_rad_per_s).into())?;
+        let shorter = scene.swept(SpeedRange::new(0.0, end_rad_per_s))?;
         let chosen = ChosenBasis::at_least(&shorter, scene.tolerance(), least)?;
         Self::on_basis(scene, chosen, options)
     }
@@ -295,7 +295,7 @@ impl Analysis {
             (Some(estimates), Some(error)) => OutOfReach::of(
                 &self.scene,
                 &self.model.plate,
-                self.range_rad_per_s.1,
+                self.range_rad_per_s.to_rad_per_s,
                 estimates,
                 error,
             ),
@@ -354,7 +354,7 @@ impl Analysis {
 
     /// Range of speeds around a speed without an instability that counts, in rad/s, at least 5 % away from
     /// critical speeds; `None` where the saw is unstable or at a critical speed.
-    pub fn window_without_instability(&self, speed_rad_per_s: f64) -> Option<(f64, f64)> {
+    pub fn window_without_instability(&self, speed_rad_per_s: f64) -> Option<SpeedRange> {
         self.evidence(&self.critical_rad_per_s())
             .window_without_instability(speed_rad_per_s)
     }

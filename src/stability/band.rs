@@ -7,7 +7,7 @@ use faer::c64;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::model::scene::rpm;
+use crate::model::scene::{SpeedRange, rpm};
 
 /// Kind of an instability.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -55,7 +55,7 @@ pub struct Instability {
 /// Writes for instance "flutter 2255.9 to 2266.1 rpm, up to 0.487 1/s at 6.01 Hz".
 impl fmt::Display for Instability {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (from, to) = (rpm(self.from_rad_per_s), rpm(self.to_rad_per_s));
+        let [from, to] = self.range().ends().map(rpm);
         let growth = self.peak_growth_per_s;
         match self.kind {
             InstabilityKind::Divergence => {
@@ -85,6 +85,11 @@ pub struct CurvePoint {
 }
 
 impl Instability {
+    /// Speeds of the band.
+    pub fn range(&self) -> SpeedRange {
+        SpeedRange::new(self.from_rad_per_s, self.to_rad_per_s)
+    }
+
     /// Whether the band counts as an instability of the saw. Damping that the scene does not model suppresses
     /// flutter that grows more slowly than the threshold (1/s); divergence always counts.
     pub fn counts(&self, threshold_per_s: f64) -> bool {

@@ -10,7 +10,7 @@ use super::error::AnalysisError;
 use super::ladder::{DENSE_LADDER, LADDER, ahead, resolution, rung_of, sized};
 use super::reach::{PAST_THE_RANGE, Reach, speeds};
 use crate::model::plate::{Plate, Resolution};
-use crate::model::scene::Scene;
+use crate::model::scene::{Scene, SpeedRange};
 use crate::model::tuning::Tuned;
 use crate::modes::{Assembled, Cancellation, LargerBasis, NamedCriticalSpeed, RestingMode, Work};
 
@@ -34,7 +34,7 @@ pub struct ChosenBasis {
     /// Critical speeds up to slightly above the range, and at least the lowest one; ascending.
     pub critical: Vec<NamedCriticalSpeed>,
     /// Range of speeds of the chart, from the scene or chosen by the program.
-    pub range_rad_per_s: (f64, f64),
+    pub range_rad_per_s: SpeedRange,
     /// Estimated relative error of the critical speeds within the range.
     pub estimated_relative_error: f64,
     /// Estimated relative error of the lowest frequencies at rest.
@@ -107,7 +107,7 @@ impl ChosenBasis {
                 continue;
             }
             let resting = resting_error(&resting, &larger);
-            let error = critical_error(&saw, &larger, &critical, range_rad_per_s.1);
+            let error = critical_error(&saw, &larger, &critical, range_rad_per_s.to_rad_per_s);
             let excess = resting.max(error) / tolerance;
             let next = next(rung, excess, |rung| {
                 reach.fits(&saw, sized(rung, diameters))
@@ -156,7 +156,7 @@ pub(crate) fn resolved(
     least: Resolution,
     to_rad_per_s: f64,
 ) -> Result<(Assembled, Vec<NamedCriticalSpeed>), AnalysisError> {
-    let swept = scene.swept((0.0, to_rad_per_s).into())?;
+    let swept = scene.swept(SpeedRange::new(0.0, to_rad_per_s))?;
     let reach = Reach::of(&swept, scene.tolerance())?;
     let mut size = least;
     loop {
@@ -184,7 +184,7 @@ pub(crate) fn end_of_sweep(scene: &Scene) -> Result<f64, AnalysisError> {
         Some(sweep) => Ok(sweep.to_rad_per_s),
         None => {
             let chosen = ChosenBasis::new(scene, scene.tolerance())?;
-            Ok(chosen.range_rad_per_s.1)
+            Ok(chosen.range_rad_per_s.to_rad_per_s)
         }
     }
 }

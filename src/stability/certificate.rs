@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::band::{Instability, InstabilityKind};
 use super::mode_counts::MiscountedModes;
 use super::signature::Signature;
-use crate::model::scene::rpm;
+use crate::model::scene::{SpeedRange, rpm};
 
 /// Results of the checks of a list of bands: comparisons of the Krein index with the spectra, mode counts on the
 /// full model, and the part of the range that is proven to contain no unlisted band.
@@ -31,7 +31,7 @@ pub struct Certificate {
     pub searched_again: bool,
     /// Intervals of speed, in rad/s, that are not proven to contain no unlisted band; `None` if no proof was
     /// tried.
-    pub unproven_rad_per_s: Option<Vec<(f64, f64)>>,
+    pub unproven_rad_per_s: Option<Vec<SpeedRange>>,
 }
 
 impl Certificate {
@@ -107,8 +107,7 @@ fn mismatch(
     mut growth: Vec<f64>,
     floor_per_s: f64,
 ) -> Option<ContradictedBands> {
-    let covers =
-        |b: &&Instability| b.kind == kind && (b.from_rad_per_s..=b.to_rad_per_s).contains(&speed);
+    let covers = |b: &&Instability| b.kind == kind && b.range().contains(speed);
     let mut peaks: Vec<f64> = bands
         .iter()
         .filter(covers)

@@ -8,6 +8,7 @@ use super::error::AnalysisError;
 use super::options::AnalysisOptions;
 use super::signature::Signature;
 use super::undamped;
+use crate::model::scene::SpeedRange;
 use crate::modes::branches::{Campbell, Progress};
 use crate::modes::{Mode, SpectralModel};
 
@@ -51,7 +52,7 @@ impl StabilityChart {
 /// [`AnalysisError`] when an eigenproblem fails.
 pub fn chart(
     model: &SpectralModel,
-    range: (f64, f64),
+    range: SpeedRange,
     count: usize,
     progress: Progress<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
@@ -64,7 +65,7 @@ pub fn chart(
 /// The errors of [`chart`].
 pub(crate) fn chart_to_depth(
     model: &SpectralModel,
-    range: (f64, f64),
+    range: SpeedRange,
     (count, depth): (usize, Depth),
     progress: Progress<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
@@ -78,7 +79,7 @@ pub(crate) fn chart_to_depth(
 /// Charts a range of speeds with the detail and the callbacks of options.
 pub(super) fn drawn(
     model: &SpectralModel,
-    range: (f64, f64),
+    range: SpeedRange,
     (count, depth): (usize, Depth),
     options: AnalysisOptions<'_>,
 ) -> Result<StabilityChart, AnalysisError> {

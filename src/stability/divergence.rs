@@ -6,6 +6,7 @@ use super::flutter::VICINITY;
 use super::maximum::{Sample, maximize};
 use super::search_result::Found;
 use super::signature::Signature;
+use crate::model::scene::SpeedRange;
 use crate::modes::{SpectralModel, SpectrumError, smallest};
 
 /// Bands of divergence, from signatures in ascending order. They begin and end at critical speeds or at
@@ -15,7 +16,7 @@ pub(super) fn divergence(
     evaluator: &SignatureEvaluator<'_>,
     signatures: &[Signature],
     coalescences: &[f64],
-    range: (f64, f64),
+    range: SpeedRange,
 ) -> Result<Vec<Found>, SpectrumError> {
     let critical: Vec<f64> = model.critical.iter().map(|c| c.speed_rad_per_s).collect();
     let mut signatures = signatures.to_vec();
@@ -79,9 +80,9 @@ fn band(
     evaluator: &SignatureEvaluator<'_>,
     signatures: &[Signature],
     [(begin, begins), (end, ends)]: [(f64, Edge); 2],
-    limits: (f64, f64),
+    limits: SpeedRange,
 ) -> Result<Instability, SpectrumError> {
-    let (from, to) = (begin.max(limits.0), end.min(limits.1));
+    let [from, to] = SpeedRange::new(begin, end).within(limits).ends();
     let of = |signature: &Signature| {
         signature.divergence().map(|mode| Sample {
             at: signature.speed_rad_per_s,
@@ -144,7 +145,7 @@ pub(super) fn close_pairs(
     model: &SpectralModel,
     evaluator: &SignatureEvaluator<'_>,
     speeds: &[f64],
-    range: (f64, f64),
+    range: SpeedRange,
 ) -> Result<Vec<Found>, SpectrumError> {
     let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else {
         return Ok(Vec::new());
@@ -163,9 +164,10 @@ pub(super) fn close_pairs(
 fn between(
     evaluator: &SignatureEvaluator<'_>,
     critical: &[f64],
-    limits: (f64, f64),
+    limits: SpeedRange,
 ) -> Result<Instability, SpectrumError> {
-    let (from, to) = (critical[0].max(limits.0), critical[1].min(limits.1));
+    let whole = SpeedRange::new(critical[0], critical[1]);
+    let [from, to] = whole.within(limits).ends();
     let peak = 0.5 * (from + to);
     Ok(Instability {
         kind: InstabilityKind::Divergence,

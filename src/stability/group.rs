@@ -91,7 +91,7 @@ fn mean(eigenvalues: &[Sloped]) -> Sloped {
 
 impl Group {
     /// A group from its eigenvalues at both ends, in any order.
-    pub fn new((from, to): (f64, f64), ends: [&[Sloped]; 2]) -> Self {
+    pub fn new([from, to]: [f64; 2], ends: [&[Sloped]; 2]) -> Self {
         let width_rad_per_s = to - from;
         let cubic = |[first, last]: [Sloped; 2]| Cubic {
             values: [first.0, last.0],
@@ -201,7 +201,7 @@ impl Group {
     /// Intervals of the piece, as shares from 0 to 1, over which the group has at least one pair of
     /// conjugates, then those over which it has at least two, and so on. The numbers of the group must be
     /// real or conjugates.
-    pub fn complex_stretches(&self) -> Vec<Vec<(f64, f64)>> {
+    pub fn complex_stretches(&self) -> Vec<Vec<[f64; 2]>> {
         let pairs = |t: f64| self.complex_pairs(t);
         let mut bounds = match self.coefficients.as_slice() {
             [] => return Vec::new(),
@@ -222,12 +222,12 @@ impl Group {
             .map(|pair| pairs(0.5 * (pair[0] + pair[1])))
             .collect();
         let of_level = |level: usize| {
-            let mut stretches: Vec<(f64, f64)> = Vec::new();
+            let mut stretches: Vec<[f64; 2]> = Vec::new();
             for (ends, count) in bounds.windows(2).zip(&counts) {
                 let (from, to) = (ends[0], ends[1]);
                 match stretches.last_mut() {
-                    Some(last) if *count >= level && last.1 == from => last.1 = to,
-                    _ if *count >= level => stretches.push((from, to)),
+                    Some(last) if *count >= level && last[1] == from => last[1] = to,
+                    _ if *count >= level => stretches.push([from, to]),
                     _ => (),
                 }
             }
@@ -281,8 +281,8 @@ mod tests {
     use super::*;
 
     /// Checks the interpolation of eigenvalues given in closed form.
-    fn assert_interpolated(eigenvalues: impl Fn(f64) -> Vec<Sloped>, (from, to): (f64, f64)) {
-        let group = Group::new((from, to), [&eigenvalues(from), &eigenvalues(to)]);
+    fn assert_interpolated(eigenvalues: impl Fn(f64) -> Vec<Sloped>, [from, to]: [f64; 2]) {
+        let group = Group::new([from, to], [&eigenvalues(from), &eigenvalues(to)]);
         for k in 1..20 {
             let speed = from + (to - from) * f64::from(k) / 20.0;
             let exact = eigenvalues(speed);
@@ -309,7 +309,7 @@ mod tests {
                 (mean - root, 0.1 - 0.5 / root),
             ]
         };
-        assert_interpolated(pair, (0.3, 1.9));
+        assert_interpolated(pair, [0.3, 1.9]);
     }
 
     /// ±√(Ω − 1): from the imaginary axis through zero to the real axis.
@@ -319,7 +319,7 @@ mod tests {
             let root = c64::new(speed - 1.0, 0.0).sqrt();
             vec![(root, 0.5 / root), (-root, -0.5 / root)]
         };
-        assert_interpolated(pair, (0.45, 1.7));
+        assert_interpolated(pair, [0.45, 1.7]);
     }
 
     /// Three real numbers with different slopes: none gets an imaginary part by rounding.
@@ -329,7 +329,7 @@ mod tests {
             let numbers = [-1.0, 0.3, 2.0].map(|slope| (c64::from(7.0 + slope * speed), slope));
             numbers.map(|(z, slope)| (z, c64::from(slope)))
         };
-        let group = Group::new((-1.0, 1.1), [&crossing(-1.0), &crossing(1.1)]);
+        let group = Group::new([-1.0, 1.1], [&crossing(-1.0), &crossing(1.1)]);
         for k in 0..50 {
             let numbers = group.at(0.1 + 0.02 * f64::from(k));
             assert!(numbers.iter().all(|z| z.im == 0.0), "{k}: {numbers:?}");
@@ -345,7 +345,7 @@ mod tests {
             let sloped = |x: c64| (x + c64::new(0.0, 1.0), 1.0 / (3.0 * x * x));
             (0..3).map(|k| sloped(turned(k))).collect()
         };
-        assert_interpolated(three, (0.25, 1.77));
+        assert_interpolated(three, [0.25, 1.77]);
     }
 
     /// Two waves with crossing frequencies: their mean and squared distance are enough.
@@ -357,6 +357,6 @@ mod tests {
                 (c64::new(-0.2, 5.0 - speed), c64::new(0.0, -1.0)),
             ]
         };
-        assert_interpolated(waves, (0.2, 1.73));
+        assert_interpolated(waves, [0.2, 1.73]);
     }
 }

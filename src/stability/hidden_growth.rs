@@ -1,6 +1,7 @@
 //! Estimated growth rate of an unlisted band in an unproven interval.
 
 use super::chart::StabilityChart;
+use crate::model::scene::SpeedRange;
 use crate::modes::DescribedMode;
 use crate::modes::branches::{Campbell, SpeedSample};
 
@@ -21,20 +22,22 @@ impl StabilityChart {
     /// Parts of the unproven intervals in which, by the estimate of
     /// [`StabilityChart::unproven_growth_per_s`], an unlisted band could grow at least as fast as the
     /// threshold; adjacent parts are merged.
-    pub fn unproven_counting_rad_per_s(&self, threshold_per_s: f64) -> Vec<(f64, f64)> {
-        let mut joined: Vec<(f64, f64)> = Vec::new();
+    pub fn unproven_counting_rad_per_s(&self, threshold_per_s: f64) -> Vec<SpeedRange> {
+        let mut joined: Vec<SpeedRange> = Vec::new();
         let hidden = self.hidden().unwrap_or_default().into_iter();
-        for ((from, to), _) in hidden.filter(|(_, growth)| *growth >= threshold_per_s) {
+        for (part, _) in hidden.filter(|(_, growth)| *growth >= threshold_per_s) {
             match joined.last_mut() {
-                Some(last) if last.1 >= from => last.1 = to,
-                _ => joined.push((from, to)),
+                Some(last) if last.to_rad_per_s >= part.from_rad_per_s => {
+                    last.to_rad_per_s = part.to_rad_per_s;
+                }
+                _ => joined.push(part),
             }
         }
         joined
     }
 
     /// Parts of the unproven intervals between drawn speeds, with the estimated growth rate for each, in 1/s.
-    fn hidden(&self) -> Option<Vec<((f64, f64), f64)>> {
+    fn hidden(&self) -> Option<Vec<(SpeedRange, f64)>> {
         let stretches = self.certificate.unproven_rad_per_s.as_ref()?;
         let drawn: Vec<f64> = self
             .campbell
@@ -42,13 +45,18 @@ impl StabilityChart {
             .iter()
             .map(|s| s.speed_rad_per_s)
             .collect();
-        let parts = stretches.iter().flat_map(|&(from, to)| {
-            let within = drawn.iter().copied().filter(move |s| from < *s && *s < to);
-            let ends: Vec<f64> = [from].into_iter().chain(within).chain([to]).collect();
-            let parts = ends.windows(2).map(|ends| (ends[0], ends[1]));
-            parts.collect::<Vec<_>>()
-        });
-        let growth = |(from, to)| 0.25 * approach(&self.campbell, from, to) * (to - from);
+        let parts = stretches
+            .iter()
+            .map(SpeedRange::ends)
+            .flat_map(|[from, to]| {
+                let within = drawn.iter().copied().filter(move |s| from < *s && *s < to);
+                let ends: Vec<f64> = [from].into_iter().chain(within).chain([to]).collect();
+                let parts = ends
+                    .windows(2)
+                    .map(|ends| SpeedRange::new(ends[0], ends[1]));
+                parts.collect::<Vec<_>>()
+            });
+        let growth = |part: SpeedRange| 0.25 * approach(&self.campbell, part) * part.width();
         Some(parts.map(|part| (part, growth(part))).collect())
     }
 }
@@ -58,7 +66,8 @@ impl StabilityChart {
 const COALESCING: f64 = 2.0;
 
 /// Sum n + m for the waves of opposite sign with most nodal diameters that may coalesce in an interval.
-fn approach(campbell: &Campbell, from: f64, to: f64) -> f64 {
+fn approach(campbell: &Campbell, range: SpeedRange) -> f64 {
+    let [from, to] = range.ends();
     let samples = &campbell.samples;
     let speed = |sample: &SpeedSample| sample.speed_rad_per_s;
     let below = samples.partition_point(|s| speed(s) <= from);
@@ -96,8 +105,8 @@ mod tests {
             if band.kind != InstabilityKind::Flutter || !band.closed {
                 continue;
             }
-            let (from, to) = (band.from_rad_per_s, band.to_rad_per_s);
-            let largest = 0.25 * super::approach(&chart.campbell, from, to) * (to - from);
+            let range = band.range();
+            let largest = 0.25 * super::approach(&chart.campbell, range) * range.width();
             assert!(band.peak_growth_per_s <= largest, "{band}: {largest}");
             compared += 1;
         }
@@ -110,9 +119,9 @@ mod tests {
         let unproven = chart.certificate.unproven_rad_per_s.iter().flatten();
         let counting = chart.unproven_counting_rad_per_s(0.5 * hidden);
         assert!(!counting.is_empty());
-        for (from, to) in counting {
+        for part in counting {
             let mut intervals = unproven.clone();
-            assert!(intervals.any(|(x, y)| *x <= from && to <= *y));
+            assert!(intervals.any(|range| part.within(*range) == part));
         }
     }
 }

@@ -88,7 +88,7 @@ mod tests {
 
     use super::*;
     use crate::model::plate::{Plate, Resolution};
-    use crate::model::scene::{Accuracy, Scene, rad_per_s};
+    use crate::model::scene::{Accuracy, Scene, SpeedRange, rad_per_s};
     use crate::model::system::{GyroscopicSystem, dynamic_stiffness};
     use crate::modes::{Strategy, companion_eigenpairs};
     use crate::stability::{InstabilityKind, chart};
@@ -126,7 +126,7 @@ mod tests {
         let damped = Scene::paper().edited(|saw| saw.guides[0].damping_n_s_per_m = 2.0);
         for (scene, least) in [(Scene::paper(), 6), (damped.unwrap(), 2)] {
             let plate = Plate::new(&scene, Resolution::of(Accuracy::Draft));
-            let range = (0.0, rad_per_s(2600.0));
+            let range = SpeedRange::between_rpm(0.0, 2600.0);
             let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
             let mut bands = chart(&model, range, 5, &|_, _| ()).unwrap().instabilities;
             let mut listed = Listed::new(&[]);

@@ -3,6 +3,7 @@
 use faer::c64;
 
 use super::band::Instability;
+use crate::model::scene::SpeedRange;
 use crate::modes::{Mode, SearchModel, SpectralModel, SpectrumError, smallest};
 
 /// Paths of two eigenvalues over speed.
@@ -28,13 +29,11 @@ impl RootLoci {
     pub fn new(
         model: &SpectralModel,
         band: &Instability,
-        range: (f64, f64),
+        range: SpeedRange,
     ) -> Result<Option<Self>, SpectrumError> {
-        let width = band.to_rad_per_s - band.from_rad_per_s;
-        let (from, to) = (
-            (band.from_rad_per_s - width).max(range.0),
-            (band.to_rad_per_s + width).min(range.1),
-        );
+        let width = band.range().width();
+        let wide = SpeedRange::new(band.from_rad_per_s - width, band.to_rad_per_s + width);
+        let [from, to] = wide.within(range).ends();
         let pairs = SearchModel::new(model).map(Pairs);
         let peak = pairs.as_ref().and_then(|pairs| pairs.at_peak(band));
         let Some((pairs, peak)) = pairs.zip(peak) else {
@@ -151,7 +150,7 @@ impl Pairs<'_> {
         let (mut rows, mut beside): (Vec<Row>, Vec<Pair>) = Default::default();
         let mut last = peak;
         for speed in speeds {
-            let is_inside = (band.from_rad_per_s..=band.to_rad_per_s).contains(&speed);
+            let is_inside = band.range().contains(speed);
             let Some(next) = self.at(speed, last.predicted(speed, is_inside)) else {
                 break;
             };
@@ -194,7 +193,7 @@ impl Pairs<'_> {
 mod tests {
     use super::*;
     use crate::model::plate::{Plate, Resolution};
-    use crate::model::scene::{Accuracy, Scene, rad_per_s};
+    use crate::model::scene::{Accuracy, Scene};
     use crate::modes::{Strategy, companion_eigenpairs};
     use crate::stability::{InstabilityKind, chart};
 
@@ -203,7 +202,7 @@ mod tests {
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
     fn paths_continue_to_the_end_of_a_range_that_cuts_their_band() {
         let plate = Plate::new(&Scene::paper(), Resolution::of(Accuracy::Draft));
-        let range = (0.0, rad_per_s(2300.0));
+        let range = SpeedRange::between_rpm(0.0, 2300.0);
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
         let bands = chart(&model, range, 5, &|_, _| ()).unwrap().instabilities;
         let flutter = |band: &&Instability| band.kind == InstabilityKind::Flutter;
@@ -213,7 +212,9 @@ mod tests {
             to_rad_per_s: end,
             ..whole.clone()
         };
-        let loci = RootLoci::new(&model, &cut, (0.0, end)).unwrap().unwrap();
+        let loci = RootLoci::new(&model, &cut, SpeedRange::new(0.0, end))
+            .unwrap()
+            .unwrap();
         assert_eq!(loci.speeds.last(), Some(&end));
         assert!(loci.speeds.windows(2).all(|pair| pair[0] < pair[1]));
         let dense = companion_eigenpairs(&model.components[0].full, end).unwrap();

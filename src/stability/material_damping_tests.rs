@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use super::Analysis;
 use crate::model::plate::{Plate, Resolution};
 use crate::model::scene::{
-    Accuracy, DampingFile, InPlane, ModeRatioRow, Mount, Scene, SceneFile, SweepFile, rad_per_s,
+    Accuracy, DampingFile, InPlane, ModeRatioRow, Mount, Scene, SceneFile, SpeedRange, SweepFile,
+    rad_per_s,
 };
 use crate::modes::{SpectralModel, Strategy};
 
@@ -70,7 +71,8 @@ fn turning_waves_decay_as_in_the_frame_of_the_blade() {
     let scene = scene(collar);
     let plate = Plate::new(&scene, Resolution::of(Accuracy::Draft));
     let speed = rad_per_s(1500.0);
-    let model = SpectralModel::new(plate.clone(), (0.0, speed), Strategy::Dense).unwrap();
+    let model =
+        SpectralModel::new(plate.clone(), SpeedRange::new(0.0, speed), Strategy::Dense).unwrap();
     let modes = model.all_modes(speed).unwrap();
     for n in 2..=3 {
         let block = &plate.harmonics[n];

@@ -9,7 +9,7 @@ use super::error::AnalysisError;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands};
 use super::verdict::flutter_onsets;
 use crate::model::plate::Resolution;
-use crate::model::scene::Scene;
+use crate::model::scene::{Scene, SpeedRange};
 use crate::modes::{Assembled, NamedCriticalSpeed, SpectralModel, Strategy};
 
 /// Onset speeds, equal to those of an [`Analysis`](super::Analysis) to nine digits.
@@ -38,8 +38,8 @@ impl Onsets {
     ///
     /// # Errors
     /// [`AnalysisError`] when an eigenproblem fails.
-    pub(super) fn idling(scene: &Scene, range: (f64, f64)) -> Result<Self, AnalysisError> {
-        Self::new(&scene.idling()?.swept(range.into())?)
+    pub(super) fn idling(scene: &Scene, range: SpeedRange) -> Result<Self, AnalysisError> {
+        Self::new(&scene.idling()?.swept(range)?)
     }
 
     /// Finds the onsets of a saw over the speeds of its scene.
@@ -75,7 +75,7 @@ impl Onsets {
         // uncoupled, or if the range ends below the first critical speed, because no wave is reflected
         // there.
         let is_damped = !saw.plate.is_conservative();
-        let is_slow = lowest_critical.is_none_or(|lowest| lowest > range.1);
+        let is_slow = lowest_critical.is_none_or(|lowest| lowest > range.to_rad_per_s);
         let has_none = !is_damped && (saw.plate.is_axisymmetric() || is_slow);
         let (instabilities, certificate) = if has_none {
             Default::default()
@@ -105,7 +105,7 @@ impl Onsets {
 pub fn search_bands(
     saw: impl Into<Assembled>,
     critical: Vec<NamedCriticalSpeed>,
-    range: (f64, f64),
+    range: SpeedRange,
 ) -> Result<(Vec<Instability>, Certificate), AnalysisError> {
     let saw = saw.into();
     if saw.plate.is_conservative() {

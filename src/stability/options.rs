@@ -5,6 +5,7 @@ use super::detail::Detail;
 use super::expected_work::ExpectedWork;
 use super::ladder::{LADDER, resolution};
 use crate::model::plate::Resolution;
+use crate::model::scene::SpeedRange;
 use crate::modes::NamedCriticalSpeed;
 use crate::modes::branches::Progress;
 
@@ -31,7 +32,7 @@ pub struct Interim<'a> {
     /// Critical speeds up to slightly above the range, and at least the lowest one; ascending.
     pub critical: &'a [NamedCriticalSpeed],
     /// Range of speeds, in rad/s.
-    pub range_rad_per_s: (f64, f64),
+    pub range_rad_per_s: SpeedRange,
     /// Every band within the range; `None` before they are computed.
     pub bands: Option<&'a [Instability]>,
 }
@@ -41,7 +42,7 @@ impl AnalysisOptions<'_> {
     pub(super) fn report(
         &self,
         critical: &[NamedCriticalSpeed],
-        range_rad_per_s: (f64, f64),
+        range_rad_per_s: SpeedRange,
         bands: Option<&[Instability]>,
     ) {
         if let Some(receive) = self.interim {

@@ -114,7 +114,7 @@ impl Search<'_> {
         let groups = kept.or_else(|| self.groups(ends));
         let place = groups
             .as_ref()
-            .and_then(|groups| self.doubtful_speed(groups, (a, b)));
+            .and_then(|groups| self.doubtful_speed(groups, [a, b]));
         if let (true, None, Some(groups)) = (is_kept, place, &groups) {
             return Ok(alone(groups.clone()));
         }
@@ -183,7 +183,7 @@ impl Search<'_> {
 
     /// Speed at which two eigenvalues of a group are nearest to each other, or else at which one that decays
     /// at both ends may grow; `None` without such a speed.
-    fn doubtful_speed(&self, groups: &[Grouped], (a, b): (f64, f64)) -> Option<f64> {
+    fn doubtful_speed(&self, groups: &[Grouped], [a, b]: [f64; 2]) -> Option<f64> {
         let speed = |k: usize| a + (b - a) * k as f64 / STEPS as f64;
         let inner = |values: &[f64]| {
             let least = smallest(0..values.len(), |&place| values[place])?;
@@ -358,7 +358,7 @@ fn grouped_by(ends: [&Arc<Sample>; 2], parts: &[Places]) -> Vec<Grouped> {
             places.map(|&place| ends[end].eigenvalues[place]).collect()
         };
         Grouped {
-            group: Group::new((speeds[0], speeds[1]), [&at(0), &at(1)]),
+            group: Group::new(speeds, [&at(0), &at(1)]),
             places: places.clone(),
             sign: definite_sign(places, ends),
         }

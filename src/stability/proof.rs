@@ -19,6 +19,7 @@ use super::band::{Instability, InstabilityKind};
 use super::evaluator::SignatureEvaluator;
 use super::mode_counts::{Gap, ModeCounts, gaps};
 use super::signature::Signature;
+use crate::model::scene::SpeedRange;
 use crate::modes::{AtSpeed, Cancellation, SpectrumError, Work};
 
 /// Intervals narrower than this share of the highest speed are not halved further.
@@ -43,7 +44,7 @@ impl Proof<'_> {
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn unproven(&self, signatures: &[Signature]) -> Result<Vec<(f64, f64)>, SpectrumError> {
+    pub fn unproven(&self, signatures: &[Signature]) -> Result<Vec<SpeedRange>, SpectrumError> {
         let Some(last) = signatures.last() else {
             return Ok(Vec::new());
         };
@@ -52,11 +53,11 @@ impl Proof<'_> {
         let is_uncritical = |a: &End, b: &End| !self.evaluator.spans_critical(a.speed, b.speed);
         let stretches: Vec<&[End]> = ends.chunk_by(is_uncritical).collect();
         let step = &Work::of("stretches of the proof", stretches.len());
-        let within: Vec<Result<Vec<(f64, f64)>, SpectrumError>> = stretches
+        let within: Vec<Result<Vec<SpeedRange>, SpectrumError>> = stretches
             .into_par_iter()
             .map(|stretch| self.within(stretch, (&[], least), step))
             .collect();
-        let mut open: Vec<(f64, f64)> = within
+        let mut open: Vec<SpeedRange> = within
             .into_iter()
             .collect::<Result<Vec<_>, _>>()?
             .into_iter()
@@ -65,7 +66,7 @@ impl Proof<'_> {
         let critical = ends
             .windows(2)
             .filter(|pair| !is_uncritical(&pair[0], &pair[1]));
-        open.extend(critical.map(|pair| (pair[0].speed, pair[1].speed)));
+        open.extend(critical.map(|pair| SpeedRange::new(pair[0].speed, pair[1].speed)));
         Ok(open)
     }
 
@@ -85,7 +86,7 @@ impl Proof<'_> {
         ends: &[End],
         (known, least): (&[Line], f64),
         step: &Work,
-    ) -> Result<Vec<(f64, f64)>, SpectrumError> {
+    ) -> Result<Vec<SpeedRange>, SpectrumError> {
         let [a, .., b] = ends else {
             step.advance();
             return Ok(Vec::new());
@@ -116,7 +117,7 @@ impl Proof<'_> {
         let is_open = self.full.has_free_motions() || self.full.is_dense();
         if is_open || b.speed - a.speed <= least || self.evaluator.is_exhausted() {
             step.advance();
-            return Ok(vec![(a.speed, b.speed)]);
+            return Ok(vec![SpeedRange::new(a.speed, b.speed)]);
         }
         let middle = match a.halfway(b) {
             Some(middle) => middle,

@@ -152,7 +152,7 @@ fn across<'a>(
         places.into_iter()
     };
     let (mut firsts, mut lasts) = (at_end(0), at_end(1));
-    for (rank, (first_share, last_share)) in group_stretches(grouped) {
+    for (rank, [first_share, last_share]) in group_stretches(grouped) {
         let speed = |share: f64| if share < 1.0 { a + share * (b - a) } else { b };
         let (from_rad_per_s, to_rad_per_s) = (speed(first_share), speed(last_share));
         let first = (first_share == 0.0).then(|| firsts.next()).flatten();
@@ -192,7 +192,7 @@ fn across<'a>(
 }
 
 /// Intervals of a group, each with the rank of its square.
-fn group_stretches(grouped: &Grouped) -> impl Iterator<Item = (usize, (f64, f64))> {
+fn group_stretches(grouped: &Grouped) -> impl Iterator<Item = (usize, [f64; 2])> {
     let by_rank = grouped.group.complex_stretches().into_iter().enumerate();
     by_rank.flat_map(|(rank, all)| all.into_iter().map(move |stretch| (rank, stretch)))
 }

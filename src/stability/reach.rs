@@ -8,7 +8,7 @@
 use super::error::AnalysisError;
 use super::ladder::{DENSE_LADDER, LADDER, resolution};
 use crate::model::plate::{MOST_DIAMETERS, MOST_UNKNOWNS, Plate, Resolution};
-use crate::model::scene::{Blade, Material, Scene, rad_per_s, rpm};
+use crate::model::scene::{Blade, Material, Scene, SpeedRange, rad_per_s, rpm};
 use crate::modes::{
     ABOVE_LAST, Assembled, NamedCriticalSpeed, RestingMode, SpectrumError, StandingWaves,
     diameters_within, highest_reflected,
@@ -61,17 +61,15 @@ impl<'a> Reach<'a> {
     }
 
     /// Range of the chart, from the scene or chosen by the program, for critical speeds that ascend.
-    pub fn range(&self, critical_rad_per_s: &[f64]) -> (f64, f64) {
-        match self.scene.sweep() {
-            Some(sweep) => (sweep.from_rad_per_s, sweep.to_rad_per_s),
-            None => (0.0, chosen_end(self.scene, critical_rad_per_s)),
-        }
+    pub fn range(&self, critical_rad_per_s: &[f64]) -> SpeedRange {
+        let chosen = || SpeedRange::new(0.0, chosen_end(self.scene, critical_rad_per_s));
+        self.scene.sweep().unwrap_or_else(chosen)
     }
 
     /// The highest speed that matters: the end of the range, the first critical speed, and the one that ends a
     /// sweep that the program chooses.
     pub fn last(&self, critical_rad_per_s: &[f64]) -> f64 {
-        let (_, end) = self.range(critical_rad_per_s);
+        let end = self.range(critical_rad_per_s).to_rad_per_s;
         let lowest = critical_rad_per_s.first();
         let next = match self.scene.sweep() {
             None if is_cut_short(self.scene, critical_rad_per_s) => critical_rad_per_s.get(CHARTED),
@@ -125,14 +123,14 @@ impl<'a> Reach<'a> {
     pub fn of_window(
         &self,
         plate: &Plate,
-        range: (f64, f64),
+        range: SpeedRange,
         resting: &[RestingMode],
     ) -> Result<usize, SpectrumError> {
         let drawn = resting
             .last()
             .map_or(0.0, |mode| ABOVE_LAST * mode.frequency_rad_per_s);
-        let window = drawn.max(highest_reflected(plate, range.1)?);
-        Ok(diameters_within(plate, range.1, window))
+        let window = drawn.max(highest_reflected(plate, range.to_rad_per_s)?);
+        Ok(diameters_within(plate, range.to_rad_per_s, window))
     }
 
     fn needed(
@@ -275,10 +273,7 @@ mod tests {
     /// Waves of 73 nodal diameters more than the first critical one stand still below 40 000 rpm.
     #[test]
     fn a_sweep_that_no_basis_contains_is_refused_without_an_estimate_of_the_work() {
-        let fast = Scene::paper().swept(SpeedRange {
-            from_rad_per_s: 0.0,
-            to_rad_per_s: rad_per_s(40_000.0),
-        });
+        let fast = Scene::paper().swept(SpeedRange::between_rpm(0.0, 40_000.0));
         let told = std::sync::atomic::AtomicBool::new(false);
         let tell = |_| told.store(true, std::sync::atomic::Ordering::Relaxed);
         let options = AnalysisOptions {
@@ -295,10 +290,7 @@ mod tests {
     /// Hoop strain ρ(Ωb)²/E of the paper's blade: 0.1 at 43 400 rpm.
     #[test]
     fn no_sweep_goes_to_where_the_blade_would_be_torn() {
-        let torn = Scene::paper().swept(SpeedRange {
-            from_rad_per_s: 0.0,
-            to_rad_per_s: rad_per_s(43_500.0),
-        });
+        let torn = Scene::paper().swept(SpeedRange::between_rpm(0.0, 43_500.0));
         match ChosenBasis::new(&torn.unwrap(), 1e-2) {
             Err(AnalysisError::Overstretched { limit_rpm, .. }) => {
                 assert!((limit_rpm - 43_400.0).abs() < 50.0, "{limit_rpm}");
@@ -312,7 +304,10 @@ mod tests {
         });
         let scene = thick.unwrap();
         let chosen = ChosenBasis::new(&scene, 1e-2).unwrap();
-        assert_eq!(chosen.range_rad_per_s.1, fastest_rad_per_s(scene.blade()));
-        assert!(chosen.critical[0].speed_rad_per_s > chosen.range_rad_per_s.1);
+        assert_eq!(
+            chosen.range_rad_per_s.to_rad_per_s,
+            fastest_rad_per_s(scene.blade())
+        );
+        assert!(chosen.critical[0].speed_rad_per_s > chosen.range_rad_per_s.to_rad_per_s);
     }
 }

@@ -22,19 +22,20 @@ pub(super) fn check_room(chosen: &ChosenBasis) -> Result<(), AnalysisError> {
     if plate.is_axisymmetric() {
         return Ok(());
     }
-    let (from, to) = clear_range(critical, chosen.range_rad_per_s);
+    let range = clear_range(critical, chosen.range_rad_per_s);
+    let to = range.to_rad_per_s;
     let window = highest_reflected(plate, to)?;
     let waves = waves_within(plate, to, window)?;
     let modes = (REMAINING * waves as f64) as usize;
-    let even = evenly_spaced((from, to), CHART_SPEEDS);
-    let speeds = with_critical_speeds((plate, critical), (from, to), even);
+    let even = evenly_spaced(range.ends(), CHART_SPEEDS);
+    let speeds = with_critical_speeds((plate, critical), range, even);
     Ok(check_memory((plate, critical), modes, &speeds)?)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::scene::{Accuracy, Scene, rad_per_s};
+    use crate::model::scene::{Accuracy, Scene, SpeedRange};
     use crate::modes::branches::CampbellError;
     use crate::modes::{SpectralModel, Strategy};
     use crate::stability::{Analysis, AnalysisOptions};
@@ -44,10 +45,10 @@ mod tests {
     fn a_guided_saw_has_at_least_as_many_modes_in_the_window_as_its_free_blade() {
         for to_rpm in [3000.0, 5000.0] {
             let saw = Scene::paper()
-                .swept((0.0, rad_per_s(to_rpm)).into())
+                .swept(SpeedRange::between_rpm(0.0, to_rpm))
                 .unwrap();
             let chosen = ChosenBasis::new(&saw, Accuracy::Draft.tolerance()).unwrap();
-            let (_, to) = clear_range(&chosen.critical, chosen.range_rad_per_s);
+            let to = clear_range(&chosen.critical, chosen.range_rad_per_s).to_rad_per_s;
             let plate = &chosen.saw.plate;
             let waves = waves_within(plate, to, highest_reflected(plate, to).unwrap()).unwrap();
             let range = chosen.range_rad_per_s;
@@ -65,7 +66,7 @@ mod tests {
         let fast = Scene::paper()
             .edited(|saw| saw.accuracy = Accuracy::Draft)
             .unwrap()
-            .swept((0.0, rad_per_s(20_000.0)).into())
+            .swept(SpeedRange::between_rpm(0.0, 20_000.0))
             .unwrap();
         let told = std::sync::atomic::AtomicBool::new(false);
         let tell = |_| told.store(true, std::sync::atomic::Ordering::Relaxed);

@@ -2,6 +2,7 @@
 //! range, so that an event at an end of the range is not at an end of the search.
 
 use super::band::Instability;
+use crate::model::scene::SpeedRange;
 use crate::modes::SpectrumError;
 
 /// A band of a search.
@@ -19,15 +20,14 @@ impl Found {
     /// # Errors
     /// The errors of `part`.
     pub fn new(
-        range: (f64, f64),
-        part: impl Fn((f64, f64)) -> Result<Instability, SpectrumError>,
+        range: SpeedRange,
+        part: impl Fn(SpeedRange) -> Result<Instability, SpectrumError>,
     ) -> Result<Self, SpectrumError> {
-        let whole = part((0.0, f64::INFINITY))?;
-        let ends = (whole.from_rad_per_s, whole.to_rad_per_s);
-        let cut = (ends.0.max(range.0), ends.1.min(range.1));
-        let within = if cut == ends {
+        let whole = part(SpeedRange::new(0.0, f64::INFINITY))?;
+        let cut = whole.range().within(range);
+        let within = if cut == whole.range() {
             Some(whole.clone())
-        } else if cut.0 < cut.1 {
+        } else if cut.width() > 0.0 {
             Some(Instability {
                 closed: false,
                 ..part(cut)?

@@ -141,7 +141,7 @@ impl Analysis {
             let critical = self.model.critical.iter();
             all.push(Sensitivity {
                 critical_speeds_percent: critical
-                    .take_while(|c| c.speed_rad_per_s <= self.range_rad_per_s.1)
+                    .take_while(|c| c.speed_rad_per_s <= self.range_rad_per_s.to_rad_per_s)
                     .map(|c| percent(&Merging::standing(c.component, c.speed_rad_per_s, &c.shape)))
                     .collect(),
                 onsets_percent: mergings.iter().map(|m| m.as_ref().map(percent)).collect(),
@@ -168,7 +168,7 @@ impl Sensitivity {
     /// # Errors
     /// [`SensitivityError`].
     pub fn all(analysis: &Analysis) -> Result<Vec<Self>, SensitivityError> {
-        let start = analysis.range_rad_per_s.0;
+        let start = analysis.range_rad_per_s.from_rad_per_s;
         analysis.sensitivities(analysis.scene.operating_rad_per_s().unwrap_or(start))
     }
 }
@@ -270,7 +270,7 @@ impl Merging {
     /// Onset of a band; `None` if the range begins inside it.
     fn new(analysis: &Analysis, band: &Instability) -> Result<Option<Self>, SpectrumError> {
         let model = &analysis.model;
-        if band.from_rad_per_s <= analysis.range_rad_per_s.0 {
+        if band.from_rad_per_s <= analysis.range_rad_per_s.from_rad_per_s {
             return Ok(None);
         }
         if !model.is_conservative() {

@@ -23,7 +23,7 @@ impl Answer {
         let counters = &analysis.model.counters;
         let count = |counter: &AtomicUsize| counter.load(Ordering::Relaxed);
         let critical = analysis.model.critical.iter().map(|c| c.speed_rad_per_s);
-        let within = critical.take_while(|speed| *speed <= analysis.range_rad_per_s.1);
+        let within = critical.take_while(|speed| *speed <= analysis.range_rad_per_s.to_rad_per_s);
         Ok(Answer {
             critical_rpm: within.map(rpm).collect(),
             bands: analysis.bands().to_vec(),

@@ -10,6 +10,7 @@ use super::options::AnalysisOptions;
 use super::signature::Signature;
 use crate::model::evenly_spaced;
 use crate::model::plate::Plate;
+use crate::model::scene::SpeedRange;
 use crate::modes::branches::{self, Closeness, SpeedSample};
 use crate::modes::{NamedCriticalSpeed, SpectralModel, SpectrumError, clear_range, searched_range};
 
@@ -22,7 +23,7 @@ pub(super) const WITHIN_BANDS: [f64; 6] = [-0.02, 0.02, 0.15, 0.85, 0.98, 1.02];
 /// checks.
 pub(super) fn charted(
     model: &SpectralModel,
-    range: (f64, f64),
+    range: SpeedRange,
     (count, depth): (usize, Depth),
     options: AnalysisOptions<'_>,
 ) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
@@ -30,7 +31,7 @@ pub(super) fn charted(
         detail, progress, ..
     } = options;
     let drawn = clear_range(&model.critical, range);
-    let even = evenly_spaced(drawn, count);
+    let even = evenly_spaced(drawn.ends(), count);
     let speeds = match detail {
         Detail::Full => with_critical_speeds((&model.plate, &model.critical), drawn, even),
         // A sketch of a guided blade needs no speeds beside critical ones, because its branches are followed
@@ -81,7 +82,7 @@ fn signature_of(sample: &SpeedSample) -> Signature {
 /// [`SpectrumError`] when an eigenproblem fails.
 pub fn undamped_bands(
     model: &SpectralModel,
-    range: (f64, f64),
+    range: SpeedRange,
     count: usize,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let speeds = search_speeds(model, range, count);
@@ -90,9 +91,9 @@ pub fn undamped_bands(
 
 /// Start speeds of the search for bands: `count` even ones and both sides of every critical speed. The first
 /// and the last are slightly outside the range, away from every critical speed.
-pub(super) fn search_speeds(model: &SpectralModel, range: (f64, f64), count: usize) -> Vec<f64> {
+pub(super) fn search_speeds(model: &SpectralModel, range: SpeedRange, count: usize) -> Vec<f64> {
     let searched = searched_range(&model.critical, range);
-    let even = evenly_spaced(searched, count);
+    let even = evenly_spaced(searched.ends(), count);
     from_lowest_critical(
         model,
         with_critical_speeds((&model.plate, &model.critical), searched, even),
@@ -141,7 +142,7 @@ const CLEAR: f64 = 1e-5;
 /// Adds both sides of each group of critical speeds in the range.
 pub(super) fn with_critical_speeds(
     (plate, critical): (&Plate, &[NamedCriticalSpeed]),
-    range: (f64, f64),
+    range: SpeedRange,
     mut speeds: Vec<f64>,
 ) -> Vec<f64> {
     let critical: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
@@ -157,7 +158,7 @@ pub(super) fn with_critical_speeds(
         let beside = critical
             .iter()
             .flat_map(|c| [c * (1.0 - DOUBLE_GAP), c * (1.0 + DOUBLE_GAP)]);
-        speeds.extend(beside.filter(|s| (range.0..range.1).contains(s)));
+        speeds.extend(beside.filter(|s| (range.from_rad_per_s..range.to_rad_per_s).contains(s)));
         speeds.sort_by(f64::total_cmp);
         speeds.dedup_by(|x, y| (*x / *y - 1.0).abs() < 1e-9);
         return speeds;
@@ -167,7 +168,7 @@ pub(super) fn with_critical_speeds(
     for (index, &speed) in critical.iter().enumerate() {
         let gap = critical_gap(&critical, index);
         let (below, above) = (speed * (1.0 - gap), speed * (1.0 + gap));
-        if below <= range.0 || above >= range.1 {
+        if below <= range.from_rad_per_s || above >= range.to_rad_per_s {
             continue;
         }
         match previous {
@@ -207,21 +208,19 @@ fn inside(
     instabilities: &[Instability],
     samples: &[SpeedSample],
     (shares, room): (&[f64], usize),
-    range: (f64, f64),
+    range: SpeedRange,
 ) -> Vec<f64> {
     let at_each = room / instabilities.len().max(1);
     let shares = &shares[..shares.len().min(at_each.saturating_sub(1))];
     let mut speeds: Vec<f64> = instabilities
         .iter()
         .flat_map(|band| {
-            let at = |share: f64| {
-                band.from_rad_per_s + share * (band.to_rad_per_s - band.from_rad_per_s)
-            };
+            let at = |share: f64| band.from_rad_per_s + share * band.range().width();
             let shares = shares.iter().copied();
             shares.map(at).chain([band.peak_rad_per_s])
         })
         .collect();
-    speeds.retain(|s| (range.0..=range.1).contains(s));
+    speeds.retain(|s| range.contains(*s));
     speeds.retain(|s| samples.iter().all(|sample| sample.speed_rad_per_s != *s));
     speeds.sort_by(f64::total_cmp);
     speeds.dedup();

@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use super::band::{CurvePoint, Instability, InstabilityKind};
 use super::interpolation::Cubic;
 use super::root::share_of_zero;
+use crate::model::scene::SpeedRange;
 use crate::modes::smallest;
 
 /// Relative distance from a critical speed within which a saw is considered to run at it. Because of K(Ω) =
@@ -61,7 +62,7 @@ pub struct Verdict {
     /// Index of the band that makes the saw unstable: divergence first, then the fastest growing.
     pub band: Option<usize>,
     /// Interval around the speed in which that band counts, in rad/s.
-    pub stretch: Option<(f64, f64)>,
+    pub stretch: Option<SpeedRange>,
     /// Index of the critical speed within 5 % of the speed; of several, the nearest.
     pub critical: Option<usize>,
 }
@@ -76,7 +77,7 @@ pub struct Evidence<'a> {
     /// Smallest growth rate of flutter that counts, in 1/s; divergence always counts.
     pub threshold_per_s: f64,
     /// Range of the search, in rad/s.
-    pub range_rad_per_s: (f64, f64),
+    pub range_rad_per_s: SpeedRange,
 }
 
 /// Index of the critical speed within 5 % of a speed; of several, the nearest. All speeds have the same unit.
@@ -89,7 +90,7 @@ pub(crate) fn critical_at(critical: &[f64], speed: f64) -> Option<usize> {
 impl Evidence<'_> {
     /// Verdict at a speed.
     pub fn verdict(&self, speed_rad_per_s: f64) -> Verdict {
-        let around = |(from, to): &(f64, f64)| (*from..=*to).contains(&speed_rad_per_s);
+        let around = |range: &SpeedRange| range.contains(speed_rad_per_s);
         let counted = self.bands.iter().enumerate().filter_map(|(index, band)| {
             let stretches = band.counted(self.threshold_per_s);
             Some((index, band, stretches.into_iter().find(around)?))
@@ -118,7 +119,7 @@ impl Evidence<'_> {
     /// Range of speeds around a speed without an instability that counts, in rad/s, within the sweep and at
     /// least 5 % away from critical speeds; `None` if the saw is unstable or at a critical speed, or if the
     /// speed is outside the sweep.
-    pub fn window_without_instability(&self, speed_rad_per_s: f64) -> Option<(f64, f64)> {
+    pub fn window_without_instability(&self, speed_rad_per_s: f64) -> Option<SpeedRange> {
         let verdict = self.verdict(speed_rad_per_s);
         if verdict.state != StabilityState::Stable || verdict.critical.is_some() {
             return None;
@@ -129,15 +130,16 @@ impl Evidence<'_> {
             .flat_map(|b| b.counted(self.threshold_per_s));
         let beside = |speed: &f64| {
             let margin = CRITICAL_MARGIN * speed;
-            (speed - margin, speed + margin)
+            SpeedRange::new(speed - margin, speed + margin)
         };
         let excluded = counted.chain(self.critical_rad_per_s.iter().map(beside));
-        let window = excluded.fold(self.range_rad_per_s, |(low, high), (from, to)| {
-            if to < speed_rad_per_s {
-                (low.max(to), high)
+        let window = excluded.fold(self.range_rad_per_s, |window, out| {
+            let beside = if out.to_rad_per_s < speed_rad_per_s {
+                SpeedRange::new(out.to_rad_per_s, f64::INFINITY)
             } else {
-                (low, high.min(from))
-            }
+                SpeedRange::new(0.0, out.from_rad_per_s)
+            };
+            window.within(beside)
         });
         Some(window)
     }
@@ -149,19 +151,19 @@ pub fn flutter_onsets(bands: &[Instability], threshold_per_s: f64) -> [Option<f6
     let counted = flutter.clone().flat_map(|b| b.counted(threshold_per_s));
     let first = |speeds: &mut dyn Iterator<Item = f64>| speeds.reduce(f64::min);
     [
-        first(&mut counted.map(|(from, _)| from)),
+        first(&mut counted.map(|range| range.from_rad_per_s)),
         first(&mut flutter.map(|b| b.from_rad_per_s)),
     ]
 }
 
 impl Instability {
     /// Intervals of speed in which the band counts, ascending, in rad/s.
-    pub fn counted(&self, threshold_per_s: f64) -> Vec<(f64, f64)> {
+    pub fn counted(&self, threshold_per_s: f64) -> Vec<SpeedRange> {
         if !self.counts(threshold_per_s) {
             return Vec::new();
         }
         if self.kind == InstabilityKind::Divergence || self.curve.is_empty() {
-            return vec![(self.from_rad_per_s, self.to_rad_per_s)];
+            return vec![self.range()];
         }
         let strong = |p: &CurvePoint| p.lambda.re >= threshold_per_s;
         let mut stretches = Vec::new();
@@ -175,12 +177,12 @@ impl Instability {
                 (false, true) => begun = Some(crossing(pair, threshold_per_s)),
                 (true, false) => {
                     let to = crossing(pair, threshold_per_s);
-                    stretches.extend(begun.take().map(|from| (from, to)));
+                    stretches.extend(begun.take().map(|from| SpeedRange::new(from, to)));
                 }
                 _ => {}
             }
         }
-        stretches.extend(begun.map(|from| (from, self.to_rad_per_s)));
+        stretches.extend(begun.map(|from| SpeedRange::new(from, self.to_rad_per_s)));
         stretches
     }
 
@@ -267,7 +269,7 @@ mod tests {
             bands,
             critical_rad_per_s: critical,
             threshold_per_s: 0.25,
-            range_rad_per_s: (0.0, 300.0),
+            range_rad_per_s: SpeedRange::new(0.0, 300.0),
         }
     }
 
@@ -276,9 +278,9 @@ mod tests {
         let bands = [damped_hump()];
         // (Ω − 100)(180 − Ω) = 400 at 140 ± √1200.
         let half = 1200.0_f64.sqrt();
-        let [(from, to)] = bands[0].counted(0.25)[..] else {
-            panic!("{:?}", bands[0].counted(0.25));
-        };
+        let counted = bands[0].counted(0.25);
+        assert_eq!(counted.len(), 1, "{counted:?}");
+        let [from, to] = counted[0].ends();
         assert!((from - (140.0 - half)).abs() < 1e-9 && (to - (140.0 + half)).abs() < 1e-9);
         assert_eq!(flutter_onsets(&bands, 0.25), [Some(from), Some(100.0)]);
         let found = evidence(&bands, &[]);
@@ -287,8 +289,8 @@ mod tests {
         assert_eq!(state(140.0), StabilityState::Flutter);
         assert_eq!(state(301.0), StabilityState::OutsideSweep);
         let window = |speed| found.window_without_instability(speed);
-        assert_eq!(window(104.0), Some((0.0, from)));
-        assert_eq!(window(179.0), Some((to, 300.0)));
+        assert_eq!(window(104.0), Some(SpeedRange::new(0.0, from)));
+        assert_eq!(window(179.0), Some(SpeedRange::new(to, 300.0)));
         assert_eq!(window(140.0), None);
         assert_eq!(flutter_onsets(&bands, 1.5), [None, Some(100.0)]);
     }
@@ -307,7 +309,7 @@ mod tests {
         assert_eq!(at(155.0).state, StabilityState::Stable);
         assert_eq!(
             found.window_without_instability(155.0),
-            Some((120.0, 300.0))
+            Some(SpeedRange::new(120.0, 300.0))
         );
         assert_eq!(flutter_onsets(&bands, 0.25), [Some(94.0), Some(94.0)]);
     }
@@ -318,10 +320,10 @@ mod tests {
         let bands = [band(InstabilityKind::Divergence, 240.0, 250.0, 1.0)];
         let found = evidence(&bands, &[100.0, 200.0, 240.0, 250.0, 310.0]);
         let window = |speed| found.window_without_instability(speed);
-        assert_eq!(window(90.0), Some((0.0, 95.0)));
-        assert_eq!(window(150.0), Some((105.0, 190.0)));
-        assert_eq!(window(220.0), Some((210.0, 228.0)));
-        assert_eq!(window(280.0), Some((262.5, 294.5)));
+        assert_eq!(window(90.0), Some(SpeedRange::new(0.0, 95.0)));
+        assert_eq!(window(150.0), Some(SpeedRange::new(105.0, 190.0)));
+        assert_eq!(window(220.0), Some(SpeedRange::new(210.0, 228.0)));
+        assert_eq!(window(280.0), Some(SpeedRange::new(262.5, 294.5)));
         let at = |speed| found.verdict(speed);
         for (speed, critical) in [
             (96.0, Some(0)),

@@ -8,7 +8,9 @@
 
 use faer::{Mat, Scale, c64};
 use rayon::prelude::*;
-use sawflutter::model::scene::{Accuracy, GuideFile, InPlane, Mount, Scene, SceneFile, rpm};
+use sawflutter::model::scene::{
+    Accuracy, GuideFile, InPlane, Mount, Scene, SceneFile, SpeedRange, rpm,
+};
 use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::stability::{Analysis, Instability, InstabilityKind};
 
@@ -141,14 +143,15 @@ fn all_eigenvalues(system: &GyroscopicSystem, speed_rad_per_s: f64) -> Vec<c64> 
 }
 
 /// Speeds at which a list is compared with the spectrum.
-fn speeds(bands: &[Instability], critical: &[f64], (from, to): (f64, f64)) -> Vec<f64> {
+fn speeds(bands: &[Instability], critical: &[f64], range: SpeedRange) -> Vec<f64> {
+    let [from, to] = range.ends();
     let mut marks: Vec<f64> = bands
         .iter()
         .flat_map(|b| [b.from_rad_per_s, b.to_rad_per_s])
         .collect();
     marks.extend(critical);
     marks.extend([from, to]);
-    marks.retain(|speed| (from..=to).contains(speed));
+    marks.retain(|speed| range.contains(*speed));
     marks.sort_by(f64::total_cmp);
     let middles = marks
         .windows(2)
@@ -169,9 +172,7 @@ fn contradictions(bands: &[Instability], speed: f64, spectrum: &[c64]) -> Vec<St
         let mut growth: Vec<f64> = spectrum.iter().filter(is_kind).map(|v| v.re).collect();
         growth.retain(|growth| *growth > POSSIBLE_PER_S);
         growth.sort_by(|x, y| y.total_cmp(x));
-        let covers = |b: &&Instability| {
-            b.kind == kind && (b.from_rad_per_s..=b.to_rad_per_s).contains(&speed)
-        };
+        let covers = |b: &&Instability| b.kind == kind && b.range().contains(speed);
         let mut peaks: Vec<f64> = bands
             .iter()
             .filter(covers)

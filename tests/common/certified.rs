@@ -8,14 +8,14 @@ use proptest::strategy::{Strategy as _, ValueTree};
 use proptest::test_runner::TestRunner;
 use sawflutter::model::evenly_spaced;
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{GuideFile, Scene, SceneFile, rpm};
+use sawflutter::model::scene::{GuideFile, Scene, SceneFile, SpeedRange, rpm};
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Instability, InstabilityKind, undamped_bands};
 
-pub fn bands_of(model: &SpectralModel, range: (f64, f64), count: usize) -> Vec<Instability> {
+pub fn bands_of(model: &SpectralModel, range: SpeedRange, count: usize) -> Vec<Instability> {
     let (bands, certificate) = undamped_bands(model, range, count).unwrap();
     let lowest = model.critical[0].speed_rad_per_s;
-    let speeds = evenly_spaced(range, count);
+    let speeds = evenly_spaced(range.ends(), count);
     let above = speeds.iter().filter(|speed| **speed > lowest).count();
     assert!(certificate.speeds_checked >= above);
     assert_eq!(
@@ -96,7 +96,7 @@ pub fn assert_same_from_few_speeds(file: &SceneFile) -> [usize; 2] {
     };
     let plate = Plate::new(&scene, resolution);
     let first = SpectralModel::critical_speeds(&plate).unwrap()[0].speed_rad_per_s;
-    let range = (0.0, 1.5 * first);
+    let range = SpeedRange::new(0.0, 1.5 * first);
     let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
     let fine = bands_of(&model, range, 100);
     let what = || serde_json::to_string(file).unwrap();

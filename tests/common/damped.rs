@@ -7,7 +7,7 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use sawflutter::model::evenly_spaced;
 use sawflutter::model::plate::Plate;
-use sawflutter::model::scene::{DampingFile, SceneFile, rpm};
+use sawflutter::model::scene::{DampingFile, SceneFile, SpeedRange, rpm};
 use sawflutter::modes::{SpectralModel, Strategy as Solver};
 use sawflutter::stability::{Instability, InstabilityKind, chart};
 
@@ -101,7 +101,7 @@ pub fn holds(bands: &[Instability], all: &[c64], speed: f64) -> Result<(), Strin
 
 /// The peak growth of the bands of a saw, or the first error of its list.
 pub fn peak_growth_of_bands(file: &SceneFile) -> Result<f64, String> {
-    let range = (0.0, 1.9 * lowest_critical(file));
+    let range = SpeedRange::new(0.0, 1.9 * lowest_critical(file));
     let model =
         SpectralModel::new(Plate::new(&scene(file), SMALL), range, Solver::Reduced).unwrap();
     let chart = chart(&model, range, 31, &|_, _| ()).unwrap();
@@ -112,7 +112,9 @@ pub fn peak_growth_of_bands(file: &SceneFile) -> Result<f64, String> {
     let bands = &chart.instabilities;
     for band in bands {
         let span = band.from_rad_per_s..=band.to_rad_per_s;
-        let ends = band.closed || band.to_rad_per_s == range.1 || band.from_rad_per_s == range.0;
+        let ends = band.closed
+            || band.to_rad_per_s == range.to_rad_per_s
+            || band.from_rad_per_s == range.from_rad_per_s;
         let grows = band.to_rad_per_s > band.from_rad_per_s && band.peak_growth_per_s > 0.0;
         if !(ends && grows && span.contains(&band.peak_rad_per_s)) {
             return Err(format!("{band:?}"));
@@ -126,9 +128,9 @@ pub fn peak_growth_of_bands(file: &SceneFile) -> Result<f64, String> {
 }
 
 /// Even speeds, the middles and the peaks of the bands, none of them at an edge.
-fn speeds(bands: &[Instability], range: (f64, f64)) -> Vec<f64> {
+fn speeds(bands: &[Instability], range: SpeedRange) -> Vec<f64> {
     let middle = |b: &Instability| 0.5 * (b.from_rad_per_s + b.to_rad_per_s);
-    let mut speeds = evenly_spaced(range, 24);
+    let mut speeds = evenly_spaced(range.ends(), 24);
     speeds.extend(bands.iter().map(middle));
     speeds.extend(bands.iter().map(|b| b.peak_rad_per_s));
     let is_edge = |speed: f64, edge: f64| (edge / speed - 1.0).abs() < 1e-5;

@@ -5,7 +5,7 @@ use sawflutter::analyses::washboard::{WashboardReport, washboard};
 use sawflutter::model::plate::{Plate, Resolution};
 use sawflutter::model::scene::{
     Accuracy, CutFile, DampingFile, ExcitationFile, GuideFile, InPlane, Mount, RimFile, Scene,
-    SceneFile, SweepFile, ThicknessRow, WashboardingFile, WoodFile, rad_per_s,
+    SceneFile, SpeedRange, SweepFile, ThicknessRow, WashboardingFile, WoodFile, rad_per_s,
 };
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, chart};
@@ -229,7 +229,7 @@ pub fn survives_two_speeds(scene: &Scene) {
     let mut speeds = critical.iter().map(|c| c.speed_rad_per_s);
     assert!(speeds.clone().all(|speed| speed.is_finite() && speed > 0.0));
     let lowest = speeds.next().unwrap_or(rad_per_s(1000.0));
-    let Ok(model) = SpectralModel::new(plate, (0.0, lowest), Strategy::Dense) else {
+    let Ok(model) = SpectralModel::new(plate, SpeedRange::new(0.0, lowest), Strategy::Dense) else {
         return;
     };
     for speed in [0.0, 0.7 * lowest, 1.4 * lowest] {
@@ -251,10 +251,10 @@ pub fn survives_chart(scene: &Scene) {
     };
     let mut speeds = critical.iter().take(3).map(|c| 1.1 * c.speed_rad_per_s);
     let top = speeds.next_back().unwrap_or(rad_per_s(1000.0));
-    let Ok(model) = SpectralModel::new(plate, (0.0, top), Strategy::Dense) else {
+    let Ok(model) = SpectralModel::new(plate, SpeedRange::new(0.0, top), Strategy::Dense) else {
         return;
     };
-    let Ok(chart) = chart(&model, (0.0, top), 5, &|_, _| ()) else {
+    let Ok(chart) = chart(&model, SpeedRange::new(0.0, top), 5, &|_, _| ()) else {
         return;
     };
     for band in &chart.instabilities {

@@ -4,7 +4,7 @@ use faer::c64;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, FileFailurePersistence, RngAlgorithm, TestRng, TestRunner};
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{GuideFile, InPlane, Mount, Scene, SceneFile};
+use sawflutter::model::scene::{GuideFile, InPlane, Mount, Scene, SceneFile, SpeedRange};
 use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::modes::{SpectralModel, Strategy as Solver, companion_eigenpairs};
 
@@ -139,5 +139,5 @@ pub fn distance(left: &[c64], right: &[c64]) -> f64 {
 
 pub fn dense_model(file: &SceneFile, top_rad_per_s: f64) -> SpectralModel {
     let plate = Plate::new(&scene(file), SMALL);
-    SpectralModel::new(plate, (0.0, top_rad_per_s), Solver::Dense).unwrap()
+    SpectralModel::new(plate, SpeedRange::new(0.0, top_rad_per_s), Solver::Dense).unwrap()
 }

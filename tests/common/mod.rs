@@ -6,7 +6,7 @@ pub mod limit;
 use std::path::{Path, PathBuf};
 
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{Accuracy, Mount, Scene, SceneFile};
+use sawflutter::model::scene::{Accuracy, Mount, Scene, SceneFile, SpeedRange};
 use sawflutter::modes::{Mode, SpectralModel, Strategy};
 
 /// Whether a message contains words, whose pieces between ellipses stand in this order.
@@ -29,7 +29,12 @@ pub fn scene(name: &str) -> Scene {
 /// The modes of a saw from rest to a speed, at reference accuracy.
 pub fn reference_model(scene: &Scene, top_rad_per_s: f64) -> SpectralModel {
     let plate = Plate::new(scene, Resolution::of(Accuracy::Reference));
-    SpectralModel::new(plate, (0.0, top_rad_per_s), Strategy::Reduced).expect("a spectrum")
+    SpectralModel::new(
+        plate,
+        SpeedRange::new(0.0, top_rad_per_s),
+        Strategy::Reduced,
+    )
+    .expect("a spectrum")
 }
 
 /// |actual/expected − 1|.

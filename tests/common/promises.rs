@@ -104,13 +104,13 @@ pub fn promises(saw: &Saw, tolerances: &[f64], truth: Resolution) -> Vec<Promise
     let all: Vec<ChosenBasis> = tolerances.iter().map(chosen).collect();
     let to = all
         .iter()
-        .map(|chosen| chosen.range_rad_per_s.1)
+        .map(|chosen| chosen.range_rad_per_s.to_rad_per_s)
         .fold(0.0, f64::max);
     let truth = Assembled::from(Plate::new(&saw.scene, truth))
         .critical_speeds(Some(&|_| to))
         .unwrap();
     let promise = |(chosen, tolerance): (&ChosenBasis, &f64)| {
-        let top = chosen.range_rad_per_s.1;
+        let top = chosen.range_rad_per_s.to_rad_per_s;
         let within = chosen.critical.iter().filter(|c| c.speed_rad_per_s <= top);
         let errors = within
             .zip(&truth)

@@ -108,7 +108,9 @@ impl Truth {
         let saw = Assembled::from(Plate::new(scene, basis));
         let lowest = LowestModes::new(&saw.plate);
         let range = ChosenBasis::new(scene, 1e-3).unwrap().range_rad_per_s;
-        let named = saw.critical_speeds(Some(&|_| 1.1 * range.1)).unwrap();
+        let named = saw
+            .critical_speeds(Some(&|_| 1.1 * range.to_rad_per_s))
+            .unwrap();
         let critical = named.iter().map(|c| c.speed_rad_per_s).collect();
         Truth {
             at_rest: lowest.at(0.0, 30).unwrap(),
@@ -176,9 +178,7 @@ pub fn compare(saw: &Saw, truth: &Truth, tolerance: f64, ratios: &mut Ratios) {
         };
         println!("{}", place());
         // A larger basis does not show an error of the search for the peak; other tests check it.
-        let share = |b: &Instability| {
-            (b.peak_rad_per_s - b.from_rad_per_s) / (b.to_rad_per_s - b.from_rad_per_s)
-        };
+        let share = |b: &Instability| (b.peak_rad_per_s - b.from_rad_per_s) / b.range().width();
         if (share(found) - share(truth)).abs() > 0.1 {
             println!("another peak: {}", place());
             continue;

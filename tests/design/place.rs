@@ -47,13 +47,10 @@ fn place(scene: &Scene, freed: &[Freed], demands: &Demands, options: &Options) -
 
 /// Bands of a saw by other functions of the library than those of `place`.
 fn bands(scene: &Scene) -> Vec<Instability> {
-    let SpeedRange {
-        from_rad_per_s: from,
-        to_rad_per_s: to,
-    } = scene.sweep().unwrap();
+    let range = scene.sweep().unwrap();
     let plate = Plate::new(scene, SMALL);
-    let model = SpectralModel::new(plate, (from, to), Strategy::Reduced).unwrap();
-    undamped_bands(&model, (from, to), 40).unwrap().0
+    let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
+    undamped_bands(&model, range, 40).unwrap().0
 }
 
 fn flutter_rpm(scene: &Scene) -> f64 {
@@ -247,10 +244,7 @@ fn where_no_saw_keeps_the_limit_the_nearest_is_answered() {
 #[test]
 fn saws_that_cannot_be_computed_are_counted() {
     let saw = scene("gallery/heated-rim")
-        .swept(SpeedRange {
-            from_rad_per_s: 0.0,
-            to_rad_per_s: rad_per_s(4000.0),
-        })
+        .swept(SpeedRange::between_rpm(0.0, 4000.0))
         .unwrap();
     let free = freed(&saw, &[("membrane.temperature.rim_rise_k", 0.0, 66.0)]);
     let found = place(&saw, &free, &Demands::default(), &quick());

@@ -1,7 +1,7 @@
 //! Bore ratios, Poisson's ratios and nodal diameters against Bessel roots.
 
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{InPlane, Material, Mount, Scene, rad_per_s};
+use sawflutter::model::scene::{InPlane, Material, Mount, Scene, SpeedRange};
 use sawflutter::modes::{ModeKind, SpectralModel, Strategy};
 
 use crate::common::{self, AnnulusRoot};
@@ -35,7 +35,12 @@ fn lowest_root(scene: &Scene, n: usize, radial_functions: usize) -> f64 {
         radial_functions,
     };
     let plate = Plate::new(scene, resolution);
-    let model = SpectralModel::new(plate, (0.0, rad_per_s(100.0)), Strategy::Reduced).unwrap();
+    let model = SpectralModel::new(
+        plate,
+        SpeedRange::between_rpm(0.0, 100.0),
+        Strategy::Reduced,
+    )
+    .unwrap();
     let modes = model.all_modes(0.0).unwrap();
     let lowest = common::of_diameters(&modes, n).find(|mode| mode.kind != ModeKind::Rigid);
     let blade = scene.blade();

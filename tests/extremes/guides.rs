@@ -4,7 +4,9 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use sawflutter::model::analytical::free_wave::{on_a_bed_rad_per_s, space_frequencies_rad_per_s};
 use sawflutter::model::analytical::point_springs::{StandingWave, critical_speeds_rad_per_s};
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{Accuracy, GuideFile, InPlane, Mount, SceneFile, rad_per_s};
+use sawflutter::model::scene::{
+    Accuracy, GuideFile, InPlane, Mount, SceneFile, SpeedRange, rad_per_s,
+};
 use sawflutter::modes::{ModeKind, SpectralModel, Strategy};
 
 use crate::row::Row;
@@ -139,7 +141,8 @@ pub fn pad_under_the_whole_blade() -> Row {
         }
         file.guides.push(bed(stiffness));
         let plate = Plate::new(&scene(&file), SMALL);
-        let model = SpectralModel::new(plate, (0.0, speed), Strategy::Dense).unwrap();
+        let model =
+            SpectralModel::new(plate, SpeedRange::new(0.0, speed), Strategy::Dense).unwrap();
         let modes = model.all_modes(speed).unwrap();
         // Motions slower than 1e-6 of an elastic one are almost rigid: a part √ε of them is rounding.
         let rigid = |omega: f64| omega < 1e-6 * unit;

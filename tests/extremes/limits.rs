@@ -2,7 +2,7 @@
 
 use sawflutter::model::evenly_spaced;
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{Accuracy, Scene, SceneFile, rad_per_s, rpm};
+use sawflutter::model::scene::{Accuracy, Scene, SceneFile, SpeedRange, rpm};
 use sawflutter::modes::branches::{CampbellError, sample};
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::Analysis;
@@ -33,7 +33,8 @@ fn where_the_basis_is_too_coarse_the_estimate_says_so() {
         );
         // The estimate is that of the critical speeds within the sweep.
         let errors = chosen.zip(&finer);
-        let within = errors.take_while(|(speed, _)| *speed <= analysis.range_rad_per_s.1);
+        let within =
+            errors.take_while(|(speed, _)| *speed <= analysis.range_rad_per_s.to_rad_per_s);
         let error = within.fold(0.0_f64, |top, (x, y)| top.max(relative_error(x, *y)));
         assert!(error > 0.0);
         println!("{stiffness:e} N/m: draft is off by {error:.1e}, says {estimated:.1e}");
@@ -78,9 +79,9 @@ fn problems_too_large_for_memory_are_refused_with_the_number() {
         "{message}"
     );
     let plate = Plate::new(&scene(&unguided()), SMALL);
-    let range = (0.0, rad_per_s(1000.0));
+    let range = SpeedRange::between_rpm(0.0, 1000.0);
     let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
-    let of_sweep = match sample(&model, &evenly_spaced(range, 10_000_000), &|_, _| ()) {
+    let of_sweep = match sample(&model, &evenly_spaced(range.ends(), 10_000_000), &|_, _| ()) {
         Err(error @ CampbellError::TooLarge { .. }) => error.to_string(),
         other => panic!("{:?}", other.map(|samples| samples.len())),
     };
@@ -92,13 +93,13 @@ fn problems_too_large_for_memory_are_refused_with_the_number() {
 #[test]
 fn the_error_for_too_large_a_chart_states_where_its_sweep_may_end() {
     let plate = Plate::new(&scene(&paper()), SMALL);
-    let range = (0.0, rad_per_s(3000.0));
+    let range = SpeedRange::between_rpm(0.0, 3000.0);
     let model = SpectralModel::new(plate.clone(), range, Strategy::Reduced).unwrap();
     let refusal = |speeds: Vec<f64>| match sample(&model, &speeds, &|_, _| ()) {
         Err(error) => error,
         Ok(_) => panic!("{} speeds fit", speeds.len()),
     };
-    let hopeless = refusal(evenly_spaced(range, 10_000_000));
+    let hopeless = refusal(evenly_spaced(range.ends(), 10_000_000));
     let CampbellError::TooLarge { needed_mb, .. } = &hopeless else {
         panic!("{hopeless}");
     };
@@ -109,7 +110,9 @@ fn the_error_for_too_large_a_chart_states_where_its_sweep_may_end() {
     let most = 1024.0 * 1e7 / *needed_mb as f64;
     let events = SpectralModel::critical_speeds(&plate).unwrap();
     let critical = events.iter().map(|c| c.speed_rad_per_s);
-    let within: Vec<f64> = critical.filter(|speed| *speed < range.1).collect();
+    let within: Vec<f64> = critical
+        .filter(|speed| *speed < range.to_rad_per_s)
+        .collect();
     let sides = (-30..=30)
         .filter(|k| *k != 0)
         .map(|k| 1.0 + 1e-5 * f64::from(k));
@@ -117,7 +120,7 @@ fn the_error_for_too_large_a_chart_states_where_its_sweep_may_end() {
         .iter()
         .flat_map(|c| sides.clone().map(move |side| c * side));
     // All speeds that fit are even, except a hundred.
-    let even = evenly_spaced(range, most as usize - 100);
+    let even = evenly_spaced(range.ends(), most as usize - 100);
     let mut speeds: Vec<f64> = even.into_iter().chain(beside).collect();
     speeds.sort_by(f64::total_cmp);
     let message = refusal(speeds).to_string();

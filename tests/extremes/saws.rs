@@ -1,7 +1,7 @@
 //! The saws with extreme numbers, and the numbers that are compared.
 
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{Scene, SceneFile};
+use sawflutter::model::scene::{Scene, SceneFile, SpeedRange};
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::undamped_bands;
 
@@ -43,7 +43,7 @@ pub fn critical(file: &SceneFile, resolution: Resolution) -> Vec<f64> {
 pub fn signature(file: &SceneFile) -> Vec<f64> {
     let plate = Plate::new(&scene(file), SMALL);
     let first = SpectralModel::critical_speeds(&plate).unwrap()[0].speed_rad_per_s;
-    let range = (0.0, 1.6 * first);
+    let range = SpeedRange::new(0.0, 1.6 * first);
     let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
     let (bands, certificate) = undamped_bands(&model, range, 21).unwrap();
     assert_eq!(certificate.violations_rad_per_s, Vec::<f64>::new());

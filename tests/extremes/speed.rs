@@ -6,7 +6,7 @@ use sawflutter::model::analytical::spinning_membrane::{
     annulus_umbrella_ratio_squared, disk_frequency_ratio_squared,
 };
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{Accuracy, SceneFile, rad_per_s};
+use sawflutter::model::scene::{Accuracy, SceneFile, SpeedRange, rad_per_s};
 use sawflutter::modes::{ModeKind, SpectralModel, Strategy};
 
 use crate::row::Row;
@@ -15,7 +15,7 @@ use crate::saws::{scene, unguided};
 /// Frequencies on the blade of one harmonic of an unguided saw, ascending, each once.
 fn body_frequencies(file: &SceneFile, n: usize, speed: f64) -> Vec<f64> {
     let plate = Plate::new(&scene(file), Resolution::of(Accuracy::Reference));
-    let model = SpectralModel::new(plate, (0.0, speed), Strategy::Reduced).unwrap();
+    let model = SpectralModel::new(plate, SpeedRange::new(0.0, speed), Strategy::Reduced).unwrap();
     let modes = model.all_modes(speed).unwrap();
     let carried = n as f64 * speed;
     let forward = modes.iter().filter(|m| {
@@ -87,7 +87,8 @@ pub fn membrane_disk() -> Row {
             &[square.sqrt()],
             &format!("n = {n}, matrix"),
         );
-        let model = SpectralModel::new(plate, (0.0, speed), Strategy::Reduced).unwrap();
+        let model =
+            SpectralModel::new(plate, SpeedRange::new(0.0, speed), Strategy::Reduced).unwrap();
         let modes = model.all_modes(speed).unwrap();
         let [expected, _] = space_frequencies_rad_per_s(n, speed * square.sqrt(), speed);
         let nearest = modes
@@ -108,7 +109,12 @@ pub fn hardly_turning() -> Row {
     let mut row = Row::new("speed", "0 and 1e-6 rpm", "frequencies at rest, ± nΩ", 1e-8);
     let plate = Plate::new(&scene(&unguided()), Resolution::of(Accuracy::Design));
     let harmonics = plate.harmonics.clone();
-    let model = SpectralModel::new(plate, (0.0, rad_per_s(3000.0)), Strategy::Reduced).unwrap();
+    let model = SpectralModel::new(
+        plate,
+        SpeedRange::between_rpm(0.0, 3000.0),
+        Strategy::Reduced,
+    )
+    .unwrap();
     for rpm in [0.0, 1e-6] {
         let speed = rad_per_s(rpm);
         let modes = model.all_modes(speed).unwrap();

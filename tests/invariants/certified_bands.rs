@@ -1,7 +1,7 @@
 //! The list of instability bands is a property of the saw, not of the sweep.
 
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{Accuracy, Scene, rad_per_s, rpm};
+use sawflutter::model::scene::{Accuracy, Scene, SpeedRange, rpm};
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::InstabilityKind;
 
@@ -9,7 +9,7 @@ use crate::certified::{self, assert_same, bands_of};
 
 #[test]
 fn the_paper_saw_has_the_same_bands_from_25_to_400_speeds() {
-    let range = (0.0, rad_per_s(3000.0));
+    let range = SpeedRange::between_rpm(0.0, 3000.0);
     let plate = Plate::new(&Scene::paper(), Resolution::of(Accuracy::Design));
     let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
     let reference = bands_of(&model, range, 400);
@@ -32,7 +32,7 @@ fn the_paper_saw_has_the_same_bands_from_25_to_400_speeds() {
             b.kind == InstabilityKind::Flutter
                 && (rpm(b.from_rad_per_s) - 9.0..=rpm(b.to_rad_per_s) + 9.0).contains(&near)
         });
-        let width = found.map(|b| rpm(b.to_rad_per_s - b.from_rad_per_s));
+        let width = found.map(|b| rpm(b.range().width()));
         assert!(
             width.is_some_and(|w| w > narrowest && w < widest),
             "{near}: {width:?}"
@@ -58,7 +58,7 @@ fn drawn_saws_have_the_same_bands_from_25_and_from_100_speeds() {
 /// height in frequency.
 #[test]
 fn onsets_of_the_projection_are_those_of_the_full_model() {
-    let range = (0.0, rad_per_s(2300.0));
+    let range = SpeedRange::between_rpm(0.0, 2300.0);
     let resolution = Resolution {
         max_diameters: 7,
         radial_functions: 4,

@@ -3,7 +3,7 @@
 use faer::c64;
 use sawflutter::model::evenly_spaced;
 use sawflutter::model::plate::Plate;
-use sawflutter::model::scene::{Scene, SceneFile, rpm};
+use sawflutter::model::scene::{Scene, SceneFile, SpeedRange, rpm};
 use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::modes::{
     NamedCriticalSpeed, SpectralModel, Strategy as Solver, companion_eigenpairs,
@@ -54,12 +54,12 @@ impl Saw {
             top,
             bands: Vec::new(),
         };
-        saw.bands = saw.bands_of((0.0, top), Way::Chart);
+        saw.bands = saw.bands_of(SpeedRange::new(0.0, top), Way::Chart);
         saw
     }
 
     /// Bands of a range, whose certificate must not fail.
-    fn bands_of(&self, range: (f64, f64), way: Way) -> Vec<Instability> {
+    fn bands_of(&self, range: SpeedRange, way: Way) -> Vec<Instability> {
         let (plate, critical) = (self.plate.clone(), self.critical.clone());
         let model = |strategy| {
             SpectralModel::with_critical(plate.clone(), critical.clone(), range, strategy).unwrap()
@@ -73,8 +73,8 @@ impl Saw {
         };
         assert!(certificate.is_clean(), "{}: {certificate:?}", told(range));
         let unproven = certificate.unproven_rad_per_s.iter().flatten();
-        for (from, to) in unproven {
-            assert!(range.0 <= *from && from < to && *to <= range.1);
+        for open in unproven {
+            assert!(open.width() > 0.0 && open.within(range) == *open);
         }
         bands
     }
@@ -101,16 +101,17 @@ impl Saw {
     }
 }
 
-fn told((from, to): (f64, f64)) -> String {
-    format!("{} to {} rpm", rpm(from), rpm(to))
+fn told(range: SpeedRange) -> String {
+    let [from, to] = range.ends().map(rpm);
+    format!("{from} to {to} rpm")
 }
 
 /// The bands of a longer range within a shorter one: kind, edges, and whether the band is complete.
-fn cut(bands: &[Instability], (from, to): (f64, f64)) -> Vec<(InstabilityKind, f64, f64, bool)> {
+fn cut(bands: &[Instability], range: SpeedRange) -> Vec<(InstabilityKind, f64, f64, bool)> {
     let part = |b: &Instability| {
-        let (begin, end) = (b.from_rad_per_s.max(from), b.to_rad_per_s.min(to));
-        let is_whole = begin == b.from_rad_per_s && end == b.to_rad_per_s;
-        (b.kind, begin, end, is_whole && b.closed)
+        let part = b.range().within(range);
+        let [begin, end] = part.ends();
+        (b.kind, begin, end, part == b.range() && b.closed)
     };
     let mut parts: Vec<_> = bands.iter().map(part).collect();
     parts.retain(|(_, from, to, _)| to - from > NARROWEST * to);
@@ -118,7 +119,7 @@ fn cut(bands: &[Instability], (from, to): (f64, f64)) -> Vec<(InstabilityKind, f
     parts
 }
 
-fn assert_cut(saw: &Saw, range: (f64, f64), way: Way) {
+fn assert_cut(saw: &Saw, range: SpeedRange, way: Way) {
     let bands = saw.bands_of(range, way);
     let (found, expected) = (cut(&bands, range), cut(&saw.bands, range));
     let lists = || format!("{}, {way:?}:\n{found:?}\n{expected:?}", told(range));
@@ -129,15 +130,15 @@ fn assert_cut(saw: &Saw, range: (f64, f64), way: Way) {
         assert!(near(x.1, y.1) && near(x.2, y.2), "{}", lists());
     }
     for band in &bands {
-        assert!(band.from_rad_per_s >= range.0 && band.to_rad_per_s <= range.1);
-        assert!((band.from_rad_per_s..=band.to_rad_per_s).contains(&band.peak_rad_per_s));
+        assert!(band.range().within(range) == band.range());
+        assert!(band.range().contains(band.peak_rad_per_s));
         assert_peak(saw, band, range);
     }
 }
 
 /// The largest growth within a band is that of an eigenvalue of the full model, and no eigenvalue of its kind that is
 /// covered by this band alone grows faster.
-fn assert_peak(saw: &Saw, band: &Instability, range: (f64, f64)) {
+fn assert_peak(saw: &Saw, band: &Instability, range: SpeedRange) {
     let (from, to, peak) = (
         band.from_rad_per_s,
         band.to_rad_per_s,
@@ -160,7 +161,7 @@ fn assert_peak(saw: &Saw, band: &Instability, range: (f64, f64)) {
         });
         covering.count() == 1
     };
-    let within = evenly_spaced((from, to), 3).into_iter().filter(alone);
+    let within = evenly_spaced([from, to], 3).into_iter().filter(alone);
     for speed in within {
         let fastest = saw
             .growing(speed)
@@ -177,7 +178,7 @@ fn assert_peak(saw: &Saw, band: &Instability, range: (f64, f64)) {
 }
 
 /// Ranges that begin and end at events and beside them, each event with each offset.
-fn ranges(saw: &Saw) -> Vec<(f64, f64)> {
+fn ranges(saw: &Saw) -> Vec<SpeedRange> {
     let events = saw.events();
     let mut ranges = Vec::new();
     for (k, event) in events.iter().enumerate() {
@@ -186,9 +187,9 @@ fn ranges(saw: &Saw) -> Vec<(f64, f64)> {
             let other = events[(5 * k + 3 * j) % events.len()] * (1.0 + OFFSETS[(k + j) % 11]);
             let far = (end / other - 1.0).abs() > 1e-3;
             ranges.push(match (j % 3, far) {
-                (0, true) => (end.min(other), end.max(other)),
-                (1, _) => (end, saw.top),
-                _ => (0.0, end),
+                (0, true) => SpeedRange::new(end.min(other), end.max(other)),
+                (1, _) => SpeedRange::new(end, saw.top),
+                _ => SpeedRange::new(0.0, end),
             });
         }
     }
@@ -237,27 +238,30 @@ fn bands_of_every_range_that_ends_at_an_event_are_those_of_a_longer_one() {
 
 /// The bands of a range, compared with every eigenvalue, up to both ends: the speed that separates two maxima of one
 /// range of growth depends on both ends, so that lists may differ.
-fn assert_grows(saw: &Saw, range: (f64, f64)) {
+fn assert_grows(saw: &Saw, range: SpeedRange) {
     let bands = saw.bands_of(range, Way::Chart);
     for band in &bands {
         let (from, to) = (band.from_rad_per_s, band.to_rad_per_s);
         assert!(
-            range.0 <= from && to <= range.1,
+            range.from_rad_per_s <= from && to <= range.to_rad_per_s,
             "{band} in {}",
             told(range)
         );
-        let ends = [from == range.0, to == range.1];
+        let ends = [from == range.from_rad_per_s, to == range.to_rad_per_s];
         assert!(
             band.closed || ends.contains(&true),
             "{band} in {}",
             told(range)
         );
     }
-    let mut speeds = evenly_spaced(range, 6);
-    speeds.extend([range.0 * (1.0 + 1e-9), range.1 * (1.0 - 1e-9)]);
+    let mut speeds = evenly_spaced(range.ends(), 6);
+    speeds.extend([
+        range.from_rad_per_s * (1.0 + 1e-9),
+        range.to_rad_per_s * (1.0 - 1e-9),
+    ]);
     let events = saw.events();
     let is_clear = |s: &f64| events.iter().all(|event| (event / s - 1.0).abs() > 1e-5);
-    speeds.retain(|s| range.0 < *s && *s < range.1 && is_clear(s));
+    speeds.retain(|s| range.from_rad_per_s < *s && *s < range.to_rad_per_s && is_clear(s));
     for speed in speeds {
         let all: Vec<c64> = companion_eigenpairs(&saw.system, speed)
             .unwrap()

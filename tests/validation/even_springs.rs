@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use sawflutter::model::analytical::point_springs::{BodyWave, EvenSprings};
 use sawflutter::model::analytical::wave_coupling::{Meeting, SpaceWave};
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{GuideFile, Scene};
+use sawflutter::model::scene::{GuideFile, Scene, SpeedRange};
 use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::modes::{SpectralModel, Strategy, companion_eigenpairs};
 use sawflutter::stability::{Instability, InstabilityKind, undamped_bands};
@@ -190,8 +190,8 @@ fn off_the_exact_equation(
 /// Flutter and divergence of the blade on springs up to a speed.
 fn bands_of(springs: EvenSprings, top: f64, strategy: Strategy) -> [Vec<Instability>; 2] {
     let plate = Plate::new(&blade_on(springs), RESOLUTION);
-    let model = SpectralModel::new(plate, (0.0, top), strategy).unwrap();
-    let (bands, certificate) = undamped_bands(&model, (0.0, top), 41).unwrap();
+    let model = SpectralModel::new(plate, SpeedRange::new(0.0, top), strategy).unwrap();
+    let (bands, certificate) = undamped_bands(&model, SpeedRange::new(0.0, top), 41).unwrap();
     assert_eq!(certificate.violations_rad_per_s, Vec::<f64>::new());
     let (flutter, divergence) = bands
         .into_iter()

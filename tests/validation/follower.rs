@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use faer::{Col, Mat, Scale};
 use sawflutter::model::plate::{Contact, ContactTerms, Plate, Resolution};
-use sawflutter::model::scene::GuideFile;
+use sawflutter::model::scene::{GuideFile, SpeedRange};
 use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::modes::{ModeKind, SpectralModel, Strategy, fastest_growing};
 
@@ -121,7 +121,7 @@ fn a_follower_load_is_neither_symmetrised_nor_called_conservative() {
     assert_eq!(projected.nonconservative.as_ref().unwrap(), term);
     let change = system.stiffness_at(10.0) - system.conservative().stiffness_at(10.0);
     assert!((&change - term).norm_l2() < 1e-9 * system.stiffness.norm_l2());
-    let model = SpectralModel::new(plate, (0.0, 10.0), Strategy::Reduced).unwrap();
+    let model = SpectralModel::new(plate, SpeedRange::new(0.0, 10.0), Strategy::Reduced).unwrap();
     let modes = model.modes(5.0).unwrap();
     assert!(modes.iter().all(|mode| mode.kind == ModeKind::Damped));
     assert!(modes.iter().all(|mode| mode.krein_sign() == 0));

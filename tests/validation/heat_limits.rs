@@ -2,7 +2,7 @@
 
 use crate::common::assert_close;
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{Scene, rad_per_s};
+use sawflutter::model::scene::{Scene, SpeedRange, rad_per_s};
 use sawflutter::modes::{SpectralModel, SpectrumError, Strategy};
 use sawflutter::stability::HeatLimits;
 
@@ -27,7 +27,7 @@ fn saws() -> [(Scene, f64); 2] {
 
 fn limits(scene: &Scene) -> HeatLimits {
     let plate = Plate::new(scene, SMALL);
-    let model = SpectralModel::new(plate, (0.0, 100.0), Strategy::Dense).unwrap();
+    let model = SpectralModel::new(plate, SpeedRange::new(0.0, 100.0), Strategy::Dense).unwrap();
     HeatLimits::new(scene, &model).unwrap().unwrap()
 }
 

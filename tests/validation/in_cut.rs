@@ -12,7 +12,7 @@ use sawflutter::analyses::runup::runup;
 use sawflutter::model::analytical::free_wave::on_a_bed_rad_per_s;
 use sawflutter::model::plate::{Plate, Resolution};
 use sawflutter::model::scene::{
-    Accuracy, Scene, SceneFile, SideForceFile, WoodFile, rad_per_s, rpm,
+    Accuracy, Scene, SceneFile, SideForceFile, SpeedRange, WoodFile, rad_per_s, rpm,
 };
 use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::stability::{Analysis, ChosenBasis, InstabilityKind, Onsets, StabilityState};
@@ -339,7 +339,7 @@ fn a_small_force_in_the_cut_deflects_the_blade_as_the_whole_matrices_say() {
         to_rpm: Some(1300.0),
     };
     let report = deflect(&scene, &options).unwrap();
-    let swept = scene.swept((0.0, rad_per_s(1300.0)).into()).unwrap();
+    let swept = scene.swept(SpeedRange::between_rpm(0.0, 1300.0)).unwrap();
     let chosen = ChosenBasis::new(&swept, scene.tolerance()).unwrap();
     let plate = &chosen.saw.plate;
     let system = added_to_the_idling_saw(&scene, plate);

@@ -108,7 +108,7 @@ fn a_hot_rim_and_roll_tension_work_against_each_other() {
 fn without_heat_the_matrices_are_unchanged() {
     for base in [collar(), Scene::paper()] {
         let [plain, zero] = [base.clone(), heated(&base, 0.0)].map(|scene| {
-            let range = (0.0, rad_per_s(2000.0));
+            let range = SpeedRange::between_rpm(0.0, 2000.0);
             let plate = Plate::new(&scene, SMALL);
             let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
             let modes = model.modes(rad_per_s(900.0)).unwrap();
@@ -268,10 +268,7 @@ proptest! {
         let mut scene = Scene::try_from(file).unwrap();
         // A sweep past many critical speeds has many bands and would take long.
         if let Ok(critical) = SpectralModel::critical_speeds(&Plate::new(&scene, SMALL)) {
-            let swept = scene.swept(SpeedRange {
-                from_rad_per_s: 0.0,
-                to_rad_per_s: 1.1 * critical[0].speed_rad_per_s,
-            });
+            let swept = scene.swept(SpeedRange::new(0.0, 1.1 * critical[0].speed_rad_per_s));
             scene = swept.unwrap();
         }
         match Analysis::new(&scene) {

@@ -177,7 +177,7 @@ fn flutter_bands() {
         let speed = rad_per_s(speed_rpm);
         let place = bands
             .iter()
-            .position(|b| (b.from_rad_per_s..=b.to_rad_per_s).contains(&speed))
+            .position(|b| b.range().contains(speed))
             .unwrap_or_else(|| panic!("no merging at {speed_rpm} rpm"));
         places.push(place);
         if let Some((growth, frequency_hz)) = quoted {
@@ -198,7 +198,7 @@ fn flutter_bands() {
         (1903.0..1905.0).contains(&rpm(first.from_rad_per_s)),
         "{first:?}"
     );
-    let width = rpm(first.to_rad_per_s - first.from_rad_per_s);
+    let width = rpm(first.range().width());
     assert!(0.0 < width && width < 4.0, "{width} rpm wide");
     // The second band is the first whose growth reaches the default threshold, 0.25 1/s.
     assert_eq!(

@@ -8,7 +8,7 @@
 use faer::c64;
 use nalgebra::{DMatrix, linalg::Schur};
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{GuideFile, Scene, SceneFile, rad_per_s};
+use sawflutter::model::scene::{GuideFile, Scene, SceneFile, SpeedRange, rad_per_s};
 use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::modes::{ModeKind, SpectralModel, Strategy, companion_eigenpairs};
 use sawflutter::stability::undamped_bands;
@@ -46,7 +46,7 @@ fn scenes() -> [(Scene, usize); 3] {
 #[test]
 fn the_krein_index_matches_at_every_speed() {
     for (scene, free) in scenes() {
-        let range = (0.0, rad_per_s(2400.0));
+        let range = SpeedRange::between_rpm(0.0, 2400.0);
         let plate = Plate::new(&scene, RESOLUTION);
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
         assert_eq!(model.components[0].full.free_rigid.len(), free);
@@ -156,7 +156,7 @@ fn an_eigenvalue_vanishes_at_every_critical_speed() {
 #[test]
 fn the_tilts_of_a_free_blade_turn_at_twice_its_speed() {
     let plate = Plate::new(&scene(&[]), RESOLUTION);
-    let model = SpectralModel::new(plate, (0.0, 300.0), Strategy::Reduced).unwrap();
+    let model = SpectralModel::new(plate, SpeedRange::new(0.0, 300.0), Strategy::Reduced).unwrap();
     let modes = model.all_modes(250.0).unwrap();
     let rigid = modes.iter().filter(|m| m.kind == ModeKind::Rigid);
     assert_eq!(rigid.filter(|m| m.lambda == c64::new(0.0, 0.0)).count(), 3);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use faer::Mat;
 use sawflutter::model::plate::{Plate, Resolution, RimForce};
-use sawflutter::model::scene::{MembraneFile, Scene, rad_per_s};
+use sawflutter::model::scene::{MembraneFile, Scene, SpeedRange, rad_per_s};
 use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::modes::{SpectralModel, Strategy, companion_eigenpairs};
 use sawflutter::stability::{Analysis, chart};
@@ -59,14 +59,14 @@ pub fn dense_analysis(
     range_rpm: [f64; 2],
     speeds: usize,
 ) -> Analysis {
-    let range = range_rpm.map(rad_per_s).into();
+    let range = SpeedRange::between_rpm(range_rpm[0], range_rpm[1]);
     let plate = Plate::new(scene, resolution);
     let model = SpectralModel::new(plate, range, Strategy::Dense).unwrap();
     let chart = chart(&model, range, speeds, &|_, _| ()).unwrap();
     Analysis {
         model,
         range_rad_per_s: range,
-        complete_to_rad_per_s: range.1,
+        complete_to_rad_per_s: range.to_rad_per_s,
         chart,
         flutter_speed_rad_per_s: None,
         first_merge_rad_per_s: None,

@@ -124,7 +124,8 @@ fn the_onset_of_divergence_moves_with_its_coalescence() {
     let diverges = |a: &Analysis| {
         let mut bands = a.chart.instabilities.iter();
         bands.position(|b| {
-            b.kind == InstabilityKind::Divergence && b.from_rad_per_s > a.range_rad_per_s.0
+            b.kind == InstabilityKind::Divergence
+                && b.from_rad_per_s > a.range_rad_per_s.from_rad_per_s
         })
     };
     let place = diverges(&middle).expect("divergence that begins within the range");

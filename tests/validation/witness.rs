@@ -10,7 +10,7 @@ use dashu_float::round::mode::HalfEven;
 use faer::{Col, Mat, c64};
 use nalgebra::{DMatrix, linalg::Schur};
 use sawflutter::model::plate::{Plate, Resolution};
-use sawflutter::model::scene::{Scene, rad_per_s};
+use sawflutter::model::scene::{Scene, SpeedRange, rad_per_s};
 use sawflutter::model::system::GyroscopicSystem;
 use sawflutter::modes::{SpectralModel, Strategy, companion_eigenpairs};
 
@@ -142,7 +142,11 @@ fn inertia_brackets_every_low_frequency_and_its_krein_sign() {
         let plate = Plate::new(&crate::common::scene(name), resolution);
         for rpm in SPEEDS_RPM {
             let speed = rad_per_s(rpm);
-            let model = SpectralModel::new(plate.clone(), (0.0, speed.max(1.0)), Strategy::Dense);
+            let model = SpectralModel::new(
+                plate.clone(),
+                SpeedRange::new(0.0, speed.max(1.0)),
+                Strategy::Dense,
+            );
             let modes = model.unwrap().all_modes(speed).unwrap();
             let mut seen = 0;
             for mode in modes.iter().filter(|m| m.krein_sign() != 0).take(6) {

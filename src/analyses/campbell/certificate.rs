@@ -85,9 +85,9 @@ impl BandCertificate {
             mismatches: certificate.mismatches.clone(),
             gave_up: certificate.gave_up,
             proven_share,
-            unproven_rpm: unproven.map(|(a, b)| [rpm(*a), rpm(*b)]).collect(),
+            unproven_rpm: unproven.map(|range| range.ends().map(rpm)).collect(),
             unproven_growth_per_s: chart.unproven_growth_per_s(),
-            unproven_counting_rpm: counting.iter().map(|(a, b)| [rpm(*a), rpm(*b)]).collect(),
+            unproven_counting_rpm: counting.iter().map(|range| range.ends().map(rpm)).collect(),
             max_backward_error,
             max_listed_backward_error,
         }
@@ -104,11 +104,10 @@ impl BandCertificate {
 
 /// Share of the sweep outside the unproven intervals, rounded down.
 fn proven_share(certificate: &Certificate, range: SpeedRange) -> Option<f64> {
-    let (from, to) = (range.from_rad_per_s, range.to_rad_per_s);
     let unproven = certificate.unproven_rad_per_s.as_ref()?;
-    let open: f64 = unproven.iter().map(|(a, b)| b - a).sum();
-    let share = 1.0 - open / (to - from);
-    (to > from).then(|| (1e4 * share.clamp(0.0, 1.0)).floor() / 1e4)
+    let open: f64 = unproven.iter().map(SpeedRange::width).sum();
+    let share = 1.0 - open / range.width();
+    (range.width() > 0.0).then(|| (1e4 * share.clamp(0.0, 1.0)).floor() / 1e4)
 }
 
 /// The statement shown in every output.
@@ -261,10 +260,10 @@ mod tests {
         );
         let counted = Certificate {
             full_basis_counts: 143,
-            unproven_rad_per_s: Some(vec![(2.0, 3.0), (5.0, 5.5)]),
+            unproven_rad_per_s: Some(vec![SpeedRange::new(2.0, 3.0), SpeedRange::new(5.0, 5.5)]),
             ..clean.clone()
         };
-        let share = proven_share(&counted, (0.0, 400.0).into());
+        let share = proven_share(&counted, SpeedRange::new(0.0, 400.0));
         assert_eq!(share, Some(0.9962));
         assert_eq!(
             statement(&counted, true, share),
@@ -276,7 +275,7 @@ mod tests {
                 unproven_rad_per_s: Some(Vec::new()),
                 ..clean.clone()
             },
-            (0.0, 400.0).into(),
+            SpeedRange::new(0.0, 400.0),
         );
         assert!(
             statement(&clean, true, whole)

@@ -82,8 +82,8 @@ impl Analysis {
             warnings: warnings(scene, analysis, &certificate, &analysis.modes_at_rest),
             certificate,
             campbell: CampbellDiagram {
-                from_rpm: rpm(analysis.range_rad_per_s.0),
-                to_rpm: rpm(analysis.range_rad_per_s.1),
+                from_rpm: rpm(analysis.range_rad_per_s.from_rad_per_s),
+                to_rpm: rpm(analysis.range_rad_per_s.to_rad_per_s),
                 complete_to_hz: model.complete_to_rad_per_s / TAU,
                 branches: branches.entries(),
             },
@@ -240,7 +240,7 @@ fn critical_speeds(analysis: &Analysis, branches: &Numbered<'_>) -> Vec<Critical
     let estimates = analysis.estimates.as_ref();
     let mut entries: Vec<CriticalSpeed> = Vec::new();
     for (index, critical) in analysis.model.critical.iter().enumerate() {
-        if critical.speed_rad_per_s > analysis.range_rad_per_s.1 {
+        if critical.speed_rad_per_s > analysis.range_rad_per_s.to_rad_per_s {
             break;
         }
         let speed = rpm(critical.speed_rad_per_s);
@@ -294,7 +294,7 @@ impl InstabilityBand {
             peak_rpm: rpm(band.peak_rad_per_s),
             peak_growth_per_s: band.peak_growth_per_s,
             frequency_hz: band.frequency_rad_per_s / TAU,
-            counted_rpm: counted.map(|(from, to)| [rpm(from), rpm(to)]).collect(),
+            counted_rpm: counted.map(|range| range.ends().map(rpm)).collect(),
             ..Self::between(band.kind, [band.from_rad_per_s, band.to_rad_per_s].map(rpm))
         }
     }
@@ -333,7 +333,7 @@ impl OperatingPoint {
             inside_instability: verdict.band,
             at_critical_rpm: verdict.critical.map(|place| rpm(critical[place])),
             side_force_factor: None,
-            safe_window_rpm: window.map(|(from, to)| [rpm(from), rpm(to)]),
+            safe_window_rpm: window.map(|range| range.ends().map(rpm)),
             growth_per_s: None,
             frequency_hz: None,
         }

@@ -92,7 +92,7 @@ pub(super) fn shapes(
 /// because its two waves differ by a rotation.
 fn standing(analysis: &Analysis) -> Vec<EventShape> {
     let model = &analysis.model;
-    let end = analysis.range_rad_per_s.1;
+    let end = analysis.range_rad_per_s.to_rad_per_s;
     let within = model.critical.iter().filter(|c| c.speed_rad_per_s <= end);
     let mut shapes: Vec<EventShape> = Vec::new();
     for critical in within {

@@ -50,10 +50,9 @@ impl InCut {
             teeth: run.teeth,
             tangential_n_per_tooth: run.tangential_n,
             radial_n_per_tooth: run.radial_n,
-            idling: analysis
-                .idling
-                .as_ref()
-                .map(|onsets| Idling::new(onsets, analysis.range_rad_per_s.1, threshold)),
+            idling: analysis.idling.as_ref().map(|onsets| {
+                Idling::new(onsets, analysis.range_rad_per_s.to_rad_per_s, threshold)
+            }),
         })
     }
 }

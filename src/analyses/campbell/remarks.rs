@@ -153,7 +153,7 @@ fn out_of_reach(scene: &Scene, analysis: &Analysis) -> Option<String> {
 fn ended_early(scene: &Scene, analysis: &Analysis) -> Option<String> {
     let critical = analysis.critical_rad_per_s();
     let usual = usual_end(scene, critical.first().copied());
-    let end = analysis.range_rad_per_s.1;
+    let end = analysis.range_rad_per_s.to_rad_per_s;
     let is_early = scene.sweep().is_none() && end < 0.99 * usual;
     let reason = if is_cut_short(scene, &critical) {
         format!("{CHARTED} critical speeds are below its end; name sweep.to_rpm for a longer one")

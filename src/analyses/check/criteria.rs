@@ -27,7 +27,7 @@ impl Limits {
             )
         }));
         criteria.extend(self.min_flutter_rad_per_s.map(|asked| {
-            let end = rpm(found.range_rad_per_s.1);
+            let end = rpm(found.range_rad_per_s.to_rad_per_s);
             let nowhere = format!("none up to {end:.0} rpm, where the search ends");
             at_least(
                 "min_flutter",
@@ -81,14 +81,13 @@ impl Limits {
             key: "operating".to_owned(),
             name: "stability at the operating speed".to_owned(),
             finding: match (kind, verdict.stretch) {
-                (Some(kind), Some((from, to))) => format!(
-                    "{operating_rpm} rpm lies within {kind} from {:.0} to {:.0} rpm",
-                    rpm(from),
-                    rpm(to)
-                ),
+                (Some(kind), Some(range)) => {
+                    let [from, to] = range.ends().map(rpm);
+                    format!("{operating_rpm} rpm lies within {kind} from {from:.0} to {to:.0} rpm")
+                }
                 _ => format!("no instability at {operating_rpm} rpm"),
             },
-            found_rpm: verdict.stretch.map(|(from, _)| rpm(from)),
+            found_rpm: verdict.stretch.map(|range| rpm(range.from_rad_per_s)),
             asked_rpm: rpm(operating),
             passed: verdict.stretch.is_none(),
         }
@@ -137,7 +136,7 @@ impl Limits {
         let finding = match first {
             None => format!(
                 "no flutter rises above the limit up to {:.0} rpm, where the search ends",
-                rpm(analysis.range_rad_per_s.1)
+                rpm(analysis.range_rad_per_s.to_rad_per_s)
             ),
             Some((band, Err(reason))) => format!(
                 "not computed for flutter from {:.0} rpm on: {reason}",

@@ -100,7 +100,7 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
         let compliance = compliance_m_per_n(plate, (plate.blade.outer_radius_m, angle), speed);
         compliance.map_or(0.0, |m_per_n| 1.0 / m_per_n)
     };
-    let to_rad_per_s = analysis.range_rad_per_s.1;
+    let to_rad_per_s = analysis.range_rad_per_s.to_rad_per_s;
     let mut report = CheckReport {
         sawflutter: env!("CARGO_PKG_VERSION").to_owned(),
         scene: scene.file().clone(),
@@ -138,14 +138,14 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
 /// required.
 fn analysed(scene: &Scene, least_end_rad_per_s: f64) -> Result<Analysis, CheckError> {
     let to = |end_rad_per_s: f64| {
-        let range = (0.0, end_rad_per_s.max(least_end_rad_per_s));
-        Ok(Analysis::new(&scene.swept(range.into())?)?)
+        let range = SpeedRange::new(0.0, end_rad_per_s.max(least_end_rad_per_s));
+        Ok(Analysis::new(&scene.swept(range)?)?)
     };
     if let Some(SpeedRange { to_rad_per_s, .. }) = scene.sweep() {
         return to(to_rad_per_s);
     }
     let analysis = Analysis::new(scene)?;
-    if analysis.range_rad_per_s.1 >= least_end_rad_per_s {
+    if analysis.range_rad_per_s.to_rad_per_s >= least_end_rad_per_s {
         Ok(analysis)
     } else {
         to(least_end_rad_per_s)
@@ -212,7 +212,7 @@ mod tests {
             ..Limits::at(rad_per_s(300.0))
         };
         let near = check(&scene, &limits(400.0)).unwrap();
-        let end_rpm = rpm(analysis.range_rad_per_s.1);
+        let end_rpm = rpm(analysis.range_rad_per_s.to_rad_per_s);
         assert_eq!(near.to_rpm, end_rpm);
         let flutter = analysis.flutter_speed_rad_per_s.unwrap();
         assert_eq!(near.criteria[2].found_rpm, Some(rpm(flutter)));

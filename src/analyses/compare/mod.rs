@@ -6,7 +6,7 @@ mod report;
 
 use crate::analyses::campbell::Report;
 use crate::analyses::check::rim_stiffness_at_rest_n_per_m;
-use crate::model::scene::{Entry, Scene, in_words};
+use crate::model::scene::{Entry, Scene, SpeedRange, in_words};
 use crate::modes::branches::Progress;
 use crate::stability::{Analysis, AnalysisError, end_of_sweep};
 pub(crate) use outline::outline;
@@ -82,7 +82,7 @@ pub fn compare(
 fn of_scene(label: String, scene: &Scene, end_rad_per_s: f64) -> Result<ComparedSaw, CompareError> {
     let analysed = || match scene.sweep() {
         Some(_) => Analysis::new(scene),
-        None => Analysis::new(&scene.swept((0.0, end_rad_per_s).into())?),
+        None => Analysis::new(&scene.swept(SpeedRange::new(0.0, end_rad_per_s))?),
     };
     let analysis = analysed().map_err(|reason| CompareError::Saw(label.clone(), reason))?;
     Ok(ComparedSaw {

@@ -230,10 +230,9 @@ fn chosen_plate(scene: &Scene, runs: &[CutRun]) -> Result<Plate, TransientError>
         .map(|run| run.speed_rad_per_s)
         .fold(0.0, f64::max);
     let to_rad_per_s = scene.sweep().map_or(0.0, |sweep| sweep.to_rad_per_s);
-    let swept = scene.idling()?.swept(SpeedRange {
-        from_rad_per_s: 0.0,
-        to_rad_per_s: to_rad_per_s.max(fastest),
-    })?;
+    let swept = scene
+        .idling()?
+        .swept(SpeedRange::new(0.0, to_rad_per_s.max(fastest)))?;
     Ok(ChosenBasis::new(&swept, scene.tolerance())?.saw.plate)
 }
 
@@ -250,5 +249,5 @@ fn unusual_numbers(scene: &Scene, cut: &Cut, runs: &[CutRun]) -> Vec<String> {
 
 /// Evenly spaced values over a range with its ends, a step apart.
 fn even(from: f64, to: f64, step: f64) -> Vec<f64> {
-    evenly_spaced((from, to), 1 + ((to - from) / step).round() as usize)
+    evenly_spaced([from, to], 1 + ((to - from) / step).round() as usize)
 }

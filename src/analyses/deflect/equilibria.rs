@@ -5,7 +5,7 @@ use faer::Col;
 use super::error::DeflectError;
 use super::options::{Options, steep};
 use crate::model::plate::{Plate, Resolution};
-use crate::model::scene::{Scene, SideForce, rad_per_s};
+use crate::model::scene::{Scene, SideForce, SpeedRange};
 use crate::modes::{Cancellation, Work};
 use crate::motion::stretched_blade::{
     Branch, Equilibrium, Extent, LARGEST_SLOPE, StretchedBlade, StretchedError, Sweep,
@@ -49,7 +49,7 @@ impl Equilibria {
     pub fn new(scene: &Scene, options: &Options, force: &SideForce) -> Result<Self, DeflectError> {
         let swept = match options.to_rpm {
             None => scene.clone(),
-            Some(to_rpm) => scene.swept((0.0, rad_per_s(to_rpm)).into())?,
+            Some(to_rpm) => scene.swept(SpeedRange::between_rpm(0.0, to_rpm))?,
         };
         let plate = Plate::new(&swept, Resolution::of(swept.accuracy()));
         if plate.is_axisymmetric() && force.force_n == 0.0 {
@@ -59,9 +59,13 @@ impl Equilibria {
         let range = analysis.range_rad_per_s;
         let plate = &analysis.model.plate;
         let parts = Work::of("parts of the deflection", PARTS);
-        let blade =
-            StretchedBlade::under(force, plate, range.1, MODES.min(plate.degrees_of_freedom()))?;
-        if let Some(gentle_n) = gentler(force, &blade, range.0)? {
+        let blade = StretchedBlade::under(
+            force,
+            plate,
+            range.to_rad_per_s,
+            MODES.min(plate.degrees_of_freedom()),
+        )?;
+        if let Some(gentle_n) = gentler(force, &blade, range.from_rad_per_s)? {
             return Err(steep(force, gentle_n).into());
         }
         let (blade, up, relative_error) = resolved(force, plate, blade, range)?;
@@ -154,10 +158,15 @@ fn resolved(
     force: &SideForce,
     plate: &Plate,
     mut blade: StretchedBlade,
-    range: (f64, f64),
+    range: SpeedRange,
 ) -> Result<(StretchedBlade, Sweep, Option<f64>), DeflectError> {
     let on = |modes: usize| {
-        StretchedBlade::under(force, plate, range.1, modes.min(plate.degrees_of_freedom()))
+        StretchedBlade::under(
+            force,
+            plate,
+            range.to_rad_per_s,
+            modes.min(plate.degrees_of_freedom()),
+        )
     };
     let mut modes = MODES;
     loop {
@@ -206,7 +215,7 @@ fn change(
 /// speeds, on both sides.
 fn curves(
     blade: &StretchedBlade,
-    range: (f64, f64),
+    range: SpeedRange,
     sweeps: [(&Sweep, bool); 2],
 ) -> Result<Vec<Branch>, DeflectError> {
     let mut curves: Vec<Branch> = Vec::new();
@@ -230,10 +239,10 @@ fn curves(
     }
     let unforced = blade.clone().unforced();
     for (critical, shape) in unforced.pitchforks()? {
-        if !(range.0..range.1).contains(&critical) {
+        if !(range.from_rad_per_s..range.to_rad_per_s).contains(&critical) {
             continue;
         }
-        let above = (critical + ABOVE * (range.1 - range.0)).min(range.1);
+        let above = (critical + ABOVE * range.width()).min(range.to_rad_per_s);
         let Ok(leaned) = unforced.leaned_near(above, &shape) else {
             continue;
         };
@@ -281,7 +290,7 @@ fn add_curve(
     blade: &StretchedBlade,
     curves: &mut Vec<Branch>,
     (start, sides): (&Equilibrium, &[bool]),
-    range: (f64, f64),
+    range: SpeedRange,
 ) -> Result<(), DeflectError> {
     Cancellation::current()
         .check()

@@ -5,7 +5,7 @@ use faer::Col;
 use super::equilibria::MODES;
 use super::*;
 use crate::model::plate::Plate;
-use crate::model::scene::{Accuracy, SideForceFile, rad_per_s};
+use crate::model::scene::{Accuracy, SideForceFile, SpeedRange, rad_per_s};
 use crate::motion::stretched_blade::{Equilibrium, StretchedBlade};
 use crate::stability::ChosenBasis;
 
@@ -23,7 +23,7 @@ fn draft() -> Scene {
 
 /// The blade on the basis that `deflect` chooses for speeds up to `to_rpm`.
 fn plate(to_rpm: f64) -> Plate {
-    let swept = draft().swept((0.0, rad_per_s(to_rpm)).into()).unwrap();
+    let swept = draft().swept(SpeedRange::between_rpm(0.0, to_rpm)).unwrap();
     let chosen = ChosenBasis::new(&swept, swept.tolerance());
     chosen.unwrap().saw.plate
 }

@@ -38,7 +38,8 @@ mod table;
 use crate::model::evenly_spaced;
 use crate::model::plate::Resolution;
 use crate::model::scene::{
-    Freed, Parted, Scene, SceneError, SceneFile, effective, rad_per_s, scene_at, unusual_number,
+    Freed, Parted, Scene, SceneError, SceneFile, SpeedRange, effective, rad_per_s, scene_at,
+    unusual_number,
 };
 use crate::modes::SpectrumError;
 use crate::modes::branches::Progress;
@@ -136,7 +137,7 @@ pub fn fit(
         degrees_of_freedom: spread.degrees_of_freedom,
         rms_hz: best.rms_hz,
         rms_before_hz: rms(&before),
-        curves: compared.curves(evenly_spaced((0.0, end_rpm), CURVE_SPEEDS), deepest)?,
+        curves: compared.curves(evenly_spaced([0.0, end_rpm], CURVE_SPEEDS), deepest)?,
         residuals,
         starts,
         max_diameters: resolution.max_diameters,
@@ -238,7 +239,7 @@ fn basis(
     tolerance: f64,
 ) -> Result<ChosenBasis, FitError> {
     let end_rad_per_s = rad_per_s(measurement.end_of_range_rpm());
-    let swept = scene.swept((0.0, end_rad_per_s).into())?;
+    let swept = scene.swept(SpeedRange::new(0.0, end_rad_per_s))?;
     Ok(ChosenBasis::new(&swept, tolerance)?)
 }
 

@@ -230,9 +230,8 @@ impl AmplitudeChart {
 
 /// The speeds within the sweep of an analysis, in rpm.
 fn within(analysis: &Analysis, speeds_rad_per_s: Vec<f64>) -> Vec<f64> {
-    let (from, to) = analysis.range_rad_per_s;
     let speeds = speeds_rad_per_s.into_iter();
-    let within = speeds.filter(|speed| (from..=to).contains(speed));
+    let within = speeds.filter(|speed| analysis.range_rad_per_s.contains(*speed));
     within.map(rpm).collect()
 }
 

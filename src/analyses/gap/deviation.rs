@@ -47,7 +47,7 @@ pub(super) fn deviation_map(
 ) -> Result<DeviationMap, GapError> {
     let scene = &analysis.scene;
     let force_n = scene.file().side_force_n();
-    let end_rpm = crate::model::scene::rpm(analysis.range_rad_per_s.1);
+    let end_rpm = crate::model::scene::rpm(analysis.range_rad_per_s.to_rad_per_s);
     let blade_of = |scene: &Scene, modes: usize| {
         let resolution = analysis.model.plate.resolution;
         PressedBlade::new(scene, resolution, end_rpm.max(rpm), modes)
@@ -55,7 +55,7 @@ pub(super) fn deviation_map(
     let thickness_m = scene.blade().thickness_m;
     let gap_factors: Vec<f64> = [0.0].into_iter().chain(factors()).collect();
     let forces_n: Vec<f64> = factors().map(|factor| factor * force_n).collect();
-    let speeds_rpm = evenly_spaced((0.0, end_rpm), SPEEDS);
+    let speeds_rpm = evenly_spaced([0.0, end_rpm], SPEEDS);
     let critical = analysis.model.critical.first();
     let critical_rpm = critical.map(|first| crate::model::scene::rpm(first.speed_rad_per_s));
     let work = Work::of("gaps", gap_factors.len() + 1);

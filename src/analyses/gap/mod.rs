@@ -70,7 +70,7 @@ pub fn gap(scene: &Scene, options: &Options) -> Result<GapReport, GapError> {
         .map(rad_per_s)
         .or(scene.operating_rad_per_s())
         .or(first.map(|critical| 0.5 * critical.speed_rad_per_s))
-        .unwrap_or(analysis.range_rad_per_s.1);
+        .unwrap_or(analysis.range_rad_per_s.to_rad_per_s);
     let speed_rpm = rpm(speed);
     let limit_m = options.max_deviation_mm.map(|mm| 1e-3 * mm);
     let deviation = deviation_map(&analysis, speed_rpm, limit_m)?;

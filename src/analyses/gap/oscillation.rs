@@ -37,7 +37,7 @@ pub(super) fn oscillation(
     speed_rad_per_s: f64,
 ) -> Result<Oscillation, GapError> {
     let scene = &analysis.scene;
-    let to = analysis.range_rad_per_s.1.max(speed_rad_per_s);
+    let to = analysis.range_rad_per_s.to_rad_per_s.max(speed_rad_per_s);
     let plate = Plate::new(scene, analysis.model.plate.resolution);
     let excitations = loads(&plate, scene, 0.0)?;
     let of_modes = |modes: usize| {

@@ -82,7 +82,7 @@ fn without_a_gap_the_motion_is_the_linear_response() {
     let speed = rad_per_s(900.0);
     assert_eq!(oscillators.base_order(), 1);
     assert_eq!(oscillators.name_of(2), "flatness, imbalance");
-    let to = analysis.range_rad_per_s.1;
+    let to = analysis.range_rad_per_s.to_rad_per_s;
     let blade = oscillating(
         &analysis.scene,
         analysis.model.plate.resolution,

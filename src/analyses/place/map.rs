@@ -42,7 +42,7 @@ pub struct Mapped {
 pub fn through(search: &Search<'_>, at: &[f64], points: usize, progress: Progress<'_>) -> Mapped {
     let paths: Vec<&str> = search.freed.iter().map(|f| f.parameter.path()).collect();
     let Axes { x, y } = axes(&paths);
-    let even = evenly_spaced((0.0, 1.0), points);
+    let even = evenly_spaced([0.0, 1.0], points);
     let values = |k: usize| -> Vec<f64> {
         let shares = even.iter();
         shares.map(|s| search.freed[k].value(*s)).collect()

@@ -109,7 +109,7 @@ pub fn place(
     let coarse = Search::new(scene.file(), &freed, question.clone());
     let Looked { candidates, map } = look_everywhere(&coarse, &typed, options, progress)?;
     if options.resolution.is_none() {
-        question.resolution = basis_of_all(scene, &freed, &candidates, question.range.into())?;
+        question.resolution = basis_of_all(scene, &freed, &candidates, question.range)?;
     }
     let fine = Search::new(scene.file(), &freed, question.clone());
     let settled = settle(&fine, &candidates, options.refine / SETTLED, progress);
@@ -141,8 +141,8 @@ pub fn place(
             .and_then(|gap| gap.max_deflection_m.map(|_| scene.file().side_force_n())),
         kept: best.neighbours.keep_limit(),
         improved,
-        from_rpm: rpm(question.range.0),
-        to_rpm: rpm(question.range.1),
+        from_rpm: rpm(question.range.from_rad_per_s),
+        to_rpm: rpm(question.range.to_rad_per_s),
         flutter_threshold_per_s: threshold_per_s,
         parameters: parameters(scene, &placed, &freed, &best)?,
         without_effect: without_effect.iter().map(path).collect(),

@@ -2,7 +2,7 @@
 
 use crate::analyses::gap::GapError;
 use crate::model::plate::Resolution;
-use crate::model::scene::{Scene, rpm};
+use crate::model::scene::{Scene, SpeedRange, rpm};
 use crate::stability::{
     Certificate, Evidence, Instability, flutter_onsets, resolved, search_bands,
 };
@@ -28,7 +28,7 @@ pub struct Computed {
 pub struct Question {
     pub demands: Demands,
     /// Range of speeds, the same for every saw.
-    pub range: (f64, f64),
+    pub range: SpeedRange,
     /// The basis, or its lower limit if each saw chooses its own.
     pub resolution: Resolution,
     /// Tolerances of production.
@@ -54,7 +54,7 @@ impl Question {
             Some(gap) => &gap.case.at_amplitude(scene)?,
             None => scene,
         };
-        let (saw, critical) = resolved(charted, self.resolution, self.range.1)?;
+        let (saw, critical) = resolved(charted, self.resolution, self.range.to_rad_per_s)?;
         let critical_rad_per_s: Vec<f64> = critical.iter().map(|c| c.speed_rad_per_s).collect();
         let lowest = critical_rad_per_s.first().copied();
         let too_low = match (demands.min_critical_rad_per_s, lowest) {
@@ -85,8 +85,8 @@ impl Question {
         let around = demands.around_rad_per_s;
         let window = around.and_then(|speed| evidence.window_without_instability(speed));
         let value_rad_per_s = match around {
-            None => flutter.unwrap_or(self.range.1),
-            Some(_) => window.map_or(0.0, |(from, to)| to - from),
+            None => flutter.unwrap_or(self.range.to_rad_per_s),
+            Some(_) => window.map_or(0.0, |range| range.width()),
         };
         let short = too_low + beyond;
         Ok(Computed {
@@ -94,7 +94,7 @@ impl Question {
                 goal_rpm: rpm(value_rad_per_s),
                 flutter_rpm: flutter.map(rpm),
                 critical_rpm: lowest.map(rpm),
-                window_rpm: window.map(|(from, to)| [rpm(from), rpm(to)]),
+                window_rpm: window.map(|range| range.ends().map(rpm)),
                 deflection_m,
                 kept: short == 0.0,
             },

@@ -68,7 +68,7 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
     let excitations = |plate| loads(plate, scene, force_n);
     let loads = excitations(plate)?;
     let range = analysis.range_rad_per_s;
-    let within = |speed: &f64| (range.0..=range.1).contains(speed);
+    let within = |speed: &f64| range.contains(*speed);
     let operating = scene.operating_rad_per_s().filter(within);
     let asked = options.speed_rad_per_s(range)?;
     let solver = Solver::new(plate, scene);
@@ -92,7 +92,7 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
         .map(|(load, family, resonances)| solver.line(load, family, &speeds, resonances, &motion))
         .collect::<Result<_, _>>()?;
     let diagram = analysis.model.complete_to_rad_per_s;
-    let is_beyond = |line: &ResponseLine| f64::from(line.order) * range.1 > diagram;
+    let is_beyond = |line: &ResponseLine| f64::from(line.order) * range.to_rad_per_s > diagram;
     if lines.iter().any(is_beyond) {
         let larger = Plate::new(scene, ahead(plate.resolution));
         let finer = Solver::new(&larger, scene);

@@ -1,6 +1,6 @@
 //! The speed and the range of the frequency response.
 
-use crate::model::scene::{RefusedValue, rad_per_s, rpm, speed_rad_per_s};
+use crate::model::scene::{RefusedValue, SpeedRange, rad_per_s, rpm, speed_rad_per_s};
 use crate::page::text::shown;
 
 /// Options of [`response`](super::response()).
@@ -38,20 +38,14 @@ impl Options {
     }
 
     /// The speed of the frequency response, which must be one of the sweep: beyond it the saw was not analysed.
-    pub(super) fn speed_rad_per_s(
-        &self,
-        (from, to): (f64, f64),
-    ) -> Result<Option<f64>, RefusedValue> {
+    pub(super) fn speed_rad_per_s(&self, sweep: SpeedRange) -> Result<Option<f64>, RefusedValue> {
         let Some(asked) = self.rpm else {
             return Ok(None);
         };
         let speed = rad_per_s(asked);
-        if !(from..=to).contains(&speed) {
-            let allowed = format!(
-                "a speed of the sweep, {} to {} rpm",
-                shown(rpm(from)),
-                shown(rpm(to))
-            );
+        if !sweep.contains(speed) {
+            let [from, to] = sweep.ends().map(|end| shown(rpm(end)));
+            let allowed = format!("a speed of the sweep, {from} to {to} rpm");
             let remedy = "change sweep.from_rpm or sweep.to_rpm";
             return Err(RefusedValue::new("rpm", asked, allowed, remedy));
         }

@@ -34,7 +34,7 @@ impl FrequencyResponse {
     ) -> Result<Self, SpectrumError> {
         let values = plate.functions_at(radius_m, angle_rad);
         let load = Col::from_fn(values.len(), |i| c64::new(values[i], 0.0));
-        let mut frequencies = evenly_spaced((0.0, end), FREQUENCIES);
+        let mut frequencies = evenly_spaced([0.0, end], FREQUENCIES);
         let (mut receptance, mut unbounded) = (Vec::new(), Vec::new());
         if !motion.is_unstable(speed) {
             let mut family = Family::new(&solver.system, &load)?;
@@ -52,7 +52,7 @@ impl FrequencyResponse {
             };
             read(&mut family, &frequencies)?;
             let path = |frequency| (c64::new(speed, 0.0), c64::new(0.0, 1.0) * frequency);
-            let poles = family.poles((0.0, end), path)?;
+            let poles = family.poles([0.0, end], path)?;
             for (natural, _) in &poles {
                 let beside = BESIDE.iter().flat_map(|off| [1.0 - off, 1.0 + off]);
                 frequencies.extend(beside.chain([1.0]).map(|share| share * natural));

@@ -6,7 +6,7 @@ use faer::{Col, c64};
 
 use super::report::{Resonance, ResponseLine, SteadyState};
 use crate::model::plate::Plate;
-use crate::model::scene::{Scene, rpm};
+use crate::model::scene::{Scene, SpeedRange, rpm};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::SpectrumError;
 use crate::motion::steady::{Cause, Family, Load, State};
@@ -105,10 +105,10 @@ impl Solver {
     pub fn resonances(
         family: &Family<'_>,
         load: &Load,
-        range: (f64, f64),
+        range: SpeedRange,
     ) -> Result<Vec<(f64, f64)>, SpectrumError> {
         let order = c64::new(0.0, f64::from(load.order));
-        family.poles(range, |speed| (speed, order * speed))
+        family.poles(range.ends(), |speed| (speed, order * speed))
     }
 
     /// The response to a load at some speeds, of which `resonances` are some.

@@ -72,7 +72,7 @@ fn states_on_few_solutions_are_those_of_the_full_matrices() {
     let system = GyroscopicSystem::of_plate(&plate);
     let solver = Solver::new(&plate, &scene);
     for load in loads(&plate, &scene, 1.0).unwrap() {
-        let states: Vec<State> = evenly_spaced((1.0, rad_per_s(2900.0)), 97)
+        let states: Vec<State> = evenly_spaced([1.0, rad_per_s(2900.0)], 97)
             .into_iter()
             .map(|speed| State {
                 speed_rad_per_s: speed,

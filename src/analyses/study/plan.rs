@@ -15,7 +15,7 @@ use super::validation::{Counts, Varying, check_statistics, counts, gap, limits, 
 use crate::analyses::check::{Criterion, Limits};
 use crate::analyses::gap::GapCase;
 use crate::model::plate::Resolution;
-use crate::model::scene::{Parameter, Scene, SceneError, speed_rad_per_s};
+use crate::model::scene::{Parameter, Scene, SceneError, SpeedRange, speed_rad_per_s};
 use crate::modes::SpectrumError;
 use crate::stability::{AnalysisError, ChosenBasis, Evidence, end_of_sweep};
 
@@ -137,7 +137,10 @@ impl Study {
         if let Some(known) = self.basis.get() {
             return *known;
         }
-        let swept = self.scene.swept((0.0, self.to_rad_per_s).into()).ok()?;
+        let swept = self
+            .scene
+            .swept(SpeedRange::new(0.0, self.to_rad_per_s))
+            .ok()?;
         let found = match ChosenBasis::new(&swept, self.scene.tolerance()) {
             // A cancelled run must not store a result.
             Err(AnalysisError::Spectrum(SpectrumError::Cancelled)) => return None,
@@ -182,7 +185,7 @@ impl Study {
         let parameters = self.varying.iter().map(|varying| &varying.parameter);
         let numbers: Vec<(&Parameter, f64)> = parameters.zip(values.iter().copied()).collect();
         let scene = self.scene.file().with(&numbers)?;
-        scene.swept((0.0, self.to_rad_per_s).into())
+        scene.swept(SpeedRange::new(0.0, self.to_rad_per_s))
     }
 
     /// The criteria of the limits, evaluated for a saw without any critical speed or band.
@@ -191,7 +194,7 @@ impl Study {
             bands: &[],
             critical_rad_per_s: &[],
             threshold_per_s: 0.0,
-            range_rad_per_s: (0.0, self.to_rad_per_s),
+            range_rad_per_s: SpeedRange::new(0.0, self.to_rad_per_s),
         };
         let criteria = self.limits.map(|limits| limits.criteria(&nothing));
         criteria.unwrap_or_default()

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::plan::Study;
 use crate::analyses::campbell::InstabilityBand;
 use crate::analyses::gap::{GapError, GapNumbers};
-use crate::model::scene::{Scene, rpm};
+use crate::model::scene::{Scene, SpeedRange, rpm};
 use crate::stability::{CRITICAL_MARGIN, Evidence, Onsets};
 
 /// A saw and its result.
@@ -135,7 +135,7 @@ impl Study {
             bands: &onsets.instabilities,
             critical_rad_per_s: &onsets.critical_rad_per_s,
             threshold_per_s: scene.flutter_threshold_per_s(),
-            range_rad_per_s: (0.0, self.to_rad_per_s()),
+            range_rad_per_s: SpeedRange::new(0.0, self.to_rad_per_s()),
         };
         let gap = match (self.gap(), self.basis()) {
             (Some(case), Some(basis)) => {

@@ -115,12 +115,16 @@ fn events(
     let plate = Plate::new(scene, resolution);
     let below = |critical: &[NamedCriticalSpeed]| -> Vec<f64> {
         let speeds = critical.iter().map(|c| c.speed_rad_per_s);
-        speeds.take_while(|speed| *speed <= range.1).collect()
+        speeds
+            .take_while(|speed| *speed <= range.to_rad_per_s)
+            .collect()
     };
     let strategy = match method {
         Method::CriticalSpeeds => {
             return Ok(Events {
-                critical: below(&Assembled::from(plate).critical_speeds(Some(&|_| range.1))?),
+                critical: below(
+                    &Assembled::from(plate).critical_speeds(Some(&|_| range.to_rad_per_s))?,
+                ),
                 onsets: Vec::new(),
             });
         }
@@ -132,7 +136,7 @@ fn events(
         _ => Depth::Proof,
     };
     let saw = Assembled::from(plate);
-    let critical = saw.critical_speeds(Some(&|_| PAST_THE_RANGE * range.1))?;
+    let critical = saw.critical_speeds(Some(&|_| PAST_THE_RANGE * range.to_rad_per_s))?;
     let model = SpectralModel::with_critical(saw, critical, range, strategy)?;
     let bands = chart_to_depth(&model, range, (speeds, depth), &|_, _| ())?.instabilities;
     let flutter = bands

@@ -69,10 +69,7 @@ impl Motions {
         highest: f64,
     ) -> Result<Self, WashboardError> {
         let fastest = highest * run.speed_rad_per_s;
-        let swept = idling.swept(SpeedRange {
-            from_rad_per_s: 0.0,
-            to_rad_per_s: fastest,
-        })?;
+        let swept = idling.swept(SpeedRange::new(0.0, fastest))?;
         let chosen = ChosenBasis::new(&swept, idling.tolerance())?;
         let needed = needed(&chosen.saw.plate, washboarding, run, fastest)?;
         let plate = complete_plate(idling, chosen.saw.plate, fastest, needed).in_cut(cut, run);

@@ -65,7 +65,7 @@ pub(super) fn lobe_points(
         })
     };
     let [from, to] = DIAGRAM.map(|share| share * speed);
-    let mut speeds = evenly_spaced((from, to), SPEEDS);
+    let mut speeds = evenly_spaced([from, to], SPEEDS);
     let mut points: Vec<LobePoint> = Vec::new();
     for _ in 0..=HALVINGS {
         let more = speeds.into_par_iter().map(look);

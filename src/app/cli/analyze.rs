@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::analyses::campbell::CampbellView;
 use crate::analyses::campbell::{Report, Sensitivity, VTK_NAMES, Whirl};
-use crate::model::scene::{Scene, SpeedRange};
+use crate::model::scene::Scene;
 use crate::stability::{Analysis, AnalysisOptions, ExpectedWork};
 use anyhow::Context;
 use clap::Args;
@@ -211,7 +211,7 @@ fn watched_report(
     };
     let analysis = Analysis::with_options(scene, options)?;
     let mut report = analysis.report();
-    let range = SpeedRange::from(analysis.range_rad_per_s);
+    let range = analysis.range_rad_per_s;
     let asked = arguments
         .at_rpm
         .map(|rpm| range.speed_at("--at-rpm", rpm))

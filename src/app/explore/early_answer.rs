@@ -32,11 +32,10 @@ impl Ahead {
     /// Results of an analysis that is not complete.
     pub fn new(scene: &Scene, interim: Interim<'_>) -> Self {
         let critical: Vec<f64> = interim.critical.iter().map(|c| c.speed_rad_per_s).collect();
-        let (_, to) = interim.range_rad_per_s;
         let uprights: Vec<Upright> = interim
             .critical
             .iter()
-            .take_while(|c| c.speed_rad_per_s <= to)
+            .take_while(|c| c.speed_rad_per_s <= interim.range_rad_per_s.to_rad_per_s)
             .map(|c| Upright::critical(rpm(c.speed_rad_per_s), &c.name.in_words()))
             .collect();
         let first = uprights.first().map(|upright| upright.x);
@@ -61,10 +60,11 @@ impl Ahead {
     }
 
     fn add_bands(&mut self, evidence: &Evidence<'_>, operating_rad_per_s: Option<f64>) {
-        let (threshold, (from, to)) = (evidence.threshold_per_s, evidence.range_rad_per_s);
+        let threshold = evidence.threshold_per_s;
+        let range_rpm = evidence.range_rad_per_s.ends().map(rpm);
         let shaded = |band: &Instability| {
             let entry = InstabilityBand::new(band, threshold);
-            Item::Band(Band::new(&entry, [from, to].map(rpm)))
+            Item::Band(Band::new(&entry, range_rpm))
         };
         self.bands = Some(evidence.bands.iter().map(shaded).collect());
         let onsets = flutter_onsets(evidence.bands, threshold).map(|onset| onset.map(rpm));

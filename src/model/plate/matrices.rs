@@ -42,7 +42,7 @@ pub struct Plate {
 const SAMPLED_RADII: usize = 41;
 
 pub(super) fn sampled_radii(blade: &Blade) -> Vec<f64> {
-    evenly_spaced((blade.inner_radius_m, blade.outer_radius_m), SAMPLED_RADII)
+    evenly_spaced([blade.inner_radius_m, blade.outer_radius_m], SAMPLED_RADII)
 }
 
 impl Plate {

@@ -29,25 +29,46 @@ pub fn check_rise(
     Err(refuse(&format!("{block}.to_rpm"), to_rpm, allowed, remedy))
 }
 
-impl From<(f64, f64)> for SpeedRange {
-    /// The range between two speeds, in rad/s.
-    fn from((from_rad_per_s, to_rad_per_s): (f64, f64)) -> Self {
-        SpeedRange {
-            from_rad_per_s,
-            to_rad_per_s,
-        }
-    }
-}
-
 /// Converts a speed to rpm and removes the rounding error of the conversion.
 fn rounded_rpm(rad_per_s: f64) -> f64 {
     (1e3 * rpm(rad_per_s)).round() / 1e3
 }
 
 impl SpeedRange {
+    /// The range between two speeds, in rad/s.
+    pub const fn new(from_rad_per_s: f64, to_rad_per_s: f64) -> Self {
+        SpeedRange {
+            from_rad_per_s,
+            to_rad_per_s,
+        }
+    }
+
     /// The range between two speeds in rpm.
-    pub(super) fn between_rpm(from_rpm: f64, to_rpm: f64) -> Self {
-        (rad_per_s(from_rpm), rad_per_s(to_rpm)).into()
+    pub fn between_rpm(from_rpm: f64, to_rpm: f64) -> Self {
+        Self::new(rad_per_s(from_rpm), rad_per_s(to_rpm))
+    }
+
+    /// First and last speed, in rad/s.
+    pub const fn ends(&self) -> [f64; 2] {
+        [self.from_rad_per_s, self.to_rad_per_s]
+    }
+
+    /// Last minus first speed, in rad/s.
+    pub const fn width(&self) -> f64 {
+        self.to_rad_per_s - self.from_rad_per_s
+    }
+
+    /// The part of the range that lies in another one; it ends before it begins if there is none.
+    pub const fn within(&self, other: SpeedRange) -> Self {
+        Self::new(
+            self.from_rad_per_s.max(other.from_rad_per_s),
+            self.to_rad_per_s.min(other.to_rad_per_s),
+        )
+    }
+
+    /// Whether a speed lies in the range, in rad/s.
+    pub fn contains(&self, speed_rad_per_s: f64) -> bool {
+        (self.from_rad_per_s..=self.to_rad_per_s).contains(&speed_rad_per_s)
     }
 
     /// Converts an argument in rpm to rad/s.
@@ -56,7 +77,7 @@ impl SpeedRange {
     /// [`RefusedValue`] if the speed is outside the range; `key` names the argument.
     pub fn speed_at(&self, key: &str, rpm: f64) -> Result<f64, RefusedValue> {
         let speed = rad_per_s(rpm);
-        let (from, to) = (self.from_rad_per_s, self.to_rad_per_s);
+        let [from, to] = self.ends();
         // Rounding in the conversion from rpm must not exclude the ends of the sweep.
         if from <= speed * (1.0 + 1e-12) && speed * (1.0 - 1e-12) <= to {
             return Ok(speed);

@@ -239,7 +239,7 @@ mod tests {
     use super::*;
     use crate::model::evenly_spaced;
     use crate::model::plate::{Plate, Resolution};
-    use crate::model::scene::{Scene, rad_per_s};
+    use crate::model::scene::{Scene, SpeedRange};
     use crate::modes::Strategy;
 
     #[test]
@@ -252,9 +252,9 @@ mod tests {
                 radial_functions: 6,
             },
         );
-        let range = (0.0, rad_per_s(3000.0));
+        let range = SpeedRange::between_rpm(0.0, 3000.0);
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
-        let samples = sample(&model, &evenly_spaced(range, 31), &|_, _| ()).unwrap();
+        let samples = sample(&model, &evenly_spaced(range.ends(), 31), &|_, _| ()).unwrap();
         let campbell = Campbell::track(samples, model.complete_to_rad_per_s);
         // Branches that leave the chart at its top are shorter.
         let whole = campbell.branches.iter().filter(|b| b.points.len() > 10);

@@ -56,7 +56,7 @@ mod tests {
     use super::super::Guided;
     use super::*;
     use crate::model::plate::{Plate, Resolution};
-    use crate::model::scene::{Scene, rad_per_s};
+    use crate::model::scene::{Scene, SpeedRange, rad_per_s};
     use crate::model::system::GyroscopicSystem;
     use crate::modes::interval::KnownModes;
     use crate::modes::{WorkCounters, companion_eigenpairs, frequency_scale};
@@ -73,7 +73,7 @@ mod tests {
         let system = GyroscopicSystem::of_plate(&plate);
         let counters = WorkCounters::default();
         let scale = frequency_scale(&plate);
-        let range = (0.0, rad_per_s(1200.0));
+        let range = SpeedRange::between_rpm(0.0, 1200.0);
         let guided = Guided {
             system: &system,
             structure: None,

@@ -17,6 +17,8 @@ use super::interval::{Interval, StandingWave};
 use super::mode::{classify, is_seen, krein_index};
 use super::vectors::Eigenpair;
 use super::work::WorkCounters;
+use crate::model::evenly_spaced;
+use crate::model::scene::SpeedRange;
 use crate::model::system::GyroscopicSystem;
 use crate::model::tuning::Tuned;
 
@@ -25,6 +27,9 @@ const REFLECTED_MARGIN: Tuned = Tuned::new("modes/guided_reduction::REFLECTED_MA
 /// Relative distance of the first interval from the first critical speed if only bands are searched for; it is
 /// larger than the distance that the search keeps from critical speeds.
 const BELOW_CRITICAL: f64 = 1e-3;
+
+/// Number of even speeds of the first snapshots.
+const FIRST_SNAPSHOTS: usize = 5;
 
 /// The reduced models of a guided blade.
 pub struct Reduction {
@@ -61,14 +66,14 @@ pub struct Guided<'a> {
 /// [`SpectrumError::Cancelled`].
 pub fn of_guided(
     guided: Guided<'_>,
-    range: (f64, f64),
+    range: SpeedRange,
     strategy: Strategy,
     counters: &WorkCounters,
 ) -> Result<Reduction, SpectrumError> {
     let mut builder = Builder::new(guided, range, counters);
     builder.is_sketch = strategy == Strategy::Sketch;
-    let reflected = || builder.reflected_height(range.1);
-    let chart = || builder.chart_height(range.0);
+    let reflected = || builder.reflected_height(range.to_rad_per_s);
+    let chart = || builder.chart_height(range.from_rad_per_s);
     let ((reflected, last), chart) = match strategy {
         Strategy::Bands => (reflected()?, None),
         _ => {
@@ -77,7 +82,7 @@ pub fn of_guided(
         }
     };
     let chart = match chart {
-        None if reflected == 0.0 => Some(builder.chart_height(range.0)?),
+        None if reflected == 0.0 => Some(builder.chart_height(range.from_rad_per_s)?),
         chart => chart,
     };
     counters.cancellation.check()?;
@@ -89,7 +94,7 @@ pub fn of_guided(
             builder.window = height.max(reflected);
             known.push(first);
         }
-        None => builder.range.0 = builder.first_reflecting(),
+        None => builder.range.from_rad_per_s = builder.first_reflecting(),
     }
     builder.add_first_snapshots(known)?;
     Ok(Reduction {
@@ -107,12 +112,12 @@ pub fn of_guided(
 /// [`SpectrumError::Cancelled`].
 pub fn heights(
     guided: Guided<'_>,
-    range: (f64, f64),
+    range: SpeedRange,
     counters: &WorkCounters,
 ) -> Result<(f64, f64), SpectrumError> {
     let builder = Builder::new(guided, range, counters);
-    let reflected = || builder.reflected_height(range.1);
-    let (reflected, chart) = rayon::join(reflected, || builder.chart_height(range.0));
+    let reflected = || builder.reflected_height(range.to_rad_per_s);
+    let (reflected, chart) = rayon::join(reflected, || builder.chart_height(range.from_rad_per_s));
     let ((reflected, _), (chart, _)) = (reflected?, chart?);
     Ok((chart.max(reflected), reflected))
 }
@@ -127,7 +132,7 @@ struct Snapshot {
 struct Builder<'a> {
     guided: Guided<'a>,
     standing: Vec<StandingWave<'a>>,
-    range: (f64, f64),
+    range: SpeedRange,
     counters: &'a WorkCounters,
     /// Frequency up to which diagram or search need modes.
     window: f64,
@@ -140,7 +145,7 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(guided: Guided<'a>, range: (f64, f64), counters: &'a WorkCounters) -> Self {
+    fn new(guided: Guided<'a>, range: SpeedRange, counters: &'a WorkCounters) -> Self {
         let critical = guided.critical.iter();
         Builder {
             standing: critical.map(|c| (c.speed_rad_per_s, &c.shape)).collect(),
@@ -157,7 +162,7 @@ impl<'a> Builder<'a> {
 
     /// Adds the first snapshots; known ones with every mode of the window are not computed again.
     fn add_first_snapshots(&mut self, known: Vec<Snapshot>) -> Result<(), SpectrumError> {
-        let mut speeds = first_speeds(self.range).to_vec();
+        let mut speeds = evenly_spaced(self.range.ends(), FIRST_SNAPSHOTS);
         for known in known {
             if self.covers(&known) {
                 speeds.retain(|speed| *speed != known.speed);
@@ -271,7 +276,7 @@ impl<'a> Builder<'a> {
     /// Speed from which on waves are reflected: slightly below the first critical speed; the start of the range
     /// if no critical speed is within it.
     fn first_reflecting(&self) -> f64 {
-        let (from, to) = self.range;
+        let [from, to] = self.range.ends();
         let lowest = self
             .guided
             .critical
@@ -283,9 +288,4 @@ impl<'a> Builder<'a> {
             from
         }
     }
-}
-
-/// Speeds of the first snapshots.
-fn first_speeds((from, to): (f64, f64)) -> [f64; 5] {
-    [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| from + share * (to - from))
 }

@@ -29,6 +29,7 @@ use super::scale::frequency_scale;
 use super::structured_stiffness::LARGE;
 use super::waves::{self, WaveModel};
 use super::work::{Cancellation, WorkCounters};
+use crate::model::scene::SpeedRange;
 
 mod named_mode;
 #[cfg(test)]
@@ -84,7 +85,7 @@ impl SpectralModel {
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn new(plate: Plate, range: (f64, f64), strategy: Strategy) -> Result<Self, SpectrumError> {
+    pub fn new(plate: Plate, range: SpeedRange, strategy: Strategy) -> Result<Self, SpectrumError> {
         let critical = Self::critical_speeds(&plate)?;
         Self::with_critical(plate, critical, range, strategy)
     }
@@ -96,7 +97,7 @@ impl SpectralModel {
     pub fn with_critical(
         saw: impl Into<Assembled>,
         critical: Vec<NamedCriticalSpeed>,
-        range: (f64, f64),
+        range: SpeedRange,
         strategy: Strategy,
     ) -> Result<Self, SpectrumError> {
         let counters = WorkCounters {
@@ -146,7 +147,7 @@ impl SpectralModel {
     }
 
     /// Selects the reduced model by waves for every component of a damped blade.
-    fn use_waves(&mut self, range: (f64, f64)) -> Result<(), SpectrumError> {
+    fn use_waves(&mut self, range: SpeedRange) -> Result<(), SpectrumError> {
         let range = searched_range(&self.critical, range);
         let window = self.complete_to_rad_per_s;
         for component in &mut self.components {
@@ -164,7 +165,7 @@ impl SpectralModel {
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
-    pub(crate) fn wave_models(&self, range: (f64, f64)) -> Result<Vec<WaveModel>, SpectrumError> {
+    pub(crate) fn wave_models(&self, range: SpeedRange) -> Result<Vec<WaveModel>, SpectrumError> {
         let mut found = Vec::new();
         for component in &self.components {
             match &component.solution {
@@ -182,7 +183,7 @@ impl SpectralModel {
 
     /// Projects each component on the low modes at a few speeds; with damping only finds up to which frequency modes are
     /// needed.
-    fn reduce(&mut self, range: (f64, f64), strategy: Strategy) -> Result<(), SpectrumError> {
+    fn reduce(&mut self, range: SpeedRange, strategy: Strategy) -> Result<(), SpectrumError> {
         let range = searched_range(&self.critical, range);
         let scale = frequency_scale(&self.plate);
         let (critical, counters) = (&self.critical, &self.counters);
@@ -219,8 +220,8 @@ impl SpectralModel {
     }
 
     /// Frequency of the twelfth mode at the lowest speed, the height of a diagram.
-    fn twelfth_frequency(&self, range: (f64, f64)) -> Result<f64, SpectrumError> {
-        let modes = self.all_modes(range.0)?;
+    fn twelfth_frequency(&self, range: SpeedRange) -> Result<f64, SpectrumError> {
+        let modes = self.all_modes(range.from_rad_per_s)?;
         let lambdas: Vec<c64> = modes.iter().map(|mode| mode.lambda).collect();
         Ok(chart_height(&lambdas, self.is_conservative()).unwrap_or(0.0))
     }

@@ -10,6 +10,7 @@
 //! the full matrices is needed. The eigenvalues are those of all terms together (`pair`, `roots`), or one of them
 //! (`newton`); λ is in units of the window, the frequency up to which the eigenvalues are wanted.
 
+use crate::model::scene::SpeedRange;
 use faer::Mat;
 
 mod blade;
@@ -55,7 +56,7 @@ pub fn modes(
     plate: &Plate,
     first: usize,
     full: &GyroscopicSystem,
-    range: (f64, f64),
+    range: SpeedRange,
     window_rad_per_s: f64,
 ) -> Result<WaveModes, SpectrumError> {
     let window = window_rad_per_s;

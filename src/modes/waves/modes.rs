@@ -9,6 +9,7 @@ use faer::{Col, Mat, Scale, c64};
 
 use super::roots::Root;
 use super::speed_series::{WaveModel, at_nodes};
+use crate::model::scene::SpeedRange;
 use crate::model::system::dynamic_stiffness;
 use crate::modes::error::SpectrumError;
 use crate::modes::projection::Projection;
@@ -32,7 +33,7 @@ impl WaveModes {
     /// [`SpectrumError::Cancelled`].
     pub(super) fn whole(
         projection: Projection,
-        range: (f64, f64),
+        range: SpeedRange,
         (window, rigid): (f64, usize),
     ) -> Result<Self, SpectrumError> {
         let system = &projection.reduced;

@@ -9,6 +9,7 @@ use faer::Mat;
 
 use super::blade::{Block, STRONG, Saw};
 use crate::model::linalg::SymmetricEigen;
+use crate::model::scene::SpeedRange;
 
 /// The waves of one block over an interval.
 pub struct NearBlock {
@@ -36,9 +37,9 @@ pub fn is_near(square: f64, turned: f64, cut: f64) -> bool {
 
 impl Near {
     /// The coordinates that are kept from `from` to `to`, in rad/s, for a cut in 1/s.
-    pub fn new(saw: &Saw, range: (f64, f64), cut: f64) -> Self {
+    pub fn new(saw: &Saw, range: SpeedRange, cut: f64) -> Self {
         // More waves are far at rest than at any other speed, so that more dampers are strong.
-        let (dampers, weights) = strong(saw, &near_blocks(saw, (0.0, 0.0), cut));
+        let (dampers, weights) = strong(saw, &near_blocks(saw, SpeedRange::new(0.0, 0.0), cut));
         Near {
             blocks: near_blocks(saw, range, cut),
             dampers,
@@ -47,7 +48,8 @@ impl Near {
     }
 }
 
-fn near_blocks(saw: &Saw, (from, to): (f64, f64), cut: f64) -> Vec<NearBlock> {
+fn near_blocks(saw: &Saw, range: SpeedRange, cut: f64) -> Vec<NearBlock> {
+    let [from, to] = range.ends();
     let middle = 0.5 * (from + to);
     let of = |block: &Block| {
         let n = block.diameters as f64;

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use faer::Mat;
 use rayon::prelude::*;
 
+use crate::model::scene::SpeedRange;
 use crate::modes::error::SpectrumError;
 use crate::modes::work::Cancellation;
 
@@ -24,9 +25,10 @@ fn angle(node: usize) -> f64 {
 /// # Errors
 /// [`SpectrumError::Cancelled`], and the errors of the function.
 pub fn at_nodes<T: Send>(
-    (from, to): (f64, f64),
+    range: SpeedRange,
     at: impl Fn(usize, f64) -> Result<T, SpectrumError> + Sync,
 ) -> Result<Vec<T>, SpectrumError> {
+    let [from, to] = range.ends();
     let cancellation = Cancellation::current();
     let of_node = |k: usize| {
         cancellation.check()?;
@@ -39,7 +41,7 @@ pub fn at_nodes<T: Send>(
 #[derive(Debug)]
 pub struct WaveModel {
     /// First and last speed, in rad/s.
-    range: (f64, f64),
+    range: SpeedRange,
     /// Number of nodal diameters of each unknown; `None` for the displacement of a damper.
     diameters: Vec<Option<usize>>,
     /// Top of the window, in 1/s: the unit of λ.
@@ -56,7 +58,7 @@ impl WaveModel {
     /// A model from its terms L₀, L₁, … at the nodes, see [`at_nodes`], in units of the window.
     pub(super) fn of(
         terms_at: &[Vec<Mat<f64>>],
-        range: (f64, f64),
+        range: SpeedRange,
         diameters: Vec<Option<usize>>,
         (window, rigid): (f64, usize),
     ) -> Self {
@@ -86,7 +88,7 @@ impl WaveModel {
     }
 
     /// First and last speed, in rad/s.
-    pub fn range_rad_per_s(&self) -> (f64, f64) {
+    pub fn range_rad_per_s(&self) -> SpeedRange {
         self.range
     }
 
@@ -160,7 +162,7 @@ impl WaveModel {
     /// Entries of L₀, L₁, … at a speed, one matrix after another, and in a second column their derivatives with respect to
     /// the speed.
     pub(super) fn sums(&self, speed_rad_per_s: f64) -> Mat<f64> {
-        let (from, to) = self.range;
+        let [from, to] = self.range.ends();
         let half = (0.5 * (to - from)).max(f64::MIN_POSITIVE);
         let x = ((speed_rad_per_s - 0.5 * (from + to)) / half).clamp(-1.0, 1.0);
         let (mut value, mut slope) = (vec![1.0, x], vec![0.0, 1.0]);

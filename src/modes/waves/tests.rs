@@ -4,7 +4,7 @@ use faer::{Col, c64};
 
 use super::*;
 use crate::model::plate::Resolution;
-use crate::model::scene::{DampingFile, Scene, SceneFile, WoodFile, rad_per_s};
+use crate::model::scene::{DampingFile, Scene, SceneFile, SpeedRange, WoodFile, rad_per_s};
 use crate::modes::component::Component;
 use crate::modes::vectors::real_times;
 use crate::modes::{companion_eigenpairs, derivative, eigenvalues};
@@ -31,9 +31,15 @@ fn error_of(plate: &Plate) -> f64 {
     let system = &component.full;
     let to = rad_per_s(TO_RPM);
     let window = 2.0 * to;
-    let model = modes(plate, component.first, system, (0.0, to), window)
-        .unwrap()
-        .model;
+    let model = modes(
+        plate,
+        component.first,
+        system,
+        SpeedRange::new(0.0, to),
+        window,
+    )
+    .unwrap()
+    .model;
     let mut worst = 0.0_f64;
     for k in 0..7 {
         let speed = to * (f64::from(k) + 0.4) / 7.0;
@@ -69,7 +75,7 @@ fn newton_finds_the_eigenvalue_next_to_an_expected_one() {
         &plate,
         component.first,
         &component.full,
-        (0.0, to),
+        SpeedRange::new(0.0, to),
         2.0 * to,
     )
     .unwrap();
@@ -165,7 +171,7 @@ fn vectors_of_all_waves_are_those_of_the_full_matrices() {
         &plate,
         component.first,
         &component.full,
-        (0.0, to),
+        SpeedRange::new(0.0, to),
         2.0 * to,
     )
     .unwrap();

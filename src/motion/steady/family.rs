@@ -156,7 +156,7 @@ impl<'a> Family<'a> {
     /// [`SpectrumError`].
     pub fn poles(
         &self,
-        (from, to): (f64, f64),
+        [from, to]: [f64; 2],
         path: impl Fn(c64) -> (c64, c64),
     ) -> Result<Vec<(f64, f64)>, SpectrumError> {
         let reduced = self.reduced(&[]);

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::equilibrium::{ITERATIONS, LAST};
 use super::{Equilibrium, StretchedBlade, StretchedError, finite};
+use crate::model::scene::SpeedRange;
 
 /// A curve of equilibria.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,13 +87,14 @@ impl StretchedBlade {
         &self,
         start: &Equilibrium,
         upwards: bool,
-        (from_rad_per_s, to_rad_per_s): (f64, f64),
+        range: SpeedRange,
         extent: Extent,
     ) -> Result<Branch, StretchedError> {
+        let [from_rad_per_s, to_rad_per_s] = range.ends();
         finite("the lower end of the range in rad/s", from_rad_per_s)?;
         finite("the upper end of the range in rad/s", to_rad_per_s)?;
         let speed = start.speed_rad_per_s;
-        if !(from_rad_per_s..=to_rad_per_s).contains(&speed) || from_rad_per_s == to_rad_per_s {
+        if !range.contains(speed) || from_rad_per_s == to_rad_per_s {
             return Err(StretchedError::Value {
                 what: "the speed of the start in rad/s",
                 value: speed,
@@ -103,7 +105,7 @@ impl StretchedBlade {
         let curve = Curve {
             blade: self,
             size: self.size(),
-            range_rad_per_s: to_rad_per_s - from_rad_per_s,
+            range_rad_per_s: range.width(),
         };
         let order = self.force.nrows();
         let towards = Col::from_fn(order + 1, |i| match (i == order, upwards) {
@@ -134,13 +136,12 @@ impl StretchedBlade {
             };
             branch.turns.extend(curve.turn(&place, &next, step)?);
             let outside = next.equilibrium.speed_rad_per_s;
-            if !(from_rad_per_s..=to_rad_per_s).contains(&outside) {
+            if !range.contains(outside) {
                 let edge = outside.clamp(from_rad_per_s, to_rad_per_s);
                 let last = self.equilibrium(edge, Some(&next.equilibrium.coordinates))?;
-                branch.turns.retain(|turn| {
-                    let speed = turn.equilibrium.speed_rad_per_s;
-                    (from_rad_per_s..=to_rad_per_s).contains(&speed)
-                });
+                branch
+                    .turns
+                    .retain(|turn| range.contains(turn.equilibrium.speed_rad_per_s));
                 branch.equilibria.push(last);
                 branch.is_whole = true;
                 break;

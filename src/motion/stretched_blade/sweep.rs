@@ -5,6 +5,7 @@ use faer::Col;
 use crate::modes::Cancellation;
 
 use super::{Equilibrium, Extent, StretchedBlade, StretchedError, Turn};
+use crate::model::scene::SpeedRange;
 
 /// Stable equilibria in sequence, and the jumps between them.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,9 +40,9 @@ impl StretchedBlade {
         &self,
         begun: &Col<f64>,
         upwards: bool,
-        range: (f64, f64),
+        range: SpeedRange,
     ) -> Result<Sweep, StretchedError> {
-        let (from, to) = range;
+        let [from, to] = range.ends();
         let (speed, end, sign) = if upwards {
             (from, to, 1.0)
         } else {
@@ -82,7 +83,7 @@ impl StretchedBlade {
                 sweep.stopped_rad_per_s = (!curve.is_whole).then_some(last);
                 return Ok(sweep);
             };
-            let past = last + sign * PAST * (to - from);
+            let past = last + sign * PAST * range.width();
             if sign * (end - past) <= 0.0 {
                 return Ok(sweep);
             }

@@ -4,7 +4,7 @@ use faer::{Col, Mat, Scale, c64};
 
 use super::*;
 use crate::model::plate::Resolution;
-use crate::model::scene::{Scene, rad_per_s};
+use crate::model::scene::{Scene, SpeedRange, rad_per_s};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::{SpectralModel, companion_eigenpairs, fastest_growing};
 use crate::motion::transient::{Force, Integrator, Newmark, State};
@@ -38,10 +38,10 @@ fn the_curve_of_the_flat_blade_has_every_pitchfork() {
     let blade = StretchedBlade::new(&paper(), 16).unwrap();
     let start = blade.equilibrium(rad_per_s(1000.0), None).unwrap();
     assert_eq!(start.negative_eigenvalues, 0);
-    let range = (rad_per_s(900.0), rad_per_s(2400.0));
+    let range = SpeedRange::between_rpm(900.0, 2400.0);
     let flat = blade.branch(&start, true, range, Extent::Whole).unwrap();
     let speeds = blade.pitchforks().unwrap().into_iter().map(|p| p.0);
-    let expected: Vec<f64> = speeds.filter(|speed| *speed < range.1).collect();
+    let expected: Vec<f64> = speeds.filter(|speed| *speed < range.to_rad_per_s).collect();
     assert_eq!(flat.turns.len(), expected.len());
     assert!(expected.len() >= 4);
     for (index, (turn, speed)) in flat.turns.iter().zip(&expected).enumerate() {
@@ -51,7 +51,7 @@ fn the_curve_of_the_flat_blade_has_every_pitchfork() {
         assert!((found / speed - 1.0).abs() < 1e-7, "{found} {speed}");
     }
     let last = flat.equilibria.last().unwrap();
-    assert_eq!(last.speed_rad_per_s, range.1);
+    assert_eq!(last.speed_rad_per_s, range.to_rad_per_s);
     assert_eq!(last.coordinates.norm_l2(), 0.0);
 }
 
@@ -63,7 +63,7 @@ fn the_leaned_blade_comes_back_to_the_flat_one_at_the_critical_speed() {
     let (critical, shape) = blade.pitchforks().unwrap().swap_remove(0);
     let leaned = blade.leaned(1.004 * critical, &shape).unwrap();
     assert_eq!(leaned.negative_eigenvalues, 0);
-    let range = (0.99 * critical, 1.004 * critical);
+    let range = SpeedRange::new(0.99 * critical, 1.004 * critical);
     let curve = blade.branch(&leaned, false, range, Extent::Whole).unwrap();
     let turn = &curve.turns[0];
     assert_eq!((curve.turns.len(), turn.kind), (1, TurnKind::Bifurcation));
@@ -135,7 +135,12 @@ fn equilibria_are_as_many_as_morse_counts() {
             // The curve starts near the pitchfork.
             let near = blade.leaned(critical * 1.0001, shape).unwrap();
             let curve = blade
-                .branch(&near, true, (near.speed_rad_per_s, speed), Extent::Whole)
+                .branch(
+                    &near,
+                    true,
+                    SpeedRange::new(near.speed_rad_per_s, speed),
+                    Extent::Whole,
+                )
                 .unwrap();
             let end = curve.equilibria.last().unwrap();
             assert_eq!(end.speed_rad_per_s, speed);
@@ -178,7 +183,7 @@ fn a_side_force_unfolds_the_pitchfork_as_the_cubic_says() {
         .equilibrium(most, Some(&(Scale(against) * unit())))
         .unwrap();
     let curve = blade
-        .branch(&start, false, (0.0, most), Extent::Whole)
+        .branch(&start, false, SpeedRange::new(0.0, most), Extent::Whole)
         .unwrap();
     assert_eq!(curve.turns.len(), 1);
     let turn = &curve.turns[0];
@@ -189,7 +194,7 @@ fn a_side_force_unfolds_the_pitchfork_as_the_cubic_says() {
     // From rest the blade deflects in the direction of the force, further with every speed, without a fold.
     let rest = blade.equilibrium(0.0, None).unwrap();
     let pressed = blade
-        .branch(&rest, true, (0.0, most), Extent::Whole)
+        .branch(&rest, true, SpeedRange::new(0.0, most), Extent::Whole)
         .unwrap();
     assert!(pressed.turns.is_empty());
     let at_rim = |e: &Equilibrium| blade.deflection_m(e, 0.355, 0.4);
@@ -212,7 +217,7 @@ fn a_sweep_jumps_where_the_cubic_folds() {
     let (blade, critical, gamma) = one_shape();
     let force = blade.force[0];
     let most = 2.0 * critical;
-    let range = (0.0, most);
+    let range = SpeedRange::new(0.0, most);
     let up = blade.sweep(&blade.flat(), true, range).unwrap();
     assert!(up.ends.is_empty());
     let high = -blade.system.stiffness_at(most)[(0, 0)];
@@ -236,7 +241,7 @@ fn a_sweep_jumps_where_the_cubic_folds() {
 fn a_sweep_does_not_jump_at_a_pitchfork() {
     let (blade, critical, gamma) = one_shape();
     let blade = blade.unforced();
-    let range = (0.0, 2.0 * critical);
+    let range = SpeedRange::new(0.0, 2.0 * critical);
     let up = blade.sweep(&blade.flat(), true, range).unwrap();
     let top = up.arcs[0].last().unwrap().coordinates.clone();
     let down = blade.sweep(&top, false, range).unwrap();
@@ -257,10 +262,10 @@ fn a_sweep_does_not_jump_at_a_pitchfork() {
 #[test]
 fn a_sweep_says_where_its_number_of_equilibria_ends_it() {
     let (blade, critical, _) = one_shape();
-    let range = (0.0, 500.0 * critical);
+    let range = SpeedRange::new(0.0, 500.0 * critical);
     let up = blade.sweep(&blade.flat(), true, range).unwrap();
     let last = up.arcs.last().unwrap().last().unwrap().speed_rad_per_s;
-    assert!(last < range.1);
+    assert!(last < range.to_rad_per_s);
     assert_eq!(up.stopped_rad_per_s, Some(last));
 }
 
@@ -353,7 +358,12 @@ fn a_deflection_without_a_direction_is_refused() {
     let pressed = blade.pressed(5.0, (0.355, 0.3)).unwrap();
     let rest = pressed.equilibrium(0.0, None).unwrap();
     let curve = pressed
-        .branch(&rest, true, (0.0, 1.1 * critical), Extent::Whole)
+        .branch(
+            &rest,
+            true,
+            SpeedRange::new(0.0, 1.1 * critical),
+            Extent::Whole,
+        )
         .unwrap();
     assert!(curve.turns.is_empty());
     let end = curve.equilibria.last().unwrap();
@@ -373,12 +383,12 @@ fn unrestrained_blades_and_other_ranges_are_refused() {
     let start = blade.equilibrium(10.0, None).unwrap();
     assert!(
         blade
-            .branch(&start, true, (20.0, 30.0), Extent::Whole)
+            .branch(&start, true, SpeedRange::new(20.0, 30.0), Extent::Whole)
             .is_err()
     );
     assert!(
         blade
-            .branch(&start, true, (10.0, 10.0), Extent::Whole)
+            .branch(&start, true, SpeedRange::new(10.0, 10.0), Extent::Whole)
             .is_err()
     );
     let (critical, shape) = blade.pitchforks().unwrap().swap_remove(0);

@@ -51,10 +51,7 @@ fn of_curve(curve: &[CurvePoint]) -> f64 {
 /// points of the second kind integrate exactly. The eigenvalue is known at the peak and is followed from
 /// there through the points on both sides.
 fn followed(model: &SpectralModel, band: &Instability) -> Result<f64, SpectrumError> {
-    let (from, half) = (
-        band.from_rad_per_s,
-        0.5 * (band.to_rad_per_s - band.from_rad_per_s),
-    );
+    let (from, half) = (band.from_rad_per_s, 0.5 * band.range().width());
     let weight = PI / (BAND_POINTS + 1) as f64;
     let points: Vec<(f64, f64)> = (1..=BAND_POINTS)
         .map(|k| (weight * k as f64).sin_cos())

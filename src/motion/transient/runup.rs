@@ -41,8 +41,7 @@ pub(super) const MAX_SAMPLES: usize = 30_000;
 /// The basis of a run-up: modes at a few speeds, and static responses to the force.
 pub(super) fn reduced_blade(plate: &Plate, runup: &RunUpFile, force: &SideForce) -> ReducedBlade {
     let system = GyroscopicSystem::of_plate(plate);
-    let range = (runup.speeds().from_rad_per_s, runup.speeds().to_rad_per_s);
-    let snapshots: Vec<Snapshot<'_>> = evenly_spaced(range, SNAPSHOTS)
+    let snapshots: Vec<Snapshot<'_>> = evenly_spaced(runup.speeds().ends(), SNAPSHOTS)
         .into_iter()
         .map(|speed_rad_per_s| Snapshot {
             system: &system,

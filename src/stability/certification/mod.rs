@@ -11,7 +11,7 @@ use super::pieces::{Piece, Search};
 use super::proof::Proof;
 use super::search_result::Found;
 use super::signature::Signature;
-use crate::model::scene::Accuracy;
+use crate::model::scene::{Accuracy, SpeedRange};
 use crate::modes::{SpectralModel, SpectrumError};
 
 /// Depth of the checks of a list of bands.
@@ -60,7 +60,7 @@ const NEXT_TO_CRITICAL: f64 = 1e-4;
 /// modes.
 pub(super) fn bands(
     model: &SpectralModel,
-    range: (f64, f64),
+    range: SpeedRange,
     speeds: &[f64],
     depth: Depth,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
@@ -69,7 +69,8 @@ pub(super) fn bands(
         model,
         SignatureEvaluator::new(model, speeds)?,
         &full,
-        (range, speeds),
+        range,
+        speeds,
         depth,
     )?;
     if found.1.miscounts.is_empty() {
@@ -80,7 +81,7 @@ pub(super) fn bands(
         return Ok(found);
     }
     let whole = SignatureEvaluator::on_full_model(model, speeds)?;
-    let (instabilities, mut certificate) = searched(model, whole, &full, (range, speeds), depth)?;
+    let (instabilities, mut certificate) = searched(model, whole, &full, range, speeds, depth)?;
     certificate.searched_again = true;
     Ok((instabilities, certificate))
 }
@@ -90,7 +91,8 @@ fn searched(
     model: &SpectralModel,
     evaluator: SignatureEvaluator<'_>,
     full: &Option<ModeCounts<'_>>,
-    (range, speeds): ((f64, f64), &[f64]),
+    range: SpeedRange,
+    speeds: &[f64],
     depth: Depth,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let Some(full) = full else {
@@ -157,9 +159,9 @@ fn searched_pieces(
 /// unstable. A part that ends before it begins is empty.
 fn unsearched(
     model: &SpectralModel,
-    (from, to): (f64, f64),
+    range: SpeedRange,
     speeds: &[f64],
-) -> impl Iterator<Item = (f64, f64)> + use<> {
+) -> impl Iterator<Item = SpeedRange> + use<> {
     let lowest = model
         .critical
         .first()
@@ -169,21 +171,26 @@ fn unsearched(
         [only] => (*only, *only),
         [] => (f64::INFINITY, f64::NEG_INFINITY),
     };
-    [(from.max(lowest), first.min(to)), (last.max(from), to)].into_iter()
+    [
+        SpeedRange::new(lowest, first),
+        SpeedRange::new(last, f64::INFINITY),
+    ]
+    .map(|outside| outside.within(range))
+    .into_iter()
 }
 
 /// Intervals clipped to a range, ascending and merged where they touch.
-fn clipped(stretches: &[(f64, f64)], range: (f64, f64)) -> Vec<(f64, f64)> {
-    let mut clipped: Vec<(f64, f64)> = stretches
+fn clipped(stretches: &[SpeedRange], range: SpeedRange) -> Vec<SpeedRange> {
+    let mut clipped: Vec<SpeedRange> = stretches
         .iter()
-        .map(|(from, to)| (from.max(range.0), to.min(range.1)))
-        .filter(|(from, to)| from < to)
+        .map(|stretch| stretch.within(range))
+        .filter(|stretch| stretch.width() > 0.0)
         .collect();
-    clipped.sort_by(|x, y| x.0.total_cmp(&y.0));
+    clipped.sort_by(|x, y| x.from_rad_per_s.total_cmp(&y.from_rad_per_s));
     clipped.dedup_by(|next, last| {
-        let touches = next.0 <= last.1;
+        let touches = next.from_rad_per_s <= last.to_rad_per_s;
         if touches {
-            last.1 = last.1.max(next.1);
+            last.to_rad_per_s = last.to_rad_per_s.max(next.to_rad_per_s);
         }
         touches
     });

@@ -2,13 +2,13 @@ use std::sync::LazyLock;
 
 use super::*;
 use crate::model::plate::{Plate, Resolution};
-use crate::model::scene::{Accuracy, Scene, rad_per_s, rpm};
+use crate::model::scene::{Accuracy, Scene, SpeedRange, rad_per_s, rpm};
 use crate::modes::Strategy;
 use crate::stability::Analysis;
 use crate::stability::undamped::search_speeds;
 
 fn paper(accuracy: Accuracy) -> (SpectralModel, Vec<f64>) {
-    let range = (0.0, rad_per_s(3000.0));
+    let range = SpeedRange::between_rpm(0.0, 3000.0);
     let plate = Plate::new(&Scene::paper(), Resolution::of(accuracy));
     let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
     let speeds = search_speeds(&model, range, 25);
@@ -16,8 +16,8 @@ fn paper(accuracy: Accuracy) -> (SpectralModel, Vec<f64>) {
 }
 
 /// Range from rest to the last speed of a search, so that no band is cut.
-fn whole(speeds: &[f64]) -> (f64, f64) {
-    (0.0, speeds[speeds.len() - 1])
+fn whole(speeds: &[f64]) -> SpeedRange {
+    SpeedRange::new(0.0, speeds[speeds.len() - 1])
 }
 
 /// The paper's saw, its bands, and the speeds of their search.
@@ -59,13 +59,13 @@ fn certified(sound: &Sound, bands: &[Instability], change: impl Fn(&mut Signatur
 fn searched_once(model: &SpectralModel, speeds: &[f64]) -> (Vec<Instability>, Certificate) {
     let evaluator = SignatureEvaluator::new(model, speeds).unwrap();
     let full = ModeCounts::new(model);
-    let range = (whole(speeds), speeds);
-    searched(model, evaluator, &full, range, Depth::Counts).unwrap()
+    let range = whole(speeds);
+    searched(model, evaluator, &full, range, speeds, Depth::Counts).unwrap()
 }
 
 fn open_rad_per_s(certificate: &Certificate) -> f64 {
     let unproven = certificate.unproven_rad_per_s.iter().flatten();
-    unproven.map(|(from, to)| to - from).sum()
+    unproven.map(SpeedRange::width).sum()
 }
 
 fn flutter_bands(bands: &[Instability]) -> Vec<usize> {
@@ -79,10 +79,10 @@ fn nearly_all_speeds_are_proven_and_the_others_are_at_edges() {
     let certificate = certified(sound, &sound.bands, |_| ());
     assert!(certificate.is_clean(), "{certificate:?}");
     let unproven = certificate.unproven_rad_per_s.unwrap();
-    let open: f64 = unproven.iter().map(|(from, to)| to - from).sum();
+    let open: f64 = unproven.iter().map(SpeedRange::width).sum();
     assert!(open < 0.005 * rad_per_s(3000.0), "{} rpm", rpm(open));
-    for (from, to) in unproven {
-        assert!(rpm(to - from) < 1.0, "{} to {} rpm", rpm(from), rpm(to));
+    for range in unproven {
+        assert!(rpm(range.width()) < 1.0, "{range:?}");
     }
 }
 
@@ -110,15 +110,12 @@ fn proven_speeds_have_no_unstable_mode_besides_the_bands() {
     let mut compared = 0;
     for k in 0..120 {
         let speed = rad_per_s(1400.0 + 1600.0 * drawn_share(1000 + k));
-        if unproven
-            .iter()
-            .any(|(from, to)| (*from..=*to).contains(&speed))
-        {
+        if unproven.iter().any(|range| range.contains(speed)) {
             continue;
         }
         let modes = sound.model.full_modes(speed).unwrap();
         let signature = Signature::new(speed, modes.iter());
-        let covers = |b: &&Instability| (b.from_rad_per_s..=b.to_rad_per_s).contains(&speed);
+        let covers = |b: &&Instability| b.range().contains(speed);
         let listed = sound.bands.iter().filter(covers).count();
         let unstable = signature.quadruples.len() + signature.real.len();
         assert!(

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use faer::c64;
 
 use super::spectrum::{Solver, Spectrum};
+use crate::model::scene::SpeedRange;
 use crate::modes::{FullModel, SpectralModel, SpectrumError};
 use crate::stability::band::Instability;
 use crate::stability::certification::drawn_share;
@@ -42,7 +43,7 @@ impl Counts {
         model: &SpectralModel,
         solver: &Solver<'_>,
         bands: &[Instability],
-        range: (f64, f64),
+        range: SpeedRange,
     ) -> Result<Self, SpectrumError> {
         let is_free = model
             .components
@@ -71,15 +72,15 @@ impl Counts {
     }
 }
 
-fn speeds(bands: &[Instability], (from, to): (f64, f64)) -> Vec<f64> {
-    let drawn = (0..DRAWN).map(|k| from + drawn_share(k) * (to - from));
+fn speeds(bands: &[Instability], range: SpeedRange) -> Vec<f64> {
+    let from = range.from_rad_per_s;
+    let drawn = (0..DRAWN).map(|k| from + drawn_share(k) * range.width());
     let beside = bands.iter().take(MOST_BANDS).flat_map(|band| {
-        let width = band.to_rad_per_s - band.from_rad_per_s;
-        let away = (BESIDE * width).max(LEAST_BESIDE * band.from_rad_per_s);
+        let away = (BESIDE * band.range().width()).max(LEAST_BESIDE * band.from_rad_per_s);
         [band.from_rad_per_s - away, band.from_rad_per_s + away]
     });
     let mut speeds: Vec<f64> = beside.chain(drawn).collect();
-    speeds.retain(|speed| (from..=to).contains(speed) && *speed > 0.0);
+    speeds.retain(|speed| range.contains(*speed) && *speed > 0.0);
     speeds
 }
 
@@ -124,7 +125,7 @@ mod tests {
     #[test]
     fn wrong_spectra_are_contradicted() {
         let scene = Scene::paper().edited(|saw| saw.guides[0].damping_n_s_per_m = 2.0);
-        let range = (0.0, rad_per_s(2600.0));
+        let range = SpeedRange::between_rpm(0.0, 2600.0);
         let plate = Plate::new(&scene.unwrap(), Resolution::of(Accuracy::Draft));
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
         let solver = Solver::new(&model, range).unwrap();

@@ -63,7 +63,7 @@ pub fn curves(pieces: &[Piece], top_rad_per_s: f64, noise_per_s: f64) -> Vec<Cur
                 noise_per_s,
                 ended: Vec::new(),
             };
-            let (kept, lost) = follower.across(mine, (from, to), group.size(), at_end(1));
+            let (kept, lost) = follower.across(mine, [from, to], group.size(), at_end(1));
             open.extend(kept);
             ended.extend(lost);
         }
@@ -129,7 +129,7 @@ impl Follower<'_> {
     fn across(
         mut self,
         mut tips: Vec<Tip>,
-        (from, to): (f64, f64),
+        [from, to]: [f64; 2],
         size: usize,
         last: Vec<Sloped>,
     ) -> (Vec<Tip>, Vec<Curve>) {

@@ -6,6 +6,7 @@ use super::super::band::{CurvePoint, Instability, InstabilityKind};
 use super::super::interpolation::Cubic;
 use super::super::root::{Look, bracketed};
 use super::spectrum::Solver;
+use crate::model::scene::SpeedRange;
 use crate::model::tuning::Tuned;
 use crate::modes::SpectrumError;
 
@@ -34,7 +35,7 @@ pub fn bands(
     solver: &Solver<'_>,
     component: usize,
     curve: &[CurvePoint],
-    range: (f64, f64),
+    range: SpeedRange,
     tolerance: f64,
 ) -> Result<Vec<Instability>, SpectrumError> {
     let grows = |point: &CurvePoint| point.lambda.re >= 0.0 && point.lambda.im <= solver.highest();
@@ -64,7 +65,10 @@ pub fn bands(
         let stretch = Stretch {
             curve,
             extrema,
-            cut: [ends[0] <= range.0, ends[1] >= range.1],
+            cut: [
+                ends[0] <= range.from_rad_per_s,
+                ends[1] >= range.to_rad_per_s,
+            ],
         };
         bands.extend(parted(stretch, solver.noise()));
     }
@@ -213,8 +217,7 @@ fn parted(stretch: Stretch, noise: f64) -> Vec<Instability> {
     humps
         .flatten()
         .filter(|band| {
-            band.peak_growth_per_s > noise
-                && band.to_rad_per_s - band.from_rad_per_s > LEAST_BAND * band.to_rad_per_s
+            band.peak_growth_per_s > noise && band.range().width() > LEAST_BAND * band.to_rad_per_s
         })
         .collect()
 }

@@ -22,6 +22,7 @@ use super::partition::Plane;
 use super::pieces::{Piece, Search};
 use super::undamped::with_critical_speeds;
 use crate::model::evenly_spaced;
+use crate::model::scene::SpeedRange;
 use crate::model::tuning::Tuned;
 use crate::modes::branches::{self, SpeedSample};
 use crate::modes::{Mode, SpectralModel, SpectrumError, clear_range};
@@ -39,7 +40,7 @@ const PARTS: u32 = 4;
 /// Computes modes at `count` even speeds and wherever bands need more, the bands, and their checks.
 pub(super) fn charted(
     model: &SpectralModel,
-    range: (f64, f64),
+    range: SpeedRange,
     count: usize,
     options: AnalysisOptions<'_>,
 ) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
@@ -47,7 +48,7 @@ pub(super) fn charted(
     let speeds = with_critical_speeds(
         (&model.plate, &model.critical),
         drawn,
-        evenly_spaced(drawn, count),
+        evenly_spaced(drawn.ends(), count),
     );
     let closeness = Closeness::of(options.detail);
     let searched = || {
@@ -113,12 +114,12 @@ impl Closeness {
 /// [`SpectrumError`] when an eigenproblem fails.
 pub(super) fn bands(
     model: &SpectralModel,
-    range: (f64, f64),
+    range: SpeedRange,
     detail: Detail,
 ) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
     let closeness = Closeness::of(detail);
     let solver = Solver::new(model, range)?;
-    let speeds = evenly_spaced(range, SEARCH_SPEEDS);
+    let speeds = evenly_spaced(range.ends(), SEARCH_SPEEDS);
     let searched: Vec<(Vec<Piece>, Vec<Instability>)> = (0..solver.components())
         .into_par_iter()
         .map(|component| searched(&solver, component, &speeds, closeness.tolerance))
@@ -176,10 +177,11 @@ fn searched(
     let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else {
         return Ok((pieces, Vec::new()));
     };
+    let range = SpeedRange::new(first, last);
     let curves = curve::curves(&pieces, solver.highest(), solver.noise());
     let found: Result<Vec<Vec<Instability>>, SpectrumError> = curves
         .par_iter()
-        .map(|curve| hump::bands(solver, component, curve, (first, last), tolerance))
+        .map(|curve| hump::bands(solver, component, curve, range, tolerance))
         .collect();
     Ok((pieces, found?.into_iter().flatten().collect()))
 }

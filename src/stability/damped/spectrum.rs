@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
+use crate::model::scene::SpeedRange;
 use crate::modes::waves::WaveModel;
 use crate::modes::{SpectralModel, SpectrumError, smallest};
 use crate::stability::group::Sloped;
@@ -44,7 +45,7 @@ impl<'a> Solver<'a> {
     ///
     /// # Errors
     /// [`SpectrumError::Cancelled`].
-    pub fn new(model: &'a SpectralModel, range: (f64, f64)) -> Result<Self, SpectrumError> {
+    pub fn new(model: &'a SpectralModel, range: SpeedRange) -> Result<Self, SpectrumError> {
         Ok(Solver {
             model,
             components: model.wave_models(range)?,
@@ -178,14 +179,14 @@ pub fn finite(slope: c64) -> c64 {
 mod tests {
     use super::*;
     use crate::model::plate::{Plate, Resolution};
-    use crate::model::scene::{Scene, rad_per_s};
+    use crate::model::scene::Scene;
     use crate::modes::Strategy;
 
     /// Dampers stronger than their springs: of their real eigenvalues one is within the reach and the next one beyond it, and
     /// conjugates lie symmetrically about the middle nevertheless.
     #[test]
     fn the_middle_of_a_sample_is_between_conjugates() {
-        let range = (0.0, rad_per_s(2600.0));
+        let range = SpeedRange::between_rpm(0.0, 2600.0);
         let mut odd = 0;
         for (stiffness, damping) in [(1e6, 1e4), (0.0, 1e5), (3e5, 3e3)] {
             let scene = Scene::paper().edited(|saw| {
@@ -200,7 +201,7 @@ mod tests {
             let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
             let solver = Solver::new(&model, range).unwrap();
             for k in 0..12 {
-                let speed = range.1 * (f64::from(k) + 0.3) / 12.0;
+                let speed = range.to_rad_per_s * (f64::from(k) + 0.3) / 12.0;
                 let all = solver.eigenvalues(speed, 0).unwrap();
                 odd += all.iter().filter(|(z, _)| z.im == 0.0).count() % 2;
                 let sample = solver.sample(speed, 0).unwrap().unwrap().eigenvalues;

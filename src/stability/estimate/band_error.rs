@@ -26,7 +26,7 @@ impl BandError {
     /// the band, its edges are no more accurate than its growth.
     pub fn of(self, band: &Instability, critical: f64) -> Self {
         // The width is taken relative to the end, because a band may begin at rest.
-        let width = (band.to_rad_per_s - band.from_rad_per_s) / band.to_rad_per_s;
+        let width = band.range().width() / band.to_rad_per_s;
         let of_width = match band.kind {
             InstabilityKind::Divergence => WIDTH_REMAINDER * critical / width,
             InstabilityKind::Flutter => 0.0,

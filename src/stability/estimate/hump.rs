@@ -40,7 +40,7 @@ struct Hump {
 impl Hump {
     fn new(band: &Instability, square: impl Fn(f64) -> f64) -> Option<Self> {
         let mut top = band.peak_rad_per_s;
-        let step = 0.25 * (band.to_rad_per_s - band.from_rad_per_s).max(1e-9 * band.peak_rad_per_s);
+        let step = 0.25 * band.range().width().max(1e-9 * band.peak_rad_per_s);
         let mut hump = None;
         for _ in 0..8 {
             let [left, middle, right] = [top - step, top, top + step].map(&square);

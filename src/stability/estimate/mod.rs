@@ -15,6 +15,7 @@ use self::hump::merged;
 use super::band::{Instability, InstabilityKind};
 use super::basis::REMAINDER;
 use super::chart::StabilityChart;
+use crate::model::scene::SpeedRange;
 use crate::model::system::GyroscopicSystem;
 use crate::modes::branches::SpeedSample;
 use crate::modes::{
@@ -46,7 +47,7 @@ impl Estimates {
     /// [`SpectrumError`] when a small eigenproblem fails.
     pub fn new(
         model: &SpectralModel,
-        range: (f64, f64),
+        range: SpeedRange,
         chart: &StabilityChart,
         larger: LargerBasis,
         at_rest: f64,
@@ -54,13 +55,13 @@ impl Estimates {
         let within = model
             .critical
             .iter()
-            .filter(|c| c.speed_rad_per_s <= range.1);
+            .filter(|c| c.speed_rad_per_s <= range.to_rad_per_s);
         let critical: Vec<f64> = within
             .map(|critical| REMAINDER.get() * larger.critical_error(&model.components, critical))
             .collect();
         let samples = &chart.campbell.samples;
         let looks = LOOKS
-            .map(|share| range.0 + share * (range.1 - range.0))
+            .map(|share| range.from_rad_per_s + share * range.width())
             .into_iter()
             .filter_map(|speed| smallest(samples, |sample| (sample.speed_rad_per_s - speed).abs()));
         let errors = looks.flat_map(|sample| {

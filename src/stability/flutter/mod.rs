@@ -15,6 +15,7 @@ use super::pieces::Piece;
 use super::quadruples::{Stretch, stretches};
 use super::search_result::Found;
 use super::signature::SignedMode;
+use crate::model::scene::SpeedRange;
 use crate::modes::{SpectrumError, smallest};
 
 /// Distance of a peak at the end of a band from that end, as a share of the width.
@@ -55,7 +56,7 @@ pub(super) fn quadruples(
 pub(super) fn flutter(
     evaluator: &SignatureEvaluator<'_>,
     quadruples: &[Quadruple],
-    range: (f64, f64),
+    range: SpeedRange,
 ) -> Result<Vec<Found>, SpectrumError> {
     let bands = quadruples
         .par_iter()
@@ -66,16 +67,15 @@ pub(super) fn flutter(
 /// Part of a quadruple between two speeds.
 #[derive(Debug, Clone, Copy)]
 struct Part {
-    from: f64,
-    to: f64,
-    /// Whether the quadruple continues below `from`, and above `to`.
+    range: SpeedRange,
+    /// Whether the quadruple continues below the range, and above it.
     is_cut: [bool; 2],
 }
 
 impl Part {
     /// Speeds at which the quadruple is cut.
     fn cuts(&self) -> impl Iterator<Item = f64> {
-        let ends = [self.from, self.to].into_iter().zip(self.is_cut);
+        let ends = self.range.ends().into_iter().zip(self.is_cut);
         ends.filter_map(|(speed, is_cut)| is_cut.then_some(speed))
     }
 }
@@ -133,12 +133,15 @@ impl Quadruple {
         })
     }
 
-    fn part(&self, (from, to): (f64, f64)) -> Part {
-        let (begin, end) = (self.begin.speed(), self.end.speed());
+    fn part(&self, limits: SpeedRange) -> Part {
+        let whole = SpeedRange::new(self.begin.speed(), self.end.speed());
+        let range = whole.within(limits);
         Part {
-            from: from.max(begin),
-            to: to.min(end),
-            is_cut: [begin < from, to < end],
+            range,
+            is_cut: [
+                whole.from_rad_per_s < range.from_rad_per_s,
+                range.to_rad_per_s < whole.to_rad_per_s,
+            ],
         }
     }
 
@@ -146,29 +149,30 @@ impl Quadruple {
     fn band(
         &self,
         evaluator: &SignatureEvaluator<'_>,
-        limits: (f64, f64),
+        limits: SpeedRange,
     ) -> Result<Instability, SpectrumError> {
         let part = self.part(limits);
-        let (peak, fastest) = self.fastest(evaluator, part)?;
+        let [from_rad_per_s, to_rad_per_s] = part.range.ends();
+        let (peak_rad_per_s, fastest) = self.fastest(evaluator, part)?;
         let is_open = |end: &End| matches!(end, End::Range(_));
         Ok(Instability {
             kind: InstabilityKind::Flutter,
-            from_rad_per_s: part.from,
-            to_rad_per_s: part.to,
+            from_rad_per_s,
+            to_rad_per_s,
             closed: !is_open(&self.begin) && !is_open(&self.end),
-            peak_rad_per_s: peak,
-            peak_growth_per_s: fastest.0,
-            frequency_rad_per_s: fastest.1,
+            peak_rad_per_s,
+            peak_growth_per_s: fastest.re,
+            frequency_rad_per_s: fastest.im,
             curve: Vec::new(),
         })
     }
 
-    /// Speed of the largest growth in a part, with growth rate and frequency, in rad/s, 1/s and rad/s.
+    /// Speed of the largest growth in a part, in rad/s, and λ there.
     fn fastest(
         &self,
         evaluator: &SignatureEvaluator<'_>,
         part: Part,
-    ) -> Result<(f64, (f64, f64)), SpectrumError> {
+    ) -> Result<(f64, c64), SpectrumError> {
         let mut known = self.points.clone();
         for speed in part.cuts() {
             let mode = continued(evaluator, &self.points, speed)?;
@@ -177,7 +181,7 @@ impl Quadruple {
         known.sort_by(|x, y| x.0.total_cmp(&y.0));
         let ends = [&self.begin, &self.end].into_iter().filter_map(End::sample);
         let mut samples: Vec<Sample> = known.iter().map(sample).chain(ends).collect();
-        samples.retain(|sample| (part.from..=part.to).contains(&sample.at));
+        samples.retain(|sample| part.range.contains(sample.at));
         samples.sort_by(|x, y| x.at.total_cmp(&y.at));
         let found = maximize(samples, |speed| {
             let Some(mode) = continued(evaluator, &known, speed)? else {
@@ -190,17 +194,17 @@ impl Quadruple {
         let at = found.map_or(self.points[0].0, |sample| sample.at);
         // At the coalescence of two real λ the growth is not zero and may be the largest of the band. The
         // peak is then placed slightly inside the band.
-        for (end, other) in [(&self.begin, part.to), (&self.end, part.from)] {
+        let [from, to] = part.range.ends();
+        for (end, other) in [(&self.begin, to), (&self.end, from)] {
             if let End::Edge(edge) = end
                 && edge.speed_rad_per_s == at
             {
                 let inside = at + BESIDE_END * (other - at);
-                return Ok((inside, (edge.lambda.re, edge.lambda.im)));
+                return Ok((inside, edge.lambda));
             }
         }
         let (speed, mode) = nearest(&known, at);
-        let mode = sharp(evaluator, speed, mode);
-        Ok((speed, (mode.lambda.re, mode.lambda.im)))
+        Ok((speed, sharp(evaluator, speed, mode).lambda))
     }
 }
 

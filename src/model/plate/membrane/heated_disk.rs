@@ -28,12 +28,12 @@ const FINER: usize = 8;
 
 /// Radii of the temperatures, some of the nodes.
 pub fn radii_m(blade: &Blade) -> Vec<f64> {
-    evenly_spaced((blade.inner_radius_m, blade.outer_radius_m), SHOWN + 1)
+    evenly_spaced([blade.inner_radius_m, blade.outer_radius_m], SHOWN + 1)
 }
 
 /// Radii of the nodes, at the ends of the elements.
 fn nodes_m(blade: &Blade) -> Vec<f64> {
-    evenly_spaced((blade.inner_radius_m, blade.outer_radius_m), ELEMENTS + 1)
+    evenly_spaced([blade.inner_radius_m, blade.outer_radius_m], ELEMENTS + 1)
 }
 
 /// Temperature rises at [`radii_m`] in K, under sources of a power in W at a radius in m.
