@@ -11,10 +11,10 @@ const MOST_HALVINGS: usize = 24;
 /// points; points are added between them as needed. `None` if the change is undetermined, because the path
 /// passes through a root.
 pub fn turn_along(places: &[f64], angle: impl Fn(f64) -> Option<f64>) -> Option<f64> {
-    let mut before = (*places.first()?, angle(*places.first()?)?);
+    let mut before = [*places.first()?, angle(*places.first()?)?];
     let mut total = 0.0;
     for &place in &places[1..] {
-        let here = (place, angle(place)?);
+        let here = [place, angle(place)?];
         total += turned(&angle, before, here, 0)?;
         before = here;
     }
@@ -24,8 +24,8 @@ pub fn turn_along(places: &[f64], angle: impl Fn(f64) -> Option<f64>) -> Option<
 /// Change of the angle between two points, from halves if it is too large to be certain.
 fn turned(
     angle: &impl Fn(f64) -> Option<f64>,
-    (from, before): (f64, f64),
-    (to, after): (f64, f64),
+    [from, before]: [f64; 2],
+    [to, after]: [f64; 2],
     halvings: usize,
 ) -> Option<f64> {
     let change = after - before;
@@ -37,9 +37,9 @@ fn turned(
         return None;
     }
     let middle = 0.5 * (from + to);
-    let here = (middle, angle(middle)?);
-    let first = turned(angle, (from, before), here, halvings + 1)?;
-    Some(first + turned(angle, here, (to, after), halvings + 1)?)
+    let here = [middle, angle(middle)?];
+    let first = turned(angle, [from, before], here, halvings + 1)?;
+    Some(first + turned(angle, here, [to, after], halvings + 1)?)
 }
 
 #[cfg(test)]

@@ -92,7 +92,8 @@ impl Component {
         &self,
         plate: &Plate,
         index: usize,
-        (speed, highest): (f64, f64),
+        speed: f64,
+        highest: f64,
     ) -> Result<Vec<Eigenpair>, SpectrumError> {
         let system = &self.at(speed).reduced;
         let mut pairs = match &self.solution {

@@ -53,7 +53,7 @@ impl DoubleEigenvalue {
         let (mut speed, mut lambda) = (speed_rad_per_s, expected);
         let [mut right, mut left] = vectors(system, speed, lambda)?;
         for _ in 0..STEPS {
-            let jet = Jet::new(system, (speed, lambda), [&right, &left])?;
+            let jet = Jet::new(system, speed, lambda, [&right, &left])?;
             let [by_root, by_speed, twice_by_root, by_both, thrice_by_root] = jet.slopes;
             let determinant = by_root * by_both - by_speed * twice_by_root;
             let change = (by_speed * by_root - by_both * jet.value) / determinant;
@@ -114,7 +114,8 @@ struct Jet {
 impl Jet {
     fn new(
         system: &GyroscopicSystem,
-        (speed, lambda): (f64, c64),
+        speed: f64,
+        lambda: c64,
         [c, b]: [&Col<c64>; 2],
     ) -> Option<Self> {
         let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));

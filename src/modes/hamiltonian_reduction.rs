@@ -176,7 +176,7 @@ impl HamiltonianReduction {
 
     /// (ω₁² + ω₂², ω₁ω₂) of a model of two modes, from the traces of A² and A⁴: smooth through a coalescence,
     /// where the eigenvalues are not.
-    pub fn pair_invariants(&self, speed_rad_per_s: f64) -> (f64, f64) {
+    pub fn pair_invariants(&self, speed_rad_per_s: f64) -> [f64; 2] {
         let matrix = self.own.matrix(speed_rad_per_s);
         let square = &matrix * &matrix;
         let trace = |m: &Mat<f64>| (0..m.nrows()).map(|i| m[(i, i)]).sum::<f64>();
@@ -184,6 +184,6 @@ impl HamiltonianReduction {
         let sum = -0.5 * trace(&square);
         let product_square = 0.5 * (sum * sum - 0.5 * fourth);
         let unit = self.scale * self.scale;
-        (sum * unit, product_square.max(0.0).sqrt() * unit)
+        [sum * unit, product_square.max(0.0).sqrt() * unit]
     }
 }

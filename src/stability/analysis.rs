@@ -6,7 +6,7 @@ use super::band::{Instability, InstabilityKind};
 use super::basis::{ChosenBasis, FALL};
 use super::basis_limit::OutOfReach;
 use super::certification::Depth;
-use super::chart::{CHART_SPEEDS, StabilityChart, drawn};
+use super::chart::{CHART_SPEEDS, drawn};
 use super::detail::Detail;
 use super::error::AnalysisError;
 use super::estimate::Estimates;
@@ -19,6 +19,7 @@ use super::loci::RootLoci;
 use super::onsets::Onsets;
 use super::options::AnalysisOptions;
 use super::room::check_room;
+use super::search_result::StabilityChart;
 use super::verdict::{Evidence, StabilityState, Verdict, flutter_onsets};
 use crate::model::plate::{Resolution, StraightEdgeReading};
 use crate::model::scene::{Accuracy, Scene, SceneError, SpeedRange, rad_per_s, rpm};
@@ -45,9 +46,9 @@ fn charted(
         ..options
     };
     match (model.plate.is_axisymmetric(), options.detail) {
-        (true, _) => drawn(model, range, (FREE_CHART_SPEEDS, depth), full),
-        (false, Detail::Full) => drawn(model, range, (CHART_SPEEDS, depth), full),
-        (false, Detail::Sketch) => drawn(model, range, (SKETCH_SPEEDS, Depth::Counts), options),
+        (true, _) => drawn(model, range, FREE_CHART_SPEEDS, depth, full),
+        (false, Detail::Full) => drawn(model, range, CHART_SPEEDS, depth, full),
+        (false, Detail::Sketch) => drawn(model, range, SKETCH_SPEEDS, Depth::Counts, options),
     }
 }
 

@@ -1,30 +1,18 @@
 //! Stability chart of a saw: samples, branches and bands over a range of speeds.
 
-use super::band::Instability;
-use super::certificate::Certificate;
 use super::certification::{Depth, GROWTH_FLOOR, contradictions};
 use super::damped;
 use super::error::AnalysisError;
 use super::options::AnalysisOptions;
+use super::search_result::StabilityChart;
 use super::signature::Signature;
 use super::undamped;
 use crate::model::scene::SpeedRange;
-use crate::modes::branches::{Campbell, Progress};
+use crate::modes::branches::Progress;
 use crate::modes::{Mode, SpectralModel};
 
 /// Number of even speeds of a chart, without those added at events.
 pub(super) const CHART_SPEEDS: usize = 51;
-
-/// Campbell diagram, bands of instability and certificate over a range of speeds.
-#[derive(Debug, Clone)]
-pub struct StabilityChart {
-    /// Modes at the speeds of the chart, and branches.
-    pub campbell: Campbell,
-    /// Bands by onset.
-    pub instabilities: Vec<Instability>,
-    /// Results of the checks of the bands.
-    pub certificate: Certificate,
-}
 
 impl StabilityChart {
     /// Compares the bands with the modes at one more speed, and adds contradictions to the certificate.
@@ -40,7 +28,7 @@ impl StabilityChart {
             let wrong = contradictions(bands, &[signature], GROWTH_FLOOR);
             certificate.mismatches.extend(wrong);
         } else {
-            let wrong = damped::contradicted(model, bands, (speed_rad_per_s, modes));
+            let wrong = damped::contradicted(model, bands, speed_rad_per_s, modes);
             certificate.violations_rad_per_s.extend(wrong);
         }
     }
@@ -56,7 +44,7 @@ pub fn chart(
     count: usize,
     progress: Progress<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
-    chart_to_depth(model, range, (count, Depth::Proof), progress)
+    chart_to_depth(model, range, count, Depth::Proof, progress)
 }
 
 /// The [`chart`] with checks of its bands to some depth.
@@ -66,31 +54,28 @@ pub fn chart(
 pub(crate) fn chart_to_depth(
     model: &SpectralModel,
     range: SpeedRange,
-    (count, depth): (usize, Depth),
+    count: usize,
+    depth: Depth,
     progress: Progress<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
     let options = AnalysisOptions {
         progress,
         ..AnalysisOptions::default()
     };
-    drawn(model, range, (count, depth), options)
+    drawn(model, range, count, depth, options)
 }
 
 /// Charts a range of speeds with the detail and the callbacks of options.
 pub(super) fn drawn(
     model: &SpectralModel,
     range: SpeedRange,
-    (count, depth): (usize, Depth),
+    count: usize,
+    depth: Depth,
     options: AnalysisOptions<'_>,
 ) -> Result<StabilityChart, AnalysisError> {
-    let (samples, instabilities, certificate) = if model.is_conservative() {
-        undamped::charted(model, range, (count, depth), options)?
+    if model.is_conservative() {
+        undamped::charted(model, range, count, depth, options)
     } else {
-        damped::charted(model, range, count, options)?
-    };
-    Ok(StabilityChart {
-        campbell: Campbell::track(samples, model.complete_to_rad_per_s),
-        instabilities,
-        certificate,
-    })
+        damped::charted(model, range, count, options)
+    }
 }

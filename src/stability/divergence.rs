@@ -52,12 +52,12 @@ pub(super) fn divergence(
 /// continue as flutter and split again, or pass zero before others do. The result has the middle between
 /// every two neighbouring edges without a signature between them.
 fn unseen(signatures: &[Signature], critical: &[f64], coalescences: &[f64]) -> Vec<f64> {
-    let mut edges: Vec<(f64, Edge)> = Vec::new();
-    edges.extend(critical.iter().map(|&speed| (speed, Edge::Critical)));
-    edges.extend(coalescences.iter().map(|&speed| (speed, Edge::Coalescence)));
-    edges.sort_by(|x, y| x.0.total_cmp(&y.0));
-    let is_unseen = |pair: &[(f64, Edge)]| {
-        let [(from, first), (to, second)] = [pair[0], pair[1]];
+    let mut edges: Vec<Edge> = Vec::new();
+    edges.extend(critical.iter().copied().map(Edge::Critical));
+    edges.extend(coalescences.iter().copied().map(Edge::Coalescence));
+    edges.sort_by(|x, y| x.speed().total_cmp(&y.speed()));
+    let is_unseen = |pair: &[Edge]| {
+        let [from, to] = [pair[0].speed(), pair[1].speed()];
         let next = signatures.partition_point(|signature| signature.speed_rad_per_s <= from);
         let before = next.checked_sub(1).map(|last| &signatures[last]);
         let both = before.zip(signatures.get(next));
@@ -65,10 +65,13 @@ fn unseen(signatures: &[Signature], critical: &[f64], coalescences: &[f64]) -> V
             after.speed_rad_per_s >= to && !before.real.is_empty() && !after.real.is_empty()
         });
         let is_clear = to - from > 4.0 * CRITICAL_GAP.get() * to;
-        passes && is_clear && [first, second].contains(&Edge::Coalescence)
+        let coalesce = |edge: &Edge| matches!(edge, Edge::Coalescence(_));
+        passes && is_clear && pair.iter().any(coalesce)
     };
     let unseen = edges.windows(2).filter(|pair| is_unseen(pair));
-    unseen.map(|pair| 0.5 * (pair[0].0 + pair[1].0)).collect()
+    unseen
+        .map(|pair| 0.5 * (pair[0].speed() + pair[1].speed()))
+        .collect()
 }
 
 /// Number of parts of a band whose ends are sampled for its largest growth, in addition to the speeds of the
@@ -79,9 +82,10 @@ const PARTS: usize = 8;
 fn band(
     evaluator: &SignatureEvaluator<'_>,
     signatures: &[Signature],
-    [(begin, begins), (end, ends)]: [(f64, Edge); 2],
+    edges: [Edge; 2],
     limits: SpeedRange,
 ) -> Result<Instability, SpectrumError> {
+    let [begin, end] = edges.map(|edge| edge.speed());
     let [from, to] = SpeedRange::new(begin, end).within(limits).ends();
     let of = |signature: &Signature| {
         signature.divergence().map(|mode| Sample {
@@ -107,8 +111,10 @@ fn band(
         value: 0.0,
         slope: f64::NAN,
     };
-    samples.extend((begins == Edge::Critical).then(|| zero(begin)));
-    samples.extend((ends == Edge::Critical).then(|| zero(end)));
+    let critical = edges
+        .iter()
+        .filter(|edge| matches!(edge, Edge::Critical(_)));
+    samples.extend(critical.map(|edge| zero(edge.speed())));
     let cuts = [(begin < from).then_some(from), (to < end).then_some(to)];
     for cut in cuts.into_iter().flatten() {
         let value = evaluator.divergence(cut)?.powi(2);
@@ -131,7 +137,7 @@ fn band(
         kind: InstabilityKind::Divergence,
         from_rad_per_s: from,
         to_rad_per_s: to,
-        closed: begins != Edge::Range && ends != Edge::Range,
+        closed: !edges.iter().any(|edge| matches!(edge, Edge::Range(_))),
         peak_rad_per_s: found.map_or(from, |sample| sample.at),
         peak_growth_per_s,
         frequency_rad_per_s: 0.0,
@@ -181,22 +187,30 @@ fn between(
     })
 }
 
-/// Kind of the begin or end of divergence.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Begin or end of divergence, at a speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Edge {
     /// A critical speed: λ passes through zero.
-    Critical,
+    Critical(f64),
     /// Coalescence of two real λ, which continue as flutter.
-    Coalescence,
+    Coalescence(f64),
     /// End of the range inside the band.
-    Range,
+    Range(f64),
+}
+
+impl Edge {
+    fn speed(&self) -> f64 {
+        match self {
+            Edge::Critical(speed) | Edge::Coalescence(speed) | Edge::Range(speed) => *speed,
+        }
+    }
 }
 
 /// Begin or end of divergence between a stable and an unstable speed: the critical speed or the coalescence
 /// of two real λ between them, or the end of the range.
-fn edge(critical: &[f64], coalescences: &[f64], stable: Option<f64>, unstable: f64) -> (f64, Edge) {
+fn edge(critical: &[f64], coalescences: &[f64], stable: Option<f64>, unstable: f64) -> Edge {
     let Some(stable) = stable else {
-        return (unstable, Edge::Range);
+        return Edge::Range(unstable);
     };
     // Of several coalescences, the nearest to the divergence ends it. It may be slightly beyond the stable
     // speed, because the speed of a coalescence has an error (`VICINITY`).
@@ -214,10 +228,10 @@ fn edge(critical: &[f64], coalescences: &[f64], stable: Option<f64>, unstable: f
     // If one of two real λ passes through zero at the critical speed, both may continue up to a coalescence
     // beyond it, which is then the edge.
     let (to, otherwise) = match critical {
-        Some(speed) => (speed, (speed, Edge::Critical)),
-        None => (unstable, (unstable, Edge::Coalescence)),
+        Some(speed) => (speed, Edge::Critical(speed)),
+        None => (unstable, Edge::Coalescence(unstable)),
     };
-    coalescence(to).map_or(otherwise, |speed| (speed, Edge::Coalescence))
+    coalescence(to).map_or(otherwise, Edge::Coalescence)
 }
 
 #[cfg(test)]
@@ -263,20 +277,17 @@ mod tests {
     fn divergence_begins_where_two_real_eigenvalues_split() {
         let begin =
             |critical: &[f64], coalescences: &[f64]| edge(critical, coalescences, Some(2.0), 5.0);
-        assert_eq!(begin(&[1.0, 4.0], &[3.0]), (3.0, Edge::Coalescence));
-        assert_eq!(begin(&[4.0], &[]), (4.0, Edge::Critical));
-        assert_eq!(begin(&[3.0], &[4.0]), (3.0, Edge::Critical));
-        assert_eq!(begin(&[], &[3.0, 4.0]), (4.0, Edge::Coalescence));
+        assert_eq!(begin(&[1.0, 4.0], &[3.0]), Edge::Coalescence(3.0));
+        assert_eq!(begin(&[4.0], &[]), Edge::Critical(4.0));
+        assert_eq!(begin(&[3.0], &[4.0]), Edge::Critical(3.0));
+        assert_eq!(begin(&[], &[3.0, 4.0]), Edge::Coalescence(4.0));
         // The end of divergence is found in the same way; without a stable speed it is that of the range.
-        assert_eq!(
-            edge(&[3.0], &[4.0], Some(5.0), 2.0),
-            (4.0, Edge::Coalescence)
-        );
-        assert_eq!(edge(&[3.0], &[4.0], None, 2.0), (2.0, Edge::Range));
+        assert_eq!(edge(&[3.0], &[4.0], Some(5.0), 2.0), Edge::Coalescence(4.0));
+        assert_eq!(edge(&[3.0], &[4.0], None, 2.0), Edge::Range(2.0));
         // The stable speed is slightly on the wrong side of the coalescence.
         assert_eq!(
             edge(&[], &[5.0001], Some(5.0), 2.0),
-            (5.0001, Edge::Coalescence)
+            Edge::Coalescence(5.0001)
         );
     }
 }

@@ -7,8 +7,8 @@
 
 use rayon::prelude::*;
 
-use super::chart::StabilityChart;
 use super::root::{Look, bracketed};
+use super::search_result::StabilityChart;
 use crate::model::scene::ExcitationLine;
 use crate::modes::{SpectralModel, SpectrumError, smallest};
 
@@ -81,7 +81,7 @@ pub fn crossings(
     let mut found: Vec<Crossing> = brackets
         .into_par_iter()
         .map(|(line, point, low, high)| {
-            let ends = [(low.0, low.1), (high.0, high.1)];
+            let ends = [[low.0, low.1], [high.0, high.1]];
             Ok(Crossing {
                 line,
                 speed_rad_per_s: root(model, line, low.2, ends)?,
@@ -102,22 +102,22 @@ fn root(
     model: &SpectralModel,
     line: ExcitationLine,
     component: usize,
-    ends: [(f64, f64); 2],
+    ends: [[f64; 2]; 2],
 ) -> Result<f64, SpectrumError> {
-    let seen = |(speed, frequency): (f64, f64)| Look {
+    let seen = |[speed, frequency]: [f64; 2]| Look {
         at: speed,
         value: frequency - f64::from(line.order) * speed,
-        point: (speed, frequency),
+        point: [speed, frequency],
     };
     let found = bracketed(ends.map(seen), TOLERANCE, |[from, to], share| {
         let between = |from: f64, to: f64| from + share * (to - from);
-        let speed = between(from.0, to.0);
-        let expected = between(from.1, to.1);
+        let speed = between(from[0], to[0]);
+        let expected = between(from[1], to[1]);
         let modes = model.modes(speed)?;
         let own = modes.iter().filter(|mode| mode.component == component);
         let frequencies = own.map(|mode| mode.lambda.im.abs());
         let nearest = smallest(frequencies, |frequency| (frequency - expected).abs());
-        Ok::<_, SpectrumError>(seen((speed, nearest.unwrap_or(expected))))
+        Ok::<_, SpectrumError>(seen([speed, nearest.unwrap_or(expected)]))
     });
     found.map(|look| look.at)
 }

@@ -1,6 +1,6 @@
 //! Estimated growth rate of an unlisted band in an unproven interval.
 
-use super::chart::StabilityChart;
+use super::search_result::StabilityChart;
 use crate::model::scene::SpeedRange;
 use crate::modes::DescribedMode;
 use crate::modes::branches::{Campbell, SpeedSample};

@@ -19,8 +19,8 @@ impl Cubic {
         u * u * ((1.0 + 2.0 * t) * f0 + t * d0) + t * t * ((1.0 + 2.0 * u) * f1 - u * d1)
     }
 
-    /// Points in (0, 1) with zero slope, and the values there.
-    fn stationary(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+    /// Points in (0, 1) with zero slope.
+    fn stationary(&self) -> impl Iterator<Item = f64> {
         let ([f0, f1], [d0, d1]) = (self.values, self.slopes);
         // The slope is f′(t) = a t² + b t + d0.
         let (a, b) = (
@@ -31,23 +31,22 @@ impl Cubic {
         // This form of the roots avoids cancellation (Press et al., Numerical Recipes, 5.6).
         let q = -0.5 * (b + b.signum() * discriminant.sqrt());
         let roots = [q / a, d0 / q];
-        let inside = roots.into_iter().filter(|t| *t > 0.0 && *t < 1.0);
-        inside.map(|t| (t, self.at(t)))
+        roots.into_iter().filter(|t| *t > 0.0 && *t < 1.0)
     }
 
-    /// Position and value of the maximum on [0, 1].
-    pub fn highest(&self) -> (f64, f64) {
-        let ends = [(0.0, self.values[0]), (1.0, self.values[1])];
-        let all = ends.into_iter().chain(self.stationary());
-        all.fold((0.0, f64::NEG_INFINITY), |best, x| {
-            if x.1 > best.1 { x } else { best }
-        })
+    /// Position of the maximum on [0, 1].
+    pub fn highest(&self) -> f64 {
+        let inner = [1.0].into_iter().chain(self.stationary());
+        inner.fold(
+            0.0,
+            |best, t| if self.at(t) > self.at(best) { t } else { best },
+        )
     }
 }
 
 /// Sign changes of a cubic in (0, 1), ascending.
 pub fn sign_changes(cubic: &Cubic) -> Vec<f64> {
-    let mut bounds: Vec<f64> = cubic.stationary().map(|(t, _)| t).collect();
+    let mut bounds: Vec<f64> = cubic.stationary().collect();
     bounds.sort_by(f64::total_cmp);
     bounds.insert(0, 0.0);
     bounds.push(1.0);
@@ -82,7 +81,8 @@ mod tests {
             values: [0.0, 0.0],
             slopes: [2.0, -1.0],
         };
-        let (place, value) = hump.highest();
+        let place = hump.highest();
+        let value = hump.at(place);
         assert!((place - (1.0 - 1.0 / 3.0_f64.sqrt())).abs() < 1e-12);
         assert!((value - 2.0 / 27.0_f64.sqrt()).abs() < 1e-12);
     }
@@ -93,7 +93,7 @@ mod tests {
             values: [1.0, 3.0],
             slopes: [2.0, 2.0],
         };
-        assert_eq!(line.highest(), (1.0, 3.0));
+        assert_eq!(line.highest(), 1.0);
         assert!(sign_changes(&line).is_empty());
     }
 

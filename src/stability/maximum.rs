@@ -41,12 +41,9 @@ pub fn maximize(
         let predicted = samples
             .windows(2)
             .enumerate()
-            .map(|(place, ends)| {
-                let (share, value) = predicted_maximum(ends);
-                (place, ends[0].at + share * (ends[1].at - ends[0].at), value)
-            })
-            .max_by(|x, y| x.2.total_cmp(&y.2));
-        let Some((place, speed, value)) = predicted else {
+            .filter_map(|(place, ends)| Some((place, predicted_maximum(ends)?)))
+            .max_by(|x, y| x.1[1].total_cmp(&y.1[1]));
+        let Some((place, [speed, value])) = predicted else {
             break;
         };
         if value <= best.value * (1.0 + TOLERANCE.get()) {
@@ -75,16 +72,15 @@ fn cubic(ends: &[Sample]) -> Cubic {
     }
 }
 
-/// Position and value of the maximum of the cubic between two samples.
-fn predicted_maximum(ends: &[Sample]) -> (f64, f64) {
-    let (share, value) = cubic(ends).highest();
-    // A maximum so close to an end is hardly larger than the sample at that end, so that it need not be
-    // examined.
-    if (1e-6..=1.0 - 1e-6).contains(&share) {
-        (share, value)
-    } else {
-        (0.5, f64::NEG_INFINITY)
-    }
+/// Position and value of the maximum of the cubic between two samples; `None` so close to an end that it is hardly
+/// larger than the sample there.
+fn predicted_maximum(ends: &[Sample]) -> Option<[f64; 2]> {
+    let cubic = cubic(ends);
+    let share = cubic.highest();
+    let at = ends[0].at + share * (ends[1].at - ends[0].at);
+    (1e-6..=1.0 - 1e-6)
+        .contains(&share)
+        .then(|| [at, cubic.at(share)])
 }
 
 #[cfg(test)]

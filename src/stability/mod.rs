@@ -60,7 +60,6 @@ pub(crate) use basis::{end_of_sweep, resolved};
 pub use basis_limit::OutOfReach;
 pub use certificate::{Certificate, ContradictedBands};
 pub(crate) use certification::Depth;
-pub use chart::StabilityChart;
 #[doc(hidden)]
 pub use chart::chart;
 pub(crate) use chart::chart_to_depth;
@@ -85,6 +84,7 @@ pub use partition::{Plane, Sample};
 pub use pieces::{Grouped, Piece, Search};
 pub(crate) use reach::{CHARTED, PAST_THE_RANGE, is_cut_short, usual_end};
 pub(crate) use root::{Look, bracketed};
+pub use search_result::{FoundBands, StabilityChart};
 pub use sensitivity::{Sensitivity, SensitivityError};
 #[doc(hidden)]
 pub use undamped::undamped_bands;

@@ -44,7 +44,7 @@ pub struct MiscountedModes {
 
 impl MiscountedModes {
     /// The result of a count at a speed between two frequencies in rad/s.
-    pub(super) fn new(speed_rad_per_s: f64, (from, to): (f64, f64), missing: isize) -> Self {
+    pub(super) fn new(speed_rad_per_s: f64, [from, to]: [f64; 2], missing: isize) -> Self {
         MiscountedModes {
             rpm: rpm(speed_rad_per_s),
             from_hz: from / TAU,
@@ -280,7 +280,7 @@ pub(super) fn of_claims(
         let (from, last) = before.unwrap_or((frequency, difference));
         if difference != last {
             let missing = difference - last;
-            let miscount = MiscountedModes::new(speed_rad_per_s, (from, frequency), missing);
+            let miscount = MiscountedModes::new(speed_rad_per_s, [from, frequency], missing);
             counted.miscounts.push(miscount);
         }
         before = Some((frequency, difference));

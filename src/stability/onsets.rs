@@ -6,6 +6,7 @@ use super::certificate::Certificate;
 use super::damped;
 use super::detail::Detail;
 use super::error::AnalysisError;
+use super::search_result::FoundBands;
 use super::undamped::{SEARCH_SPEEDS, undamped_bands};
 use super::verdict::flutter_onsets;
 use crate::model::plate::Resolution;
@@ -77,20 +78,20 @@ impl Onsets {
         let is_damped = !saw.plate.is_conservative();
         let is_slow = lowest_critical.is_none_or(|lowest| lowest > range.to_rad_per_s);
         let has_none = !is_damped && (saw.plate.is_axisymmetric() || is_slow);
-        let (instabilities, certificate) = if has_none {
-            Default::default()
+        let found = if has_none {
+            FoundBands::default()
         } else {
             search_bands(saw, critical, range)?
         };
         let threshold = scene.flutter_threshold_per_s();
-        let [flutter_speed, first_merge] = flutter_onsets(&instabilities, threshold);
+        let [flutter_speed, first_merge] = flutter_onsets(&found.instabilities, threshold);
         Ok(Onsets {
             lowest_critical_rad_per_s: lowest_critical,
             critical_rad_per_s,
             flutter_speed_rad_per_s: flutter_speed,
             first_merge_rad_per_s: first_merge,
-            instabilities,
-            certificate,
+            instabilities: found.instabilities,
+            certificate: found.certificate,
             functions,
             estimated_relative_error,
         })
@@ -106,7 +107,7 @@ pub fn search_bands(
     saw: impl Into<Assembled>,
     critical: Vec<NamedCriticalSpeed>,
     range: SpeedRange,
-) -> Result<(Vec<Instability>, Certificate), AnalysisError> {
+) -> Result<FoundBands, AnalysisError> {
     let saw = saw.into();
     if saw.plate.is_conservative() {
         let model = SpectralModel::with_critical(saw, critical, range, Strategy::Bands)?;

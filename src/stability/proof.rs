@@ -55,7 +55,7 @@ impl Proof<'_> {
         let step = &Work::of("stretches of the proof", stretches.len());
         let within: Vec<Result<Vec<SpeedRange>, SpectrumError>> = stretches
             .into_par_iter()
-            .map(|stretch| self.within(stretch, (&[], least), step))
+            .map(|stretch| self.within(stretch, &[], least, step))
             .collect();
         let mut open: Vec<SpeedRange> = within
             .into_iter()
@@ -84,7 +84,8 @@ impl Proof<'_> {
     fn within(
         &self,
         ends: &[End],
-        (known, least): (&[Line], f64),
+        known: &[Line],
+        least: f64,
         step: &Work,
     ) -> Result<Vec<SpeedRange>, SpectrumError> {
         let [a, .., b] = ends else {
@@ -100,8 +101,8 @@ impl Proof<'_> {
         let halves = |below: &[End], above: &[End]| {
             step.extend(1);
             let (below, above) = rayon::join(
-                || self.within(below, (&known, least), step),
-                || self.within(above, (&known, least), step),
+                || self.within(below, &known, least, step),
+                || self.within(above, &known, least, step),
             );
             let mut open = below?;
             open.extend(above?);

@@ -28,8 +28,8 @@ pub(super) fn check_room(chosen: &ChosenBasis) -> Result<(), AnalysisError> {
     let waves = waves_within(plate, to, window)?;
     let modes = (REMAINING * waves as f64) as usize;
     let even = evenly_spaced(range.ends(), CHART_SPEEDS);
-    let speeds = with_critical_speeds((plate, critical), range, even);
-    Ok(check_memory((plate, critical), modes, &speeds)?)
+    let speeds = with_critical_speeds(plate, critical, range, even);
+    Ok(check_memory(plate, critical, modes, &speeds)?)
 }
 
 #[cfg(test)]

@@ -1,9 +1,42 @@
-//! Bands of a search and their parts within the requested range. The search extends slightly beyond the
+//! Bands of a search and their parts within the requested range, and the chart that they are drawn in. The search extends slightly beyond the
 //! range, so that an event at an end of the range is not at an end of the search.
 
 use super::band::Instability;
+use super::certificate::Certificate;
 use crate::model::scene::SpeedRange;
-use crate::modes::SpectrumError;
+use crate::modes::branches::{Campbell, SpeedSample};
+use crate::modes::{SpectralModel, SpectrumError};
+
+/// Every band that a search finds, by onset, and the checks of them.
+#[derive(Debug, Clone, Default)]
+pub struct FoundBands {
+    /// Bands by onset.
+    pub instabilities: Vec<Instability>,
+    /// Results of the checks of the bands.
+    pub certificate: Certificate,
+}
+
+/// Campbell diagram, bands of instability and certificate over a range of speeds.
+#[derive(Debug, Clone)]
+pub struct StabilityChart {
+    /// Modes at the speeds of the chart, and branches.
+    pub campbell: Campbell,
+    /// Bands by onset.
+    pub instabilities: Vec<Instability>,
+    /// Results of the checks of the bands.
+    pub certificate: Certificate,
+}
+
+impl StabilityChart {
+    /// The chart of sampled modes and the bands of a search.
+    pub(super) fn new(model: &SpectralModel, samples: Vec<SpeedSample>, found: FoundBands) -> Self {
+        StabilityChart {
+            campbell: Campbell::track(samples, model.complete_to_rad_per_s),
+            instabilities: found.instabilities,
+            certificate: found.certificate,
+        }
+    }
+}
 
 /// A band of a search.
 #[derive(Debug, Clone)]

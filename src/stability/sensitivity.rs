@@ -300,7 +300,7 @@ impl Merging {
         let modes = model.modes(speed * (1.0 - BELOW))?;
         let expected = match band.kind {
             InstabilityKind::Flutter => closest_opposite(&modes)
-                .map(|(plus, minus)| (plus.component, 0.5 * (plus.lambda + minus.lambda))),
+                .map(|[plus, minus]| (plus.component, 0.5 * (plus.lambda + minus.lambda))),
             InstabilityKind::Divergence => {
                 let flutter = modes.iter().filter(|mode| mode.kind == ModeKind::Flutter);
                 let slowest = smallest(flutter, |mode| mode.lambda.im);
@@ -356,8 +356,8 @@ impl Merging {
 }
 
 /// The + and the − mode whose frequencies are nearest to each other.
-fn closest_opposite(modes: &[Mode]) -> Option<(&Mode, &Mode)> {
+fn closest_opposite(modes: &[Mode]) -> Option<[&Mode; 2]> {
     let signed = |sign: i8| modes.iter().filter(move |m| m.krein_sign() == sign);
-    let pairs = signed(1).flat_map(|plus| signed(-1).map(move |minus| (plus, minus)));
-    smallest(pairs, |(plus, minus)| (plus.lambda - minus.lambda).norm())
+    let pairs = signed(1).flat_map(|plus| signed(-1).map(move |minus| [plus, minus]));
+    smallest(pairs, |[plus, minus]| (plus.lambda - minus.lambda).norm())
 }

@@ -1,12 +1,12 @@
 //! Bands of an undamped blade over a range of speeds, and the speeds of its chart.
 
 use super::band::Instability;
-use super::certificate::Certificate;
 use super::certification::{Depth, bands, contradictions};
 use super::detail::Detail;
 use super::error::AnalysisError;
 use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP};
 use super::options::AnalysisOptions;
+use super::search_result::{FoundBands, StabilityChart};
 use super::signature::Signature;
 use crate::model::evenly_spaced;
 use crate::model::plate::Plate;
@@ -24,20 +24,21 @@ pub(super) const WITHIN_BANDS: [f64; 6] = [-0.02, 0.02, 0.15, 0.85, 0.98, 1.02];
 pub(super) fn charted(
     model: &SpectralModel,
     range: SpeedRange,
-    (count, depth): (usize, Depth),
+    count: usize,
+    depth: Depth,
     options: AnalysisOptions<'_>,
-) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
+) -> Result<StabilityChart, AnalysisError> {
     let AnalysisOptions {
         detail, progress, ..
     } = options;
     let drawn = clear_range(&model.critical, range);
     let even = evenly_spaced(drawn.ends(), count);
     let speeds = match detail {
-        Detail::Full => with_critical_speeds((&model.plate, &model.critical), drawn, even),
+        Detail::Full => with_critical_speeds(&model.plate, &model.critical, drawn, even),
         // A sketch of a guided blade needs no speeds beside critical ones, because its branches are followed
         // through λ = 0.
         Detail::Sketch if !model.plate.is_axisymmetric() => away_from_critical(model, even),
-        Detail::Sketch => with_critical_speeds((&model.plate, &model.critical), drawn, even),
+        Detail::Sketch => with_critical_speeds(&model.plate, &model.critical, drawn, even),
     };
     // A free blade has no bands to search for; only the Krein index is checked.
     let search = if model.plate.is_axisymmetric() {
@@ -52,21 +53,20 @@ pub(super) fn charted(
     branches::check_room(model, &speeds)?;
     let searched = || {
         let found = bands(model, range, &search, depth)?;
-        options.report(&model.critical, range, Some(&found.0));
+        options.report(&model.critical, range, Some(&found.instabilities));
         Ok::<_, SpectrumError>(found)
     };
     let (found, samples) = rayon::join(searched, || branches::sample(model, &speeds, progress));
-    let ((instabilities, mut certificate), mut samples) = (found?, samples?);
+    let (mut found, mut samples) = (found?, samples?);
     let room = branches::room_for_more(model, &samples);
-    let between = inside(&instabilities, &samples, (within_bands, room), range);
+    let between = inside(&found.instabilities, &samples, within_bands, room, range);
     samples.extend(branches::sample(model, &between, &|_, _| ())?);
     samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     let samples = branches::refined(model, samples, closeness)?;
     let drawn: Vec<Signature> = samples.iter().map(signature_of).collect();
-    certificate
-        .mismatches
-        .extend(contradictions(&instabilities, &drawn, DRAWN_FLOOR));
-    Ok((samples, instabilities, certificate))
+    let wrong = contradictions(&found.instabilities, &drawn, DRAWN_FLOOR);
+    found.certificate.mismatches.extend(wrong);
+    Ok(StabilityChart::new(model, samples, found))
 }
 
 fn signature_of(sample: &SpeedSample) -> Signature {
@@ -84,7 +84,7 @@ pub fn undamped_bands(
     model: &SpectralModel,
     range: SpeedRange,
     count: usize,
-) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+) -> Result<FoundBands, SpectrumError> {
     let speeds = search_speeds(model, range, count);
     bands(model, range, &speeds, Depth::Counts)
 }
@@ -96,7 +96,7 @@ pub(super) fn search_speeds(model: &SpectralModel, range: SpeedRange, count: usi
     let even = evenly_spaced(searched.ends(), count);
     from_lowest_critical(
         model,
-        with_critical_speeds((&model.plate, &model.critical), searched, even),
+        with_critical_speeds(&model.plate, &model.critical, searched, even),
     )
 }
 
@@ -141,7 +141,8 @@ const CLEAR: f64 = 1e-5;
 
 /// Adds both sides of each group of critical speeds in the range.
 pub(super) fn with_critical_speeds(
-    (plate, critical): (&Plate, &[NamedCriticalSpeed]),
+    plate: &Plate,
+    critical: &[NamedCriticalSpeed],
     range: SpeedRange,
     mut speeds: Vec<f64>,
 ) -> Vec<f64> {
@@ -207,7 +208,8 @@ fn away_from_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
 fn inside(
     instabilities: &[Instability],
     samples: &[SpeedSample],
-    (shares, room): (&[f64], usize),
+    shares: &[f64],
+    room: usize,
     range: SpeedRange,
 ) -> Vec<f64> {
     let at_each = room / instabilities.len().max(1);

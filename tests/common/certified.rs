@@ -13,7 +13,8 @@ use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Instability, InstabilityKind, undamped_bands};
 
 pub fn bands_of(model: &SpectralModel, range: SpeedRange, count: usize) -> Vec<Instability> {
-    let (bands, certificate) = undamped_bands(model, range, count).unwrap();
+    let found = undamped_bands(model, range, count).unwrap();
+    let (bands, certificate) = (found.instabilities, found.certificate);
     let lowest = model.critical[0].speed_rad_per_s;
     let speeds = evenly_spaced(range.ends(), count);
     let above = speeds.iter().filter(|speed| **speed > lowest).count();

@@ -115,7 +115,7 @@ impl Truth {
         Truth {
             at_rest: lowest.at(0.0, 30).unwrap(),
             critical,
-            bands: search_bands(saw, named, range).unwrap().0,
+            bands: search_bands(saw, named, range).unwrap().instabilities,
             lowest,
         }
     }

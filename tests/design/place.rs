@@ -50,7 +50,7 @@ fn bands(scene: &Scene) -> Vec<Instability> {
     let range = scene.sweep().unwrap();
     let plate = Plate::new(scene, SMALL);
     let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
-    undamped_bands(&model, range, 40).unwrap().0
+    undamped_bands(&model, range, 40).unwrap().instabilities
 }
 
 fn flutter_rpm(scene: &Scene) -> f64 {

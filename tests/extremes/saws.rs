@@ -45,7 +45,8 @@ pub fn signature(file: &SceneFile) -> Vec<f64> {
     let first = SpectralModel::critical_speeds(&plate).unwrap()[0].speed_rad_per_s;
     let range = SpeedRange::new(0.0, 1.6 * first);
     let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
-    let (bands, certificate) = undamped_bands(&model, range, 21).unwrap();
+    let found = undamped_bands(&model, range, 21).unwrap();
+    let (bands, certificate) = (found.instabilities, found.certificate);
     assert_eq!(certificate.violations_rad_per_s, Vec::<f64>::new());
     assert!(bands.len() >= 3, "{bands:?}");
     let edges = bands

@@ -137,7 +137,8 @@ fn evenly_spaced_pads_merge_only_waves_of_one_class() {
         let plate = Plate::new(&scene(&file), SMALL);
         let range = SpeedRange::new(0.0, 1.7 * lowest_critical(&file));
         let model = SpectralModel::new(plate, range, Solver::Reduced).unwrap();
-        let (bands, certificate) = undamped_bands(&model, range, 21).unwrap();
+        let found = undamped_bands(&model, range, 21).unwrap();
+        let (bands, certificate) = (found.instabilities, found.certificate);
         prop_assert_eq!(certificate.violations_rad_per_s, Vec::<f64>::new());
         for band in bands.iter().filter(|b| b.kind == InstabilityKind::Flutter) {
             let modes = model.modes(band.peak_rad_per_s).unwrap();

@@ -65,7 +65,10 @@ impl Saw {
             SpectralModel::with_critical(plate.clone(), critical.clone(), range, strategy).unwrap()
         };
         let (bands, certificate) = match way {
-            Way::Bands => undamped_bands(&model(Solver::Bands), range, 25).unwrap(),
+            Way::Bands => {
+                let found = undamped_bands(&model(Solver::Bands), range, 25).unwrap();
+                (found.instabilities, found.certificate)
+            }
             Way::Chart => {
                 let chart = chart(&model(Solver::Reduced), range, 5, &|_, _| ()).unwrap();
                 (chart.instabilities, chart.certificate)

@@ -191,7 +191,8 @@ fn off_the_exact_equation(
 fn bands_of(springs: EvenSprings, top: f64, strategy: Strategy) -> [Vec<Instability>; 2] {
     let plate = Plate::new(&blade_on(springs), RESOLUTION);
     let model = SpectralModel::new(plate, SpeedRange::new(0.0, top), strategy).unwrap();
-    let (bands, certificate) = undamped_bands(&model, SpeedRange::new(0.0, top), 41).unwrap();
+    let found = undamped_bands(&model, SpeedRange::new(0.0, top), 41).unwrap();
+    let (bands, certificate) = (found.instabilities, found.certificate);
     assert_eq!(certificate.violations_rad_per_s, Vec::<f64>::new());
     let (flutter, divergence) = bands
         .into_iter()

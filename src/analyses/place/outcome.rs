@@ -73,7 +73,8 @@ impl Question {
                 (found, beyond)
             }
         };
-        let (bands, certificate) = search_bands(saw, critical, self.range)?;
+        let found = search_bands(saw, critical, self.range)?;
+        let (bands, certificate) = (found.instabilities, found.certificate);
         let threshold = scene.flutter_threshold_per_s();
         let [flutter, _] = flutter_onsets(&bands, threshold);
         let evidence = Evidence {

@@ -138,7 +138,7 @@ fn events(
     let saw = Assembled::from(plate);
     let critical = saw.critical_speeds(Some(&|_| PAST_THE_RANGE * range.to_rad_per_s))?;
     let model = SpectralModel::with_critical(saw, critical, range, strategy)?;
-    let bands = chart_to_depth(&model, range, (speeds, depth), &|_, _| ())?.instabilities;
+    let bands = chart_to_depth(&model, range, speeds, depth, &|_, _| ())?.instabilities;
     let flutter = bands
         .iter()
         .filter(|band| band.kind == InstabilityKind::Flutter);

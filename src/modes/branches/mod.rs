@@ -110,7 +110,8 @@ pub(crate) fn room_for_more(model: &SpectralModel, samples: &[SpeedSample]) -> u
 /// # Errors
 /// [`CampbellError::TooLarge`].
 pub(crate) fn check_memory(
-    (plate, critical): (&Plate, &[NamedCriticalSpeed]),
+    plate: &Plate,
+    critical: &[NamedCriticalSpeed],
     modes: usize,
     speeds: &[f64],
 ) -> Result<(), CampbellError> {
@@ -137,7 +138,7 @@ pub(crate) fn check_room(model: &SpectralModel, speeds: &[f64]) -> Result<(), Ca
         return Ok(());
     };
     let modes = model.drawn_modes(*last)?.len();
-    check_memory((&model.plate, &model.critical), modes, speeds)
+    check_memory(&model.plate, &model.critical, modes, speeds)
 }
 
 /// Highest critical speed at which a sweep may end so that its chart has at most `most` speeds. An earlier end
@@ -188,7 +189,7 @@ pub fn sample(
         })
     };
     let last = sampled(last)?;
-    check_memory((&model.plate, &model.critical), last.modes.len(), speeds)?;
+    check_memory(&model.plate, &model.critical, last.modes.len(), speeds)?;
     let samples: Vec<Result<SpeedSample, CampbellError>> = others.par_iter().map(sampled).collect();
     samples.into_iter().chain([Ok(last)]).collect()
 }

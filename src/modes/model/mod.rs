@@ -362,7 +362,7 @@ impl SpectralModel {
         self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
         let component = &self.components[index];
         let speed = speed_rad_per_s.max(SPLITTING * frequency_scale(&self.plate));
-        let pairs = component.eigenpairs(&self.plate, index, (speed, highest_rad_per_s))?;
+        let pairs = component.eigenpairs(&self.plate, index, speed, highest_rad_per_s)?;
         Ok(classify(
             &component.at(speed_rad_per_s).reduced,
             speed,

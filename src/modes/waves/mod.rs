@@ -83,13 +83,13 @@ pub fn modes(
     let far: Vec<Mat<f64>> = far.into_iter().flatten().collect();
     let span = if undamped.is_some() { WHOLE } else { SPAN };
     let projection = Projection::new(full, None, elimination.basis(&far, span));
-    let scale = (window, full.free_rigid.len());
+    let rigid = full.free_rigid.len();
     if undamped.is_some() {
-        return WaveModes::whole(projection, range, scale);
+        return WaveModes::whole(projection, range, window, rigid);
     }
     Ok(WaveModes {
         near: elimination.near(),
-        model: WaveModel::of(&terms, range, elimination.diameters, scale),
+        model: WaveModel::of(&terms, range, elimination.diameters, window, rigid),
         projection,
     })
 }

@@ -34,7 +34,8 @@ impl WaveModes {
     pub(super) fn whole(
         projection: Projection,
         range: SpeedRange,
-        (window, rigid): (f64, usize),
+        window: f64,
+        rigid: usize,
     ) -> Result<Self, SpectrumError> {
         let system = &projection.reduced;
         let near = system.order();
@@ -47,7 +48,7 @@ impl WaveModes {
         };
         let terms = at_nodes(range, quadratic)?;
         Ok(WaveModes {
-            model: WaveModel::of(&terms, range, vec![None; near], (window, rigid)),
+            model: WaveModel::of(&terms, range, vec![None; near], window, rigid),
             projection,
             near,
         })

@@ -60,7 +60,8 @@ impl WaveModel {
         terms_at: &[Vec<Mat<f64>>],
         range: SpeedRange,
         diameters: Vec<Option<usize>>,
-        (window, rigid): (f64, usize),
+        window: f64,
+        rigid: usize,
     ) -> Self {
         let size = diameters.len();
         let terms = terms_at.first().map_or(0, Vec::len);

@@ -9,7 +9,7 @@ use super::mode_counts::{MiscountedModes, ModeCounts};
 use super::partition::Plane;
 use super::pieces::{Piece, Search};
 use super::proof::Proof;
-use super::search_result::Found;
+use super::search_result::{Found, FoundBands};
 use super::signature::Signature;
 use crate::model::scene::{Accuracy, SpeedRange};
 use crate::modes::{SpectralModel, SpectrumError};
@@ -63,7 +63,7 @@ pub(super) fn bands(
     range: SpeedRange,
     speeds: &[f64],
     depth: Depth,
-) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+) -> Result<FoundBands, SpectrumError> {
     let full = ModeCounts::new(model);
     let mut found = searched(
         model,
@@ -73,17 +73,17 @@ pub(super) fn bands(
         speeds,
         depth,
     )?;
-    if found.1.miscounts.is_empty() {
+    if found.certificate.miscounts.is_empty() {
         return Ok(found);
     }
     if !SignatureEvaluator::has_full_model_within_reach(model) {
-        found.1.gave_up = true;
+        found.certificate.gave_up = true;
         return Ok(found);
     }
     let whole = SignatureEvaluator::on_full_model(model, speeds)?;
-    let (instabilities, mut certificate) = searched(model, whole, &full, range, speeds, depth)?;
-    certificate.searched_again = true;
-    Ok((instabilities, certificate))
+    let mut found = searched(model, whole, &full, range, speeds, depth)?;
+    found.certificate.searched_again = true;
+    Ok(found)
 }
 
 /// Bands and certificate by one search.
@@ -94,7 +94,7 @@ fn searched(
     range: SpeedRange,
     speeds: &[f64],
     depth: Depth,
-) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+) -> Result<FoundBands, SpectrumError> {
     let Some(full) = full else {
         evaluator.at_all(speeds)?;
         // `full` is `None` for a free blade. Its waves are uncoupled, so they cross and never coalesce.
@@ -102,7 +102,10 @@ fn searched(
             unproven_rad_per_s: Some(Vec::new()),
             ..evaluator.certificate()
         };
-        return Ok((Vec::new(), certificate));
+        return Ok(FoundBands {
+            instabilities: Vec::new(),
+            certificate,
+        });
     };
     let pieces = searched_pieces(&evaluator, speeds)?;
     let signatures = evaluator.signatures();
@@ -134,7 +137,10 @@ fn searched(
         unproven.extend(unsearched(model, range, speeds));
         *unproven = clipped(unproven, range);
     }
-    Ok((within, certificate))
+    Ok(FoundBands {
+        instabilities: within,
+        certificate,
+    })
 }
 
 /// Pieces of a search between the first and the last of some speeds.

@@ -29,7 +29,8 @@ struct Sound {
 
 static SOUND: LazyLock<Sound> = LazyLock::new(|| {
     let (model, speeds) = paper(Accuracy::Draft);
-    let (bands, certificate) = bands(&model, whole(&speeds), &speeds, Depth::Proof).unwrap();
+    let found = bands(&model, whole(&speeds), &speeds, Depth::Proof).unwrap();
+    let (bands, certificate) = (found.instabilities, found.certificate);
     assert!(certificate.is_clean(), "{certificate:?}");
     assert!(!certificate.searched_again && certificate.full_basis_counts > 80);
     Sound {
@@ -56,7 +57,7 @@ fn certified(sound: &Sound, bands: &[Instability], change: impl Fn(&mut Signatur
 }
 
 /// Bands and certificate without a second search.
-fn searched_once(model: &SpectralModel, speeds: &[f64]) -> (Vec<Instability>, Certificate) {
+fn searched_once(model: &SpectralModel, speeds: &[f64]) -> FoundBands {
     let evaluator = SignatureEvaluator::new(model, speeds).unwrap();
     let full = ModeCounts::new(model);
     let range = whole(speeds);
@@ -135,12 +136,15 @@ fn a_missing_mode_is_found_and_the_search_repeated_without_it() {
     for (speed, place) in [(2265.0, 1), (2800.0, 2)] {
         let (mut model, speeds) = paper(Accuracy::Draft);
         model.lose_wave(rad_per_s(speed), place);
-        let (_, certificate) = searched_once(&model, &speeds);
+        let certificate = searched_once(&model, &speeds).certificate;
         assert!(
             !certificate.miscounts.is_empty(),
             "{speed} {place}: {certificate:?}"
         );
-        let (found, certificate) = bands(&model, whole(&speeds), &speeds, Depth::Counts).unwrap();
+        let FoundBands {
+            instabilities: found,
+            certificate,
+        } = bands(&model, whole(&speeds), &speeds, Depth::Counts).unwrap();
         assert!(
             certificate.searched_again && certificate.is_clean(),
             "{certificate:?}"
@@ -173,10 +177,13 @@ fn a_projection_on_too_few_speeds_is_detected() {
     for kept in [vec![first], vec![last], vec![first, last]] {
         let (mut model, speeds) = paper(Accuracy::Draft);
         model.keep_modes_of(&kept);
-        let (without, _) = searched_once(&model, &speeds);
+        let without = searched_once(&model, &speeds).instabilities;
         let is_wrong = !are_same(&without, &sound.bands, 1e-4);
         wrong += usize::from(is_wrong);
-        let (found, certificate) = bands(&model, whole(&speeds), &speeds, Depth::Counts).unwrap();
+        let FoundBands {
+            instabilities: found,
+            certificate,
+        } = bands(&model, whole(&speeds), &speeds, Depth::Counts).unwrap();
         assert!(certificate.searched_again || !is_wrong, "{kept:?}");
         assert!(are_same(&found, &sound.bands, 1e-4), "{kept:?}");
         assert!(certificate.is_clean(), "{kept:?} {certificate:?}");

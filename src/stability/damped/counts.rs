@@ -100,7 +100,7 @@ pub fn counted_in_window(
     let unlisted = full.unlisted(speed_rad_per_s, listed, [top, top])?;
     // Two conjugate eigenvalues are one mode, and so is a single real eigenvalue.
     let modes = (unlisted + unlisted.signum()) / 2;
-    Some((unlisted != 0).then_some(MiscountedModes::new(speed_rad_per_s, (0.0, top), modes)))
+    Some((unlisted != 0).then_some(MiscountedModes::new(speed_rad_per_s, [0.0, top], modes)))
 }
 
 /// Upper end of the window of a count: the middle of the widest gap between frequencies.

@@ -205,7 +205,7 @@ fn between_points(
 fn parted(stretch: Stretch, noise: f64) -> Vec<Instability> {
     let last = stretch.curve.len() - 1;
     let mut bounds = vec![0, last];
-    valleys(&stretch.curve, (0, last), &mut bounds);
+    valleys(&stretch.curve, [0, last], &mut bounds);
     bounds.sort_unstable();
     let humps = bounds.windows(2).map(|ends| {
         let cut = [
@@ -223,7 +223,7 @@ fn parted(stretch: Stretch, noise: f64) -> Vec<Instability> {
 }
 
 /// Adds the indices of the lowest points between humps, deepest first.
-fn valleys(curve: &[CurvePoint], (first, last): (usize, usize), found: &mut Vec<usize>) {
+fn valleys(curve: &[CurvePoint], [first, last]: [usize; 2], found: &mut Vec<usize>) {
     let growth = |k: usize| curve[k].lambda.re;
     // For each point, `before` is the largest growth up to the point and `behind` the largest growth from the
     // point on.
@@ -250,8 +250,8 @@ fn valleys(curve: &[CurvePoint], (first, last): (usize, usize), found: &mut Vec<
         return;
     };
     found.push(valley);
-    valleys(curve, (first, valley), found);
-    valleys(curve, (valley, last), found);
+    valleys(curve, [first, valley], found);
+    valleys(curve, [valley, last], found);
 }
 
 /// Band of one hump.

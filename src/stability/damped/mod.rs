@@ -20,11 +20,12 @@ use super::error::AnalysisError;
 use super::options::AnalysisOptions;
 use super::partition::Plane;
 use super::pieces::{Piece, Search};
+use super::search_result::{FoundBands, StabilityChart};
 use super::undamped::with_critical_speeds;
 use crate::model::evenly_spaced;
 use crate::model::scene::SpeedRange;
 use crate::model::tuning::Tuned;
-use crate::modes::branches::{self, SpeedSample};
+use crate::modes::branches;
 use crate::modes::{Mode, SpectralModel, SpectrumError, clear_range};
 use counts::Counts;
 pub(super) use counts::counted_in_window;
@@ -43,23 +44,25 @@ pub(super) fn charted(
     range: SpeedRange,
     count: usize,
     options: AnalysisOptions<'_>,
-) -> Result<(Vec<SpeedSample>, Vec<Instability>, Certificate), AnalysisError> {
+) -> Result<StabilityChart, AnalysisError> {
     let drawn = clear_range(&model.critical, range);
     let speeds = with_critical_speeds(
-        (&model.plate, &model.critical),
+        &model.plate,
+        &model.critical,
         drawn,
         evenly_spaced(drawn.ends(), count),
     );
     let closeness = Closeness::of(options.detail);
     let searched = || {
         let found = bands(model, range, options.detail)?;
-        options.report(&model.critical, range, Some(&found.0));
+        options.report(&model.critical, range, Some(&found.instabilities));
         Ok::<_, AnalysisError>(found)
     };
     let sampled = || branches::sample(model, &speeds, options.progress);
     let (found, samples) = rayon::join(searched, sampled);
-    let ((instabilities, certificate), mut samples) = (found?, samples?);
-    let mut drawn: Vec<f64> = instabilities
+    let (found, mut samples) = (found?, samples?);
+    let mut drawn: Vec<f64> = found
+        .instabilities
         .iter()
         .flat_map(|band| drawn_speeds(band, closeness.drawn))
         .collect();
@@ -67,7 +70,7 @@ pub(super) fn charted(
     drawn.dedup();
     drawn.retain(|s| samples.iter().all(|sample| sample.speed_rad_per_s != *s));
     samples.extend(branches::sample(model, &drawn, &|_, _| ())?);
-    Ok((samples, instabilities, certificate))
+    Ok(StabilityChart::new(model, samples, found))
 }
 
 /// Number of even speeds at the start of the search.
@@ -116,7 +119,7 @@ pub(super) fn bands(
     model: &SpectralModel,
     range: SpeedRange,
     detail: Detail,
-) -> Result<(Vec<Instability>, Certificate), SpectrumError> {
+) -> Result<FoundBands, SpectrumError> {
     let closeness = Closeness::of(detail);
     let solver = Solver::new(model, range)?;
     let speeds = evenly_spaced(range.ends(), SEARCH_SPEEDS);
@@ -154,7 +157,10 @@ pub(super) fn bands(
         gave_up: solver.is_exhausted(),
         ..Certificate::default()
     };
-    Ok((instabilities, certificate))
+    Ok(FoundBands {
+        instabilities,
+        certificate,
+    })
 }
 
 /// Pieces of one component of the saw, and its bands.
@@ -190,7 +196,8 @@ fn searched(
 pub(super) fn contradicted(
     model: &SpectralModel,
     bands: &[Instability],
-    (speed, modes): (f64, &[Mode]),
+    speed: f64,
+    modes: &[Mode],
 ) -> Vec<f64> {
     let values = modes.iter().map(|mode| mode.lambda).collect();
     mismatches(model, &[Spectrum { speed, values }], bands)

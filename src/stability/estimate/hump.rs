@@ -16,7 +16,7 @@ pub fn merged(
         let model = HamiltonianReduction::new(system, band.frequency_rad_per_s, states)?;
         (model.order() == 4).then_some(())?;
         Hump::new(band, |speed| {
-            let (sum, product) = model.pair_invariants(speed);
+            let [sum, product] = model.pair_invariants(speed);
             -0.25 * (sum - 2.0 * product)
         })
     });

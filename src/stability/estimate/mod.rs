@@ -14,7 +14,7 @@ use self::hump::merged;
 
 use super::band::{Instability, InstabilityKind};
 use super::basis::REMAINDER;
-use super::chart::StabilityChart;
+use super::search_result::StabilityChart;
 use crate::model::scene::SpeedRange;
 use crate::model::system::GyroscopicSystem;
 use crate::modes::branches::SpeedSample;

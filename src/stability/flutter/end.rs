@@ -14,6 +14,13 @@ const SAME_END: f64 = 0.1;
 /// Allowed shift of an edge in the models of the search, relative to the speed.
 pub const VICINITY: f64 = 3e-5;
 
+/// A quadruple at a speed.
+#[derive(Debug, Clone, Copy)]
+pub struct Point {
+    pub speed: f64,
+    pub mode: SignedMode,
+}
+
 /// Coalescence of a + and a − wave or of two real λ.
 #[derive(Debug, Clone, Copy)]
 pub struct Edge {
@@ -62,8 +69,12 @@ impl End {
         evaluator: &SignatureEvaluator<'_>,
         stretch: &Stretch<'_>,
         bound: Bound,
-        (inside, mode): (f64, SignedMode),
+        point: Point,
     ) -> Self {
+        let Point {
+            speed: inside,
+            mode,
+        } = point;
         let (expected, outside) = match bound {
             Bound::Coalescence {
                 expected_rad_per_s,

@@ -5,8 +5,8 @@ mod end;
 use faer::c64;
 use rayon::prelude::*;
 
-use self::end::End;
 pub(super) use self::end::VICINITY;
+use self::end::{End, Point};
 
 use super::band::{Instability, InstabilityKind};
 use super::evaluator::SignatureEvaluator;
@@ -29,7 +29,7 @@ pub(super) struct Quadruple {
     begin: End,
     end: End,
     /// Coalesced modes at ascending speeds.
-    points: Vec<(f64, SignedMode)>,
+    points: Vec<Point>,
 }
 
 /// Quadruples in the pieces of a search, by their begin.
@@ -95,12 +95,12 @@ impl Quadruple {
         evaluator: &SignatureEvaluator<'_>,
         stretch: &Stretch<'_>,
     ) -> Result<Option<Self>, SpectrumError> {
-        let mut points: Vec<(f64, SignedMode)> = Vec::new();
+        let mut points: Vec<Point> = Vec::new();
         for &(speed, square) in &stretch.points {
             points.extend(
                 evaluator
                     .quadruple(speed, square.sqrt())?
-                    .map(|mode| (speed, mode)),
+                    .map(|mode| Point { speed, mode }),
             );
         }
         if points.is_empty() {
@@ -112,7 +112,7 @@ impl Quadruple {
             points.extend(
                 found
                     .filter(|mode| is_expected(mode, square))
-                    .map(|mode| (speed, mode)),
+                    .map(|mode| Point { speed, mode }),
             );
         }
         if points.is_empty() {
@@ -176,9 +176,9 @@ impl Quadruple {
         let mut known = self.points.clone();
         for speed in part.cuts() {
             let mode = continued(evaluator, &self.points, speed)?;
-            known.extend(mode.map(|mode| (speed, sharp(evaluator, speed, mode))));
+            known.extend(mode.map(|mode| sharp(evaluator, Point { speed, mode })));
         }
-        known.sort_by(|x, y| x.0.total_cmp(&y.0));
+        known.sort_by(|x, y| x.speed.total_cmp(&y.speed));
         let ends = [&self.begin, &self.end].into_iter().filter_map(End::sample);
         let mut samples: Vec<Sample> = known.iter().map(sample).chain(ends).collect();
         samples.retain(|sample| part.range.contains(sample.at));
@@ -187,11 +187,11 @@ impl Quadruple {
             let Some(mode) = continued(evaluator, &known, speed)? else {
                 return Ok(None);
             };
-            let place = known.partition_point(|(at, _)| *at < speed);
-            known.insert(place, (speed, mode));
+            let place = known.partition_point(|known| known.speed < speed);
+            known.insert(place, Point { speed, mode });
             Ok(Some(sample(&known[place])))
         })?;
-        let at = found.map_or(self.points[0].0, |sample| sample.at);
+        let at = found.map_or(self.points[0].speed, |sample| sample.at);
         // At the coalescence of two real λ the growth is not zero and may be the largest of the band. The
         // peak is then placed slightly inside the band.
         let [from, to] = part.range.ends();
@@ -203,13 +203,14 @@ impl Quadruple {
                 return Ok((inside, edge.lambda));
             }
         }
-        let (speed, mode) = nearest(&known, at);
-        Ok((speed, sharp(evaluator, speed, mode).lambda))
+        let peak = sharp(evaluator, nearest(&known, at));
+        Ok((peak.speed, peak.mode.lambda))
     }
 }
 
 /// The quadruple by the projection, whereas the search uses coarser models.
-fn sharp(evaluator: &SignatureEvaluator<'_>, speed: f64, mode: SignedMode) -> SignedMode {
+fn sharp(evaluator: &SignatureEvaluator<'_>, point: Point) -> Point {
+    let Point { speed, mode } = point;
     let shift = VICINITY * speed;
     let near = |found: f64, expected: f64, slope: f64| {
         (found - expected).abs() <= LIKENESS * mode.lambda.re + slope.abs() * shift
@@ -230,21 +231,24 @@ fn sharp(evaluator: &SignatureEvaluator<'_>, speed: f64, mode: SignedMode) -> Si
     };
     found
         .filter(is_same)
-        .map_or(mode, |(lambda, slope)| SignedMode {
-            lambda,
-            slope,
-            ..mode
+        .map_or(point, |(lambda, slope)| Point {
+            mode: SignedMode {
+                lambda,
+                slope,
+                ..mode
+            },
+            speed,
         })
 }
 
 /// The quadruple at the known speed nearest to a given one.
-fn nearest(known: &[(f64, SignedMode)], speed: f64) -> (f64, SignedMode) {
-    let nearest = smallest(known, |(at, _)| (at - speed).abs());
+fn nearest(known: &[Point], speed: f64) -> Point {
+    let nearest = smallest(known, |point| (point.speed - speed).abs());
     *nearest.unwrap_or(&known[0])
 }
 
 /// σ² of a quadruple at a speed.
-fn sample((speed, mode): &(f64, SignedMode)) -> Sample {
+fn sample(Point { speed, mode }: &Point) -> Sample {
     Sample {
         at: *speed,
         value: mode.lambda.re.powi(2),
@@ -255,17 +259,17 @@ fn sample((speed, mode): &(f64, SignedMode)) -> Sample {
 /// Quadruple at another speed, nearest to the estimate from neighbouring speeds.
 fn continued(
     evaluator: &SignatureEvaluator<'_>,
-    known: &[(f64, SignedMode)],
+    known: &[Point],
     speed: f64,
 ) -> Result<Option<SignedMode>, SpectrumError> {
-    let place = known.partition_point(|(at, _)| *at < speed);
+    let place = known.partition_point(|known| known.speed < speed);
     let expected = match known.get(place.saturating_sub(1)..=place) {
-        Some([(from, before), (to, after)]) => {
-            let share = (speed - from) / (to - from);
-            before.lambda * (1.0 - share) + after.lambda * share
+        Some([before, after]) => {
+            let share = (speed - before.speed) / (after.speed - before.speed);
+            before.mode.lambda * (1.0 - share) + after.mode.lambda * share
         }
         _ => {
-            let (at, mode) = nearest(known, speed);
+            let Point { speed: at, mode } = nearest(known, speed);
             mode.lambda + mode.slope * (speed - at)
         }
     };
