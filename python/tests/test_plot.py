@@ -319,3 +319,14 @@ def test_figures_and_axes_of_ones_own_are_drawn_into(
     assert report.plot_matplotlib(own) is own[0]
     assert own[1].get_ylabel().startswith("Re λ") and len(plt.get_fignums()) == 1
     assert draft.plot_saw(go.Figure()).data and figure.axes
+
+
+def test_both_libraries_draw_the_key_of_a_chart() -> None:
+    folder = Path(__file__).parents[2] / "tests" / "golden" / "reports"
+    chart = sf.load(folder / "response-causes.json").chart()
+    names = [item.name for item in chart.key]
+    assert {"side force, static", "flatness, 2×"} <= set(names)
+    shown = [trace.name for trace in chart.plot().data if trace.showlegend]
+    figure = chart.plot_matplotlib().figure
+    assert figure is not None and shown == names
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == names

@@ -188,6 +188,8 @@ class Chart(Drawn):
     title: str
     facts: str
     panels: Sequence[Panel] = field(default_factory=tuple)
+    key: Sequence[Item] = ()
+    """Samples of lines, points and areas, each named by its meaning."""
 
     def _chart(self) -> Chart:
         return self

@@ -28,7 +28,8 @@ def read(text: str) -> Chart:
     """The chart that a JSON text of the program describes."""
     chart = json.loads(text)
     panels = tuple(_panel(panel) for panel in chart["panels"])
-    return Chart(chart["title"], "; ".join(chart["facts"]), panels)
+    key = tuple(item for of in chart["key"] for item in _items(of, None))
+    return Chart(chart["title"], "; ".join(chart["facts"]), panels, key)
 
 
 def _panel(panel: dict[str, Any]) -> Panel:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from .._extras import extra
-from .chart import Area, Bars, Chart, Heat, Item, Label, Panel, Points, Shade, Upright, colours
+from .chart import Area, Bars, Chart, Heat, Item, Label, Line, Panel, Points, Shade, Upright, colours
 from .chart import end_labels, is_at_the_top, root_ticks, signed_root
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
 # Width of a figure, where those of the program are 1200 units wide.
@@ -49,7 +50,27 @@ def draw(chart: Chart, ax: Axes | Sequence[Axes] | None = None) -> Axes:
     axes[0, 0].annotate(
         "\n".join(chart.lines()), (0.0, 1.0), (0, above), "axes fraction", "offset points", fontsize=10, color=quiet
     )
+    if chart.key:
+        samples = [_sample(item) for item in chart.key]
+        figure.legend(handles=samples, loc="outside lower left", ncols=4, fontsize=9, frameon=False)
     return axes[0, 0]  # type: ignore[no-any-return]
+
+
+def _sample(item: Item) -> Artist:
+    """An entry of the key."""
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    if isinstance(item, Points):
+        return Line2D(
+            [], [], color=item.colour, linestyle="", marker=MARKERS[item.shape],
+            markerfacecolor="none" if item.shape == "ring" else item.colour, label=item.name,
+        )  # fmt: skip
+    if isinstance(item, Line | Upright):
+        style: Literal["dashed", "solid"] = "dashed" if item.dashed else "solid"
+        return Line2D([], [], color=item.colour, linestyle=style, label=item.name)
+    colour = item.scale[0] if isinstance(item, Heat) else item.colour
+    return Patch(color=colour, label=item.name)
 
 
 def _panel(ax: Axes, panel: Panel, last: bool) -> None:
@@ -128,6 +149,7 @@ def _add(ax: Axes, item: Item, panel: Panel) -> None:
             item.name, (item.x, item.y), (0, -5 if below else 5), textcoords="offset points",
             ha="center", va="top" if below else "bottom", fontsize=9, color=item.colour, zorder=4.0,
             annotation_clip=True,
+            bbox={"facecolor": colours()["paper"], "alpha": 0.75, "edgecolor": "none", "pad": 0.5},
         )  # fmt: skip
     elif isinstance(item, Points):
         style = {"facecolors": "none"} if item.shape == "ring" else {}

@@ -42,6 +42,7 @@ def _rows(fig: Figure) -> int:
 
 def _laid_out(chart: Chart) -> Figure:
     with extra("plot"):
+        import plotly.graph_objects as go
         from plotly.subplots import make_subplots
 
     panels, together = chart.shown(), chart.together()
@@ -57,6 +58,9 @@ def _laid_out(chart: Chart) -> Figure:
     )
     for row, panel in enumerate(panels, start=1):
         _panel(figure, panel, {"row": row, "col": 1}, last=row == len(panels))
+    figure.update_traces(showlegend=False)
+    for item in chart.key:
+        figure.add_trace(_sample(go, item))
     facts = f"<br><span style='font-size:13px;color:{colours()['quiet']}'>{'<br>'.join(chart.lines())}</span>"
     figure.update_layout(
         title={
@@ -70,9 +74,11 @@ def _laid_out(chart: Chart) -> Figure:
             "size": 13,
         },
         hovermode="closest",
-        showlegend=False,
-        height=320 + 240 * len(panels),
+        showlegend=bool(chart.key),
+        legend={"orientation": "h", "x": 0.0, "y": 0.01, "yref": "container", "yanchor": "bottom"},
+        height=320 + 240 * len(panels) + (30 if chart.key else 0),
         margin={
+            "b": 110 if chart.key else 80,
             "r": 190 if any(end_labels(panel, 0.0) for panel in panels) else 40,
             # Title, facts and the title of the panel, one above the other.
             "t": 56 + 18 * len(chart.lines()) + 24 * len(panels[0].title.splitlines()),
@@ -136,7 +142,8 @@ def _add(figure: Figure, item: Item, panel: Panel, at: dict[str, int]) -> None:
     elif isinstance(item, Label):
         figure.add_annotation(
             x=_at(item.x, panel.x_log), y=_at(item.y, panel.y_log), text=item.name, showarrow=False,
-            yshift=-11 if is_at_the_top(item, panel) else 11, font={"color": item.colour, "size": 12}, **at,
+            yshift=-11 if is_at_the_top(item, panel) else 11, font={"color": item.colour, "size": 12},
+            bgcolor="rgba(255, 255, 255, 0.75)", borderpad=0, **at,
         )  # fmt: skip
     elif isinstance(item, Area):
         figure.add_trace(_area(go, item), **at)
@@ -188,6 +195,20 @@ def _area(go: Any, item: Area) -> Any:
     return go.Bar(
         x=middles, y=item.heights(), base=np.nan_to_num(item.low, nan=1.0), width=widths, name=item.name, marker={"color": item.colour, "line": {"width": 0}},
     )  # fmt: skip
+
+
+def _sample(go: Any, item: Item) -> Any:
+    """An entry of the key: a trace without points."""
+    shared: dict[str, Any] = {"x": [None], "y": [None], "name": item.name, "showlegend": True}
+    if isinstance(item, Points):
+        symbol = SYMBOLS[item.shape]
+    elif isinstance(item, Line | Upright):
+        line = {"color": item.colour, "dash": "dash" if item.dashed else "solid"}
+        return go.Scatter(mode="lines", line=line, **shared)
+    else:
+        symbol = "square"
+    colour = item.scale[0] if isinstance(item, Heat) else item.colour
+    return go.Scatter(mode="markers", marker={"color": colour, "symbol": symbol, "size": 9}, **shared)
 
 
 def _curve(go: Any, item: Line | Points, panel: Panel) -> Any:
