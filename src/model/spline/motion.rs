@@ -10,23 +10,10 @@ use crate::model::scene::{Blade, SplineFile};
 use super::contact::Contact;
 use super::load::PlaneLoad;
 use super::reaction::{Accumulator, MeanReaction};
-use super::{Run, SplineError, SplineRun, Start};
+use super::run::{OrbitPoint, Run, SplineError, SplineRun, Start};
 
 /// Smallest number of samples per revolution, whose mean resolves harmonics beyond any basis.
 const SAMPLES_PER_REVOLUTION: usize = 720;
-
-/// The blade at one time, in the space-fixed frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OrbitPoint {
-    /// Time since the start.
-    pub time_s: f64,
-    /// Coordinate of the centre, towards the cut.
-    pub x_m: f64,
-    /// Coordinate of the centre, a quarter turn further in the direction of rotation.
-    pub y_m: f64,
-    /// Angle ψ by which the blade leads the arbor.
-    pub twist_rad: f64,
-}
 
 /// The rigid blade on its arbor.
 #[derive(Debug, Clone)]
