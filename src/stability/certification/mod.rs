@@ -124,6 +124,7 @@ fn searched(
     let checks = Checks {
         evaluator: &evaluator,
         full,
+        pieces: &pieces,
         bands: &bands,
         signatures: &signatures,
     };
@@ -194,6 +195,7 @@ fn clipped(stretches: &[(f64, f64)], range: (f64, f64)) -> Vec<(f64, f64)> {
 pub(super) struct Checks<'a> {
     pub evaluator: &'a SignatureEvaluator<'a>,
     pub full: &'a ModeCounts<'a>,
+    pub pieces: &'a [Piece],
     pub bands: &'a [Instability],
     pub signatures: &'a [Signature],
 }
@@ -221,6 +223,7 @@ impl Checks<'_> {
             let proof = Proof {
                 full: self.full,
                 evaluator: self.evaluator,
+                pieces: self.pieces,
                 bands: self.bands,
             };
             unproven = Some(proof.unproven(self.signatures)?);
