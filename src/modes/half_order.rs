@@ -140,37 +140,30 @@ fn isotropic(square: &Mat<f64>) -> Option<(Mat<f64>, Mat<f64>)> {
     let cancellation = Cancellation::current();
     let order = square.nrows();
     let half = order / 2;
-    // The columns of `span` are v₁, Jv₁, v₂, Jv₂, … with the columns vₖ of V. Each new column of V is made
-    // orthogonal to all of them.
-    let mut span = Mat::<f64>::zeros(order, 2 * half);
+    let mut span = Span::new(order);
     let mut compressed = Mat::<f64>::zeros(half, half);
     let mut next = scattered(order, 0);
     for k in 0..half {
         if cancellation.is_cancelled() {
             return None;
         }
-        let known = span.subcols(0, 2 * k);
-        let (size, shares) = orthogonalize(known, &mut next);
+        let (size, shares) = span.orthogonalize(&mut next);
         if let Some(last) = k.checked_sub(1) {
             add(&shares, &mut compressed, last);
             if size > 0.0 {
                 compressed[(k, last)] = size
             } else {
-                next = fresh(known)
+                next = span.fresh()
             }
         }
-        for i in 0..half {
-            let (q, p) = (next[i], next[half + i]);
-            (span[(i, 2 * k)], span[(half + i, 2 * k)]) = (q, p);
-            (span[(i, 2 * k + 1)], span[(half + i, 2 * k + 1)]) = (p, -q);
-        }
+        span.push(&next);
         next = square * &next;
     }
     if let Some(last) = half.checked_sub(1) {
-        let (_, shares) = orthogonalize(span.as_ref(), &mut next);
+        let (_, shares) = span.orthogonalize(&mut next);
         add(&shares, &mut compressed, last);
     }
-    let vectors = Mat::from_fn(order, half, |i, k| span[(i, 2 * k)]);
+    let vectors = Mat::from_fn(order, half, |i, k| span.columns[(i, 2 * k)]);
     Some((vectors, compressed))
 }
 
@@ -181,39 +174,71 @@ fn add(shares: &Col<f64>, compressed: &mut Mat<f64>, column: usize) {
     }
 }
 
-/// Orthogonalizes a vector against a span and normalizes it. Returns its remaining length, 0 if that is
-/// rounding, and its components in the span.
-fn orthogonalize(span: MatRef<'_, f64>, next: &mut Col<f64>) -> (f64, Col<f64>) {
-    let size = next.norm_l2();
-    let mut shares = Col::zeros(span.ncols());
-    let mut left = size;
-    loop {
-        let more = span.transpose() * &*next;
-        *next -= span * &more;
-        shares += more;
-        let before = left;
-        left = next.norm_l2();
-        if left.is_nan() || left <= BREAKDOWN * size {
-            return (0.0, shares);
-        }
-        if left > MOSTLY_KEPT * before {
-            *next *= Scale(1.0 / left);
-            return (left, shares);
-        }
-    }
+/// Orthonormal vectors v₁, Jv₁, v₂, Jv₂, …, both as columns and as rows: products with a transposed matrix take several times as long.
+struct Span {
+    columns: Mat<f64>,
+    rows: Mat<f64>,
+    count: usize,
 }
 
-/// A unit vector orthogonal to a span; zero if there is none.
-fn fresh(span: MatRef<'_, f64>) -> Col<f64> {
-    let order = span.nrows();
-    let attempts = (0..order).map(|k| {
-        let mut attempt = scattered(order, k);
-        (orthogonalize(span, &mut attempt).0, attempt)
-    });
-    let mut found = attempts.filter(|(left, _)| *left > 0.0);
-    found
-        .next()
-        .map_or_else(|| Col::zeros(order), |(_, found)| found)
+impl Span {
+    fn new(order: usize) -> Self {
+        Span {
+            columns: Mat::zeros(order, order),
+            rows: Mat::zeros(order, order),
+            count: 0,
+        }
+    }
+
+    /// Adds v and Jv.
+    fn push(&mut self, vector: &Col<f64>) {
+        let half = vector.nrows() / 2;
+        for i in 0..half {
+            let (q, p) = (vector[i], vector[half + i]);
+            for (k, at, entry) in [(0, i, q), (0, half + i, p), (1, i, p), (1, half + i, -q)] {
+                self.columns[(at, self.count + k)] = entry;
+                self.rows[(self.count + k, at)] = entry;
+            }
+        }
+        self.count += 2;
+    }
+
+    /// Orthogonalizes a vector against the span and normalizes it. Returns its remaining length, 0 if that is
+    /// rounding, and its components in the span.
+    fn orthogonalize(&self, next: &mut Col<f64>) -> (f64, Col<f64>) {
+        let columns = self.columns.subcols(0, self.count);
+        let rows = self.rows.subrows(0, self.count);
+        let size = next.norm_l2();
+        let mut shares = Col::zeros(self.count);
+        let mut left = size;
+        loop {
+            let more = rows * &*next;
+            *next -= columns * &more;
+            shares += more;
+            let before = left;
+            left = next.norm_l2();
+            if left.is_nan() || left <= BREAKDOWN * size {
+                return (0.0, shares);
+            }
+            if left > MOSTLY_KEPT * before {
+                *next *= Scale(1.0 / left);
+                return (left, shares);
+            }
+        }
+    }
+
+    /// A unit vector orthogonal to the span; zero if there is none.
+    fn fresh(&self) -> Col<f64> {
+        let order = self.columns.nrows();
+        let attempts = (0..order).map(|k| {
+            let mut attempt = scattered(order, k);
+            (self.orthogonalize(&mut attempt).0, attempt)
+        });
+        let mut found = attempts.filter(|(left, _)| *left > 0.0);
+        found
+            .next()
+            .map_or_else(|| Col::zeros(order), |(_, found)| found)
+    }
 }
 
 /// A vector with components in all directions, different for each `k`.

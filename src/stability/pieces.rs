@@ -21,7 +21,7 @@ pub struct Grouped {
     /// Indices of its numbers in the two samples.
     pub places: Places,
     /// Krein sign of all waves of the group; `None` for other groups, whose numbers may coalesce.
-    sign: Option<i8>,
+    pub sign: Option<i8>,
 }
 
 /// Piece between two neighbouring computed speeds.
@@ -32,6 +32,38 @@ pub struct Piece {
     /// Groups from the real axis upwards; empty if the piece was not settled, because it is too narrow or the
     /// allowed number of speeds is used up.
     pub groups: Vec<Grouped>,
+}
+
+impl Piece {
+    /// Whether a speed is within the piece.
+    pub fn contains(&self, speed_rad_per_s: f64) -> bool {
+        let [from, to] = self.ends.each_ref().map(|end| end.speed_rad_per_s);
+        (from..=to).contains(&speed_rad_per_s)
+    }
+
+    /// Krein signs of the `count` waves of a group somewhere in the piece, by ascending λ². `None` if the ends do not
+    /// show them: two waves of opposite sign have crossed, or no end has as many waves.
+    pub fn signs(&self, grouped: &Grouped, count: usize) -> Option<Vec<i8>> {
+        if let Some(sign) = grouped.sign {
+            return Some(vec![sign; count]);
+        }
+        let at = |end: usize| {
+            let sample = &self.ends[end];
+            let mut places = grouped.places[end].clone();
+            places.retain(|&place| sample.signs[place] != 0);
+            let square = |place: usize| sample.eigenvalues[place].0.re;
+            places.sort_by(|&x, &y| square(x).total_cmp(&square(y)));
+            places
+                .into_iter()
+                .map(|place| sample.signs[place])
+                .collect::<Vec<i8>>()
+        };
+        let mut known = [at(0), at(1)]
+            .into_iter()
+            .filter(|signs| signs.len() == count);
+        let first = known.next()?;
+        known.all(|other| other == first).then_some(first)
+    }
 }
 
 /// Largest number of eigenvalues of a group in a wide piece.

@@ -18,6 +18,7 @@ use rayon::prelude::*;
 use super::band::{Instability, InstabilityKind};
 use super::evaluator::SignatureEvaluator;
 use super::mode_counts::{Gap, ModeCounts, gaps};
+use super::pieces::Piece;
 use super::signature::Signature;
 use crate::model::scene::SpeedRange;
 use crate::modes::{AtSpeed, Cancellation, SpectrumError, Work};
@@ -29,6 +30,8 @@ const LEAST_WIDTH: f64 = 1e-4;
 pub(super) struct Proof<'a> {
     pub full: &'a ModeCounts<'a>,
     pub evaluator: &'a SignatureEvaluator<'a>,
+    /// Pieces of the search.
+    pub pieces: &'a [Piece],
     pub bands: &'a [Instability],
 }
 
@@ -78,6 +81,18 @@ impl Proof<'_> {
         }
     }
 
+    /// Signature for proposals, neither counted nor checked: from the pieces of the search if they show it.
+    fn guess_at(&self, speed: f64) -> Result<Signature, SpectrumError> {
+        let after = self
+            .pieces
+            .partition_point(|piece| piece.ends[1].speed_rad_per_s < speed);
+        let piece = self.pieces.get(after).filter(|piece| piece.contains(speed));
+        match piece.and_then(|piece| Signature::within(piece, speed)) {
+            Some(signature) => Ok(signature),
+            None => self.evaluator.guess_at(speed),
+        }
+    }
+
     /// Unproven intervals from the first to the last of some speeds; between the last two left, further
     /// speeds are computed. `known` are lines that cross no mode, `least` is the smallest width of an
     /// interval.
@@ -122,7 +137,7 @@ impl Proof<'_> {
         }
         let middle = match a.halfway(b) {
             Some(middle) => middle,
-            None => self.end(&self.evaluator.guess_at(middle)?),
+            None => self.end(&self.guess_at(middle)?),
         };
         halves(&[a.clone(), middle.clone()], &[middle, b.clone()])
     }

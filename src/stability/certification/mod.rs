@@ -129,6 +129,7 @@ fn searched(
     let checks = Checks {
         evaluator: &evaluator,
         full,
+        pieces: &pieces,
         bands: &bands,
         signatures: &signatures,
     };
@@ -207,6 +208,7 @@ fn clipped(stretches: &[SpeedRange], range: SpeedRange) -> Vec<SpeedRange> {
 pub(super) struct Checks<'a> {
     pub evaluator: &'a SignatureEvaluator<'a>,
     pub full: &'a ModeCounts<'a>,
+    pub pieces: &'a [Piece],
     pub bands: &'a [Instability],
     pub signatures: &'a [Signature],
 }
@@ -234,6 +236,7 @@ impl Checks<'_> {
             let proof = Proof {
                 full: self.full,
                 evaluator: self.evaluator,
+                pieces: self.pieces,
                 bands: self.bands,
             };
             unproven = Some(proof.unproven(self.signatures)?);

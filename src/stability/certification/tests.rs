@@ -43,13 +43,14 @@ static SOUND: LazyLock<Sound> = LazyLock::new(|| {
 /// Certificate of a list of bands, which may be wrong, with signatures that a function may make wrong.
 fn certified(sound: &Sound, bands: &[Instability], change: impl Fn(&mut Signature)) -> Certificate {
     let evaluator = SignatureEvaluator::new(&sound.model, &sound.speeds).unwrap();
-    searched_pieces(&evaluator, &sound.speeds).unwrap();
+    let pieces = searched_pieces(&evaluator, &sound.speeds).unwrap();
     let mut signatures = evaluator.signatures();
     signatures.iter_mut().for_each(change);
     let full = ModeCounts::new(&sound.model).unwrap();
     let checks = Checks {
         evaluator: &evaluator,
         full: &full,
+        pieces: &pieces,
         bands,
         signatures: &signatures,
     };
