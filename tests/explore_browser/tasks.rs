@@ -248,7 +248,7 @@ fn inches_and_examples_show_the_same_saws() {
         let tolerance = "document.getElementById('study:blade.thickness_m')";
         assert_eq!(
             page.value(&format!("{tolerance}.value")).await,
-            json!("0.01")
+            json!("0.254 mm")
         );
         let label = format!("{tolerance}.closest('.field').textContent");
         assert_eq!(page.value(&label).await, json!("± thickness, in"));

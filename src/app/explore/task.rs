@@ -3,9 +3,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::fields::{Field, Units};
 use super::meter::Meter;
 use super::refusal::Refusal;
-use super::tolerances::{Tolerance, Typed, study as study_of};
+use super::tolerances::{Tolerance, study as study_of};
 use crate::analyses::commands::CommandReport;
 use crate::analyses::cut::{self, CutReport};
 use crate::analyses::fit::{self, FitReport, Measurement};
@@ -50,15 +51,18 @@ pub struct Asked {
     /// For a placement: maximize the window without instability instead of the flutter speed.
     #[serde(default)]
     window: bool,
-    /// For a placement: lower limit of the first critical speed in rpm.
+    /// For a placement: lower limit of the first critical speed, as typed; empty for none.
     #[serde(default)]
-    min_critical_rpm: Option<Typed>,
+    min_critical: String,
     /// For a study: the tolerances.
     #[serde(default)]
     tolerances: Vec<Tolerance>,
     /// For a map: paths of the numbers along its axes. Without the second, that axis is the speed.
     #[serde(default)]
     axes: Vec<String>,
+    /// Units in which the texts were typed.
+    #[serde(skip)]
+    units: Units,
 }
 
 #[derive(Serialize)]
@@ -85,8 +89,9 @@ impl Task {
     ///
     /// # Errors
     /// [`Refusal`] if the scene is refused or the computation fails or is cancelled.
-    pub fn run(self, asked: &str, meter: &Meter<'_>) -> Result<String, Refusal> {
+    pub fn run(self, asked: &str, units: Units, meter: &Meter<'_>) -> Result<String, Refusal> {
         let asked: Asked = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
+        let asked = Asked { units, ..asked };
         let scene = Scene::from_json(&asked.scene.to_string())?;
         (self.0)(scene, &asked, meter)
     }
@@ -172,9 +177,11 @@ fn place(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
     } else {
         None
     };
-    let limit = asked.min_critical_rpm.as_ref().map(Typed::number);
-    let demands = Demands::new(around_rpm, limit.transpose()?)
-        .map_err(|_| Refusal::with_message(NO_LIMIT))?;
+    let limit = match asked.min_critical.trim() {
+        "" => None,
+        text => Some(Field::read("operating_rpm", text, asked.units)?),
+    };
+    let demands = Demands::new(around_rpm, limit).map_err(|_| Refusal::with_message(NO_LIMIT))?;
     let freed = Freed::to_place(&scene, &[])?;
     let progress = |what: &'static str, done, of| meter.show(what, done, of);
     let options = place::Options::default();
@@ -184,7 +191,7 @@ fn place(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
 }
 
 fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
-    let file = study_of(scene.file(), &asked.tolerances)?;
+    let file = study_of(scene.file(), &asked.tolerances, asked.units)?;
     let study = Study::new(scene, file).map_err(|error| Refusal::of(&error))?;
     let so_far = |saws: &[Saw]| {
         let so_far = study.report(saws).ok()?;

@@ -9,11 +9,11 @@ import { Kept } from "./kept.js";
 import { publish } from "./marks.js";
 import { Live } from "./live.js";
 import { imageOf } from "./pairs.js";
-import { isPuttingIn, putIn } from "./parts.js";
+import { isAsking, putIn } from "./parts.js";
 import { Pinned } from "./pinned.js";
 import { Pointed } from "./pointed.js";
 import { SceneState } from "./scene.js";
-import { Refused, influence, progress, start, stayConnected } from "./talk.js";
+import { LOST, Refused, influence, progress, start, stayConnected } from "./talk.js";
 import { Tasks } from "./tasks.js";
 import { Times } from "./times.js";
 import { facts, headline, tables, verdict } from "./verdict.js";
@@ -75,7 +75,7 @@ const live = new Live({ onChart, onAhead, onRefused, onBusy });
 const waiting = new Waiting(by("waiting"), { onStop, onAgain: () => live.again(state.scene), ask: progress });
 seen.state = state;
 // Returns whether the painted chart is that of the present scene at the accuracy of the scene.
-seen.settled = () => !isPuttingIn() && seen.painted === JSON.stringify(state.scene) && !document.body.classList.contains("stale");
+seen.settled = () => !isAsking() && seen.painted === JSON.stringify(state.scene) && !document.body.classList.contains("stale");
 // Returns whether the painted chart, which may be a draft, is that of the present scene.
 seen.follows = () => seen.newest === JSON.stringify(state.scene);
 seen.report = () => latest.report;
@@ -205,7 +205,7 @@ function onRefused(error, request) {
   if (latest) compare();
   refusedKey = error.key ?? null;
   const told = form.refuse(error);
-  say(told ? "" : answers ? error.message : "The program does not answer any more. Save the scene, start the program again and open it there.");
+  say(told ? "" : answers ? error.message : LOST);
   // The shown chart and verdict are those of an earlier scene.
   document.body.classList.add("stale");
   blade.draw(state.scene, refusedKey);
@@ -386,7 +386,10 @@ function wire() {
   dock(by("campbell"));
   stayConnected((lost) => {
     // A program that was started again does not have the earlier charts.
-    if (!lost && !by("lost").hidden) live.again(state.scene);
+    if (!lost && !by("lost").hidden) {
+      form.readAgain();
+      live.again(state.scene);
+    }
     by("lost").hidden = !lost;
   });
 }

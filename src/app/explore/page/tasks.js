@@ -5,8 +5,8 @@ import { download, node } from "./dom.js";
 import { unitOf } from "./fields.js";
 import { lacks, putIn } from "./parts.js";
 import { get } from "./scene.js";
-import { Refused, task } from "./talk.js";
-import { numberOf, partName, shown, tidy } from "./words.js";
+import { LOST, Refused, task } from "./talk.js";
+import { partName, shown, tidy } from "./words.js";
 
 // Returns the paths of the numbers of a scene that have a usual tolerance, each with this tolerance in the unit of its
 // key.
@@ -172,7 +172,7 @@ class Task {
 
   #offerGoals() {
     this.goal = node("select", { id: "place-goal" }, node("option", { value: "", textContent: "largest flutter speed" }), node("option", { value: "window", textContent: "widest stable window around the operating speed" }));
-    this.least = node("input", { id: "place-least", type: "text", inputMode: "decimal", placeholder: "none" });
+    this.least = node("input", { id: "place-least", type: "text", placeholder: "none" });
     this.inputs.append(
       node("div", { className: "field" }, node("label", { htmlFor: "place-goal", textContent: "Goal" }), this.goal),
       node("div", { className: "field" }, node("label", { htmlFor: "place-least", textContent: "Lower limit of the first critical speed, rpm" }), this.least));
@@ -191,20 +191,21 @@ class Task {
       node("div", { className: "field" }, node("label", { htmlFor: axis.id, textContent: ["Horizontal axis", "Vertical axis"][k] }), axis)));
   }
 
-  // Makes a field for each number that has a usual tolerance. A typed tolerance is kept and converted to the present
-  // unit.
+  // Makes a field for each number that has a usual tolerance. A typed tolerance is kept.
   #offerTolerances(scene) {
     const usual = usualTolerances(this.usual, scene).map(([path, width]) => ({ path, width, ...unitOf(path) }));
     const same = (one, k) => one.path === this.tolerances[k]?.path && one.unit === this.tolerances[k].unit;
     if (this.tolerances.length === usual.length && usual.every(same)) return;
-    const typed = new Map(this.tolerances.map(({ path, scale, input }) => [path, { text: input.value, scale }]));
+    const typed = new Map(this.tolerances.map((one) => [one.path, one]));
     this.tolerances = usual.map(({ path, width, unit, scale }) => {
-      const before = typed.get(path);
-      const typedNow = before ? numberOf(before.text) : width * scale;
-      const value = before && typedNow === null ? before.text : shown(tidy(before ? (typedNow / before.scale) * scale : typedNow));
-      const input = node("input", { id: `study:${path}`, type: "text", inputMode: "decimal", value });
+      const before = typed.get(path)?.input;
+      const isTyped = before && before.value !== before.defaultValue;
+      // A typed number keeps the unit in which it was typed.
+      const ofOldUnit = isTyped && /[\d.,]$/.test(before.value.trim()) && typed.get(path).unit !== unit;
+      const input = node("input", { id: `study:${path}`, type: "text", defaultValue: shown(tidy(width * scale)) });
+      if (isTyped) input.value = ofOldUnit ? `${before.value} ${typed.get(path).unit}` : before.value;
       const label = node("label", { htmlFor: input.id, textContent: `± ${placeOf(path)}, ${unit}` });
-      return { path, unit, scale, input, field: node("div", { className: "field" }, label, input) };
+      return { path, unit, input, field: node("div", { className: "field" }, label, input) };
     });
     this.inputs.replaceChildren(...this.tolerances.map(({ field }) => field));
   }
@@ -212,12 +213,11 @@ class Task {
   #asked() {
     const scene = this.state.scene;
     if (this.entry.name === "place") {
-      const min_critical_rpm = this.least.value.trim() === "" ? null : asTyped(this.least.value, 1);
-      return { scene, window: this.goal.value === "window", min_critical_rpm };
+      return { scene, window: this.goal.value === "window", min_critical: this.least.value };
     }
     if (this.entry.name === "map") return { scene, axes: this.axes.map((axis) => axis.value).filter((path) => path !== "") };
     if (this.entry.name !== "study") return { scene };
-    return { scene, tolerances: this.tolerances.map(({ path, scale, input }) => ({ path, plus_minus: asTyped(input.value, scale) })) };
+    return { scene, tolerances: this.tolerances.map(({ path, input }) => ({ path, plus_minus: input.value })) };
   }
 
   async #run() {
@@ -245,7 +245,7 @@ class Task {
       this.#show(answer);
     } catch (error) {
       if (error instanceof Refused) this.fault.textContent = this.inWords(error);
-      else if (error.name !== "AbortError") this.fault.textContent = "The program does not answer any more.";
+      else if (error.name !== "AbortError") this.fault.textContent = LOST;
     }
     if (this.#abort === abort) this.#busy(false);
     this.refresh();
@@ -329,9 +329,3 @@ function inFormUnit({ words, unit = "", value, unit_of }) {
 }
 
 const pictureOf = (svg) => URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
-
-// Returns a typed number in the unit of its key, or a text that is not a number, which the program refuses.
-function asTyped(text, scale) {
-  const value = numberOf(text);
-  return value === null ? text : tidy(value / scale);
-}
