@@ -20,7 +20,7 @@ use crate::analyses::study::{Saw, Study, StudyReport};
 use crate::analyses::washboard::{self, WashboardError, WashboardReport};
 use crate::model::scene::{Freed, Quantity, Scene, SceneError, SceneFile};
 use crate::motion::transient::TransientError;
-use crate::page::outline::Fact;
+use crate::page::outline::Outline;
 
 /// Computes the answer to a request as JSON.
 type Work = fn(Scene, &Asked, &Meter<'_>) -> Result<String, Refusal>;
@@ -69,8 +69,8 @@ pub struct Asked {
 struct Answer<'a, R> {
     /// Summary as printed by the program.
     summary: String,
-    /// Main numbers of the result.
-    facts: Vec<Fact>,
+    /// The summary in its parts.
+    outline: Outline,
     report: &'a R,
     /// Figures as SVG, by file name.
     figures: Vec<(&'static str, String)>,
@@ -109,27 +109,17 @@ fn answer<R: CommandReport + Serialize>(
             Ok((name, figure.svg().map_err(|error| Refusal::of(&error))?))
         })
         .collect::<Result<_, Refusal>>()?;
-    let outline = report.outline();
-    let facts = outline.main_facts().into_iter().cloned().map(named);
+    let mut outline = report.outline();
+    let summary = outline.in_columns(false);
+    outline.rename_facts(|path| Quantity::of(path).map(|_| scene_number::name(path)));
     let answer = Answer {
-        summary: outline.in_columns(false),
-        facts: facts.collect(),
+        summary,
+        outline,
         report,
         figures,
         scene,
     };
     serde_json::to_string(&answer).map_err(|error| Refusal::of(&error))
-}
-
-/// The fact with the name of its number in place of the path.
-fn named(fact: Fact) -> Fact {
-    match Quantity::of(&fact.name) {
-        Some(_) => Fact {
-            name: scene_number::name(&fact.name),
-            ..fact
-        },
-        None => fact,
-    }
 }
 
 fn refused(error: TransientError) -> Refusal {

@@ -99,6 +99,11 @@ export class Charts {
     return [...(bands ?? []), ...items.filter((item) => !isReplaced(item)), ...critical];
   }
 
+  // Items of the diagram, early ones if its chart is still being computed.
+  get items() {
+    return this.#items(0);
+  }
+
   get report() {
     return this.#chart?.report ?? null;
   }
@@ -217,7 +222,7 @@ export class Charts {
   }
 
   get #alarms() {
-    return ["flutter", "divergence"].includes(this.#chart.told.answer);
+    return ["flutter", "divergence"].includes(this.#chart.told.verdict.answer);
   }
 
   #drawCampbell(u, narrow) {

@@ -8,15 +8,16 @@ import { Files } from "./files.js";
 import { Kept } from "./kept.js";
 import { publish } from "./marks.js";
 import { Live } from "./live.js";
+import { facts, outline, verdict } from "./outline.js";
 import { imageOf } from "./pairs.js";
 import { isAsking, putIn } from "./parts.js";
 import { Pinned } from "./pinned.js";
 import { Pointed } from "./pointed.js";
+import { Ruler } from "./ruler.js";
 import { SceneState } from "./scene.js";
 import { LOST, Refused, influence, progress, start, stayConnected } from "./talk.js";
 import { Tasks } from "./tasks.js";
 import { Times } from "./times.js";
-import { facts, headline, tables, verdict } from "./verdict.js";
 import { dock } from "./dock.js";
 import { write } from "./dom.js";
 import { Waiting } from "./waiting.js";
@@ -44,6 +45,7 @@ const state = new SceneState(begun.scene, (scene, { draft, structure, stamp, rel
   by("fields").classList.add("unweighed");
   if (structure) form.build();
   form.refresh(draft);
+  ruler.refresh();
   blade.draw(scene, refusedKey);
   if (draft) return;
   pointed.hint();
@@ -59,6 +61,7 @@ const pointed = new Pointed({
 const files = new Files(state, kept, begun, {
   say, onReplaced: () => pinned.reset(), onBusy: (what) => (what ? waiting.begin(what) : waiting.end()), shown: chartOfScene,
 });
+const ruler = new Ruler(by("ruler"), state);
 const form = new Form(by("fields"), begun, state, say);
 const charts = new Charts(by("campbell"), by("growth"), colours, { onHover: (point) => pointed.show(latest.chart, point), onZoom });
 const pinned = new Pinned(by("beside"), by("pinned"), charts, () => {
@@ -168,7 +171,9 @@ function onAhead(found, request) {
     return { ...(ahead ?? fact), isAhead: ahead !== undefined };
   });
   facts(by("facts"), now, pinned.facts);
-  if (found.verdict) headline(by("verdict"), found.verdict);
+  ruler.show(latest.told.ruler, charts.items);
+  // The numbers that decide the same answer remain until those of the chart.
+  if (found.verdict && found.verdict.answer !== latest.told.verdict.answer) verdict(by("verdict"), found.verdict);
   seen.early(request, found);
 }
 
@@ -229,16 +234,18 @@ function onStop() {
 
 function tell() {
   const { report, told, milliseconds } = latest;
-  verdict(by("verdict"), told);
+  verdict(by("verdict"), told.verdict);
+  ruler.show(told.ruler, charts.items);
   facts(by("facts"), told.facts, pinned.facts);
   pinned.tell(told.facts);
-  if (first(".numbers").open) tables(by("tables"), told.tables);
+  const parts = told.outline.filter(({ block }) => !("remark" in block));
+  if (by("why").open) by("why").lastElementChild.replaceChildren(...outline(parts));
   const accuracy = report.accuracy;
   by("computed").textContent = `${accuracy.name} accuracy, ${accuracy.degrees_of_freedom} functions, `
     + `estimated error ${shown(100 * accuracy.estimated_relative_error, 2)} %, computed in ${Math.round(milliseconds)} ms`;
   list(by("unusual"), report.unusual_numbers);
   list(by("warnings"), report.warnings);
-  by("campbell").setAttribute("aria-label", `Campbell diagram. ${told.lines.join(". ")}. Arrow keys walk along the branches, plus and minus magnify, 0 shows all speeds.`);
+  by("campbell").setAttribute("aria-label", `Campbell diagram. ${told.verdict.word}: ${told.verdict.line}. Arrow keys walk along the branches, plus and minus magnify, 0 shows all speeds.`);
 }
 
 function list(place, sentences) {
@@ -327,7 +334,7 @@ function wire() {
     by("restored").hidden = true;
     files.startOver();
   });
-  document.querySelector(".numbers").addEventListener("toggle", () => latest && tell());
+  by("why").addEventListener("toggle", () => latest && tell());
   by("side").addEventListener("change", compare);
   by("inches").addEventListener("change", (event) => measure(event.target.checked));
   by("measured").addEventListener("change", (event) => charts.showMeasured(event.target.checked));

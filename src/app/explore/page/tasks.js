@@ -3,6 +3,7 @@
 
 import { download, node } from "./dom.js";
 import { unitOf } from "./fields.js";
+import { outline } from "./outline.js";
 import { lacks, putIn } from "./parts.js";
 import { get } from "./scene.js";
 import { LOST, Refused, task } from "./talk.js";
@@ -137,8 +138,8 @@ class Task {
     this.fault.setAttribute("role", "alert");
     this.old = node("p", { className: "remark", hidden: true, textContent: "Computed for an earlier scene." });
     this.answer = node("div", { className: "answer" });
-    this.facts = [];
-    this.numbers = node("dl", { className: "numbers-of-answer" });
+    this.outline = [];
+    this.card = node("div");
     this.start.addEventListener("click", () => this.#run());
     this.stop.addEventListener("click", () => this.#abort?.abort());
     const row = node("p", { className: "start" }, this.start, " ", this.stop, " ", this.bar, " ", this.so_far);
@@ -164,7 +165,7 @@ class Task {
     if (hadFocus) (this.missing.querySelector("button") ?? this.start).focus();
     this.old.hidden = this.#scene === null || this.#scene === JSON.stringify(scene);
     this.answer.classList.toggle("earlier", !this.old.hidden);
-    this.#tellNumbers();
+    this.#tellOutline();
     if (this.entry.name === "study") this.#offerTolerances(scene);
     if (this.entry.name === "map") this.#offerAxes(scene);
     if (this.entry.name === "place" && !this.inputs.hasChildNodes()) this.#offerGoals();
@@ -286,7 +287,7 @@ class Task {
     this.so_far.textContent = `${what}: ${done} of ${of}`;
   }
 
-  #show({ summary, facts, report, figures, scene }) {
+  #show({ summary, outline: parts, report, figures, scene }) {
     const { name, took } = this.entry;
     const text = node("pre", { textContent: summary, tabIndex: 0 });
     text.setAttribute("role", "region");
@@ -305,27 +306,15 @@ class Task {
       link.addEventListener("click", () => download(this.nameOf(file), new Blob([svg], { type: "image/svg+xml" })));
       return node("figure", {}, picture, link);
     });
-    this.facts = facts;
-    this.#replace(this.numbers, tools, ...pictures, text);
-    this.#tellNumbers();
+    this.outline = parts;
+    this.#replace(tools, this.card, ...pictures, node("details", {}, node("summary", { textContent: "Text" }), text));
+    this.#tellOutline();
   }
 
-  // Shows the main numbers of the answer with three digits in the units of the form.
-  #tellNumbers() {
-    this.numbers.replaceChildren(...this.facts.map(({ name, value, before, remark }) => {
-      const now = inFormUnit(value);
-      const was = before === null ? now : inFormUnit(before);
-      const text = `${was.words === now.words ? "" : `${was.words} → `}${now.words} ${now.unit} ${remark}`.trim();
-      return node("div", { className: "fact" }, node("dt", { textContent: name }), node("dd", { textContent: text }));
-    }));
+  // Shows the answer in the units of the form.
+  #tellOutline() {
+    this.card.replaceChildren(...outline(this.outline));
   }
-}
-
-// The words of a value; a number whose unit is one of the form, with three digits in the unit of the form.
-function inFormUnit({ words, unit = "", value, unit_of }) {
-  if (unit_of === undefined) return { words, unit };
-  const own = unitOf(unit_of);
-  return { words: shown(value * own.scale, 3).replace("-", "−"), unit: own.unit };
 }
 
 const pictureOf = (svg) => URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
