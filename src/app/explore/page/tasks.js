@@ -31,12 +31,16 @@ function placeOf(path) {
   return path.startsWith("guides") ? `guide ${Number(/\d+/.exec(path)[0]) + 1}: ${name}` : name;
 }
 
+// Longest time of a computation that starts without being asked for.
+const CHEAP_MS = 3000;
+
+// Those with `isBegun` may be cheap: they start when their tab is opened and when the scene changes.
 const TASKS = [
-  { name: "cut", title: "Cut", part: "cut", what: "The blade before, during and after the cut: history at the probe, verdicts over speed and force." },
-  { name: "runup", title: "Run-up", part: "runup", what: "The blade run up under a lateral force: deflection at the probe, and what each band of instability adds." },
-  { name: "washboard", title: "Washboard", part: "cut.washboarding", what: "Whether a vibration grows from tooth to tooth on the surface that the one before has left, over speed and cutting stiffness." },
-  { name: "response", title: "Response", what: "Amplitude over the speed at the probe, for the causes in the scene: its side force, constant or oscillating, run-out, flatness, imbalance. Without any, a side force of 1 N." },
-  { name: "gap", title: "Gap", what: "Guides with a gap: critical speeds and flutter over the amplitude, and the deflection at the cut over gap and side force." },
+  { name: "cut", isBegun: true, title: "Cut", part: "cut", what: "The blade before, during and after the cut: history at the probe, verdicts over speed and force." },
+  { name: "runup", isBegun: true, title: "Run-up", part: "runup", what: "The blade run up under a lateral force: deflection at the probe, and what each band of instability adds." },
+  { name: "washboard", isBegun: true, title: "Washboard", part: "cut.washboarding", what: "Whether a vibration grows from tooth to tooth on the surface that the one before has left, over speed and cutting stiffness." },
+  { name: "response", isBegun: true, title: "Response", what: "Amplitude over the speed at the probe, for the causes in the scene: its side force, constant or oscillating, run-out, flatness, imbalance. Without any, a side force of 1 N." },
+  { name: "gap", isBegun: true, title: "Gap", what: "Guides with a gap: critical speeds and flutter over the amplitude, and the deflection at the cut over gap and side force." },
   { name: "fit", title: "Fit", what: "Radius and stiffness of every guide from the measured frequencies of the scene; drop a table (rpm, then frequencies in Hz) on the page.", took: "Take the fitted saw" },
   { name: "place", title: "Place", what: "Radius, angle and stiffness of the first guide for the largest flutter speed.", took: "Take the best saw" },
   { name: "study", title: "Tolerances", what: "Random saws within tolerances: how their critical and flutter speeds spread." },
@@ -112,6 +116,9 @@ export class Tasks {
 class Task {
   #abort = null;
   #scene = null;
+  // Scene that was computed last, also without an answer.
+  #tried = null;
+  #isCheap = true;
   // Fields for the tolerances of a study, each with its unit; empty for other tasks.
   tolerances = [];
   // Select elements for the axes of a map; empty for other tasks.
@@ -169,6 +176,8 @@ class Task {
     if (this.entry.name === "study") this.#offerTolerances(scene);
     if (this.entry.name === "map") this.#offerAxes(scene);
     if (this.entry.name === "place" && !this.inputs.hasChildNodes()) this.#offerGoals();
+    const isOpen = this.entry.isBegun && this.#isCheap && !this.start.disabled && this.stop.hidden;
+    if (isOpen && this.#tried !== JSON.stringify(scene)) this.#run(CHEAP_MS);
   }
 
   #offerGoals() {
@@ -221,7 +230,8 @@ class Task {
     return { scene, tolerances: this.tolerances.map(({ path, input }) => ({ path, plus_minus: input.value })) };
   }
 
-  async #run() {
+  // Computes the answer, and stops after `most_ms`.
+  async #run(most_ms = Infinity) {
     this.#abort?.abort();
     const abort = (this.#abort = new AbortController());
     this.#busy(true);
@@ -229,6 +239,7 @@ class Task {
     try {
       const asked = this.#asked();
       const scene = JSON.stringify(asked.scene);
+      this.#tried = scene;
       const listeners = {
         onProgress: (told) => this.#tell(told),
         onFigures: (figures) => {
@@ -240,7 +251,13 @@ class Task {
       // few connections that a browser opens to it.
       const answer = await navigator.locks.request("sawflutter task", { signal: abort.signal }, () => {
         this.so_far.textContent = "computing …";
-        return task(this.entry.name, asked, abort.signal, listeners);
+        const late = most_ms < Infinity ? setTimeout(() => abort.abort(), most_ms) : 0;
+        this.#isCheap = false;
+        const begun = performance.now();
+        return task(this.entry.name, asked, abort.signal, listeners).finally(() => {
+          clearTimeout(late);
+          this.#isCheap = performance.now() - begun < CHEAP_MS;
+        });
       });
       this.#scene = scene;
       this.#show(answer);
