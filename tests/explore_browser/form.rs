@@ -342,6 +342,33 @@ fn undo_in_a_field_undoes_the_scene() {
 
 #[test]
 #[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn escape_ends_a_drag_and_restores_the_saw() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        let scene = "JSON.stringify(sawflutter.state.scene)";
+        let before = page.value(scene).await;
+        drag(&page, PAD, 5, (6, 0)).await;
+        assert_ne!(page.value(scene).await, before);
+        page.script("dispatchEvent(new KeyboardEvent('keydown', { key: 'Escape' }))")
+            .await;
+        assert_eq!(page.value(scene).await, before);
+        let moved = hand(&page).move_by_offset(30, 0);
+        moved.perform().await.unwrap();
+        let_go(&page).await;
+        page.settle().await;
+        assert_eq!(page.value(scene).await, before);
+        assert_eq!(
+            page.value("sawflutter.state.canUndo").await,
+            json!(false),
+            "an empty step of undo"
+        );
+        page.close().await;
+    });
+}
+
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
 fn a_pad_that_is_dragged_off_the_blade_stays_on_it() {
     run(async {
         let page = Page::open(&["--accuracy", "draft"]).await;

@@ -63,14 +63,19 @@ fn a_cheap_answer_starts_by_itself() {
         page.settle().await;
         page.find("#tab-response").await.click().await.unwrap();
         let told = "document.querySelector('#panel-response pre')?.textContent ?? ''";
-        page.wait(&format!("({told}).includes('Sawing deviation at 3800 rpm')"))
-            .await;
-        let unbounded = "[...document.querySelectorAll('#panel-response dd')].map((dd) => dd.textContent)";
+        page.wait(&format!(
+            "({told}).includes('Sawing deviation at 3800 rpm')"
+        ))
+        .await;
+        let unbounded =
+            "[...document.querySelectorAll('#panel-response dd')].map((dd) => dd.textContent)";
         assert_eq!(page.value(unbounded).await, json!(["unbounded"]));
         page.script("sawflutter.state.set('operating_rpm', 3700)")
             .await;
-        page.wait(&format!("({told}).includes('Sawing deviation at 3700 rpm')"))
-            .await;
+        page.wait(&format!(
+            "({told}).includes('Sawing deviation at 3700 rpm')"
+        ))
+        .await;
         page.close().await;
     });
 }

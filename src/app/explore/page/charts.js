@@ -180,7 +180,7 @@ export class Charts {
   #zoomTogether(chart) {
     const over = chart.over;
     let from = null;
-    over.addEventListener("mousedown", (event) => (from = event.offsetX));
+    over.addEventListener("mousedown", (event) => (from = event.button === 0 ? event.offsetX : null));
     over.addEventListener("mouseup", (event) => {
       const ends = [from, event.offsetX].map((px) => chart.posToVal(px, "x")).sort((x, y) => x - y);
       if (from !== null && Math.abs(event.offsetX - from) > 8) {

@@ -335,6 +335,7 @@ export class Form {
       const typed = number === undefined || number === null ? "" : typeof number === "number" ? shown(tidy(number * scale), digits) : number;
       if (document.activeElement !== input || !row.contains(document.activeElement)) input.value = typed;
       else if (Number(input.value) !== Number(typed)) input.value = typed;
+      slider.disabled = typeof known !== "number";
       if (typeof known === "number") {
         slider.value = range.notch(known);
         slider.setAttribute("aria-valuetext", `${shown(known * scale)} ${unit}`);

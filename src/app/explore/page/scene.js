@@ -79,6 +79,14 @@ export class SceneState {
     this.listener(this.scene, { draft: false, structure: false, released });
   }
 
+  // Ends a drag, and restores the scene before it.
+  cancel() {
+    if (this.#before === null) return;
+    ({ scene: this.scene, origin: this.origin } = this.#before);
+    [this.#before, this.#pending] = [null, null];
+    this.listener(this.scene, { draft: false, structure: true });
+  }
+
   #settle() {
     if (JSON.stringify(this.#before.scene) !== JSON.stringify(this.scene)) {
       const now = performance.now();
