@@ -101,9 +101,10 @@ pub(crate) fn number_in(usual_unit: &str, path: &str, text: &str) -> Result<f64,
     };
     let is_usual = |value: f64| (quantity.usual.0..=quantity.usual.1).contains(&value);
     let is_whole_usual = is_usual(in_key(whole / below));
-    let is_decimal = match digits.contains(',') {
-        true => is_usual(value) && !is_whole_usual,
-        false => is_usual(value) || !is_whole_usual,
+    let is_decimal = if digits.contains(',') {
+        is_usual(value) && !is_whole_usual
+    } else {
+        is_usual(value) || !is_whole_usual
     };
     if is_decimal {
         Ok(value)
