@@ -263,6 +263,25 @@ fn refusals_are_in_the_unit_of_the_field_and_name_what_a_designer_can_use() {
     });
 }
 
+/// A number may be refused because of another one: both fields are marked.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_refusal_marks_the_field_that_was_changed() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        page.settle().await;
+        page.enter("blade.thickness_m", "1e-6").await;
+        page.wait("document.body.classList.contains('stale')").await;
+        let told = page.text("[id='blade.thickness_m:fault']").await;
+        assert_eq!(page.text("[id='sweep.to_rpm:fault']").await, told);
+        assert!(told.contains("waves"), "{told}");
+        page.enter("blade.thickness_m", "2.8").await;
+        page.settle().await;
+        assert_eq!(page.text("[id='blade.thickness_m:fault']").await, "");
+        page.close().await;
+    });
+}
+
 /// A field reads what the command line reads, also with a unit, and what it does not read stays in the field and out of
 /// the scene.
 #[test]

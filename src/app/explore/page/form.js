@@ -104,12 +104,13 @@ export class Form {
     return (this.fields.has(key) && told) || message;
   }
 
-  // Shows a refusal at its field and removes earlier ones. Returns whether the form has this field.
+  // Shows a refusal at its field, and at that of the number that was changed last, and removes earlier ones. Returns whether
+  // the form has one of these fields.
   refuse(refusal) {
-    const key = refusal?.key ?? null;
+    const causes = refusal instanceof Refused ? [refusal.key, this.state.changed] : [];
     let told = false;
     for (const field of this.fields.values()) {
-      const own = key !== null && field.path === key;
+      const own = causes.includes(field.path);
       if (!field.isUnread) field.error(own ? this.inWords(refusal) : "");
       told ||= own;
       if (own) field.element.closest("details")?.setAttribute("open", "");
