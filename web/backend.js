@@ -7,7 +7,7 @@ const TASKS = "tasks";
 const CRITICAL = "critical";
 // Requests that take no time have a separate worker, so that they do not wait for any of the others.
 const QUICK = "quick";
-const IS_QUICK = /^(start|read|measured|part)$/;
+const IS_QUICK = /^(start|read|measured|part|numbers)$/;
 // The charts of a terminated worker are lost. The identifiers of the next worker start this much higher, so that none
 // is used twice.
 const NUMBERS = 1_000_000;

@@ -216,10 +216,14 @@ fn a_program_that_is_started_again_takes_the_page_over() {
         page.program.0.kill().unwrap();
         page.wait("!document.querySelector('#lost').hidden").await;
         page.enter("blade.thickness_m", "3").await;
-        page.wait("document.body.classList.contains('stale')").await;
+        let told = "document.getElementById('blade.thickness_m:fault').textContent";
+        page.wait(&format!("{told}.includes('does not answer')"))
+            .await;
         page.start_again(&["--accuracy", "draft"]).await;
         page.wait("document.querySelector('#lost').hidden").await;
-        // The change made in the meantime is computed, and the chart has its modes.
+        // The number typed in the meantime is read and computed, and the chart has its modes.
+        page.wait("sawflutter.state.scene.blade.thickness_m === 0.003")
+            .await;
         page.settle().await;
         assert!(page.text("#facts").await.contains(" → "));
         assert_eq!(page.text("#fault").await, "");

@@ -52,6 +52,33 @@ fn the_page_is_readable_on_a_small_and_on_a_dark_screen() {
     });
 }
 
+/// While a phone scrolls, the docked chart stays as wide as the screen.
+#[test]
+#[ignore = "needs chromium and chromium-driver; run by .ci/run"]
+fn a_phone_that_scrolls_keeps_its_width() {
+    run(async {
+        let page = Page::open(&["--accuracy", "draft"]).await;
+        let size = json!({ "width": 390, "height": 844, "deviceScaleFactor": 3, "mobile": true });
+        let touch = json!({ "enabled": true, "maxTouchPoints": 1 });
+        for (name, value) in [
+            ("Emulation.setDeviceMetricsOverride", size),
+            ("Emulation.setTouchEmulationEnabled", touch),
+        ] {
+            page.driver.chromium(name, value).await.unwrap();
+        }
+        page.settle().await;
+        for step in 0..30 {
+            page.script(&format!("scrollTo(0, {})", 60 * step)).await;
+            tokio::time::sleep(Duration::from_millis(50)).await;
+        }
+        page.wait("document.querySelector('.docked') !== null")
+            .await;
+        let widths = "[innerWidth, document.querySelector('#campbell').clientWidth]";
+        assert_eq!(page.value(widths).await, json!([390, 390]));
+        page.close().await;
+    });
+}
+
 /// Script of axe-core, which checks labels, roles, contrast and order.
 const AUDITOR: &str = include_str!("browser/axe.min.js");
 

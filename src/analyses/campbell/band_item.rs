@@ -1,6 +1,6 @@
 //! A band of instability as an item of a chart.
 
-use super::InstabilityBand;
+use super::{InstabilityBand, InstabilityKind};
 use crate::page::figure::axis::two_digits;
 use crate::page::figure::items::Band;
 use crate::page::figure::palette::Hue;
@@ -52,9 +52,13 @@ impl Band {
     }
 }
 
-/// Kind and range of a band in rpm, and the amplitude of its flutter if the report contains it.
+/// Kind and range of a band in rpm, and the amplitude of its flutter if the report contains it. Flutter below the
+/// threshold is weak.
 fn label(band: &InstabilityBand, [first, last]: [f64; 2]) -> String {
-    let kind = band.kind;
+    let kind = match (band.kind, band.counted_rpm.is_empty()) {
+        (InstabilityKind::Flutter, true) => "weak flutter".to_owned(),
+        (kind, _) => kind.to_string(),
+    };
     let [from, to] = [band.from_rpm, band.to_rpm].map(|rpm| format!("{rpm:.0}"));
     let label = if !band.closed && band.to_rpm >= last && band.from_rpm > first {
         format!("{kind} from {from}")
@@ -69,5 +73,30 @@ fn label(band: &InstabilityBand, [first, last]: [f64; 2]) -> String {
         None if band.amplitude_not_computed.is_some() => format!("{label}, amplitude not computed"),
         None => label,
         Some(metres) => format!("{label}, ±{} mm", two_digits(1e3 * metres)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analyses::campbell::sample::band;
+
+    #[test]
+    fn flutter_below_the_threshold_is_called_weak() {
+        let labelled = |kind, counted_rpm| {
+            let band = InstabilityBand {
+                counted_rpm,
+                ..band(kind, 1903.0, 1906.0, 0.09, 2.4)
+            };
+            label(&band, [0.0, 3000.0])
+        };
+        let counted = vec![[1904.0, 1905.0]];
+        for (kind, counted_rpm, wanted) in [
+            (InstabilityKind::Flutter, vec![], "weak flutter 1903–1906"),
+            (InstabilityKind::Flutter, counted, "flutter 1903–1906"),
+            (InstabilityKind::Divergence, vec![], "divergence 1903–1906"),
+        ] {
+            assert_eq!(labelled(kind, counted_rpm), wanted);
+        }
     }
 }

@@ -59,7 +59,7 @@ pub use self::modes::{
 pub use self::outline::Answer;
 pub(crate) use self::outline::outline;
 #[cfg(feature = "page")]
-pub(crate) use self::outline::{answer, headline};
+pub(crate) use self::outline::{answer, deciding, headline, usable};
 pub(crate) use self::remarks::{lifting_off, side_force_in_words};
 pub use self::speeds::{CriticalSpeed, InstabilityBand, OperatingPoint};
 pub use self::verdict::Verdict;

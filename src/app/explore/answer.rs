@@ -1,64 +1,112 @@
-//! Text beside a diagram: the answer of the summary, the numbers by which a change is judged, and tables.
+//! Text beside a diagram: the verdict, the numbers by which a change is judged, the ruler of speeds, and the summary.
 
 use serde::Serialize;
 
-use crate::analyses::campbell::{Answer, Report, ToleratedHeat, answer, outline};
-use crate::page::outline::Table;
-use crate::page::text::shown_to;
+use crate::analyses::campbell::{
+    Answer, OperatingPoint, Report, ToleratedHeat, answer, deciding, headline, outline, usable,
+};
+use crate::page::outline::{Fact, GROWTH, KELVIN, Outline, PERCENT, SPEED, Value};
 
-/// Text from the summary.
+/// Text from the report.
 #[derive(Serialize)]
 pub struct Told {
-    /// Whether the saw can run at its operating speed; null without one.
-    answer: Option<Answer>,
-    /// This answer as text, and its reasons.
-    lines: Vec<String>,
+    verdict: Verdict,
     facts: Vec<Fact>,
-    tables: Vec<Table>,
+    ruler: Ruler,
+    /// The summary.
+    outline: Outline,
 }
 
-/// A number by which a change is judged.
+/// Whether the saw can run at its operating speed.
 #[derive(Debug, Serialize)]
-pub struct Fact {
-    name: &'static str,
-    words: String,
-    unit: &'static str,
+pub struct Verdict {
+    /// Null without an operating speed.
+    answer: Option<Answer>,
+    /// The answer in few words.
+    word: String,
+    /// The numbers that decide it.
+    line: String,
+}
+
+/// Speeds in rpm from rest to the end of the sweep. Critical speeds and bands on it are those of the diagram.
+#[derive(Serialize)]
+struct Ruler {
+    to_rpm: f64,
+    /// Speeds without instability around the operating speed.
+    window_rpm: Option<[f64; 2]>,
+    window: Option<String>,
+    /// The usual limit below the first critical speed.
+    limit_rpm: Option<f64>,
+    /// Ratio to the first critical speed in words.
+    limit: Option<String>,
 }
 
 impl Told {
     /// Creates the text for a report.
     pub fn new(report: &Report) -> Self {
-        let lines = answer(report);
         Told {
-            answer: report.operating.as_ref().map(Answer::new),
-            lines: lines.lines().into_iter().map(str::to_owned).collect(),
+            verdict: Verdict::new(report),
             facts: facts(report),
-            tables: outline(report).tables().into_iter().cloned().collect(),
+            ruler: Ruler::new(report),
+            outline: outline(report),
         }
     }
 }
 
-fn speed(name: &'static str, rpm: Option<f64>) -> Fact {
-    Fact {
-        name,
-        words: rpm.map_or("none".to_owned(), |rpm| {
-            if rpm < 100.0 {
-                format!("{rpm:.1}")
-            } else {
-                format!("{rpm:.0}")
-            }
-        }),
-        unit: if rpm.is_some() { "rpm" } else { "" },
+impl Verdict {
+    fn new(report: &Report) -> Self {
+        let text = answer(report);
+        let mut lines = text.lines().into_iter().map(str::to_owned);
+        let mut next = || lines.next().unwrap_or_default();
+        match &report.operating {
+            None => Verdict {
+                answer: None,
+                word: next(),
+                line: next(),
+            },
+            Some(operating) => Verdict {
+                line: deciding(report, operating).unwrap_or_else(next),
+                ..Verdict::early(operating)
+            },
+        }
+    }
+
+    /// The verdict before its numbers are known.
+    pub fn early(operating: &OperatingPoint) -> Self {
+        let answer = Answer::new(operating);
+        Verdict {
+            answer: Some(answer),
+            word: answer.in_few_words().to_owned(),
+            line: headline(operating),
+        }
     }
 }
 
-/// First critical speed of the sweep, and ratio of the operating speed to the first critical speed.
+impl Ruler {
+    fn new(report: &Report) -> Self {
+        let operating = report.operating.as_ref();
+        let critical = operating.and_then(|at| Some((at.limit, at.lowest_critical_rpm?)));
+        Ruler {
+            to_rpm: report.campbell.to_rpm,
+            window_rpm: operating.and_then(|at| at.safe_window_rpm),
+            window: operating.and_then(|at| usable(report, at)),
+            limit_rpm: critical.map(|(limit, rpm)| limit * rpm),
+            limit: critical.map(|(limit, _)| PERCENT.fixed(0, limit).with_unit()),
+        }
+    }
+}
+
+/// First critical speed and ratio of the operating speed to it.
 pub fn of_critical(first_rpm: Option<f64>, share: Option<f64>) -> [Fact; 2] {
-    let percent = share.map(|share| format!("{:.1}", 100.0 * share));
     [
         speed("First critical", first_rpm),
-        known("Of critical", percent, "%"),
+        Fact::new("Of critical", PERCENT.fixed(1, share)),
     ]
+}
+
+fn speed(name: &str, rpm: Option<f64>) -> Fact {
+    let decimals = usize::from(rpm.is_some_and(|rpm| rpm < 100.0));
+    Fact::new(name, SPEED.fixed(decimals, rpm).or("none"))
 }
 
 /// Flutter speed, onset of the first flutter band, and largest growth rate.
@@ -66,38 +114,30 @@ pub fn of_bands(
     [flutter_rpm, first_merge_rpm]: [Option<f64>; 2],
     peak_growths_per_s: impl Iterator<Item = f64>,
 ) -> [Fact; 3] {
+    let growth = GROWTH.digits(3, peak_growths_per_s.fold(0.0, f64::max));
     [
         speed("Flutter speed", flutter_rpm),
         speed("First merging", first_merge_rpm),
-        Fact {
-            name: "Fastest growth",
-            words: shown_to(3, peak_growths_per_s.fold(0.0, f64::max)),
-            unit: "1/s",
-        },
+        Fact::new("Fastest growth", growth),
     ]
 }
 
 fn facts(report: &Report) -> Vec<Fact> {
     let peaks = report.instabilities.iter().map(|b| b.peak_growth_per_s);
-    let of_lowest = report.operating.as_ref().and_then(|o| o.of_lowest_critical);
-    let critical = report.critical_speeds.first().map(|critical| critical.rpm);
-    let [first_critical, share] = of_critical(critical, of_lowest);
+    let operating = report.operating.as_ref();
+    let in_sweep = report.critical_speeds.first().map(|critical| critical.rpm);
+    // The first critical speed may be above the sweep.
+    let first = operating.and_then(|at| at.lowest_critical_rpm).or(in_sweep);
+    let [first_critical, share] =
+        of_critical(first, operating.and_then(|at| at.of_lowest_critical));
     let onsets = [report.flutter_speed_rpm, report.first_merge_rpm];
     let mut facts = vec![first_critical];
     facts.extend(of_bands(onsets, peaks));
     facts.push(share);
     let heat = report.membrane.as_ref().and_then(|m| m.heat.as_ref());
-    facts.extend(heat.map(|heat| {
-        let rise = tolerated_rise_k(heat).map(|rise_k| shown_to(3, rise_k));
-        known("Tolerated rise", rise, "K")
-    }));
+    let rise = |heat| -> Value { KELVIN.digits(3, tolerated_rise_k(heat)) };
+    facts.extend(heat.map(|heat| Fact::new("Tolerated rise", rise(heat))));
     facts
-}
-
-fn known(name: &'static str, words: Option<String>, unit: &'static str) -> Fact {
-    let unit = if words.is_some() { unit } else { "" };
-    let words = words.unwrap_or_else(|| "–".to_owned());
-    Fact { name, words, unit }
 }
 
 /// Temperature rise in K at which the first critical speed equals the operating speed or the blade buckles, whichever
@@ -119,9 +159,9 @@ mod tests {
     use crate::model::scene::{Accuracy, Scene};
     use crate::stability::Analysis;
 
-    /// The page receives the lines that the program prints.
+    /// The page receives the answer and a line of its reasons that the program prints.
     #[test]
-    fn the_answer_is_that_of_the_summary() {
+    fn the_verdict_is_that_of_the_summary() {
         for (rpm, wanted) in [
             (Some(900.0), json!("runs")),
             (Some(1800.0), json!("past_rule")),
@@ -137,16 +177,31 @@ mod tests {
             let told = serde_json::to_value(Told::new(&report)).unwrap();
             let summary = report.summary();
             let printed: Vec<&str> = summary.split_whitespace().collect();
-            let lines = told["lines"].as_array().unwrap();
-            let words: Vec<&str> = lines
-                .iter()
-                .flat_map(|line| line.as_str().unwrap().split(' '))
-                .collect();
-            assert_eq!(told["answer"], wanted, "{rpm:?}: {lines:?}");
+            let verdict = &told["verdict"];
+            let words: Vec<&str> = verdict["line"].as_str().unwrap().split(' ').collect();
+            assert_eq!(verdict["answer"], wanted, "{rpm:?}: {verdict}");
             assert!(
                 printed.windows(words.len()).any(|window| window == words),
-                "{lines:?}"
+                "{verdict}"
             );
         }
+    }
+
+    /// The first critical speed is named where the ratio to it is, also above the sweep.
+    #[test]
+    fn a_critical_speed_above_the_sweep_is_named() {
+        let scene = Scene::paper().edited(|file| {
+            (file.accuracy, file.operating_rpm) = (Accuracy::Draft, Some(500.0));
+            file.sweep.as_mut().unwrap().to_rpm = 1000.0;
+        });
+        let report = Analysis::new(&scene.unwrap()).unwrap().report();
+        assert!(report.critical_speeds.is_empty());
+        let facts = facts(&report);
+        let words = |name: &str| {
+            let fact = facts.iter().find(|fact| fact.name == name);
+            fact.unwrap().in_words()
+        };
+        assert_eq!(words("First critical"), "1531 rpm");
+        assert_eq!(words("Of critical"), "32.7 %");
     }
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::charts::{Charts, Fidelity};
-use super::fields::Units;
+use super::fields::{Field, Units};
 use super::meter::{Clock, Meter};
 use super::refusal::Refusal;
 #[cfg(feature = "explore")]
@@ -20,7 +20,7 @@ use crate::modes::Stage;
 #[serde(deny_unknown_fields)]
 pub struct Question {
     /// Kind of the request: `start`, `chart/draft`, `chart/scene`, `critical`, `mode`, `influence`, `save/NAME`,
-    /// `task/NAME`, `read`, `measured` or `part`.
+    /// `task/NAME`, `read`, `measured`, `part` or `numbers`.
     pub path: String,
     /// Name of the page, under which its diagrams are kept.
     #[serde(default)]
@@ -107,6 +107,14 @@ struct Table {
     table: String,
 }
 
+/// A request for the numbers that the texts of a field mean.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Typed {
+    path: String,
+    texts: Vec<String>,
+}
+
 /// Answers requests, and keeps the latest diagrams for later requests about them.
 pub struct Backend {
     start: Start,
@@ -184,11 +192,12 @@ impl Backend {
             },
             "read" => Answer::json(Scene::from_json(body)?.file()),
             "part" => Answer::json(&parts::with_part(body)?),
+            "numbers" => Answer::json(&numbers(body, asked.units)?),
             "measured" => Answer::json(&measured(body)?),
             "task" => match Task::named(name) {
                 Some(task) => {
                     let meter = Meter::new(&tell, self.clock);
-                    last_line(asked, task.run(body, &meter))
+                    last_line(asked, task.run(body, asked.units, &meter))
                 }
                 None => Answer::empty(BAD_REQUEST),
             },
@@ -215,4 +224,11 @@ fn measured(body: &str) -> Result<crate::model::scene::Measured, Refusal> {
     let Table { name, table } = serde_json::from_str(body).map_err(|error| Refusal::of(&error))?;
     let measurement = Measurement::from_csv(&name, &table).map_err(|error| Refusal::of(&error))?;
     Ok(measurement.as_scene_block())
+}
+
+/// Reads the texts of a field as the command line does.
+fn numbers(body: &str, units: Units) -> Result<Vec<f64>, Refusal> {
+    let Typed { path, texts } = serde_json::from_str(body).map_err(|error| Refusal::of(&error))?;
+    let read = |text: &String| Field::read(&path, text, units);
+    texts.iter().map(read).collect()
 }

@@ -2,10 +2,11 @@
 
 use serde::Serialize;
 
-use super::answer::{Fact, of_bands, of_critical};
-use crate::analyses::campbell::{Answer, InstabilityBand, OperatingPoint, headline};
+use super::answer::{Verdict, of_bands, of_critical};
+use crate::analyses::campbell::{InstabilityBand, OperatingPoint};
 use crate::model::scene::{Scene, rpm};
 use crate::page::figure::{Band, Item, Upright};
+use crate::page::outline::Fact;
 use crate::stability::{Evidence, Instability, Interim, flutter_onsets};
 
 /// Results before the diagram, equal to those of the diagram.
@@ -21,13 +22,6 @@ pub struct Ahead {
     verdict: Option<Verdict>,
 }
 
-#[derive(Debug, Serialize)]
-struct Verdict {
-    answer: Answer,
-    /// The answer in one line, without its reasons.
-    lines: [String; 1],
-}
-
 impl Ahead {
     /// Results of an analysis that is not complete.
     pub fn new(scene: &Scene, interim: Interim<'_>) -> Self {
@@ -38,9 +32,11 @@ impl Ahead {
             .take_while(|c| c.speed_rad_per_s <= interim.range_rad_per_s.to_rad_per_s)
             .map(|c| Upright::critical(rpm(c.speed_rad_per_s), &c.name.in_words()))
             .collect();
-        let first = uprights.first().map(|upright| upright.x);
         let operating = scene.operating_rad_per_s();
         let share = operating.zip(critical.first());
+        // Without an operating speed, the first critical speed matters only in the sweep.
+        let in_sweep = uprights.first().map(|upright| upright.x);
+        let first = share.map(|(_, lowest)| rpm(*lowest)).or(in_sweep);
         let mut ahead = Ahead {
             facts: of_critical(first, share.map(|(speed, lowest)| speed / lowest)).into(),
             critical: uprights.into_iter().map(Item::Upright).collect(),
@@ -70,13 +66,8 @@ impl Ahead {
         let onsets = flutter_onsets(evidence.bands, threshold).map(|onset| onset.map(rpm));
         let growths = evidence.bands.iter().map(|band| band.peak_growth_per_s);
         self.facts.extend(of_bands(onsets, growths));
-        self.verdict = operating_rad_per_s.map(|speed| {
-            let operating = OperatingPoint::from_evidence(evidence, speed);
-            Verdict {
-                answer: Answer::new(&operating),
-                lines: [headline(&operating)],
-            }
-        });
+        self.verdict = operating_rad_per_s
+            .map(|speed| Verdict::early(&OperatingPoint::from_evidence(evidence, speed)));
     }
 }
 
@@ -147,8 +138,10 @@ mod tests {
             let bands = unnamed(second["bands"].as_array().unwrap().iter());
             assert_eq!(bands, drawn(&chart, "item", "band"));
             assert_eq!(second["facts"].as_array().unwrap().len(), 5);
-            assert_eq!(second["verdict"]["answer"], chart["told"]["answer"]);
-            assert_eq!(second["verdict"]["lines"][0], chart["told"]["lines"][0]);
+            for key in ["answer", "word"] {
+                let of_chart = &chart["told"]["verdict"][key];
+                assert_eq!(second["verdict"][key], *of_chart);
+            }
         }
     }
 }

@@ -42,7 +42,8 @@ files! {
     "marks.js": SCRIPT, "page/marks.js";
     "panel.js": SCRIPT, "page/panel.js";
     "tasks.js": SCRIPT, "page/tasks.js";
-    "verdict.js": SCRIPT, "page/verdict.js";
+    "outline.js": SCRIPT, "page/outline.js";
+    "ruler.js": SCRIPT, "page/ruler.js";
     "waiting.js": SCRIPT, "page/waiting.js";
     "words.js": SCRIPT, "page/words.js";
     "uplot.js": SCRIPT, "../../../assets/uplot/uPlot.iife.min.js";

@@ -91,11 +91,17 @@ impl Refusal {
         }
     }
 
-    /// Adds the message in the unit of the field. `request` is the JSON of a scene, or contains one under `scene`.
+    /// Adds a message in the unit of the field.
+    pub fn telling(self, told: String) -> Self {
+        let told = Some(told);
+        Refusal { told, ..self }
+    }
+
+    /// Adds the message in the unit of the field, unless there is one. `request` is the JSON of a scene, or contains one under `scene`.
     pub fn in_field(mut self, request: &str, units: Units) -> Self {
         let request: Value = serde_json::from_str(request).unwrap_or_default();
         let scene = request.get("scene").unwrap_or(&request);
-        if let Some(key) = &self.key {
+        if let (Some(key), None) = (&self.key, &self.told) {
             self.told = in_field_units(key, at(scene, key), self.allowed.as_deref(), units);
         }
         self

@@ -145,6 +145,7 @@ fn router(server: Server, hosts: OwnHosts) -> Router {
         .route("/read", post(at_once))
         .route("/measured", post(at_once))
         .route("/part", post(at_once))
+        .route("/numbers", post(at_once))
         .route("/mode", post(at_once))
         .route("/chart/{fidelity}", post(sending_lines(Queue::Charts)))
         .route("/critical", post(ahead))

@@ -3,9 +3,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::fields::{Field, Units};
 use super::meter::Meter;
 use super::refusal::Refusal;
-use super::tolerances::{Tolerance, Typed, study as study_of};
+use super::tolerances::{Tolerance, study as study_of};
 use crate::analyses::commands::CommandReport;
 use crate::analyses::cut::{self, CutReport};
 use crate::analyses::fit::{self, FitReport, Measurement};
@@ -19,7 +20,7 @@ use crate::analyses::study::{Saw, Study, StudyReport};
 use crate::analyses::washboard::{self, WashboardError, WashboardReport};
 use crate::model::scene::{Freed, Quantity, Scene, SceneError, SceneFile};
 use crate::motion::transient::TransientError;
-use crate::page::outline::Fact;
+use crate::page::outline::Outline;
 
 /// Computes the answer to a request as JSON.
 type Work = fn(Scene, &Asked, &Meter<'_>) -> Result<String, Refusal>;
@@ -50,23 +51,26 @@ pub struct Asked {
     /// For a placement: maximize the window without instability instead of the flutter speed.
     #[serde(default)]
     window: bool,
-    /// For a placement: lower limit of the first critical speed in rpm.
+    /// For a placement: lower limit of the first critical speed, as typed; empty for none.
     #[serde(default)]
-    min_critical_rpm: Option<Typed>,
+    min_critical: String,
     /// For a study: the tolerances.
     #[serde(default)]
     tolerances: Vec<Tolerance>,
     /// For a map: paths of the numbers along its axes. Without the second, that axis is the speed.
     #[serde(default)]
     axes: Vec<String>,
+    /// Units in which the texts were typed.
+    #[serde(skip)]
+    units: Units,
 }
 
 #[derive(Serialize)]
 struct Answer<'a, R> {
     /// Summary as printed by the program.
     summary: String,
-    /// Main numbers of the result.
-    facts: Vec<Fact>,
+    /// The summary in its parts.
+    outline: Outline,
     report: &'a R,
     /// Figures as SVG, by file name.
     figures: Vec<(&'static str, String)>,
@@ -85,8 +89,9 @@ impl Task {
     ///
     /// # Errors
     /// [`Refusal`] if the scene is refused or the computation fails or is cancelled.
-    pub fn run(self, asked: &str, meter: &Meter<'_>) -> Result<String, Refusal> {
+    pub fn run(self, asked: &str, units: Units, meter: &Meter<'_>) -> Result<String, Refusal> {
         let asked: Asked = serde_json::from_str(asked).map_err(|error| Refusal::of(&error))?;
+        let asked = Asked { units, ..asked };
         let scene = Scene::from_json(&asked.scene.to_string())?;
         (self.0)(scene, &asked, meter)
     }
@@ -104,27 +109,17 @@ fn answer<R: CommandReport + Serialize>(
             Ok((name, figure.svg().map_err(|error| Refusal::of(&error))?))
         })
         .collect::<Result<_, Refusal>>()?;
-    let outline = report.outline();
-    let facts = outline.main_facts().into_iter().cloned().map(named);
+    let mut outline = report.outline();
+    let summary = outline.in_columns(false);
+    outline.rename_facts(|path| Quantity::of(path).map(|_| scene_number::name(path)));
     let answer = Answer {
-        summary: outline.in_columns(false),
-        facts: facts.collect(),
+        summary,
+        outline,
         report,
         figures,
         scene,
     };
     serde_json::to_string(&answer).map_err(|error| Refusal::of(&error))
-}
-
-/// The fact with the name of its number in place of the path.
-fn named(fact: Fact) -> Fact {
-    match Quantity::of(&fact.name) {
-        Some(_) => Fact {
-            name: scene_number::name(&fact.name),
-            ..fact
-        },
-        None => fact,
-    }
 }
 
 fn refused(error: TransientError) -> Refusal {
@@ -172,9 +167,11 @@ fn place(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
     } else {
         None
     };
-    let limit = asked.min_critical_rpm.as_ref().map(Typed::number);
-    let demands = Demands::new(around_rpm, limit.transpose()?)
-        .map_err(|_| Refusal::with_message(NO_LIMIT))?;
+    let limit = match asked.min_critical.trim() {
+        "" => None,
+        text => Some(Field::read("operating_rpm", text, asked.units)?),
+    };
+    let demands = Demands::new(around_rpm, limit).map_err(|_| Refusal::with_message(NO_LIMIT))?;
     let freed = Freed::to_place(&scene, &[])?;
     let progress = |what: &'static str, done, of| meter.show(what, done, of);
     let options = place::Options::default();
@@ -184,7 +181,7 @@ fn place(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refus
 }
 
 fn study(scene: Scene, asked: &Asked, meter: &Meter<'_>) -> Result<String, Refusal> {
-    let file = study_of(scene.file(), &asked.tolerances)?;
+    let file = study_of(scene.file(), &asked.tolerances, asked.units)?;
     let study = Study::new(scene, file).map_err(|error| Refusal::of(&error))?;
     let so_far = |saws: &[Saw]| {
         let so_far = study.report(saws).ok()?;

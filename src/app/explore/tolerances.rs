@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::fields::{Field, Units};
 use super::refusal::Refusal;
-use super::wording::which_number;
 use crate::analyses::place::Tolerances;
 use crate::analyses::study::StudyFile;
 use crate::model::scene::SceneFile;
@@ -46,51 +46,26 @@ const fn share(path: &'static str, share: f64) -> UsualTolerance {
 /// Number of random saws.
 const SAWS: u32 = 200;
 
-/// A number of a form, or the text that cannot be read as one.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(untagged)]
-pub enum Typed {
-    /// Number in the unit of its key.
-    Number(f64),
-    /// Text as typed.
-    Text(String),
-}
-
-impl Typed {
-    /// Returns the number.
-    ///
-    /// # Errors
-    /// [`Refusal`] if it is a text.
-    pub fn number(&self) -> Result<f64, Refusal> {
-        match self {
-            Typed::Number(number) => Ok(*number),
-            Typed::Text(text) => Err(Refusal::with_message(
-                match (which_number(text), text.trim()) {
-                    (Some(question), _) => question,
-                    (None, "") => "A number is missing".to_owned(),
-                    (None, text) => format!("“{text}” is not a number"),
-                },
-            )),
-        }
-    }
-}
-
-/// Tolerance of a number of the scene.
+/// Tolerance of a number of the scene, as typed.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tolerance {
     path: String,
-    plus_minus: Typed,
+    plus_minus: String,
 }
 
 /// Returns the study of random saws within tolerances.
 ///
 /// # Errors
 /// [`Refusal`] if a tolerance is not a number or is negative, or all are zero.
-pub fn study(scene: &SceneFile, tolerances: &[Tolerance]) -> Result<StudyFile, Refusal> {
+pub fn study(
+    scene: &SceneFile,
+    tolerances: &[Tolerance],
+    units: Units,
+) -> Result<StudyFile, Refusal> {
     let mut parameters = Vec::new();
     for Tolerance { path, plus_minus } in tolerances {
-        let plus_minus = plus_minus.number()?;
+        let plus_minus = Field::read(path, plus_minus, units)?;
         if plus_minus < 0.0 {
             let message = "A tolerance must be at least 0: it counts to both sides";
             return Err(Refusal::with_message(message));

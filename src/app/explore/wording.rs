@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::fields::{Field, FieldUnit, Units};
-use crate::model::scene::Quantity;
+use crate::model::scene::{Quantity, RefusedValue};
 use crate::page::text::shown_to;
 
 /// Number of significant digits of a bound.
@@ -11,8 +11,7 @@ const DIGITS: usize = 6;
 /// Units whose fields have labels, such as "from" and "idle", that are not clear without the form around them.
 const UNCLEAR: [&str; 4] = ["rpm", "s", "1/s", "N per tooth"];
 
-/// Message about the number at a path. `typed` is the value in the scene, or the text that could not be read as a
-/// number. `None` if the path is not that of a number, or nothing is known about its range.
+/// Message about the number at a path. `typed` is the value in the scene. `None` if the path is not that of a number, or nothing is known about its range.
 pub fn in_field_units(
     path: &str,
     typed: Option<&Value>,
@@ -25,15 +24,7 @@ pub fn in_field_units(
         "" => String::new(),
         unit => format!(", in {unit}"),
     };
-    let text = typed.and_then(Value::as_str);
-    if let Some(question) = text.and_then(which_number) {
-        return Some(question + &of);
-    }
-    let subject = capital(if UNCLEAR.contains(&unit.unit) {
-        field.name
-    } else {
-        &field.label
-    });
+    let subject = subject(&field);
     let number = typed.and_then(Value::as_f64);
     let is_count = |number: f64| number >= 0.0 && number.fract() == 0.0;
     if field.whole && !number.is_some_and(is_count) {
@@ -43,6 +34,23 @@ pub fn in_field_units(
         return Some(format!("{subject} must be a number{of}"));
     }
     Some(format!("{subject} {}", range(path, allowed?, &field, unit)))
+}
+
+/// Message about the text of a field that is no number.
+pub fn unread(field: &Field, refused: &RefusedValue) -> String {
+    let RefusedValue {
+        allowed, remedy, ..
+    } = refused;
+    format!("{} must be {allowed}; {remedy}", subject(field))
+}
+
+/// Name of a field at the beginning of a sentence.
+fn subject(field: &Field) -> String {
+    capital(if UNCLEAR.contains(&field.unit(Units::Metric).unit) {
+        field.name
+    } else {
+        &field.label
+    })
 }
 
 /// Description of an allowed range: "must be …", or "is too large" for a bound that only prevents overflow.
@@ -178,25 +186,6 @@ fn named(path: &str, word: &str) -> String {
     )
 }
 
-/// Message with both numbers that a text may mean, because a mark before three digits is decimal or separates
-/// thousands; `None` if the text has one meaning.
-pub fn which_number(text: &str) -> Option<String> {
-    let plain = text.trim().replace('−', "-");
-    let digits = plain.trim_start_matches(['+', '-']);
-    let (whole, rest) = digits.split_once(['.', ','])?;
-    let is_digits = |text: &str| text.bytes().all(|c| c.is_ascii_digit());
-    let is_group = (1..=3).contains(&whole.len()) && !whole.starts_with('0') && rest.len() == 3;
-    if !is_group || !is_digits(whole) || !is_digits(rest) {
-        return None;
-    }
-    let sign = if plain.starts_with('-') { "-" } else { "" };
-    let decimal: f64 = format!("{whole}.{rest}").parse().ok()?;
-    Some(format!(
-        "“{}” may be {sign}{whole}{rest} or {sign}{decimal}; write one of these",
-        text.trim()
-    ))
-}
-
 fn capital(text: &str) -> String {
     let mut characters = text.chars();
     let first = characters.next().map(|c| c.to_uppercase().to_string());
@@ -275,11 +264,6 @@ mod tests {
                 json!(601.0),
                 "Time before and after the cut must be between 0 and 600 s",
             ),
-            (
-                "operating_rpm",
-                json!("1,800"),
-                "“1,800” may be 1800 or 1.8; write one of these, in rpm",
-            ),
         ];
         for (path, typed, wanted) in cases {
             assert_eq!(told(path, &typed, Units::Metric), wanted);
@@ -291,16 +275,32 @@ mod tests {
     }
 
     #[test]
-    fn a_mark_before_three_digits_is_asked_about() {
-        let which = |text| which_number(text);
-        assert_eq!(
-            which(" −2.850 ").unwrap(),
-            "“−2.850” may be -2850 or -2.85; write one of these"
-        );
-        for plain in [
-            "1800", "0,800", "1,80", "1,8000", "1,80a", "a,800", ",800", "1234,800",
+    fn texts_of_fields_are_read_in_their_unit_or_refused_in_it() {
+        for (path, text, units, value) in [
+            ("blade.thickness_m", "2.6", Units::Metric, 0.0026),
+            ("blade.thickness_m", "1/8", Units::Inches, 0.003_175),
+            ("blade.thickness_m", "2.6mm", Units::Inches, 0.0026),
+            ("guides[0].stiffness_n_per_m", "20", Units::Metric, 2e7),
+            ("cut.radial_n_per_tooth", "75", Units::Metric, 75.0),
         ] {
-            assert_eq!(which(plain), None, "{plain}");
+            let read = Field::read(path, text, units).unwrap();
+            assert_eq!(read, value, "{path} {text}");
+        }
+        for (path, text, wanted) in [
+            (
+                "guides[0].stiffness_n_per_m",
+                "stiff",
+                "Stiffness must be a number in MN/m, or with a unit of the same kind; write it like 0.0026 or 2.6mm",
+            ),
+            (
+                "operating_rpm",
+                "1,800",
+                "Operating speed must be 1800 or 1.8; write one of these",
+            ),
+        ] {
+            let refusal = Field::read(path, text, Units::Metric).unwrap_err();
+            assert_eq!(refusal.told.as_deref(), Some(wanted));
+            assert_eq!(refusal.key.as_deref(), Some(path));
         }
     }
 }

@@ -92,6 +92,8 @@ pub use saw::Scene;
 pub use schema::json_schema;
 #[cfg(feature = "cli")]
 pub(crate) use schema::{Key, keys};
+#[cfg(feature = "page")]
+pub(crate) use setting::number_in;
 pub use setting::{Setting, number_of};
 pub use side_force::SideForceFile;
 pub(crate) use side_force::{OscillatingForce, SideForce, USUAL_SIDE_FORCE_N};

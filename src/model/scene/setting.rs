@@ -50,29 +50,36 @@ impl FromStr for Setting {
 
 /// Parses a number in the unit of a key: `2.6mm` for `blade.thickness_m` is 0.0026.
 ///
+/// The decimal mark is a point or a comma, and `1/8 in` is a fraction. A mark before three digits may separate
+/// thousands instead: a comma there is refused unless the decimal number alone is usual, a point if the whole number
+/// alone is usual, as in `1.800` for `operating_rpm`.
+///
 /// # Errors
 /// [`RefusedValue`] if scenes have no such number, or the text is no number in its unit.
 pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
     let quantity = Quantity::of(path).ok_or_else(|| unknown(path))?;
+    number_in(quantity.unit, path, text)
+}
+
+/// As [`number_of`]; a number without a unit is in `usual_unit`.
+pub(crate) fn number_in(usual_unit: &str, path: &str, text: &str) -> Result<f64, RefusedValue> {
+    let quantity = Quantity::of(path).ok_or_else(|| unknown(path))?;
+    let text = text.trim();
+    let not = |allowed, remedy| RefusedValue::new(path, format!("{text:?}"), allowed, remedy);
     let refused = |remedy| {
-        let allowed = match quantity.unit {
+        let allowed = match usual_unit {
             "" => "a number without a unit".to_owned(),
             unit => format!("a number in {unit}, or with a unit of the same kind"),
         };
-        RefusedValue::new(path, format!("{:?}", text.trim()), allowed, remedy)
+        not(allowed, remedy)
     };
-    let text = text.trim();
-    if text.contains(',') {
-        return Err(refused("write it with a decimal point"));
-    }
-    let (digits, rest) = text.split_at(end_of_number(text));
-    let unit = rest.trim();
-    let value: f64 = digits
+    let plain = text.replace('−', "-");
+    let (digits, rest) = plain.split_at(end_of_number(&plain));
+    let decimal: f64 = digits
+        .replace(',', ".")
         .parse()
         .map_err(|_| refused("write it like 0.0026 or 2.6mm"))?;
-    if unit.is_empty() {
-        return Ok(value);
-    }
+    let (below, unit) = over(rest.trim()).ok_or_else(|| refused("divide by a number above 0"))?;
     // A change in percent needs the present number, which is not known here. Without this check, +5% of a
     // dimensionless number would be read as 0.05.
     if unit == "%" && (text.starts_with('+') || !quantity.unit.is_empty()) {
@@ -80,27 +87,74 @@ pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
             "give the new number itself, not its change in percent",
         ));
     }
+    let unit = if unit.is_empty() { usual_unit } else { unit };
     let given = Unit::parse(unit).ok_or_else(|| {
         refused("write units like mm, kN/mm, g/cm^3 or rad/s, or leave the unit out")
     })?;
     let own = Unit::parse(quantity.unit)
         .filter(|own| own.is_of(&given))
         .ok_or_else(|| refused("give a unit of this quantity, or leave the unit out"))?;
-    let factor = given.factor / own.factor;
-    // Division by a whole number is correctly rounded, unlike multiplication by its reciprocal, so that
-    // 2.6 mm give the same number as 0.0026 m.
-    Ok(if factor < 1.0 {
-        value / (own.factor / given.factor)
+    let in_key = |value| product(value, given.factor, own.factor);
+    let value = in_key(decimal / below);
+    let Some(whole) = in_thousands(digits) else {
+        return Ok(value);
+    };
+    let is_usual = |value: f64| (quantity.usual.0..=quantity.usual.1).contains(&value);
+    let is_whole_usual = is_usual(in_key(whole / below));
+    let is_decimal = if digits.contains(',') {
+        is_usual(value) && !is_whole_usual
+    } else {
+        is_usual(value) || !is_whole_usual
+    };
+    if is_decimal {
+        Ok(value)
+    } else {
+        let either = format!("{whole}{rest} or {decimal}{rest}");
+        Err(not(either, "write one of these"))
+    }
+}
+
+/// `value * numerator / denominator` for two factors of units, so that 2.6 mm give the same number as 0.0026 m and 56 in
+/// as 1.4224 m: products with whole numbers and divisions by them are rounded correctly, unlike those with fractions.
+fn product(value: f64, numerator: f64, denominator: f64) -> f64 {
+    const SCALE: f64 = 1e4;
+    let (divisor, factor) = (denominator / numerator, numerator / denominator);
+    let whole = SCALE * factor;
+    if divisor.fract() == 0.0 {
+        value / divisor
+    } else if whole.fract() == 0.0 {
+        value * whole / SCALE
     } else {
         value * factor
-    })
+    }
+}
+
+/// The denominator with which a text begins after a stroke, otherwise 1, and the text after it; `None` if the
+/// denominator is not above 0.
+fn over(text: &str) -> Option<(f64, &str)> {
+    let below = text.strip_prefix('/').map_or("", str::trim_start);
+    if !below.starts_with(|c: char| c.is_ascii_digit()) {
+        return Some((1.0, text));
+    }
+    let (digits, unit) = below.split_at(end_of_number(below));
+    let denominator = digits.parse().ok().filter(|below| *below > 0.0)?;
+    Some((denominator, unit.trim()))
+}
+
+/// The number without the mark that may separate thousands: 1800 for `1.800` and `1,800`.
+fn in_thousands(digits: &str) -> Option<f64> {
+    let (thousands, rest) = digits.split_once(['.', ','])?;
+    let first = thousands.trim_start_matches(['+', '-']);
+    let is_group = (1..=3).contains(&first.len()) && !first.starts_with('0') && rest.len() == 3;
+    let is_number = is_group && rest.bytes().all(|c| c.is_ascii_digit());
+    is_number.then(|| format!("{thousands}{rest}").parse().ok())?
 }
 
 /// End of the number with which a text begins.
 fn end_of_number(text: &str) -> usize {
     let mut end = text.len() - text.trim_start_matches(['+', '-']).len();
     end += text[end..]
-        .find(|c: char| !(c.is_ascii_digit() || c == '.'))
+        .find(|c: char| !(c.is_ascii_digit() || c == '.' || c == ','))
         .unwrap_or(text.len() - end);
     let exponent = text[end..]
         .strip_prefix(['e', 'E'])
@@ -280,6 +334,35 @@ mod tests {
     }
 
     #[test]
+    fn marks_and_fractions_are_read_as_a_designer_writes_them() {
+        for (path, text, value) in [
+            ("blade.thickness_m", "1/8 in", 0.003_175),
+            ("blade.thickness_m", "2,6mm", 0.0026),
+            ("blade.thickness_m", "2,850 mm", 0.00285),
+            ("blade.thickness_m", "2.850 mm", 0.00285),
+            ("blade.outer_diameter_m", "56in", 1.4224),
+            ("guides[0].angle_deg", "−12.5", -12.5),
+            ("side_force.force_n", "12.345", 12.345),
+        ] {
+            assert_eq!(number_of(path, text), Ok(value), "{text}");
+        }
+        for (path, text, either) in [
+            ("operating_rpm", "1.800", "1800 or 1.8"),
+            ("operating_rpm", "1,800 rpm", "1800 rpm or 1.8 rpm"),
+            ("side_force.force_n", "12,345", "12345 or 12.345"),
+        ] {
+            let refused = number_of(path, text).unwrap_err();
+            assert_eq!(refused.allowed, either, "{text}");
+            assert_eq!(refused.remedy, "write one of these");
+        }
+        assert_eq!(number_in("mm", "blade.thickness_m", "2.6"), Ok(0.0026));
+        assert_eq!(
+            number_in("mm", "blade.thickness_m", "1/8 in"),
+            Ok(0.003_175)
+        );
+    }
+
+    #[test]
     fn refusals_name_path_value_and_remedy() {
         let cases = [
             ("blade.thickness_m", &["path, =, and a number"][..]),
@@ -313,7 +396,8 @@ mod tests {
                 "blade.material.poisson_ratio=+5%",
                 &["\"+5%\"", "not its change in percent"],
             ),
-            ("blade.thickness_m=2,6mm", &["decimal point"]),
+            ("blade.thickness_m=1/0 in", &["\"1/0 in\"", "above 0"]),
+            ("blade.thickness_m=1,2,3", &["like 0.0026 or 2.6mm"]),
             (
                 "blade.thickness_m=thin",
                 &["\"thin\"", "like 0.0026 or 2.6mm"],

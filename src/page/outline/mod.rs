@@ -23,12 +23,15 @@ const SHORT_NAME: usize = 40;
 
 /// A text in its order.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[cfg_attr(feature = "page", derive(serde::Serialize))]
+#[cfg_attr(feature = "page", serde(transparent))]
 pub struct Outline {
     parts: Vec<Part>,
 }
 
 /// A block, and whether it belongs to the details, which a designer does not need.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "page", derive(serde::Serialize))]
 struct Part {
     block: Block,
     is_detail: bool,
@@ -36,6 +39,8 @@ struct Part {
 
 /// A part of a text.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "page", derive(serde::Serialize))]
+#[cfg_attr(feature = "page", serde(rename_all = "snake_case"))]
 enum Block {
     /// Name of the saw and its condition.
     Heading(String),
@@ -185,23 +190,15 @@ impl Outline {
         lines.collect()
     }
 
-    /// The main facts, which have no title.
+    /// Names its facts by `name`, where that has another name for them.
     #[cfg(feature = "page")]
-    pub fn main_facts(&self) -> Vec<&Fact> {
-        let facts = self.blocks().filter_map(|block| match block {
-            Block::Facts { title, facts } if title.is_empty() => Some(facts),
-            _ => None,
-        });
-        facts.flatten().collect()
-    }
-
-    /// All tables.
-    #[cfg(feature = "page")]
-    pub fn tables(&self) -> Vec<&Table> {
-        let tables = self.blocks().filter_map(|block| match block {
-            Block::Table(table) => Some(table),
-            _ => None,
-        });
-        tables.collect()
+    pub fn rename_facts(&mut self, name: impl Fn(&str) -> Option<String>) {
+        for part in &mut self.parts {
+            if let Block::Facts { facts, .. } = &mut part.block {
+                for fact in facts {
+                    fact.name = name(&fact.name).unwrap_or_else(|| std::mem::take(&mut fact.name));
+                }
+            }
+        }
     }
 }

@@ -89,15 +89,13 @@ fn at_operating_speed(text: &mut Outline, report: &Report, operating: &Operating
         text.reason(inside(band));
     }
     if Answer::new(operating) == Answer::OutsideSweep {
-        text.reason("widen `sweep` so that it includes operating_rpm");
+        text.reason(WIDEN);
     }
     if let (Some(growth), Some(hz)) = (operating.growth_per_s, operating.frequency_hz) {
         text.reason(fastest(report, growth, hz, band.is_some()));
     }
-    if let Some([from, to]) = operating.safe_window_rpm {
-        let end = end_of_window(report, to);
-        let from = SPEED.fixed(usize::from(from > 0.0), from).in_words();
-        text.reason(format!("usable speeds: {from} to {to:.1} rpm{end}"));
+    if let Some(words) = usable(report, operating) {
+        text.reason(words);
     }
     if let Some(words) = at_critical_speed(report, operating) {
         text.reason(words);
@@ -105,6 +103,30 @@ fn at_operating_speed(text: &mut Outline, report: &Report, operating: &Operating
     if let Some(words) = rule(operating) {
         text.reason(words);
     }
+}
+
+const WIDEN: &str = "widen `sweep` so that it includes operating_rpm";
+
+/// The reason that decides the answer at the operating speed.
+#[cfg(feature = "page")]
+pub fn deciding(report: &Report, operating: &OperatingPoint) -> Option<String> {
+    match Answer::new(operating) {
+        Answer::Divergence | Answer::Flutter => {
+            let index = operating.inside_instability?;
+            report.instabilities.get(index).map(inside)
+        }
+        Answer::OutsideSweep => Some(WIDEN.to_owned()),
+        Answer::AtCritical => at_critical_speed(report, operating),
+        Answer::PastRule | Answer::Runs => rule(operating).or_else(|| usable(report, operating)),
+    }
+}
+
+/// The window without instability around the operating speed, if there is one.
+pub fn usable(report: &Report, operating: &OperatingPoint) -> Option<String> {
+    let [from, to] = operating.safe_window_rpm?;
+    let end = end_of_window(report, to);
+    let first = SPEED.fixed(usize::from(from > 0.0), from).in_words();
+    Some(format!("usable speeds: {first} to {to:.1} rpm{end}"))
 }
 
 /// Describes the band that makes the saw unstable at its operating speed.

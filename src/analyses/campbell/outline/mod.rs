@@ -7,9 +7,9 @@ mod in_cut;
 mod influences;
 mod whirl;
 
-#[cfg(feature = "page")]
-pub use answer::headline;
 pub use answer::{Answer, answer};
+#[cfg(feature = "page")]
+pub use answer::{deciding, headline, usable};
 
 use super::Report;
 use crate::model::scene::BladeFile;

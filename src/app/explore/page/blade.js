@@ -207,7 +207,7 @@ export class Blade {
 
   #hold(target, kind, path, action) {
     target.addEventListener("pointerdown", (event) => {
-      if (this.isAdding) return;
+      if (this.isAdding || event.button !== 0) return;
       event.preventDefault();
       target.parentNode.focus();
       target.setPointerCapture(event.pointerId);
@@ -227,6 +227,11 @@ export class Blade {
       addEventListener("pointermove", move, { signal });
       addEventListener("pointerup", end, { signal });
       addEventListener("pointercancel", end, { signal });
+      addEventListener("keydown", ({ key }) => {
+        if (key !== "Escape") return;
+        during.abort();
+        this.state.cancel();
+      }, { signal });
     });
   }
 

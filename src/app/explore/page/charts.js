@@ -99,6 +99,11 @@ export class Charts {
     return [...(bands ?? []), ...items.filter((item) => !isReplaced(item)), ...critical];
   }
 
+  // Items of the diagram, early ones if its chart is still being computed.
+  get items() {
+    return this.#items(0);
+  }
+
   get report() {
     return this.#chart?.report ?? null;
   }
@@ -175,7 +180,7 @@ export class Charts {
   #zoomTogether(chart) {
     const over = chart.over;
     let from = null;
-    over.addEventListener("mousedown", (event) => (from = event.offsetX));
+    over.addEventListener("mousedown", (event) => (from = event.button === 0 ? event.offsetX : null));
     over.addEventListener("mouseup", (event) => {
       const ends = [from, event.offsetX].map((px) => chart.posToVal(px, "x")).sort((x, y) => x - y);
       if (from !== null && Math.abs(event.offsetX - from) > 8) {
@@ -217,7 +222,7 @@ export class Charts {
   }
 
   get #alarms() {
-    return ["flutter", "divergence"].includes(this.#chart.told.answer);
+    return ["flutter", "divergence"].includes(this.#chart.told.verdict.answer);
   }
 
   #drawCampbell(u, narrow) {

@@ -2,10 +2,11 @@
 
 import { node } from "./dom.js";
 import { fieldOf, unitOf } from "./fields.js";
-import { lacks, putIn } from "./parts.js";
+import { lacks, putIn, read } from "./parts.js";
 import { Range } from "./range.js";
 import { get } from "./scene.js";
-import { numberOf, partName, readings, shown, tidy } from "./words.js";
+import { LOST, Refused } from "./talk.js";
+import { partName, shown, tidy } from "./words.js";
 
 // Order of the first groups; the others follow in the order of the schema.
 const ORDER = ["operating_rpm", "blade", "guides", "mount", "cut"];
@@ -103,13 +104,14 @@ export class Form {
     return (this.fields.has(key) && told) || message;
   }
 
-  // Shows a refusal at its field and removes earlier ones. Returns whether the form has this field.
+  // Shows a refusal at its field, and at that of the number that was changed last, and removes earlier ones. Returns whether
+  // the form has one of these fields.
   refuse(refusal) {
-    const key = refusal?.key ?? null;
+    const causes = refusal instanceof Refused ? [refusal.key, this.state.changed] : [];
     let told = false;
     for (const field of this.fields.values()) {
-      const own = key !== null && field.path === key;
-      field.error(own ? this.inWords(refusal) : "");
+      const own = causes.includes(field.path);
+      if (!field.isUnread) field.error(own ? this.inWords(refusal) : "");
       told ||= own;
       if (own) field.element.closest("details")?.setAttribute("open", "");
     }
@@ -231,14 +233,35 @@ export class Form {
       if (message) control.setAttribute("aria-invalid", "true");
       else control.removeAttribute("aria-invalid");
     };
-    const shows = (value) => {
+    const field = { path, element, error, isUnread: false, show: shows };
+    function shows(value) {
       show(value);
+      if (field.isUnread) error("");
+      field.isUnread = false;
       // The default value is the text of the scene. A control whose text differs is being typed in.
       if (!control.matches("select")) control.defaultValue = control.value;
-    };
-    this.fields.set(path, { path, element, show: shows, error });
+    }
+    this.fields.set(path, field);
     shows(get(this.state.scene, path));
     return element;
+  }
+
+  // Passes the numbers that the texts of a field mean to `take`. A text that the program does not read stays in its field
+  // with the reason, and the scene does not change.
+  async #read(path, texts, take) {
+    try {
+      take(await read(path, texts));
+    } catch (error) {
+      const field = this.fields.get(path);
+      field.isUnread = true;
+      field.error(error instanceof Refused ? this.inWords(error) : LOST);
+    }
+  }
+
+  // Reads texts again that were typed while the program did not answer.
+  readAgain() {
+    const unread = [...this.fields.values()].filter(({ isUnread }) => isUnread);
+    for (const { element } of unread) element.querySelector("input").dispatchEvent(new Event("change"));
   }
 
   #choice(schema, path, key) {
@@ -274,9 +297,7 @@ export class Form {
     const input = node("input", { id: path, type: "text", placeholder: "none" });
     input.addEventListener("change", () => {
       const texts = input.value.split(/[,;\s]+/).filter((text) => text !== "");
-      // A text that is not a number is sent as it is, so that the library refuses it with its own message.
-      const numbers = texts.map((text) => (readings(text).length > 0 ? tidy(readings(text)[0] / scale) : text));
-      this.state.set(path, numbers.length > 0 ? numbers : undefined);
+      this.#read(path, texts, (numbers) => this.state.set(path, numbers.length > 0 ? numbers : undefined));
     });
     const label = node("label", { htmlFor: path }, name, " ", node("span", { className: "unit", textContent: unit }));
     const row = node("div", { className: "field wide", title: schema.description ?? "" }, label, input);
@@ -288,9 +309,8 @@ export class Form {
     const { unit, scale, name, digits } = unitOf(path);
     const whole = schema.type === "integer";
     const field = fieldOf(path);
-    const usual = field.usual;
     const fallback = schema.default ?? undefined;
-    const input = node("input", { id: path, type: "text", inputMode: "decimal", autocomplete: "off" });
+    const input = node("input", { id: path, type: "text", autocomplete: "off" });
     const typical = schema.examples?.[0];
     const none = typeof typical === "number" ? `none, typically ${shown(typical * scale)}` : "none";
     if (!required) input.placeholder = typeof fallback === "number" ? shown(fallback * scale) : none;
@@ -300,13 +320,9 @@ export class Form {
     slider.setAttribute("aria-label", `${fullName}, slider`);
     const range = new Range(field, value ?? fallback, this.state.scene);
     const send = (number, options) => this.state.set(path, number, options);
-    const isUsual = (typed) => usual[0] <= typed / scale && typed / scale <= usual[1];
     input.addEventListener("change", () => {
-      const number = numberOf(input.value, isUsual);
       if (input.value.trim() === "" && !required) send(undefined);
-      else if (number !== null) send(tidy(number / scale));
-      // A text that is not a number is sent as it is, so that the library refuses it with its own message.
-      else send(input.value.trim());
+      else this.#read(path, [input.value], ([number]) => send(number));
     });
     const slid = () => tidy(whole ? Math.round(range.value(slider.value)) : Number(range.value(slider.value).toPrecision(4)));
     slider.addEventListener("input", (event) => send(slid(), { draft: true, stamp: event.timeStamp, run: path }));
@@ -320,6 +336,7 @@ export class Form {
       const typed = number === undefined || number === null ? "" : typeof number === "number" ? shown(tidy(number * scale), digits) : number;
       if (document.activeElement !== input || !row.contains(document.activeElement)) input.value = typed;
       else if (Number(input.value) !== Number(typed)) input.value = typed;
+      slider.disabled = typeof known !== "number";
       if (typeof known === "number") {
         slider.value = range.notch(known);
         slider.setAttribute("aria-valuetext", `${shown(known * scale)} ${unit}`);

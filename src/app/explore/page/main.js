@@ -8,15 +8,16 @@ import { Files } from "./files.js";
 import { Kept } from "./kept.js";
 import { publish } from "./marks.js";
 import { Live } from "./live.js";
+import { facts, outline, verdict } from "./outline.js";
 import { imageOf } from "./pairs.js";
-import { isPuttingIn, putIn } from "./parts.js";
+import { isAsking, putIn } from "./parts.js";
 import { Pinned } from "./pinned.js";
 import { Pointed } from "./pointed.js";
+import { Ruler } from "./ruler.js";
 import { SceneState } from "./scene.js";
-import { Refused, influence, progress, start, stayConnected } from "./talk.js";
+import { LOST, Refused, influence, progress, start, stayConnected } from "./talk.js";
 import { Tasks } from "./tasks.js";
 import { Times } from "./times.js";
-import { facts, headline, tables, verdict } from "./verdict.js";
 import { dock } from "./dock.js";
 import { write } from "./dom.js";
 import { Waiting } from "./waiting.js";
@@ -44,6 +45,7 @@ const state = new SceneState(begun.scene, (scene, { draft, structure, stamp, rel
   by("fields").classList.add("unweighed");
   if (structure) form.build();
   form.refresh(draft);
+  ruler.refresh();
   blade.draw(scene, refusedKey);
   if (draft) return;
   pointed.hint();
@@ -59,6 +61,7 @@ const pointed = new Pointed({
 const files = new Files(state, kept, begun, {
   say, onReplaced: () => pinned.reset(), onBusy: (what) => (what ? waiting.begin(what) : waiting.end()), shown: chartOfScene,
 });
+const ruler = new Ruler(by("ruler"), state);
 const form = new Form(by("fields"), begun, state, say);
 const charts = new Charts(by("campbell"), by("growth"), colours, { onHover: (point) => pointed.show(latest.chart, point), onZoom });
 const pinned = new Pinned(by("beside"), by("pinned"), charts, () => {
@@ -75,7 +78,7 @@ const live = new Live({ onChart, onAhead, onRefused, onBusy });
 const waiting = new Waiting(by("waiting"), { onStop, onAgain: () => live.again(state.scene), ask: progress });
 seen.state = state;
 // Returns whether the painted chart is that of the present scene at the accuracy of the scene.
-seen.settled = () => !isPuttingIn() && seen.painted === JSON.stringify(state.scene) && !document.body.classList.contains("stale");
+seen.settled = () => !isAsking() && seen.painted === JSON.stringify(state.scene) && !document.body.classList.contains("stale");
 // Returns whether the painted chart, which may be a draft, is that of the present scene.
 seen.follows = () => seen.newest === JSON.stringify(state.scene);
 seen.report = () => latest.report;
@@ -168,7 +171,9 @@ function onAhead(found, request) {
     return { ...(ahead ?? fact), isAhead: ahead !== undefined };
   });
   facts(by("facts"), now, pinned.facts);
-  if (found.verdict) headline(by("verdict"), found.verdict);
+  ruler.show(latest.told.ruler, charts.items);
+  // The numbers that decide the same answer remain until those of the chart.
+  if (found.verdict && found.verdict.answer !== latest.told.verdict.answer) verdict(by("verdict"), found.verdict);
   seen.early(request, found);
 }
 
@@ -205,7 +210,7 @@ function onRefused(error, request) {
   if (latest) compare();
   refusedKey = error.key ?? null;
   const told = form.refuse(error);
-  say(told ? "" : answers ? error.message : "The program does not answer any more. Save the scene, start the program again and open it there.");
+  say(told ? "" : answers ? error.message : LOST);
   // The shown chart and verdict are those of an earlier scene.
   document.body.classList.add("stale");
   blade.draw(state.scene, refusedKey);
@@ -229,16 +234,18 @@ function onStop() {
 
 function tell() {
   const { report, told, milliseconds } = latest;
-  verdict(by("verdict"), told);
+  verdict(by("verdict"), told.verdict);
+  ruler.show(told.ruler, charts.items);
   facts(by("facts"), told.facts, pinned.facts);
   pinned.tell(told.facts);
-  if (first(".numbers").open) tables(by("tables"), told.tables);
+  const parts = told.outline.filter(({ block }) => !("remark" in block));
+  if (by("why").open) by("why").lastElementChild.replaceChildren(...outline(parts));
   const accuracy = report.accuracy;
   by("computed").textContent = `${accuracy.name} accuracy, ${accuracy.degrees_of_freedom} functions, `
     + `estimated error ${shown(100 * accuracy.estimated_relative_error, 2)} %, computed in ${Math.round(milliseconds)} ms`;
   list(by("unusual"), report.unusual_numbers);
   list(by("warnings"), report.warnings);
-  by("campbell").setAttribute("aria-label", `Campbell diagram. ${told.lines.join(". ")}. Arrow keys walk along the branches, plus and minus magnify, 0 shows all speeds.`);
+  by("campbell").setAttribute("aria-label", `Campbell diagram. ${told.verdict.word}: ${told.verdict.line}. Arrow keys walk along the branches, plus and minus magnify, 0 shows all speeds.`);
 }
 
 function list(place, sentences) {
@@ -327,7 +334,7 @@ function wire() {
     by("restored").hidden = true;
     files.startOver();
   });
-  document.querySelector(".numbers").addEventListener("toggle", () => latest && tell());
+  by("why").addEventListener("toggle", () => latest && tell());
   by("side").addEventListener("change", compare);
   by("inches").addEventListener("change", (event) => measure(event.target.checked));
   by("measured").addEventListener("change", (event) => charts.showMeasured(event.target.checked));
@@ -386,7 +393,10 @@ function wire() {
   dock(by("campbell"));
   stayConnected((lost) => {
     // A program that was started again does not have the earlier charts.
-    if (!lost && !by("lost").hidden) live.again(state.scene);
+    if (!lost && !by("lost").hidden) {
+      form.readAgain();
+      live.again(state.scene);
+    }
     by("lost").hidden = !lost;
   });
 }

@@ -1,18 +1,29 @@
-// Adds parts to the scene, with values from the program.
+// Adds parts to the scene, with values from the program, and numbers that it reads from texts.
 
 import { get } from "./scene.js";
-import { part } from "./talk.js";
+import { numbers, part } from "./talk.js";
 
 let underWay = 0;
 
-// Returns whether a requested part is not in the scene yet.
-export const isPuttingIn = () => underWay > 0;
+// Returns whether the program is asked for a part or a number that is not in the scene yet.
+export const isAsking = () => underWay > 0;
+
+async function asking(work) {
+  underWay += 1;
+  try {
+    return await work();
+  } finally {
+    underWay -= 1;
+  }
+}
+
+// Returns the numbers that the texts of a field mean, as the program reads them.
+export const read = (path, texts) => asking(() => numbers(path, texts));
 
 // Adds a part to the scene, and other values that it needs. `path` ends with [] for another entry of a list; `kind` is
 // the kind of a mount. `before(made)` is called with the new scene just before it replaces the present one.
 export async function putIn(state, path, { kind = "", before = (/** @type {any} */ _) => {} } = {}) {
-  underWay += 1;
-  try {
+  return asking(async () => {
     for (;;) {
       const asked = JSON.stringify(state.scene);
       const made = await part({ scene: state.scene, path, kind });
@@ -21,9 +32,7 @@ export async function putIn(state, path, { kind = "", before = (/** @type {any} 
       before(made);
       return state.replace(made);
     }
-  } finally {
-    underWay -= 1;
-  }
+  });
 }
 
 // Returns the value at a path or, if the path contains [], the values of all entries of the list.

@@ -3,6 +3,7 @@
 
 import { Charts } from "./charts.js";
 import { node } from "./dom.js";
+import { told } from "./outline.js";
 import { clone } from "./scene.js";
 
 // Dashes of the lines of pinned saws. There are no more, because the chart would be hard to read.
@@ -72,14 +73,14 @@ export class Pinned {
   tell(facts) {
     const hadFocus = this.list.contains(document.activeElement);
     this.list.hidden = !this.isNamed;
-    const told = (all) => all.map(({ words, unit }) => node("td", { textContent: `${words} ${unit}`.trimEnd() }));
+    const cells = (all) => all.map(({ value }) => node("td", { textContent: told(value) }));
     const rows = this.#saws.map((saw) => {
       const out = node("button", { type: "button", textContent: "×", title: "Unpin", ariaLabel: `Unpin ${saw.name}` });
       out.addEventListener("click", () => this.#unpin(saw));
-      return node("tr", {}, node("th", { scope: "row" }, out, " ", sample(saw.dash), " ", node("span", { textContent: saw.name })), ...told(saw.chart.told.facts));
+      return node("tr", {}, node("th", { scope: "row" }, out, " ", sample(saw.dash), " ", node("span", { textContent: saw.name })), ...cells(saw.chart.told.facts));
     });
     const heads = ["Saw", ...facts.map(({ name }) => name)].map((textContent) => node("th", { scope: "col", textContent }));
-    const now = node("tr", {}, node("th", { scope: "row", textContent: "as it is now" }), ...told(facts));
+    const now = node("tr", {}, node("th", { scope: "row", textContent: "as it is now" }), ...cells(facts));
     this.list.replaceChildren(node("table", {}, node("thead", {}, node("tr", {}, ...heads)), node("tbody", {}, ...rows, now)));
     if (hadFocus) this.list.querySelector("button")?.focus();
   }

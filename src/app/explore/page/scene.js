@@ -41,6 +41,8 @@ export class SceneState {
   #run = { name: null, at: 0 };
   // Kind of the pairs in which pads are changed, see pairs.js; empty if they are changed one by one.
   pairs = "";
+  // Path of the number that was changed last; null after another change.
+  changed = null;
   // File that the scene comes from, see files.js. Undo restores it with the scene.
   origin = null;
 
@@ -49,9 +51,9 @@ export class SceneState {
     this.listener = listener;
   }
 
-  change(edit, { draft = false, structure = false, stamp = undefined, run = null, origin = this.origin } = {}) {
+  change(edit, { path = null, draft = false, structure = false, stamp = undefined, run = null, origin = this.origin } = {}) {
     this.#before ??= { scene: clone(this.scene), origin: this.origin };
-    this.origin = origin;
+    [this.origin, this.changed] = [origin, path];
     const earlier = this.pairs && clone({ guides: this.scene.guides ?? [] });
     edit(this.scene);
     if (earlier) follow(earlier, this.scene, this.pairs);
@@ -61,7 +63,7 @@ export class SceneState {
   }
 
   set(path, value, options) {
-    this.change((scene) => set(scene, path, value), options);
+    this.change((scene) => set(scene, path, value), { ...options, path });
   }
 
   // Replaces the scene by another one, in one step of undo.
@@ -77,6 +79,14 @@ export class SceneState {
     if (this.#before === null) return;
     this.#settle();
     this.listener(this.scene, { draft: false, structure: false, released });
+  }
+
+  // Ends a drag, and restores the scene before it.
+  cancel() {
+    if (this.#before === null) return;
+    ({ scene: this.scene, origin: this.origin } = this.#before);
+    [this.#before, this.#pending] = [null, null];
+    this.listener(this.scene, { draft: false, structure: true });
   }
 
   #settle() {
@@ -118,7 +128,7 @@ export class SceneState {
     to.push({ scene: this.scene, origin: this.origin });
     ({ scene: this.scene, origin: this.origin } = from.pop());
     this.#run = { name: null, at: 0 };
-    this.#before = null;
+    [this.#before, this.changed] = [null, null];
     this.listener(this.scene, { draft: false, structure: true });
   }
 }

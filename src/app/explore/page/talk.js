@@ -13,6 +13,8 @@ export class Refused extends Error {
   }
 }
 
+export const LOST = "The program does not answer any more. Save the scene, start the program again and open it there.";
+
 // Name of this page, under which the server keeps its charts.
 const page = crypto.randomUUID();
 
@@ -90,6 +92,12 @@ export async function read(text) {
 // Returns the scene of a request with one more part.
 export async function part(asked) {
   const answer = await post("part", JSON.stringify(asked));
+  return answer.json();
+}
+
+// Returns the numbers that the texts of a field mean, in the unit of its key.
+export async function numbers(path, texts) {
+  const answer = await post("numbers", JSON.stringify({ path, texts }));
   return answer.json();
 }
 

@@ -3,10 +3,11 @@
 
 import { download, node } from "./dom.js";
 import { unitOf } from "./fields.js";
+import { outline } from "./outline.js";
 import { lacks, putIn } from "./parts.js";
 import { get } from "./scene.js";
-import { Refused, task } from "./talk.js";
-import { numberOf, partName, shown, tidy } from "./words.js";
+import { LOST, Refused, task } from "./talk.js";
+import { partName, shown, tidy } from "./words.js";
 
 // Returns the paths of the numbers of a scene that have a usual tolerance, each with this tolerance in the unit of its
 // key.
@@ -30,12 +31,16 @@ function placeOf(path) {
   return path.startsWith("guides") ? `guide ${Number(/\d+/.exec(path)[0]) + 1}: ${name}` : name;
 }
 
+// Longest time of a computation that starts without being asked for.
+const CHEAP_MS = 3000;
+
+// Those with `isBegun` may be cheap: they start when their tab is opened and when the scene changes.
 const TASKS = [
-  { name: "cut", title: "Cut", part: "cut", what: "The blade before, during and after the cut: history at the probe, verdicts over speed and force." },
-  { name: "runup", title: "Run-up", part: "runup", what: "The blade run up under a lateral force: deflection at the probe, and what each band of instability adds." },
-  { name: "washboard", title: "Washboard", part: "cut.washboarding", what: "Whether a vibration grows from tooth to tooth on the surface that the one before has left, over speed and cutting stiffness." },
-  { name: "response", title: "Response", what: "Amplitude over the speed at the probe, for the causes in the scene: its side force, constant or oscillating, run-out, flatness, imbalance. Without any, a side force of 1 N." },
-  { name: "gap", title: "Gap", what: "Guides with a gap: critical speeds and flutter over the amplitude, and the deflection at the cut over gap and side force." },
+  { name: "cut", isBegun: true, title: "Cut", part: "cut", what: "The blade before, during and after the cut: history at the probe, verdicts over speed and force." },
+  { name: "runup", isBegun: true, title: "Run-up", part: "runup", what: "The blade run up under a lateral force: deflection at the probe, and what each band of instability adds." },
+  { name: "washboard", isBegun: true, title: "Washboard", part: "cut.washboarding", what: "Whether a vibration grows from tooth to tooth on the surface that the one before has left, over speed and cutting stiffness." },
+  { name: "response", isBegun: true, title: "Response", what: "Amplitude over the speed at the probe, for the causes in the scene: its side force, constant or oscillating, run-out, flatness, imbalance. Without any, a side force of 1 N." },
+  { name: "gap", isBegun: true, title: "Gap", what: "Guides with a gap: critical speeds and flutter over the amplitude, and the deflection at the cut over gap and side force." },
   { name: "fit", title: "Fit", what: "Radius and stiffness of every guide from the measured frequencies of the scene; drop a table (rpm, then frequencies in Hz) on the page.", took: "Take the fitted saw" },
   { name: "place", title: "Place", what: "Radius, angle and stiffness of the first guide for the largest flutter speed.", took: "Take the best saw" },
   { name: "study", title: "Tolerances", what: "Random saws within tolerances: how their critical and flutter speeds spread." },
@@ -111,6 +116,9 @@ export class Tasks {
 class Task {
   #abort = null;
   #scene = null;
+  // Scene that was computed last, also without an answer.
+  #tried = null;
+  #isCheap = true;
   // Fields for the tolerances of a study, each with its unit; empty for other tasks.
   tolerances = [];
   // Select elements for the axes of a map; empty for other tasks.
@@ -137,8 +145,8 @@ class Task {
     this.fault.setAttribute("role", "alert");
     this.old = node("p", { className: "remark", hidden: true, textContent: "Computed for an earlier scene." });
     this.answer = node("div", { className: "answer" });
-    this.facts = [];
-    this.numbers = node("dl", { className: "numbers-of-answer" });
+    this.outline = [];
+    this.card = node("div");
     this.start.addEventListener("click", () => this.#run());
     this.stop.addEventListener("click", () => this.#abort?.abort());
     const row = node("p", { className: "start" }, this.start, " ", this.stop, " ", this.bar, " ", this.so_far);
@@ -164,15 +172,17 @@ class Task {
     if (hadFocus) (this.missing.querySelector("button") ?? this.start).focus();
     this.old.hidden = this.#scene === null || this.#scene === JSON.stringify(scene);
     this.answer.classList.toggle("earlier", !this.old.hidden);
-    this.#tellNumbers();
+    this.#tellOutline();
     if (this.entry.name === "study") this.#offerTolerances(scene);
     if (this.entry.name === "map") this.#offerAxes(scene);
     if (this.entry.name === "place" && !this.inputs.hasChildNodes()) this.#offerGoals();
+    const isOpen = this.entry.isBegun && this.#isCheap && !this.start.disabled && this.stop.hidden;
+    if (isOpen && this.#tried !== JSON.stringify(scene)) this.#run(CHEAP_MS);
   }
 
   #offerGoals() {
     this.goal = node("select", { id: "place-goal" }, node("option", { value: "", textContent: "largest flutter speed" }), node("option", { value: "window", textContent: "widest stable window around the operating speed" }));
-    this.least = node("input", { id: "place-least", type: "text", inputMode: "decimal", placeholder: "none" });
+    this.least = node("input", { id: "place-least", type: "text", placeholder: "none" });
     this.inputs.append(
       node("div", { className: "field" }, node("label", { htmlFor: "place-goal", textContent: "Goal" }), this.goal),
       node("div", { className: "field" }, node("label", { htmlFor: "place-least", textContent: "Lower limit of the first critical speed, rpm" }), this.least));
@@ -191,20 +201,21 @@ class Task {
       node("div", { className: "field" }, node("label", { htmlFor: axis.id, textContent: ["Horizontal axis", "Vertical axis"][k] }), axis)));
   }
 
-  // Makes a field for each number that has a usual tolerance. A typed tolerance is kept and converted to the present
-  // unit.
+  // Makes a field for each number that has a usual tolerance. A typed tolerance is kept.
   #offerTolerances(scene) {
     const usual = usualTolerances(this.usual, scene).map(([path, width]) => ({ path, width, ...unitOf(path) }));
     const same = (one, k) => one.path === this.tolerances[k]?.path && one.unit === this.tolerances[k].unit;
     if (this.tolerances.length === usual.length && usual.every(same)) return;
-    const typed = new Map(this.tolerances.map(({ path, scale, input }) => [path, { text: input.value, scale }]));
+    const typed = new Map(this.tolerances.map((one) => [one.path, one]));
     this.tolerances = usual.map(({ path, width, unit, scale }) => {
-      const before = typed.get(path);
-      const typedNow = before ? numberOf(before.text) : width * scale;
-      const value = before && typedNow === null ? before.text : shown(tidy(before ? (typedNow / before.scale) * scale : typedNow));
-      const input = node("input", { id: `study:${path}`, type: "text", inputMode: "decimal", value });
+      const before = typed.get(path)?.input;
+      const isTyped = before && before.value !== before.defaultValue;
+      // A typed number keeps the unit in which it was typed.
+      const ofOldUnit = isTyped && /[\d.,]$/.test(before.value.trim()) && typed.get(path).unit !== unit;
+      const input = node("input", { id: `study:${path}`, type: "text", defaultValue: shown(tidy(width * scale)) });
+      if (isTyped) input.value = ofOldUnit ? `${before.value} ${typed.get(path).unit}` : before.value;
       const label = node("label", { htmlFor: input.id, textContent: `± ${placeOf(path)}, ${unit}` });
-      return { path, unit, scale, input, field: node("div", { className: "field" }, label, input) };
+      return { path, unit, input, field: node("div", { className: "field" }, label, input) };
     });
     this.inputs.replaceChildren(...this.tolerances.map(({ field }) => field));
   }
@@ -212,15 +223,15 @@ class Task {
   #asked() {
     const scene = this.state.scene;
     if (this.entry.name === "place") {
-      const min_critical_rpm = this.least.value.trim() === "" ? null : asTyped(this.least.value, 1);
-      return { scene, window: this.goal.value === "window", min_critical_rpm };
+      return { scene, window: this.goal.value === "window", min_critical: this.least.value };
     }
     if (this.entry.name === "map") return { scene, axes: this.axes.map((axis) => axis.value).filter((path) => path !== "") };
     if (this.entry.name !== "study") return { scene };
-    return { scene, tolerances: this.tolerances.map(({ path, scale, input }) => ({ path, plus_minus: asTyped(input.value, scale) })) };
+    return { scene, tolerances: this.tolerances.map(({ path, input }) => ({ path, plus_minus: input.value })) };
   }
 
-  async #run() {
+  // Computes the answer, and stops after `most_ms`.
+  async #run(most_ms = Infinity) {
     this.#abort?.abort();
     const abort = (this.#abort = new AbortController());
     this.#busy(true);
@@ -228,6 +239,7 @@ class Task {
     try {
       const asked = this.#asked();
       const scene = JSON.stringify(asked.scene);
+      this.#tried = scene;
       const listeners = {
         onProgress: (told) => this.#tell(told),
         onFigures: (figures) => {
@@ -239,13 +251,19 @@ class Task {
       // few connections that a browser opens to it.
       const answer = await navigator.locks.request("sawflutter task", { signal: abort.signal }, () => {
         this.so_far.textContent = "computing …";
-        return task(this.entry.name, asked, abort.signal, listeners);
+        const late = most_ms < Infinity ? setTimeout(() => abort.abort(), most_ms) : 0;
+        this.#isCheap = false;
+        const begun = performance.now();
+        return task(this.entry.name, asked, abort.signal, listeners).finally(() => {
+          clearTimeout(late);
+          this.#isCheap = performance.now() - begun < CHEAP_MS;
+        });
       });
       this.#scene = scene;
       this.#show(answer);
     } catch (error) {
       if (error instanceof Refused) this.fault.textContent = this.inWords(error);
-      else if (error.name !== "AbortError") this.fault.textContent = "The program does not answer any more.";
+      else if (error.name !== "AbortError") this.fault.textContent = LOST;
     }
     if (this.#abort === abort) this.#busy(false);
     this.refresh();
@@ -286,7 +304,7 @@ class Task {
     this.so_far.textContent = `${what}: ${done} of ${of}`;
   }
 
-  #show({ summary, facts, report, figures, scene }) {
+  #show({ summary, outline: parts, report, figures, scene }) {
     const { name, took } = this.entry;
     const text = node("pre", { textContent: summary, tabIndex: 0 });
     text.setAttribute("role", "region");
@@ -305,33 +323,15 @@ class Task {
       link.addEventListener("click", () => download(this.nameOf(file), new Blob([svg], { type: "image/svg+xml" })));
       return node("figure", {}, picture, link);
     });
-    this.facts = facts;
-    this.#replace(this.numbers, tools, ...pictures, text);
-    this.#tellNumbers();
+    this.outline = parts;
+    this.#replace(tools, this.card, ...pictures, node("details", {}, node("summary", { textContent: "Text" }), text));
+    this.#tellOutline();
   }
 
-  // Shows the main numbers of the answer with three digits in the units of the form.
-  #tellNumbers() {
-    this.numbers.replaceChildren(...this.facts.map(({ name, value, before, remark }) => {
-      const now = inFormUnit(value);
-      const was = before === null ? now : inFormUnit(before);
-      const text = `${was.words === now.words ? "" : `${was.words} → `}${now.words} ${now.unit} ${remark}`.trim();
-      return node("div", { className: "fact" }, node("dt", { textContent: name }), node("dd", { textContent: text }));
-    }));
+  // Shows the answer in the units of the form.
+  #tellOutline() {
+    this.card.replaceChildren(...outline(this.outline));
   }
-}
-
-// The words of a value; a number whose unit is one of the form, with three digits in the unit of the form.
-function inFormUnit({ words, unit = "", value, unit_of }) {
-  if (unit_of === undefined) return { words, unit };
-  const own = unitOf(unit_of);
-  return { words: shown(value * own.scale, 3).replace("-", "−"), unit: own.unit };
 }
 
 const pictureOf = (svg) => URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
-
-// Returns a typed number in the unit of its key, or a text that is not a number, which the program refuses.
-function asTyped(text, scale) {
-  const value = numberOf(text);
-  return value === null ? text : tidy(value / scale);
-}

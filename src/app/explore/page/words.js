@@ -1,28 +1,7 @@
-// Converts names and numbers to text, and text to numbers.
+// Converts names and numbers to text.
 
 // Rounds to twelve digits, so that a typed number is shown as typed after its unit was converted.
 export const tidy = (value) => Number(value.toPrecision(12));
-
-const DECIMAL = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
-const GROUPED = /^([+-]?[1-9]\d{0,2})[.,](\d{3})$/;
-
-// Returns the numbers that a text may mean; it may have a decimal comma or the minus sign U+2212. A mark before three
-// digits is decimal or separates thousands: then there are two numbers, the one with the decimal mark first.
-export function readings(text) {
-  const plain = text.trim().replace("−", "-");
-  const point = plain.replace(",", ".");
-  if (!DECIMAL.test(point) || !Number.isFinite(Number(point))) return [];
-  const grouped = GROUPED.exec(plain);
-  return grouped ? [Number(point), Number(grouped[1] + grouped[2])] : [Number(point)];
-}
-
-// Returns the number that a text means, or null if it is not a number or may be one of two. The one with the decimal
-// mark is taken if it is a usual value and the other one is not.
-export function numberOf(text, isUsual = (/** @type {number} */ _) => true) {
-  const [decimal, grouped] = readings(text);
-  const isCertain = grouped === undefined || (isUsual(decimal) && !isUsual(grouped));
-  return decimal !== undefined && isCertain ? decimal : null;
-}
 
 export function shown(value, digits = 6) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";

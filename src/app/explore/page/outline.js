@@ -1,0 +1,78 @@
+// Shows texts of the program: the verdict of a chart, and outlines with sentences, facts and tables, also for users who do
+// not see the chart.
+
+import { node } from "./dom.js";
+import { unitOf } from "./fields.js";
+import { shown } from "./words.js";
+
+// Returns the words of a value and their unit; for a number whose unit is another one in the form, three digits in that
+// unit.
+function inFormUnit({ words, unit = "", value, unit_of }) {
+  const own = unit_of === undefined ? { unit, scale: 1 } : unitOf(unit_of);
+  return { words: own.unit === unit ? words : shown(value * own.scale, 3).replace("-", "−"), unit: own.unit };
+}
+
+// Returns the words of a value with its unit, after those of an earlier value if they differ.
+export function told(value, before = null) {
+  const now = inFormUnit(value);
+  const was = before === null ? now : inFormUnit(before);
+  return `${was.words === now.words ? "" : `${was.words} → `}${now.words} ${now.unit}`.trimEnd();
+}
+
+// Shows the answer of the program in few words, and the numbers that decide it.
+export function verdict(place, { answer, word, line }) {
+  place.className = answer ?? "";
+  if (place.textContent === `${word} ${line}`) return;
+  place.replaceChildren(node("strong", {}, node("span", { textContent: word })), " ", node("span", { textContent: line }));
+}
+
+function term(name, text, className = "fact") {
+  return node("div", { className }, node("dt", { textContent: name }), node("dd", { textContent: text }));
+}
+
+// Shows the main numbers of a saw, each with that of another saw if it differs.
+export function facts(place, now, before) {
+  place.replaceChildren(...now.map(({ name, value, isAhead }) => {
+    const other = before.find((one) => one.name === name);
+    const text = told(value, other?.value);
+    const changed = text !== told(value);
+    return term(name, text, ["fact", changed && "changed", isAhead && "ahead"].filter(Boolean).join(" "));
+  }));
+}
+
+function table({ title, columns, rows }) {
+  const cell = (tag, span) => (text) => node(tag, { textContent: text, ...span, ...(tag === "th" ? { scope: "col" } : {}) });
+  const heads = columns.map(({ group, name, unit }) => `${group} ${name} ${unit}`.trim().replace("  ", " "));
+  const shownRow = ({ cells, remark }) => [
+    node("tr", {}, ...cells.map(({ words }) => words).map(cell("td"))),
+    ...(remark === null ? [] : [node("tr", {}, cell("td", { colSpan: columns.length })(remark))]),
+  ];
+  const whole = node("table", {},
+    node("caption", { textContent: title }),
+    node("thead", {}, node("tr", {}, ...heads.map(cell("th")))),
+    node("tbody", {}, ...rows.flatMap(shownRow)));
+  const scrolled = node("div", { className: "table", tabIndex: 0, ariaLabel: title || heads.join(", ") }, whole);
+  scrolled.setAttribute("role", "region");
+  return scrolled;
+}
+
+const BLOCKS = {
+  heading: (text) => node("p", { className: "remark", textContent: text }),
+  headline: (text) => node("p", {}, node("strong", { textContent: text })),
+  reason: (text) => node("p", { textContent: text }),
+  sentence: (text) => node("p", { textContent: text }),
+  remark: ({ word, text }) => node("p", { className: "warning", textContent: `${word}: ${text}` }),
+  facts: ({ title, facts: all }) => node("dl", { className: "numbers-of-answer", ariaLabel: title || null }, ...all.map(({ name, value, before, remark }) => term(name, `${told(value, before)} ${remark}`.trimEnd()))),
+  table,
+};
+
+// Returns the elements of an outline: the answer, warnings, the rest, and details in small letters.
+export function outline(parts) {
+  const rank = ({ block, is_detail }) => (is_detail ? 3 : "headline" in block || "heading" in block ? 0 : "remark" in block ? 1 : 2);
+  return parts.toSorted((x, y) => rank(x) - rank(y)).map(({ block, is_detail }) => {
+    const [[kind, content]] = Object.entries(block);
+    const made = BLOCKS[kind](content);
+    made.classList.toggle("detail", is_detail);
+    return made;
+  });
+}

@@ -1,0 +1,53 @@
+// The ruler of speeds from rest to the end of the sweep: usable speeds, the usual limit, critical speeds and bands. Its
+// handle is the operating speed.
+
+import { node } from "./dom.js";
+
+const PATH = "operating_rpm";
+// Smallest distance between two labels.
+const APART_PX = 34;
+
+export class Ruler {
+  constructor(place, state) {
+    this.state = state;
+    this.marks = node("div", { className: "marks" });
+    this.handle = node("input", { type: "range", min: "0", step: "1", ariaLabel: "Operating speed, on the ruler" });
+    this.handle.addEventListener("input", (event) => state.set(PATH, Number(this.handle.value), { draft: true, stamp: event.timeStamp, run: PATH }));
+    this.handle.addEventListener("change", (event) => state.settle(event.timeStamp));
+    place.append(this.marks, this.handle);
+  }
+
+  // Moves the handle to the operating speed of the scene.
+  refresh() {
+    const rpm = this.state.scene[PATH];
+    this.handle.value = String(rpm ?? 0);
+    this.handle.setAttribute("aria-valuetext", typeof rpm === "number" ? `${Math.round(rpm)} rpm` : "none");
+  }
+
+  // Shows the speeds of a chart; `items` are those of its diagram.
+  show({ to_rpm, window_rpm, window, limit_rpm, limit }, items) {
+    const mark = (className, from, to, title, label = "") => {
+      const made = node("span", { className, title }, node("span", { textContent: label }));
+      made.style.left = `${(100 * from) / to_rpm}%`;
+      made.style.width = `${(100 * (to - from)) / to_rpm}%`;
+      return made;
+    };
+    const bands = items.filter(({ item }) => item === "band").flatMap(({ shaded, colour, name }) => shaded.map(([from, to]) => {
+      const made = mark("band", from, to, name);
+      made.style.background = `var(--${colour})`;
+      return made;
+    }));
+    let last = -Infinity;
+    const room = (APART_PX * to_rpm) / (this.marks.clientWidth || 1);
+    const critical = items.filter(({ role, x }) => role === "critical" && x <= to_rpm).map(({ x, name, label }) => {
+      const isApart = x - last > room;
+      if (isApart) last = x;
+      return mark("critical", x, x, name, isApart ? label : "");
+    });
+    const usable = window_rpm === null ? [] : [mark("window", ...window_rpm, window)];
+    const usual = limit_rpm === null || limit_rpm > to_rpm ? [] : [mark("limit", limit_rpm, limit_rpm, "", limit)];
+    this.marks.replaceChildren(...usable, ...bands, ...critical, ...usual);
+    this.handle.max = String(Math.ceil(to_rpm));
+    this.refresh();
+  }
+}
