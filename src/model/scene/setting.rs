@@ -25,6 +25,12 @@ impl Setting {
     pub(crate) fn new(path: String, value: f64) -> Self {
         Setting { path, value }
     }
+
+    /// Path of the number.
+    #[cfg(feature = "cli")]
+    pub(super) fn path(&self) -> &str {
+        &self.path
+    }
 }
 
 impl FromStr for Setting {
@@ -54,12 +60,20 @@ impl FromStr for Setting {
 /// [`RefusedValue`] if scenes have no such number, or the text is no number in its unit.
 pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
     let quantity = Quantity::of(path).ok_or_else(|| unknown(path))?;
+    number_in(path, quantity.unit, text)
+}
+
+/// Parses a number in a unit: `2.6mm` in m is 0.0026. `key` names it in the error.
+///
+/// # Errors
+/// [`RefusedValue`] if the text is no number in this unit.
+pub fn number_in(key: &str, own_unit: &str, text: &str) -> Result<f64, RefusedValue> {
     let refused = |remedy| {
-        let allowed = match quantity.unit {
+        let allowed = match own_unit {
             "" => "a number without a unit".to_owned(),
             unit => format!("a number in {unit}, or with a unit of the same kind"),
         };
-        RefusedValue::new(path, format!("{:?}", text.trim()), allowed, remedy)
+        RefusedValue::new(key, format!("{:?}", text.trim()), allowed, remedy)
     };
     let text = text.trim();
     if text.contains(',') {
@@ -67,15 +81,13 @@ pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
     }
     let (digits, rest) = text.split_at(end_of_number(text));
     let unit = rest.trim();
-    let value: f64 = digits
-        .parse()
-        .map_err(|_| refused("write it like 0.0026 or 2.6mm"))?;
+    let value: f64 = digits.parse().map_err(|_| refused(example(own_unit)))?;
     if unit.is_empty() {
         return Ok(value);
     }
     // A change in percent needs the present number, which is not known here. Without this check, +5% of a
     // dimensionless number would be read as 0.05.
-    if unit == "%" && (text.starts_with('+') || !quantity.unit.is_empty()) {
+    if unit == "%" && (text.starts_with('+') || !own_unit.is_empty()) {
         return Err(refused(
             "give the new number itself, not its change in percent",
         ));
@@ -83,7 +95,7 @@ pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
     let given = Unit::parse(unit).ok_or_else(|| {
         refused("write units like mm, kN/mm, g/cm^3 or rad/s, or leave the unit out")
     })?;
-    let own = Unit::parse(quantity.unit)
+    let own = Unit::parse(own_unit)
         .filter(|own| own.is_of(&given))
         .ok_or_else(|| refused("give a unit of this quantity, or leave the unit out"))?;
     let factor = given.factor / own.factor;
@@ -94,6 +106,16 @@ pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
     } else {
         value * factor
     })
+}
+
+/// Remedy for a text that is no number, with examples of a number in the unit.
+fn example(unit: &str) -> &'static str {
+    match unit {
+        "m" => "write it like 0.0026 or 2.6mm",
+        "rpm" => "write it like 1800 or 30 rev/s",
+        "" => "write it like 0.3",
+        _ => "write it like 20 or 2e1, with or without a unit",
+    }
 }
 
 /// End of the number with which a text begins.
@@ -154,20 +176,24 @@ impl SceneFile {
     /// # Errors
     /// [`SceneError`] if the scene has no place for a number, or a value is refused.
     pub fn set(&self, settings: &[Setting]) -> Result<Scene, SceneError> {
-        let mut json = super::entries::value(self);
-        for setting in settings {
-            put(&mut json, setting)?;
-        }
-        let set = Scene::from_json(&json.to_string());
-        set.map_err(|error| match error {
-            // The text is a single generated line, so its line number is meaningless to the user.
-            SceneError::Syntax { key, message } => SceneError::Syntax {
-                key,
-                message: message.trim_end_matches(" (line 1)").to_owned(),
-            },
-            other => other,
-        })
+        set(super::entries::value(self), settings)
     }
+}
+
+/// The scene of a JSON with other numbers.
+pub(super) fn set(mut json: Value, settings: &[Setting]) -> Result<Scene, SceneError> {
+    for setting in settings {
+        put(&mut json, setting)?;
+    }
+    let set = Scene::from_json(&json.to_string());
+    set.map_err(|error| match error {
+        // The text is a single generated line, so its line number is meaningless to the user.
+        SceneError::Syntax { key, message } => SceneError::Syntax {
+            key,
+            message: message.trim_end_matches(" (line 1)").to_owned(),
+        },
+        other => other,
+    })
 }
 
 /// Writes a number at its path.
