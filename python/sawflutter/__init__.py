@@ -99,4 +99,4 @@ __all__ = [
 
 
 def __dir__() -> list[str]:
-    return sorted([*__all__, "__doc__", "__version__", "errors", "plot"])
+    return sorted([*__all__, "__doc__", "__version__", "errors"])

@@ -1954,8 +1954,8 @@ class Friction(Entry):
         heat.
     pads : Each one-sided pad, in the order of the scene.
     cold_critical_rpm : First critical speed of the linear chart without this heat.
-    critical_rpm : First critical speed of the linear chart with this heat; null also if the
-        temperature does not settle.
+    lowest_critical_rpm : First critical speed of the linear chart with this heat; null also if
+        the temperature does not settle.
     settled : Whether the temperature has settled; otherwise the numbers are those of the last
         temperature with which the blade has a deflection.
     swings : Whether the temperature swings between two states, because power and deflection
@@ -1980,7 +1980,7 @@ class Friction(Entry):
     pad_forces_n: FloatArray
     pads: tuple[FrictionPad, ...]
     cold_critical_rpm: float | None
-    critical_rpm: float | None
+    lowest_critical_rpm: float | None = field(metadata={"key": "critical_rpm"})
     settled: bool
     swings: bool = field(default=False)
     runaway_rpm: float | None = field(default=None)
@@ -2211,7 +2211,7 @@ class Outcome(Entry):
     goal_rpm : Value of the goal: the flutter speed, or the end of the sweep if there is none,
         or the width of the window.
     flutter_rpm : Flutter speed; null if it exceeds the sweep.
-    critical_rpm : First critical speed.
+    lowest_critical_rpm : First critical speed.
     window_rpm : Window without instability around the operating speed, if it is the goal.
     deflection_m : Deflection at the cut, as an absolute value, if it has a limit.
     kept : Whether the limits of the critical speed and of the deflection are kept.
@@ -2219,7 +2219,7 @@ class Outcome(Entry):
 
     goal_rpm: float
     flutter_rpm: float | None
-    critical_rpm: float | None
+    lowest_critical_rpm: float | None = field(metadata={"key": "critical_rpm"})
     window_rpm: FloatArray | None
     deflection_m: float | None = field(default=None)
     kept: bool

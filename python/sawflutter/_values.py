@@ -45,7 +45,7 @@ def number(name: str, value: Number | None) -> float:
 
 
 def optional(name: str, value: Number | None) -> float | None:
-    """The same for an argument that may be left out."""
+    """A number of an argument that may be left out."""
     return None if value is None else number(name, value)
 
 

@@ -128,7 +128,7 @@ class StateSpace(Entry):
         return found.reshape(*hz.shape, *self.D.shape)
 
     def _solver(self) -> tuple[Any, int]:
-        """What gives C (s − A)⁻¹ B at several s, and the order of its equations: half of the
+        """A function that gives C (s − A)⁻¹ B at several s, and the order of its equations: half of the
         states where they are deflections and velocities, q'' + V q' + P q = f."""
         size = len(self.A) // 2
         whole, half = np.eye(len(self.A)), np.eye(size)

@@ -291,6 +291,9 @@ class ReportTypes:
             if not there and "None" not in kind:
                 kind += " | None"
             attribute = RENAMED.get((name, key), RENAMED.get(key, key))
+            # One critical speed is the lowest one, and several are an array.
+            if attribute == "critical_rpm" and kind.startswith("float"):
+                attribute = "lowest_critical_rpm"
             value = default(of, there, kind)
             settings = [] if value is None else [f"default={value}"]
             if attribute != key:
