@@ -5,7 +5,7 @@ from __future__ import annotations
 import tracemalloc
 import warnings
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -211,3 +211,18 @@ def test_a_call_gives_no_warning_where_there_is_none(draft: sf.Scene) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error", sf.ModelWarning)
         draft.modes(500), draft.speeds()
+
+
+if TYPE_CHECKING:
+    from typing_extensions import assert_type
+
+    def types_are_what_mypy_says(saw: sf.Scene, speeds: np.ndarray[Any, np.dtype[np.float64]]) -> None:
+        """Checked by mypy: an assignment that is no error would be an unused ignore."""
+        assert_type(saw["blade.thickness_m"], float)
+        assert_type(saw["guides[1].radius_m"], float)
+        assert_type(saw.modes(speeds), sf.Modes[tuple[sf.Mode, ...]])
+        assert_type(saw.modes(900.0), sf.Modes[sf.Mode])
+        assert_type(saw.modes(900)[0], sf.Mode)
+        saw["x"] = 3  # type: ignore[index]
+        saw["x"] + 3  # type: ignore[operator]
+        saw.fit([(0.0, speeds)])
