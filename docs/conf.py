@@ -31,7 +31,7 @@ nitpicky = True
 nitpick_ignore_regex = [
     ("py:.*", r"(?!sawflutter\.).*"),
     ("py:.*", r"sawflutter\._.*"),
-    ("py:class", r"sawflutter\.results\.R"),
+    ("py:.*", r"sawflutter\.\w+\.[RT]"),
     # Charts are described by `help(sawflutter.plot)`.
     ("py:class", r"sawflutter\.plot\..*"),
 ]
@@ -52,6 +52,8 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_default_options = {"members": True, "undoc-members": False, "show-inheritance": False}
 napoleon_google_docstring = False
+# The fields of a class are listed with it, and not described a second time.
+napoleon_use_ivar = True
 
 html_theme = "pydata_sphinx_theme"
 html_title = "sawflutter"
@@ -72,14 +74,10 @@ mathjax_path = "mathjax/tex-svg-full.js"
 mathjax4_config = mathjax3_config = {"options": {"enableMenu": False}}
 
 
-def _without_attributes(app, what, name, obj, options, lines):
-    """Fields are described one by one: the list that `help()` shows of them would say it twice."""
-    if what == "class" and "Attributes" in lines:
-        at = lines.index("Attributes")
-        if lines[at + 1 : at + 2] == ["----------"]:
-            del lines[at:]
+def _without_substitutions(app, what, name, obj, options, lines):
+    """A magnitude like |λ| is no substitution of reStructuredText."""
+    lines[:] = [line.replace("|", r"\|") for line in lines]
 
 
 def setup(app):
-    # Before napoleon reads the sections.
-    app.connect("autodoc-process-docstring", _without_attributes, priority=100)
+    app.connect("autodoc-process-docstring", _without_substitutions, priority=100)

@@ -22,16 +22,16 @@ def report_tables() -> str:
 
 
 def report_table(node: ast.ClassDef, words: dict[str, str]) -> str:
+    about, _, attributes = (ast.get_docstring(node) or "").partition("Attributes\n----------\n")
+    meanings = dict(re.findall(r"^(\w+) : (.*(?:\n +.*)*)", attributes, re.MULTILINE))
     rows = []
-    for field, text in zip(node.body, node.body[1:], strict=False):
-        if not (isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant)):
-            continue
+    for field in node.body:
         if isinstance(field, ast.AnnAssign) and isinstance(field.target, ast.Name):
             kind = json_kind(ast.unparse(field.annotation), words)
-            meaning = " ".join(str(text.value.value).split()).replace("|", "\\|")
+            meaning = " ".join(meanings[field.target.id].split()).replace("|", "\\|")
             renamed = re.search(r"'key': '(\w+)'", ast.unparse(field.value) if field.value else "")
             rows.append(f"| `{renamed[1] if renamed else field.target.id}` | {kind} | {meaning} |")
-    meaning = " ".join((ast.get_docstring(node) or "").split())
+    meaning = " ".join(about.split())
     head = f"({anchor(node.name)})=\n## {node.name}\n\n{meaning}\n\n| key | type | what it is |\n|---|---|---|\n"
     return head + "\n".join(rows) + "\n"
 

@@ -17,7 +17,7 @@ def main(folder: Path) -> None:
     r.plot().write_html(folder / "campbell.html", include_plotlyjs="directory")
     r.plot_matplotlib()
     plt.savefig(folder / "campbell-matplotlib.png")
-    mode = r.modes(rpm=1800)[0]
+    mode = saw.modes(rpm=1800)[0]
     saw.animate(mode).write_html(folder / "mode.html", include_plotlyjs="directory")
     print(f"{mode.name}, {mode.direction}, at {mode.frequency_hz:.2f} Hz: see {folder}")
 

@@ -21,7 +21,7 @@ from ._result import Result
 from ._scene_types import SceneDict, StudyDict
 from .checks import CheckResults
 from .compared import CompareResults, compare
-from .designs import FitResults, PlaceResults, StiffnessMap, TradeoffResults
+from .designs import FitResults, PlaceResults, Speeds, StiffnessMap, TradeoffResults
 from .errors import (
     AnalysisError,
     ArgumentError,
@@ -39,7 +39,7 @@ from .peaks import Peaks
 from .record_files import read_record
 from .records import Record
 from .results import CampbellResults, load
-from .scene import Scene
+from .scene import Scene, keys, schema
 from .spectra import Spectrum, read_frf
 from .state_space import StateSpace
 from .studies import StudyResults
@@ -79,6 +79,7 @@ __all__ = [
     "SceneDict",
     "SceneError",
     "Spectrum",
+    "Speeds",
     "StateSpace",
     "StiffnessMap",
     "Study",
@@ -89,7 +90,13 @@ __all__ = [
     "WashboardResults",
     "Waterfall",
     "compare",
+    "keys",
     "load",
     "read_frf",
     "read_record",
+    "schema",
 ]
+
+
+def __dir__() -> list[str]:
+    return sorted([*__all__, "__doc__", "__version__", "errors"])

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Literal, SupportsFloat, TypeAlias, TypedDict
+from typing import TYPE_CHECKING, Literal, TypeAlias, TypedDict
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from plotly.graph_objects import Figure
     from typing_extensions import Unpack
 
+    from ._values import Number
     from .plot.chart import Chart
 
 Units: TypeAlias = Literal["rpm", "Hz", "rad/s"]
@@ -24,7 +25,7 @@ class Look(TypedDict, total=False):
     frequency_units: Units
     """Units of frequencies; Hz by default."""
 
-    harmonics: Iterable[SupportsFloat]
+    harmonics: Iterable[Number]
     """Multiples of the rotation speed that are drawn as lines over the frequencies."""
 
 
@@ -34,25 +35,7 @@ class Drawn:
     __slots__ = ()
 
     def chart(self) -> Chart:
-        """Contents of the figures as lines, points and bands. A Campbell diagram shows frequencies
-        over speed with growth rates below; a check the required and the computed speeds; a cut the
-        deflection at the probe over time, in one panel for each speed; a run-up and a slow sweep
-        this deflection over speed; a washboard the lowest cutting stiffness at which a motion
-        grows, and its frequency, over speed; a fit measured and computed frequencies; a place the
-        goal over one or two numbers; a study the shares of saws below a speed and of saws that can
-        run at a speed; a tradeoff errors over time; a stiffness map speeds over the stiffness.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> chart = sf.Scene.paper().run_campbell(accuracy="draft").chart()
-        >>> [panel.y_name for panel in chart.panels]
-        ['Im λ / 2π [Hz]', 'Re λ [1/s], square root scale']
-        """
+        """Contents of the figure as lines, points and bands."""
         return self._chart()
 
     def _chart(self) -> Chart:
@@ -74,18 +57,6 @@ class Drawn:
             Multiples of the rotation speed that are drawn as lines over the frequencies, in
             addition to those of the scene's ``excitation``.
 
-        Returns
-        -------
-        plotly.graph_objects.Figure
-
-        Raises
-        ------
-        ImportError
-            If plotly is missing; the message says how to install it.
-        ValueError
-            If a unit is not one of these, or if harmonics are requested for a figure that does not
-            show frequencies over rotation speed.
-
         Examples
         --------
         >>> import sawflutter as sf
@@ -97,7 +68,7 @@ class Drawn:
         from .plot import with_plotly
         from .plot.look import looking
 
-        return with_plotly.draw(looking(self.chart(), **look), fig)
+        return with_plotly.draw(looking(self.chart(), "plot", **look), fig)
 
     def plot_matplotlib(
         self, ax: Axes | Sequence[Axes] | None = None, **look: Unpack[Look]
@@ -116,22 +87,8 @@ class Drawn:
         -------
         matplotlib.axes.Axes
             Axes of the first panel.
-
-        Raises
-        ------
-        ImportError
-            If matplotlib is missing; the message says how to install it.
-        ValueError
-            As in :meth:`plot`.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> check = sf.Scene.paper().check(operating_rpm=1250, accuracy="draft")
-        >>> check.plot_matplotlib(speed_units="Hz").figure.axes[-1].get_xlabel()
-        'rotation speed Ω [Hz]'
         """
         from .plot import with_matplotlib
         from .plot.look import looking
 
-        return with_matplotlib.draw(looking(self.chart(), **look), ax)
+        return with_matplotlib.draw(looking(self.chart(), "plot_matplotlib", **look), ax)

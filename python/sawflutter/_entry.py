@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-import ast
 import dataclasses
-import inspect
-import sys
-import textwrap
 import types
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
 from typing import Any, TypeAlias, TypeVar, Union, get_args, get_origin, get_type_hints
 
@@ -23,6 +19,9 @@ ComplexArray: TypeAlias = npt.NDArray[np.complex128]
 E = TypeVar("E", bound="Entry")
 Reader: TypeAlias = Callable[[Any], Any]
 
+# Longest array that a repr shows.
+_SHOWN = 6
+
 
 class Entry:
     """Base of the frozen dataclasses of a report.
@@ -31,58 +30,15 @@ class Entry:
     Two entries are equal if all of their numbers are.
     """
 
-    def __init_subclass__(cls) -> None:
-        """Adds the descriptions below the fields to the docstring, so that ``help()`` shows them;
-        without this only the source has them."""
-        bases = [base for base in cls.__mro__ if issubclass(base, Entry)]
-        fields = [line for of in bases for line in _described(of.__module__).get(of.__name__, ())]
-        if fields and vars(cls).get("__doc__"):
-            lines = [inspect.cleandoc(cls.__doc__ or ""), "", "Attributes", "----------", *fields]
-            cls.__doc__ = "\n".join(lines)
-
     @classmethod
-    def from_dict(cls: type[E], data: Mapping[str, Any]) -> E:
-        """Reads an entry from an object of the JSON and ignores unknown keys.
-
-        Parameters
-        ----------
-        data : dict
-            The object.
-
-        Returns
-        -------
-        Entry
-            An object of the class of this method.
-
-        Raises
-        ------
-        TypeError
-            If a key is missing.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> sf.CriticalSpeed.from_dict(r.raw["critical_speeds"][0]) == r.critical_speeds[0]
-        True
-        """
+    def _from_dict(cls: type[E], data: Mapping[str, Any]) -> E:
+        """Reads an entry from an object of the JSON and ignores unknown keys."""
         readers = _readers(cls)  # type: ignore[arg-type]
         return cls(**{name: read(data[key]) for name, key, read in readers if key in data})
 
     @classmethod
-    def required_keys(cls) -> frozenset[str]:
-        """Keys that are always present in the JSON.
-
-        Returns
-        -------
-        frozenset of str
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> 'rpm' in sf.CriticalSpeed.required_keys()
-        True
-        """
+    def _required_keys(cls) -> frozenset[str]:
+        """Keys that are always present in the JSON."""
         fields = dataclasses.fields(cls)  # type: ignore[arg-type]
         always = (field for field in fields if field.default is dataclasses.MISSING)
         return frozenset(field.metadata.get("key", field.name) for field in always)
@@ -110,25 +66,6 @@ class Entry:
         return f"{type(self).__name__}({', '.join(shown)})"
 
 
-@cache
-def _described(module: str) -> dict[str, list[str]]:
-    """The fields of the classes of a module, with name, type and the description below each."""
-    try:
-        tree = ast.parse(inspect.getsource(sys.modules[module]))
-    except (KeyError, OSError, TypeError):
-        # Without the source, as in a frozen program, there are no descriptions.
-        return {}
-    return {of.name: list(_below(of)) for of in tree.body if isinstance(of, ast.ClassDef)}
-
-
-def _below(node: ast.ClassDef) -> Iterator[str]:
-    for field, words in zip(node.body, node.body[1:]):
-        match field, words:
-            case ast.AnnAssign(ast.Name(name), kind), ast.Expr(ast.Constant(str(said))):
-                yield f"{name} : {ast.unparse(kind)}"
-                yield textwrap.indent(inspect.cleandoc(said), "    ")
-
-
 def _same(first: Any, second: Any) -> bool:
     if isinstance(first, np.ndarray) and isinstance(second, np.ndarray):
         return np.array_equal(first, second, equal_nan=first.dtype.kind == "f")
@@ -137,10 +74,12 @@ def _same(first: Any, second: Any) -> bool:
 
 def _short(value: Any) -> str:
     """A value on part of a line."""
+    if isinstance(value, np.ndarray) and value.ndim == 1 and len(value) <= _SHOWN:
+        return f"[{', '.join(f'{number:g}' for number in value)}]"
     if isinstance(value, np.ndarray):
         shape = " x ".join(str(length) for length in value.shape)
         return f"<{shape} numbers>"
-    if isinstance(value, tuple) and value and isinstance(value[0], Entry):
+    if isinstance(value, tuple) and value and (isinstance(value[0], (Entry, tuple)) or len(value) > _SHOWN):
         return f"<{len(value)} of {type(value[0]).__name__}>"
     if isinstance(value, dict):
         return f"<{value.get('name', 'dict')!r}>"
@@ -169,14 +108,14 @@ def _reader(hint: Any) -> Reader:
         item = _reader(arguments[0])
         return lambda values: tuple(item(value) for value in values)
     if isinstance(hint, type) and issubclass(hint, Entry):
-        return hint.from_dict
+        return hint._from_dict
     return float if hint is float else lambda value: value
 
 
 def array(values: Any, dtype: type[Any] = np.float64) -> npt.NDArray[Any]:
     """Read-only numbers in rows of one length; shorter rows and None become NaN if the numbers are
     floats."""
-    if len(values) > 0 and isinstance(values[0], Sequence):
+    if not isinstance(values, np.ndarray) and len(values) > 0 and isinstance(values[0], Sequence):
         width = max(len(row) for row in values)
         values = [[*row, *[None] * (width - len(row))] for row in values]
     numbers = np.array(values, dtype=dtype)

@@ -11,22 +11,31 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from .errors import InputError, refused
 
 if TYPE_CHECKING:
     import pandas as pd
 
-Row: TypeAlias = "tuple[float, Sequence[float]] | Sequence[float] | npt.NDArray[Any]"
+Row: TypeAlias = "tuple[float, Sequence[float] | npt.NDArray[Any]] | Sequence[float] | npt.NDArray[Any]"
 Measured: TypeAlias = "str | os.PathLike[str] | npt.NDArray[Any] | pd.DataFrame | Iterable[Row] | Iterable[float] | None"
+
+# Words in the name of a column that has no frequencies.
+_NO_FREQUENCIES = ("amplitude", "order", "growth", "krein", "damping", "time", "direction")
 
 
 def table(measured: Measured) -> tuple[str, str] | None:
     """Name and text of a table of frequencies: lines of a speed and frequencies, which may be blank."""
     if measured is None:
         return None
+    if hasattr(measured, "resolution_hz"):
+        remedy = "assign its peaks to modes first: peaks.rows(saw)"
+        raise refused("measured", type(measured).__name__, "a table of speeds and frequencies", remedy)
     if isinstance(measured, (str, os.PathLike)):
         return Path(measured).name, _native.read_text(measured, True)
     try:
         return "measured", lines(measured)
+    except InputError:
+        raise
     except (TypeError, ValueError, IndexError):
         raise TypeError(
             "measured must be a file, a DataFrame with a column or an index rpm, rows of a speed in "
@@ -46,10 +55,19 @@ def _rows(measured: Any) -> list[list[float]]:
         frame = measured.set_index("rpm") if "rpm" in measured.columns else measured
         if frame.index.name != "rpm":
             raise TypeError("the data frame has no speeds")
+        for name in frame.columns:
+            if any(word in str(name).lower() for word in _NO_FREQUENCIES):
+                remedy = "take the columns of frequencies alone, or rows(saw) of peaks"
+                raise refused("measured", f"a column {name!r}", "speeds and frequencies", remedy)
         measured = frame.reset_index().to_numpy(dtype=float)
     rows = list(measured)
     if rows and not any(isinstance(row, Iterable) for row in rows):
         # Frequencies without a speed are those at rest.
         rows = [[0.0, *rows]]
     # A row has its frequencies one by one, or as a list.
-    return [[float(row[0]), *np.array(row[1:], float).ravel().tolist()] for row in rows]
+    found = [[float(row[0]), *np.array(row[1:], float).ravel().tolist()] for row in rows]
+    for row in found:
+        if 0.0 < row[0] < min((hz for hz in row[1:] if hz > 0.0), default=0.0):
+            said = "a speed in rpm and then frequencies in Hz in each row"
+            raise refused("measured", row[0], said, "put the speeds before the frequencies: zip(rpm, hz)")
+    return found

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._entry import ComplexArray, Entry, FloatArray
+from ._values import Number, number, numbers
 
 if TYPE_CHECKING:
     from ._report_types import Branch, Instability, Shape, Wave
@@ -23,12 +24,12 @@ class RestModeMethods(Entry):
     if TYPE_CHECKING:
         profiles: tuple[Shape, ...]
 
-    def shape(self, radius_m: npt.ArrayLike, theta_rad: npt.ArrayLike) -> FloatArray:
+    def shape(self, radius_m: npt.ArrayLike, angle_deg: npt.ArrayLike) -> FloatArray:
         """Deflection at points of the blade, normalized to a maximum of one.
 
         Parameters
         ----------
-        radius_m, theta_rad : array_like
+        radius_m, angle_deg : array_like
             Distances from the axis and angles from the cut, positive with the rotation; they are
             broadcast against each other.
 
@@ -44,7 +45,7 @@ class RestModeMethods(Entry):
         >>> abs(float(mode.shape(0.355, 0.0))) <= 1.0
         True
         """
-        radius, theta = points(radius_m, theta_rad)
+        radius, theta = points(numbers("radius_m", radius_m), np.radians(numbers("angle_deg", angle_deg)))
         total = np.zeros(radius.shape)
         for part in self.profiles:
             n = part.nodal_diameters
@@ -62,13 +63,13 @@ class ModeMethods(Entry):
         radius_m: FloatArray
         harmonics: tuple[Wave, ...]
 
-    def shape(self, radius_m: npt.ArrayLike, theta_rad: npt.ArrayLike) -> ComplexArray:
+    def shape(self, radius_m: npt.ArrayLike, angle_deg: npt.ArrayLike) -> ComplexArray:
         """Complex deflection in the fixed frame; the real part of its product with e^(iωt) is the
         motion.
 
         Parameters
         ----------
-        radius_m, theta_rad : array_like
+        radius_m, angle_deg : array_like
             Distances from the axis and angles from the cut, positive with the rotation; they are
             broadcast against each other.
 
@@ -87,10 +88,10 @@ class ModeMethods(Entry):
         >>> mode = sf.Scene.paper().replace({"accuracy": "draft"}).modes(rpm=1800)[0]
         >>> mode.name, mode.direction
         ('2 diameters', 'reflected')
-        >>> mode.shape(0.3, np.linspace(0, np.pi, 4)).shape
+        >>> mode.shape(0.3, np.linspace(0, 180, 4)).shape
         (4,)
         """
-        radius, theta = points(radius_m, theta_rad)
+        radius, theta = points(numbers("radius_m", radius_m), np.radians(numbers("angle_deg", angle_deg)))
         total = np.zeros(radius.shape, complex)
         for wave in self.harmonics:
             n = wave.nodal_diameters
@@ -101,13 +102,13 @@ class ModeMethods(Entry):
         return total
 
     def deflection(
-        self, radius_m: npt.ArrayLike, theta_rad: npt.ArrayLike, time_s: float
+        self, radius_m: npt.ArrayLike, angle_deg: npt.ArrayLike, time_s: Number
     ) -> FloatArray:
         """Real deflection at a time, without growth: Re(shape · e^(iωt)).
 
         Parameters
         ----------
-        radius_m, theta_rad : array_like
+        radius_m, angle_deg : array_like
             Points of the blade, as in :meth:`shape`.
         time_s : float
             The time.
@@ -116,15 +117,8 @@ class ModeMethods(Entry):
         -------
         ndarray of float
             Of the broadcast shape; NaN off the blade.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> mode = sf.Scene.paper().with_accuracy("draft").modes(rpm=1800)[0]
-        >>> bool(mode.deflection(0.3, 0.0, 0.0) == mode.shape(0.3, 0.0).real)
-        True
         """
-        turned = self.shape(radius_m, theta_rad) * np.exp(2j * np.pi * self.frequency_hz * time_s)
+        turned = self.shape(radius_m, angle_deg) * np.exp(2j * np.pi * self.frequency_hz * number("time_s", time_s))
         return np.asarray(turned.real)
 
 
@@ -139,20 +133,15 @@ class BranchMethods(Entry):
     # Speeds at which a band of this branch begins or ends, and the side of them on which it lies.
     _edges: tuple[tuple[float, int], ...] = ()
 
-    def at(self, rpm: npt.ArrayLike) -> tuple[Any, Any]:
-        """Frequency in Hz and growth rate in 1/s at given speeds, interpolated linearly between
-        those of the report. The growth rate is zero at the edges of the bands in which the branch
-        grows.
+    def at(self, rpm: Any) -> tuple[Any, Any]:
+        """Frequency in Hz and growth rate in 1/s at given speeds, by monotone cubics between those
+        of the report. At the edges of the bands in which the branch grows the growth rate is zero,
+        and its square is smooth. :meth:`Scene.modes` gives modes without interpolation.
 
         Parameters
         ----------
-        rpm : array_like
-            Speeds.
-
-        Returns
-        -------
-        (ndarray, ndarray)
-            Of the shape of the speeds; NaN before the first and past the last speed of the branch.
+        rpm : float or array_like
+            Speeds; the result is NaN before the first and past the last speed of the branch.
 
         Examples
         --------
@@ -163,11 +152,11 @@ class BranchMethods(Entry):
         >>> [bool(growing.at(rpm)[1] > 0) for rpm in (band.from_rpm - 1, band.peak_rpm)]
         [False, True]
         """
-        speeds = np.asarray(rpm, float)
-        return (
-            _between(speeds, self.rpm, self.frequency_hz),
-            _between(speeds, *self._growth()),
-        )
+        speeds = numbers("rpm", rpm)
+        places, growth = self._growth()
+        square = _between(speeds, places, growth * np.abs(growth), _monotone)
+        hz = _between(speeds, self.rpm, self.frequency_hz, _monotone)
+        return hz, np.asarray(np.sign(square) * np.sqrt(np.abs(square)))
 
     def _growth(self) -> tuple[FloatArray, FloatArray]:
         """Growth rates over speed, with the edges of the bands."""
@@ -200,8 +189,31 @@ def points(radius_m: npt.ArrayLike, angle: npt.ArrayLike) -> tuple[FloatArray, F
     return radius, angle
 
 
-def _between(at: Any, places: FloatArray, values: FloatArray) -> FloatArray:
-    """Linear interpolation, with NaN outside the range, apart from rounding at its ends."""
+def _between(at: Any, places: FloatArray, values: FloatArray, curve: Any = np.interp) -> FloatArray:
+    """Interpolation, linear by default, with NaN outside the range, apart from rounding at its ends."""
     width = 1e-9 * (abs(places[-1]) + abs(places[0])) if len(places) else 0.0
     inside = (at >= places[0] - width) & (at <= places[-1] + width)
-    return np.where(inside, np.interp(at, places, values), np.nan)
+    return np.where(inside, curve(at, places, values), np.nan)
+
+
+def _monotone(at: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
+    """Cubics of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5 (1984), 300), which have no
+    extremum between the points."""
+    if len(x) < 3:
+        return np.asarray(np.interp(at, x, y))
+    h = np.diff(x)
+    steep = np.diff(y) / h
+    before, after = 2.0 * h[1:] + h[:-1], h[1:] + 2.0 * h[:-1]
+    slopes = np.zeros(len(x))
+    same = steep[:-1] * steep[1:] > 0.0
+    mean = before[same] / steep[:-1][same] + after[same] / steep[1:][same]
+    slopes[1:-1][same] = (before + after)[same] / mean
+    for end, first, second in ((0, 0, 1), (-1, -1, -2)):
+        slope = steep[first] + (steep[first] - steep[second]) * h[first] / (h[first] + h[second])
+        # Toward the next point, and at most three times as steep.
+        slopes[end] = np.clip(slope, *sorted((0.0, 3.0 * steep[first])))
+    k = np.clip(np.searchsorted(x, at) - 1, 0, len(x) - 2)
+    t, width = np.clip((at - x[k]) / h[k], 0.0, 1.0), h[k]
+    left = (1.0 - t) ** 2 * ((1.0 + 2.0 * t) * y[k] + t * width * slopes[k])
+    right = t**2 * ((3.0 - 2.0 * t) * y[k + 1] + (t - 1.0) * width * slopes[k + 1])
+    return np.asarray(left + right)

@@ -8,12 +8,14 @@ __all__ = [
     "Map",
     "Study",
     "StudyLog",
+    "axis_name",
     "campbell_csv",
     "chart",
     "compare",
     "figure_names",
     "functions_at",
     "html",
+    "keys",
     "matrices",
     "number",
     "outlines",
@@ -26,12 +28,18 @@ __all__ = [
     "program",
     "read_scene",
     "read_text",
+    "replace",
     "run",
     "scene",
     "schema",
+    "speeds",
     "summary",
     "tradeoff_chart",
+    "unit",
+    "unusual_numbers",
+    "value",
     "vtk_files",
+    "with_block",
 ]
 
 # The arguments are the finished steps, their total, and their name.
@@ -39,7 +47,15 @@ _Progress: TypeAlias = Callable[[int, int, str], object] | None
 
 def scene(text: str) -> str: ...
 def outlines(text: str) -> list[list[list[float]]]: ...
-def number(path: str, text: str) -> float | None: ...
+def number(name: str, text: str) -> float: ...
+def unit(name: str) -> str: ...
+def axis_name(path: str) -> str: ...
+def value(scene: str, path: str) -> str: ...
+def replace(scene: str, changes: str) -> str: ...
+def unusual_numbers(scene: str) -> list[str]: ...
+def with_block(scene: str, block: str, given: Sequence[str]) -> tuple[str, str | None]: ...
+def speeds(scene: str, beside: str) -> tuple[str, float]: ...
+def keys(word: str, of_study: bool) -> str: ...
 def paper() -> str: ...
 def read_scene(path: str | os.PathLike[str]) -> str: ...
 def read_text(path: str | os.PathLike[str], table: bool) -> str: ...

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import SupportsFloat
 
 import numpy as np
 
 from ._entry import FloatArray
 from ._extras import extra
+from ._values import Number, number
 
 # Peaks that are weaker than the largest one by more decibels may be leakage, and are not reported.
 _RANGE_DB = 60.0
@@ -27,18 +27,18 @@ def rows(
     frequency_hz: FloatArray,
     spectra: Iterable[tuple[float, FloatArray]],
     resolution_hz: float,
-    orders: Iterable[SupportsFloat],
-    above_db: SupportsFloat,
+    orders: Iterable[Number],
+    above_db: Number,
 ) -> list[tuple[float, float, float, float, int]]:
     """Rows of :meth:`sawflutter.Peaks.of` for spectra at speeds. The order of a peak is the multiple
     of the speed that is so near that it is, or shifts, the peak; NaN if none is."""
-    multiples = np.array([float(order) for order in orders])
+    multiples = np.array([number("orders", order) for order in orders])
     found = list[tuple[float, float, float, float, int]]()
-    for number, (rpm, amplitude) in enumerate(spectra):
-        for hz, size in zip(*_picked(frequency_hz, amplitude, resolution_hz, float(above_db))):
+    for place, (rpm, amplitude) in enumerate(spectra):
+        for hz, size in zip(*_picked(frequency_hz, amplitude, resolution_hz, number("above_db", above_db))):
             near = np.abs(multiples * rpm / 60.0 - hz) <= _NEAR * resolution_hz
             order = float(multiples[near][0]) if rpm > 0.0 and near.any() else np.nan
-            found.append((float(rpm), float(hz), float(size), order, number))
+            found.append((float(rpm), float(hz), float(size), order, place))
     return found
 
 

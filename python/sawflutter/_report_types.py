@@ -43,3279 +43,3042 @@ Method: TypeAlias = Literal["reduced", "searched", "dense", "critical_speeds"]
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Harmonic(Entry):
-    """Share of n nodal diameters in a mode."""
+    """Share of n nodal diameters in a mode.
+
+    Attributes
+    ----------
+    nodal_diameters : Number n of nodal diameters.
+    share : Share, between 0 and 1.
+    """
 
     nodal_diameters: int
-    """Number n of nodal diameters."""
-
     share: float
-    """Share, between 0 and 1."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Shape(Entry):
-    """w(r, θ) = Σ_n cosine_n(r) cos nθ + sine_n(r) sin nθ at a few radii."""
+    """w(r, θ) = Σ_n cosine_n(r) cos nθ + sine_n(r) sin nθ at a few radii.
+
+    Attributes
+    ----------
+    nodal_diameters : Number n of nodal diameters.
+    radius_m : Radii of the shape.
+    cosine : Coefficient of cos nθ at these radii.
+    sine : Coefficient of sin nθ at these radii.
+    """
 
     nodal_diameters: int
-    """Number n of nodal diameters."""
-
     radius_m: FloatArray
-    """Radii of the shape."""
-
     cosine: FloatArray
-    """Coefficient of cos nθ at these radii."""
-
     sine: FloatArray
-    """Coefficient of sin nθ at these radii."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RestMode(RestModeMethods):
-    """A mode of the blade that does not spin."""
+    """A mode of the blade that does not spin.
+
+    Attributes
+    ----------
+    frequency_hz : |Im λ|/2π, the natural frequency.
+    nodal_diameters : Nodal diameters of the dominant harmonic.
+    nodal_circles : Nodal circles of the dominant harmonic.
+    name : Name of its branch, or the shares of its harmonics if none dominates: "0 (54 %) + 1
+        (45 %)".
+    branch : Number of the branch of the Campbell diagram that begins with this mode, if the
+        sweep begins at rest.
+    damping_ratio : ζ = −Re λ/|λ|; damped scenes only.
+    logarithmic_decrement : −2π Re λ/|Im λ|; damped scenes only.
+    estimated_relative_error : Estimated relative error of the frequency.
+    backward_error : Backward error: ‖L(λ)q‖ relative to the size of its terms.
+    harmonics : Share of each harmonic of the kinetic energy, largest first.
+    profiles : Deflection, scaled to a largest value of one.
+    """
 
     frequency_hz: float
-    """|Im λ|/2π, the natural frequency."""
-
     nodal_diameters: int
-    """Nodal diameters of the dominant harmonic."""
-
     nodal_circles: int
-    """Nodal circles of the dominant harmonic."""
-
     name: str
-    """Name of its branch, or the shares of its harmonics if none dominates: "0 (54 %) + 1 (45
-    %)"."""
-
     branch: int | None
-    """Number of the branch of the Campbell diagram that begins with this mode, if the sweep
-    begins at rest."""
-
     damping_ratio: float | None
-    """ζ = −Re λ/|λ|; damped scenes only."""
-
     logarithmic_decrement: float | None
-    """−2π Re λ/|Im λ|; damped scenes only."""
-
     estimated_relative_error: float | None = field(default=None)
-    """Estimated relative error of the frequency."""
-
     backward_error: float
-    """Backward error: ‖L(λ)q‖ relative to the size of its terms."""
-
     harmonics: tuple[Harmonic, ...]
-    """Share of each harmonic of the kinetic energy, largest first."""
-
     profiles: tuple[Shape, ...] = field(metadata={"key": "shape"})
-    """Deflection, scaled to a largest value of one."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CriticalSpeed(Entry):
-    """A speed at which a wave stands still in space."""
+    """A speed at which a wave stands still in space.
+
+    Attributes
+    ----------
+    rpm : Rotation speed.
+    branch : Number of the branch that stands still, if the diagram shows it.
+    name : The wave that stands still: "2 diameters", or the shares of waves if none dominates,
+        "3 (52 %) + 2 (41 %)". The branch is named by its mode at rest, which may differ.
+    nodal_diameters : Nodal diameters of that wave, or of the one with the largest share.
+    nodal_circles : Nodal circles of that wave.
+    estimated_relative_error : Estimated relative error of the speed.
+    """
 
     rpm: float
-    """Rotation speed."""
-
     branch: int | None
-    """Number of the branch that stands still, if the diagram shows it."""
-
     name: str
-    """The wave that stands still: "2 diameters", or the shares of waves if none dominates, "3
-    (52 %) + 2 (41 %)". The branch is named by its mode at rest, which may differ."""
-
     nodal_diameters: int
-    """Nodal diameters of that wave, or of the one with the largest share."""
-
     nodal_circles: int
-    """Nodal circles of that wave."""
-
     estimated_relative_error: float | None = field(default=None)
-    """Estimated relative error of the speed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Instability(Entry):
-    """A band of unstable speeds."""
+    """A band of unstable speeds.
+
+    Attributes
+    ----------
+    kind : Divergence or flutter.
+    from_rpm : Speed at which the band begins.
+    to_rpm : Speed at which the band ends, or the end of the sweep.
+    closed : False if the sweep begins or ends inside the band.
+    peak_rpm : Speed of largest growth.
+    peak_growth_per_s : Largest growth rate.
+    frequency_hz : Frequency at the peak.
+    name : Waves of the band at its own speed: "2 diameters" for divergence, "4 reflected with 2
+        forward" for flutter; null without a diagram. The branches are named by their modes at
+        rest, which may differ.
+    branches : Numbers of the branches that become unstable; empty without a diagram.
+    modes : Waves of the band one by one, reflected ones first: "4 diameters, reflected".
+    counted_rpm : Intervals [from, to] in which the band counts as an instability: divergence as
+        a whole; flutter of an undamped blade as a whole if its largest growth reaches the
+        threshold, of a damped one where its growth does.
+    saturated_amplitude_m : Amplitude to which flutter rises from a small motion at the speed of
+        largest growth, limited by stretching, without damping; up to 1.41 times as large near
+        one edge of the band. Null unless requested, for divergence, if only damping makes the
+        blade flutter, and if it was not computed.
+    amplitude_not_computed : Reason for which the amplitude was not computed, although it was
+        requested; null if there is none.
+    estimated_relative_error : Estimated relative error of the onset.
+    estimated_relative_growth_error : Estimated relative error of the largest growth rate. As a
+        small difference of large numbers it may exceed the tolerance.
+    """
 
     kind: InstabilityKind
-    """Divergence or flutter."""
-
     from_rpm: float
-    """Speed at which the band begins."""
-
     to_rpm: float
-    """Speed at which the band ends, or the end of the sweep."""
-
     closed: bool
-    """False if the sweep begins or ends inside the band."""
-
     peak_rpm: float
-    """Speed of largest growth."""
-
     peak_growth_per_s: float
-    """Largest growth rate."""
-
     frequency_hz: float
-    """Frequency at the peak."""
-
     name: str | None = field(default=None)
-    """Waves of the band at its own speed: "2 diameters" for divergence, "4 reflected with 2
-    forward" for flutter; null without a diagram. The branches are named by their modes at rest,
-    which may differ."""
-
     branches: IntArray
-    """Numbers of the branches that become unstable; empty without a diagram."""
-
     modes: tuple[str, ...]
-    """Waves of the band one by one, reflected ones first: "4 diameters, reflected"."""
-
     counted_rpm: FloatArray
-    """Intervals [from, to] in which the band counts as an instability: divergence as a whole;
-    flutter of an undamped blade as a whole if its largest growth reaches the threshold, of a
-    damped one where its growth does."""
-
     saturated_amplitude_m: float | None = field(default=None)
-    """Amplitude to which flutter rises from a small motion at the speed of largest growth,
-    limited by stretching, without damping; up to 1.41 times as large near one edge of the band.
-    Null unless requested, for divergence, if only damping makes the blade flutter, and if it
-    was not computed."""
-
     amplitude_not_computed: str | None = field(default=None)
-    """Reason for which the amplitude was not computed, although it was requested; null if there
-    is none."""
-
     estimated_relative_error: float | None = field(default=None)
-    """Estimated relative error of the onset."""
-
     estimated_relative_growth_error: float | None = field(default=None)
-    """Estimated relative error of the largest growth rate. As a small difference of large
-    numbers it may exceed the tolerance."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Idling(Entry):
-    """The saw without the forces of the cut."""
+    """The saw without the forces of the cut.
 
-    critical_speeds_rpm: FloatArray
-    """Critical speeds within the sweep, ascending."""
+    Attributes
+    ----------
+    critical_rpm : Critical speeds within the sweep, ascending.
+    bands : Bands of instability within the sweep, by onset; their branches are not named.
+    flutter_rpm : Flutter speed.
+    first_merge_rpm : Onset of the first flutter band, including weak ones.
+    """
 
-    instabilities: tuple[Instability, ...]
-    """Bands of instability within the sweep, by onset; their branches are not named."""
-
-    flutter_speed_rpm: float | None
-    """Flutter speed."""
-
+    critical_rpm: FloatArray = field(metadata={"key": "critical_speeds_rpm"})
+    bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
+    flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
     first_merge_rpm: float | None
-    """Onset of the first flutter band, including weak ones."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class InCut(Entry):
-    """The forces of the cut that a Campbell diagram includes."""
+    """The forces of the cut that a Campbell diagram includes.
+
+    Attributes
+    ----------
+    rpm : Speed of the cut at which these forces occur; in the diagram they are the same at
+        every speed.
+    teeth : Mean number of teeth in the cut.
+    tangential_n_per_tooth : Force against the rotation on each tooth.
+    radial_n_per_tooth : Force towards the axis on each tooth.
+    idling : The idling saw; null in a diagram with few speeds.
+    """
 
     rpm: float
-    """Speed of the cut at which these forces occur; in the diagram they are the same at every
-    speed."""
-
     teeth: float
-    """Mean number of teeth in the cut."""
-
     tangential_n_per_tooth: float
-    """Force against the rotation on each tooth."""
-
     radial_n_per_tooth: float
-    """Force towards the axis on each tooth."""
-
     idling: Idling | None
-    """The idling saw; null in a diagram with few speeds."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ExcitationLine(Entry):
-    """A frequency that is a multiple of the rotation speed."""
+    """A frequency that is a multiple of the rotation speed.
+
+    Attributes
+    ----------
+    order : Ratio of the frequency to the rotation speed.
+    name : Name: "1×", "tooth passing, 42×".
+    """
 
     order: int
-    """Ratio of the frequency to the rotation speed."""
-
     name: str
-    """Name: "1×", "tooth passing, 42×"."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Crossing(Entry):
-    """A speed at which a natural frequency equals a multiple of the rotation speed."""
+    """A speed at which a natural frequency equals a multiple of the rotation speed.
+
+    Attributes
+    ----------
+    order : Ratio of the frequency to the rotation speed.
+    rpm : Rotation speed.
+    frequency_hz : Frequency in the space-fixed frame.
+    branch : Number of the branch.
+    mode : Name of the branch.
+    """
 
     order: int
-    """Ratio of the frequency to the rotation speed."""
-
     rpm: float
-    """Rotation speed."""
-
     frequency_hz: float
-    """Frequency in the space-fixed frame."""
-
     branch: int | None
-    """Number of the branch."""
-
     mode: str
-    """Name of the branch."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Excitation(Entry):
-    """Excitation at multiples of the rotation speed."""
+    """Excitation at multiples of the rotation speed.
+
+    Attributes
+    ----------
+    lines : The lines, ascending.
+    crossings : Crossings with branches of the diagram, by line and speed, for frequencies up to
+        `campbell.complete_to_hz`.
+    """
 
     lines: tuple[ExcitationLine, ...]
-    """The lines, ascending."""
-
     crossings: tuple[Crossing, ...]
-    """Crossings with branches of the diagram, by line and speed, for frequencies up to
-    `campbell.complete_to_hz`."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Operating(Entry):
-    """Comparison of the operating speed with the first critical speed."""
+    """Comparison of the operating speed with the first critical speed.
+
+    Attributes
+    ----------
+    rpm : The scene's operating speed.
+    lowest_critical_rpm : First critical speed, also above the sweep; null if the blade has
+        none.
+    of_lowest_critical : Ratio of operating speed to first critical speed; null if the blade has
+        no critical speed.
+    limit : Usual limit of that ratio, 0.85.
+    within_limit : Whether the ratio is at most the limit; null without a ratio.
+    verdict : Whether the saw is stable at that speed.
+    inside_instability : Index into `instabilities` of the band that makes it unstable.
+    at_critical_rpm : Critical speed within 5 % of the operating speed; null if there is none.
+    side_force_factor : Deflection of the rim at the cut under a constant side force there,
+        relative to that at rest; negative if the blade moves against the force. Null unless the
+        saw is stable and within 5 % of a critical speed, if nothing holds the blade's rigid
+        motions, and so close to the critical speed that its error decides.
+    safe_window_rpm : The window without instability: speeds of the sweep around the operating
+        speed at which no instability counts, and which are at least 5 % from critical speeds;
+        null if the saw is unstable or at a critical speed.
+    growth_per_s : Re λ of the mode that grows fastest, or decays most slowly; null outside the
+        sweep.
+    frequency_hz : Im λ/2π of this mode.
+    """
 
     rpm: float
-    """The scene's operating speed."""
-
     lowest_critical_rpm: float | None = field(default=None)
-    """First critical speed, also above the sweep; null if the blade has none."""
-
     of_lowest_critical: float | None
-    """Ratio of operating speed to first critical speed; null if the blade has no critical
-    speed."""
-
     limit: float
-    """Usual limit of that ratio, 0.85."""
-
     within_limit: bool | None
-    """Whether the ratio is at most the limit; null without a ratio."""
-
     verdict: StabilityState
-    """Whether the saw is stable at that speed."""
-
     inside_instability: int | None
-    """Index into `instabilities` of the band that makes it unstable."""
-
     at_critical_rpm: float | None = field(default=None)
-    """Critical speed within 5 % of the operating speed; null if there is none."""
-
     side_force_factor: float | None = field(default=None)
-    """Deflection of the rim at the cut under a constant side force there, relative to that at
-    rest; negative if the blade moves against the force. Null unless the saw is stable and
-    within 5 % of a critical speed, if nothing holds the blade's rigid motions, and so close to
-    the critical speed that its error decides."""
-
     safe_window_rpm: FloatArray | None
-    """The window without instability: speeds of the sweep around the operating speed at which
-    no instability counts, and which are at least 5 % from critical speeds; null if the saw is
-    unstable or at a critical speed."""
-
     growth_per_s: float | None
-    """Re λ of the mode that grows fastest, or decays most slowly; null outside the sweep."""
-
     frequency_hz: float | None
-    """Im λ/2π of this mode."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class WhirlMode(Entry):
-    """A mode of a rotating saw."""
+    """A mode of a rotating saw.
+
+    Attributes
+    ----------
+    frequency_hz : |Im λ|/2π in the space-fixed frame.
+    nodal_diameters : Nodal diameters of the dominant harmonic.
+    nodal_circles : Nodal circles of the dominant harmonic.
+    direction : Direction of the dominant harmonic, seen from space.
+    name : Nodal diameters, nodal circles and direction of the dominant harmonic in words.
+    growth_per_s : Re λ.
+    damping_ratio : ζ = −Re λ/|λ|; damped scenes only.
+    logarithmic_decrement : −2π Re λ/|Im λ|; damped scenes only, if the mode oscillates.
+    krein_sign : Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped.
+    """
 
     frequency_hz: float
-    """|Im λ|/2π in the space-fixed frame."""
-
     nodal_diameters: int
-    """Nodal diameters of the dominant harmonic."""
-
     nodal_circles: int
-    """Nodal circles of the dominant harmonic."""
-
     direction: Direction
-    """Direction of the dominant harmonic, seen from space."""
-
     name: str
-    """Nodal diameters, nodal circles and direction of the dominant harmonic in words."""
-
     growth_per_s: float
-    """Re λ."""
-
     damping_ratio: float | None
-    """ζ = −Re λ/|λ|; damped scenes only."""
-
     logarithmic_decrement: float | None
-    """−2π Re λ/|Im λ|; damped scenes only, if the mode oscillates."""
-
     krein_sign: int
-    """Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Whirl(Entry):
-    """The modes at one speed, and the verdict on it."""
+    """The modes at one speed, and the verdict on it.
+
+    Attributes
+    ----------
+    rpm : Rotation speed.
+    verdict : Whether the saw is stable at this speed.
+    at_critical_rpm : Critical speed within 5 % of this speed; null if there is none.
+    modes : Modes, ascending in frequency.
+    """
 
     rpm: float
-    """Rotation speed."""
-
     verdict: StabilityState
-    """Whether the saw is stable at this speed."""
-
     at_critical_rpm: float | None = field(default=None)
-    """Critical speed within 5 % of this speed; null if there is none."""
-
     modes: tuple[WhirlMode, ...]
-    """Modes, ascending in frequency."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Complex(Entry):
-    """A list of complex numbers."""
+    """A list of complex numbers.
+
+    Attributes
+    ----------
+    re : Real parts.
+    im : Imaginary parts.
+    """
 
     re: FloatArray
-    """Real parts."""
-
     im: FloatArray
-    """Imaginary parts."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Wave(Entry):
-    """The part of a mode with n nodal diameters."""
+    """The part of a mode with n nodal diameters.
+
+    Attributes
+    ----------
+    nodal_diameters : Number n of nodal diameters.
+    share : Share in the name, between 0 and 1: of the kinetic energy of a mode; among the
+        reflected or the other waves of a critical speed or band.
+    cosine : Coefficient of cos nθ at the radii.
+    sine : Coefficient of sin nθ at the radii.
+    """
 
     nodal_diameters: int
-    """Number n of nodal diameters."""
-
     share: float
-    """Share in the name, between 0 and 1: of the kinetic energy of a mode; among the reflected
-    or the other waves of a critical speed or band."""
-
     cosine: Complex
-    """Coefficient of cos nθ at the radii."""
-
     sine: Complex
-    """Coefficient of sin nθ at the radii."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class EventShape(ModeMethods):
     """The shape of the blade at an event: w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ)
-    e^{λt}. The largest deflection of all points is 1, at t = 0."""
+    e^{λt}. The largest deflection of all points is 1, at t = 0.
+
+    Attributes
+    ----------
+    occasion : Reason for which the shape is drawn.
+    name : Waves of the shape, named as the event is.
+    direction : Direction of the wave, seen from space.
+    rpm : Rotation speed.
+    frequency_hz : |Im λ|/2π in the space-fixed frame.
+    growth_per_s : Re λ.
+    radius_m : Radii of the profiles.
+    harmonics : Harmonics that are visible in the deflection, by descending share in the name.
+        The guided blade also tilts (n = 1) and heaves (n = 0), which rotation does not soften:
+        in the name of an event their share is zero.
+    """
 
     occasion: ShapeOccasion
-    """Reason for which the shape is drawn."""
-
     name: str
-    """Waves of the shape, named as the event is."""
-
     direction: Direction
-    """Direction of the wave, seen from space."""
-
     rpm: float
-    """Rotation speed."""
-
     frequency_hz: float
-    """|Im λ|/2π in the space-fixed frame."""
-
     growth_per_s: float
-    """Re λ."""
-
     radius_m: FloatArray
-    """Radii of the profiles."""
-
     harmonics: tuple[Wave, ...]
-    """Harmonics that are visible in the deflection, by descending share in the name. The guided
-    blade also tilts (n = 1) and heaves (n = 0), which rotation does not soften: in the name of
-    an event their share is zero."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class AccuracyEntry(Entry):
-    """Size of the basis and estimated errors."""
+    """Size of the basis and estimated errors.
+
+    Attributes
+    ----------
+    name : Named accuracy of the scene.
+    max_diameters : Largest number of nodal diameters.
+    complete_to_rpm : Speed up to which no wave with more nodal diameters can stand still in
+        space: at least the end of the sweep and the first critical speed. Critical speeds,
+        bands, errors and the certificate hold up to it.
+    radial_functions : Number of radial functions for each number of nodal diameters, including
+        those that steps and kinks of the thickness add.
+    degrees_of_freedom : Size of the basis.
+    tolerance : Relative error allowed for critical speeds, onsets and the lowest frequencies at
+        rest.
+    reached : Whether the estimate is within the tolerance, which the largest basis may not
+        achieve.
+    estimated_relative_error : Estimated relative error of the critical speeds within the sweep,
+        from the change with a larger basis.
+    estimated_resting_error : Estimated relative error of the lowest frequencies at rest,
+        measured on a larger basis.
+    estimated_drawn_error : Estimated relative error of the frequencies in the diagram, each
+        relative to the frequency of its wave on the blade.
+    """
 
     name: Accuracy
-    """Named accuracy of the scene."""
-
     max_diameters: int
-    """Largest number of nodal diameters."""
-
     complete_to_rpm: float
-    """Speed up to which no wave with more nodal diameters can stand still in space: at least
-    the end of the sweep and the first critical speed. Critical speeds, bands, errors and the
-    certificate hold up to it."""
-
     radial_functions: int
-    """Number of radial functions for each number of nodal diameters, including those that steps
-    and kinks of the thickness add."""
-
     degrees_of_freedom: int
-    """Size of the basis."""
-
     tolerance: float
-    """Relative error allowed for critical speeds, onsets and the lowest frequencies at rest."""
-
     reached: bool
-    """Whether the estimate is within the tolerance, which the largest basis may not achieve."""
-
     estimated_relative_error: float | None
-    """Estimated relative error of the critical speeds within the sweep, from the change with a
-    larger basis."""
-
     estimated_resting_error: float | None = field(default=None)
-    """Estimated relative error of the lowest frequencies at rest, measured on a larger
-    basis."""
-
     estimated_drawn_error: float | None = field(default=None)
-    """Estimated relative error of the frequencies in the diagram, each relative to the
-    frequency of its wave on the blade."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Work(Entry):
-    """Numbers of eigenproblems solved, by kind."""
+    """Numbers of eigenproblems solved, by kind.
+
+    Attributes
+    ----------
+    full_solves : Eigenproblems of the full model: Krylov iterations with a factorization each,
+        or dense ones.
+    structured_solves : Number of `full_solves` that used the block structure of the blade and
+        the few columns of its guides, in a time linear in the number of basis functions; scenes
+        with edge loads or dampers have no such structure.
+    reduced_solves : Dense eigenproblems of the reduced model.
+    local_solves : Dense eigenproblems of the Hamiltonian reduction between two speeds.
+    refined_pairs : Pairs of modes (single modes of a damped blade or in divergence) refined by
+        inverse iteration with a few factorizations each.
+    heat_solves : Symmetric eigenproblems of the full model at other temperatures, for limits of
+        heat.
+    """
 
     full_solves: int
-    """Eigenproblems of the full model: Krylov iterations with a factorization each, or dense
-    ones."""
-
     structured_solves: int
-    """Number of `full_solves` that used the block structure of the blade and the few columns of
-    its guides, in a time linear in the number of basis functions; scenes with edge loads or
-    dampers have no such structure."""
-
     reduced_solves: int
-    """Dense eigenproblems of the reduced model."""
-
     local_solves: int
-    """Dense eigenproblems of the Hamiltonian reduction between two speeds."""
-
     refined_pairs: int
-    """Pairs of modes (single modes of a damped blade or in divergence) refined by inverse
-    iteration with a few factorizations each."""
-
     heat_solves: int
-    """Symmetric eigenproblems of the full model at other temperatures, for limits of heat."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Miscount(Entry):
     """Modes at a speed that are missing or superfluous according to a count on the full
-    model."""
+    model.
+
+    Attributes
+    ----------
+    rpm : The speed.
+    from_hz : Lower end of the range of frequencies.
+    to_hz : Upper end of the range of frequencies.
+    missing : Number of modes of Krein sign + that the spectrum lacks there, minus that of sign
+        −; negative if it has superfluous ones.
+    """
 
     rpm: float
-    """The speed."""
-
     from_hz: float
-    """Lower end of the range of frequencies."""
-
     to_hz: float
-    """Upper end of the range of frequencies."""
-
     missing: int
-    """Number of modes of Krein sign + that the spectrum lacks there, minus that of sign −;
-    negative if it has superfluous ones."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Mismatch(Entry):
-    """A speed at which the list of bands contradicts the eigenvalues found there."""
+    """A speed at which the list of bands contradicts the eigenvalues found there.
+
+    Attributes
+    ----------
+    rpm : The speed.
+    kind : Kind of the modes and bands compared.
+    unstable_modes : Number of unstable modes of that kind; for divergence 1 or 0.
+    bands : Number of bands of that kind that contain the speed.
+    growth_per_s : Growth of the fastest of these modes.
+    peak_per_s : Largest growth of these bands.
+    """
 
     rpm: float
-    """The speed."""
-
     kind: InstabilityKind
-    """Kind of the modes and bands compared."""
-
     unstable_modes: int
-    """Number of unstable modes of that kind; for divergence 1 or 0."""
-
     bands: int
-    """Number of bands of that kind that contain the speed."""
-
     growth_per_s: float
-    """Growth of the fastest of these modes."""
-
     peak_per_s: float
-    """Largest growth of these bands."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Certificate(Entry):
     """Checks of the list of bands against the spectrum, by the Krein index, by counts of
     eigenvalues on the full model and by the growth found at single speeds, and the share of the
-    sweep that is proven to have no other band. See [crate::stability]."""
+    sweep that is proven to have no other band. See [crate::stability].
+
+    Attributes
+    ----------
+    statement : The result in a sentence.
+    speeds_checked : Number of speeds at which the Krein index was compared; for damped scenes,
+        which have none, of speeds at which the number of growing modes was compared with that
+        of the bands.
+    krein_violations : Number of speeds at which the comparison failed, also on the full model;
+        0 is expected.
+    violating_rpm : Speeds at which the comparison failed.
+    full_basis_counts : Number of counts of eigenvalues on the full model, independent of the
+        reduced model, with which the modes were compared.
+    uncertain_counts : Number of further counts that were uncertain, because an eigenvalue lies
+        on their path.
+    miscounted_modes : Modes that, according to these counts, are missing or superfluous; none
+        are expected.
+    searched_again : Whether modes were missing at first, so that the bands were searched again
+        on the full model.
+    mismatches : Speeds at which the list of bands contradicts the eigenvalues of the search or
+        of the diagram; none are expected.
+    gave_up : Whether the search for bands ended at its limit of work, so that bands may be
+        missing.
+    unproven_rpm : The remaining intervals, which were searched but not proven: from and to.
+    unproven_counting_rpm : Parts of the remaining intervals in which, by this estimate, the
+        growth of an undetected band could reach the threshold: from and to.
+    max_backward_error : Largest backward error, on the full model, of any mode of the diagram.
+    proven_share : Share of the sweep that is proven to have no unlisted instability, rounded
+        down to four digits; absent if no proof was tried.
+    unproven_growth_per_s : Estimate, not proof, of the largest growth of an undetected band in
+        the remaining intervals; absent if no proof was tried.
+    max_listed_backward_error : Largest backward error, on the full model, of the listed
+        eigenvalues: those of the modes at rest, at the peaks of the bands and at the operating
+        speed. At reference accuracy these are refined on the full model. Absent otherwise, and
+        if one of them could not be refined, as with loads at the rim.
+    """
 
     statement: str
-    """The result in a sentence."""
-
     speeds_checked: int
-    """Number of speeds at which the Krein index was compared; for damped scenes, which have
-    none, of speeds at which the number of growing modes was compared with that of the bands."""
-
     krein_violations: int
-    """Number of speeds at which the comparison failed, also on the full model; 0 is
-    expected."""
-
     violating_rpm: FloatArray
-    """Speeds at which the comparison failed."""
-
     full_basis_counts: int
-    """Number of counts of eigenvalues on the full model, independent of the reduced model, with
-    which the modes were compared."""
-
     uncertain_counts: int
-    """Number of further counts that were uncertain, because an eigenvalue lies on their
-    path."""
-
     miscounted_modes: tuple[Miscount, ...]
-    """Modes that, according to these counts, are missing or superfluous; none are expected."""
-
     searched_again: bool
-    """Whether modes were missing at first, so that the bands were searched again on the full
-    model."""
-
     mismatches: tuple[Mismatch, ...]
-    """Speeds at which the list of bands contradicts the eigenvalues of the search or of the
-    diagram; none are expected."""
-
     gave_up: bool
-    """Whether the search for bands ended at its limit of work, so that bands may be missing."""
-
     unproven_rpm: FloatArray
-    """The remaining intervals, which were searched but not proven: from and to."""
-
     unproven_counting_rpm: FloatArray
-    """Parts of the remaining intervals in which, by this estimate, the growth of an undetected
-    band could reach the threshold: from and to."""
-
     max_backward_error: float
-    """Largest backward error, on the full model, of any mode of the diagram."""
-
     proven_share: float | None = field(default=None)
-    """Share of the sweep that is proven to have no unlisted instability, rounded down to four
-    digits; absent if no proof was tried."""
-
     unproven_growth_per_s: float | None = field(default=None)
-    """Estimate, not proof, of the largest growth of an undetected band in the remaining
-    intervals; absent if no proof was tried."""
-
     max_listed_backward_error: float | None = field(default=None)
-    """Largest backward error, on the full model, of the listed eigenvalues: those of the modes
-    at rest, at the peaks of the bands and at the operating speed. At reference accuracy these
-    are refined on the full model. Absent otherwise, and if one of them could not be refined, as
-    with loads at the rim."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Branch(BranchMethods):
-    """One mode followed over speed. All lists have one entry for each speed."""
+    """One mode followed over speed. All lists have one entry for each speed.
+
+    Attributes
+    ----------
+    branch : Number: 1, 2, 3 … in the order of the list.
+    name : Name of the branch in every output, by its mode at its first speed: for a blade
+        without guides "2 diameters, backward"; for a guided one at rest "2 diameters", or
+        shares of harmonics if none dominates.
+    label : Number and short name, for the end of a line: "3: 0 (54 %) + 1 (45 %)".
+    nodal_diameters : Nodal diameters of the dominant harmonic at its first speed.
+    nodal_circles : Nodal circles of that harmonic.
+    direction : Direction of the wave on the blade at each speed, where no wave is `reflected`.
+    rpm : Rotation speeds, ascending.
+    frequency_hz : |Im λ|/2π in the space-fixed frame.
+    body_frequency_hz : Frequency of the dominant harmonic in the body frame.
+    growth_per_s : Re λ.
+    krein_sign : Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped.
+    dominant_harmonics : Nodal diameters of the dominant and of the next harmonic at each speed.
+    """
 
     branch: int
-    """Number: 1, 2, 3 … in the order of the list."""
-
     name: str
-    """Name of the branch in every output, by its mode at its first speed: for a blade without
-    guides "2 diameters, backward"; for a guided one at rest "2 diameters", or shares of
-    harmonics if none dominates."""
-
     label: str
-    """Number and short name, for the end of a line: "3: 0 (54 %) + 1 (45 %)"."""
-
     nodal_diameters: int
-    """Nodal diameters of the dominant harmonic at its first speed."""
-
     nodal_circles: int
-    """Nodal circles of that harmonic."""
-
     direction: tuple[Direction, ...]
-    """Direction of the wave on the blade at each speed, where no wave is `reflected`."""
-
     rpm: FloatArray
-    """Rotation speeds, ascending."""
-
     frequency_hz: FloatArray
-    """|Im λ|/2π in the space-fixed frame."""
-
     body_frequency_hz: FloatArray
-    """Frequency of the dominant harmonic in the body frame."""
-
     growth_per_s: FloatArray
-    """Re λ."""
-
     krein_sign: IntArray
-    """Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped."""
-
     dominant_harmonics: IntArray
-    """Nodal diameters of the dominant and of the next harmonic at each speed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Campbell(Entry):
-    """The Campbell diagram."""
+    """The Campbell diagram.
+
+    Attributes
+    ----------
+    from_rpm : First speed.
+    to_rpm : Last speed.
+    complete_to_hz : Frequency up to which the branches are complete.
+    branches : Branches, by frequency at their lowest speed.
+    """
 
     from_rpm: float
-    """First speed."""
-
     to_rpm: float
-    """Last speed."""
-
     complete_to_hz: float
-    """Frequency up to which the branches are complete."""
-
     branches: tuple[Branch, ...]
-    """Branches, by frequency at their lowest speed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RootPath(Entry):
-    """One eigenvalue over the speeds of a [RootLoci]."""
+    """One eigenvalue over the speeds of a [RootLoci].
+
+    Attributes
+    ----------
+    name : Waves of this mode.
+    growth_per_s : Re λ.
+    frequency_hz : Im λ/2π.
+    krein_sign : Krein sign: +1, −1, or 0 inside the band.
+    """
 
     name: str
-    """Waves of this mode."""
-
     growth_per_s: FloatArray
-    """Re λ."""
-
     frequency_hz: FloatArray
-    """Im λ/2π."""
-
     krein_sign: IntArray
-    """Krein sign: +1, −1, or 0 inside the band."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RootLoci(Entry):
-    """Eigenvalues around a flutter onset, in the complex plane."""
+    """Eigenvalues around a flutter onset, in the complex plane.
+
+    Attributes
+    ----------
+    onset_rpm : Onset of the band.
+    end_rpm : End of the band.
+    rpm : Rotation speeds, ascending, from before the onset to after the end.
+    paths : The eigenvalues of both modes, which are the growing and the decaying one inside the
+        band.
+    """
 
     onset_rpm: float
-    """Onset of the band."""
-
     end_rpm: float
-    """End of the band."""
-
     rpm: FloatArray
-    """Rotation speeds, ascending, from before the onset to after the end."""
-
     paths: tuple[RootPath, ...]
-    """The eigenvalues of both modes, which are the growing and the decaying one inside the
-    band."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RollBand(Entry):
-    """A rolled band, by its strain and by its groove."""
+    """A rolled band, by its strain and by its groove.
+
+    Attributes
+    ----------
+    radius_m : Radius of its middle.
+    width_m : Width along the radius.
+    eigenstrain : In-plane strain that it would have if it were free.
+    groove_depth_m : Depth, on each face, of the groove whose displaced volume gives this
+        strain; negative for a strain below zero.
+    """
 
     radius_m: float
-    """Radius of its middle."""
-
     width_m: float
-    """Width along the radius."""
-
     eigenstrain: float
-    """In-plane strain that it would have if it were free."""
-
     groove_depth_m: float
-    """Depth, on each face, of the groove whose displaced volume gives this strain; negative for
-    a strain below zero."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class MeasuredGap(Entry):
-    """Roll tension that follows from a measured light gap."""
+    """Roll tension that follows from a measured light gap.
+
+    Attributes
+    ----------
+    gap_m : Light gap with this roll tension.
+    factor : Ratio of its roll tension to that of the scene.
+    sag_m : Depth of the middle below the points.
+    roll_bands : The bands with this roll tension.
+    """
 
     gap_m: float
-    """Light gap with this roll tension."""
-
     factor: float
-    """Ratio of its roll tension to that of the scene."""
-
     sag_m: float
-    """Depth of the middle below the points."""
-
     roll_bands: tuple[RollBand, ...]
-    """The bands with this roll tension."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class StraightEdge(Entry):
     """Light gap under a straight edge across the blade off its machine, which lies level on two
-    points under its own weight."""
+    points under its own weight.
+
+    Attributes
+    ----------
+    length_m : Distance of the ends of the straight edge, which touch the blade.
+    support_radius_m : Distance of the two points from the axis.
+    read_radius_m : Distance from the axis at which the gap is read: the edge of the bore.
+    gap_m : Light gap in the middle; negative if the blade touches there and light is under the
+        ends. Null if the blade buckles off its machine.
+    sag_m : Depth of the middle below the two points; null if the blade buckles off its machine.
+    gap_without_rolling_m : Light gap of the blade without its roll tension.
+    sag_without_rolling_m : Sag of the blade without its roll tension.
+    buckling_factor : Factor of the roll tension at which the blade buckles off its machine;
+        null without roll tension.
+    measured : Roll tension that causes the measured gap; null if none was measured.
+    """
 
     length_m: float
-    """Distance of the ends of the straight edge, which touch the blade."""
-
     support_radius_m: float
-    """Distance of the two points from the axis."""
-
     read_radius_m: float
-    """Distance from the axis at which the gap is read: the edge of the bore."""
-
     gap_m: float | None
-    """Light gap in the middle; negative if the blade touches there and light is under the ends.
-    Null if the blade buckles off its machine."""
-
     sag_m: float | None
-    """Depth of the middle below the two points; null if the blade buckles off its machine."""
-
     gap_without_rolling_m: float
-    """Light gap of the blade without its roll tension."""
-
     sag_without_rolling_m: float
-    """Sag of the blade without its roll tension."""
-
     buckling_factor: float | None
-    """Factor of the roll tension at which the blade buckles off its machine; null without roll
-    tension."""
-
     measured: MeasuredGap | None
-    """Roll tension that causes the measured gap; null if none was measured."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class HeatLimit(Entry):
     """A temperature rise at which the blade buckles, or its first critical speed equals the
-    operating speed."""
+    operating speed.
+
+    Attributes
+    ----------
+    rise_k : Peak of the profile.
+    name : The shape that buckles, or the wave that stands still: "3 diameters", or the shares
+        of waves if none dominates.
+    nodal_diameters : Nodal diameters of that wave, or of the one with the largest share.
+    nodal_circles : Nodal circles of that wave.
+    """
 
     rise_k: float
-    """Peak of the profile."""
-
     name: str = field(default="")
-    """The shape that buckles, or the wave that stands still: "3 diameters", or the shares of
-    waves if none dominates."""
-
     nodal_diameters: int
-    """Nodal diameters of that wave, or of the one with the largest share."""
-
     nodal_circles: int
-    """Nodal circles of that wave."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class HeatCurve(Entry):
-    """A critical speed over the peak of the temperature profile."""
+    """A critical speed over the peak of the temperature profile.
+
+    Attributes
+    ----------
+    name : The wave that stands still; for a guided blade, that at the last peak.
+    nodal_diameters : Nodal diameters of that wave, or of the one with the largest share.
+    nodal_circles : Nodal circles of that wave.
+    rise_k : Peaks of the profile.
+    rpm : Critical speeds.
+    """
 
     name: str = field(default="")
-    """The wave that stands still; for a guided blade, that at the last peak."""
-
     nodal_diameters: int
-    """Nodal diameters of that wave, or of the one with the largest share."""
-
     nodal_circles: int
-    """Nodal circles of that wave."""
-
     rise_k: FloatArray
-    """Peaks of the profile."""
-
     rpm: FloatArray
-    """Critical speeds."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Heat(Entry):
-    """The temperature profile of the scene, scaled to other peaks."""
+    """The temperature profile of the scene, scaled to other peaks.
+
+    Attributes
+    ----------
+    rise_k : Peak of the profile in the scene: the rise of largest magnitude, at the rim for a
+        shape.
+    profile_k : Temperature rises at the radii of the stress.
+    operating_limit : Peak at which the first critical speed equals the operating speed; null
+        without an operating speed, or if the blade buckles at a smaller one.
+    past_critical_when_cold : Whether the operating speed exceeds a critical speed of the cold
+        blade.
+    buckling : Peak at which the blade buckles at rest; null if no peak of this profile causes
+        buckling.
+    flat_from : Peak above which the blade is flat, if roll tension buckles it when cold.
+    buckles_first : Whether the blade buckles at rest at a smaller peak than that at which its
+        critical speed equals the operating speed.
+    critical_speeds : First critical speeds over the peak, while the blade is flat at rest.
+    """
 
     rise_k: float
-    """Peak of the profile in the scene: the rise of largest magnitude, at the rim for a
-    shape."""
-
     profile_k: FloatArray
-    """Temperature rises at the radii of the stress."""
-
     operating_limit: HeatLimit | None
-    """Peak at which the first critical speed equals the operating speed; null without an
-    operating speed, or if the blade buckles at a smaller one."""
-
     past_critical_when_cold: bool
-    """Whether the operating speed exceeds a critical speed of the cold blade."""
-
     buckling: HeatLimit | None
-    """Peak at which the blade buckles at rest; null if no peak of this profile causes
-    buckling."""
-
     flat_from: HeatLimit | None
-    """Peak above which the blade is flat, if roll tension buckles it when cold."""
-
     buckles_first: bool
-    """Whether the blade buckles at rest at a smaller peak than that at which its critical speed
-    equals the operating speed."""
-
     critical_speeds: tuple[HeatCurve, ...]
-    """First critical speeds over the peak, while the blade is flat at rest."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Membrane(Entry):
-    """Stress of heat, roll tension and manufacture over the radius."""
+    """Stress of heat, roll tension and manufacture over the radius.
+
+    Attributes
+    ----------
+    radius_m : Radii, ascending; twice where the hoop stress jumps.
+    radial_pa : σ_rr at these radii.
+    hoop_pa : σ_θθ at these radii.
+    roll_bands : Rolled bands of the scene.
+    straight_edge : Light gap under the straight edge, if the scene has one.
+    heat : Limits of temperature, if the scene has a temperature.
+    """
 
     radius_m: FloatArray
-    """Radii, ascending; twice where the hoop stress jumps."""
-
     radial_pa: FloatArray
-    """σ_rr at these radii."""
-
     hoop_pa: FloatArray
-    """σ_θθ at these radii."""
-
     roll_bands: tuple[RollBand, ...]
-    """Rolled bands of the scene."""
-
     straight_edge: StraightEdge | None
-    """Light gap under the straight edge, if the scene has one."""
-
     heat: Heat | None
-    """Limits of temperature, if the scene has a temperature."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Sensitivity(Entry):
     """First-order effect of changing one number of the scene by 1 %, an angle by 1 degree, or a
-    temperature rise by 1 K."""
+    temperature rise by 1 K.
+
+    Attributes
+    ----------
+    parameter : JSON path of the number in the scene.
+    change : The change: "1 %" or "1 degree".
+    critical_speeds_percent : Change of each critical speed up to the end of the sweep, in
+        percent; double ones of a free blade are listed twice.
+    onsets_percent : Change of the onset of each reported band, in percent; null if the sweep
+        begins inside the band.
+    growth_per_s : dλ/dp of each mode at the operating speed (at rest without one), times the
+        change: real part, growth in 1/s.
+    frequency_hz : Imaginary part of this change: frequency in Hz.
+    """
 
     parameter: str
-    """JSON path of the number in the scene."""
-
     change: str
-    """The change: "1 %" or "1 degree"."""
-
     critical_speeds_percent: FloatArray
-    """Change of each critical speed up to the end of the sweep, in percent; double ones of a
-    free blade are listed twice."""
-
     onsets_percent: FloatArray
-    """Change of the onset of each reported band, in percent; null if the sweep begins inside
-    the band."""
-
     growth_per_s: FloatArray
-    """dλ/dp of each mode at the operating speed (at rest without one), times the change: real
-    part, growth in 1/s."""
-
     frequency_hz: FloatArray
-    """Imaginary part of this change: frequency in Hz."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CampbellReport(Entry):
-    """Report of an analysis (report.json)."""
+    """Report of an analysis (report.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    terms : Terms of the equation of motion that were assembled.
+    modes_at_rest : Lowest oscillating modes of the blade at rest, ascending.
+    overdamped_modes_at_rest : Number of modes at rest that decay without oscillating
+        (overdamped), at rates up to 2π `campbell.complete_to_hz`; they are not listed.
+    critical_speeds : Every critical speed up to the end of the sweep, ascending.
+    critical_speeds_without_damping : Whether `critical_speeds` are those of the saw without its
+        damping: with damping that turns with the blade no eigenvalue of the damped saw is zero
+        at any speed.
+    bands : Bands of instability within the sweep, by onset; `certificate` gives the share of
+        the sweep that is proven to have no others.
+    flutter_rpm : Flutter speed: lowest speed at which flutter counts, see `counted_rpm` of the
+        bands.
+    first_merge_rpm : Onset of the first flutter band, including weak ones.
+    flutter_threshold_per_s : Growth rate above which a band counts as flutter.
+    in_cut : The forces of the cut in the diagram, and the idling saw, if the scene requests it.
+    excitation : Multiples of the rotation speed and their crossings with natural frequencies,
+        if the scene requests them.
+    operating : Comparison of the operating speed with the 85 % rule, if the scene has an
+        operating speed.
+    whirl : Modes at one speed, on request.
+    shapes : Shapes of the blade at every critical speed, at the peak of every band, at the
+        operating speed and at further speeds, on request.
+    accuracy : Size of the basis and estimated errors.
+    work : Number of eigenproblems solved.
+    certificate : Checks of the list of bands: the share of the sweep that is proven to have no
+        unlisted instability, intervals that were searched without proof, and disagreements.
+    campbell : Branches over speed.
+    root_loci : Eigenvalues of the two modes that coalesce at the flutter speed, or else at the
+        onset of the first flutter band, over the speeds around it.
+    membrane : Stress of heat, roll tension and manufacture, if the scene has any.
+    sensitivities : Derivatives of critical speeds and onsets by numbers of the scene, on
+        request.
+    warnings : Remarks on the validity of the result.
+    """
 
     sawflutter: str
-    """Version of the program that wrote the report."""
-
     scene: SceneDict
-    """The scene, as typed."""
-
     condition: str = field(default="")
-    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
-    teeth)"."""
-
     unusual_numbers: tuple[str, ...] = field(default=())
-    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
-    hold for the numbers as typed."""
-
     terms: tuple[str, ...]
-    """Terms of the equation of motion that were assembled."""
-
     modes_at_rest: tuple[RestMode, ...]
-    """Lowest oscillating modes of the blade at rest, ascending."""
-
     overdamped_modes_at_rest: int = field(default=0)
-    """Number of modes at rest that decay without oscillating (overdamped), at rates up to 2π
-    `campbell.complete_to_hz`; they are not listed."""
-
     critical_speeds: tuple[CriticalSpeed, ...]
-    """Every critical speed up to the end of the sweep, ascending."""
-
     critical_speeds_without_damping: bool = field(default=False)
-    """Whether `critical_speeds` are those of the saw without its damping: with damping that
-    turns with the blade no eigenvalue of the damped saw is zero at any speed."""
-
-    instabilities: tuple[Instability, ...]
-    """Bands of instability within the sweep, by onset; `certificate` gives the share of the
-    sweep that is proven to have no others."""
-
-    flutter_speed_rpm: float | None
-    """Flutter speed: lowest speed at which flutter counts, see `counted_rpm` of the bands."""
-
+    bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
+    flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
     first_merge_rpm: float | None
-    """Onset of the first flutter band, including weak ones."""
-
     flutter_threshold_per_s: float
-    """Growth rate above which a band counts as flutter."""
-
     in_cut: InCut | None = field(default=None)
-    """The forces of the cut in the diagram, and the idling saw, if the scene requests it."""
-
     excitation: Excitation | None = field(default=None)
-    """Multiples of the rotation speed and their crossings with natural frequencies, if the
-    scene requests them."""
-
     operating: Operating | None
-    """Comparison of the operating speed with the 85 % rule, if the scene has an operating
-    speed."""
-
     whirl: Whirl | None
-    """Modes at one speed, on request."""
-
     shapes: tuple[EventShape, ...] = field(default=())
-    """Shapes of the blade at every critical speed, at the peak of every band, at the operating
-    speed and at further speeds, on request."""
-
     accuracy: AccuracyEntry
-    """Size of the basis and estimated errors."""
-
     work: Work
-    """Number of eigenproblems solved."""
-
     certificate: Certificate
-    """Checks of the list of bands: the share of the sweep that is proven to have no unlisted
-    instability, intervals that were searched without proof, and disagreements."""
-
     campbell: Campbell
-    """Branches over speed."""
-
     root_loci: RootLoci | None
-    """Eigenvalues of the two modes that coalesce at the flutter speed, or else at the onset of
-    the first flutter band, over the speeds around it."""
-
     membrane: Membrane | None
-    """Stress of heat, roll tension and manufacture, if the scene has any."""
-
     sensitivities: tuple[Sensitivity, ...]
-    """Derivatives of critical speeds and onsets by numbers of the scene, on request."""
-
     warnings: tuple[str, ...]
-    """Remarks on the validity of the result."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Criterion(Entry):
-    """One limit and its result."""
+    """One limit and its result.
+
+    Attributes
+    ----------
+    key : Short name of the limit, for programs.
+    name : Requirement in words.
+    finding : Result in words.
+    found_rpm : Speed that was found: the critical or flutter speed itself, or the speed above
+        which another limit is exceeded; null if it exceeds the sweep.
+    asked_rpm : Speed with which the found one is compared.
+    passed : Whether the limit is kept.
+    """
 
     key: str
-    """Short name of the limit, for programs."""
-
     name: str
-    """Requirement in words."""
-
     finding: str
-    """Result in words."""
-
     found_rpm: float | None
-    """Speed that was found: the critical or flutter speed itself, or the speed above which
-    another limit is exceeded; null if it exceeds the sweep."""
-
     asked_rpm: float
-    """Speed with which the found one is compared."""
-
     passed: bool
-    """Whether the limit is kept."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RimStiffness(Entry):
     """Lateral stiffness of a point of the rim over the speed: a force fixed in space, in N,
-    over the deflection under it."""
+    over the deflection under it.
+
+    Attributes
+    ----------
+    rpm : Speeds from rest to just below the lowest critical one; empty if nothing holds the
+        blade.
+    n_per_m : Stiffness at these speeds.
+    """
 
     rpm: FloatArray
-    """Speeds from rest to just below the lowest critical one; empty if nothing holds the
-    blade."""
-
     n_per_m: FloatArray
-    """Stiffness at these speeds."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CheckReport(Entry):
-    """A comparison of a saw with limits."""
+    """A comparison of a saw with limits.
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    accept_unusual : Whether a saw with unusual numbers may pass.
+    passed : Whether every limit is kept and unusual numbers are absent or accepted.
+    criteria : Every limit.
+    operating_rpm : Operating speed.
+    margin : Largest ratio of the operating speed to the first critical speed.
+    to_rpm : Last speed of the sweep; results are limited to it.
+    critical_rpm : Critical speeds within the sweep, ascending.
+    bands : Every band of instability within the sweep.
+    flutter_threshold_per_s : Growth rate above which a band counts.
+    rim_stiffness_at_rest_n_per_m : Lateral stiffness of a point of the rim at the middle of the
+        cut, at rest.
+    rim_stiffness_n_per_m : Lateral stiffness of this point at the operating speed; null above
+        the first critical speed, where it is not defined.
+    rim_stiffness : Lateral stiffness of this point over the speed.
+    rim_speed_m_per_s : Rim speed at the operating speed.
+    max_rim_m_per_s : Limit of the rim speed.
+    max_amplitude_m : Limit of the amplitude of flutter, if there is one.
+    estimated_relative_error : Estimated relative error of the critical speeds.
+    warnings : Remarks on the validity of the result.
+    """
 
     sawflutter: str
-    """Version of the program that wrote the report."""
-
     scene: SceneDict
-    """The scene, as typed."""
-
     condition: str = field(default="")
-    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
-    teeth)"."""
-
     unusual_numbers: tuple[str, ...] = field(default=())
-    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
-    hold for the numbers as typed."""
-
     accept_unusual: bool = field(default=False)
-    """Whether a saw with unusual numbers may pass."""
-
     passed: bool
-    """Whether every limit is kept and unusual numbers are absent or accepted."""
-
     criteria: tuple[Criterion, ...]
-    """Every limit."""
-
     operating_rpm: float
-    """Operating speed."""
-
     margin: float
-    """Largest ratio of the operating speed to the first critical speed."""
-
     to_rpm: float
-    """Last speed of the sweep; results are limited to it."""
-
-    critical_speeds_rpm: FloatArray
-    """Critical speeds within the sweep, ascending."""
-
-    instabilities: tuple[Instability, ...]
-    """Every band of instability within the sweep."""
-
+    critical_rpm: FloatArray = field(metadata={"key": "critical_speeds_rpm"})
+    bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
     flutter_threshold_per_s: float
-    """Growth rate above which a band counts."""
-
     rim_stiffness_at_rest_n_per_m: float
-    """Lateral stiffness of a point of the rim at the middle of the cut, at rest."""
-
     rim_stiffness_n_per_m: float | None
-    """Lateral stiffness of this point at the operating speed; null above the first critical
-    speed, where it is not defined."""
-
     rim_stiffness: RimStiffness
-    """Lateral stiffness of this point over the speed."""
-
     rim_speed_m_per_s: float
-    """Rim speed at the operating speed."""
-
     max_rim_m_per_s: float
-    """Limit of the rim speed."""
-
     max_amplitude_m: float | None = field(default=None)
-    """Limit of the amplitude of flutter, if there is one."""
-
     estimated_relative_error: float | None
-    """Estimated relative error of the critical speeds."""
-
     warnings: tuple[str, ...]
-    """Remarks on the validity of the result."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Compared(Entry):
-    """A saw among others."""
+    """A saw among others.
+
+    Attributes
+    ----------
+    label : Label of the saw: the name of its file, or the change of its scene.
+    scene : Scene of the saw.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
+    critical_speeds : Critical speeds up to the end of its sweep, ascending.
+    bands : The bands of instability within its sweep.
+    flutter_rpm : Lowest speed at which flutter counts.
+    operating : Operating speed, and whether the saw is stable there.
+    rim_stiffness_at_rest_n_per_m : Lateral stiffness of a point of the rim at the middle of the
+        cut, at rest; null if the blade has free rigid motions, and for a saw whose report was
+        given instead of its scene.
+    estimated_relative_error : Estimated relative error of its critical speeds.
+    campbell : Branches of the saw over speed.
+    warnings : Numbers that no saw has, and remarks on the validity of its result.
+    """
 
     label: str
-    """Label of the saw: the name of its file, or the change of its scene."""
-
     scene: SceneDict
-    """Scene of the saw."""
-
     condition: str = field(default="")
-    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
-    teeth)"."""
-
     critical_speeds: tuple[CriticalSpeed, ...]
-    """Critical speeds up to the end of its sweep, ascending."""
-
-    instabilities: tuple[Instability, ...]
-    """The bands of instability within its sweep."""
-
-    flutter_speed_rpm: float | None
-    """Lowest speed at which flutter counts."""
-
+    bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
+    flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
     operating: Operating | None
-    """Operating speed, and whether the saw is stable there."""
-
     rim_stiffness_at_rest_n_per_m: float | None
-    """Lateral stiffness of a point of the rim at the middle of the cut, at rest; null if the
-    blade has free rigid motions, and for a saw whose report was given instead of its scene."""
-
     estimated_relative_error: float | None
-    """Estimated relative error of its critical speeds."""
-
     campbell: Campbell
-    """Branches of the saw over speed."""
-
     warnings: tuple[str, ...]
-    """Numbers that no saw has, and remarks on the validity of its result."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Difference(Entry):
-    """A key that is not the same in all scenes."""
+    """A key that is not the same in all scenes.
+
+    Attributes
+    ----------
+    path : JSON path of the key.
+    values : Its value in each scene, as in the file; empty where a scene has none.
+    """
 
     path: str
-    """JSON path of the key."""
-
     values: tuple[str, ...]
-    """Its value in each scene, as in the file; empty where a scene has none."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CompareReport(Entry):
-    """Report of a comparison (compare.json)."""
+    """Report of a comparison (compare.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The first scene, with which the others are compared.
+    saws : The saws.
+    differences : Keys of the scenes that are not the same in all of them; names, notes and
+        measured frequencies are not compared.
+    """
 
     sawflutter: str
-    """Version of the program that wrote the report."""
-
     scene: SceneDict
-    """The first scene, with which the others are compared."""
-
     saws: tuple[Compared, ...]
-    """The saws."""
-
     differences: tuple[Difference, ...]
-    """Keys of the scenes that are not the same in all of them; names, notes and measured
-    frequencies are not compared."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CutCriterionEntry(Entry):
-    """A criterion and its result."""
+    """A criterion and its result.
+
+    Attributes
+    ----------
+    criterion : The criterion.
+    verdict : Its verdict.
+    growth_per_s : Its largest growth.
+    frequency_hz : Frequency of that motion, if it is known and the vibration grows.
+    """
 
     criterion: CutCriterion
-    """The criterion."""
-
     verdict: Verdict
-    """Its verdict."""
-
     growth_per_s: float
-    """Its largest growth."""
-
     frequency_hz: float | None
-    """Frequency of that motion, if it is known and the vibration grows."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CutCertificate(Entry):
     """Number of growing modes in the cut and without its forces, compared with counts on the
-    full model."""
+    full model.
+
+    Attributes
+    ----------
+    statement : The result in a sentence.
+    growing_modes : Number of modes that grow in the cut; a pair of conjugate eigenvalues counts
+        as one.
+    idle_growing_modes : Number of modes that grow without the forces.
+    full_basis_counts : Number of counts on the full model with which the modes were compared,
+        in the cut and without the forces.
+    krein_violations : For how many of the two the Krein index of an undamped saw fails; 0 is
+        expected.
+    miscounted_modes : Modes that, according to the counts, are missing or superfluous; none are
+        expected.
+    """
 
     statement: str
-    """The result in a sentence."""
-
     growing_modes: int
-    """Number of modes that grow in the cut; a pair of conjugate eigenvalues counts as one."""
-
     idle_growing_modes: int
-    """Number of modes that grow without the forces."""
-
     full_basis_counts: int
-    """Number of counts on the full model with which the modes were compared, in the cut and
-    without the forces."""
-
     krein_violations: int
-    """For how many of the two the Krein index of an undamped saw fails; 0 is expected."""
-
     miscounted_modes: tuple[Miscount, ...]
-    """Modes that, according to the counts, are missing or superfluous; none are expected."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ByPower(Entry):
-    """A cut with the force that follows from its power."""
+    """A cut with the force that follows from its power.
+
+    Attributes
+    ----------
+    tangential_n_per_tooth : P/(Ωb) divided by the mean number of teeth in the cut.
+    verdict : Verdict by the eigenvalues.
+    growth_per_s : Largest Re λ.
+    """
 
     tangential_n_per_tooth: float
-    """P/(Ωb) divided by the mean number of teeth in the cut."""
-
     verdict: Verdict
-    """Verdict by the eigenvalues."""
-
     growth_per_s: float
-    """Largest Re λ."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ToothPassing(Entry):
-    """The effect of loads that move with the teeth, compared with stationary loads."""
+    """The effect of loads that move with the teeth, compared with stationary loads.
+
+    Attributes
+    ----------
+    tooth_frequency_hz : Number of teeth that pass per second.
+    standing_growth_per_s : Growth under stationary loads at the mean places of the teeth.
+    mean_growth_per_s : Growth under the mean of the moving loads.
+    passing_growth_per_s : Growth under the moving loads, from Floquet multipliers.
+    standing_deflection_m : Largest deflection at the probe in the cut under stationary loads;
+        null if the linear model ends before the cut.
+    passing_deflection_m : Largest deflection at the probe in the cut under moving loads.
+    """
 
     tooth_frequency_hz: float
-    """Number of teeth that pass per second."""
-
     standing_growth_per_s: float
-    """Growth under stationary loads at the mean places of the teeth."""
-
     mean_growth_per_s: float
-    """Growth under the mean of the moving loads."""
-
     passing_growth_per_s: float
-    """Growth under the moving loads, from Floquet multipliers."""
-
     standing_deflection_m: float | None
-    """Largest deflection at the probe in the cut under stationary loads; null if the linear
-    model ends before the cut."""
-
     passing_deflection_m: float | None
-    """Largest deflection at the probe in the cut under moving loads."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CutStretching(Entry):
-    """Numbers of a time history in the cut with stretching."""
+    """Numbers of a time history in the cut with stretching.
+
+    Attributes
+    ----------
+    shapes : Number of shapes of the reduced basis.
+    step_s : Longest step of the integration.
+    largest_slope : Largest slope of the blade in the time history.
+    valid_until_s : Time at which slopes exceed 0.1 and the record ends; null if they do not.
+    """
 
     shapes: int
-    """Number of shapes of the reduced basis."""
-
     step_s: float
-    """Longest step of the integration."""
-
     largest_slope: float
-    """Largest slope of the blade in the time history."""
-
     valid_until_s: float | None
-    """Time at which slopes exceed 0.1 and the record ends; null if they do not."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class VerdictMap(Entry):
-    """Growth rates over guide angle and load."""
+    """Growth rates over guide angle and load.
+
+    Attributes
+    ----------
+    guide_angle_deg : Angles of the first guide, with which all guides move; empty without
+        guides.
+    load_level : Factors of the radial and tangential forces.
+    growth_per_s : Growth rates, one row for each load level, one column for each angle; one
+        column without guides.
+    verdict : Verdicts by these growth rates, in the same rows and columns.
+    """
 
     guide_angle_deg: FloatArray
-    """Angles of the first guide, with which all guides move; empty without guides."""
-
     load_level: FloatArray
-    """Factors of the radial and tangential forces."""
-
     growth_per_s: FloatArray
-    """Growth rates, one row for each load level, one column for each angle; one column without
-    guides."""
-
     verdict: tuple[tuple[Verdict, ...], ...]
-    """Verdicts by these growth rates, in the same rows and columns."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Spline(Entry):
-    """The cut with the reaction of the simulated spline teeth."""
+    """The cut with the reaction of the simulated spline teeth.
+
+    Attributes
+    ----------
+    verdict : Verdict in the cut, by the eigenvalues with the simulated reaction.
+    growth_per_s : Largest Re λ with this reaction.
+    frequency_hz : Frequency of the mode of this growth; null if none grows.
+    stiffness_change : ‖change of K_e‖ / ‖K_e‖ from the assumed to the simulated reaction, on
+        the lowest modes of the idle saw.
+    force_n : Mean force of the arbor on the blade, towards the cut and a quarter turn further.
+    torque_n_m : Mean torque of the arbor on the blade.
+    clearance_m : Gap between two flanks while the blade is centred.
+    teeth_in_contact : Mean number of spline teeth in contact.
+    peak_tooth_n : Largest normal force on a spline tooth.
+    deepest_m : Largest depth by which two flanks overlap.
+    imbalance : Mean reaction plus load, relative to the load: the remaining imbalance of the
+        average.
+    unsteadiness : Measure of how far the motion is from being settled.
+    settled_from : Index in the reported orbit above which the reaction was averaged.
+    time_s : Times of the orbit.
+    x_m : Position of the centre of the blade, towards the cut.
+    y_m : Position of the centre of the blade, a quarter turn further in the direction of
+        rotation.
+    """
 
     verdict: Verdict
-    """Verdict in the cut, by the eigenvalues with the simulated reaction."""
-
     growth_per_s: float
-    """Largest Re λ with this reaction."""
-
     frequency_hz: float | None
-    """Frequency of the mode of this growth; null if none grows."""
-
     stiffness_change: float
-    """‖change of K_e‖ / ‖K_e‖ from the assumed to the simulated reaction, on the lowest modes
-    of the idle saw."""
-
     force_n: FloatArray
-    """Mean force of the arbor on the blade, towards the cut and a quarter turn further."""
-
     torque_n_m: float
-    """Mean torque of the arbor on the blade."""
-
     clearance_m: float
-    """Gap between two flanks while the blade is centred."""
-
     teeth_in_contact: float
-    """Mean number of spline teeth in contact."""
-
     peak_tooth_n: float
-    """Largest normal force on a spline tooth."""
-
     deepest_m: float
-    """Largest depth by which two flanks overlap."""
-
     imbalance: float
-    """Mean reaction plus load, relative to the load: the remaining imbalance of the average."""
-
     unsteadiness: float
-    """Measure of how far the motion is from being settled."""
-
     settled_from: int
-    """Index in the reported orbit above which the reaction was averaged."""
-
     time_s: FloatArray
-    """Times of the orbit."""
-
     x_m: FloatArray
-    """Position of the centre of the blade, towards the cut."""
-
     y_m: FloatArray
-    """Position of the centre of the blade, a quarter turn further in the direction of
-    rotation."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CutRun(Entry):
-    """One speed of the cut."""
+    """One speed of the cut.
+
+    Attributes
+    ----------
+    rpm : Rotation speed.
+    tangential_n_per_tooth : Force against the rotation on each tooth.
+    radial_n_per_tooth : Force towards the axis on each tooth.
+    lateral_n_per_tooth : Force across the blade on each tooth.
+    verdict : The worst of the criteria; if no vibration grows, whether the deflection stays
+        within the model, and the speed away from critical speeds.
+    at_critical_rpm : Critical speed within 5 % of this speed, of the saw in the cut or out of
+        it; null if there is none.
+    decided_by : Criterion of fastest growth among those with this verdict.
+    criteria : The result of each criterion.
+    growth_per_s : Largest Re λ in the cut.
+    frequency_hz : Frequency of the growing mode; of the largest oscillation if none grows.
+    transient_verdict : Verdict in the cut by the time history; null if no lateral force excites
+        the blade.
+    transient_growth_per_s : Growth rate fitted to the deflection in the cut.
+    transient_frequency_hz : Frequency of this growth, if it is unstable.
+    agree : Whether both verdicts are equal and, if a vibration grows, growth rates agree within
+        2 %.
+    dominant_frequency_hz : Frequency of the largest oscillation in the cut.
+    idle_verdict : Verdict before and after the cut, by the eigenvalues.
+    idle_growth_per_s : Largest Re λ without the forces.
+    certificate : Comparison of the growing modes with counts on the full model.
+    by_power : The cut with the tangential force that follows from the power, if it is given.
+    tooth_passing : Comparison of moving and stationary tooth loads.
+    linear_until_s : Time at which the deflection at the probe exceeds the linear model and the
+        record ends; null if it does not, and with stretching.
+    largest_deflection_in_cut_m : Largest deflection at the probe before the forces end; null if
+        the model, linear or with stretching, ends earlier.
+    largest_deflection_after_m : Largest deflection at the probe after the forces end; null if
+        the model, linear or with stretching, ends before the record.
+    forces_from_s : Start of the forces.
+    forces_to_s : End of the forces.
+    stretching : Results with stretching, if the scene requests it.
+    time_s : Times of the record.
+    deflection_m : Deflection at the probe.
+    map : Verdict over guide angle and load.
+    spline : The cut with the reaction of the simulated spline teeth, if the scene requests it.
+    """
 
     rpm: float
-    """Rotation speed."""
-
     tangential_n_per_tooth: float
-    """Force against the rotation on each tooth."""
-
     radial_n_per_tooth: float
-    """Force towards the axis on each tooth."""
-
     lateral_n_per_tooth: float
-    """Force across the blade on each tooth."""
-
     verdict: CutVerdict
-    """The worst of the criteria; if no vibration grows, whether the deflection stays within the
-    model, and the speed away from critical speeds."""
-
     at_critical_rpm: float | None = field(default=None)
-    """Critical speed within 5 % of this speed, of the saw in the cut or out of it; null if
-    there is none."""
-
     decided_by: CutCriterion
-    """Criterion of fastest growth among those with this verdict."""
-
     criteria: tuple[CutCriterionEntry, ...]
-    """The result of each criterion."""
-
     growth_per_s: float
-    """Largest Re λ in the cut."""
-
     frequency_hz: float | None
-    """Frequency of the growing mode; of the largest oscillation if none grows."""
-
     transient_verdict: Verdict | None
-    """Verdict in the cut by the time history; null if no lateral force excites the blade."""
-
     transient_growth_per_s: float | None
-    """Growth rate fitted to the deflection in the cut."""
-
     transient_frequency_hz: float | None
-    """Frequency of this growth, if it is unstable."""
-
     agree: bool | None
-    """Whether both verdicts are equal and, if a vibration grows, growth rates agree within 2
-    %."""
-
     dominant_frequency_hz: float | None
-    """Frequency of the largest oscillation in the cut."""
-
     idle_verdict: Verdict
-    """Verdict before and after the cut, by the eigenvalues."""
-
     idle_growth_per_s: float
-    """Largest Re λ without the forces."""
-
     certificate: CutCertificate
-    """Comparison of the growing modes with counts on the full model."""
-
     by_power: ByPower | None
-    """The cut with the tangential force that follows from the power, if it is given."""
-
     tooth_passing: ToothPassing
-    """Comparison of moving and stationary tooth loads."""
-
     linear_until_s: float | None
-    """Time at which the deflection at the probe exceeds the linear model and the record ends;
-    null if it does not, and with stretching."""
-
     largest_deflection_in_cut_m: float | None
-    """Largest deflection at the probe before the forces end; null if the model, linear or with
-    stretching, ends earlier."""
-
     largest_deflection_after_m: float | None
-    """Largest deflection at the probe after the forces end; null if the model, linear or with
-    stretching, ends before the record."""
-
     forces_from_s: float
-    """Start of the forces."""
-
     forces_to_s: float
-    """End of the forces."""
-
     stretching: CutStretching | None = field(default=None)
-    """Results with stretching, if the scene requests it."""
-
     time_s: FloatArray
-    """Times of the record."""
-
     deflection_m: FloatArray
-    """Deflection at the probe."""
-
     map: VerdictMap
-    """Verdict over guide angle and load."""
-
     spline: Spline | None
-    """The cut with the reaction of the simulated spline teeth, if the scene requests it."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CutReport(Entry):
-    """Report of a cut (cut.json)."""
+    """Report of a cut (cut.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : The cut of the report: "in the cut at 1800 and 2800 rpm (4 teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    degrees_of_freedom : Size of the basis.
+    flutter_threshold_per_s : Growth rate above which a cut is called unstable.
+    linear_limit_m : Largest deflection that is given; beyond it the linear model is not valid.
+    teeth : Mean number of teeth in the cut: its depth over their pitch. Deflections and growth
+        are those of the mean forces of this number of teeth; moving tooth loads are those of
+        single teeth that enter and leave the cut.
+    arc_deg : Arc of the rim in which teeth cut.
+    runs : One entry for each speed.
+    warnings : Remarks on the forces and on the validity of the result.
+    """
 
     sawflutter: str
-    """Version of the program that wrote the report."""
-
     scene: SceneDict
-    """The scene, as typed."""
-
     condition: str = field(default="")
-    """The cut of the report: "in the cut at 1800 and 2800 rpm (4 teeth)"."""
-
     unusual_numbers: tuple[str, ...] = field(default=())
-    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
-    hold for the numbers as typed."""
-
     degrees_of_freedom: int
-    """Size of the basis."""
-
     flutter_threshold_per_s: float
-    """Growth rate above which a cut is called unstable."""
-
     linear_limit_m: float
-    """Largest deflection that is given; beyond it the linear model is not valid."""
-
     teeth: float
-    """Mean number of teeth in the cut: its depth over their pitch. Deflections and growth are
-    those of the mean forces of this number of teeth; moving tooth loads are those of single
-    teeth that enter and leave the cut."""
-
     arc_deg: float
-    """Arc of the rim in which teeth cut."""
-
     runs: tuple[CutRun, ...]
-    """One entry for each speed."""
-
     warnings: tuple[str, ...]
-    """Remarks on the forces and on the validity of the result."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Arc(Entry):
-    """Stable equilibria. All lists have one entry for each speed."""
+    """Stable equilibria. All lists have one entry for each speed.
+
+    Attributes
+    ----------
+    rpm : Rotation speeds, rising or falling.
+    deflection_m : Deflection at the probe.
+    largest_deflection_m : Largest magnitude of the deflection over the blade.
+    largest_slope : Largest slope of the blade.
+    frequencies_hz : Frequencies of small motions about the deflected blade in space, ascending,
+        up to `campbell.complete_to_hz`.
+    pad_forces_n : Force of each pad that lifts off on the blade beyond its gap, without that of
+        its film: a row for each such guide, in the order of the scene.
+    """
 
     rpm: FloatArray
-    """Rotation speeds, rising or falling."""
-
     deflection_m: FloatArray
-    """Deflection at the probe."""
-
     largest_deflection_m: FloatArray
-    """Largest magnitude of the deflection over the blade."""
-
     largest_slope: FloatArray
-    """Largest slope of the blade."""
-
     frequencies_hz: FloatArray
-    """Frequencies of small motions about the deflected blade in space, ascending, up to
-    `campbell.complete_to_hz`."""
-
     pad_forces_n: FloatArray | None = field(default=None)
-    """Force of each pad that lifts off on the blade beyond its gap, without that of its film: a
-    row for each such guide, in the order of the scene."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Jump(Entry):
-    """A jump from an equilibrium that ceases to be stable to another one."""
+    """A jump from an equilibrium that ceases to be stable to another one.
+
+    Attributes
+    ----------
+    kind : Fold, beyond which the equilibrium does not exist, or bifurcation, at which another
+        one crosses it.
+    rpm : Rotation speed.
+    from_m : Deflection at the probe before the jump.
+    to_m : Deflection at the probe after the jump.
+    largest_from_m : Largest deflection over the blade before the jump.
+    largest_to_m : Largest deflection over the blade after the jump.
+    """
 
     kind: TurnKind
-    """Fold, beyond which the equilibrium does not exist, or bifurcation, at which another one
-    crosses it."""
-
     rpm: float
-    """Rotation speed."""
-
     from_m: float
-    """Deflection at the probe before the jump."""
-
     to_m: float
-    """Deflection at the probe after the jump."""
-
     largest_from_m: float
-    """Largest deflection over the blade before the jump."""
-
     largest_to_m: float
-    """Largest deflection over the blade after the jump."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class SlowSweep(Entry):
-    """Stable equilibria for slowly rising or falling speed."""
+    """Stable equilibria for slowly rising or falling speed.
+
+    Attributes
+    ----------
+    arcs : Arcs between jumps, in the order of the sweep.
+    jumps : Jumps at the ends of all arcs but the last.
+    valid_until_rpm : Speed above which slopes of the blade exceed 0.1, where the model is not
+        valid; there are no results beyond it. Null if they do not.
+    stopped_at_rpm : Speed at which the sweep stopped at its largest number of equilibria; there
+        are no results beyond it. Null if it did not.
+    """
 
     arcs: tuple[Arc, ...]
-    """Arcs between jumps, in the order of the sweep."""
-
     jumps: tuple[Jump, ...]
-    """Jumps at the ends of all arcs but the last."""
-
     valid_until_rpm: float | None
-    """Speed above which slopes of the blade exceed 0.1, where the model is not valid; there are
-    no results beyond it. Null if they do not."""
-
     stopped_at_rpm: float | None = field(default=None)
-    """Speed at which the sweep stopped at its largest number of equilibria; there are no
-    results beyond it. Null if it did not."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Turn(Entry):
-    """A fold or a bifurcation."""
+    """A fold or a bifurcation.
+
+    Attributes
+    ----------
+    kind : Kind of the turning point.
+    rpm : Rotation speed.
+    deflection_m : Deflection at the probe.
+    """
 
     kind: TurnKind
-    """Kind of the turning point."""
-
     rpm: float
-    """Rotation speed."""
-
     deflection_m: float
-    """Deflection at the probe."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class EquilibriumCurve(Entry):
     """A curve of equilibria. All lists have one entry for each equilibrium, in the order of the
-    curve."""
+    curve.
+
+    Attributes
+    ----------
+    rpm : Rotation speeds, not necessarily ascending.
+    deflection_m : Deflection at the probe.
+    largest_deflection_m : Largest magnitude of the deflection over the blade.
+    negative_eigenvalues : Number of directions in which the potential energy decreases; 0 for a
+        stable equilibrium.
+    turns : Folds and bifurcations of the curve.
+    """
 
     rpm: FloatArray
-    """Rotation speeds, not necessarily ascending."""
-
     deflection_m: FloatArray
-    """Deflection at the probe."""
-
     largest_deflection_m: FloatArray
-    """Largest magnitude of the deflection over the blade."""
-
     negative_eigenvalues: IntArray
-    """Number of directions in which the potential energy decreases; 0 for a stable
-    equilibrium."""
-
     turns: tuple[Turn, ...]
-    """Folds and bifurcations of the curve."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class DeflectReport(Entry):
-    """Report of the equilibria over speed (deflect.json)."""
+    """Report of the equilibria over speed (deflect.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    degrees_of_freedom : Size of the basis.
+    shapes : Number of shapes of the reduced basis.
+    estimated_relative_error : Largest relative change of the deflection with half as many modes
+        more; null if the blade remains flat.
+    basis_error : Estimated relative error of a small deflection at the force, at rest, on the
+        basis from which the shapes are made; null without a force, and for a blade that is
+        buckled at rest.
+    from_rpm : First speed.
+    to_rpm : Last speed.
+    force_n : Lateral force at the rim, fixed in space.
+    force_angle_deg : Angle of the force, positive in the direction of rotation.
+    probe_radius_m : Distance of the probe from the axis.
+    probe_angle_deg : Angle of the probe.
+    beyond_thickness_rpm : Rising speed up to which the deflection stays within the thickness
+        everywhere; null if it does at all speeds.
+    up : Stable equilibria for rising speed.
+    down : Stable equilibria for falling speed.
+    curves : Curves of equilibria, including unstable ones. It is not proven that there are no
+        others.
+    critical_speeds : Critical speeds of the flat blade, up to the last speed.
+    bands : Bands in which the flat blade is unstable, by the linear model.
+    campbell : Branches of the flat blade over the same speeds.
+    warnings : Remarks on the validity of the result.
+    """
 
     sawflutter: str
-    """Version of the program that wrote the report."""
-
     scene: SceneDict
-    """The scene, as typed."""
-
     condition: str = field(default="")
-    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
-    teeth)"."""
-
     unusual_numbers: tuple[str, ...] = field(default=())
-    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
-    hold for the numbers as typed."""
-
     degrees_of_freedom: int
-    """Size of the basis."""
-
     shapes: int
-    """Number of shapes of the reduced basis."""
-
     estimated_relative_error: float | None
-    """Largest relative change of the deflection with half as many modes more; null if the blade
-    remains flat."""
-
     basis_error: float | None = field(default=None)
-    """Estimated relative error of a small deflection at the force, at rest, on the basis from
-    which the shapes are made; null without a force, and for a blade that is buckled at rest."""
-
     from_rpm: float
-    """First speed."""
-
     to_rpm: float
-    """Last speed."""
-
     force_n: float
-    """Lateral force at the rim, fixed in space."""
-
     force_angle_deg: float
-    """Angle of the force, positive in the direction of rotation."""
-
     probe_radius_m: float
-    """Distance of the probe from the axis."""
-
     probe_angle_deg: float
-    """Angle of the probe."""
-
     beyond_thickness_rpm: float | None
-    """Rising speed up to which the deflection stays within the thickness everywhere; null if it
-    does at all speeds."""
-
     up: SlowSweep
-    """Stable equilibria for rising speed."""
-
     down: SlowSweep
-    """Stable equilibria for falling speed."""
-
     curves: tuple[EquilibriumCurve, ...]
-    """Curves of equilibria, including unstable ones. It is not proven that there are no
-    others."""
-
     critical_speeds: tuple[CriticalSpeed, ...]
-    """Critical speeds of the flat blade, up to the last speed."""
-
-    instabilities: tuple[Instability, ...]
-    """Bands in which the flat blade is unstable, by the linear model."""
-
+    bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
     campbell: Campbell
-    """Branches of the flat blade over the same speeds."""
-
     warnings: tuple[str, ...]
-    """Remarks on the validity of the result."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Parameter(Entry):
-    """A fitted number."""
+    """A fitted number.
+
+    Attributes
+    ----------
+    path : JSON path in the scene.
+    start : Value before the fit.
+    value : Fitted value.
+    interval_from : Lower end of the interval. Null at a bound, and if the data do not determine
+        this number: they do not distinguish it from others, or the interval is wider than the
+        distance between its bounds.
+    interval_to : Upper end of the interval.
+    bound_from : Lower bound.
+    bound_to : Upper bound.
+    at_bound : Whether the value is a bound.
+    """
 
     path: str
-    """JSON path in the scene."""
-
     start: float
-    """Value before the fit."""
-
     value: float
-    """Fitted value."""
-
     interval_from: float | None
-    """Lower end of the interval. Null at a bound, and if the data do not determine this number:
-    they do not distinguish it from others, or the interval is wider than the distance between
-    its bounds."""
-
     interval_to: float | None
-    """Upper end of the interval."""
-
     bound_from: float
-    """Lower bound."""
-
     bound_to: float
-    """Upper bound."""
-
     at_bound: bool
-    """Whether the value is a bound."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Residual(Entry):
-    """A measured frequency and the corresponding computed one."""
+    """A measured frequency and the corresponding computed one.
+
+    Attributes
+    ----------
+    rpm : Rotation speed.
+    place : Rank of the computed frequency at this speed, from 1, ascending.
+    measured_hz : Measured frequency.
+    before_hz : Frequency computed before the fit.
+    fitted_hz : Frequency computed with the fitted numbers.
+    fitted : Whether the fit includes this speed.
+    """
 
     rpm: float
-    """Rotation speed."""
-
     place: int
-    """Rank of the computed frequency at this speed, from 1, ascending."""
-
     measured_hz: float
-    """Measured frequency."""
-
     before_hz: float
-    """Frequency computed before the fit."""
-
     fitted_hz: float
-    """Frequency computed with the fitted numbers."""
-
     fitted: bool
-    """Whether the fit includes this speed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Curves(Entry):
-    """Lowest frequencies, ascending, one row for each speed."""
+    """Lowest frequencies, ascending, one row for each speed.
+
+    Attributes
+    ----------
+    rpm : Speeds of the curves.
+    before_hz : Frequencies before the fit.
+    fitted_hz : Frequencies after the fit.
+    """
 
     rpm: FloatArray
-    """Speeds of the curves."""
-
     before_hz: FloatArray
-    """Frequencies before the fit."""
-
     fitted_hz: FloatArray
-    """Frequencies after the fit."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Start(Entry):
-    """A start and its result."""
+    """A start and its result.
+
+    Attributes
+    ----------
+    from_ : Initial values.
+    to : Final values; null for a start that is not a valid saw.
+    rms_hz : Root mean square of the residuals at the final values; null without them.
+    """
 
     from_: FloatArray = field(metadata={"key": "from"})
-    """Initial values."""
-
     to: FloatArray | None
-    """Final values; null for a start that is not a valid saw."""
-
     rms_hz: float | None
-    """Root mean square of the residuals at the final values; null without them."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FitReport(Entry):
-    """Report of a fit (fit.json)."""
+    """Report of a fit (fit.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The fitted scene.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    source : Source of the measured frequencies.
+    confidence : Probability that an interval contains the true value.
+    parameters : Fitted numbers.
+    without_effect : Freed numbers without effect on the measured frequencies; they keep their
+        values.
+    correlation : Correlation of the parameters, in their order.
+    measured_frequencies : Number of fitted frequencies.
+    degrees_of_freedom : Number of measured frequencies minus number of free numbers.
+    rms_hz : Root mean square of computed minus measured frequencies.
+    rms_before_hz : Root mean square of computed minus measured frequencies before the fit.
+    residuals : Measured and computed frequencies in pairs.
+    curves : Lowest frequencies over speed, before and after the fit.
+    starts : All starts and their results, on a coarser basis.
+    max_diameters : Largest number of nodal diameters of the basis.
+    radial_functions : Number of radial functions for each number of nodal diameters.
+    estimated_relative_error : Estimated relative error of the critical speeds on this basis.
+    warnings : Remarks on the validity of the result.
+    """
 
     sawflutter: str
-    """Version of the program that wrote the report."""
-
     scene: SceneDict
-    """The fitted scene."""
-
     condition: str = field(default="")
-    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
-    teeth)"."""
-
     unusual_numbers: tuple[str, ...] = field(default=())
-    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
-    hold for the numbers as typed."""
-
     source: str
-    """Source of the measured frequencies."""
-
     confidence: float
-    """Probability that an interval contains the true value."""
-
     parameters: tuple[Parameter, ...]
-    """Fitted numbers."""
-
     without_effect: tuple[str, ...]
-    """Freed numbers without effect on the measured frequencies; they keep their values."""
-
     correlation: FloatArray
-    """Correlation of the parameters, in their order."""
-
     measured_frequencies: int
-    """Number of fitted frequencies."""
-
     degrees_of_freedom: int
-    """Number of measured frequencies minus number of free numbers."""
-
     rms_hz: float
-    """Root mean square of computed minus measured frequencies."""
-
     rms_before_hz: float
-    """Root mean square of computed minus measured frequencies before the fit."""
-
     residuals: tuple[Residual, ...]
-    """Measured and computed frequencies in pairs."""
-
     curves: Curves
-    """Lowest frequencies over speed, before and after the fit."""
-
     starts: tuple[Start, ...]
-    """All starts and their results, on a coarser basis."""
-
     max_diameters: int
-    """Largest number of nodal diameters of the basis."""
-
     radial_functions: int
-    """Number of radial functions for each number of nodal diameters."""
-
     estimated_relative_error: float | None
-    """Estimated relative error of the critical speeds on this basis."""
-
     warnings: tuple[str, ...]
-    """Remarks on the validity of the result."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class AtAmplitude(Entry):
-    """A saw whose blade oscillates at its guides with one amplitude."""
+    """A saw whose blade oscillates at its guides with one amplitude.
+
+    Attributes
+    ----------
+    amplitude_m : Amplitude at the guides; null for the free blade and for the linear chart.
+    stiffness_shares : Mean stiffness of each one-sided guide over the oscillation (describing
+        function), relative to its full stiffness.
+    critical_rpm : Critical speeds within the sweep.
+    bands : Bands of instability within the sweep.
+    flutter_rpm : Flutter speed; null if no flutter counts within the sweep.
+    """
 
     amplitude_m: float | None
-    """Amplitude at the guides; null for the free blade and for the linear chart."""
-
     stiffness_shares: FloatArray
-    """Mean stiffness of each one-sided guide over the oscillation (describing function),
-    relative to its full stiffness."""
-
     critical_rpm: FloatArray
-    """Critical speeds within the sweep."""
-
-    instabilities: tuple[Instability, ...]
-    """Bands of instability within the sweep."""
-
-    flutter_speed_rpm: float | None
-    """Flutter speed; null if no flutter counts within the sweep."""
+    bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
+    flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class BasisError(Entry):
     """Largest relative change of the deflections at the cut over gap and force, every third of
-    each, in a larger basis."""
+    each, in a larger basis.
+
+    Attributes
+    ----------
+    share : Relative change.
+    gap_factor : Factor of the gaps at which it occurs.
+    force_n : Side force at which it occurs.
+    modes : Number of modes at rest in the basis.
+    more_modes : Number of modes at rest in the larger basis.
+    """
 
     share: float
-    """Relative change."""
-
     gap_factor: float
-    """Factor of the gaps at which it occurs."""
-
     force_n: float
-    """Side force at which it occurs."""
-
     modes: int
-    """Number of modes at rest in the basis."""
-
     more_modes: int
-    """Number of modes at rest in the larger basis."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Deviation(Entry):
-    """Stationary deflection of the rim at the cut under the side force of the scene."""
+    """Stationary deflection of the rim at the cut under the side force of the scene.
+
+    Attributes
+    ----------
+    angle_deg : Angle of the deflection, that of the cut.
+    rpm : Speed of the map over gap and force.
+    gap_factors : Gaps of the map relative to those of the scene, one row each; 0 stands for the
+        same guides without a gap, with their offsets and sides.
+    forces_n : Side forces of the map.
+    deflection_m : Deflection at the cut, one row a gap; null where slopes exceed 0.1 and the
+        model is not valid.
+    largest_deflection_m : Largest deflection of the blade, as an absolute value.
+    pad_forces_n : Force of each one-sided pad on the blade, by contact and film: for each pad
+        one row a gap. With the forces of other guides and that of the side force, the sum is
+        zero on a blade that slides along its arbor.
+    max_deflection_m : Largest deflection at the cut that is allowed; null if none was given.
+    force_within_n : Largest side force under which the deflection keeps this limit, for each
+        gap; null where it exceeds the limit under the smallest force of the map. Empty without
+        a limit.
+    force_n : Side force of the map over gap and speed, and of the series over the speed with
+        the gaps of the scene.
+    speeds_rpm : Speeds of the map over gap and speed and of the series.
+    deflection_over_gap_and_speed_m : Deflection at the cut over gap and speed, one row a gap;
+        null where the blade deflects by more than its thickness.
+    speed_within_rpm : Largest speed up to which the deflection at the cut keeps the limit under
+        this force, for each gap, at most the first critical speed of the linear chart; null
+        where it exceeds the limit at rest. Empty without a limit.
+    deflection_over_speed_m : Deflection at the cut at these speeds, with the gaps of the scene;
+        null where the blade deflects by more than its thickness.
+    pad_forces_over_speed_n : Forces of the pads at these speeds, one row a pad; null where the
+        blade deflects by more than its thickness.
+    basis_error : Estimated error of the deflections over gap and force; null if none could be
+        compared.
+    """
 
     angle_deg: float
-    """Angle of the deflection, that of the cut."""
-
     rpm: float
-    """Speed of the map over gap and force."""
-
     gap_factors: FloatArray
-    """Gaps of the map relative to those of the scene, one row each; 0 stands for the same
-    guides without a gap, with their offsets and sides."""
-
     forces_n: FloatArray
-    """Side forces of the map."""
-
     deflection_m: FloatArray
-    """Deflection at the cut, one row a gap; null where slopes exceed 0.1 and the model is not
-    valid."""
-
     largest_deflection_m: FloatArray
-    """Largest deflection of the blade, as an absolute value."""
-
     pad_forces_n: FloatArray
-    """Force of each one-sided pad on the blade, by contact and film: for each pad one row a
-    gap. With the forces of other guides and that of the side force, the sum is zero on a blade
-    that slides along its arbor."""
-
     max_deflection_m: float | None
-    """Largest deflection at the cut that is allowed; null if none was given."""
-
     force_within_n: FloatArray
-    """Largest side force under which the deflection keeps this limit, for each gap; null where
-    it exceeds the limit under the smallest force of the map. Empty without a limit."""
-
     force_n: float
-    """Side force of the map over gap and speed, and of the series over the speed with the gaps
-    of the scene."""
-
     speeds_rpm: FloatArray
-    """Speeds of the map over gap and speed and of the series."""
-
     deflection_over_gap_and_speed_m: FloatArray
-    """Deflection at the cut over gap and speed, one row a gap; null where the blade deflects by
-    more than its thickness."""
-
     speed_within_rpm: FloatArray
-    """Largest speed up to which the deflection at the cut keeps the limit under this force, for
-    each gap, at most the first critical speed of the linear chart; null where it exceeds the
-    limit at rest. Empty without a limit."""
-
     deflection_over_speed_m: FloatArray
-    """Deflection at the cut at these speeds, with the gaps of the scene; null where the blade
-    deflects by more than its thickness."""
-
     pad_forces_over_speed_n: FloatArray
-    """Forces of the pads at these speeds, one row a pad; null where the blade deflects by more
-    than its thickness."""
-
     basis_error: BasisError | None
-    """Estimated error of the deflections over gap and force; null if none could be compared."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class OscillationLine(Entry):
-    """A part of the motion, with a multiple of the rotation frequency."""
+    """A part of the motion, with a multiple of the rotation frequency.
+
+    Attributes
+    ----------
+    order : Ratio of its frequency to that of rotation.
+    name : Causes of this part, such as "run-out" or "flatness"; "contact" if only the contact
+        of the pads has this order.
+    probe_m : Amplitude at the probe at the speeds of the series.
+    """
 
     order: int
-    """Ratio of its frequency to that of rotation."""
-
     name: str
-    """Causes of this part, such as "run-out" or "flatness"; "contact" if only the contact of
-    the pads has this order."""
-
     probe_m: FloatArray
-    """Amplitude at the probe at the speeds of the series."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class OscillationPlace(Entry):
-    """A periodic deflection at a point."""
+    """A periodic deflection at a point.
+
+    Attributes
+    ----------
+    mean_m : Mean deflection.
+    amplitude_m : Half of the difference between the largest and the smallest deflection.
+    largest_m : Largest deflection, as an absolute value.
+    lines_m : Amplitude of each part of the motion, in the order of `lines`.
+    phase_deg : Phase of each part, −180 to 180: the angle by which it precedes the time at
+        which the oscillating force, or the wave of a shape at the angle 0, is largest, in
+        angles of this part.
+    """
 
     mean_m: float
-    """Mean deflection."""
-
     amplitude_m: float
-    """Half of the difference between the largest and the smallest deflection."""
-
     largest_m: float
-    """Largest deflection, as an absolute value."""
-
     lines_m: FloatArray
-    """Amplitude of each part of the motion, in the order of `lines`."""
-
     phase_deg: FloatArray
-    """Phase of each part, −180 to 180: the angle by which it precedes the time at which the
-    oscillating force, or the wave of a shape at the angle 0, is largest, in angles of this
-    part."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class OscillationPad(Entry):
-    """Forces and contact of a pad over one period of the motion."""
+    """Forces and contact of a pad over one period of the motion.
+
+    Attributes
+    ----------
+    guide : Index among the guides of the scene.
+    mean_force_n : Mean force on the blade, by contact and film.
+    largest_force_n : Largest force, as an absolute value.
+    contact_share : Share of the period in which the pad touches the blade.
+    """
 
     guide: int
-    """Index among the guides of the scene."""
-
     mean_force_n: float
-    """Mean force on the blade, by contact and film."""
-
     largest_force_n: float
-    """Largest force, as an absolute value."""
-
     contact_share: float
-    """Share of the period in which the pad touches the blade."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class OscillationAt(Entry):
-    """The motion at one speed."""
+    """The motion at one speed.
+
+    Attributes
+    ----------
+    rpm : Rotation speed.
+    frequency_hz : Frequency of the motion.
+    cut : Deflection of the rim at the cut.
+    probe : Deflection at the probe.
+    pads : One-sided pads, in the order of the scene.
+    largest_deflection_m : Largest deflection of the blade, as an absolute value.
+    growth_per_s : Growth rate of the fastest small motion about this one, negative if all
+        decay; null if it was not found.
+    growth_frequency_hz : Frequency of that small motion, at most half of `frequency_hz`; a
+        motion with exactly half has twice the period.
+    stable : Whether no small motion about this one grows faster than the threshold of the
+        scene.
+    """
 
     rpm: float
-    """Rotation speed."""
-
     frequency_hz: float
-    """Frequency of the motion."""
-
     cut: OscillationPlace
-    """Deflection of the rim at the cut."""
-
     probe: OscillationPlace
-    """Deflection at the probe."""
-
     pads: tuple[OscillationPad, ...]
-    """One-sided pads, in the order of the scene."""
-
     largest_deflection_m: float
-    """Largest deflection of the blade, as an absolute value."""
-
     growth_per_s: float | None
-    """Growth rate of the fastest small motion about this one, negative if all decay; null if it
-    was not found."""
-
     growth_frequency_hz: float | None
-    """Frequency of that small motion, at most half of `frequency_hz`; a motion with exactly
-    half has twice the period."""
-
     stable: bool
-    """Whether no small motion about this one grows faster than the threshold of the scene."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Oscillation(Entry):
     """Periodic motion of the blade under the steady side force of the map, with the gaps of the
     scene. Its causes are an oscillating side force and response.runout_m, flatness_m and
-    imbalance_kg_m2 of the scene."""
+    imbalance_kg_m2 of the scene.
+
+    Attributes
+    ----------
+    force_n : Steady side force.
+    oscillating_force_n : Amplitude of the oscillating side force; 0 without one.
+    oscillating_order : Ratio of its frequency to that of rotation; 0 without one.
+    lines : The parts of the motion, by their order of the rotation speed.
+    at : The motion at the speed of the map; null if no periodic motion was found.
+    still_deflection_m : Deflection of the rim at the cut at the speed of the map without
+        oscillation.
+    harmonics_error_share : Amplitude at the cut, at the speed of the map, of the harmonics that
+        the motion neglects, relative to its own; null if no motion was found.
+    basis_error_share : Relative change of this amplitude with 24 modes at rest instead of 16;
+        null if no motion was found.
+    rpm : Rotation speeds of the series below, ascending.
+    neglected_share : Amplitude at the cut of the harmonics that the motion neglects, relative
+        to its own; null where no motion was found, and where it needs more than 24 harmonics.
+    probe_mean_m : Mean deflection at the probe, whose sign is the side to which the blade
+        leans; null where no stable periodic motion was found, and where the blade deflects by
+        more than its thickness.
+    probe_amplitude_m : Half of the difference between the largest and the smallest deflection
+        at the probe.
+    cut_mean_m : Mean deflection of the rim at the cut.
+    cut_amplitude_m : Half of the difference between the largest and the smallest deflection of
+        the rim at the cut.
+    """
 
     force_n: float
-    """Steady side force."""
-
     oscillating_force_n: float
-    """Amplitude of the oscillating side force; 0 without one."""
-
     oscillating_order: int
-    """Ratio of its frequency to that of rotation; 0 without one."""
-
     lines: tuple[OscillationLine, ...]
-    """The parts of the motion, by their order of the rotation speed."""
-
     at: OscillationAt | None
-    """The motion at the speed of the map; null if no periodic motion was found."""
-
     still_deflection_m: float
-    """Deflection of the rim at the cut at the speed of the map without oscillation."""
-
     harmonics_error_share: float | None
-    """Amplitude at the cut, at the speed of the map, of the harmonics that the motion neglects,
-    relative to its own; null if no motion was found."""
-
     basis_error_share: float | None
-    """Relative change of this amplitude with 24 modes at rest instead of 16; null if no motion
-    was found."""
-
     rpm: FloatArray
-    """Rotation speeds of the series below, ascending."""
-
     neglected_share: FloatArray
-    """Amplitude at the cut of the harmonics that the motion neglects, relative to its own; null
-    where no motion was found, and where it needs more than 24 harmonics."""
-
     probe_mean_m: FloatArray
-    """Mean deflection at the probe, whose sign is the side to which the blade leans; null where
-    no stable periodic motion was found, and where the blade deflects by more than its
-    thickness."""
-
     probe_amplitude_m: FloatArray
-    """Half of the difference between the largest and the smallest deflection at the probe."""
-
     cut_mean_m: FloatArray
-    """Mean deflection of the rim at the cut."""
-
     cut_amplitude_m: FloatArray
-    """Half of the difference between the largest and the smallest deflection of the rim at the
-    cut."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FrictionPad(Entry):
-    """A one-sided pad beside the heated blade."""
+    """A one-sided pad beside the heated blade.
+
+    Attributes
+    ----------
+    guide : Index among the guides of the scene.
+    from_radius_m : Smallest distance from the axis at which the pad lies on the blade.
+    to_radius_m : Largest such distance.
+    gap_left_m : Smallest distance left between the blade and the faces of the pad with this
+        heat; negative where a face is pressed in, null where the model is not valid.
+    """
 
     guide: int
-    """Index among the guides of the scene."""
-
     from_radius_m: float
-    """Smallest distance from the axis at which the pad lies on the blade."""
-
     to_radius_m: float
-    """Largest such distance."""
-
     gap_left_m: float | None
-    """Smallest distance left between the blade and the faces of the pad with this heat;
-    negative where a face is pressed in, null where the model is not valid."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Friction(Entry):
-    """The heat of friction at the pads, at the speed and under the side force of the map."""
+    """The heat of friction at the pads, at the speed and under the side force of the map.
+
+    Attributes
+    ----------
+    coefficient : Coefficient of friction.
+    heat_share : Share of the power that enters the blade.
+    convection_w_per_m2_k : Heat transfer coefficient of each face of the blade.
+    conductivity_w_per_m_k : Heat conductivity of the blade.
+    expansion_per_k : Coefficient of linear thermal expansion: that of the scene's temperature,
+        or that of steel.
+    power_w : Power of friction at all pads.
+    radii_m : Radii of the temperatures.
+    rise_k : Temperature rise at these radii by friction alone, to be added to that of the
+        scene.
+    cold_deflection_m : Deflection at the cut without this heat; null where the model is not
+        valid.
+    deflection_m : Deflection at the cut with this heat.
+    pad_forces_n : Force of each one-sided pad on the blade, by contact and film, with this
+        heat.
+    pads : Each one-sided pad, in the order of the scene.
+    cold_critical_rpm : First critical speed of the linear chart without this heat.
+    lowest_critical_rpm : First critical speed of the linear chart with this heat; null also if
+        the temperature does not settle.
+    settled : Whether the temperature has settled; otherwise the numbers are those of the last
+        temperature with which the blade has a deflection.
+    swings : Whether the temperature swings between two states, because power and deflection
+        have a jump between them.
+    runaway_rpm : Speed from which the heat runs away or buckles the blade, to 1 %; null if it
+        does not at the speed of the map.
+    change : Difference of the temperature of the power from this one, relative to its largest
+        value.
+    repetitions : Number of temperatures for which the loop computed deflection and power.
+    """
 
     coefficient: float
-    """Coefficient of friction."""
-
     heat_share: float
-    """Share of the power that enters the blade."""
-
     convection_w_per_m2_k: float
-    """Heat transfer coefficient of each face of the blade."""
-
     conductivity_w_per_m_k: float
-    """Heat conductivity of the blade."""
-
     expansion_per_k: float
-    """Coefficient of linear thermal expansion: that of the scene's temperature, or that of
-    steel."""
-
     power_w: float
-    """Power of friction at all pads."""
-
     radii_m: FloatArray
-    """Radii of the temperatures."""
-
     rise_k: FloatArray
-    """Temperature rise at these radii by friction alone, to be added to that of the scene."""
-
     cold_deflection_m: float | None
-    """Deflection at the cut without this heat; null where the model is not valid."""
-
     deflection_m: float | None
-    """Deflection at the cut with this heat."""
-
     pad_forces_n: FloatArray
-    """Force of each one-sided pad on the blade, by contact and film, with this heat."""
-
     pads: tuple[FrictionPad, ...]
-    """Each one-sided pad, in the order of the scene."""
-
     cold_critical_rpm: float | None
-    """First critical speed of the linear chart without this heat."""
-
-    critical_rpm: float | None
-    """First critical speed of the linear chart with this heat; null also if the temperature
-    does not settle."""
-
+    lowest_critical_rpm: float | None = field(metadata={"key": "critical_rpm"})
     settled: bool
-    """Whether the temperature has settled; otherwise the numbers are those of the last
-    temperature with which the blade has a deflection."""
-
     swings: bool = field(default=False)
-    """Whether the temperature swings between two states, because power and deflection have a
-    jump between them."""
-
     runaway_rpm: float | None = field(default=None)
-    """Speed from which the heat runs away or buckles the blade, to 1 %; null if it does not at
-    the speed of the map."""
-
     change: float
-    """Difference of the temperature of the power from this one, relative to its largest
-    value."""
-
     repetitions: int
-    """Number of temperatures for which the loop computed deflection and power."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class GapReport(Entry):
-    """Report of a saw whose guides have a gap (gap.json)."""
+    """Report of a saw whose guides have a gap (gap.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    degrees_of_freedom : Size of the basis.
+    from_rpm : First speed.
+    to_rpm : Last speed.
+    smallest_gap_m : Smallest gap of a one-sided guide.
+    free : The chart of a blade that moves within all gaps, where only the films of the pads
+        act.
+    amplitudes : The charts at amplitudes beyond the smallest gap, ascending.
+    linear : The linear chart of the scene, with guides of their full stiffness.
+    half_way_amplitude_m : Amplitude at which the first critical speed lies half way between
+        that of the free blade and that of the linear chart: at smaller amplitudes the chart is
+        that of the free blade. Null if the two differ by less than 0.1 %, and if no amplitude
+        changes it as far, because guides on one side push the blade out of their reach.
+    deviation : The deflection at the cut.
+    oscillation : The oscillation of the blade; null without a cause of one.
+    friction : The heat of friction at the pads with the gaps of the scene; null without a
+        coefficient of friction.
+    warnings : Remarks on the validity of the result.
+    """
 
     sawflutter: str
-    """Version of the program that wrote the report."""
-
     scene: SceneDict
-    """The scene, as typed."""
-
     condition: str = field(default="")
-    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
-    teeth)"."""
-
     unusual_numbers: tuple[str, ...] = field(default=())
-    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
-    hold for the numbers as typed."""
-
     degrees_of_freedom: int
-    """Size of the basis."""
-
     from_rpm: float
-    """First speed."""
-
     to_rpm: float
-    """Last speed."""
-
     smallest_gap_m: float
-    """Smallest gap of a one-sided guide."""
-
     free: AtAmplitude
-    """The chart of a blade that moves within all gaps, where only the films of the pads act."""
-
     amplitudes: tuple[AtAmplitude, ...]
-    """The charts at amplitudes beyond the smallest gap, ascending."""
-
     linear: AtAmplitude
-    """The linear chart of the scene, with guides of their full stiffness."""
-
     half_way_amplitude_m: float | None
-    """Amplitude at which the first critical speed lies half way between that of the free blade
-    and that of the linear chart: at smaller amplitudes the chart is that of the free blade.
-    Null if the two differ by less than 0.1 %, and if no amplitude changes it as far, because
-    guides on one side push the blade out of their reach."""
-
     deviation: Deviation
-    """The deflection at the cut."""
-
     oscillation: Oscillation | None = field(default=None)
-    """The oscillation of the blade; null without a cause of one."""
-
     friction: Friction | None = field(default=None)
-    """The heat of friction at the pads with the gaps of the scene; null without a coefficient
-    of friction."""
-
     warnings: tuple[str, ...]
-    """Remarks on the validity of the result."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class MapAxis(Entry):
-    """A number along an axis of a map."""
+    """A number along an axis of a map.
+
+    Attributes
+    ----------
+    path : JSON path in the scene.
+    name : Name of the number.
+    unit : Unit of the values; empty for a dimensionless number.
+    values : Values, ascending; on a logarithmic scale if the last is at least ten times the
+        first.
+    of_scene : Value of the scene.
+    """
 
     path: str
-    """JSON path in the scene."""
-
     name: str
-    """Name of the number."""
-
     unit: str
-    """Unit of the values; empty for a dimensionless number."""
-
     values: FloatArray
-    """Values, ascending; on a logarithmic scale if the last is at least ten times the first."""
-
     of_scene: float
-    """Value of the scene."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class MappedSaw(Entry):
-    """A saw of a map."""
+    """A saw of a map.
+
+    Attributes
+    ----------
+    x : Value of the number along the horizontal axis.
+    y : Value of the number along the vertical axis; null for a map over the speed.
+    lowest_critical_rpm : First critical speed; null if the blade has none.
+    flutter_rpm : Flutter speed; null if no flutter counts within the sweep.
+    critical_rpm : Critical speeds within the sweep, ascending.
+    bands : Bands of instability within the sweep, by onset.
+    state : Whether the saw is stable at the speed at which the saws are judged; null without
+        such a speed.
+    at_critical_rpm : Critical speed within 5 % of that speed; null if there is none.
+    not_analysed : Reason for which the saw was not analysed; null if it was.
+    """
 
     x: float
-    """Value of the number along the horizontal axis."""
-
     y: float | None
-    """Value of the number along the vertical axis; null for a map over the speed."""
-
     lowest_critical_rpm: float | None
-    """First critical speed; null if the blade has none."""
-
-    flutter_speed_rpm: float | None
-    """Flutter speed; null if no flutter counts within the sweep."""
-
+    flutter_rpm: float | None = field(metadata={"key": "flutter_speed_rpm"})
     critical_rpm: FloatArray
-    """Critical speeds within the sweep, ascending."""
-
-    instabilities: tuple[Instability, ...]
-    """Bands of instability within the sweep, by onset."""
-
+    bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
     state: StabilityState | None
-    """Whether the saw is stable at the speed at which the saws are judged; null without such a
-    speed."""
-
     at_critical_rpm: float | None
-    """Critical speed within 5 % of that speed; null if there is none."""
-
     not_analysed: str | None
-    """Reason for which the saw was not analysed; null if it was."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Contour(Entry):
-    """A line of equal speed."""
+    """A line of equal speed.
+
+    Attributes
+    ----------
+    quantity : Quantity that is constant along the line.
+    rpm : Value of this quantity.
+    points : Points of the line: values of x and of y.
+    """
 
     quantity: Contoured
-    """Quantity that is constant along the line."""
-
     rpm: float
-    """Value of this quantity."""
-
     points: FloatArray
-    """Points of the line: values of x and of y."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class MapReport(Entry):
-    """Report of a map (map.json)."""
+    """Report of a map (map.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy.
+    x : The number along the horizontal axis.
+    y : The number along the vertical axis; null if that is the speed.
+    rpm : Speed at which each saw is judged; null if neither the scene nor the options have one.
+    to_rpm : Last speed of the sweep, the same for every saw; flutter beyond it is unknown.
+    flutter_threshold_per_s : Growth rate above which a band counts as flutter.
+    saws : The saws, row by row: x varies fastest.
+    contours : Contours of a map over two numbers; empty for a map over the speed.
+    largest_estimated_relative_error : Largest estimated relative error of the critical speeds
+        of any saw.
+    saws_with_krein_violations : Number of saws with a speed at which the Krein index disagrees;
+        0 is expected.
+    warnings : Remarks on the validity of the result.
+    """
 
     sawflutter: str
-    """Version of the program that wrote the report."""
-
     scene: SceneDict
-    """The scene, as typed."""
-
     condition: str = field(default="")
-    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
-    teeth)"."""
-
     unusual_numbers: tuple[str, ...] = field(default=())
-    """Numbers that no saw has, each with its key, the usual range, and the remedy."""
-
     x: MapAxis
-    """The number along the horizontal axis."""
-
     y: MapAxis | None
-    """The number along the vertical axis; null if that is the speed."""
-
     rpm: float | None
-    """Speed at which each saw is judged; null if neither the scene nor the options have one."""
-
     to_rpm: float
-    """Last speed of the sweep, the same for every saw; flutter beyond it is unknown."""
-
     flutter_threshold_per_s: float
-    """Growth rate above which a band counts as flutter."""
-
     saws: tuple[MappedSaw, ...]
-    """The saws, row by row: x varies fastest."""
-
     contours: tuple[Contour, ...]
-    """Contours of a map over two numbers; empty for a map over the speed."""
-
     largest_estimated_relative_error: float
-    """Largest estimated relative error of the critical speeds of any saw."""
-
     saws_with_krein_violations: int
-    """Number of saws with a speed at which the Krein index disagrees; 0 is expected."""
-
     warnings: tuple[str, ...]
-    """Remarks on the validity of the result."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Mode(ModeMethods):
-    """A mode at one speed: w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ) e^{λt}."""
+    """A mode at one speed: w(r, θ, t) = Re Σ_n (c_n(r) cos nθ + s_n(r) sin nθ) e^{λt}.
+
+    Attributes
+    ----------
+    name : Harmonics of the mode, with shares if none dominates.
+    direction : Direction of the wave, seen from space.
+    rpm : Rotation speed.
+    frequency_hz : |Im λ|/2π in the space-fixed frame.
+    body_frequency_hz : Frequency of the dominant harmonic on the blade.
+    growth_per_s : Re λ.
+    krein_sign : Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped.
+    radius_m : Radii of the profiles.
+    harmonics : Harmonics whose share of the energy is visible, the largest first.
+    """
 
     name: str
-    """Harmonics of the mode, with shares if none dominates."""
-
     direction: Direction
-    """Direction of the wave, seen from space."""
-
     rpm: float
-    """Rotation speed."""
-
     frequency_hz: float
-    """|Im λ|/2π in the space-fixed frame."""
-
     body_frequency_hz: float
-    """Frequency of the dominant harmonic on the blade."""
-
     growth_per_s: float
-    """Re λ."""
-
     krein_sign: int
-    """Krein sign: +1, −1 (reflected), or 0 where the mode is unstable or damped."""
-
     radius_m: FloatArray
-    """Radii of the profiles."""
-
     harmonics: tuple[Wave, ...]
-    """Harmonics whose share of the energy is visible, the largest first."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Placed(Entry):
-    """A free number and its best value."""
+    """A free number and its best value.
+
+    Attributes
+    ----------
+    path : JSON path in the scene.
+    start : Value in the original scene.
+    value : Best value.
+    bound_from : Lower bound.
+    bound_to : Upper bound.
+    at_bound : Whether the value is a bound.
+    offset : Tolerance of production, the deviation for the next two values.
+    less_rpm : Value of the goal if the number is smaller by `offset`; null if there is no such
+        saw or the goal could not be computed.
+    more_rpm : Value of the goal if the number is larger by `offset`; null in the same cases.
+    """
 
     path: str
-    """JSON path in the scene."""
-
     start: float
-    """Value in the original scene."""
-
     value: float
-    """Best value."""
-
     bound_from: float
-    """Lower bound."""
-
     bound_to: float
-    """Upper bound."""
-
     at_bound: bool
-    """Whether the value is a bound."""
-
     offset: float
-    """Tolerance of production, the deviation for the next two values."""
-
     less_rpm: float | None
-    """Value of the goal if the number is smaller by `offset`; null if there is no such saw or
-    the goal could not be computed."""
-
     more_rpm: float | None
-    """Value of the goal if the number is larger by `offset`; null in the same cases."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Outcome(Entry):
-    """Value of the goal for one saw, and the speeds that determine it."""
+    """Value of the goal for one saw, and the speeds that determine it.
+
+    Attributes
+    ----------
+    goal_rpm : Value of the goal: the flutter speed, or the end of the sweep if there is none,
+        or the width of the window.
+    flutter_rpm : Flutter speed; null if it exceeds the sweep.
+    lowest_critical_rpm : First critical speed.
+    window_rpm : Window without instability around the operating speed, if it is the goal.
+    deflection_m : Deflection at the cut, as an absolute value, if it has a limit.
+    kept : Whether the limits of the critical speed and of the deflection are kept.
+    """
 
     goal_rpm: float
-    """Value of the goal: the flutter speed, or the end of the sweep if there is none, or the
-    width of the window."""
-
     flutter_rpm: float | None
-    """Flutter speed; null if it exceeds the sweep."""
-
-    critical_rpm: float | None
-    """First critical speed."""
-
+    lowest_critical_rpm: float | None = field(metadata={"key": "critical_rpm"})
     window_rpm: FloatArray | None
-    """Window without instability around the operating speed, if it is the goal."""
-
     deflection_m: float | None = field(default=None)
-    """Deflection at the cut, as an absolute value, if it has a limit."""
-
     kept: bool
-    """Whether the limits of the critical speed and of the deflection are kept."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Neighbour(Entry):
-    """A saw whose numbers deviate from another one by the tolerances."""
+    """A saw whose numbers deviate from another one by the tolerances.
+
+    Attributes
+    ----------
+    values : Values of the numbers, in their order.
+    outcome : Result of the saw; null if it could not be computed.
+    """
 
     values: FloatArray
-    """Values of the numbers, in their order."""
-
     outcome: Outcome | None
-    """Result of the saw; null if it could not be computed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class PlaceCertificate(Entry):
-    """Certificate of the bands of the best saw."""
+    """Certificate of the bands of the best saw.
+
+    Attributes
+    ----------
+    statement : The result in a sentence.
+    is_clean : Whether every check agrees.
+    speeds_checked : Number of speeds at which the Krein index was compared with the modes or,
+        for a damped saw, the number of growing modes with that of the bands.
+    full_basis_counts : Number of counts of eigenvalues on the full model with which the modes
+        were compared.
+    """
 
     statement: str
-    """The result in a sentence."""
-
     is_clean: bool
-    """Whether every check agrees."""
-
     speeds_checked: int
-    """Number of speeds at which the Krein index was compared with the modes or, for a damped
-    saw, the number of growing modes with that of the bands."""
-
     full_basis_counts: int
-    """Number of counts of eigenvalues on the full model with which the modes were compared."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FragileOptimum(Entry):
-    """A saw next to a jump of the goal."""
+    """A saw next to a jump of the goal.
+
+    Attributes
+    ----------
+    saw : Values of the numbers, in their order, and the goal.
+    worst : Worst neighbour of this saw within the tolerances.
+    """
 
     saw: Neighbour
-    """Values of the numbers, in their order, and the goal."""
-
     worst: Neighbour
-    """Worst neighbour of this saw within the tolerances."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Map(Entry):
-    """The goal over two numbers; the others have their best values."""
+    """The goal over two numbers; the others have their best values.
+
+    Attributes
+    ----------
+    x_path : JSON path of the number along x.
+    x : Values along x.
+    y_path : JSON path of the number along y; null if only one is free.
+    y : Values along y.
+    goal_rpm : The goal, one row for each value of y; null if there is no such saw or it could
+        not be computed.
+    kept : Whether the limits of the critical speed and of the deflection are kept.
+    """
 
     x_path: str
-    """JSON path of the number along x."""
-
     x: FloatArray
-    """Values along x."""
-
     y_path: str | None
-    """JSON path of the number along y; null if only one is free."""
-
     y: FloatArray
-    """Values along y."""
-
     goal_rpm: FloatArray
-    """The goal, one row for each value of y; null if there is no such saw or it could not be
-    computed."""
-
     kept: BoolArray
-    """Whether the limits of the critical speed and of the deflection are kept."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class PlaceReport(Entry):
-    """Report of a placement (place.json)."""
+    """Report of a placement (place.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene with the best numbers.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    goal : The quantity that was maximized.
+    min_critical_rpm : Lower limit of the first critical speed, if there is one.
+    amplitude_m : Amplitude at guides with a gap with whose mean stiffness bands and critical
+        speeds were computed, if one was given.
+    max_deflection_m : Upper limit of the deflection at the cut, if there is one.
+    force_n : Side force for this limit.
+    kept : Whether the best saw keeps the limits in the worst case of its tolerances.
+    improved : Whether the best saw is better than the original scene, both in the worst case of
+        their tolerances. If no saw between the bounds is better, `scene`, `best` and the
+        numbers are those of the original scene, unless that lies outside the bounds.
+    from_rpm : First speed of the sweep, the same for every saw.
+    to_rpm : Last speed of the sweep; flutter beyond it is unknown.
+    flutter_threshold_per_s : Growth rate above which a band counts as flutter.
+    parameters : Free numbers and their best values.
+    without_effect : Freed numbers without effect, or whose effect other free numbers have as
+        well.
+    before : Result of the original scene.
+    worst_before : Worst neighbour of the original scene within its tolerances, itself included.
+    best : Result of the best saw, which has the best goal in the worst case of its tolerances.
+    bands : Bands of the best saw.
+    certificate : Certificate of these bands.
+    fragile : Whether the best saw loses more than 5 % of the goal within its tolerances.
+    worst_neighbour : Worst neighbour of the best saw within its tolerances, itself included;
+        the search maximizes its goal.
+    worst_neighbour_share : Goal of this neighbour divided by that of the best saw.
+    fragile_optimum : The saw with the best nominal goal, if it is better than the best saw and
+        worse within its tolerances; null otherwise.
+    almost : Bands that nearly reach the threshold and begin below the flutter speed.
+    map : The goal over two numbers, on the coarse basis of the search.
+    saws : Number of saws analysed.
+    failed_saws : Number of saws that could not be computed; they count as the worst.
+    max_diameters : Largest number of nodal diameters of the best saw's basis.
+    radial_functions : Number of radial functions for each number of nodal diameters.
+    warnings : Remarks on the validity of the result.
+    """
 
     sawflutter: str
-    """Version of the program that wrote the report."""
-
     scene: SceneDict
-    """The scene with the best numbers."""
-
     condition: str = field(default="")
-    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
-    teeth)"."""
-
     unusual_numbers: tuple[str, ...] = field(default=())
-    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
-    hold for the numbers as typed."""
-
     goal: Goal
-    """The quantity that was maximized."""
-
     min_critical_rpm: float | None
-    """Lower limit of the first critical speed, if there is one."""
-
     amplitude_m: float | None = field(default=None)
-    """Amplitude at guides with a gap with whose mean stiffness bands and critical speeds were
-    computed, if one was given."""
-
     max_deflection_m: float | None = field(default=None)
-    """Upper limit of the deflection at the cut, if there is one."""
-
     force_n: float | None = field(default=None)
-    """Side force for this limit."""
-
     kept: bool
-    """Whether the best saw keeps the limits in the worst case of its tolerances."""
-
     improved: bool
-    """Whether the best saw is better than the original scene, both in the worst case of their
-    tolerances. If no saw between the bounds is better, `scene`, `best` and the numbers are
-    those of the original scene, unless that lies outside the bounds."""
-
     from_rpm: float
-    """First speed of the sweep, the same for every saw."""
-
     to_rpm: float
-    """Last speed of the sweep; flutter beyond it is unknown."""
-
     flutter_threshold_per_s: float
-    """Growth rate above which a band counts as flutter."""
-
     parameters: tuple[Placed, ...]
-    """Free numbers and their best values."""
-
     without_effect: tuple[str, ...]
-    """Freed numbers without effect, or whose effect other free numbers have as well."""
-
     before: Outcome
-    """Result of the original scene."""
-
     worst_before: Neighbour
-    """Worst neighbour of the original scene within its tolerances, itself included."""
-
     best: Outcome
-    """Result of the best saw, which has the best goal in the worst case of its tolerances."""
-
     bands: tuple[Instability, ...]
-    """Bands of the best saw."""
-
     certificate: PlaceCertificate
-    """Certificate of these bands."""
-
     fragile: bool
-    """Whether the best saw loses more than 5 % of the goal within its tolerances."""
-
     worst_neighbour: Neighbour | None
-    """Worst neighbour of the best saw within its tolerances, itself included; the search
-    maximizes its goal."""
-
     worst_neighbour_share: float
-    """Goal of this neighbour divided by that of the best saw."""
-
     fragile_optimum: FragileOptimum | None
-    """The saw with the best nominal goal, if it is better than the best saw and worse within
-    its tolerances; null otherwise."""
-
     almost: tuple[Instability, ...]
-    """Bands that nearly reach the threshold and begin below the flutter speed."""
-
     map: Map | None
-    """The goal over two numbers, on the coarse basis of the search."""
-
     saws: int
-    """Number of saws analysed."""
-
     failed_saws: int
-    """Number of saws that could not be computed; they count as the worst."""
-
     max_diameters: int
-    """Largest number of nodal diameters of the best saw's basis."""
-
     radial_functions: int
-    """Number of radial functions for each number of nodal diameters."""
-
     warnings: tuple[str, ...]
-    """Remarks on the validity of the result."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Resonance(Entry):
-    """A resonance of a line."""
+    """A resonance of a line.
+
+    Attributes
+    ----------
+    rpm : Rotation speed.
+    frequency_hz : Frequency of the force.
+    amplitude_m : Amplitude at the probe there; null unless it is bounded.
+    steady_state : Whether there is an amplitude, or why not.
+    """
 
     rpm: float
-    """Rotation speed."""
-
     frequency_hz: float
-    """Frequency of the force."""
-
     amplitude_m: float | None
-    """Amplitude at the probe there; null unless it is bounded."""
-
     steady_state: SteadyState = field(default="beyond_model")
-    """Whether there is an amplitude, or why not."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ResponseLine(Entry):
-    """Response to one cause with one order."""
+    """Response to one cause with one order.
+
+    Attributes
+    ----------
+    cause : The cause.
+    order : Ratio of the frequency to the rotation speed; 0 for a static deflection.
+    name : Name: "run-out, 1×".
+    amplitude_m : Amplitude at the probe; null where the saw is unstable, and where the
+        deflection exceeds the linear model anywhere on the rim.
+    phase_deg : Phase at the probe, −180 to 180: positive if the deflection precedes the
+        excitation. The excitation is largest at the time at which its maximum passes the angle
+        0, or the force is largest.
+    at_cut_m : Amplitude at the rim at the cut.
+    resonances : Speeds of the sweep at which a natural frequency equals that of the excitation,
+        and the excitation works on the mode.
+    resonance_error : Largest relative change of these speeds on a larger basis; null for an
+        excitation whose frequencies are those of the diagram, whose error the diagram has.
+    """
 
     cause: Cause
-    """The cause."""
-
     order: int
-    """Ratio of the frequency to the rotation speed; 0 for a static deflection."""
-
     name: str
-    """Name: "run-out, 1×"."""
-
     amplitude_m: FloatArray
-    """Amplitude at the probe; null where the saw is unstable, and where the deflection exceeds
-    the linear model anywhere on the rim."""
-
     phase_deg: FloatArray
-    """Phase at the probe, −180 to 180: positive if the deflection precedes the excitation. The
-    excitation is largest at the time at which its maximum passes the angle 0, or the force is
-    largest."""
-
     at_cut_m: FloatArray
-    """Amplitude at the rim at the cut."""
-
     resonances: tuple[Resonance, ...]
-    """Speeds of the sweep at which a natural frequency equals that of the excitation, and the
-    excitation works on the mode."""
-
     resonance_error: float | None = field(default=None)
-    """Largest relative change of these speeds on a larger basis; null for an excitation whose
-    frequencies are those of the diagram, whose error the diagram has."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class OperatingResponse(Entry):
-    """Deflections at the operating speed."""
+    """Deflections at the operating speed.
+
+    Attributes
+    ----------
+    rpm : The operating speed.
+    amplitude_m : Amplitude of each line at the probe.
+    board_deviation_m : Deviation of the board.
+    steady_state : Whether there is a deviation, or why not.
+    """
 
     rpm: float
-    """The operating speed."""
-
     amplitude_m: FloatArray
-    """Amplitude of each line at the probe."""
-
     board_deviation_m: float | None
-    """Deviation of the board."""
-
     steady_state: SteadyState = field(default="beyond_model")
-    """Whether there is a deviation, or why not."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FrequencyResponse(Entry):
     """Deflection at the probe for a harmonic force of one newton at the place of the side
-    force."""
+    force.
+
+    Attributes
+    ----------
+    rpm : Rotation speed.
+    force_radius_m : Distance of the force from the axis.
+    force_angle_deg : Angle of the force.
+    frequency_hz : Frequencies, ascending.
+    receptance_m_per_n : Amplitude for one newton; null where it grows without bound, and
+        everywhere if the saw is unstable at the speed.
+    phase_deg : Phase, −180 to 180: negative if the deflection follows the force.
+    unbounded_hz : Frequencies at which the deflection grows without bound: the natural
+        frequencies that the force excites, without damping.
+    """
 
     rpm: float
-    """Rotation speed."""
-
     force_radius_m: float
-    """Distance of the force from the axis."""
-
     force_angle_deg: float
-    """Angle of the force."""
-
     frequency_hz: FloatArray
-    """Frequencies, ascending."""
-
     receptance_m_per_n: FloatArray
-    """Amplitude for one newton; null where it grows without bound, and everywhere if the saw is
-    unstable at the speed."""
-
     phase_deg: FloatArray
-    """Phase, −180 to 180: negative if the deflection follows the force."""
-
     unbounded_hz: FloatArray
-    """Frequencies at which the deflection grows without bound: the natural frequencies that the
-    force excites, without damping."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ResponseReport(Entry):
-    """Report of steady-state responses (response.json)."""
+    """Report of steady-state responses (response.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    degrees_of_freedom : Size of the basis.
+    from_rpm : First speed.
+    to_rpm : Last speed.
+    probe_radius_m : Distance of the probe from the axis.
+    probe_angle_deg : Angle of the probe.
+    cut_angle_deg : Angle of the cut, at whose place on the rim the deviation of the board is
+        read.
+    damped : Whether any term of the equation of motion dissipates energy; without damping
+        amplitudes grow without bound at a resonance.
+    linear_limit_m : Largest amplitude that is reported: five times the smallest thickness.
+    rpm : Rotation speeds, ascending, the same for every line.
+    lines : Responses, one for each cause and order of the rotation speed.
+    board_deviation_m : Largest distance of the cut surface from the middle plane of the blade
+        at rest, at each speed: the static deflection of the rim at the cut and all amplitudes
+        there, as if their maxima coincided; null where one of them is null.
+    operating : Deflections at the operating speed; null if it is not within the sweep.
+    points : Frequency response between two points at one speed; null if neither the scene nor
+        the options have a speed.
+    bands : Bands of instability, in which no steady state exists.
+    warnings : Remarks on the validity of the result.
+    """
 
     sawflutter: str
-    """Version of the program that wrote the report."""
-
     scene: SceneDict
-    """The scene, as typed."""
-
     condition: str = field(default="")
-    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
-    teeth)"."""
-
     unusual_numbers: tuple[str, ...] = field(default=())
-    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
-    hold for the numbers as typed."""
-
     degrees_of_freedom: int
-    """Size of the basis."""
-
     from_rpm: float
-    """First speed."""
-
     to_rpm: float
-    """Last speed."""
-
     probe_radius_m: float
-    """Distance of the probe from the axis."""
-
     probe_angle_deg: float
-    """Angle of the probe."""
-
     cut_angle_deg: float
-    """Angle of the cut, at whose place on the rim the deviation of the board is read."""
-
     damped: bool
-    """Whether any term of the equation of motion dissipates energy; without damping amplitudes
-    grow without bound at a resonance."""
-
     linear_limit_m: float
-    """Largest amplitude that is reported: five times the smallest thickness."""
-
     rpm: FloatArray
-    """Rotation speeds, ascending, the same for every line."""
-
     lines: tuple[ResponseLine, ...]
-    """Responses, one for each cause and order of the rotation speed."""
-
     board_deviation_m: FloatArray
-    """Largest distance of the cut surface from the middle plane of the blade at rest, at each
-    speed: the static deflection of the rim at the cut and all amplitudes there, as if their
-    maxima coincided; null where one of them is null."""
-
     operating: OperatingResponse | None
-    """Deflections at the operating speed; null if it is not within the sweep."""
-
     points: FrequencyResponse | None
-    """Frequency response between two points at one speed; null if neither the scene nor the
-    options have a speed."""
-
-    instabilities: tuple[Instability, ...]
-    """Bands of instability, in which no steady state exists."""
-
+    bands: tuple[Instability, ...] = field(metadata={"key": "instabilities"})
     warnings: tuple[str, ...]
-    """Remarks on the validity of the result."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RunUpBand(Entry):
-    """A band of instability in a run-up."""
+    """A band of instability in a run-up.
+
+    Attributes
+    ----------
+    band : The band.
+    time_s : Time that the run-up spends in the band.
+    growth_exponent : Re λ of the band's eigenvalue integrated over that time: a motion in its
+        mode grows by e to this power.
+    seen_amplification : Ratio of the largest deflection at the probe within the band to that in
+        an interval of equal length before it; null if the record ends before the band does. All
+        vibrating modes contribute: with a small exponent the ratio shows beating of other
+        modes, not growth.
+    """
 
     band: Instability
-    """The band."""
-
     time_s: float
-    """Time that the run-up spends in the band."""
-
     growth_exponent: float
-    """Re λ of the band's eigenvalue integrated over that time: a motion in its mode grows by e
-    to this power."""
-
     seen_amplification: float | None
-    """Ratio of the largest deflection at the probe within the band to that in an interval of
-    equal length before it; null if the record ends before the band does. All vibrating modes
-    contribute: with a small exponent the ratio shows beating of other modes, not growth."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Stretching(Entry):
-    """A run-up with stretching."""
+    """A run-up with stretching.
+
+    Attributes
+    ----------
+    shapes : Number of shapes of the reduced basis.
+    largest_slope : Largest slope of the blade.
+    valid_until_rpm : Speed above which slopes exceed 0.1 and the record ends; null if they do
+        not.
+    rpm : Speeds of the spectrum.
+    frequency_hz : Frequencies of the spectrum.
+    amplitude_m : Amplitude at the probe about a straight line, with Hann's window, one row for
+        each speed.
+    """
 
     shapes: int
-    """Number of shapes of the reduced basis."""
-
     largest_slope: float
-    """Largest slope of the blade."""
-
     valid_until_rpm: float | None
-    """Speed above which slopes exceed 0.1 and the record ends; null if they do not."""
-
     rpm: FloatArray
-    """Speeds of the spectrum."""
-
     frequency_hz: FloatArray
-    """Frequencies of the spectrum."""
-
     amplitude_m: FloatArray
-    """Amplitude at the probe about a straight line, with Hann's window, one row for each
-    speed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Response(Entry):
     """Magnitude of the deflection at the probe for a harmonic force of one newton, over speed
-    and frequency."""
+    and frequency.
+
+    Attributes
+    ----------
+    rpm : Rotation speeds.
+    frequency_hz : Frequencies of the force.
+    receptance_m_per_n : |w/F|, one row for each speed.
+    """
 
     rpm: FloatArray
-    """Rotation speeds."""
-
     frequency_hz: FloatArray
-    """Frequencies of the force."""
-
     receptance_m_per_n: FloatArray
-    """|w/F|, one row for each speed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RunUpReport(Entry):
-    """Report of a run-up (runup.json)."""
+    """Report of a run-up (runup.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    degrees_of_freedom : Size of the basis.
+    from_rpm : First speed of the run-up.
+    to_rpm : Last speed of the run-up.
+    rate_rpm_per_s : Rate of the run-up.
+    step_s : Time step.
+    linear_limit_m : Largest deflection that is given; beyond it the linear model is not valid.
+    linear_until_rpm : Speed at which the deflection at the probe exceeds this limit and the
+        record ends; null if it does not.
+    rpm : Speeds of the record.
+    deflection_m : Deflection at the probe.
+    largest_deflection_m : Largest magnitude of the deflection at the probe.
+    largest_deflection_rpm : Speed of the largest deflection.
+    critical_speeds : Critical speeds up to the end of the run-up.
+    bands : Bands of instability and their effect on the run-up.
+    first_doubling_rpm : Onset of the first band that more than doubles a motion at this rate;
+        null if none does.
+    stretching : Results with stretching, if the scene requests it.
+    campbell : Branches over the speeds of the run-up.
+    response : Response over speed and frequency.
+    warnings : Remarks on the validity of the result.
+    """
 
     sawflutter: str
-    """Version of the program that wrote the report."""
-
     scene: SceneDict
-    """The scene, as typed."""
-
     condition: str = field(default="")
-    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
-    teeth)"."""
-
     unusual_numbers: tuple[str, ...] = field(default=())
-    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
-    hold for the numbers as typed."""
-
     degrees_of_freedom: int
-    """Size of the basis."""
-
     from_rpm: float
-    """First speed of the run-up."""
-
     to_rpm: float
-    """Last speed of the run-up."""
-
     rate_rpm_per_s: float
-    """Rate of the run-up."""
-
     step_s: float
-    """Time step."""
-
     linear_limit_m: float
-    """Largest deflection that is given; beyond it the linear model is not valid."""
-
     linear_until_rpm: float | None
-    """Speed at which the deflection at the probe exceeds this limit and the record ends; null
-    if it does not."""
-
     rpm: FloatArray
-    """Speeds of the record."""
-
     deflection_m: FloatArray
-    """Deflection at the probe."""
-
     largest_deflection_m: float = field(default=0.0)
-    """Largest magnitude of the deflection at the probe."""
-
     largest_deflection_rpm: float = field(default=0.0)
-    """Speed of the largest deflection."""
-
     critical_speeds: tuple[CriticalSpeed, ...]
-    """Critical speeds up to the end of the run-up."""
-
     bands: tuple[RunUpBand, ...]
-    """Bands of instability and their effect on the run-up."""
-
     first_doubling_rpm: float | None
-    """Onset of the first band that more than doubles a motion at this rate; null if none
-    does."""
-
     stretching: Stretching | None = field(default=None)
-    """Results with stretching, if the scene requests it."""
-
     campbell: Campbell
-    """Branches over the speeds of the run-up."""
-
     response: Response
-    """Response over speed and frequency."""
-
     warnings: tuple[str, ...]
-    """Remarks on the validity of the result."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Grid(Entry):
-    """A number of a point of the grid."""
+    """A number of a point of the grid.
+
+    Attributes
+    ----------
+    parameter : JSON path in the scene.
+    value : Value of the number.
+    """
 
     parameter: str
-    """JSON path in the scene."""
-
     value: float
-    """Value of the number."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Quantile(Entry):
-    """A speed below which a share of the saws lies."""
+    """A speed below which a share of the saws lies.
+
+    Attributes
+    ----------
+    share : The share.
+    rpm : The speed; null where it lies beyond the speeds of the study.
+    """
 
     share: float
-    """The share."""
-
     rpm: float | None
-    """The speed; null where it lies beyond the speeds of the study."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Histogram(Entry):
-    """Counts of saws in bars of equal width."""
+    """Counts of saws in bars of equal width.
+
+    Attributes
+    ----------
+    from_rpm : Lowest speed.
+    to_rpm : Highest speed.
+    counts : Number of saws in each bar.
+    """
 
     from_rpm: float
-    """Lowest speed."""
-
     to_rpm: float
-    """Highest speed."""
-
     counts: IntArray
-    """Number of saws in each bar."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Speed(Entry):
-    """Distribution of a speed."""
+    """Distribution of a speed.
+
+    Attributes
+    ----------
+    saws : Number of saws with such a speed.
+    beyond : Number of analysed saws without such a speed within the speeds of the study.
+    median_rpm : Median; null if it exceeds the speeds of the study.
+    quantiles : Speeds below which given shares of the saws lie.
+    histogram : Histogram; null without saws.
+    """
 
     saws: int
-    """Number of saws with such a speed."""
-
     beyond: int
-    """Number of analysed saws without such a speed within the speeds of the study."""
-
     median_rpm: float | None
-    """Median; null if it exceeds the speeds of the study."""
-
     quantiles: tuple[Quantile, ...]
-    """Speeds below which given shares of the saws lie."""
-
     histogram: Histogram | None
-    """Histogram; null without saws."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class StudyCriterion(Entry):
-    """Number of saws that keep one limit."""
+    """Number of saws that keep one limit.
+
+    Attributes
+    ----------
+    key : Short name, as in the columns of the table.
+    name : The limit in words.
+    asked_rpm : Speed required.
+    passed : Number of saws that keep the limit.
+    """
 
     key: str
-    """Short name, as in the columns of the table."""
-
     name: str
-    """The limit in words."""
-
     asked_rpm: float
-    """Speed required."""
-
     passed: int
-    """Number of saws that keep the limit."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Passing(Entry):
-    """Share of saws that keep all limits. A saw that was refused or failed keeps none."""
+    """Share of saws that keep all limits. A saw that was refused or failed keeps none.
+
+    Attributes
+    ----------
+    passed : Number of saws that keep every limit.
+    probability : Share of these saws among all saws of the group.
+    confidence : Confidence of the interval.
+    interval : Interval of the probability (by Clopper and Pearson for independent saws;
+        scrambled Sobol points are more even). Null for a grid, whose share is exact, and for
+        all saws of several groups, because the groups have the same deviations.
+    criteria : Number of saws that keep each limit.
+    """
 
     passed: int
-    """Number of saws that keep every limit."""
-
     probability: float
-    """Share of these saws among all saws of the group."""
-
     confidence: float
-    """Confidence of the interval."""
-
     interval: FloatArray | None
-    """Interval of the probability (by Clopper and Pearson for independent saws; scrambled Sobol
-    points are more even). Null for a grid, whose share is exact, and for all saws of several
-    groups, because the groups have the same deviations."""
-
     criteria: tuple[StudyCriterion, ...]
-    """Number of saws that keep each limit."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class NumberQuantile(Entry):
-    """A number below which a share of the saws lies."""
+    """A number below which a share of the saws lies.
+
+    Attributes
+    ----------
+    share : The share.
+    value : The number; null if it is not known.
+    """
 
     share: float
-    """The share."""
-
     value: float | None
-    """The number; null if it is not known."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Number(Entry):
-    """Distribution of a number of the analysed saws, in SI units or rpm."""
+    """Distribution of a number of the analysed saws, in SI units or rpm.
+
+    Attributes
+    ----------
+    saws : Number of saws whose number is known. The number of the other analysed saws counts as
+        larger than any: the deflection is not known where slopes of the blade exceed 0.1.
+    median : Median; null if it is not known.
+    quantiles : Numbers below which given shares of the saws lie.
+    """
 
     saws: int
-    """Number of saws whose number is known. The number of the other analysed saws counts as
-    larger than any: the deflection is not known where slopes of the blade exceed 0.1."""
-
     median: float | None
-    """Median; null if it is not known."""
-
     quantiles: tuple[NumberQuantile, ...]
-    """Numbers below which given shares of the saws lie."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class GapStatistics(Entry):
-    """Deflections and pad forces of the analysed saws of a group."""
+    """Deflections and pad forces of the analysed saws of a group.
+
+    Attributes
+    ----------
+    deflection_at_cut : Deflection of the rim at the cut, in m, as an absolute value.
+    largest_pad_force : Largest force of a pad, in N, as an absolute value.
+    critical_at_amplitude : First critical speed at the amplitude of the study, in rpm; null
+        without an amplitude.
+    saws_within : Number of saws whose deflection keeps its limit; null without a limit.
+    """
 
     deflection_at_cut: Number
-    """Deflection of the rim at the cut, in m, as an absolute value."""
-
     largest_pad_force: Number
-    """Largest force of a pad, in N, as an absolute value."""
-
     critical_at_amplitude: Number | None
-    """First critical speed at the amplitude of the study, in rpm; null without an amplitude."""
-
     saws_within: int | None
-    """Number of saws whose deflection keeps its limit; null without a limit."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Group(Entry):
-    """A group of saws."""
+    """A group of saws.
+
+    Attributes
+    ----------
+    grid : Point of the grid; empty for all saws.
+    saws : Number of saws.
+    refused : Number of saws with impossible values.
+    failed : Number of saws that could not be analysed.
+    lowest_critical : First critical speed of the analysed saws.
+    flutter : Flutter speed of the analysed saws.
+    passing : Share of saws that keep the limits, if the study has any.
+    gap : Numbers of guides with a gap, if the study has a block `gap`.
+    """
 
     grid: tuple[Grid, ...]
-    """Point of the grid; empty for all saws."""
-
     saws: int
-    """Number of saws."""
-
     refused: int
-    """Number of saws with impossible values."""
-
     failed: int
-    """Number of saws that could not be analysed."""
-
     lowest_critical: Speed
-    """First critical speed of the analysed saws."""
-
     flutter: Speed
-    """Flutter speed of the analysed saws."""
-
     passing: Passing | None
-    """Share of saws that keep the limits, if the study has any."""
-
     gap: GapStatistics | None = field(default=None)
-    """Numbers of guides with a gap, if the study has a block `gap`."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Refusal(Entry):
-    """A saw that was not analysed."""
+    """A saw that was not analysed.
+
+    Attributes
+    ----------
+    saw : Number of the saw in the study.
+    reason : Reason for which it was not analysed.
+    """
 
     saw: int
-    """Number of the saw in the study."""
-
     reason: str
-    """Reason for which it was not analysed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class ReliabilityPoint(Entry):
-    """Share of the saws that can run at a speed."""
+    """Share of the saws that can run at a speed.
+
+    Attributes
+    ----------
+    operating_rpm : The speed.
+    share : The share of all saws.
+    """
 
     operating_rpm: float
-    """The speed."""
-
     share: float
-    """The share of all saws."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Reliability(Entry):
     """Share of saws that can run, over the operating speed: at that speed they keep the margin
     to their lowest critical speed and do not flutter. A saw that was refused or failed cannot
-    run."""
+    run.
+
+    Attributes
+    ----------
+    margin : Largest ratio of the operating speed to the first critical speed: that of the
+        limits, or the usual one.
+    fastest : Highest operating speeds for given shares of the saws; null if it exceeds the
+        speeds of the study, or fewer saws were analysed.
+    curve : Shares of the saws that can run at evenly spaced speeds.
+    """
 
     margin: float
-    """Largest ratio of the operating speed to the first critical speed: that of the limits, or
-    the usual one."""
-
     fastest: tuple[Quantile, ...]
-    """Highest operating speeds for given shares of the saws; null if it exceeds the speeds of
-    the study, or fewer saws were analysed."""
-
     curve: tuple[ReliabilityPoint, ...]
-    """Shares of the saws that can run at evenly spaced speeds."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class WorstSaw(Entry):
-    """A saw with a low speed."""
+    """A saw with a low speed.
+
+    Attributes
+    ----------
+    saw : Number of the saw in the study.
+    rpm : First critical speed or flutter speed of the saw.
+    values : Values of the varying numbers, in the order of the study.
+    """
 
     saw: int
-    """Number of the saw in the study."""
-
     rpm: float
-    """First critical speed or flutter speed of the saw."""
-
     values: FloatArray
-    """Values of the varying numbers, in the order of the study."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class StudyReport(Entry):
-    """Quantiles and probabilities of a study, and its inputs."""
+    """Quantiles and probabilities of a study, and its inputs.
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene without deviations, as typed.
+    condition : Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
+        teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    study : The study, as typed.
+    swept_to_rpm : Last speed of the sweep.
+    largest_estimated_relative_error : Largest estimated relative error of the critical speeds
+        of any saw.
+    saws_with_krein_violations : Number of saws with a speed at which the Krein index disagrees;
+        0 is expected.
+    all : All saws together.
+    groups : Saws of each point of the grid, if the study has random saws and at most 10 000
+        points.
+    not_analysed : The first saws that were not analysed.
+    reliability : Share of saws that can run, over the operating speed; null if no saw has a
+        critical or a flutter speed.
+    worst_lowest_critical : The saws with the lowest first critical speed, ascending.
+    worst_flutter : The saws with the lowest flutter speed, ascending.
+    processors : Kinds of processors that have computed the saws, if there are several: the last
+        digits of a speed may differ between them.
+    """
 
     sawflutter: str
-    """Version of the program that wrote the report."""
-
     scene: SceneDict
-    """The scene without deviations, as typed."""
-
     condition: str = field(default="")
-    """Whether the saw idles or is in its cut: "idling", or "in the cut at 2800 rpm (4
-    teeth)"."""
-
     unusual_numbers: tuple[str, ...] = field(default=())
-    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
-    hold for the numbers as typed."""
-
     study: StudyDict
-    """The study, as typed."""
-
     swept_to_rpm: float
-    """Last speed of the sweep."""
-
     largest_estimated_relative_error: float
-    """Largest estimated relative error of the critical speeds of any saw."""
-
     saws_with_krein_violations: int
-    """Number of saws with a speed at which the Krein index disagrees; 0 is expected."""
-
     all: Group
-    """All saws together."""
-
     groups: tuple[Group, ...]
-    """Saws of each point of the grid, if the study has random saws and at most 10 000
-    points."""
-
     not_analysed: tuple[Refusal, ...]
-    """The first saws that were not analysed."""
-
     reliability: Reliability | None = field(default=None)
-    """Share of saws that can run, over the operating speed; null if no saw has a critical or a
-    flutter speed."""
-
     worst_lowest_critical: tuple[WorstSaw, ...] = field(default=())
-    """The saws with the lowest first critical speed, ascending."""
-
     worst_flutter: tuple[WorstSaw, ...] = field(default=())
-    """The saws with the lowest flutter speed, ascending."""
-
     processors: tuple[str, ...] = field(default=())
-    """Kinds of processors that have computed the saws, if there are several: the last digits of
-    a speed may differ between them."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Setting(Entry):
-    """One method with one size of the basis: its run time and its error."""
+    """One method with one size of the basis: its run time and its error.
+
+    Attributes
+    ----------
+    method : Method of the computation.
+    max_diameters : Largest number n_max of nodal diameters.
+    radial_functions : Number J of radial functions.
+    functions : Number of basis functions.
+    speeds : Number of even speeds of the chart; 0 without a chart.
+    seconds : Shortest measured run time, in seconds.
+    error : Largest relative error of critical speeds and, in a chart, of flutter onsets, by
+        comparison with the largest basis.
+    on_front : Whether no other chart is faster and at least as accurate.
+    """
 
     method: Method
-    """Method of the computation."""
-
     max_diameters: int
-    """Largest number n_max of nodal diameters."""
-
     radial_functions: int
-    """Number J of radial functions."""
-
     functions: int
-    """Number of basis functions."""
-
     speeds: int
-    """Number of even speeds of the chart; 0 without a chart."""
-
     seconds: float
-    """Shortest measured run time, in seconds."""
-
     error: float
-    """Largest relative error of critical speeds and, in a chart, of flutter onsets, by
-    comparison with the largest basis."""
-
     on_front: bool
-    """Whether no other chart is faster and at least as accurate."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class WashboardMode(Entry):
-    """A mode with the delayed force."""
+    """A mode with the delayed force.
+
+    Attributes
+    ----------
+    name : Harmonics of the mode, with shares if none dominates.
+    direction : Direction of the wave, seen from space.
+    frequency_hz : Im λ/2π in space.
+    growth_per_s : Re λ.
+    growth_without_per_s : Re λ of the mode without the delayed force; null for a mode that
+        exists only because of the delay.
+    frequency_without_hz : Im λ/2π of the mode without the delayed force.
+    tooth_passing_multiple : Multiple of the tooth passing frequency that is nearest to
+        `frequency_hz`; null for unevenly spaced teeth.
+    beside_tooth_passing_hz : `frequency_hz` minus this multiple.
+    pattern_pitch_m : Wavelength, along the feed, of the pattern that the mode leaves on the
+        board; null without a feed.
+    """
 
     name: str
-    """Harmonics of the mode, with shares if none dominates."""
-
     direction: Direction
-    """Direction of the wave, seen from space."""
-
     frequency_hz: float
-    """Im λ/2π in space."""
-
     growth_per_s: float
-    """Re λ."""
-
     growth_without_per_s: float | None
-    """Re λ of the mode without the delayed force; null for a mode that exists only because of
-    the delay."""
-
     frequency_without_hz: float | None
-    """Im λ/2π of the mode without the delayed force."""
-
     tooth_passing_multiple: int | None
-    """Multiple of the tooth passing frequency that is nearest to `frequency_hz`; null for
-    unevenly spaced teeth."""
-
     beside_tooth_passing_hz: float | None
-    """`frequency_hz` minus this multiple."""
-
     pattern_pitch_m: float | None
-    """Wavelength, along the feed, of the pattern that the mode leaves on the board; null
-    without a feed."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Lobes(Entry):
-    """The lobe diagram."""
+    """The lobe diagram.
+
+    Attributes
+    ----------
+    rpm : Rotation speeds.
+    critical_stiffness_n_per_m : Smallest cutting stiffness at which a vibration grows; null if
+        it exceeds `ceiling_n_per_m`, zero if a motion grows without the delayed force.
+    frequency_hz : Frequency of this motion.
+    stable_to_n_per_m : Cutting stiffness up to which it is known that no vibration grows: the
+        critical one, or the largest of the search; less where only damping prevents the growth
+        of omitted modes, zero where the count does not confirm it.
+    confirmed : Whether the argument principle confirms that no vibration grows just below this
+        stiffness.
+    """
 
     rpm: FloatArray
-    """Rotation speeds."""
-
     critical_stiffness_n_per_m: FloatArray
-    """Smallest cutting stiffness at which a vibration grows; null if it exceeds
-    `ceiling_n_per_m`, zero if a motion grows without the delayed force."""
-
     frequency_hz: FloatArray
-    """Frequency of this motion."""
-
     stable_to_n_per_m: FloatArray
-    """Cutting stiffness up to which it is known that no vibration grows: the critical one, or
-    the largest of the search; less where only damping prevents the growth of omitted modes,
-    zero where the count does not confirm it."""
-
     confirmed: BoolArray
-    """Whether the argument principle confirms that no vibration grows just below this
-    stiffness."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class WashboardReport(Entry):
-    """Report of a washboarding analysis (washboard.json)."""
+    """Report of a washboarding analysis (washboard.json).
+
+    Attributes
+    ----------
+    sawflutter : Version of the program that wrote the report.
+    scene : The scene, as typed.
+    condition : The cut of the verdict: "in the cut at 2800 rpm (4 teeth)".
+    unusual_numbers : Numbers that no saw has, each with its key, the usual range, and the
+        remedy. The results hold for the numbers as typed.
+    rpm : Rotation speed of the verdict.
+    verdict : Whether a vibration grows at that speed.
+    tooth_passing_hz : Number of teeth that pass per second.
+    delays_s : Times between successive teeth: one for even teeth, otherwise one for each pitch
+        that repeats.
+    stiffness_n_per_m : Lateral cutting stiffness of all teeth in the cut together.
+    overlap : Share of a tooth's cut on the surface left by the preceding tooth.
+    arc_deg : Arc of the rim on which the force acts.
+    feed_m_per_s : Feed speed of the wood, if given.
+    critical_stiffness_n_per_m : Smallest cutting stiffness at which a vibration grows at the
+        speed `rpm`; null if it exceeds `ceiling_n_per_m`, zero if a vibration grows without the
+        delayed force.
+    critical_frequency_hz : Frequency of this motion.
+    growing_eigenvalues : Number of eigenvalues in the right half plane by the argument
+        principle, two for each oscillation; null if one lies on the imaginary axis.
+    growing_eigenvalues_without : Number of growing eigenvalues without the delayed force.
+    modes : Modes at the speed `rpm`, in descending order of growth.
+    lobes : Smallest cutting stiffness at which a vibration grows, over the speed.
+    ceiling_n_per_m : Largest cutting stiffness of the search.
+    complete_to_hz : Frequency up to which the modes are complete.
+    max_diameters : Largest number of nodal diameters of the basis.
+    radial_functions : Number of radial functions for each number of nodal diameters.
+    estimated_relative_error : Estimated relative error of the critical speeds in this basis.
+    warnings : Remarks on the validity of the result.
+    """
 
     sawflutter: str
-    """Version of the program that wrote the report."""
-
     scene: SceneDict
-    """The scene, as typed."""
-
     condition: str = field(default="")
-    """The cut of the verdict: "in the cut at 2800 rpm (4 teeth)"."""
-
     unusual_numbers: tuple[str, ...] = field(default=())
-    """Numbers that no saw has, each with its key, the usual range, and the remedy. The results
-    hold for the numbers as typed."""
-
     rpm: float
-    """Rotation speed of the verdict."""
-
     verdict: Verdict
-    """Whether a vibration grows at that speed."""
-
     tooth_passing_hz: float
-    """Number of teeth that pass per second."""
-
     delays_s: FloatArray
-    """Times between successive teeth: one for even teeth, otherwise one for each pitch that
-    repeats."""
-
     stiffness_n_per_m: float
-    """Lateral cutting stiffness of all teeth in the cut together."""
-
     overlap: float
-    """Share of a tooth's cut on the surface left by the preceding tooth."""
-
     arc_deg: float
-    """Arc of the rim on which the force acts."""
-
     feed_m_per_s: float | None
-    """Feed speed of the wood, if given."""
-
     critical_stiffness_n_per_m: float | None
-    """Smallest cutting stiffness at which a vibration grows at the speed `rpm`; null if it
-    exceeds `ceiling_n_per_m`, zero if a vibration grows without the delayed force."""
-
     critical_frequency_hz: float | None
-    """Frequency of this motion."""
-
     growing_eigenvalues: int | None
-    """Number of eigenvalues in the right half plane by the argument principle, two for each
-    oscillation; null if one lies on the imaginary axis."""
-
     growing_eigenvalues_without: int
-    """Number of growing eigenvalues without the delayed force."""
-
     modes: tuple[WashboardMode, ...]
-    """Modes at the speed `rpm`, in descending order of growth."""
-
     lobes: Lobes
-    """Smallest cutting stiffness at which a vibration grows, over the speed."""
-
     ceiling_n_per_m: float
-    """Largest cutting stiffness of the search."""
-
     complete_to_hz: float
-    """Frequency up to which the modes are complete."""
-
     max_diameters: int
-    """Largest number of nodal diameters of the basis."""
-
     radial_functions: int
-    """Number of radial functions for each number of nodal diameters."""
-
     estimated_relative_error: float | None
-    """Estimated relative error of the critical speeds in this basis."""
-
     warnings: tuple[str, ...]
-    """Remarks on the validity of the result."""

@@ -868,3 +868,40 @@ class StudyDict(_StudyDict, total=False):
     kind, onset and end in rpm, whether both are within the sweep, speed in rpm, growth rate in
     1/s and frequency in Hz of the largest growth, and the ranges of speed in which the band
     counts; bands are separated by semicolons."""
+
+NumberPath: TypeAlias = Literal[
+    "blade.outer_diameter_m", "blade.inner_diameter_m", "blade.thickness_m", "blade.teeth",
+    "blade.rim.mass_per_tooth_kg", "blade.rim.radius_m", "blade.material.youngs_modulus_pa",
+    "blade.material.poisson_ratio", "blade.material.density_kg_per_m3", "mount.diameter_m",
+    "guides[0].radius_m", "guides[1].radius_m", "guides[2].radius_m", "guides[3].radius_m",
+    "guides[0].angle_deg", "guides[1].angle_deg", "guides[2].angle_deg", "guides[3].angle_deg",
+    "guides[0].radial_length_m", "guides[1].radial_length_m", "guides[2].radial_length_m",
+    "guides[3].radial_length_m", "guides[0].tangential_length_m",
+    "guides[1].tangential_length_m", "guides[2].tangential_length_m",
+    "guides[3].tangential_length_m", "guides[0].stiffness_n_per_m",
+    "guides[1].stiffness_n_per_m", "guides[2].stiffness_n_per_m", "guides[3].stiffness_n_per_m",
+    "guides[0].damping_n_s_per_m", "guides[1].damping_n_s_per_m", "guides[2].damping_n_s_per_m",
+    "guides[3].damping_n_s_per_m", "guides[0].gap_m", "guides[1].gap_m", "guides[2].gap_m",
+    "guides[3].gap_m", "guides[0].film_stiffness_n_per_m", "guides[1].film_stiffness_n_per_m",
+    "guides[2].film_stiffness_n_per_m", "guides[3].film_stiffness_n_per_m",
+    "guides[0].offset_m", "guides[1].offset_m", "guides[2].offset_m", "guides[3].offset_m",
+    "friction.coefficient", "friction.heat_share", "friction.convection_w_per_m2_k",
+    "friction.conductivity_w_per_m_k", "damping.material_retardation_time_s",
+    "damping.loss_factor", "damping.air_n_s_per_m3", "damping.air_rotation_share",
+    "membrane.temperature.expansion_per_k", "membrane.temperature.rim_rise_k",
+    "membrane.temperature.from_radius_m", "membrane.temperature.exponent",
+    "membrane.straight_edge.length_m", "membrane.straight_edge.support_radius_m",
+    "membrane.straight_edge.measured_gap_m", "spline.teeth", "spline.pressure_angle_deg",
+    "spline.contact_stiffness_n_per_m_3_2", "spline.contact_damping_n_s_3_2_per_m_3_2",
+    "spline.clearance_m", "spline.pitch_radius_m", "spline.weight_angle_deg", "operating_rpm",
+    "excitation.orders", "excitation.tooth_passing", "sweep.from_rpm", "sweep.to_rpm",
+    "tolerance", "flutter_threshold_per_s", "cut.angle_deg", "cut.depth_m", "cut.teeth_in_cut",
+    "cut.tangential_n_per_tooth", "cut.radial_n_per_tooth", "cut.lateral_n_per_tooth",
+    "cut.power_w", "cut.feed_m_per_s", "cut.board_length_m", "cut.idle_s", "cut.chart_rpm",
+    "cut.wood.stiffness_n_per_m", "cut.wood.damping_n_s_per_m", "cut.wood.depth_m",
+    "cut.wood.arc_deg", "cut.washboarding.stiffness_n_per_m", "cut.washboarding.overlap",
+    "cut.washboarding.arc_deg", "side_force.force_n", "side_force.radius_m",
+    "side_force.angle_deg", "side_force.oscillating_n", "side_force.order", "runup.from_rpm",
+    "runup.to_rpm", "runup.duration_s", "response.runout_m", "response.flatness_m",
+    "response.imbalance_kg_m2", "probe.radius_m", "probe.angle_deg"
+]

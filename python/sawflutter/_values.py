@@ -1,97 +1,119 @@
-"""Values of a scene as JSON: plain numbers, NumPy numbers, and quantities with a unit."""
+"""Numbers of a user as those of the library: plain, of NumPy, with a unit as text or as a quantity of pint."""
 
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 from operator import index
-from typing import Any, SupportsIndex
+from typing import TYPE_CHECKING, Any, Protocol, SupportsIndex, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
-from .errors import refused
+from . import _native
+from ._entry import FloatArray
+from .errors import SceneError, refused
 
-# Units by the end of a key.
-_NAMES = ("deg", "Hz", "K", "kg", "m", "N", "Pa", "rpm", "s", "W")
-_UNITS = {"tooth": "", **{name.lower(): name for name in _NAMES}}
-_POWERS = {"m2": "m**2", "m3": "m**3", "s2": "s**2"}
+
+class Quantity(Protocol):
+    """A quantity of pint."""
+
+    def m_as(self, units: Any) -> Any:
+        """The magnitude in a unit."""
+
+
+Number: TypeAlias = "float | np.floating[Any] | np.integer[Any] | str | Quantity"
+"""A number in the unit of its name, a text with a unit, or a quantity of pint."""
+if TYPE_CHECKING:
+    Numbers: TypeAlias = npt.NDArray[Any] | list[Any] | tuple[Any, ...] | range
+    """Several numbers."""
+
+
+def number(name: str, value: Number | None) -> float:
+    """A number of an argument or of a path of a scene, in the unit of its name."""
+    if isinstance(value, str):
+        return _native.number(name, value)
+    if hasattr(value, "m_as"):
+        value = _in_unit(value, name)
+    try:
+        return float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        unit = _native.unit(name)
+        said = f"a number in {unit}, or a text with a unit" if unit else "a number"
+        raise refused(name, value, said, "give one number, like 3") from None
+
+
+def optional(name: str, value: Number | None) -> float | None:
+    """A number of an argument that may be left out."""
+    return None if value is None else number(name, value)
+
+
+def numbers(name: str, values: Any) -> FloatArray:
+    """Finite numbers of an argument, in any shape."""
+    if hasattr(values, "m_as"):
+        values = _in_unit(values, name)
+    if not isinstance(values, (np.ndarray, list, tuple, range)) and not np.isscalar(values):
+        values = list(values) if hasattr(values, "__iter__") else number(name, values)
+    if isinstance(values, (str, list, tuple)):
+        found = np.vectorize(lambda of: number(name, of), otypes=[float])(np.array(values, object))
+    else:
+        found = np.asarray(values, float)
+    if not np.isfinite(found).all():
+        raise refused(name, float(found[~np.isfinite(found)].flat[0]), "finite", "leave out what is no number")
+    return np.asarray(found, float)
 
 
 def whole(name: str, value: SupportsIndex) -> int:
     """A whole number within the range of the library, from an argument."""
     if isinstance(value, (bool, np.bool_)) or not hasattr(value, "__index__"):
         raise TypeError(f"{name} must be a whole number, like 3 (you gave {value!r})")
-    number = index(value)
-    if not 0 <= number < 2**64:
-        allowed, remedy = "0 or more and below 2**64", "give such a number, or leave it out"
-        raise refused(name, number, allowed, remedy)
-    return number
+    found = index(value)
+    if not 0 <= found < 2**64:
+        raise refused(name, found, "0 or more and below 2**64", "give such a number, or leave it out")
+    return found
 
 
-def to_json(data: Any) -> str:
-    """JSON of a scene or a study."""
-    return json.dumps(plain(data, ""))
+def to_json(data: Any, path: str = "") -> str:
+    """JSON of a scene, a part of one at a path, or a study."""
+    return json.dumps(_plain(data, path))
 
 
-def plain(value: Any, key: str) -> Any:
-    """A value as in JSON; a quantity of pint is converted to the unit in the name of its key."""
+def _plain(value: Any, path: str) -> Any:
     if value is None or isinstance(value, (str, bool, int)):
         return value
     if isinstance(value, Mapping):
-        return {name: plain(inner, name) for name, inner in value.items()}
+        dot = "." if path else ""
+        return {name: _plain(inner, f"{path}{dot}{name}") for name, inner in value.items()}
     if isinstance(value, (list, tuple)):
-        return [plain(inner, key) for inner in value]
+        return [_plain(inner, f"{path}[{place}]") for place, inner in enumerate(value)]
     if hasattr(value, "m_as"):
-        value = _in_unit(value, key)
+        value = _in_unit(value, path)
     if isinstance(value, (np.generic, np.ndarray)):
-        return value.tolist()
+        value = value.tolist()
+        return _plain(value, path) if isinstance(value, (list, float)) else value
     if hasattr(value, "__float__"):
-        return float(value)
-    kind = type(value).__name__
-    raise TypeError(f"{key}: {value!r} is no value of a scene, but of the type {kind}")
+        if not math.isfinite(value := float(value)):
+            allowed, remedy = "a finite number", "give a number, or None to leave the key out"
+            raise SceneError(f"{path} must be {allowed} (you gave {value}); {remedy}", path, str(value), allowed, remedy)
+        return value
+    raise TypeError(f"{path}: {value!r} is no value of a scene, but of the type {type(value).__name__}")
 
 
-def unit(key: str) -> tuple[str, str]:
-    """The name of a number and its unit, from the end of its key.
-
-    >>> unit("stiffness_n_per_m"), unit("poisson_ratio"), unit("convection_w_per_m2_k")
-    (('stiffness', 'N/m'), ('poisson_ratio', ''), ('convection', 'W/m**2/K'))
-    """
-    words, found = key.replace("_3_2", "^(3/2)").split("_"), list[str]()
-    while words and (words[-1] == "per" or _unit(words[-1]) is not None):
-        if words[-1] == "tooth" and found:
-            break
-        found.insert(0, words.pop())
-    cut = found.index("per") if "per" in found else len(found)
-    above, below = (list(filter(None, map(_unit, part))) for part in (found[:cut], found[cut + 1 :]))
-    # Each unit below is divided by: "/a*b" would multiply by b.
-    named = "/".join(["*".join(above) or "1", *below]) if below else "*".join(above)
-    return "_".join(words) or key, named
-
-
-def _unit(word: str) -> str | None:
-    base, _, power = word.partition("^")
-    found = _POWERS.get(base, _UNITS.get(base))
-    return found if not power or found is None else f"{found}**{power}"
-
-
-def _in_unit(value: Any, key: str) -> Any:
-    """The number of a quantity of pint in the unit of its key.
+def _in_unit(value: Any, name: str) -> Any:
+    """The number of a quantity of pint in the unit of a path or of an argument.
 
     To pint an angle has no dimension, so that 40 Hz would be 382 rpm and 0.3 would be 17.2 degrees.
     """
-    needed = _needed_unit(key)
-    own, other = (quantity.to_root_units().units for quantity in (type(value)(1, needed), value))
+    unit = _native.unit(name)
+    if not unit:
+        raise TypeError(f"{name} has no unit: give a number in place of a quantity")
+    for sign, word in (("·", "*"), ("²", "**2"), ("³", "**3"), ("°", "deg"), ("^", "**")):
+        unit = unit.replace(sign, word)
+    own, other = (quantity.to_root_units().units for quantity in (type(value)(1, unit), value))
     if own != other and own.dimensionality == other.dimensionality:
         raise TypeError(
-            f"{key} must be in {needed} (you gave {value}): turns, angles and plain numbers are not "
+            f"{name} must be in {unit} (you gave {value}): turns, angles and plain numbers are not "
             "converted into each other; give it in the unit of the key"
         )
-    return value.m_as(needed)
-
-
-def _needed_unit(key: str) -> str:
-    _, found = unit(key)
-    if not found:
-        raise TypeError(f"{key} has no unit: give a number in place of a quantity")
-    return found
+    return value.m_as(unit)

@@ -11,22 +11,14 @@ class CheckResults(Result, CheckReport):
     fails if a limit is violated, and pytest shows which.
     """
 
-    command, table = "check", "criteria"
+    _command, _rows_of = "check", "criteria"
 
     def __bool__(self) -> bool:
         return self.passed
 
     @property
     def failures(self) -> tuple[str, ...]:
-        """Implausible numbers, unless they were accepted, and names of the violated limits.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> check = sf.Scene.paper().check(operating_rpm=1400, accuracy="draft")
-        >>> check.failures
-        ('85 % rule',)
-        """
+        """Implausible numbers, unless they were accepted, and names of the violated limits."""
         unusual = () if self.accept_unusual else self.unusual_numbers
         return unusual + tuple(c.name for c in self.criteria if not c.passed)
 

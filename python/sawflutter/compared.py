@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 from . import _native
 from ._progress import Progress, reporting
 from ._report_types import CompareReport
 from ._result import Result
+from .errors import warned
+from .results import CampbellResults
+from .scene import Scene, _scene
 
-if TYPE_CHECKING:
-    from .results import CampbellResults
-    from .scene import Scene
 
 
 class CompareResults(Result, CompareReport):
     """Comparison of several saws: critical speeds, flutter, bands, stiffness at the rim, and the
     differences between their scenes. Its chart overlays their Campbell diagrams."""
 
-    command, table = "compare", "saws"
+    _command, _rows_of = "compare", "saws"
 
     def _warnings(self) -> tuple[str, ...]:
         return tuple(f"{saw.label}: {text}" for saw in self.saws for text in saw.warnings)
@@ -31,7 +30,7 @@ class CompareResults(Result, CompareReport):
         parts = []
         for saw in self.saws:
             critical = lowest(entry.rpm for entry in saw.critical_speeds)
-            flutter = saw.flutter_speed_rpm
+            flutter = saw.flutter_rpm
             from_rpm = "no flutter" if flutter is None else f"flutter from {flutter:.0f} rpm"
             parts.append(f"{saw.label}: first critical speed {critical}, {from_rpm}")
         return "; ".join(parts)
@@ -54,17 +53,6 @@ def compare(
     progress : bool or callable, optional
         As of :meth:`Scene.run_campbell`.
 
-    Returns
-    -------
-    CompareResults
-
-    Raises
-    ------
-    ValueError
-        If there are fewer than two saws, or if the number of labels differs.
-    AnalysisError
-        If a saw cannot be analysed.
-
     Examples
     --------
     >>> import sawflutter as sf
@@ -78,6 +66,9 @@ def compare(
     """
     if len(saws) < 2:
         raise ValueError(f"a comparison needs two saws, not {len(saws)}")
+    for place, saw in enumerate(saws):
+        if not isinstance(saw, CampbellResults):
+            _scene(f"saws[{place}]", saw)
     if labels is None:
         named = [f"{number} {_name(saw)}" for number, saw in enumerate(saws, 1)]
     else:
@@ -86,8 +77,10 @@ def compare(
         raise ValueError(f"there are {len(saws)} saws, but {len(named)} labels")
     texts = [(label, saw.to_json(), isinstance(saw, Result)) for label, saw in zip(named, saws)]
     with reporting(progress, "saws") as native:
-        return CompareResults.from_json(_native.compare(texts, progress=native))
+        result = CompareResults._from_json(_native.compare(texts, progress=native))
+    warned(result._warnings())
+    return result
 
 
 def _name(saw: Scene | CampbellResults) -> str:
-    return str(saw.raw["scene"]["name"]) if isinstance(saw, Result) else saw.name
+    return str(saw.to_dict()["scene"]["name"]) if isinstance(saw, Result) else saw.name

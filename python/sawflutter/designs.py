@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._drawn import Drawn
-from ._entry import Entry, FloatArray
-from ._report_types import FitReport, PlaceReport, Setting
+from ._entry import Entry, FloatArray, array
+from ._report_types import FitReport, Instability, PlaceReport, Setting
 from ._result import Report, Result
+from ._values import Number, number
 
 if TYPE_CHECKING:
     from .plot.chart import Chart
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 class FitResults(Result, FitReport):
     """A saw fitted to measured frequencies; :attr:`saw` is the calibrated scene."""
 
-    command, table, _steps = "fit", "parameters", "starts"
+    _command, _rows_of, _steps = "fit", "parameters", "starts"
 
     def _facts(self) -> str:
         found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
@@ -32,7 +33,7 @@ class PlaceResults(Result, PlaceReport):
     """The best place found for the guides; :attr:`saw` is the scene with it. Its chart has no
     panel without a map."""
 
-    command, table, _steps = "place", "parameters", "saws"
+    _command, _rows_of, _steps = "place", "parameters", "saws"
 
     def _facts(self) -> str:
         found = ", ".join(f"{found.path} = {found.value:.4g}" for found in self.parameters)
@@ -46,7 +47,7 @@ class PlaceResults(Result, PlaceReport):
 class TradeoffResults(Report):
     """Computing time against true error, for bases of several sizes."""
 
-    table = "settings"
+    _rows_of = "settings"
 
     def __init__(self, settings: Iterable[Setting], text: str, name: str) -> None:
         self.settings: tuple[Setting, ...] = tuple(settings)
@@ -54,52 +55,13 @@ class TradeoffResults(Report):
         self._text = text
 
     @classmethod
-    def from_json(cls, text: str, name: str = "") -> TradeoffResults:
-        """Reads a result from JSON.
+    def _from_json(cls, text: str, name: str = "") -> TradeoffResults:
+        return cls((Setting._from_dict(setting) for setting in json.loads(text)), text, name)
 
-        Parameters
-        ----------
-        text : str
-            JSON as written by :meth:`save`.
-        name : str
-            Title of the scene.
-
-        Returns
-        -------
-        TradeoffResults
-
-        Raises
-        ------
-        json.JSONDecodeError
-            If the text is not JSON.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> sf.TradeoffResults.from_json("[]", "none")
-        <TradeoffResults 'none': 0 settings>
-        """
-        return cls((Setting.from_dict(setting) for setting in json.loads(text)), text, name)
-
-    def recommended(self, error: float) -> Setting | None:
-        """The fastest chart within a relative error.
-
-        Parameters
-        ----------
-        error : float
-            Largest true relative error.
-
-        Returns
-        -------
-        Setting or None
-            None if no chart reaches this accuracy.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> sf.TradeoffResults.from_json("[]").recommended(1e-3) is None
-        True
-        """
+    def recommended(self, error: Number) -> Setting | None:
+        """The fastest chart whose true relative error is at most ``error``; None if no chart reaches
+        this accuracy."""
+        error = number("error", error)
         charts = [s for s in self.settings if s.speeds > 0 and s.error <= error]
         return min(charts, key=lambda setting: setting.seconds, default=None)
 
@@ -109,7 +71,7 @@ class TradeoffResults(Report):
         return read(_native.tradeoff_chart(self.name, self._text))
 
     def __reduce__(self) -> tuple[Any, tuple[str, str]]:
-        return TradeoffResults.from_json, (self._text, self.name)
+        return TradeoffResults._from_json, (self._text, self.name)
 
     def __repr__(self) -> str:
         return f"<TradeoffResults {self.name!r}: {len(self.settings)} settings>"
@@ -119,21 +81,61 @@ class TradeoffResults(Report):
 class StiffnessMap(Drawn, Entry):
     """Critical speeds of a saw over the stiffness of its guides, like the critical speed map of
     rotor dynamics over bearing stiffness. :meth:`sawflutter.Scene.run_stiffness_map` returns
-    it."""
+    it.
+
+    Attributes
+    ----------
+    name : title of the scene.
+    stiffness_n_per_m : stiffness of each guide that is varied.
+    critical_rpm : critical speeds within the sweep, ascending, a row each; NaN where there are fewer.
+    flutter_rpm : flutter speed of each; NaN where there is none within the sweep.
+    """
 
     name: str
-    """Title of the scene."""
-
     stiffness_n_per_m: FloatArray
-    """Stiffness of each guide that is varied."""
-
     critical_rpm: FloatArray
-    """Critical speeds within the sweep, ascending, a row each; NaN where there are fewer."""
-
     flutter_rpm: FloatArray
-    """Flutter speed of each; NaN where there is none within the sweep."""
 
     def _chart(self) -> Chart:
         from .plot.derived import stiffness
 
         return stiffness(self)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Speeds(Entry):
+    """Speeds of a saw, of :meth:`sawflutter.Scene.speeds`.
+
+    Attributes
+    ----------
+    name : title of the scene.
+    to_rpm : last speed; the first one is 0.
+    critical_rpm : critical speeds up to the last speed, ascending.
+    lowest_critical_rpm : first critical speed, also above the last speed; None if there is none.
+    flutter_rpm : flutter speed; None if there is none up to the last speed.
+    bands : bands of instability up to the last speed, ascending.
+    estimated_relative_error : estimated relative error of the critical speeds.
+    """
+
+    name: str
+    to_rpm: float
+    critical_rpm: FloatArray
+    lowest_critical_rpm: float | None
+    flutter_rpm: float | None
+    bands: tuple[Instability, ...]
+    estimated_relative_error: float
+
+    @classmethod
+    def _of(cls, name: str, found: dict[str, Any], to_rpm: float) -> Speeds:
+        """The speeds of a saw as in the log of a study."""
+        bands = tuple(map(Instability._from_dict, found["bands"]))
+        critical = array([rpm for rpm in found["critical_rpm"] if rpm <= to_rpm])
+        lowest, flutter = found["lowest_critical_rpm"], found["flutter_rpm"]
+        return cls(name, to_rpm, critical, lowest, flutter, bands, found["estimated_relative_error"])
+
+    def __repr__(self) -> str:
+        critical, flutter = (
+            "none" if rpm is None else f"{rpm:.0f} rpm" for rpm in (self.lowest_critical_rpm, self.flutter_rpm)
+        )
+        counted = f"{len(self.bands)} bands up to {self.to_rpm:.0f} rpm"
+        return f"<Speeds {self.name!r}: first critical speed {critical}, flutter from {flutter}, {counted}>"

@@ -10,6 +10,10 @@ blade.thickness_m; -1; above 0, usual range 0.0001 to 0.04 m
 
 from __future__ import annotations
 
+import sys
+import warnings
+from collections.abc import Iterable
+
 
 class InputError(ValueError):
     """Input that was refused.
@@ -80,3 +84,12 @@ class ModelWarning(UserWarning):
     ``warnings`` of a result. ``warnings.simplefilter("error", sawflutter.ModelWarning)`` turns
     them into exceptions.
     """
+
+
+def warned(texts: Iterable[str]) -> None:
+    """Warns of each text, and names the line of the user that calls the package."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_globals["__name__"].partition(".")[0] == __package__:
+        frame, level = frame.f_back, level + 1
+    for text in dict.fromkeys(texts):
+        warnings.warn(text, ModelWarning, stacklevel=level)

@@ -2,70 +2,45 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, SupportsFloat, TypeAlias
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from . import _native
 from ._entry import FloatArray, array
 from ._extras import extra
 from ._report_types import MapReport
 from ._result import Result
-from ._values import plain
+from ._values import Number, number
+from .errors import refused
 
 if TYPE_CHECKING:
     import xarray as xr
 
-Along: TypeAlias = "tuple[str, SupportsFloat | str, SupportsFloat | str]"
+Along: TypeAlias = "tuple[str, Number, Number] | Mapping[str, tuple[Number, Number]]"
 """Path of a number in the scene, and the ends of its axis."""
 
 
 class MapResults(Result, MapReport):
     """Stability over one number of a saw and the speed, or over two numbers."""
 
-    command, table = "map", "saws"
+    _command, _rows_of = "map", "saws"
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Number of saws along the axes: ``(y, x)``, or ``(x,)`` for a map over the speed.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> free.run_map(("blade.thickness_m", 0.0025, 0.003), points=3).shape
-        (3,)
-        """
+        """Number of saws along the axes: ``(y, x)``, or ``(x,)`` for a map over the speed."""
         x = (len(self.x.values),)
         return x if self.y is None else (len(self.y.values), *x)
 
     @property
     def lowest_critical_rpm(self) -> FloatArray:
-        """First critical speeds in the shape of the map; NaN where a saw has none.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> found = free.run_map(("blade.thickness_m", 0.0025, 0.003), points=3)
-        >>> bool(found.lowest_critical_rpm[2] > found.lowest_critical_rpm[0])
-        True
-        """
+        """First critical speeds in the shape of the map; NaN where a saw has none."""
         return self._speeds([saw.lowest_critical_rpm for saw in self.saws])
 
     @property
     def flutter_rpm(self) -> FloatArray:
-        """Flutter speeds in the shape of the map; NaN where no flutter counts within the sweep.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> found = free.run_map(("blade.thickness_m", 0.0025, 0.003), points=3)
-        >>> bool(found.flutter_rpm.max() > 0)
-        False
-        """
-        return self._speeds([saw.flutter_speed_rpm for saw in self.saws])
+        """Flutter speeds in the shape of the map; NaN where no flutter counts within the sweep."""
+        return self._speeds([saw.flutter_rpm for saw in self.saws])
 
     def to_xarray(self) -> xr.Dataset:
         """The map as labelled arrays over its numbers; needs xarray.
@@ -74,19 +49,6 @@ class MapResults(Result, MapReport):
         -------
         xarray.Dataset
             ``lowest_critical_rpm``, ``flutter_rpm`` and ``state`` over the paths of the axes.
-
-        Raises
-        ------
-        ImportError
-            If xarray is missing; the message says how to install it.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> found = free.run_map(("blade.thickness_m", 0.0025, 0.003), points=3).to_xarray()
-        >>> found.lowest_critical_rpm.dims
-        ('blade.thickness_m',)
         """
         with extra("xarray"):
             import xarray as xr
@@ -119,15 +81,12 @@ class MapResults(Result, MapReport):
         return f"{len(self.saws)} saws over {over}{judged}"
 
 
-def axis(along: Along) -> tuple[str, float, float]:
+def axis(name: str, along: Along) -> tuple[str, float, float]:
     """The path of a number, and the ends of its axis in the unit of the path."""
-    path, *ends = along
-
-    def number(end: SupportsFloat | str) -> float:
-        if isinstance(end, str):
-            found = _native.number(path, end)
-            return float(end) if found is None else found
-        return float(plain(end, path))
-
-    first, last = ends
-    return path, number(first), number(last)
+    if isinstance(along, Mapping) and len(along) == 1:
+        (along,) = ((path, *ends) for path, ends in along.items())
+    if isinstance(along, str) or not isinstance(along, (tuple, list)) or len(along) != 3:
+        said = "a path and the two ends of its axis"
+        raise refused(name, along, said, 'write it like ("blade.thickness_m", "2.4 mm", "3.2 mm")')
+    path, first, last = along
+    return path, number(path, first), number(path, last)

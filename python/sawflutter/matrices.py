@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, SupportsFloat, SupportsIndex
+from typing import Any, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._entry import Entry, FloatArray
+from ._entry import ComplexArray, Entry, FloatArray
 from ._methods import points
+from ._values import Number, number, numbers
+from .errors import refused
 from .state_space import StateSpace
 
 
@@ -22,75 +24,39 @@ class Matrices(Entry):
     q'' + (2 Ω G + C) q' + (K + Ω² S + Ω N) q = f, Ω in rad/s; the mass matrix is the identity. The
     basis functions for n = 0 nodal diameters are the radial functions; for each n ≥ 1 they are the
     radial functions times cos nθ, followed by those times sin nθ.
+
+    Attributes
+    ----------
+    stiffness : K in 1/s²: bending, guides, membrane stress that does not depend on speed.
+    spin : S: centrifugal stress less the convective part.
+    gyroscopic : G, skew.
+    damping : C in 1/s; None without damping.
+    circulatory : N in 1/s; None without material damping.
+    max_diameters : largest number of nodal diameters.
+    radial_functions : radial functions of each.
     """
 
     stiffness: FloatArray
-    """K in 1/s²: bending, guides, membrane stress that does not depend on speed."""
-
     spin: FloatArray
-    """S: centrifugal stress less the convective part."""
-
     gyroscopic: FloatArray
-    """G, skew."""
-
     damping: FloatArray | None
-    """C in 1/s; None without damping."""
-
     circulatory: FloatArray | None
-    """N in 1/s; None without material damping."""
-
     max_diameters: int
-    """Largest number of nodal diameters."""
-
     radial_functions: int
-    """Radial functions of each."""
-
-    scene: str = field(default="", repr=False)
-    """The scene as JSON."""
+    _scene: str = field(default="", repr=False)
 
     @classmethod
-    def of(cls, scene: str, basis: tuple[SupportsIndex, SupportsIndex] | None) -> Matrices:
-        """The matrices of a scene as JSON, in a basis or in that of its accuracy.
-
-        Parameters
-        ----------
-        scene : str
-            The scene as JSON.
-        basis : (int, int) or None
-            Largest number of nodal diameters, and radial functions of each.
-
-        Returns
-        -------
-        Matrices
-
-        Raises
-        ------
-        ArgumentError
-            If the basis is out of range.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> scene = sf.Scene.paper().to_json()
-        >>> sf.Matrices.of(scene, (6, 4)).radial_functions
-        4
-        """
+    def _of(cls, scene: str, basis: tuple[SupportsIndex, SupportsIndex] | None) -> Matrices:
+        """The matrices of a scene as JSON, in a basis or in that of its accuracy."""
         found, diameters, functions = _native.matrices(scene, basis=basis)
         arrays: dict[str, Any] = {"damping": None, "circulatory": None}
         for name, values in found.items():
             arrays[name] = np.frombuffer(values, "<f8").reshape((2 * diameters + 1) * functions, -1)
-        return cls(**arrays, max_diameters=diameters, radial_functions=functions, scene=scene)
+        return cls(**arrays, max_diameters=diameters, radial_functions=functions, _scene=scene)
 
     @property
     def mass(self) -> FloatArray:
-        """The mass matrix M, which is the identity.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> bool(sf.Scene.paper().matrices(basis=(6, 4)).mass[0, 0] == 1.0)
-        True
-        """
+        """The mass matrix M, which is the identity."""
         one = np.eye(len(self.stiffness))
         one.setflags(write=False)
         return one
@@ -111,11 +77,6 @@ class Matrices(Entry):
         ndarray of float
             In 1/√kg, of the broadcast shape with the functions as its last axis.
 
-        Raises
-        ------
-        ArgumentError
-            If a point is off the blade.
-
         Examples
         --------
         The deflection under a newton at rest, where it acts:
@@ -127,36 +88,31 @@ class Matrices(Entry):
         >>> print(f"{1e6 * rim @ np.linalg.solve(m.stiffness, rim):.0f} µm")
         290 µm
         """
-        radius, angle = points(radius_m, np.radians(angle_deg))
+        radius, angle = points(numbers("radius_m", radius_m), np.radians(numbers("angle_deg", angle_deg)))
         basis = (self.max_diameters, self.radial_functions)
         found = _native.functions_at(
-            self.scene, basis, *(at.ravel().tolist() for at in (radius, angle))
+            self._scene, basis, *(at.ravel().tolist() for at in (radius, angle))
         )
         return np.frombuffer(found, "<f8").reshape(*radius.shape, len(self.stiffness))
 
-    def companion(self, rpm: SupportsFloat) -> FloatArray:
+    def companion(self, rpm: Number) -> FloatArray:
         """Matrix A of x' = A x with x = (q, q') at a speed; its eigenvalues are those of the saw,
-        in 1/s.
+        in 1/s. It has twice as many rows as there are functions.
 
         Parameters
         ----------
         rpm : float
             Rotation speed, of any size.
 
-        Returns
-        -------
-        ndarray of float, of the shape (2 functions, 2 functions)
-
         Examples
         --------
         >>> import numpy as np
         >>> import sawflutter as sf
         >>> eigenvalues = np.linalg.eigvals(sf.Scene.paper().matrices(basis=(8, 5)).companion(0.0))
-        >>> lowest_hz = np.sort(abs(eigenvalues.imag))[0] / (2 * np.pi)
-        >>> round(float(lowest_hz), 1)
+        >>> round(float(np.sort(abs(eigenvalues.imag))[0] / (2 * np.pi)), 1)
         7.8
         """
-        speed = float(rpm) * np.pi / 30.0
+        speed = float(numbers("rpm", number("rpm", rpm))) * np.pi / 30.0
         size = len(self.stiffness)
         velocity = 2.0 * speed * self.gyroscopic
         position = self.stiffness + speed**2 * self.spin
@@ -168,11 +124,11 @@ class Matrices(Entry):
 
     def state_space(
         self,
-        rpm: SupportsFloat,
+        rpm: Number,
         *,
         inputs: npt.ArrayLike,
         outputs: npt.ArrayLike,
-        to_hz: SupportsFloat | None = None,
+        to_hz: Number | None = None,
     ) -> StateSpace:
         """The saw at a speed as x' = A x + B u, y = C x + D u, for python-control, SciPy or MATLAB.
 
@@ -188,17 +144,6 @@ class Matrices(Entry):
         to_hz : float, optional
             Keeps the modes up to this frequency, see :meth:`StateSpace.reduced`; all by default.
 
-        Returns
-        -------
-        StateSpace
-
-        Raises
-        ------
-        ArgumentError
-            Where a point is off the blade.
-        ValueError
-            Where the modes cannot be separated.
-
         Examples
         --------
         >>> import sawflutter as sf
@@ -206,8 +151,73 @@ class Matrices(Entry):
         >>> m.state_space(1000, inputs=[(0.355, 0)], outputs=[(0.355, 0), (0.3, 90)])
         <StateSpace at 1000 rpm: 170 states, 1 inputs, 2 outputs>
         """
-        forces, probes = (
-            self.at(*np.asarray(of, float).reshape(-1, 2).T) for of in (inputs, outputs)
-        )
-        whole = StateSpace.of(float(rpm), self.companion(rpm), forces, probes)
-        return whole if to_hz is None else whole.reduced(float(to_hz))
+        forces, probes = (self._at_points(*pair) for pair in (("inputs", inputs), ("outputs", outputs)))
+        whole = StateSpace._of(number("rpm", rpm), self.companion(rpm), forces, probes)
+        return whole if to_hz is None else whole.reduced(to_hz)
+
+    def response(
+        self, rpm: Number, frequency_hz: npt.ArrayLike, *, inputs: npt.ArrayLike, outputs: npt.ArrayLike
+    ) -> ComplexArray:
+        """Deflections in m at points for forces of one newton at others, at a speed and at
+        frequencies: their size and phase.
+
+        Parameters
+        ----------
+        rpm, inputs, outputs
+            As in :meth:`state_space`.
+        frequency_hz : array_like
+            Frequencies in space. The result has their shape, with outputs and inputs as its last
+            axes.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> m = sf.Scene.paper().matrices(basis=(12, 6))
+        >>> rim = [(0.355, 90)]
+        >>> print(f"{1e6 * abs(m.response(0, 0.0, inputs=rim, outputs=rim)[0, 0]):.0f} µm")
+        290 µm
+        """
+        return self.state_space(rpm, inputs=inputs, outputs=outputs).response(frequency_hz)
+
+    def run_time_response(
+        self,
+        rpm: Number,
+        forces_n: npt.ArrayLike,
+        times_s: npt.ArrayLike,
+        *,
+        inputs: npt.ArrayLike,
+        outputs: npt.ArrayLike,
+        to_hz: Number | None = None,
+    ) -> FloatArray:
+        """Deflections in m at points over time, from rest, under forces at others that are linear
+        between the times; needs SciPy.
+
+        Parameters
+        ----------
+        rpm, inputs, outputs, to_hz
+            As in :meth:`state_space`.
+        forces_n : array_like
+            Forces at each time, of the shape (times, inputs).
+        times_s : array_like
+            Ascending times at even steps.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper().replace({"damping.air_n_s_per_m3": 200.0})
+        >>> times, rim = np.linspace(0, 1, 501), [(0.355, 90)]
+        >>> force = np.ones((501, 1))
+        >>> m = saw.matrices(basis=(6, 4))
+        >>> m.run_time_response(500, force, times, inputs=rim, outputs=rim, to_hz=50).shape
+        (501, 1)
+        """
+        space = self.state_space(rpm, inputs=inputs, outputs=outputs, to_hz=to_hz)
+        return space.time_response(forces_n, times_s)
+
+    def _at_points(self, name: str, of: npt.ArrayLike) -> FloatArray:
+        pairs = numbers(name, of)
+        if pairs.size == 0 or pairs.size % 2 or (pairs.ndim != 1 and pairs.shape[-1] != 2):
+            said = "points of the blade, each a radius in m and an angle in degrees"
+            raise refused(name, f"of shape {pairs.shape}", said, "write it like [(0.3, 90)]")
+        return self.at(*pairs.reshape(-1, 2).T)

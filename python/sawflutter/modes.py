@@ -1,12 +1,12 @@
-"""Modes at several speeds."""
+"""Modes at one or several speeds."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 
 import numpy as np
-import numpy.typing as npt
 
 from ._entry import Entry, FloatArray, IntArray, array
 from ._extras import entries
@@ -15,78 +15,96 @@ from ._report_types import Mode
 if TYPE_CHECKING:
     import pandas as pd
 
+T = TypeVar("T")
+
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Modes(Entry):
-    """Modes at several speeds, from one basis, with one row for each speed, ascending by
-    frequency. Rows with fewer modes are filled with NaN, and with 0 for Krein signs."""
+class Modes(Entry, Generic[T]):
+    """Modes ascending by frequency, of :meth:`Scene.modes`: a sequence of :class:`Mode` at one
+    speed, or of a tuple of them for each of several speeds. Rows of fewer modes are filled with
+    NaN, and with 0 for Krein signs.
+
+    Attributes
+    ----------
+    rpm : speed, or speeds.
+    frequency_hz : frequencies in space, of the shape (modes), or (speeds, modes).
+    growth_per_s : growth rates, of the same shape.
+    krein_sign : Krein signs, of the same shape; 0 where a mode has none.
+    modes : the modes themselves, with their shapes, or those of each speed.
+    complete_to_hz : frequency up to which no mode is missing.
+    """
 
     rpm: FloatArray
-    """Speeds."""
-
     frequency_hz: FloatArray
-    """Frequencies, of the shape (speeds, modes)."""
-
     growth_per_s: FloatArray
-    """Growth rates, of the same shape."""
-
     krein_sign: IntArray
-    """Krein signs, of the same shape; 0 where a mode has none."""
-
-    modes: tuple[tuple[Mode, ...], ...]
-    """The modes themselves, with their shapes, of each speed."""
+    modes: tuple[T, ...]
+    complete_to_hz: float
 
     @classmethod
-    def of(cls, rpm: npt.ArrayLike, modes: list[list[dict[str, object]]]) -> Modes:
-        """The table of the library's report for each speed.
-
-        Parameters
-        ----------
-        rpm : array_like
-            The speeds.
-        modes : list
-            The modes at each of them, as in the JSON.
-
-        Returns
-        -------
-        Modes
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> sf.Modes.of([], []).rpm.shape
-        (0,)
-        """
-        found = tuple(tuple(map(Mode.from_dict, at)) for at in modes)
+    def _of(cls, rpm: FloatArray, found: dict[str, Any]) -> Modes[Any]:
+        """The table of the library's report of each speed."""
+        rows = tuple(tuple(map(Mode._from_dict, at)) for at in found["modes"])
+        size = max(map(len, rows), default=0)
 
         def table(of: str) -> FloatArray:
-            return array([[getattr(mode, of) for mode in at] for at in found])
+            values = np.full((len(rows), size), np.nan)
+            for row, modes in zip(values, rows):
+                row[: len(modes)] = [getattr(mode, of) for mode in modes]
+            return array(values if rpm.ndim else values[0])
 
         signs = array(np.nan_to_num(table("krein_sign")), np.int64)
-        speeds, hz, growth = array(np.ravel(rpm)), table("frequency_hz"), table("growth_per_s")
-        return cls(speeds, hz, growth, signs, found)
+        modes: tuple[Any, ...] = rows if rpm.ndim else rows[0]
+        hz, growth = table("frequency_hz"), table("growth_per_s")
+        return Modes(array(rpm), hz, growth, signs, modes, found["complete_to_hz"])
+
+    @overload
+    def __getitem__(self, place: int) -> T: ...
+    @overload
+    def __getitem__(self, place: slice) -> tuple[T, ...]: ...
+    def __getitem__(self, place: int | slice) -> T | tuple[T, ...]:
+        return self.modes[place]
+
+    def __iter__(self) -> Iterator[T]:
+        return iter(self.modes)
+
+    def __len__(self) -> int:
+        return len(self.modes)
 
     def to_dataframe(self) -> pd.DataFrame:
         """One row for each speed and mode with speed, frequency, growth rate, Krein sign,
-        direction and the dominant number of nodal diameters; needs pandas.
-
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ImportError
-            If pandas is missing; the message says how to install it.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> found = sf.Scene.paper().with_accuracy("draft").modes([0, 500])
-        >>> sorted(set(found.to_dataframe()["rpm"].round(6)))
-        [0.0, 500.0]
-        """
-        modes = [mode for at in self.modes for mode in at]
+        direction and the dominant number of nodal diameters; needs pandas."""
+        modes = list(self._all())
         table = entries(modes)
         table["nodal_diameters"] = [mode.harmonics[0].nodal_diameters for mode in modes]
         return table
+
+    def _all(self) -> Iterator[Mode]:
+        for at in self.modes:
+            if isinstance(at, Mode):
+                yield at
+            elif isinstance(at, tuple):
+                yield from at
+
+    def __repr__(self) -> str:
+        hz = self.frequency_hz
+        speeds = np.ravel(self.rpm)
+        ends = f"{speeds.min():g} to {speeds.max():g}" if speeds.size else "no"
+        at = f"{len(speeds)} speeds, {ends}" if self.rpm.ndim else f"{self.rpm:g}"
+        span = "none" if not hz.size else f"{np.nanmin(hz):.4g} to {np.nanmax(hz):.4g} Hz"
+        return f"<Modes at {at} rpm: {sum(1 for _ in self._all())}, {span}, complete to {self.complete_to_hz:.4g} Hz>"
+
+    def _repr_html_(self) -> str:
+        """The lowest modes as a table, for a notebook."""
+        rows = list(self._all())
+        head = "".join(f"<th>{name}</th>" for name in ("rpm", "frequency", "growth", "mode", "direction"))
+        body = "".join(
+            f"<tr><td>{m.rpm:.0f}</td><td>{m.frequency_hz:.2f} Hz</td><td>{m.growth_per_s:.3g} 1/s</td>"
+            f"<td>{m.name}</td><td>{m.direction}</td></tr>"
+            for m in rows[:_SHOWN]
+        )
+        return f"<table><tr>{head}</tr>{body}</table><p>{len(rows)} modes, complete to {self.complete_to_hz:.4g} Hz</p>"
+
+
+# Rows of the table in a notebook.
+_SHOWN = 20

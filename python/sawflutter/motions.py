@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ._extras import frame
@@ -12,40 +11,11 @@ from ._result import Result
 if TYPE_CHECKING:
     import pandas as pd
 
-    from .plot.chart import Chart
-
 
 class CutResults(Result, CutReport):
     """A saw in a cut, at one or several speeds."""
 
-    command, table, _steps = "cut", "runs", "points of the map"
-
-    def map_chart(self, run: int = 0) -> Chart:
-        """Growth over guide angle and load for one of the runs.
-
-        Parameters
-        ----------
-        run : int
-            Index in :attr:`runs`, counted from 0.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Raises
-        ------
-        IndexError
-            If no run has this index.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> cut = sf.Scene.paper().run_cut(1800, accuracy="draft")
-        >>> cut.map_chart().panels[0].y_name
-        "load, relative to the scene's"
-        """
-        chart = self._described("cut-map")
-        return replace(chart, panels=(chart.panels[run],))
+    _command, _rows_of, _steps = "cut", "runs", "points of the map"
 
     def _facts(self) -> str:
         verdicts = ", ".join(
@@ -58,27 +28,10 @@ class CutResults(Result, CutReport):
 class RunUpResults(Result, RunUpReport):
     """A run-up under a lateral force."""
 
-    command, _steps = "runup", "steps"
+    _command, _steps = "runup", "steps"
 
     def _rows(self) -> pd.DataFrame:
         return frame({"rpm": self.rpm, "deflection_m": self.deflection_m})
-
-    def response_chart(self) -> Chart:
-        """Deflection per newton over speed and frequency, with the branches on top.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> short = {"runup.to_rpm": 500, "runup.duration_s": 5}
-        >>> up = sf.Scene.paper().replace(short).run_up(accuracy="draft")
-        >>> up.response_chart().panels[0].y_name
-        'frequency in space [Hz]'
-        """
-        return self._described("response-map")
 
     def _facts(self) -> str:
         last = self.rpm[-1]
@@ -96,7 +49,7 @@ class RunUpResults(Result, RunUpReport):
 class DeflectResults(Result, DeflectReport):
     """Equilibrium deflection of the blade while its speed slowly rises and falls."""
 
-    command, _steps = "deflect", "equilibria"
+    _command, _steps = "deflect", "equilibria"
 
     def _rows(self) -> pd.DataFrame:
         names = ("rpm", "deflection_m", "largest_deflection_m", "largest_slope")
@@ -116,7 +69,7 @@ class DeflectResults(Result, DeflectReport):
 class ResponseResults(Result, ResponseReport):
     """Steady-state amplitude and phase over the speed, and over the frequency at one speed."""
 
-    command = "response"
+    _command = "response"
 
     def _rows(self) -> pd.DataFrame:
         columns = {line.name: line.amplitude_m for line in self.lines}
@@ -134,7 +87,7 @@ class ResponseResults(Result, ResponseReport):
 class GapResults(Result, GapReport):
     """Guides with a gap: the chart over the amplitude, and the deflection at the cut."""
 
-    command, _steps = "gap", "amplitudes"
+    _command, _steps = "gap", "amplitudes"
 
     def _rows(self) -> pd.DataFrame:
         found = self.deviation
@@ -157,7 +110,7 @@ class WashboardResults(Result, WashboardReport):
     """Washboarding: whether the cutting force on the surface left by the previous tooth makes a
     motion grow."""
 
-    command, table = "washboard", "modes"
+    _command, _rows_of = "washboard", "modes"
 
     def _facts(self) -> str:
         least = self.critical_stiffness_n_per_m

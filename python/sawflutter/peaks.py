@@ -6,13 +6,14 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, SupportsFloat
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ._entry import Entry, FloatArray, IntArray, array
 from ._extras import extra, frame
 from ._measured import lines
+from ._values import Number, number
 from .errors import ArgumentError, refused
 
 if TYPE_CHECKING:
@@ -30,37 +31,33 @@ _MOST_FREQUENCIES = 24
 @dataclass(frozen=True, eq=False, repr=False)
 class Peaks(Entry):
     """Peaks of spectra, by ascending speed and frequency. :meth:`Waterfall.peaks` and
-    :meth:`Spectrum.peaks` pick them."""
+    :meth:`Spectrum.peaks` pick them.
+
+    Attributes
+    ----------
+    rpm : speed of each peak.
+    frequency_hz : frequency in space.
+    amplitude : amplitude.
+    order : multiple of the rotation speed at which the peak is; NaN at none.
+    spectrum : number of the spectrum of each peak, from 0.
+    resolution_hz : width of the peak of a steady sine.
+    hop : distance of neighbouring spectra, in standard deviations of a window.
+    unit : unit of the amplitudes.
+    name : name of the record.
+    """
 
     rpm: FloatArray
-    """Speed of each peak."""
-
     frequency_hz: FloatArray
-    """Frequency in space."""
-
     amplitude: FloatArray
-    """Amplitude."""
-
     order: FloatArray
-    """Multiple of the rotation speed at which the peak is; NaN at none."""
-
     spectrum: IntArray
-    """Number of the spectrum of each peak, from 0."""
-
     resolution_hz: float
-    """Width of the peak of a steady sine."""
-
     hop: float
-    """Distance of neighbouring spectra, in standard deviations of a window."""
-
     unit: str
-    """Unit of the amplitudes."""
-
     name: str
-    """Name of the record."""
 
     @classmethod
-    def of(
+    def _of(
         cls,
         rows: Sequence[tuple[float, float, float, float, int]],
         resolution_hz: float,
@@ -68,29 +65,7 @@ class Peaks(Entry):
         unit: str,
         name: str,
     ) -> Peaks:
-        """Peaks from rows.
-
-        Parameters
-        ----------
-        rows : list
-            Speed, frequency, amplitude, order and number of the spectrum of each peak.
-        resolution_hz : float
-            Width of the peak of a steady sine.
-        hop : float
-            Distance of neighbouring spectra, in standard deviations of a window.
-        unit, name : str
-            Unit and name of the record.
-
-        Returns
-        -------
-        Peaks
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> sf.Peaks.of([(0.0, 25.0, 1.0, float("nan"), 0)], 0.5, 4.0, "mm", "taps")
-        <Peaks 'taps': 1 at 1 speeds, 0 of them of an order>
-        """
+        """Peaks from rows of speed, frequency, amplitude, order and number of the spectrum."""
         numbers = np.array(rows, float).reshape(-1, 5)
         rpm, frequency_hz, amplitude, order = (array(column) for column in numbers[:, :4].T)
         spectrum = array(numbers[:, 4], np.int64)
@@ -101,7 +76,7 @@ class Peaks(Entry):
         saw: Scene,
         *,
         lowest: int = 6,
-        within_hz: SupportsFloat = 5.0,
+        within_hz: Number = 5.0,
         speeds: int = 20,
     ) -> list[tuple[float, list[float]]]:
         """The peaks as rows for :meth:`sawflutter.Scene.fit`: a speed and the lowest frequencies in
@@ -120,27 +95,15 @@ class Peaks(Entry):
         speeds : int
             Largest number of rows, spread evenly. Their windows do not overlap by much.
 
-        Returns
-        -------
-        list of (float, list of float)
-
-        Raises
-        ------
-        ArgumentError
-            If an argument is out of range, if a speed is beyond the sweep of the saw, or if no peak
-            is within the distance of a computed frequency.
-        ImportError
-            If SciPy is missing; the message says how to install it.
-
         Examples
         --------
         >>> import numpy as np
         >>> import sawflutter as sf
-        >>> peaks = sf.Peaks.of([(0.0, 8.0, 1.0, np.nan, 0), (0.0, 26.0, 1.0, np.nan, 0)], 0.5, 4.0, "mm", "taps")
+        >>> peaks = sf.Peaks._of([(0.0, 8.0, 1.0, np.nan, 0), (0.0, 26.0, 1.0, np.nan, 0)], 0.5, 4.0, "mm", "taps")
         >>> peaks.rows(sf.Scene.paper().with_accuracy("draft"), lowest=3)
         [(0.0, [8.0, nan, 26.0])]
         """
-        limit = float(within_hz)
+        limit = number("within_hz", within_hz)
         if not 1 <= lowest <= _MOST_FREQUENCIES:
             raise refused("lowest", lowest, f"from 1 to {_MOST_FREQUENCIES}", "6 is usual")
         if not limit > 0.0:
@@ -173,20 +136,6 @@ class Peaks(Entry):
             The file.
         rows : list of (float, list of float)
             The result of :meth:`rows`, or several such lists in one.
-
-        Raises
-        ------
-        OSError
-            If the file cannot be written.
-
-        Examples
-        --------
-        >>> import pathlib, tempfile
-        >>> import sawflutter as sf
-        >>> path = pathlib.Path(tempfile.mkdtemp()) / "measured.csv"
-        >>> sf.Peaks.of([], 0.5, 4.0, "mm", "taps").to_csv(path, [(0.0, [7.9, float("nan"), 25.9])])
-        >>> path.read_text()
-        'rpm,f1,f2,f3\\n0.0,7.9,,25.9\\n'
         """
         most = max((len(hz) for _, hz in rows), default=0)
         names = ",".join(["rpm", *(f"f{place}" for place in range(1, most + 1))])
@@ -196,19 +145,10 @@ class Peaks(Entry):
     def to_dataframe(self) -> pd.DataFrame:
         """The peaks as a table; needs pandas.
 
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ImportError
-            If pandas is missing; the message says how to install it.
-
         Examples
         --------
         >>> import sawflutter as sf
-        >>> list(sf.Peaks.of([], 0.5, 4.0, "mm", "taps").to_dataframe())
+        >>> list(sf.Peaks._of([], 0.5, 4.0, "mm", "taps").to_dataframe())
         ['rpm', 'frequency_hz', 'amplitude', 'order']
         """
         names = ("rpm", "frequency_hz", "amplitude", "order")

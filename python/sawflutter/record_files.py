@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import SupportsFloat
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +12,7 @@ from . import _channels
 from ._channels import Channels
 from ._columns import Channel
 from ._entry import FloatArray
+from ._values import Number, number
 from .errors import ArgumentError, InputError, refused
 from .records import Record
 
@@ -28,9 +28,9 @@ def read_record(
     speed: str | int | None = None,
     tacho: str | int | None = None,
     pulses_per_turn: int = 1,
-    rate_hz: SupportsFloat | None = None,
+    rate_hz: Number | None = None,
     unit: str | None = None,
-    scale: SupportsFloat = 1.0,
+    scale: Number = 1.0,
 ) -> Record:
     """Reads a record of a saw from a WAV file, a table (CSV), or a universal file with data sets 58.
 
@@ -46,7 +46,7 @@ def read_record(
         Name or number, from 0, of the channel of the probe or microphone; columns of time are not
         counted. By default the first channel that is neither the speed nor the tachometer.
     rpm : float, (float, float) or array_like, optional
-        The speed, as in :meth:`Record.of`.
+        The speed, as in :class:`Record`.
     speed : str or int, optional
         Channel of the speed in rpm; by default the one with this unit, or named rpm or speed.
     tacho : str or int, optional
@@ -60,21 +60,6 @@ def read_record(
     scale : float
         Factor from the numbers of the file to the unit, such as that of the probe. The numbers of a
         WAV file of integers are shares of full scale.
-
-    Returns
-    -------
-    Record
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, with its name and, for a table, the line.
-    ArgumentError
-        If a channel is not in the file, or if the speed or the rate is missing or given twice.
-    ImportError
-        If SciPy or pyuff is missing; the message says how to install it.
-    OSError
-        If the file cannot be opened.
 
     Examples
     --------
@@ -101,8 +86,8 @@ def read_record(
         speeds = turning.samples
     else:
         speeds = _speed_of_pulses(turning.samples, rate, pulses_per_turn)
-    samples = float(scale) * chosen.samples
-    return Record.of(
+    samples = number("scale", scale) * chosen.samples
+    return Record(
         samples, rate, speeds, unit=chosen.unit if unit is None else unit, name=Path(path).name
     )
 
@@ -136,14 +121,14 @@ def _signal(found: Channels, signal: str | int | None, turning: Channel | None) 
     return first
 
 
-def _rate(found: Channels, rate_hz: SupportsFloat | None) -> float:
+def _rate(found: Channels, rate_hz: Number | None) -> float:
     if found.rate_hz is None and rate_hz is None:
         remedy = f"give the samples per second, because {found.file} has no column of time"
         raise refused("rate_hz", None, "above 0", remedy)
     if found.rate_hz is not None and rate_hz is not None:
         remedy = f"leave it out, because {found.file} has a rate of {found.rate_hz:g} Hz"
-        raise refused("rate_hz", float(rate_hz), "left out", remedy)
-    return float(rate_hz) if rate_hz is not None else float(found.rate_hz or 0.0)
+        raise refused("rate_hz", number("rate_hz", rate_hz), "left out", remedy)
+    return number("rate_hz", rate_hz) if rate_hz is not None else float(found.rate_hz or 0.0)
 
 
 def _without_speed(found: Channels) -> npt.ArrayLike:

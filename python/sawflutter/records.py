@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import SupportsFloat
-
 import numpy as np
 import numpy.typing as npt
 
 from ._entry import Entry, FloatArray, array
+from ._values import Number, number, optional
 from .errors import refused
 from .motions import RunUpResults
 from .spectra import Spectrum, after_tap
@@ -18,76 +17,63 @@ from .waterfalls import Waterfall, sliding_spectra
 _MOST_RPM = 1e6
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class Record(Entry):
     """Samples of a probe or a microphone, with the rotation speed at each. :func:`read_record` reads
-    one from a file, :meth:`of` makes one from arrays."""
+    one from a file.
+
+    Attributes
+    ----------
+    samples : samples, in the unit of the record.
+    rate_hz : sample rate.
+    rpm : rotation speed at each sample.
+    unit : unit of the samples.
+    name : name of the record, such as that of its file.
+
+    Parameters
+    ----------
+    samples : array_like
+        Samples at even time steps.
+    rate_hz : float
+        Sample rate.
+    rpm : float, (float, float) or array_like
+        Constant speed; first and last speed of a run-up at a constant rate; pairs (time in s,
+        speed), between which the speed is interpolated; or the speed at each sample. By default
+        the saw is at rest.
+    unit, name : str
+        Unit of the samples and name of the record.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import sawflutter as sf
+    >>> sf.Record(np.zeros(1000), 100, rpm=(0, 1500)).rpm[-1]
+    np.float64(1500.0)
+    """
 
     samples: FloatArray
-    """Samples, in the unit of the record."""
-
     rate_hz: float
-    """Sample rate."""
-
     rpm: FloatArray
-    """Rotation speed at each sample."""
+    unit: str
+    name: str
 
-    unit: str = ""
-    """Unit of the samples."""
-
-    name: str = "record"
-    """Name of the record, such as that of its file."""
-
-    @classmethod
-    def of(
-        cls,
+    def __init__(
+        self,
         samples: npt.ArrayLike,
-        rate_hz: SupportsFloat,
+        rate_hz: Number,
         rpm: npt.ArrayLike = 0.0,
         *,
         unit: str = "",
         name: str = "record",
-    ) -> Record:
-        """A record from arrays.
-
-        Parameters
-        ----------
-        samples : array_like
-            Samples at even time steps.
-        rate_hz : float
-            Sample rate.
-        rpm : float, (float, float) or array_like
-            Constant speed; first and last speed of a run-up at a constant rate; pairs (time in s,
-            speed), between which the speed is interpolated; or the speed at each sample. By default
-            the saw is at rest.
-        unit : str
-            Unit of the samples.
-        name : str
-            Name of the record.
-
-        Returns
-        -------
-        Record
-
-        Raises
-        ------
-        ArgumentError
-            If samples, rate or speeds are not finite numbers of these shapes.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> sf.Record.of(np.zeros(1000), 100, rpm=(0, 1500)).rpm[-1]
-        np.float64(1500.0)
-        """
-        numbers, rate = np.asarray(samples, float), float(rate_hz)
-        if numbers.ndim != 1 or len(numbers) < 2 or not np.isfinite(numbers).all():
+    ) -> None:
+        found, rate = np.asarray(samples, float), number("rate_hz", rate_hz)
+        if found.ndim != 1 or len(found) < 2 or not np.isfinite(found).all():
             remedy = "give the samples of one channel, without gaps"
-            raise refused("samples", f"of shape {numbers.shape}", "at least 2 finite numbers in a row", remedy)
+            raise refused("samples", f"of shape {found.shape}", "at least 2 finite numbers in a row", remedy)
         if not (np.isfinite(rate) and rate > 0.0):
             raise refused("rate_hz", rate, "above 0", "give the number of samples per second")
-        return cls(array(numbers), rate, array(_speeds(rpm, len(numbers), rate)), unit, name)
+        speeds = array(_speeds(rpm, len(found), rate))
+        vars(self).update(samples=array(found), rate_hz=rate, rpm=speeds, unit=unit, name=name)
 
     @classmethod
     def of_run_up(cls, up: RunUpResults) -> Record:
@@ -102,68 +88,38 @@ class Record(Entry):
         -------
         Record
             The deflection at the probe in m.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> short = {"runup.to_rpm": 500, "runup.duration_s": 5}
-        >>> up = sf.Scene.paper().replace(short).run_up(accuracy="draft")
-        >>> sf.Record.of_run_up(up)
-        <Record 'run-up of Guided spline arbor saw': 5.0 s at 1678 Hz, 0 to 500 rpm>
         """
         # The last step of a run-up may be shorter than the others.
         rpm, samples = up.rpm[:-1], up.deflection_m[:-1]
         rate = up.rate_rpm_per_s * (len(rpm) - 1) / (rpm[-1] - rpm[0])
         name = f"run-up of {up.scene['name']}"
-        return cls.of(samples, rate, rpm, unit="m", name=name)
+        return cls(samples, rate, rpm, unit="m", name=name)
 
     @property
     def time_s(self) -> FloatArray:
-        """Time of each sample from the begin of the record.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> sf.Record.of([0.0, 1.0, 0.0], 10).time_s.tolist()
-        [0.0, 0.1, 0.2]
-        """
+        """Time of each sample from the begin of the record."""
         return array(np.arange(len(self.samples)) / self.rate_hz)
 
-    def between(self, from_s: SupportsFloat, to_s: SupportsFloat) -> Record:
+    def between(self, from_s: Number, to_s: Number) -> Record:
         """Part of the record, such as its run-up, or the time after one of several taps.
 
         Parameters
         ----------
         from_s, to_s : float
             Begin and end.
-
-        Returns
-        -------
-        Record
-
-        Raises
-        ------
-        ArgumentError
-            If the record has no two samples between these times.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> sf.Record.of(range(100), 10).between(2, 4).samples[0]
-        np.float64(20.0)
         """
-        begin, end = float(from_s), float(to_s)
+        begin, end = number("from_s", from_s), number("to_s", to_s)
         within = np.flatnonzero((self.time_s >= begin) & (self.time_s <= end))
         if len(within) < 2:
             allowed = f"times from 0 to {self.time_s[-1]:g} s, the second one later"
             raise refused("from_s, to_s", (begin, end), allowed, "give a part of the record")
         part = slice(within[0], within[-1] + 1)
-        return Record.of(
+        return Record(
             self.samples[part], self.rate_hz, self.rpm[part], unit=self.unit, name=self.name
         )
 
     def waterfall(
-        self, *, resolution_hz: SupportsFloat | None = None, to_hz: SupportsFloat | None = None
+        self, *, resolution_hz: Number | None = None, to_hz: Number | None = None
     ) -> Waterfall:
         """Spectra of the record over the rotation speed, by a short-time Fourier transform with a
         Gaussian window.
@@ -177,28 +133,19 @@ class Record(Entry):
         to_hz : float, optional
             Highest frequency; by default 500 Hz, or 40 % of the sample rate if that is less.
 
-        Returns
-        -------
-        Waterfall
-
-        Raises
-        ------
-        ArgumentError
-            If the speed does not change, or if the window is longer than half of the record.
-
         Examples
         --------
         >>> import numpy as np
         >>> import sawflutter as sf
         >>> tone = np.sin(2 * np.pi * 40 * np.arange(0, 30, 1e-3))
-        >>> w = sf.Record.of(tone, 1000, rpm=(0, 1500), unit="mm").waterfall(to_hz=100)
+        >>> w = sf.Record(tone, 1000, rpm=(0, 1500), unit="mm").waterfall(to_hz=100)
         >>> w.frequency_hz[w.amplitude[0].argmax()].round(), w.amplitude.max().round(3)
         (np.float64(40.0), np.float64(1.0))
         """
-        resolution = None if resolution_hz is None else float(resolution_hz)
+        resolution = optional("resolution_hz", resolution_hz)
         return sliding_spectra(self, resolution, self._highest(to_hz))
 
-    def spectrum(self, *, to_hz: SupportsFloat | None = None) -> Spectrum:
+    def spectrum(self, *, to_hz: Number | None = None) -> Spectrum:
         """Spectrum of a free decay at a constant speed, such as that of a tap test at rest: of the
         record from its largest deflection on, with an exponential window that ends at 1 %. The
         window widens each peak to 2.5 Hz divided by the remaining duration in seconds.
@@ -208,22 +155,12 @@ class Record(Entry):
         to_hz : float, optional
             As in :meth:`waterfall`.
 
-        Returns
-        -------
-        Spectrum
-
-        Raises
-        ------
-        ArgumentError
-            If the speed changes by more than 1 % of its mean and by more than 5 rpm, or if the
-            largest deflection is at the end.
-
         Examples
         --------
         >>> import numpy as np
         >>> import sawflutter as sf
         >>> time = np.arange(0, 4, 1e-3)
-        >>> tap = sf.Record.of(np.exp(-time) * np.cos(2 * np.pi * 25 * time), 1000)
+        >>> tap = sf.Record(np.exp(-time) * np.cos(2 * np.pi * 25 * time), 1000)
         >>> tap.spectrum().peaks().frequency_hz.round(1).tolist()
         [25.0]
         """
@@ -232,11 +169,11 @@ class Record(Entry):
             raise refused("rpm", ends, "constant", "use waterfall(), or a part by between()")
         return after_tap(self, self._highest(to_hz))
 
-    def _highest(self, to_hz: SupportsFloat | None) -> float:
+    def _highest(self, to_hz: Number | None) -> float:
         highest = 0.4 * self.rate_hz
         if to_hz is None:
             return min(500.0, highest)
-        asked = float(to_hz)
+        asked = number("to_hz", to_hz)
         if not 0.0 < asked <= 0.5 * self.rate_hz:
             allowed = f"above 0 and at most {0.5 * self.rate_hz:g}, half of the sample rate"
             raise refused("to_hz", asked, allowed, "give a frequency that the record contains")

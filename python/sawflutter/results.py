@@ -13,16 +13,15 @@ from . import _native
 from ._entry import FloatArray, array
 from ._extras import entries, extra, read
 from ._methods import know_bands
-from ._report_types import Branch, CampbellReport, Instability, Mode
+from ._report_types import Branch, CampbellReport
 from ._result import Result
 from .designs import TradeoffResults
 from .errors import InputError
+from .studies import StudyResults
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-
-    from .plot.chart import Chart
 
 Table: TypeAlias = Literal["branches", "modes_at_rest", "critical_speeds", "bands"]
 
@@ -30,113 +29,25 @@ Table: TypeAlias = Literal["branches", "modes_at_rest", "critical_speeds", "band
 class CampbellResults(Result, CampbellReport):
     """Campbell diagram, critical speeds and bands of instability of a saw."""
 
-    command = "analyze"
+    _command = "analyze"
 
     @property
     def critical_rpm(self) -> FloatArray:
-        """Critical speeds up to the end of the sweep, ascending.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> r.critical_rpm[:2].round(-1).tolist()
-        [1530.0, 1550.0]
-        """
+        """Critical speeds up to the end of the sweep, ascending."""
         return array([critical.rpm for critical in self.critical_speeds])
 
     @property
-    def flutter_rpm(self) -> float | None:
-        """Onset of the first flutter band whose peak growth reaches the threshold; None if the
-        sweep has none.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> 2250 < r.flutter_rpm < 2260
-        True
-        """
-        return self.flutter_speed_rpm
-
-    @property
-    def bands(self) -> tuple[Instability, ...]:
-        """Bands of instability within the sweep, ascending.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> [band.kind for band in r.bands[:2]]
-        ['divergence', 'flutter']
-        """
-        return self.instabilities
+    def lowest_critical_rpm(self) -> float | None:
+        """The first critical speed; None if the sweep has none."""
+        return self.critical_speeds[0].rpm if self.critical_speeds else None
 
     @property
     def branches(self) -> tuple[Branch, ...]:
-        """Modes followed over speed, by frequency at their lowest speed.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> r.branches[0].branch
-        1
-        """
+        """Modes followed over speed, by frequency at their lowest speed."""
         return self.campbell.branches
 
-    def modes(self, rpm: float) -> tuple[Mode, ...]:
-        """Modes at a speed of the sweep, with their shapes; see :meth:`sawflutter.Scene.modes`.
-
-        Parameters
-        ----------
-        rpm : float
-            A speed of the sweep.
-
-        Returns
-        -------
-        tuple of Mode
-            Ascending by frequency.
-
-        Raises
-        ------
-        ArgumentError
-            If the speed is outside of the sweep.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> r.modes(1800)[0].direction
-        'reflected'
-        """
-        return self.saw.modes(rpm)
-
-    def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Writes ``campbell.csv`` with the same bytes as the program: one row for each branch and
-        speed.
-
-        Parameters
-        ----------
-        path : str or path
-            The file.
-
-        Raises
-        ------
-        OSError
-            If the file cannot be written.
-
-        Examples
-        --------
-        >>> import pathlib, tempfile
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> path = pathlib.Path(tempfile.mkdtemp()) / "campbell.csv"
-        >>> r.to_csv(path)
-        >>> path.read_text().startswith("branch,")
-        True
-        """
-        Path(path).write_bytes(_native.campbell_csv(self._text).encode())
+    def _content(self, ending: str) -> str:
+        return _native.campbell_csv(self._text) if ending == ".csv" else super()._content(ending)
 
     def save_vtk(self, folder: str | os.PathLike[str]) -> None:
         """Writes the shapes for ParaView, as the program does: ``modes.pvd``, which lists a grid
@@ -146,25 +57,6 @@ class CampbellResults(Result, CampbellReport):
         ----------
         folder : str or path
             An existing folder.
-
-        Raises
-        ------
-        ValueError
-            If the chart was computed without shapes.
-        OSError
-            If the file cannot be written.
-
-        Examples
-        --------
-        >>> import pathlib, tempfile
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft", shapes=True)
-        >>> r.shapes[0].occasion, r.shapes[0].name
-        ('critical_speed', '2 diameters')
-        >>> folder = pathlib.Path(tempfile.mkdtemp())
-        >>> r.save_vtk(folder)
-        >>> (folder / "modes.pvd").exists()
-        True
         """
         files = _native.vtk_files(self._text)
         if not files:
@@ -180,18 +72,6 @@ class CampbellResults(Result, CampbellReport):
         xarray.Dataset
             ``frequency_hz``, ``body_frequency_hz``, ``growth_per_s`` and ``krein_sign`` over
             ``branch`` and ``rpm``; NaN where a branch has no point at a speed.
-
-        Raises
-        ------
-        ImportError
-            If xarray is missing; the message says how to install it.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> chart = sf.Scene.paper().run_campbell(accuracy="draft").to_xarray()
-        >>> chart.frequency_hz.dims
-        ('branch', 'rpm')
         """
         with extra("xarray"):
             import xarray as xr
@@ -222,17 +102,6 @@ class CampbellResults(Result, CampbellReport):
             modes at rest; critical speeds; or bands of instability with their waves, the
             directions of these (``directions``) and their nodal diameters.
 
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ValueError
-            If no table has this name.
-        ImportError
-            If pandas is missing; the message says how to install it.
-
         Examples
         --------
         >>> import sawflutter as sf
@@ -254,41 +123,6 @@ class CampbellResults(Result, CampbellReport):
             ]
         return table
 
-    def root_loci_chart(self) -> Chart:
-        """Root loci of the two modes that coalesce at the flutter speed, in the complex plane and
-        over speed.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-            A chart without panels if no two modes coalesce.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-        >>> r.root_loci_chart().panels[0].x_name
-        'Re λ, positive for growth [1/s]'
-        """
-        return self._described("root-loci", "no two modes meet within the sweep")
-
-    def sensitivity_chart(self) -> Chart:
-        """Effects of the numbers of the scene on the first critical speed and the flutter speed.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-            A chart without panels unless :meth:`Scene.run_campbell` was asked for ``sensitivity``.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> r = sf.Scene.paper().run_campbell(accuracy="draft", sensitivity=True)
-        >>> r.sensitivity_chart().panels[0].x_name
-        'change of the speed [%]'
-        """
-        return self._described("sensitivity", "the sensitivities were not asked for")
-
     def _read(self) -> None:
         know_bands(self.branches, self.bands)
 
@@ -305,44 +139,22 @@ class CampbellResults(Result, CampbellReport):
 
 
 def load(path: str | os.PathLike[str]) -> Result | TradeoffResults:
-    """Reads a report that the program or :meth:`Result.save` has written.
-
-    Parameters
-    ----------
-    path : str or path
-        The file.
-
-    Returns
-    -------
-    Result or TradeoffResults
-        A result of the kind in the file.
-
-    Raises
-    ------
-    InputError
-        If the file is not a report.
-    OSError
-        If the file cannot be read.
-
-    Examples
-    --------
-    >>> import tempfile, pathlib
-    >>> import sawflutter as sf
-    >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
-    >>> path = pathlib.Path(tempfile.mkdtemp()) / "report.json"
-    >>> r.save(path)
-    >>> sf.load(path) == r
-    True
-    """
+    """Reads a report that the program or :meth:`Result.save` has written, of any kind; for a study
+    also the table of its saws in the same folder."""
     text = Path(path).read_text(encoding="utf-8")
     try:
         data = json.loads(text)
     except json.JSONDecodeError as error:
         raise InputError(f"{path} is no report of sawflutter: it is no JSON ({error})") from None
     if isinstance(data, list):
-        return TradeoffResults.from_json(text)
+        return TradeoffResults._from_json(text)
     # Of the kinds whose keys are all there, the one with the most: some have the keys of others.
-    kinds = [kind for kind in Result.__subclasses__() if kind.required_keys() <= data.keys()]
+    kinds = [kind for kind in Result.__subclasses__() if kind._required_keys() <= data.keys()]
     if not kinds:
-        raise InputError(f"{path} is no report of sawflutter; a scene is read by Scene.load")
-    return max(kinds, key=lambda kind: len(kind.required_keys())).load(path)
+        written = data.get("sawflutter") if isinstance(data, dict) else None
+        by = f" that this version reads, but one of {written}" if written else ""
+        raise InputError(f"{path} is no report of sawflutter{by}; a scene is read by Scene.load")
+    result = max(kinds, key=lambda kind: len(kind._required_keys()))._from_json(text)
+    if isinstance(result, StudyResults):
+        object.__setattr__(result, "_table", Path(path).with_suffix(".csv").absolute())
+    return result

@@ -4,38 +4,80 @@ from __future__ import annotations
 
 import json
 import os
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
+from concurrent.futures import Executor
+from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, cast, overload
+from typing import TYPE_CHECKING, Any, Literal, SupportsIndex, TypeAlias, TypeVar, cast, overload
+
+import numpy as np
 
 from . import _native
-from ._questions import Questions
+from ._entry import array
+from ._measured import Measured, table
+from ._progress import Progress, reporting
 from ._report_types import Mode
-from ._scene_types import SceneDict
+from ._result import R
+from ._scene_types import (
+    Accuracy, BladeDict, ContactLaw, CutDict, GuideDict, GuideShape, GuideSide, MountDict, NumberPath, SceneDict,
+)  # fmt: skip
+from ._values import Number, number, numbers, optional, to_json, whole
+from .checks import CheckResults
+from .designs import FitResults, PlaceResults, Speeds, StiffnessMap, TradeoffResults
+from .errors import ArgumentError, PathError, refused, warned
+from .matrices import Matrices
+from .modes import Modes
+from .motions import CutResults, DeflectResults, GapResults, ResponseResults, RunUpResults, WashboardResults
+from .results import CampbellResults
 
 if TYPE_CHECKING:
+    from distributed import Client
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
     from plotly.graph_objects import Figure
     from typing_extensions import Self
 
+    from ._values import Numbers
+    from .maps import Along, MapResults
     from .plot.chart import Chart
     from .plot.motion import Animation
 
+Bounds: TypeAlias = "tuple[Number, Number] | None"
+Free: TypeAlias = "Mapping[str, Bounds] | Iterable[str] | None"
+"""Paths of the scene and their bounds, or paths with the default bounds."""
+Value: TypeAlias = "float | str | list[Any] | dict[str, Any] | None"
+"""A number, a word, or a block of a scene."""
 
-class Scene(Questions):
+_UNCHANGED = "a scene cannot be changed; replace({path: value}) makes another one"
+
+
+class Block(dict[str, Any]):
+    """A part of a scene: a read-only dict. ``dict(block)`` is a copy that can be changed."""
+
+    def _refuse(self, *_: object, **__: object) -> Any:
+        raise TypeError(_UNCHANGED)
+
+    __setitem__ = __delitem__ = __ior__ = _refuse
+    clear = pop = popitem = setdefault = update = _refuse
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return dict, (dict(self),)
+
+
+class Scene(Mapping[str, Value]):
     """A saw (blade, mount, guides) with the conditions to compute. It is a mapping of the keys of
     a scene file and accepts paths too. It is read-only; :meth:`replace` returns a changed copy.
+
+    Every number may be a plain or a NumPy number, a text with a unit such as ``"2.6 mm"``, or a
+    quantity of pint. Input that is refused raises :class:`InputError`, with key, value, what is
+    allowed and a remedy; a saw that cannot be analysed raises :class:`AnalysisError`; implausible
+    numbers and results outside of the model are warned of by :class:`ModelWarning`.
 
     Parameters
     ----------
     data : dict
-        The scene as in a scene file, see :data:`sawflutter.SceneDict`; NumPy numbers and pint
-        quantities are accepted.
-
-    Raises
-    ------
-    SceneError
-        If the scene is invalid; the error gives the key, the allowed values and advice.
+        The scene as in a scene file, see :data:`sawflutter.SceneDict`.
 
     Examples
     --------
@@ -43,216 +85,199 @@ class Scene(Questions):
     >>> saw = sf.Scene.paper()
     >>> saw["blade.thickness_m"], saw.blade["thickness_m"], "damping" in saw
     (0.0028, 0.0028, False)
-    >>> thin = saw.replace({"blade.thickness_m": 2.6e-3, "guides[0].radius_m": 0.22})
-    >>> thin
+    >>> saw.replace({"blade.thickness_m": "2.6 mm", "guides[0].radius_m": 0.22})
     <Scene 'Guided spline arbor saw': 710 mm outside, 2.6 mm thick, 1 guide>
     """
 
-    __slots__ = ()
+    __slots__ = ("_data", "_text")
+    _text: str
+    _data: Block
+
+    def __init__(self, data: SceneDict | Mapping[str, Any]) -> None:
+        if not isinstance(data, Mapping):
+            raise TypeError(
+                f"a scene is made of a dict, not of {data!r}: Scene.load reads a file, and "
+                "Scene.from_json a text"
+            )
+        self._setup(_native.scene(to_json(data)))
+
+    def _setup(self, text: str) -> None:
+        object.__setattr__(self, "_text", text)
+        object.__setattr__(self, "_data", json.loads(text, object_hook=Block))
+
+    @classmethod
+    def _of(cls, text: str) -> Self:
+        """The scene of a text that the library has written."""
+        scene = cls.__new__(cls)
+        scene._setup(text)
+        return scene
 
     @classmethod
     def from_json(cls, text: str) -> Self:
-        """Reads a scene from JSON.
-
-        Parameters
-        ----------
-        text : str
-            The JSON text.
-
-        Returns
-        -------
-        Scene
-
-        Raises
-        ------
-        SceneError
-            If the scene is refused.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper()
-        >>> sf.Scene.from_json(saw.to_json()) == saw
-        True
-        """
+        """Reads a scene from a JSON text."""
         return cls._of(_native.scene(text))
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Self:
-        """Reads a scene file.
-
-        Parameters
-        ----------
-        path : str or path
-            The file.
-
-        Returns
-        -------
-        Scene
-
-        Raises
-        ------
-        SceneError
-            If the scene is refused.
-        OSError
-            If the file cannot be read.
-
-        Examples
-        --------
-        >>> import pathlib, tempfile
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper()
-        >>> path = pathlib.Path(tempfile.mkdtemp()) / "saw.json"
-        >>> saw.save(path)
-        >>> sf.Scene.load(path) == saw
-        True
-        """
+        """Reads a scene file at a path."""
         return cls._of(_native.read_scene(path))
 
     @classmethod
     def paper(cls) -> Self:
-        """The built-in guided spline saw, with the numbers of a paper.
-
-        Returns
-        -------
-        Scene
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper()
-        >>> saw.name
-        'Guided spline arbor saw'
-        """
+        """The built-in guided spline saw, with the numbers of a paper."""
         return cls._of(_native.paper())
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a scene file.
-
-        Parameters
-        ----------
-        path : str or path
-            The file.
-
-        Raises
-        ------
-        OSError
-            If the file cannot be written.
-
-        Examples
-        --------
-        >>> import pathlib, tempfile
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper()
-        >>> path = pathlib.Path(tempfile.mkdtemp()) / "saw.json"
-        >>> saw.save(path)
-        >>> sf.Scene.load(path) == saw
-        True
-        """
+        """Writes a scene file at a path."""
         text = json.dumps(self.to_dict(), indent=2, ensure_ascii=False)
         Path(path).write_text(text + "\n", encoding="utf-8")
 
     def to_dict(self) -> SceneDict:
-        """A copy of the scene as a dict, which can be changed and converted to a scene again.
-
-        Returns
-        -------
-        dict
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper()
-        >>> data = saw.to_dict()
-        >>> data["name"] = "Mine"
-        >>> sf.Scene(data).name
-        'Mine'
-        """
+        """A copy of the scene as a dict, which can be changed and converted to a scene again."""
         return cast(SceneDict, json.loads(self._text))
 
     def to_json(self) -> str:
-        """The scene as one line of JSON.
-
-        Returns
-        -------
-        str
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper()
-        >>> sf.Scene.from_json(saw.to_json()) == saw
-        True
-        """
+        """The scene as one line of JSON."""
         return self._text
 
-    def plot_saw(self, fig: Figure | None = None) -> Figure:
-        """Draws the saw in axial view with plotly: blade, guides, cut, probe, and the positive
-        directions of rotation and angles.
+    @property
+    def name(self) -> str:
+        """Title of reports and figures."""
+        return str(self._data["name"])
+
+    @property
+    def blade(self) -> BladeDict:
+        """The blade, for instance ``saw.blade["thickness_m"]``."""
+        return cast(BladeDict, self._data["blade"])
+
+    @property
+    def mount(self) -> MountDict | None:
+        """The support of the blade at the bore."""
+        return self._data.get("mount")
+
+    @property
+    def guides(self) -> tuple[GuideDict, ...]:
+        """The guides, for instance ``saw.guides[0]["radius_m"]``."""
+        return tuple(self._data.get("guides", ()))
+
+    @property
+    def cut(self) -> CutDict | None:
+        """The cut: wood and cutting forces."""
+        return self._data.get("cut")
+
+    @overload
+    def __getitem__(self, path: NumberPath) -> float: ...
+    @overload
+    def __getitem__(self, path: Literal["guides"]) -> list[dict[str, Any]]: ...
+    @overload
+    def __getitem__(self, path: Literal["name", "accuracy"]) -> str: ...
+    @overload
+    def __getitem__(self, path: str) -> Value: ...
+    def __getitem__(self, path: str) -> Any:
+        """The value at a path, for instance ``saw["guides[0].radius_m"]``."""
+        if not isinstance(path, str):
+            raise PathError(f"{path!r} is no path of a scene; write it like guides[0].radius_m", str(path))
+        return json.loads(_native.value(self._text, path), object_hook=Block)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._data)
+
+    def __len__(self) -> int:
+        return len(self._data)
+
+    def replace(self, changes: Mapping[str, object]) -> Self:
+        """Returns the scene with other values at given paths.
 
         Parameters
         ----------
-        fig : plotly.graph_objects.Figure, optional
-            A figure to draw into; by default a new one.
-
-        Returns
-        -------
-        plotly.graph_objects.Figure
+        changes : dict
+            New values by path, such as ``"guides[0].radius_m"``. None removes a key. A missing
+            block, such as ``damping`` in ``"damping.air_n_s_per_m3"``, is created.
 
         Examples
         --------
         >>> import sawflutter as sf
-        >>> figure = sf.Scene.paper().plot_saw()
-        >>> [trace.name for trace in figure.data][:3]
-        ['rim', 'bore', 'guides[0]']
+        >>> free = sf.Scene.paper().replace({"guides": []})
+        >>> round(free.run_campbell().lowest_critical_rpm)
+        1477
         """
-        return self.chart().plot(fig)
+        if not isinstance(changes, Mapping):
+            said = 'values by their paths, like {"blade.thickness_m": "2.6 mm"}'
+            raise refused("changes", changes, said, "give a dict")
+        given = {path: json.loads(to_json(value, path)) for path, value in changes.items() if self._is_path(path)}
+        return self._of(_native.replace(self._text, json.dumps(given)))
 
-    def plot_saw_matplotlib(self, ax: Axes | None = None) -> Axes:
-        """Draws the same as :meth:`plot_saw` with matplotlib.
+    @staticmethod
+    def _is_path(path: object) -> bool:
+        if isinstance(path, str):
+            return True
+        raise PathError(f"{path!r} is no path of a scene; write it like guides[0].radius_m", str(path))
 
-        Parameters
-        ----------
-        ax : Axes, optional
-            Axes to draw into; by default those of a new figure.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
+    def add_guide(
+        self,
+        *,
+        radius_m: Number | None = None,
+        angle_deg: Number | None = None,
+        radial_length_m: Number | None = None,
+        tangential_length_m: Number | None = None,
+        shape: GuideShape | None = None,
+        stiffness_n_per_m: Number | None = None,
+        damping_n_s_per_m: Number | None = None,
+        gap_m: Number | None = None,
+        contact: ContactLaw | None = None,
+        side: GuideSide | None = None,
+        film_stiffness_n_per_m: Number | None = None,
+        offset_m: Number | None = None,
+    ) -> Self:
+        """Returns the scene with one more guide at the end of :attr:`guides`. The arguments are the
+        keys of a guide in a scene file; those that are not given are copied from the last guide.
 
         Examples
         --------
         >>> import sawflutter as sf
-        >>> sf.Scene.paper().plot_saw_matplotlib().get_ylabel()
-        'y [m]'
+        >>> len(sf.Scene.paper().add_guide(angle_deg=120.0).guides)
+        2
         """
-        return self.chart().plot_matplotlib(ax)
+        given = {key: value for key, value in locals().items() if key != "self" and value is not None}
+        last: Mapping[str, Any] = self.guides[-1] if self.guides else {}
+        return self.replace({"guides": [*self.guides, {**last, **given}]})
+
+    def with_accuracy(self, accuracy: Accuracy | None = None, tolerance: Number | None = None) -> Self:
+        """Returns the scene with another accuracy, by name or as the relative error that is allowed
+        of critical speeds and onsets.
+
+        Parameters
+        ----------
+        accuracy : {"draft", "design", "reference"}, optional
+            Accuracy by name.
+        tolerance : float, optional
+            Relative error instead of a name.
+        """
+        if accuracy is not None and tolerance is not None:
+            raise TypeError("give accuracy or tolerance, not both")
+        if accuracy is not None:
+            return self.replace({"accuracy": accuracy, "tolerance": None})
+        return self if tolerance is None else self.replace({"tolerance": tolerance})
 
     def chart(self) -> Chart:
-        """Contents of :meth:`plot_saw` as numbers.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> len(sf.Scene.paper().chart().panels)
-        1
-        """
+        """The saw in axial view as numbers: blade, guides, cut, probe, and the positive directions
+        of rotation and angles. Its ``plot()`` and ``plot_matplotlib()`` draw it."""
         from .plot.saw import saw
 
         return saw(self)
 
+    def plot_saw(self, fig: Figure | None = None) -> Figure:
+        """Draws :meth:`chart` with plotly, into a new figure or into ``fig``."""
+        return self.chart().plot(fig)
+
+    def plot_saw_matplotlib(self, ax: Axes | None = None) -> Axes:
+        """Draws :meth:`chart` with matplotlib, into a new figure or into ``ax``."""
+        return self.chart().plot_matplotlib(ax)
+
     @overload
-    def animate(
-        self, mode: Mode, *, backend: Literal["plotly"] = "plotly", frames: int = 48
-    ) -> Figure: ...
+    def animate(self, mode: Mode, *, backend: Literal["plotly"] = "plotly", frames: int = 48) -> Figure: ...
     @overload
-    def animate(
-        self, mode: Mode, *, backend: Literal["matplotlib"], frames: int = 48
-    ) -> FuncAnimation: ...
+    def animate(self, mode: Mode, *, backend: Literal["matplotlib"], frames: int = 48) -> FuncAnimation: ...
     def animate(
         self, mode: Mode, *, backend: Literal["plotly", "matplotlib"] = "plotly", frames: int = 48
     ) -> Animation:
@@ -267,15 +292,6 @@ class Scene(Questions):
         frames : int
             Number of frames in a period.
 
-        Returns
-        -------
-        plotly.graph_objects.Figure or matplotlib.animation.FuncAnimation
-
-        Raises
-        ------
-        ValueError
-            If the backend is unknown or the number of frames is not positive.
-
         Examples
         --------
         >>> import sawflutter as sf
@@ -286,3 +302,783 @@ class Scene(Questions):
         from .plot.motion import animate
 
         return animate(self, mode, backend=backend, frames=frames)
+
+    def run_campbell(
+        self,
+        *,
+        speed_range: Numbers | None = None,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+        sensitivity: bool = False,
+        amplitude: bool = False,
+        shapes: bool | Numbers = False,
+        progress: Progress = None,
+    ) -> CampbellResults:
+        """Computes modes, critical speeds, bands of instability and certificate. If this takes
+        more than about ten seconds, the logger ``sawflutter`` warns first with a rough estimate of
+        the time.
+
+        Parameters
+        ----------
+        speed_range : (float, float) or array_like, optional
+            First and last speed in rpm, instead of the scene's ``sweep``. If more speeds are
+            given, only the lowest and the highest count, because the program chooses those
+            between.
+        accuracy, tolerance
+            As in :meth:`with_accuracy`, instead of the scene's.
+        sensitivity : bool
+            Whether to compute the sensitivity of critical speeds and onsets to the numbers of the
+            scene.
+        amplitude : bool
+            Whether to compute the amplitude that flutter in each band reaches:
+            ``saturated_amplitude_m`` of the bands.
+        shapes : bool or array_like
+            Whether to compute the shape of the blade at every critical speed, in every band and at
+            the operating speed; speeds in rpm are added to these.
+        progress : bool or callable, optional
+            True shows a bar. A callable is called with the finished and the total number of items
+            in each phase of the computation.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> r = sf.Scene.paper().run_campbell(accuracy="draft")
+        >>> [round(float(rpm), -1) for rpm in r.critical_rpm[:2]]
+        [1530.0, 1550.0]
+        >>> r.bands[0].kind
+        'divergence'
+        """
+        scene = self
+        if speed_range is not None:
+            speeds = numbers("speed_range", speed_range)
+            if speeds.size < 2:
+                raise refused("speed_range", speed_range, "a first and a last speed in rpm", "write it like (0, 3000)")
+            scene = self.replace({"sweep.from_rpm": speeds.min(), "sweep.to_rpm": speeds.max()})
+        is_flag = isinstance(shapes, (bool, np.bool_))
+        asked = [] if is_flag else np.ravel(numbers("shapes", shapes)).tolist()
+        return scene._asked(
+            CampbellResults, accuracy, tolerance, progress, sensitivity=sensitivity, amplitude=amplitude,
+            shapes_at_rpm=asked if not is_flag or shapes else None,
+        )  # fmt: skip
+
+    def speeds(self, beside: Scene | None = None) -> Speeds:
+        """Critical speeds, flutter speed and bands, without branches and shapes: a cheap call for
+        many similar saws, as of a study. The basis is that of the saw ``beside``, or a larger one
+        where its own accuracy needs it, and is kept between calls with the same saw.
+
+        Parameters
+        ----------
+        beside : Scene, optional
+            A similar saw, the same for all calls, which also gives the last speed; by default the
+            saw itself.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper().with_accuracy("draft")
+        >>> for mm in (2.7, 2.8, 2.9):
+        ...     thick = saw.replace({"blade.thickness_m": f"{mm} mm"})
+        ...     print(round(thick.speeds(beside=saw).lowest_critical_rpm, -1))
+        1480.0
+        1530.0
+        1580.0
+        """
+        nominal = self if beside is None else _scene("beside", beside)
+        found, to_rpm = _native.speeds(self._text, nominal._text)
+        warned(_native.unusual_numbers(self._text))
+        return Speeds._of(self.name, json.loads(found), to_rpm)
+
+    @overload
+    def modes(
+        self, rpm: Numbers, *, to_hz: Number | None = None, n_modes: SupportsIndex | None = None,
+        progress: Progress = None,
+    ) -> Modes[tuple[Mode, ...]]: ...  # fmt: skip
+    @overload
+    def modes(
+        self, rpm: Number, *, to_hz: Number | None = None, n_modes: SupportsIndex | None = None,
+        progress: Progress = None,
+    ) -> Modes[Mode]: ...  # fmt: skip
+    def modes(
+        self, rpm: Any, *, to_hz: Number | None = None, n_modes: SupportsIndex | None = None,
+        progress: Progress = None,
+    ) -> Modes[Any]:  # fmt: skip
+        """Modes at a speed within the sweep, or at several from one basis, ascending by frequency,
+        with their shapes.
+
+        Parameters
+        ----------
+        rpm : float or array_like
+            The speed, or several.
+        to_hz : float, optional
+            Largest frequency; by default ``complete_to_hz`` of the result, up to which no mode is
+            missing.
+        n_modes : int, optional
+            Largest number of modes at a speed.
+        progress
+            As in :meth:`run_campbell`.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper().replace({"accuracy": "draft"})
+        >>> f"{saw.modes(rpm=0)[0].frequency_hz:.1f} Hz"
+        '7.7 Hz'
+        >>> saw.modes([0, 500, 1000], n_modes=3).frequency_hz[:, 0].round(1).tolist()
+        [7.7, 5.2, 2.6]
+        """
+        speeds = np.asarray(number("rpm", rpm) if np.ndim(cast(Any, rpm)) == 0 else numbers("rpm", rpm))
+        options = {
+            "at_rpm": speeds.ravel().tolist(),
+            "to_hz": optional("to_hz", to_hz),
+            "n_modes": None if n_modes is None else whole("n_modes", n_modes),
+        }
+        with reporting(progress, "speeds") as told:
+            found = json.loads(_native.run("modes", self._text, options, told))
+        warned(_native.unusual_numbers(self._text))
+        return Modes._of(speeds, found)
+
+    def check(
+        self,
+        *,
+        operating_rpm: Number | None = None,
+        margin: Number = 0.85,
+        min_flutter_rpm: Number | None = None,
+        min_critical_rpm: Number | None = None,
+        max_rim_m_per_s: Number = 100.0,
+        max_amplitude_m: Number | None = None,
+        accept_unusual: bool = False,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+    ) -> CheckResults:
+        """Checks the saw against limits. The result is true in a boolean context if every limit is
+        kept: ``assert saw.check(...)``.
+
+        Parameters
+        ----------
+        operating_rpm : float, optional
+            Operating speed; by default that of the scene.
+        margin : float
+            Largest allowed ratio of operating speed to first critical speed.
+        min_flutter_rpm, min_critical_rpm : float, optional
+            Lowest allowed flutter speed and first critical speed.
+        max_rim_m_per_s : float
+            Largest allowed rim speed.
+        max_amplitude_m : float, optional
+            Largest allowed amplitude of flutter in any band up to the operating speed, without
+            damping.
+        accept_unusual : bool
+            Whether a saw with implausible numbers may pass.
+        accuracy, tolerance
+            As in :meth:`run_campbell`.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper()
+        >>> saw.check(operating_rpm=1250, accuracy="draft").passed
+        True
+        >>> saw.check(operating_rpm=1400, accuracy="draft").failures
+        ('85 % rule',)
+        """
+        return self._asked(
+            CheckResults, accuracy, tolerance, None, operating_rpm=optional("operating_rpm", operating_rpm),
+            margin=number("margin", margin), min_flutter_rpm=optional("min_flutter_rpm", min_flutter_rpm),
+            min_critical_rpm=optional("min_critical_rpm", min_critical_rpm),
+            max_rim_m_per_s=number("max_rim_m_per_s", max_rim_m_per_s),
+            max_amplitude_m=optional("max_amplitude_m", max_amplitude_m), accept_unusual=accept_unusual,
+        )  # fmt: skip
+
+    def run_cut(
+        self,
+        rpm: Number | Numbers = (),
+        *,
+        power_w: Number | None = None,
+        depth_m: Number | None = None,
+        stretching: bool | None = None,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+        progress: Progress = None,
+    ) -> CutResults:
+        """Computes eigenvalues and a time history under the cutting forces of the scene's ``cut``.
+        If the scene has no ``cut`` but the call a power or a depth, typical numbers are assumed
+        for the others, and a :class:`ModelWarning` names them.
+
+        Parameters
+        ----------
+        rpm : float or array_like, optional
+            Speeds of the cut, instead of those of the scene.
+        power_w, depth_m : float, optional
+            Power and depth of the cut, in place of the scene's ``cut.power_w``, ``cut.depth_m``.
+        stretching : bool, optional
+            Whether the blade stretches where it bends, in place of the scene's ``cut.stretching``.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> sf.Scene.paper().run_cut([1800, 2800], accuracy="draft").runs[1].verdict
+        'unstable'
+        """
+        scene = self._with_block("cut", {"cut.power_w": power_w, "cut.depth_m": depth_m}, stretching)
+        speeds = np.atleast_1d(numbers("rpm", rpm)).tolist()
+        return scene._asked(CutResults, accuracy, tolerance, progress, rpm=speeds)
+
+    def run_up(
+        self,
+        *,
+        to_rpm: Number | None = None,
+        duration_s: Number | None = None,
+        force_n: Number | None = None,
+        stretching: bool | None = None,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+        progress: Progress = None,
+    ) -> RunUpResults:
+        """Computes a run-up under the side force, from the scene's ``runup`` and ``side_force``. If
+        the scene has no ``runup`` but the call one of its numbers, typical numbers are assumed for
+        the others, and a :class:`ModelWarning` names them.
+
+        Parameters
+        ----------
+        to_rpm, duration_s, force_n : float, optional
+            Last speed, time it takes and constant side force, in place of the scene's
+            ``runup.to_rpm``, ``runup.duration_s`` and ``side_force.force_n``.
+        stretching : bool, optional
+            Whether the blade stretches where it bends, in place of the scene's
+            ``runup.stretching``.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> up = sf.Scene.paper().run_up(to_rpm=500, duration_s=5, accuracy="draft")
+        >>> round(up.rpm[-1]), up.rpm.shape == up.deflection_m.shape
+        (500, True)
+        """
+        given = {"runup.to_rpm": to_rpm, "runup.duration_s": duration_s, "side_force.force_n": force_n}
+        return self._with_block("runup", given, stretching)._asked(RunUpResults, accuracy, tolerance, progress)
+
+    def run_deflect(
+        self,
+        *,
+        force_n: Number | None = None,
+        angle_deg: Number | None = None,
+        to_rpm: Number | None = None,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+        progress: Progress = None,
+    ) -> DeflectResults:
+        """Computes the equilibrium deflection of the blade while its speed slowly rises and falls.
+
+        Parameters
+        ----------
+        force_n, angle_deg : float, optional
+            Constant lateral force, fixed in space, and its angle, in place of the scene's
+            ``side_force``; 1 N in a scene without one.
+        to_rpm : float, optional
+            Last speed; by default the end of the scene's sweep.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+        """
+        scene = self._with({"side_force.force_n": force_n, "side_force.angle_deg": angle_deg})
+        return scene._asked(DeflectResults, accuracy, tolerance, progress, to_rpm=optional("to_rpm", to_rpm))
+
+    def run_response(
+        self,
+        *,
+        rpm: Number | None = None,
+        to_hz: Number | None = None,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+        progress: Progress = None,
+    ) -> ResponseResults:
+        """Computes the steady state over the speed for the excitation of the blocks ``side_force``
+        and ``response`` of the scene, or for a side force of 1 N. For the response between points
+        of one's own at one speed see :meth:`Matrices.response`.
+
+        Parameters
+        ----------
+        rpm : float, optional
+            Speed of the frequency response from the side force to the probe, within the sweep; the
+            operating speed by default.
+        to_hz : float, optional
+            Largest frequency of that; by default that up to which the diagram is complete.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+        """
+        options = {"rpm": optional("rpm", rpm), "to_hz": optional("to_hz", to_hz)}
+        return self._asked(ResponseResults, accuracy, tolerance, progress, **options)
+
+    def run_gap(
+        self,
+        *,
+        force_n: Number | None = None,
+        rpm: Number | None = None,
+        max_deviation_m: Number | None = None,
+        oscillating_force_n: Number | None = None,
+        oscillating_order: int | None = None,
+        friction: Number | None = None,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+        progress: Progress = None,
+    ) -> GapResults:
+        """Evaluates guides with a gap: the chart over the amplitude at them, and the deflection at
+        the cut over the gap.
+
+        Parameters
+        ----------
+        force_n : float, optional
+            Constant side force, in place of the scene's ``side_force.force_n``; 1 N in a scene
+            without one.
+        rpm : float, optional
+            Speed of the map over gap and force; the operating speed by default, or half of the
+            first critical speed.
+        max_deviation_m : float, optional
+            Largest deflection at the cut that is allowed.
+        oscillating_force_n : float, optional
+            Amplitude of a side force that oscillates, in place of the scene's
+            ``side_force.oscillating_n``. With it, or with ``runout_m``, ``flatness_m`` or
+            ``imbalance_kg_m2`` in the scene's ``response``, the oscillation of the blade about its
+            deflection is computed.
+        oscillating_order : int, optional
+            Ratio of the frequency of this force to that of rotation, in place of the scene's
+            ``side_force.order``; 1 in a scene without one.
+        friction : float, optional
+            Coefficient of friction of the pads in place of the scene's ``friction.coefficient``. With
+            friction the heat of the pads is computed, and the deflection of the blade that it heats.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> pad = {"guides[0].contact": "one_sided", "guides[0].gap_m": 4e-5}
+        >>> saw = sf.Scene.paper().replace({**pad, "sweep.to_rpm": 1700, "operating_rpm": 1000})
+        >>> r = saw.run_gap(force_n=2.0, max_deviation_m=3e-4, accuracy="draft")
+        >>> bool(r.free.critical_rpm[0] < r.linear.critical_rpm[0])
+        True
+        """
+        given = {
+            "side_force.force_n": force_n,
+            "side_force.oscillating_n": oscillating_force_n,
+            "side_force.order": oscillating_order,
+            "friction.coefficient": friction,
+        }
+        options = {"rpm": optional("rpm", rpm), "max_deviation_m": optional("max_deviation_m", max_deviation_m)}
+        return self._with(given)._asked(GapResults, accuracy, tolerance, progress, **options)
+
+    def run_washboard(
+        self,
+        rpm: Number | None = None,
+        *,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+        progress: Progress = None,
+    ) -> WashboardResults:
+        """Determines whether washboarding occurs under the cutting force of the scene's
+        ``cut.washboarding``.
+
+        Parameters
+        ----------
+        rpm : float, optional
+            Speed of the cut; by default the scene's operating speed.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+        """
+        return self._asked(WashboardResults, accuracy, tolerance, progress, rpm=optional("rpm", rpm))
+
+    def fit(
+        self,
+        measured: Measured = None,
+        *,
+        free: Free = None,
+        to_rpm: Number | None = None,
+        confidence: Number = 0.95,
+        starts: SupportsIndex = 12,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+        progress: Progress = None,
+    ) -> FitResults:
+        """Fits guides, density or other numbers of the scene to measured frequencies.
+
+        Parameters
+        ----------
+        measured : path, DataFrame, array_like or rows, optional
+            A file with a table of speeds in rpm and frequencies in Hz, ascending, blank if a mode
+            was not measured; or the same table as rows ``(rpm, hz, hz, ...)`` or ``(rpm, [hz, hz,
+            ...])``, as an array, or as a data frame with a column or an index ``rpm``, with NaN
+            for a blank. A list of frequencies alone is measured at rest. By default the measured
+            frequencies of the scene.
+        free : dict or list of str, optional
+            Paths of the numbers to fit, with their bounds ``(from, to)`` or None for the default
+            bounds. By default radius and stiffness of every guide, and the angles between several
+            guides.
+        to_rpm : float, optional
+            Leaves out measurements above this speed.
+        confidence : float
+            Confidence level of the intervals.
+        starts : int
+            Number of starting points: the numbers of the scene, and others between the bounds.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper().with_accuracy("draft")
+        >>> found = saw.fit([7.9, 13.2, 25.9], free=["guides[0].stiffness_n_per_m"], starts=1)
+        >>> found.parameters[0].path
+        'guides[0].stiffness_n_per_m'
+        """
+        return self._asked(
+            FitResults, accuracy, tolerance, progress, measured=table(measured), free=_bounds(free),
+            to_rpm=optional("to_rpm", to_rpm), confidence=number("confidence", confidence),
+            starts=whole("starts", starts),
+        )  # fmt: skip
+
+    def place(
+        self,
+        *,
+        free: Free = None,
+        goal: Literal["flutter", "window"] = "flutter",
+        min_critical_rpm: Number | None = None,
+        amplitude_m: Number | None = None,
+        max_deviation_m: Number | None = None,
+        force_n: Number | None = None,
+        samples: SupportsIndex = 64,
+        refine: SupportsIndex = 60,
+        map: SupportsIndex = 17,
+        radius_tolerance_m: Number = 0.002,
+        angle_tolerance_deg: Number = 1.0,
+        guide_tolerance_share: Number = 0.1,
+        other_tolerance_share: Number = 0.01,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+        progress: Progress = None,
+    ) -> PlaceResults:
+        """Finds the place of the guides with the highest flutter speed. This takes minutes.
+
+        Parameters
+        ----------
+        free : dict or list of str, optional
+            Paths of the numbers to vary, with their bounds ``(from, to)`` or None for the default
+            bounds. By default radius, angle and stiffness of the first guide.
+        goal : {"flutter", "window"}
+            Quantity to maximize: the flutter speed, or the stable window around the operating
+            speed.
+        min_critical_rpm : float, optional
+            Lowest allowed first critical speed.
+        amplitude_m : float, optional
+            Amplitude at guides with a gap, with whose mean stiffness bands and critical speeds are
+            computed; by default guides have their full stiffness.
+        max_deviation_m : float, optional
+            Largest allowed deflection at the cut at the operating speed, with guides with a gap.
+        force_n : float, optional
+            Constant side force for this limit, in place of the scene's ``side_force.force_n``;
+            1 N in a scene without one.
+        samples, refine, map : int
+            Number of saws in the first sampling of the bounds, of saws in each refinement, and of
+            points of the map along each axis (0 for no map).
+        radius_tolerance_m, angle_tolerance_deg : float
+            Manufacturing tolerance of radii and angles. A saw is rated by the worst of its
+            neighbours within the tolerances.
+        guide_tolerance_share, other_tolerance_share : float
+            Tolerance of the stiffness, damping or gap of a guide, and of other numbers, as a share of
+            the value.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> saw = sf.Scene.paper().with_accuracy("draft")
+        >>> free = {"guides[0].radius_m": ("200 mm", "280 mm")}
+        >>> found = saw.place(free=free, samples=2, refine=1, map=0)
+        >>> [parameter.path for parameter in found.parameters]
+        ['guides[0].radius_m']
+        """
+        given = locals()
+        names = ("min_critical_rpm", "amplitude_m", "max_deviation_m")
+        tolerances = ("radius_tolerance_m", "angle_tolerance_deg", "guide_tolerance_share", "other_tolerance_share")
+        return self._with({"side_force.force_n": force_n})._asked(
+            PlaceResults, accuracy, tolerance, progress, free=_bounds(free), goal=goal,
+            **{name: optional(name, given[name]) for name in (*names, *tolerances)},
+            **{name: whole(name, given[name]) for name in ("samples", "refine", "map")},
+        )  # fmt: skip
+
+    def run_map(
+        self,
+        x: Along,
+        y: Along | None = None,
+        *,
+        points: SupportsIndex | None = None,
+        rpm: Number | None = None,
+        to_rpm: Number | None = None,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+        folder: str | os.PathLike[str] | None = None,
+        executor: Executor | Client | None = None,
+        progress: Progress = None,
+    ) -> MapResults:
+        """Maps stability over one number of the scene and the speed, or over two numbers.
+
+        Parameters
+        ----------
+        x : (str, float, float)
+            Path of the number along the horizontal axis, and the ends of its axis in the unit of
+            the path, or as texts with a unit: ``("blade.thickness_m", "2.4 mm", "3.2 mm")``.
+        y : (str, float, float), optional
+            The number along the vertical axis; by default that is the speed.
+        points : int, optional
+            Points along the axis of a number; by default 41, or 17 along each of two.
+        rpm : float, optional
+            Speed at which the saws are judged; by default the operating speed.
+        to_rpm : float, optional
+            Last speed; by default the end of the scene's sweep.
+        folder : path, optional
+            Folder for the log of the saws and for ``map.json``: a map that was stopped continues
+            when computed again with the same folder. By default nothing is kept.
+        executor
+            As in :meth:`sawflutter.Study.run`.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
+        >>> found = free.run_map(("blade.thickness_m", "2.5 mm", "3 mm"), points=3)
+        >>> [round(1e3 * value, 3) for value in found.x.values.tolist()]
+        [2.5, 2.75, 3.0]
+        """
+        from .maps import MapResults, axis
+        from .study import Study
+
+        scene = self.with_accuracy(accuracy, tolerance)
+        native = _native.Map(
+            scene._text,
+            axis("x", x),
+            None if y is None else axis("y", y),
+            points=None if points is None else whole("points", points),
+            rpm=optional("rpm", rpm),
+            to_rpm=optional("to_rpm", to_rpm),
+        )
+        study = Study(scene, json.loads(native.study))
+        with tempfile.TemporaryDirectory() as temporary:
+            place = temporary if folder is None else os.fspath(folder)
+            study._compute(place, executor, progress)
+            result = MapResults._from_json(native.report(place))
+        if folder is not None:
+            result.save(os.path.join(place, "map.json"))
+        warned(result._warnings())
+        return result
+
+    def tradeoff(self, *, progress: Progress = None) -> TradeoffResults:
+        """Measures computing time against true error, for bases of several sizes. ``progress`` is
+        as in :meth:`run_campbell`.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> free = sf.Scene.paper().replace({"guides": [], "sweep.to_rpm": 500})
+        >>> free.tradeoff().recommended(1e-2) is not None
+        True
+        """
+        with reporting(progress, "settings") as told:
+            text = _native.run("tradeoff", self._text, {}, told)
+        warned(_native.unusual_numbers(self._text))
+        return TradeoffResults._from_json(text, self.name)
+
+    def matrices(
+        self,
+        basis: tuple[SupportsIndex, SupportsIndex] | None = None,
+        *,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+    ) -> Matrices:
+        """Matrices of the equation of motion, for custom eigenvalue and response computations.
+
+        Parameters
+        ----------
+        basis : (int, int), optional
+            Largest number of nodal diameters, and number of radial functions for each; by default
+            as the accuracy requires.
+        accuracy, tolerance
+            As in :meth:`run_campbell`.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> sf.Scene.paper().matrices(basis=(6, 4)).stiffness.shape
+        (52, 52)
+        """
+        if basis is not None:
+            if not isinstance(basis, tuple) or len(basis) != 2:
+                said = "two whole numbers, of nodal diameters and of radial functions for each"
+                raise refused("basis", basis, said, "write it like (12, 6)")
+            basis = (whole("basis", basis[0]), whole("basis", basis[1]))
+        warned(_native.unusual_numbers(self._text))
+        return Matrices._of(self.with_accuracy(accuracy, tolerance)._text, basis)
+
+    def run_stiffness_map(
+        self,
+        stiffness_n_per_m: Numbers,
+        *,
+        guide: SupportsIndex | None = None,
+        accuracy: Accuracy | None = None,
+        tolerance: Number | None = None,
+        progress: Progress = None,
+    ) -> StiffnessMap:
+        """Critical speeds and flutter speed as functions of the stiffness of the guides.
+
+        Parameters
+        ----------
+        stiffness_n_per_m : array_like
+            Stiffness values of the guide, or of every guide.
+        guide : int, optional
+            Index of the guide, counted from 0; by default all guides.
+        accuracy, tolerance, progress
+            As in :meth:`run_campbell`.
+
+        Examples
+        --------
+        >>> import sawflutter as sf
+        >>> found = sf.Scene.paper().run_stiffness_map([1e4, 1e8], accuracy="draft")
+        >>> found.critical_rpm[:, 0].round().tolist()
+        [1477.0, 1563.0]
+        """
+        chosen = range(len(self.guides)) if guide is None else [whole("guide", guide)]
+        if not chosen:
+            raise refused("guides", None, "at least one guide in the scene", "add_guide adds one")
+        stiffness = array(np.ravel(numbers("stiffness_n_per_m", stiffness_n_per_m)).tolist())
+        saw = self.with_accuracy(accuracy, tolerance)
+        plain = {"sensitivity": False, "amplitude": False, "shapes_at_rpm": None}
+        reports = []
+        with reporting(progress, "saws") as told:
+            for done, value in enumerate(stiffness.tolist(), start=1):
+                saw = saw.replace({f"guides[{at}].stiffness_n_per_m": value for at in chosen})
+                reports.append(CampbellResults._from_json(_native.run("analyze", saw._text, plain)))
+                if told is not None:
+                    told(done, len(stiffness), "")
+        warned(text for report in reports for text in report._warnings())
+        critical = array([report.critical_rpm.tolist() for report in reports])
+        return StiffnessMap(self.name, stiffness, critical, array([r.flutter_rpm for r in reports]))
+
+    def _with(self, given: Mapping[str, Number | None]) -> Self:
+        """The scene with those numbers that are not None, each by its path."""
+        changes = {path: value for path, value in given.items() if value is not None}
+        return self.replace(changes) if changes else self
+
+    def _with_block(self, block: str, given: Mapping[str, Number | None], stretching: bool | None) -> Self:
+        """The same, with typical numbers for the others of a block that the scene lacks."""
+        changes = [f"{path}={number(path, value)!r}" for path, value in given.items() if value is not None]
+        scene = self
+        if changes:
+            text, assumed = _native.with_block(self._text, block, changes)
+            warned([] if assumed is None else [assumed])
+            scene = self._of(text)
+        if block in scene._data:
+            return scene if stretching is None else scene.replace({f"{block}.stretching": bool(stretching)})
+        call = {"cut": "run_cut(2400, power_w=12000)", "runup": "run_up(to_rpm=3000)"}[block]
+        keys = {"cut": "power_w, depth_m, feed_m_per_s", "runup": "to_rpm, duration_s"}[block]
+        remedy = f"add it with {keys}, or give a number, with which typical ones are assumed: {call}"
+        raise ArgumentError(f"the scene has no {block}; {remedy}", block, None, f"a block {block}", remedy)
+
+    def _asked(
+        self, kind: type[R], accuracy: Accuracy | None, tolerance: Number | None, progress: Progress, **options: Any
+    ) -> R:
+        """The library's report of this scene at another accuracy, with its warnings."""
+        scene = self.with_accuracy(accuracy, tolerance)
+        with reporting(progress, kind._steps) as told:
+            result = kind._from_json(_native.run(kind._command, scene._text, options, told))
+        warned(result._warnings())
+        return result
+
+    if not TYPE_CHECKING:
+
+        def __setattr__(self, name: str, value: object) -> None:
+            raise AttributeError(_UNCHANGED)
+
+        def __setitem__(self, path: str, value: object) -> None:
+            raise TypeError(_UNCHANGED)
+
+    def __eq__(self, other: object) -> bool:
+        return self._text == other._text if isinstance(other, Scene) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._text)
+
+    def __reduce__(self) -> tuple[Any, tuple[str]]:
+        return type(self)._of, (self._text,)
+
+    def __repr__(self) -> str:
+        blade, guides = self.blade, len(self.guides)
+        count = f"{guides or 'no'} guide{'' if guides == 1 else 's'}"
+        return (
+            f"<Scene {self.name!r}: {1e3 * blade['outer_diameter_m']:.6g} mm outside, "
+            f"{1e3 * blade['thickness_m']:.6g} mm thick, {count}>"
+        )
+
+    def _repr_html_(self) -> str:
+        """The blade and what holds it, for a notebook."""
+        kinds = ("blade", "mount", "guides", "cut", "side_force", "operating_rpm", "sweep", "accuracy")
+        return rows_in_html(self.name, ((key, json.dumps(self._data[key])) for key in kinds if key in self._data))
+
+
+def keys(word: str = "", *, study: bool = False) -> str:
+    """The keys of a scene, or of a study, whose path contains a word, each with its unit, default,
+    usual range and meaning, as printed by ``sawflutter keys``.
+
+    Examples
+    --------
+    >>> import sawflutter as sf
+    >>> print(sf.keys("operating_rpm").splitlines()[0])
+    operating_rpm  [rpm]  usual range 30 to 60000
+    """
+    return _native.keys(word, study)
+
+
+def schema(*, study: bool = False) -> dict[str, Any]:
+    """The JSON schema of a scene, or of a study."""
+    found: dict[str, Any] = json.loads(_native.schema())["study" if study else "scene"]
+    return found
+
+
+T = TypeVar("T")
+
+
+def rows_in_html(title: str, rows: Iterable[tuple[str, object]]) -> str:
+    """A table of names and values, for a notebook."""
+    cells = "".join(f"<tr><td>{escape(name)}</td><td>{escape(str(value))}</td></tr>" for name, value in rows)
+    return f"<p><b>{escape(title)}</b></p><table>{cells}</table>"
+
+
+def _scene(name: str, value: T) -> T:
+    """An argument that must be a scene."""
+    if isinstance(value, Scene):
+        return value
+    remedy = "make one: Scene(dict), Scene.load(path)"
+    raise refused(name, _short(value), "a Scene", remedy)
+
+
+def _short(value: object) -> object:
+    """A value of which an error shows the kind only."""
+    return value if isinstance(value, (str, int, float, type(None))) else type(value)
+
+
+def _bounds(free: Free) -> list[tuple[str, tuple[float, float] | None]]:
+    if isinstance(free, str):
+        free = [free]
+    if not isinstance(free, Mapping):
+        return [(path, None) for path in free or ()]
+    found: list[tuple[str, tuple[float, float] | None]] = []
+    for path, bounds in free.items():
+        if bounds is None:
+            found.append((path, None))
+            continue
+        if not isinstance(bounds, (tuple, list, np.ndarray)) or len(bounds) != 2:
+            raise refused(path, bounds, "two bounds, the lower one first", "write it like (0.18, 0.28)")
+        found.append((path, (number(path, bounds[0]), number(path, bounds[1]))))
+    return found

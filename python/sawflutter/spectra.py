@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, SupportsFloat
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from . import _channels
 from ._drawn import Drawn
 from ._entry import ComplexArray, Entry, FloatArray, array
 from ._extras import extra
+from ._values import Number, optional
 from ._picking import rows
 from .errors import InputError, refused
 from .peaks import Peaks
@@ -33,28 +34,27 @@ _APART = 4.0
 @dataclass(frozen=True, eq=False, repr=False)
 class Spectrum(Drawn, Entry):
     """Amplitude over frequency at one speed. :meth:`Record.spectrum` makes one of a tap test,
-    :func:`read_frf` reads a frequency response."""
+    :func:`read_frf` reads a frequency response.
+
+    Attributes
+    ----------
+    frequency_hz : frequencies in space, ascending.
+    response : complex amplitudes.
+    rpm : rotation speed.
+    resolution_hz : distance below which two peaks are one.
+    unit : unit of the response.
+    name : name of the record or of the frequency response.
+    """
 
     frequency_hz: FloatArray
-    """Frequencies in space, ascending."""
-
     response: ComplexArray
-    """Complex amplitudes."""
-
     rpm: float
-    """Rotation speed."""
-
     resolution_hz: float
-    """Distance below which two peaks are one."""
-
     unit: str
-    """Unit of the response."""
-
     name: str
-    """Name of the record or of the frequency response."""
 
     def peaks(
-        self, *, orders: Iterable[SupportsFloat] = (1, 2, 3, 4), above_db: SupportsFloat = 12.0
+        self, *, orders: Iterable[Number] = (1, 2, 3, 4), above_db: Number = 12.0
     ) -> Peaks:
         """Peaks of the magnitude, as frequencies of modes. Two modes with a distance below their
         half-power width, or below the resolution, give one peak, and a mode that the probe or the
@@ -74,23 +74,18 @@ class Spectrum(Drawn, Entry):
         Peaks
             With at least a thousandth of the largest amplitude.
 
-        Raises
-        ------
-        ImportError
-            If SciPy is missing; the message says how to install it.
-
         Examples
         --------
         >>> import numpy as np
         >>> import sawflutter as sf
         >>> time = np.arange(0, 4, 1e-3)
-        >>> tap = sf.Record.of(np.exp(-time) * np.cos(2 * np.pi * 25 * time), 1000)
+        >>> tap = sf.Record(np.exp(-time) * np.cos(2 * np.pi * 25 * time), 1000)
         >>> tap.spectrum().peaks().rpm.tolist()
         [0.0]
         """
         spectra = [(self.rpm, np.abs(self.response))]
         found = rows(self.frequency_hz, spectra, self.resolution_hz, orders, above_db)
-        return Peaks.of(found, self.resolution_hz, _APART, self.unit, self.name)
+        return Peaks._of(found, self.resolution_hz, _APART, self.unit, self.name)
 
     def chart(self, saw: Scene | None = None, peaks: Peaks | None = None) -> Chart:
         """Level over frequency, with the computed frequencies of a saw and the picked peaks.
@@ -106,15 +101,6 @@ class Spectrum(Drawn, Entry):
         -------
         sawflutter.plot.Chart
             Its ``plot()`` and ``plot_matplotlib()`` draw it.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> time = np.arange(0, 4, 1e-3)
-        >>> tap = sf.Record.of(np.exp(-time) * np.cos(2 * np.pi * 25 * time), 1000)
-        >>> tap.spectrum().chart().panels[0].y_name
-        'level [dB]'
         """
         from .plot.measured import spectrum
 
@@ -126,7 +112,7 @@ class Spectrum(Drawn, Entry):
 
 
 def read_frf(
-    path: str | os.PathLike[str], *, rpm: SupportsFloat | None = None, number: int = 0
+    path: str | os.PathLike[str], *, rpm: Number | None = None, number: int = 0
 ) -> Spectrum:
     """Reads a frequency response from a table or from a universal file with a data set 58 of type 4.
 
@@ -141,22 +127,6 @@ def read_frf(
         Rotation speed; by default that on the z axis of the data set, or 0, at rest.
     number : int
         Number of the frequency response in the file, from 0.
-
-    Returns
-    -------
-    Spectrum
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, with its name and, for a table, the line; or if its frequencies
-        are not evenly spaced.
-    ArgumentError
-        If the file has no frequency response of this number, or if the speed is negative.
-    ImportError
-        If pyuff is missing; the message says how to install it.
-    OSError
-        If the file cannot be opened.
 
     Examples
     --------
@@ -175,7 +145,8 @@ def read_frf(
         names = ", ".join(f"{place} ({of.name})" for place, of in enumerate(found))
         raise refused("number", number, f"a frequency response of {path}", f"it has {names}")
     of = found[number]
-    speed = float(rpm) if rpm is not None else of.rpm or 0.0
+    given = optional("rpm", rpm)
+    speed = given if given is not None else of.rpm or 0.0
     if not speed >= 0.0:
         raise refused("rpm", speed, "0 or more", "give the rotation speed in rpm")
     steps = np.diff(of.frequency_hz)

@@ -4,76 +4,59 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ._entry import ComplexArray, Entry, FloatArray
+from ._extras import extra
+from ._values import Number, number, numbers
+from .errors import refused
 
 # Modes whose eigenvectors agree to half the digits are about to coalesce.
 _LARGEST_CONDITION = 1e8
+# Largest size in bytes of the matrices that are solved at once.
+_BLOCK_BYTES = 2**25
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StateSpace(Entry):
     """x' = A x + B u, y = C x + D u of a saw at a speed: u are forces in N at points fixed in
-    space, y deflections in m at others. :meth:`sawflutter.Matrices.state_space` makes it.
+    space, y deflections in m at others. :meth:`Matrices.state_space` makes it.
 
     It unpacks into its four matrices, so that ``control.ss(*space)`` of python-control and
     ``scipy.signal.StateSpace(*space)`` take it.
+
+    Attributes
+    ----------
+    rpm : rotation speed.
+    A : states by states, in 1/s.
+    B : states by inputs.
+    C : outputs by states.
+    D : outputs by inputs, in m/N: the deflection at rest of modes that are left out; zero for a
+        full model.
     """
 
     rpm: float
-    """Rotation speed."""
-
     A: FloatArray
-    """States by states, in 1/s."""
-
     B: FloatArray
-    """States by inputs."""
-
     C: FloatArray
-    """Outputs by states."""
-
     D: FloatArray
-    """Outputs by inputs, in m/N: the deflection at rest of modes that are left out; zero for a full model."""
 
     def __iter__(self) -> Iterator[FloatArray]:
         return iter((self.A, self.B, self.C, self.D))
 
     @classmethod
-    def of(
-        cls, rpm: float, companion: FloatArray, forces: FloatArray, probes: FloatArray
-    ) -> StateSpace:
-        """The state space of all unknowns.
-
-        Parameters
-        ----------
-        rpm : float
-            Rotation speed.
-        companion : ndarray
-            Matrix of x' = A x with x = (q, q').
-        forces, probes : ndarray
-            Basis functions at the points, a row each.
-
-        Returns
-        -------
-        StateSpace
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> one = np.ones((1, 1))
-        >>> sf.StateSpace.of(0.0, np.array([[0.0, 1.0], [-4.0, 0.0]]), one, one).D
-        array([[0.]])
-        """
+    def _of(cls, rpm: float, companion: FloatArray, forces: FloatArray, probes: FloatArray) -> StateSpace:
+        """The state space of all unknowns; forces and probes have the basis functions at a point in
+        a row each."""
         size = len(companion) // 2
         inputs = np.vstack([np.zeros((size, len(forces))), forces.T])
         outputs = np.hstack([probes, np.zeros((len(probes), size))])
         return cls(rpm, companion, inputs, outputs, np.zeros((len(probes), len(forces))))
 
-    def reduced(self, to_hz: float) -> StateSpace:
+    def reduced(self, to_hz: Number) -> StateSpace:
         """The state space of the modes up to a frequency. The others deflect at once, as at
         rest, so that static deflections remain those of the full model.
 
@@ -81,10 +64,6 @@ class StateSpace(Entry):
         ----------
         to_hz : float
             Largest frequency in space of a mode that is kept.
-
-        Returns
-        -------
-        StateSpace
 
         Raises
         ------
@@ -99,11 +78,10 @@ class StateSpace(Entry):
         >>> m = sf.Scene.paper().matrices(basis=(8, 5))
         >>> whole = m.state_space(1000, inputs=[(0.355, 0)], outputs=[(0.355, 90)])
         >>> low = whole.reduced(to_hz=100)
-        >>> len(low.A) < len(whole.A)
-        True
-        >>> bool(np.allclose(low.response(0.0), whole.response(0.0)))
-        True
+        >>> len(low.A) < len(whole.A), bool(np.allclose(low.response(0.0), whole.response(0.0)))
+        (True, True)
         """
+        to_hz = number("to_hz", to_hz)
         values, vectors = np.linalg.eig(self.A)
         # Velocities are deflections times frequencies; without this factor both are of one size.
         size = len(self.A) // 2
@@ -120,49 +98,83 @@ class StateSpace(Entry):
         rest = ~kept
         yielding = (self.C @ vectors[:, rest]) @ ((left[rest] @ self.B) / -values[rest, None])
         matrix, basis, inverse = _real_form(values, vectors, left, kept)
-        return StateSpace(
-            self.rpm, matrix, inverse @ self.B, self.C @ basis, self.D + yielding.real
-        )
+        return StateSpace(self.rpm, matrix, inverse @ self.B, self.C @ basis, self.D + yielding.real)
 
     def response(self, frequency_hz: npt.ArrayLike) -> ComplexArray:
-        """Deflections for forces of one newton at frequencies, in m/N: their size and phase.
+        """Deflections for forces of one newton at frequencies, in m/N: their size and phase. Memory
+        is bounded, for any number of frequencies.
 
         Parameters
         ----------
         frequency_hz : array_like
-            Frequencies in space.
-
-        Returns
-        -------
-        ndarray of complex
-            Of the shape of the frequencies, with outputs and inputs as its last axes.
+            Frequencies in space. The result has their shape, with outputs and inputs as its last
+            axes.
 
         Examples
         --------
         >>> import sawflutter as sf
-        >>> m = sf.Scene.paper().matrices(basis=(8, 5))
         >>> rim = [(0.355, 90)]
-        >>> m.state_space(1000, inputs=rim, outputs=rim).response([1.0, 2.0]).shape
+        >>> space = sf.Scene.paper().matrices(basis=(8, 5)).state_space(1000, inputs=rim, outputs=rim)
+        >>> space.response([1.0, 2.0]).shape
         (2, 1, 1)
         """
-        s = 2j * np.pi * np.asarray(frequency_hz, float)[..., None, None]
-        states = np.linalg.solve(s * np.eye(len(self.A)) - self.A, self.B)
-        return np.asarray(self.C @ states + self.D)
+        hz = numbers("frequency_hz", frequency_hz)
+        found = np.empty((hz.size, len(self.C), self.B.shape[1]), complex)
+        solve, size = self._solver()
+        step = max(1, _BLOCK_BYTES // (16 * size**2))
+        for begin in range(0, hz.size, step):
+            block = slice(begin, begin + step)
+            found[block] = solve(2j * np.pi * hz.ravel()[block, None, None]) + self.D
+        return found.reshape(*hz.shape, *self.D.shape)
 
-    def to_dict(self) -> dict[str, FloatArray | float]:
-        """The matrices by their names, for ``scipy.io.savemat`` and with it for MATLAB.
+    def _solver(self) -> tuple[Any, int]:
+        """A function that gives C (s − A)⁻¹ B at several s, and the order of its equations: half of the
+        states where they are deflections and velocities, q'' + V q' + P q = f."""
+        size = len(self.A) // 2
+        whole, half = np.eye(len(self.A)), np.eye(size)
+        is_second_order = (
+            len(self.A) == 2 * size
+            and np.array_equal(self.A[:size], np.hstack([0.0 * half, half]))
+            and not self.B[:size].any()
+            and not self.C[:, size:].any()
+        )
+        if not is_second_order:
+            return lambda s: self.C @ np.linalg.solve(s * whole - self.A, self.B), len(self.A)
+        position, velocity = -self.A[size:, :size], -self.A[size:, size:]
+        force, probe = self.B[size:], self.C[:, :size]
+        return lambda s: probe @ np.linalg.solve(s**2 * half + s * velocity + position, force), size
+
+    def time_response(self, forces_n: npt.ArrayLike, times_s: npt.ArrayLike) -> FloatArray:
+        """Deflections over time from rest in m, under forces that are linear between the times;
+        needs SciPy.
+
+        Parameters
+        ----------
+        forces_n : array_like
+            Forces at each time, of the shape (times, inputs).
+        times_s : array_like
+            Ascending times at even steps.
 
         Returns
         -------
-        dict
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> m = sf.Scene.paper().matrices(basis=(6, 4))
-        >>> sorted(m.state_space(0, inputs=[(0.3, 0)], outputs=[(0.3, 0)]).to_dict())
-        ['A', 'B', 'C', 'D', 'rpm']
+        ndarray of float
+            Of the shape (times, outputs).
         """
+        with extra("records"):
+            from scipy.signal import lsim
+        times = numbers("times_s", times_s)
+        forces = numbers("forces_n", forces_n)
+        inputs = self.B.shape[1]
+        if times.ndim != 1 or len(times) < 2 or not np.allclose(np.diff(times), times[1] - times[0], rtol=1e-6):
+            raise refused("times_s", f"of shape {times.shape}", "ascending times at even steps", "use numpy.linspace")
+        if forces.shape != (len(times), inputs):
+            allowed = f"of the shape (times, inputs), ({len(times)}, {inputs})"
+            raise refused("forces_n", f"of shape {forces.shape}", allowed, "give each force at each time")
+        _, found, _ = lsim(tuple(self), forces, times - times[0])
+        return np.asarray(found).reshape(len(times), -1)
+
+    def to_dict(self) -> dict[str, FloatArray | float]:
+        """The matrices by their names, for ``scipy.io.savemat`` and with it for MATLAB."""
         return {"rpm": self.rpm, "A": self.A, "B": self.B, "C": self.C, "D": self.D}
 
     def __repr__(self) -> str:

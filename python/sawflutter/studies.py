@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -20,30 +21,19 @@ if TYPE_CHECKING:
 class StudyResults(Result, StudyReport):
     """Summary of many saws; :meth:`sawflutter.Study.run` returns it."""
 
-    command = "study"
+    _command = "study"
 
+    # ``study.csv``: where it is, or what is in it.
     _table: Path | str | None = None
-    """``study.csv``: where it is, or what is in it."""
 
-    def _load_beside(self, path: Path) -> None:
-        object.__setattr__(self, "_table", path.with_suffix(".csv").absolute())
-
-    def _save_beside(self, path: Path) -> None:
-        table, beside = self._csv(), path.with_suffix(".csv")
+    def save(self, path: str | os.PathLike[str]) -> None:
+        super().save(path)
+        table, beside = self._csv(), Path(path).with_suffix(".csv")
         if table is not None and self._table != beside.absolute():
             beside.write_bytes(table.encode())
 
     def to_dataframe(self) -> pd.DataFrame:
         """One row for each saw, from the table beside the report; needs pandas.
-
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        FileNotFoundError
-            If the table is not beside the report.
 
         Examples
         --------
@@ -71,7 +61,7 @@ class StudyResults(Result, StudyReport):
 
     @staticmethod
     def _with_table(text: str, table: str | None) -> StudyResults:
-        result = StudyResults.from_json(text)
+        result = StudyResults._from_json(text)
         object.__setattr__(result, "_table", table)
         return result
 
@@ -98,13 +88,6 @@ class StudyResults(Result, StudyReport):
             half-widths ``lowest_critical_confidence``, ``flutter_confidence``. A column is NaN if
             all saws have the same speed. A saw without such a speed counts with the last speed of
             its sweep; saws without an analysis are left out.
-
-        Raises
-        ------
-        ImportError
-            If SALib or pandas is missing; the message says how to install them.
-        FileNotFoundError
-            If the table is not beside the report.
 
         Examples
         --------
@@ -148,28 +131,6 @@ class StudyResults(Result, StudyReport):
         ----------
         speed : {"lowest_critical_rpm", "flutter_rpm"}
             Speed to show; the median if a point of the grid has several random saws.
-
-        Returns
-        -------
-        sawflutter.plot.Chart
-
-        Raises
-        ------
-        ValueError
-            If the study is not a grid of two numbers.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> import sawflutter as sf
-        >>> def grid(path, *values):
-        ...     return {"path": path, "distribution": {"kind": "grid", "values": values}}
-        >>> two = [grid("blade.thickness_m", 2.6e-3, 2.8e-3),
-        ...        grid("blade.outer_diameter_m", 0.70, 0.71)]
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> found = sf.Study(free, {"name": "Size", "parameters": two}).run(tempfile.mkdtemp())
-        >>> found.map_chart("lowest_critical_rpm").panels[0].items[0].z.shape
-        (2, 2)
         """
         from .plot.derived import grid
 
@@ -182,6 +143,11 @@ class StudyResults(Result, StudyReport):
             raise ValueError(f"a map needs a grid of two numbers, and this study has {len(paths)}")
         rows = self.to_dataframe()[[*paths, speed]].to_numpy(dtype=float)
         return grid(self, rows, (paths[0], paths[1]), speed)
+
+    def _warnings(self) -> tuple[str, ...]:
+        lost = ((self.all.refused, "refused"), (self.all.failed, "failed"))
+        said = (f"{count} of {self.all.saws} saws {word}; the table says why" for count, word in lost if count)
+        return (*super()._warnings(), *said)
 
     def _facts(self) -> str:
         passing = self.all.passing

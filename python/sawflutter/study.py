@@ -17,7 +17,9 @@ from ._entry import FloatArray
 from ._progress import Progress, reporting
 from ._scene_types import StudyDict
 from ._values import whole
-from .scene import Scene
+from .errors import warned
+from .results import load
+from .scene import Scene, _scene, rows_in_html
 from .studies import StudyResults
 
 if TYPE_CHECKING:
@@ -55,42 +57,17 @@ class Study:
             text = _native.read_text(study, False)
         else:
             text = _values.to_json(study)
+        _scene("scene", scene)
         self.scene, self._native = scene, _native.Study(scene.to_json(), text)
         self._text = json.dumps(json.loads(text))
 
     @property
     def count(self) -> int:
-        """Number of saws.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
-        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
-        >>> study.count
-        4
-        """
+        """Number of saws."""
         return self._native.count
 
     def to_dict(self) -> StudyDict:
-        """A copy of the study as a dict.
-
-        Returns
-        -------
-        dict
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
-        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
-        >>> study.to_dict()['name']
-        'Thickness'
-        """
+        """A copy of the study as a dict."""
         return cast(StudyDict, json.loads(self._text))
 
     def values(self, saws: Iterable[int] | None = None) -> FloatArray:
@@ -100,25 +77,6 @@ class Study:
         ----------
         saws : iterable of int, optional
             Indices of saws, counted from 0; by default all.
-
-        Returns
-        -------
-        ndarray of float
-
-        Raises
-        ------
-        ArgumentError
-            If no saw has one of the indices.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
-        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
-        >>> study.values().shape
-        (4, 1)
         """
         chosen = range(self.count) if saws is None else saws
         return np.array([self._native.values(whole("saws", saw)) for saw in chosen])
@@ -146,16 +104,6 @@ class Study:
             True shows a bar. A callable is called with the finished and the total number of saws.
             With a client of Dask the address of its dashboard is printed too.
 
-        Returns
-        -------
-        StudyResults
-
-        Raises
-        ------
-        AnalysisError
-            If a worker has another version of sawflutter, or the executor has stopped. Finished
-            saws are in the log, so the study continues when run again with another executor.
-
         Examples
         --------
         >>> import tempfile
@@ -171,7 +119,10 @@ class Study:
         place = Path(folder)
         self._compute(place, executor, progress)
         self._sum_up(place)
-        return StudyResults.load(place / "study.json")
+        result = load(place / "study.json")
+        assert isinstance(result, StudyResults)
+        warned([*_native.unusual_numbers(self.scene.to_json()), *result._warnings()])
+        return result
 
     def _compute(
         self,
@@ -229,3 +180,11 @@ class Study:
 
     def __repr__(self) -> str:
         return f"<Study {self.to_dict()['name']!r} of {self.scene.name!r}: {self.count} saws>"
+
+    def _repr_html_(self) -> str:
+        """The numbers that vary, for a notebook."""
+        data = self.to_dict()
+        return rows_in_html(
+            f"{data['name']}: {self.count} saws of {self.scene.name}",
+            ((entry["path"], json.dumps(entry["distribution"])) for entry in data["parameters"]),
+        )

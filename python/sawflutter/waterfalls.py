@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import pi, sqrt
-from typing import TYPE_CHECKING, SupportsFloat
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ._drawn import Drawn
 from ._entry import Entry, FloatArray, array
 from ._extras import extra
+from ._values import Number, number
 from ._picking import rows
 from .errors import refused
 from .peaks import Peaks
@@ -34,31 +35,30 @@ _LONGEST = 0.5
 @dataclass(frozen=True, eq=False, repr=False)
 class Waterfall(Drawn, Entry):
     """Spectra of a record over the rotation speed, ascending: each is that of a window, at the
-    speed in its middle. :meth:`Record.waterfall` makes one."""
+    speed in its middle. :meth:`Record.waterfall` makes one.
+
+    Attributes
+    ----------
+    rpm : speed of each spectrum, ascending.
+    frequency_hz : frequencies in space, as the probe sees them.
+    amplitude : amplitudes, of the shape (speeds, frequencies). A steady sine has its own
+        amplitude.
+    resolution_hz : width of the peak of a steady sine at half its amplitude.
+    hop : distance of the windows, in standard deviations of one.
+    unit : unit of the amplitudes.
+    name : name of the record.
+    """
 
     rpm: FloatArray
-    """Speed of each spectrum, ascending."""
-
     frequency_hz: FloatArray
-    """Frequencies in space, as the probe sees them."""
-
     amplitude: FloatArray
-    """Amplitudes, of the shape (speeds, frequencies). A steady sine has its own amplitude."""
-
     resolution_hz: float
-    """Width of the peak of a steady sine at half its amplitude."""
-
     hop: float
-    """Distance of the windows, in standard deviations of one."""
-
     unit: str
-    """Unit of the amplitudes."""
-
     name: str
-    """Name of the record."""
 
     def peaks(
-        self, *, orders: Iterable[SupportsFloat] = (1, 2, 3, 4), above_db: SupportsFloat = 20.0
+        self, *, orders: Iterable[Number] = (1, 2, 3, 4), above_db: Number = 20.0
     ) -> Peaks:
         """Peaks of each spectrum. A peak within twice the resolution of a multiple of the rotation
         speed is marked as one of its order, and is not used for a fit.
@@ -76,31 +76,26 @@ class Waterfall(Drawn, Entry):
             With frequencies above twice the resolution, and with at least a thousandth of the
             largest amplitude at their speed.
 
-        Raises
-        ------
-        ImportError
-            If SciPy is missing; the message says how to install it.
-
         Examples
         --------
         >>> import numpy as np
         >>> import sawflutter as sf
         >>> tone = np.sin(2 * np.pi * 40 * np.arange(0, 30, 1e-3))
-        >>> w = sf.Record.of(tone, 1000, rpm=(0, 1500)).waterfall(to_hz=100)
+        >>> w = sf.Record(tone, 1000, rpm=(0, 1500)).waterfall(to_hz=100)
         >>> np.abs(w.peaks().frequency_hz - 40.0).max() < 0.01
         np.True_
         """
         spectra = zip(self.rpm, self.amplitude)
         found = rows(self.frequency_hz, spectra, self.resolution_hz, orders, above_db)
-        return Peaks.of(found, self.resolution_hz, self.hop, self.unit, self.name)
+        return Peaks._of(found, self.resolution_hz, self.hop, self.unit, self.name)
 
     def chart(
         self,
         computed: CampbellResults | None = None,
         peaks: Peaks | None = None,
         *,
-        orders: Iterable[SupportsFloat] = (1, 2),
-        range_db: SupportsFloat = 60.0,
+        orders: Iterable[Number] = (1, 2),
+        range_db: Number = 60.0,
     ) -> Chart:
         """Amplitudes over speed and frequency, under the computed branches and the picked peaks.
 
@@ -120,26 +115,12 @@ class Waterfall(Drawn, Entry):
         -------
         sawflutter.plot.Chart
             Its ``plot()`` and ``plot_matplotlib()`` draw it.
-
-        Raises
-        ------
-        ArgumentError
-            If the range is not positive.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> tone = np.sin(2 * np.pi * 40 * np.arange(0, 30, 1e-3))
-        >>> w = sf.Record.of(tone, 1000, rpm=(0, 1500)).waterfall(to_hz=100)
-        >>> w.chart().panels[0].y_name
-        'frequency in space [Hz]'
         """
         from .plot.measured import waterfall
 
-        if not float(range_db) > 0.0:
+        if not number("range_db", range_db) > 0.0:
             raise refused("range_db", range_db, "above 0", "60 is usual")
-        return waterfall(self, computed, peaks, [float(order) for order in orders], float(range_db))
+        return waterfall(self, computed, peaks, [number("orders", order) for order in orders], number("range_db", range_db))
 
     def __repr__(self) -> str:
         speeds = f"{len(self.rpm)} spectra from {self.rpm[0]:.0f} to {self.rpm[-1]:.0f} rpm"

@@ -1,5 +1,7 @@
 //! Every command of the program that computes results of one saw: the scene and the report are JSON.
 
+use std::f64::consts::TAU;
+
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -11,13 +13,14 @@ use sawflutter::analyses::gap::{self, Options as GapOptions};
 use sawflutter::analyses::place::{self, Demands, GapDemands, Options as PlaceOptions, Tolerances};
 use sawflutter::analyses::tradeoff::tradeoff;
 use sawflutter::analyses::{cut, deflect, response, runup, washboard};
-use sawflutter::model::scene::{Freed, NamedBounds, Scene};
+use sawflutter::model::scene::{AssumedBlock, Freed, NamedBounds, RefusedValue, Scene, Setting};
 use sawflutter::modes::{SpectralModel, Strategy};
 use sawflutter::stability::{Analysis, AnalysisOptions, ChosenBasis, ExpectedWork};
 use serde::Serialize;
 
 use crate::arguments::{self, Options};
 use crate::failure::Failure;
+use crate::scenes::written;
 use crate::watch::{Meter, compute};
 
 /// A command with its options; the result is its report.
@@ -121,9 +124,12 @@ pub fn compare(
     })
 }
 
-/// Modes at speeds of the sweep, ascending by frequency at each, from one basis.
+/// Modes at speeds of the sweep, ascending by frequency at each, from one basis: at most `n_modes`, up to `to_hz`; and the
+/// frequency up to which they are complete.
 fn modes(options: &Options<'_>) -> PyResult<Work> {
     let at_rpm: Vec<f64> = options.get("at_rpm")?;
+    let to_hz: Option<f64> = options.get("to_hz")?;
+    let n_modes: Option<usize> = options.get("n_modes")?;
     Ok(Box::new(move |scene, meter| {
         let chosen = ChosenBasis::new(scene, scene.tolerance())?;
         let range = chosen.range_rad_per_s;
@@ -133,15 +139,66 @@ fn modes(options: &Options<'_>) -> PyResult<Work> {
             .collect::<Result<Vec<_>, _>>()?;
         let model =
             SpectralModel::with_critical(chosen.saw, chosen.critical, range, Strategy::Reduced)?;
+        let complete_to_hz = model.complete_to_rad_per_s / TAU;
+        let last_hz = to_hz.unwrap_or(complete_to_hz);
+        if !(last_hz > 0.0 && last_hz <= complete_to_hz) {
+            let allowed =
+                format!("above 0 and at most {complete_to_hz}, up to which the modes are complete");
+            let remedy =
+                "ask for a smaller tolerance, or take matrices(basis=...) for higher modes";
+            return Err(Failure::argument("to_hz", last_hz, allowed, remedy));
+        }
         let mut entries = Vec::new();
-        for (done, speed) in speeds.iter().enumerate() {
+        for (done, (speed, rpm)) in speeds.iter().zip(&at_rpm).enumerate() {
             meter.show(done, speeds.len());
             let found = model.describe(*speed, model.modes(*speed)?);
-            let entry = |mode| ModeShape::new(&model.plate, *speed, mode);
-            entries.push(found.iter().map(entry).collect::<Vec<_>>());
+            let shapes = found.iter().map(|mode| ModeShape {
+                // The speed as given, without the rounding of two conversions.
+                rpm: *rpm,
+                ..ModeShape::new(&model.plate, *speed, mode)
+            });
+            let below = shapes.filter(|mode| mode.frequency_hz <= last_hz);
+            entries.push(
+                below
+                    .take(n_modes.unwrap_or(usize::MAX))
+                    .collect::<Vec<_>>(),
+            );
         }
-        json(&entries)
+        json(&serde_json::json!({ "complete_to_hz": complete_to_hz, "modes": entries }))
     }))
+}
+
+/// A scene with the numbers of settings like `cut.power_w=12000`, in which typical numbers are assumed for a block that it
+/// lacks; and a sentence with those that were assumed, if any were.
+#[pyfunction]
+pub fn with_block(
+    scene: &str,
+    block: &str,
+    given: Vec<String>,
+) -> PyResult<(String, Option<String>)> {
+    let block = match block {
+        "cut" => AssumedBlock::Cut,
+        "runup" => AssumedBlock::RunUp,
+        _ => return Err(PyValueError::new_err(format!("no block {block:?}"))),
+    };
+    let given = given
+        .iter()
+        .map(|text| text.parse())
+        .collect::<Result<Vec<Setting>, RefusedValue>>()
+        .map_err(Failure::from)?;
+    let found = block
+        .completed(&arguments::scene(scene)?, &given)
+        .map_err(Failure::from)?;
+    let assumed: Vec<String> = found
+        .assumed
+        .iter()
+        .map(|(path, value)| format!("{path} = {value}"))
+        .collect();
+    let said = (!assumed.is_empty()).then(|| {
+        let (key, assumed) = (block.key(), assumed.join(", "));
+        format!("the scene has no {key}; assumed typical values: {assumed}")
+    });
+    Ok((written(&found.scene)?, said))
 }
 
 /// `check.json`.
@@ -153,7 +210,7 @@ fn check(options: &Options<'_>) -> PyResult<Work> {
         min_critical_rpm: options.get("min_critical_rpm")?,
     };
     let max_rim_m_per_s = options.get("max_rim_m_per_s")?;
-    let max_amplitude_mm = options.get("max_amplitude_mm")?;
+    let max_amplitude_mm = millimetres(options.get("max_amplitude_m")?);
     let accept_unusual = options.get("accept_unusual")?;
     Ok(Box::new(move |scene, _| {
         let limits = Limits {
@@ -210,7 +267,7 @@ fn response(options: &Options<'_>) -> PyResult<Work> {
 fn gap(options: &Options<'_>) -> PyResult<Work> {
     let options = GapOptions {
         rpm: options.get("rpm")?,
-        max_deviation_mm: options.get("max_deviation_mm")?,
+        max_deviation_mm: millimetres(options.get("max_deviation_m")?),
     };
     Ok(Box::new(move |scene, _| {
         options.checked(scene)?;
@@ -228,6 +285,11 @@ fn washboard(options: &Options<'_>) -> PyResult<Work> {
             meter.show(done, of)
         })?)
     }))
+}
+
+/// Millimetres of an argument in metres.
+fn millimetres(metres: Option<f64>) -> Option<f64> {
+    metres.map(|metres| 1e3 * metres)
 }
 
 /// `fit.json`. `measured` is a name and a table as comma-separated values; without it the fit uses the scene's own
@@ -259,8 +321,8 @@ fn place(options: &Options<'_>) -> PyResult<Work> {
     let free: Vec<NamedBounds> = options.get("free")?;
     let goal: String = options.get("goal")?;
     let min_critical_rpm = options.get("min_critical_rpm")?;
-    let amplitude_mm = options.get("amplitude_mm")?;
-    let max_deviation_mm = options.get("max_deviation_mm")?;
+    let amplitude_mm = millimetres(options.get("amplitude_m")?);
+    let max_deviation_mm = millimetres(options.get("max_deviation_m")?);
     let refine: u64 = options.get("refine")?;
     let options = PlaceOptions {
         samples: options.get("samples")?,

@@ -7,11 +7,12 @@ mod failure;
 mod figures;
 mod map;
 mod matrices;
+mod scenes;
 mod study;
 mod watch;
 
 use pyo3::prelude::*;
-use sawflutter::model::scene::{MAX_SCENE_BYTES, Quantity, Scene, SceneError, number_of};
+use sawflutter::model::scene::{MAX_SCENE_BYTES, Scene};
 use sawflutter::page::text::{Kind, OtherEncodings, read_path};
 
 use crate::failure::Failure;
@@ -19,7 +20,7 @@ use crate::failure::Failure;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use super::commands::{compare, run};
+    use super::commands::{compare, run, with_block};
     #[pymodule_export]
     use super::figures::{
         campbell_csv, chart, figure_names, html, page, palette, picture, summary, tradeoff_chart,
@@ -30,19 +31,11 @@ mod _native {
     #[pymodule_export]
     use super::matrices::{functions_at, matrices};
     #[pymodule_export]
-    use super::study::{Study, StudyLog, processor};
+    use super::scenes::{axis_name, number, replace, scene, unit, unusual_numbers, value};
     #[pymodule_export]
-    use super::{number, outlines, panic, paper, program, read_scene, read_text, scene, schema};
-}
-
-/// The scene of a JSON text, validated, as JSON.
-#[pyfunction]
-fn scene(text: &str) -> PyResult<String> {
-    written(&arguments::scene(text)?)
-}
-
-fn written(scene: &Scene) -> PyResult<String> {
-    Ok(serde_json::to_string(scene.file()).map_err(Failure::from)?)
+    use super::study::{Study, StudyLog, processor, speeds};
+    #[pymodule_export]
+    use super::{keys, outlines, panic, paper, program, read_scene, read_text, schema};
 }
 
 /// Corners of the guides of a scene in metres, each as x and y.
@@ -53,26 +46,17 @@ fn outlines(text: &str) -> PyResult<Vec<Vec<[f64; 2]>>> {
     Ok(guides.map(|guide| guide.outline_m()).collect())
 }
 
-/// The number of a text like `2.6mm` in the unit of a path of a scene; none if the path is not that of a number.
-#[pyfunction]
-fn number(path: &str, text: &str) -> PyResult<Option<f64>> {
-    if Quantity::of(path).is_none() {
-        return Ok(None);
-    }
-    let found = number_of(path, text).map_err(SceneError::Value);
-    Ok(Some(found.map_err(Failure::from)?))
-}
-
 /// The scene that comes with the program.
 #[pyfunction]
 fn paper() -> PyResult<String> {
-    written(&Scene::paper())
+    Ok(scenes::written(&Scene::paper())?)
 }
 
 /// The scene of a file, validated, as JSON.
 #[pyfunction]
 fn read_scene(path: std::path::PathBuf) -> PyResult<String> {
-    written(&Scene::from_path(&path).map_err(Failure::from)?)
+    let scene = Scene::from_path(&path).map_err(Failure::from)?;
+    Ok(scenes::written(&scene)?)
 }
 
 /// The text of the file of a study, or of a table of frequencies, whatever its encoding.
@@ -99,6 +83,12 @@ fn schema() -> String {
         "reports": sawflutter::analyses::commands::json_schema(),
     })
     .to_string()
+}
+
+/// The keys of a scene, or of a study, whose path contains a word, as text.
+#[pyfunction]
+fn keys(word: &str, of_study: bool) -> String {
+    sawflutter::app::cli::keys(word, of_study)
 }
 
 /// Runs the program with arguments, the first of which is its name, and gives its exit code.

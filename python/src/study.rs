@@ -11,8 +11,10 @@ use sawflutter::analyses::commands::CommandReport;
 use sawflutter::analyses::study::{
     self, CsvTable, Log, LogError, Outcome, ParquetTable, Rows, Saw, Shard, StudyFile, Table,
 };
+use sawflutter::model::scene::rpm;
 
 use crate::arguments;
+use crate::commands::json;
 use crate::failure::Failure;
 use crate::watch::{compute, lock};
 
@@ -180,6 +182,32 @@ impl Study {
         files.push((study::StudyReport::COMMAND.file, json.into_bytes()));
         Ok(files)
     }
+}
+
+/// The last saw beside which others were analysed, with its basis.
+static BESIDE: Mutex<Option<(String, Arc<study::Study>)>> = Mutex::new(None);
+
+/// Critical speeds, flutter speed and bands of a scene, as JSON, and the last speed in rpm, on a basis that is at least as
+/// large as that of another scene.
+#[pyfunction]
+pub fn speeds(py: Python<'_>, scene: &str, beside: &str) -> PyResult<(String, f64)> {
+    let scene = arguments::scene(scene)?;
+    let known = lock(&BESIDE)
+        .as_ref()
+        .filter(|known| known.0 == beside)
+        .map(|known| known.1.clone());
+    let nominal = arguments::scene(beside)?;
+    let (study, text, to_rpm) = compute(py, None, move |_| {
+        let study = match known {
+            Some(study) => study,
+            None => Arc::new(study::Study::of_one(nominal)?),
+        };
+        let text = json(&study.speeds(&scene)?)?;
+        let to_rpm = rpm(study.to_rad_per_s());
+        Ok((study, text, to_rpm))
+    })?;
+    *lock(&BESIDE) = Some((beside.to_owned(), study));
+    Ok((text, to_rpm))
 }
 
 /// The type of this machine's processor.

@@ -137,7 +137,9 @@ def test_fit_finds_the_guide_of_the_paper(tmp_path: Path) -> None:
     assert found.rms_hz == pytest.approx(0.983, abs=0.002)
     assert found.saw["guides[0].radius_m"] == values["guides[0].radius_m"]
     # The same table as rows, as a file and as an array.
-    rows = [(row["rpm"], row["frequencies_hz"]) for row in saw["measured"]["rows"]]
+    table = saw.to_dict()["measured"]
+    assert table is not None
+    rows = [(row["rpm"], np.array(row["frequencies_hz"], float)) for row in table["rows"]]
     again = saw.fit(rows, to_rpm=1250, starts=3)
     assert again.rms_hz == found.rms_hz
     path = tmp_path / "measured.csv"

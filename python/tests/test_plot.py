@@ -124,17 +124,17 @@ def test_every_result_is_drawn_by_both(
     cut, up = draft.run_cut([1800.0, 2800.0]), draft.run_up()
     charts = [
         report.chart(),
-        report.root_loci_chart(),
+        report.chart("root-loci"),
         draft.check().chart(),
         cut.chart(),
-        cut.map_chart(1),
+        cut.chart("cut-map"),
         up.chart(),
-        up.response_chart(),
+        up.chart("response-map"),
         resaw.run_washboard().chart(),
         resaw.replace({"cut.washboarding.overlap": 0.0}).run_washboard().chart(),
         draft.fit(to_rpm=1250, starts=1).chart(),
         draft.replace({"guides": []}).run_campbell().chart(),
-        draft.replace({"guides": []}).run_campbell().root_loci_chart(),
+        draft.replace({"guides": []}).run_campbell().chart("root-loci"),
         draft.replace({"guides[0].damping_n_s_per_m": 20.0}).run_campbell().chart(),
     ]
     from sawflutter.plot import with_matplotlib, with_plotly
@@ -145,9 +145,9 @@ def test_every_result_is_drawn_by_both(
         json.loads(figure.to_json(), parse_constant=pytest.fail)
         axes = with_matplotlib.draw(chart)
         axes.figure.canvas.draw()
-    heat = next(item for item in up.response_chart().panels[0].items if isinstance(item, Heat))
+    heat = next(item for item in up.chart("response-map").panels[0].items if isinstance(item, Heat))
     assert heat.z.shape == (len(heat.y), len(heat.x))
-    drawn = (cut.map_chart(1), up.response_chart(), report.root_loci_chart())
+    drawn = (cut.chart("cut-map"), up.chart("response-map"), report.chart("root-loci"))
     assert all(chart.plot().data for chart in drawn)
 
 
@@ -286,7 +286,7 @@ def test_harmonics_are_multiples_of_the_speed(draft: sf.Scene, report: sf.Campbe
     scene = draft.replace({"excitation": {"orders": 2}}).run_campbell()
     for figure in (
         report.plot(harmonics=[1, 2.5]),
-        draft.run_up().response_chart().plot(harmonics=[1]),
+        draft.run_up().chart("response-map").plot(harmonics=[1]),
     ):
         (line,) = (trace for trace in figure.data if trace.name == "1× speed")
         assert line.y == pytest.approx(line.x / 60.0) and line.line.dash == "dash"

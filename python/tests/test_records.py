@@ -35,7 +35,7 @@ def ramp() -> Array:
 
 def test_peaks_of_chirps_are_at_their_frequencies(ramp: Array) -> None:
     noise = 1e-3 * np.random.default_rng(1).standard_normal(len(ramp))
-    record = sf.Record.of(chirps(ramp) + noise, RATE, (0, 600), unit="mm")
+    record = sf.Record(chirps(ramp) + noise, RATE, (0, 600), unit="mm")
     spectra = record.waterfall(to_hz=120)
     peaks = spectra.peaks(orders=())
     known = np.array([[f + n * rpm / 60.0 for f, n, _ in WAVES] for rpm in spectra.rpm])
@@ -50,7 +50,7 @@ def test_peaks_of_chirps_are_at_their_frequencies(ramp: Array) -> None:
 
 def test_the_resolution_is_the_width_of_a_steady_sine(ramp: Array) -> None:
     tone = np.cos(2.0 * np.pi * 50.0 * np.arange(len(ramp)) / RATE)
-    spectra = sf.Record.of(tone, RATE, ramp).waterfall(resolution_hz=1.0)
+    spectra = sf.Record(tone, RATE, ramp).waterfall(resolution_hz=1.0)
     middle = spectra.amplitude[len(spectra.rpm) // 2]
     above = spectra.frequency_hz[middle > 0.5 * middle.max()]
     assert abs(np.ptp(above) - 1.0) < 2.0 * spectra.frequency_hz[1]
@@ -65,7 +65,7 @@ def test_peaks_at_multiples_of_the_speed_are_no_modes(ramp: Array) -> None:
     turns = 2.0 * np.pi * np.cumsum(ramp) / 60.0 / RATE
     mode = np.cos(2.0 * np.pi * 50.0 * np.arange(len(ramp)) / RATE)
     runout = 5.0 * np.cos(turns) + 2.0 * np.cos(2.0 * turns)
-    peaks = sf.Record.of(mode + runout, RATE, ramp).waterfall(to_hz=100).peaks(orders=(1, 2))
+    peaks = sf.Record(mode + runout, RATE, ramp).waterfall(to_hz=100).peaks(orders=(1, 2))
     of_order = ~np.isnan(peaks.order)
     assert set(peaks.order[of_order]) == {1.0, 2.0}
     late = of_order & (peaks.rpm > 300)
@@ -157,7 +157,7 @@ def test_a_fit_to_a_computed_run_up_finds_the_guide(draft: sf.Scene) -> None:
     turns = 2.0 * np.pi * np.cumsum(computed.rpm) / 60.0 / computed.rate_hz
     noise = 3e-8 * np.random.default_rng(0).standard_normal(len(turns))
     runout = 5e-6 * np.cos(turns) + 2e-6 * np.cos(2.0 * turns)
-    record = sf.Record.of(computed.samples + noise + runout, computed.rate_hz, computed.rpm, unit="m")
+    record = sf.Record(computed.samples + noise + runout, computed.rate_hz, computed.rpm, unit="m")
     peaks = record.waterfall(to_hz=100).peaks()
     rough = saw.replace({"guides[0].radius_m": 0.22, "guides[0].stiffness_n_per_m": 1e7})
     rows = unlowered(peaks.rows(rough, lowest=4, within_hz=2.0), up.step_s)
@@ -178,7 +178,7 @@ def test_a_tap_test_at_rest_finds_the_stiffness(draft: sf.Scene, tmp_path: Path)
     decays = sum(np.exp(-0.4 * time) * np.cos(2.0 * np.pi * hz * time) for hz in known)
     samples = np.concatenate([np.zeros(500), decays])
     samples += 1e-3 * np.random.default_rng(2).standard_normal(len(samples))
-    peaks = sf.Record.of(samples, 1000.0, 0.0, unit="mm").spectrum(to_hz=60).peaks()
+    peaks = sf.Record(samples, 1000.0, 0.0, unit="mm").spectrum(to_hz=60).peaks()
     assert np.abs(peaks.frequency_hz - known).max() < 0.1 * peaks.resolution_hz
     rows = peaks.rows(draft, lowest=4)
     assert [rpm for rpm, _ in rows] == [0.0]
@@ -216,7 +216,7 @@ def test_resonances_of_a_frequency_response_are_the_modes(draft: sf.Scene, tmp_p
 
 
 def test_the_chart_shows_spectra_branches_orders_and_peaks(report: sf.CampbellResults, ramp: Array) -> None:
-    spectra = sf.Record.of(chirps(ramp), RATE, ramp, unit="mm").waterfall(to_hz=100)
+    spectra = sf.Record(chirps(ramp), RATE, ramp, unit="mm").waterfall(to_hz=100)
     peaks = spectra.peaks()
     chart = spectra.chart(report, peaks, orders=(1, 2))
     (panel,) = chart.panels
@@ -286,14 +286,14 @@ def test_peaks_at_one_speed_have_orders_too() -> None:
     time = np.arange(0.0, 10.0, 2e-3)
     turning = np.cos(2.0 * np.pi * 20.0 * time) + np.exp(-time) * np.cos(2.0 * np.pi * 33.0 * time)
     for rpm, orders in ((1200.0, [1.0, np.nan]), (0.0, [np.nan, np.nan])):
-        peaks = sf.Record.of(turning, 500, rpm).spectrum(to_hz=60).peaks()
+        peaks = sf.Record(turning, 500, rpm).spectrum(to_hz=60).peaks()
         assert np.abs(peaks.frequency_hz - [20.0, 33.0]).max() < 0.1
         assert np.array_equal(peaks.order, orders, equal_nan=True)
 
 
 def test_bad_arguments_are_refused_with_a_remedy(draft: sf.Scene, ramp: Array) -> None:
-    record = sf.Record.of(chirps(ramp), RATE, ramp)
-    still = sf.Record.of(chirps(ramp), RATE)
+    record = sf.Record(chirps(ramp), RATE, ramp)
+    still = sf.Record(chirps(ramp), RATE)
     peaks = record.waterfall(to_hz=100).peaks()
     for call, said in (
         (lambda: still.waterfall(), "rising or falling"),
@@ -301,8 +301,8 @@ def test_bad_arguments_are_refused_with_a_remedy(draft: sf.Scene, ramp: Array) -
         (lambda: record.waterfall(resolution_hz=0.01), "larger"),
         (lambda: record.waterfall(to_hz=300), "half of the sample rate"),
         (lambda: record.between(50, 60), "part"),
-        (lambda: sf.Record.of([1.0, np.nan], 10), "finite"),
-        (lambda: sf.Record.of([1.0, 2.0], 0), "above 0"),
+        (lambda: sf.Record([1.0, np.nan], 10), "finite"),
+        (lambda: sf.Record([1.0, 2.0], 0), "above 0"),
         (lambda: peaks.rows(draft, lowest=0), "lowest"),
         (lambda: peaks.rows(draft, within_hz=1e-9), "within_hz"),
         (lambda: peaks.rows(draft.replace({"sweep.to_rpm": 100})), "rpm"),

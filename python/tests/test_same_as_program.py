@@ -22,10 +22,10 @@ def same(folder: Path, name: str, content: bytes) -> None:
 
 def same_report(programs: list[str], found: sf.Result, folder: Path, *arguments: object) -> None:
     """The command of a result prints its summary, and writes its report and its figures."""
-    name = "report" if found.command == "analyze" else found.command
+    name = "report" if found._command == "analyze" else found._command
     for number, program in enumerate(programs):
         out = folder / str(number)
-        done = ran(program, found.command, *arguments, "--accuracy", "draft", "--out", out, "--details")
+        done = ran(program, found._command, *arguments, "--accuracy", "draft", "--out", out, "--details")
         assert done.returncode == 0, done.stderr
         assert done.stdout.decode().startswith(found.summary(details=True))
         same(out, f"{name}.json", found.to_json().encode())
@@ -45,7 +45,7 @@ def test_the_report_of_a_chart(
     same_report(programs, r, tmp_path, path)
     r.save(tmp_path / "ours.json")
     same(tmp_path, "ours.json", r.to_json().encode())
-    r.to_csv(tmp_path / "ours.csv")
+    r.save(tmp_path / "ours.csv")
     for number in range(len(programs)):
         same(tmp_path / str(number), "campbell.csv", (tmp_path / "ours.csv").read_bytes())
 
@@ -84,7 +84,7 @@ def test_the_report_of_gap(programs: list[str], scenes: Path, tmp_path: Path) ->
     saw = sf.Scene.load(scenes / "paper.json").replace({**pad, "sweep.to_rpm": 1700})
     path = tmp_path / "saw.json"
     saw.save(path)
-    found = saw.run_gap(force_n=2.0, rpm=1000, max_deviation_mm=0.3, accuracy="draft")
+    found = saw.run_gap(force_n=2.0, rpm=1000, max_deviation_m=3e-4, accuracy="draft")
     options = ["--force-n", 2, "--rpm", 1000, "--max-deviation-mm", 0.3]
     same_report(programs, found, tmp_path, path, *options)
     assert found.oscillation is None and found.friction is None
@@ -131,7 +131,7 @@ def test_the_report_of_a_comparison(programs: list[str], scenes: Path, tmp_path:
 def test_the_page(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     page = tmp_path / "page.html"
     checked = sf.Scene.load(scenes / "paper.json").check(operating_rpm=1400, accuracy="draft")
-    checked.save_page(tmp_path / "own.html")
+    checked.save(tmp_path / "own.html")
     for program in programs:
         options = ["--operating-rpm", 1400, "--accuracy", "draft", "--report", page]
         assert ran(program, "check", scenes / "paper.json", *options).returncode == 1

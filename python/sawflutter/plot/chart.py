@@ -180,6 +180,9 @@ class Panel:
     note: str = ""
     """Text shown instead of data."""
 
+    def __repr__(self) -> str:
+        return f"<Panel {self.y_name!r} over {self.x_name!r}: {len(self.items)} items>"
+
 
 @dataclass(frozen=True)
 class Chart(Drawn):
@@ -193,6 +196,9 @@ class Chart(Drawn):
 
     def _chart(self) -> Chart:
         return self
+
+    def __repr__(self) -> str:
+        return f"<Chart {self.title[:80]!r}: {list(self.panels)}>"
 
     def lines(self) -> list[str]:
         """The facts in lines as long as the figure is wide."""

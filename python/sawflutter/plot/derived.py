@@ -7,25 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .. import _native
 from .._entry import FloatArray
 from .._report_types import StudyReport
-from .._values import unit
 from .chart import STRONG_CURVE, Chart, Heat, Item, Line, Panel, colours
 
 if TYPE_CHECKING:
     from ..designs import StiffnessMap
-
-
-def named(path: str) -> str:
-    """The path of a number as the name of an axis, with its unit.
-
-    >>> named("guides[0].radius_m")
-    'guides[0].radius [m]'
-    """
-    before, dot, key = path.rpartition(".")
-    name, found = unit(key)
-    shown = f" [{found.replace('**3', '³').replace('*', '·').replace('deg', '°')}]" if found else ""
-    return f"{before}{dot}{name}".replace("_", " ") + shown
 
 
 def grid(r: StudyReport, rows: FloatArray, names: tuple[str, str], speed: str) -> Chart:
@@ -37,7 +25,7 @@ def grid(r: StudyReport, rows: FloatArray, names: tuple[str, str], speed: str) -
         # The median represents several random saws of one point of the grid.
         z[row, column] = np.median(of) if len(of) else np.nan
     label = speed.removesuffix("_rpm").replace("_", " ") + " speed [rpm]"
-    panel = Panel(named(names[0]), named(names[1]), [Heat(x, y, z, label)])
+    panel = Panel(_native.axis_name(names[0]), _native.axis_name(names[1]), [Heat(x, y, z, label)])
     return Chart(r.study["name"], label, (panel,))
 
 

@@ -5,30 +5,33 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from math import isfinite, tau
-from typing import Any, SupportsFloat, get_args
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
-from .._drawn import Units
+from .._drawn import Look, Units
+from .._values import numbers
 from .chart import Area, Bars, Chart, Heat, Item, Label, Line, Panel, Points, Shade, Upright, colours
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 # One rotation per second in each of the units.
 TURN: dict[str, float] = {"rpm": 60.0, "Hz": 1.0, "rad/s": tau}
 
 
-def looking(
-    chart: Chart,
-    *,
-    speed_units: Units = "rpm",
-    frequency_units: Units = "Hz",
-    harmonics: Iterable[SupportsFloat] = (),
-) -> Chart:
-    """The chart as the arguments of :meth:`sawflutter.Result.plot` ask for it."""
+def looking(chart: Chart, method: str, **look: Unpack[Look]) -> Chart:
+    """The chart as the arguments of a method like :meth:`sawflutter.Result.plot` ask for it."""
+    for name in look.keys() - Look.__annotations__.keys():
+        known = ", ".join(Look.__annotations__)
+        raise TypeError(f"{method}() takes {known}, and no {name!r}; figures of one's own take axes as well")
+    speed_units, frequency_units = look.get("speed_units", "rpm"), look.get("frequency_units", "Hz")
+    harmonics = look.get("harmonics", ())
     for name, given in (("speed_units", speed_units), ("frequency_units", frequency_units)):
         if given not in TURN:
             allowed = ", ".join(map(repr, get_args(Units)))
             raise ValueError(f"{name} must be one of {allowed} (you gave {given!r})")
-    panels = with_harmonics(chart.panels, [float(order) for order in harmonics])
+    panels = with_harmonics(chart.panels, np.atleast_1d(numbers("harmonics", harmonics)).tolist())
     units: dict[str, str] = {"rpm": speed_units, "Hz": frequency_units}
     return replace(chart, panels=tuple(_in_units(panel, units) for panel in panels))
 

@@ -13,6 +13,7 @@ from .chart import CURVE, Chart, Heat, Item, Line, Panel, Points, Upright, colou
 from .look import with_harmonics
 
 if TYPE_CHECKING:
+    from .._report_types import Mode
     from ..peaks import Peaks
     from ..results import CampbellResults
     from ..scene import Scene
@@ -110,7 +111,7 @@ def spectrum(s: Spectrum, saw: Scene | None, peaks: Peaks | None) -> Chart:
     limit = float(s.frequency_hz[-1])
     hover = [f"{hz:.2f} Hz<br>{of:.3g} {s.unit}".rstrip() for hz, of in zip(s.frequency_hz, size)]
     line = Line(s.frequency_hz, level(size), colours()["ink"], s.name, 1.0, hover=hover)
-    modes = [] if saw is None else saw.modes(s.rpm)
+    modes: tuple[Mode, ...] = () if saw is None else saw.modes(s.rpm).modes
     items: list[Item] = [
         Upright(mode.frequency_hz, colours()["forward"], name=f"computed: {mode.frequency_hz:.2f} Hz")
         for mode in modes

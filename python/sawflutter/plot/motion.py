@@ -9,6 +9,7 @@ import numpy as np
 from .._entry import FloatArray
 from .._extras import extra
 from .._report_types import Mode
+from ..errors import refused
 from .chart import colours
 from .saw import pads
 
@@ -38,6 +39,11 @@ def animate(
         raise ValueError(f"backend must be 'plotly' or 'matplotlib' (you gave {backend!r})")
     if frames < 2:
         raise ValueError(f"frames must be at least 2 (you gave {frames}); 48 is usual")
+    if not isinstance(mode, Mode):
+        said = "one mode at a speed, like saw.modes(1800)[0]"
+        raise refused("mode", type(mode), said, "modes at rest and tables of modes do not move")
+    if not np.allclose(mode.radius_m[[0, -1]], _radii(saw), rtol=1e-9):
+        raise refused("mode", mode.name, "a mode of this saw", "compute it with the modes of the same scene")
     radius, theta = grid(mode)
     pictures = deflections(mode, radius, theta, frames)
     title = f"{mode.name}, {mode.direction}<br>{mode.rpm:.0f} rpm, {mode.frequency_hz:.2f} Hz"
@@ -46,6 +52,12 @@ def animate(
     if backend == "plotly":
         return _plotly(saw, radius, theta, pictures, title)
     return _matplotlib(saw, radius, theta, pictures, title.replace("<br>", "\n"))
+
+
+def _radii(saw: Scene) -> tuple[float, float]:
+    """Inner and outer radius of the part of the blade that moves."""
+    mount: dict[str, Any] = dict(saw.mount or {})
+    return float(mount.get("diameter_m") or saw.blade["inner_diameter_m"]) / 2.0, saw.blade["outer_diameter_m"] / 2.0
 
 
 def grid(mode: Mode) -> tuple[FloatArray, FloatArray]:
@@ -58,7 +70,7 @@ def grid(mode: Mode) -> tuple[FloatArray, FloatArray]:
 
 def deflections(mode: Mode, radius: FloatArray, theta: FloatArray, frames: int) -> FloatArray:
     """Deflections over one period, of the shape (frames, radii, angles), the largest of them 1."""
-    shape = mode.shape(radius, theta)
+    shape = mode.shape(radius, np.degrees(theta))
     turns = np.exp(2j * np.pi * np.arange(frames) / frames)
     moving: FloatArray = (turns[:, None, None] * shape).real
     largest = float(np.max(np.abs(moving)))

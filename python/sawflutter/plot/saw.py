@@ -25,7 +25,7 @@ def saw(scene: Scene) -> Chart:
     blade, ink, quiet = scene.blade, colours()["ink"], colours()["quiet"]
     rim, bore = blade["outer_diameter_m"] / 2.0, blade["inner_diameter_m"] / 2.0
     items: list[Item] = [_arc(rim, 0.0, 360.0, ink, "rim"), _arc(bore, 0.0, 360.0, ink, "bore")]
-    mount = scene.get("mount") or {}
+    mount: Mapping[str, Any] = scene.mount or {}
     if "diameter_m" in mount:
         items.append(_arc(mount["diameter_m"] / 2.0, 0.0, 360.0, quiet, "collar"))
     for place, (x, y) in enumerate(pads(scene)):
@@ -45,7 +45,7 @@ def saw(scene: Scene) -> Chart:
             half = np.degrees(depth_m / rim) / 2.0 if depth_m else CUT_DEG / 2.0
         ends = (middle - half, middle + half)
         items.append(_arc(rim, *ends, colours()["alarm"], "cut", width=4.0, end="cut"))
-    probe: Mapping[str, Any] = scene.get("probe") or {}
+    probe: Mapping[str, Any] = scene.to_dict().get("probe") or {}
     if "angle_deg" in probe:
         x, y = _points(probe.get("radius_m") or rim, probe["angle_deg"])
         items.append(Points(x, y, colours()["backward"], "probe"))

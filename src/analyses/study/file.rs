@@ -173,6 +173,23 @@ pub enum StudyError {
 }
 
 impl StudyFile {
+    /// A study in which no number varies.
+    pub(super) fn named(name: String) -> Self {
+        StudyFile {
+            name,
+            notes: Vec::new(),
+            parameters: Vec::new(),
+            saws: None,
+            seed: 0,
+            to_rpm: None,
+            limits: None,
+            gap: None,
+            quantiles: default_quantiles(),
+            confidence: default_confidence(),
+            bands: false,
+        }
+    }
+
     /// Reads a study from JSON text.
     ///
     /// # Errors

@@ -97,6 +97,29 @@ impl Study {
         })
     }
 
+    /// A saw alone, for the speeds of similar saws by [`Study::speeds`].
+    ///
+    /// # Errors
+    /// [`StudyError`] if the end of its sweep cannot be found.
+    pub fn of_one(scene: Scene) -> Result<Self, StudyError> {
+        let to_rad_per_s = end_of_sweep(&scene)?;
+        let file = StudyFile {
+            bands: true,
+            ..StudyFile::named(scene.file().name.clone())
+        };
+        Ok(Study {
+            scene,
+            file,
+            limits: None,
+            gap: None,
+            to_rad_per_s,
+            varying: Vec::new(),
+            drawn: 1,
+            count: 1,
+            basis: OnceLock::new(),
+        })
+    }
+
     /// The scene without deviations.
     pub fn scene(&self) -> &Scene {
         &self.scene

@@ -126,6 +126,15 @@ impl Study {
         }
     }
 
+    /// Speeds of a saw over the speeds of the study, on a basis that is at least as large as that of the saw without
+    /// deviations.
+    ///
+    /// # Errors
+    /// [`GapError`] if the saw cannot be analysed.
+    pub fn speeds(&self, scene: &Scene) -> Result<Found, GapError> {
+        self.found(&scene.swept(SpeedRange::new(0.0, self.to_rad_per_s()))?)
+    }
+
     fn found(&self, scene: &Scene) -> Result<Found, GapError> {
         let onsets = match self.basis() {
             Some(basis) => Onsets::beside(scene, basis)?,

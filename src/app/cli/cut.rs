@@ -1,10 +1,10 @@
 //! `sawflutter cut`.
 
 use crate::analyses::cut::cut;
-use crate::model::scene::{Scene, typical_block};
+use crate::model::scene::{AssumedBlock, Scene};
 use clap::Args;
 
-use super::assumption::Block;
+use super::assumption::with_options;
 use super::block_text::pasted;
 use super::common::{Common, number};
 use super::page::Page;
@@ -55,13 +55,7 @@ impl Forces {
             Given::new("power", "cut.power_w", &self.power),
             Given::new("depth", "cut.depth_m", &self.depth),
         ];
-        let block = Block {
-            name: "cut",
-            is_missing: scene.file().cut.is_none(),
-            usual: typical_block::cut,
-            given: &given,
-        };
-        block.applied(scene)
+        with_options(AssumedBlock::Cut, scene, &given)
     }
 }
 

@@ -1,7 +1,5 @@
 //! `sawflutter keys`.
 
-use std::fmt::Write;
-
 use serde_json::Value;
 
 use crate::analyses::study;
@@ -27,27 +25,34 @@ pub struct Arguments {
     study: bool,
 }
 
-/// Prints the keys of a scene, or of a study, each with its unit, default, usual range and meaning.
+/// Prints the keys of a scene, or of a study.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let schema = if arguments.study {
+    let word = arguments.word.as_deref().unwrap_or_default();
+    Ok(say(&listed(word, arguments.study))?)
+}
+
+/// The keys of a scene, or of a study, whose path contains a word, each with its unit, default, usual range and meaning.
+pub fn listed(word: &str, of_study: bool) -> String {
+    let schema = if of_study {
         study::json_schema()
     } else {
         scene::json_schema()
     };
-    let word = arguments.word.as_deref().unwrap_or_default();
     let mut text = String::new();
     for key in scene::keys(&schema) {
         // The entries of a list are described with the list.
         if !key.path.contains(word) || key.path.ends_with("[]") {
             continue;
         }
-        writeln!(text, "{}", heading(&key, &schema))?;
+        text += &heading(&key, &schema);
+        text += "\n";
         for line in lines(&key, &schema) {
             let line: Vec<&str> = line.split_whitespace().collect();
-            writeln!(text, "{}", wrapped(&format!("- {}", line.join(" "))))?;
+            text += &wrapped(&format!("- {}", line.join(" ")));
+            text += "\n";
         }
     }
-    Ok(say(&text)?)
+    text
 }
 
 /// The path of a key with its unit, what requires it, its default and its ranges.

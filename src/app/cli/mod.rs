@@ -39,6 +39,7 @@ use crate::page::text::{printable, printable_line};
 use clap::{CommandFactory, Parser, Subcommand};
 
 use self::common::in_words;
+pub use self::keys::listed as keys;
 
 /// Stability of thin, fast, guided circular saws: Campbell diagram, critical
 /// speeds, divergence and flutter bands, and a plain verdict.

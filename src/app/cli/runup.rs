@@ -1,10 +1,10 @@
 //! `sawflutter runup`.
 
 use crate::analyses::runup::runup;
-use crate::model::scene::{Scene, typical_block};
+use crate::model::scene::{AssumedBlock, Scene};
 use clap::Args;
 
-use super::assumption::Block;
+use super::assumption::with_options;
 use super::block_text::pasted;
 use super::common::Common;
 use super::page::Page;
@@ -57,13 +57,7 @@ impl Course {
             Given::new("seconds", "runup.duration_s", &self.seconds),
             Given::new("force", "side_force.force_n", &self.force),
         ];
-        let block = Block {
-            name: "runup",
-            is_missing: scene.file().runup.is_none(),
-            usual: typical_block::runup,
-            given: &given,
-        };
-        block.applied(scene)
+        with_options(AssumedBlock::RunUp, scene, &given)
     }
 }
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::refusal::Refusal;
 use super::wording::unread;
-use crate::model::scene::{Kind, QUANTITIES, Quantity, number_in};
+use crate::model::scene::{Kind, QUANTITIES, Quantity, Reading};
 
 /// Units of the form. Only lengths differ.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
@@ -144,8 +144,9 @@ impl Field {
         let shown = field.unit(units);
         // Some units of the form, such as "N per tooth", are names of the unit of the key.
         let own = Quantity::of(path).map_or("", |quantity| quantity.unit);
-        let usual = if shown.scale == 1.0 { own } else { shown.unit };
-        let read = number_in(usual, path, text);
+        let unit_left_out = if shown.scale == 1.0 { own } else { shown.unit };
+        let reading = Reading::of(path).map(|reading| reading.usually_in(unit_left_out));
+        let read = reading.and_then(|reading| reading.number(text));
         read.map_err(|refused| {
             let told = unread(&field, &refused);
             Refusal::from(refused).telling(told)

@@ -5,6 +5,8 @@
 //! remedy. The name of a key contains its unit. [`Scene::edited`] is the only way to change a scene, and it
 //! validates again, so that every scene is valid.
 
+#[cfg(feature = "cli")]
+mod assumption;
 mod blade;
 mod cut;
 mod cut_file;
@@ -51,6 +53,8 @@ mod washboarding;
 mod wood;
 
 pub use crate::page::text::FileError;
+#[cfg(feature = "cli")]
+pub use assumption::{AssumedBlock, Assumption};
 pub(crate) use blade::RimMass;
 pub use blade::{Blade, BladeFile, Bore, InPlane, Material, Mount, RimFile};
 pub(crate) use cut::in_words as in_the_cut;
@@ -93,8 +97,8 @@ pub use schema::json_schema;
 #[cfg(feature = "cli")]
 pub(crate) use schema::{Key, keys};
 #[cfg(feature = "page")]
-pub(crate) use setting::number_in;
-pub use setting::{Setting, number_of};
+pub(crate) use setting::Reading;
+pub use setting::{Setting, number_in, number_of};
 pub use side_force::SideForceFile;
 pub(crate) use side_force::{OscillatingForce, SideForce, USUAL_SIDE_FORCE_N};
 pub use span::Span;

@@ -25,6 +25,12 @@ impl Setting {
     pub(crate) fn new(path: String, value: f64) -> Self {
         Setting { path, value }
     }
+
+    /// Path of the number.
+    #[cfg(feature = "cli")]
+    pub(super) fn path(&self) -> &str {
+        &self.path
+    }
 }
 
 impl FromStr for Setting {
@@ -57,60 +63,121 @@ impl FromStr for Setting {
 /// # Errors
 /// [`RefusedValue`] if scenes have no such number, or the text is no number in its unit.
 pub fn number_of(path: &str, text: &str) -> Result<f64, RefusedValue> {
-    let quantity = Quantity::of(path).ok_or_else(|| unknown(path))?;
-    number_in(quantity.unit, path, text)
+    Reading::of(path)?.number(text)
 }
 
-/// As [`number_of`]; a number without a unit is in `usual_unit`.
-pub(crate) fn number_in(usual_unit: &str, path: &str, text: &str) -> Result<f64, RefusedValue> {
-    let quantity = Quantity::of(path).ok_or_else(|| unknown(path))?;
-    let text = text.trim();
-    let not = |allowed, remedy| RefusedValue::new(path, format!("{text:?}"), allowed, remedy);
-    let refused = |remedy| {
-        let allowed = match usual_unit {
-            "" => "a number without a unit".to_owned(),
-            unit => format!("a number in {unit}, or with a unit of the same kind"),
-        };
-        not(allowed, remedy)
+/// Parses a number in a unit, as [`number_of`]: `2.6mm` in m is 0.0026. `key` names it in the error.
+///
+/// # Errors
+/// [`RefusedValue`] if the text is no number in this unit.
+pub fn number_in(key: &str, unit: &str, text: &str) -> Result<f64, RefusedValue> {
+    let reading = Reading {
+        key,
+        unit,
+        unit_left_out: unit,
+        usual: (f64::NEG_INFINITY, f64::INFINITY),
     };
-    let plain = text.replace('−', "-");
-    let (digits, rest) = plain.split_at(end_of_number(&plain));
-    let decimal: f64 = digits
-        .replace(',', ".")
-        .parse()
-        .map_err(|_| refused("write it like 0.0026 or 2.6mm"))?;
-    let (below, unit) = over(rest.trim()).ok_or_else(|| refused("divide by a number above 0"))?;
-    // A change in percent needs the present number, which is not known here. Without this check, +5% of a
-    // dimensionless number would be read as 0.05.
-    if unit == "%" && (text.starts_with('+') || !quantity.unit.is_empty()) {
-        return Err(refused(
-            "give the new number itself, not its change in percent",
-        ));
+    reading.number(text)
+}
+
+/// Units and usual range by which the text of a number is read.
+pub(crate) struct Reading<'a> {
+    key: &'a str,
+    /// Unit of the result.
+    unit: &'a str,
+    /// Unit of a text without one.
+    unit_left_out: &'a str,
+    /// Usual range of the result.
+    usual: (f64, f64),
+}
+
+impl<'a> Reading<'a> {
+    /// A number of a scene.
+    pub fn of(path: &'a str) -> Result<Self, RefusedValue> {
+        let quantity = Quantity::of(path).ok_or_else(|| unknown(path))?;
+        Ok(Reading {
+            key: path,
+            unit: quantity.unit,
+            unit_left_out: quantity.unit,
+            usual: quantity.usual,
+        })
     }
-    let unit = if unit.is_empty() { usual_unit } else { unit };
-    let given = Unit::parse(unit).ok_or_else(|| {
-        refused("write units like mm, kN/mm, g/cm^3 or rad/s, or leave the unit out")
-    })?;
-    let own = Unit::parse(quantity.unit)
-        .filter(|own| own.is_of(&given))
-        .ok_or_else(|| refused("give a unit of this quantity, or leave the unit out"))?;
-    let in_key = |value| product(value, given.factor, own.factor);
-    let value = in_key(decimal / below);
-    let Some(whole) = in_thousands(digits) else {
-        return Ok(value);
-    };
-    let is_usual = |value: f64| (quantity.usual.0..=quantity.usual.1).contains(&value);
-    let is_whole_usual = is_usual(in_key(whole / below));
-    let is_decimal = if digits.contains(',') {
-        is_usual(value) && !is_whole_usual
-    } else {
-        is_usual(value) || !is_whole_usual
-    };
-    if is_decimal {
-        Ok(value)
-    } else {
-        let either = format!("{whole}{rest} or {decimal}{rest}");
-        Err(not(either, "write one of these"))
+
+    /// The same number, of which a text without a unit is in another one.
+    #[cfg(feature = "page")]
+    pub fn usually_in(self, unit_left_out: &'a str) -> Self {
+        Reading {
+            unit_left_out,
+            ..self
+        }
+    }
+
+    /// Parses the number, in the unit of the result.
+    pub fn number(&self, text: &str) -> Result<f64, RefusedValue> {
+        let text = text.trim();
+        let not =
+            |allowed, remedy| RefusedValue::new(self.key, format!("{text:?}"), allowed, remedy);
+        let refused = |remedy| {
+            let allowed = match self.unit_left_out {
+                "" => "a number without a unit".to_owned(),
+                unit => format!("a number in {unit}, or with a unit of the same kind"),
+            };
+            not(allowed, remedy)
+        };
+        let plain = text.replace('−', "-");
+        let (digits, rest) = plain.split_at(end_of_number(&plain));
+        let decimal: f64 = digits
+            .replace(',', ".")
+            .parse()
+            .map_err(|_| refused(example(self.unit_left_out)))?;
+        let (below, unit) =
+            over(rest.trim()).ok_or_else(|| refused("divide by a number above 0"))?;
+        // A change in percent needs the present number, which is not known here. Without this check, +5% of a
+        // dimensionless number would be read as 0.05.
+        if unit == "%" && (text.starts_with('+') || !self.unit.is_empty()) {
+            return Err(refused(
+                "give the new number itself, not its change in percent",
+            ));
+        }
+        let unit = if unit.is_empty() {
+            self.unit_left_out
+        } else {
+            unit
+        };
+        let given = Unit::parse(unit).ok_or_else(|| {
+            refused("write units like mm, kN/mm, g/cm^3 or rad/s, or leave the unit out")
+        })?;
+        let own = Unit::parse(self.unit)
+            .filter(|own| own.is_of(&given))
+            .ok_or_else(|| refused("give a unit of this quantity, or leave the unit out"))?;
+        let in_key = |value| product(value, given.factor, own.factor);
+        let value = in_key(decimal / below);
+        let Some(whole) = in_thousands(digits) else {
+            return Ok(value);
+        };
+        let is_usual = |value: f64| (self.usual.0..=self.usual.1).contains(&value);
+        let is_whole_usual = is_usual(in_key(whole / below));
+        let is_decimal = if digits.contains(',') {
+            is_usual(value) && !is_whole_usual
+        } else {
+            is_usual(value) || !is_whole_usual
+        };
+        if is_decimal {
+            Ok(value)
+        } else {
+            let either = format!("{whole}{rest} or {decimal}{rest}");
+            Err(not(either, "write one of these"))
+        }
+    }
+}
+
+/// Remedy for a text that is no number, with examples of a number in the unit.
+fn example(unit: &str) -> &'static str {
+    match unit {
+        "m" => "write it like 0.0026 or 2.6mm",
+        "rpm" => "write it like 1800 or 30 rev/s",
+        "" => "write it like 0.3",
+        _ => "write it like 20 or 2e1, with or without a unit",
     }
 }
 
@@ -208,20 +275,24 @@ impl SceneFile {
     /// # Errors
     /// [`SceneError`] if the scene has no place for a number, or a value is refused.
     pub fn set(&self, settings: &[Setting]) -> Result<Scene, SceneError> {
-        let mut json = super::entries::value(self);
-        for setting in settings {
-            put(&mut json, setting)?;
-        }
-        let set = Scene::from_json(&json.to_string());
-        set.map_err(|error| match error {
-            // The text is a single generated line, so its line number is meaningless to the user.
-            SceneError::Syntax { key, message } => SceneError::Syntax {
-                key,
-                message: message.trim_end_matches(" (line 1)").to_owned(),
-            },
-            other => other,
-        })
+        set(super::entries::value(self), settings)
     }
+}
+
+/// The scene of a JSON with other numbers.
+pub(super) fn set(mut json: Value, settings: &[Setting]) -> Result<Scene, SceneError> {
+    for setting in settings {
+        put(&mut json, setting)?;
+    }
+    let set = Scene::from_json(&json.to_string());
+    set.map_err(|error| match error {
+        // The text is a single generated line, so its line number is meaningless to the user.
+        SceneError::Syntax { key, message } => SceneError::Syntax {
+            key,
+            message: message.trim_end_matches(" (line 1)").to_owned(),
+        },
+        other => other,
+    })
 }
 
 /// Writes a number at its path.
@@ -355,11 +426,12 @@ mod tests {
             assert_eq!(refused.allowed, either, "{text}");
             assert_eq!(refused.remedy, "write one of these");
         }
-        assert_eq!(number_in("mm", "blade.thickness_m", "2.6"), Ok(0.0026));
-        assert_eq!(
-            number_in("mm", "blade.thickness_m", "1/8 in"),
-            Ok(0.003_175)
-        );
+        let thickness = Reading {
+            unit_left_out: "mm",
+            ..Reading::of("blade.thickness_m").unwrap()
+        };
+        assert_eq!(thickness.number("2.6"), Ok(0.0026));
+        assert_eq!(thickness.number("1/8 in"), Ok(0.003_175));
     }
 
     #[test]

@@ -1,0 +1,257 @@
+//! Scenes as JSON: values by their paths, and numbers given with a unit.
+
+use pyo3::prelude::*;
+use sawflutter::model::scene::{Quantity, Scene, SceneError, number_in, number_of};
+use serde_json::{Map, Value};
+
+use crate::arguments;
+use crate::failure::{Failure, Refusal};
+
+/// Units of arguments, by the end of their names. The longest one counts.
+const UNITS: [(&str, &str); 11] = [
+    ("_n_per_m", "N/m"),
+    ("_m_per_s", "m/s"),
+    ("_per_s", "1/s"),
+    ("rpm", "rpm"),
+    ("_deg", "°"),
+    ("_hz", "Hz"),
+    ("_m", "m"),
+    ("_n", "N"),
+    ("_s", "s"),
+    ("_w", "W"),
+    ("_db", "dB"),
+];
+
+/// The unit of a path of a scene, or of an argument by its name; empty for a number without one.
+#[pyfunction]
+pub fn unit(name: &str) -> &'static str {
+    match Quantity::of(name) {
+        Some(quantity) => quantity.unit,
+        None => {
+            let own = UNITS.iter().find(|(ending, _)| name.ends_with(ending));
+            own.map_or("", |(_, unit)| unit)
+        }
+    }
+}
+
+/// The name of the number of a path with its unit, for an axis.
+#[pyfunction]
+pub fn axis_name(path: &str) -> String {
+    match Quantity::of(path) {
+        None => path.to_owned(),
+        Some(quantity) if quantity.unit.is_empty() => quantity.name.to_owned(),
+        Some(quantity) => format!("{} [{}]", quantity.name, quantity.unit),
+    }
+}
+
+/// The number of a text like `2.6mm`, in the unit of a path of a scene or of an argument.
+#[pyfunction]
+pub fn number(name: &str, text: &str) -> PyResult<f64> {
+    // A path with a block is that of a scene, and a single word the name of an argument.
+    let found = match Quantity::of(name) {
+        Some(_) if name.contains('.') => {
+            number_of(name, text).map_err(|refused| Failure::from(SceneError::Value(refused)))
+        }
+        _ => number_in(name, unit(name), text).map_err(Failure::from),
+    };
+    Ok(found?)
+}
+
+/// The scene of a JSON text, validated, as JSON.
+#[pyfunction]
+pub fn scene(text: &str) -> PyResult<String> {
+    Ok(validated(json(text)?)?)
+}
+
+/// The scene as JSON.
+pub fn written(scene: &Scene) -> Result<String, Failure> {
+    Ok(serde_json::to_string(scene.file())?)
+}
+
+/// A scene with values at other paths. `changes` is a JSON object; null removes a key.
+#[pyfunction]
+pub fn replace(scene: &str, changes: &str) -> PyResult<String> {
+    let mut data: Value = serde_json::from_str(scene).map_err(Failure::from)?;
+    let changes: Map<String, Value> = serde_json::from_str(changes).map_err(Failure::from)?;
+    for (path, value) in changes {
+        put(&mut data, &path, value)?;
+    }
+    Ok(validated(data)?)
+}
+
+/// The value at a path of a scene, as JSON.
+#[pyfunction]
+pub fn value(scene: &str, path: &str) -> PyResult<String> {
+    let mut place: &Value = &serde_json::from_str(scene).map_err(Failure::from)?;
+    let mut reached = String::new();
+    for step in steps(path)? {
+        let found = match (place, &step) {
+            (Value::Object(block), Step::Key(key)) => block.get(key),
+            (Value::Array(list), Step::Index(at)) => list.get(*at),
+            _ => None,
+        };
+        place = found.ok_or_else(|| missing(place, &reached, path))?;
+        step.append_to(&mut reached);
+    }
+    Ok(place.to_string())
+}
+
+/// A step of a path.
+enum Step {
+    Key(String),
+    Index(usize),
+}
+
+impl Step {
+    fn append_to(&self, reached: &mut String) {
+        match self {
+            Step::Index(at) => *reached += &format!("[{at}]"),
+            Step::Key(key) if reached.is_empty() => *reached += key,
+            Step::Key(key) => *reached += &format!(".{key}"),
+        }
+    }
+}
+
+/// The steps of a path like `guides[0].radius_m`.
+fn steps(path: &str) -> Result<Vec<Step>, Failure> {
+    const REMEDY: &str = "write it like guides[0].radius_m";
+    let parsed = || {
+        let mut found = Vec::new();
+        for part in path.split('.') {
+            let (key, indices) = part.split_at(part.find('[').unwrap_or(part.len()));
+            if key.is_empty() || key.contains(']') {
+                return None;
+            }
+            found.push(Step::Key(key.to_owned()));
+            let mut rest = indices;
+            while !rest.is_empty() {
+                let (index, after) = rest.strip_prefix('[')?.split_once(']')?;
+                let digits = index.bytes().all(|digit| digit.is_ascii_digit());
+                found.push(Step::Index(index.parse().ok().filter(|_| digits)?));
+                rest = after;
+            }
+        }
+        Some(found)
+    };
+    parsed().ok_or_else(|| {
+        let message = format!("{path:?} is no path of a scene; {REMEDY}");
+        refused_path(message, path, "a path of the scene".to_owned(), REMEDY)
+    })
+}
+
+fn put(data: &mut Value, path: &str, mut value: Value) -> Result<(), Failure> {
+    read_numbers(path, &mut value)?;
+    let mut steps = steps(path)?;
+    let Some(last) = steps.pop() else {
+        return Ok(());
+    };
+    let (mut place, mut reached) = (data, String::new());
+    for step in steps {
+        if let (Value::Object(block), Step::Key(key)) = (&mut *place, &step) {
+            block
+                .entry(key)
+                .or_insert_with(|| Value::Object(Map::new()));
+        }
+        let error = missing(place, &reached, path);
+        let found = match (place, &step) {
+            (Value::Object(block), Step::Key(key)) => block.get_mut(key),
+            (Value::Array(list), Step::Index(at)) => list.get_mut(*at),
+            _ => None,
+        };
+        place = found.ok_or(error)?;
+        step.append_to(&mut reached);
+    }
+    let error = missing(place, &reached, path);
+    match (place, last) {
+        (Value::Object(block), Step::Key(key)) if value.is_null() => {
+            block.remove(&key);
+        }
+        (Value::Object(block), Step::Key(key)) => {
+            block.insert(key, value);
+        }
+        (Value::Array(list), Step::Index(at)) => *list.get_mut(at).ok_or(error)? = value,
+        _ => return Err(error),
+    }
+    Ok(())
+}
+
+/// The error of a step that a scene does not have; it lists those that it has.
+fn missing(place: &Value, reached: &str, path: &str) -> Failure {
+    let at = if reached.is_empty() {
+        "the scene"
+    } else {
+        reached
+    };
+    let (allowed, remedy) = match place {
+        Value::Array(_) if reached == "guides" => (counted(place, at), "add_guide adds a guide"),
+        Value::Array(_) => (counted(place, at), "replace the list as a whole"),
+        Value::Object(block) => {
+            let keys: Vec<&str> = block.keys().map(String::as_str).collect();
+            (
+                format!("{at} has {}", keys.join(", ")),
+                "name one of these; replace writes others",
+            )
+        }
+        _ => (
+            format!("{at} is a single value"),
+            "name it without a further step",
+        ),
+    };
+    let message = format!("the scene has no {path:?}: {allowed}; {remedy}");
+    refused_path(message, path, allowed, remedy)
+}
+
+fn counted(list: &Value, at: &str) -> String {
+    let count = list.as_array().map_or(0, Vec::len);
+    format!("{at} has {count} entries, counted from 0")
+}
+
+fn refused_path(message: String, path: &str, allowed: String, remedy: &str) -> Failure {
+    Failure::Refused(Box::new(Refusal {
+        class: "PathError",
+        message,
+        key: Some(path.to_owned()),
+        value: None,
+        allowed: Some(allowed),
+        remedy: Some(remedy.to_owned()),
+    }))
+}
+
+fn json(text: &str) -> Result<Value, Failure> {
+    // The library says what is wrong with a text that is no JSON.
+    serde_json::from_str(text)
+        .or_else(|_| Ok(serde_json::to_value(arguments::scene(text)?.file())?))
+}
+
+fn validated(mut data: Value) -> Result<String, Failure> {
+    read_numbers("", &mut data)?;
+    written(&arguments::scene(&data.to_string())?)
+}
+
+/// Reads texts with a unit at the paths of numbers.
+fn read_numbers(path: &str, value: &mut Value) -> Result<(), Failure> {
+    match value {
+        Value::String(text) if Quantity::of(path).is_some() => {
+            *value = number_of(path, text).map_err(SceneError::Value)?.into();
+        }
+        Value::Array(list) => {
+            for (at, entry) in list.iter_mut().enumerate() {
+                read_numbers(&format!("{path}[{at}]"), entry)?;
+            }
+        }
+        Value::Object(block) => {
+            for (key, entry) in block.iter_mut() {
+                let dot = if path.is_empty() { "" } else { "." };
+                read_numbers(&format!("{path}{dot}{key}"), entry)?;
+            }
+        }
+        _ => (),
+    }
+    Ok(())
+}
+
+/// Numbers of a scene that are implausible, each as a sentence.
+#[pyfunction]
+pub fn unusual_numbers(scene: &str) -> PyResult<Vec<String>> {
+    Ok(arguments::scene(scene)?.file().unusual_numbers())
+}
