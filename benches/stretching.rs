@@ -7,7 +7,7 @@ use std::hint::black_box;
 
 use faer::{Col, Mat};
 use sawflutter::model::plate::{Plate, ReducedStretching, Resolution, Stretching};
-use sawflutter::model::scene::{Accuracy, Scene, SpeedRange, rad_per_s};
+use sawflutter::model::scene::{Accuracy, Polar, Scene, SpeedRange, rad_per_s};
 use sawflutter::motion::stretched_blade::{Extent, StretchedBlade};
 
 use timing::time;
@@ -50,7 +50,10 @@ fn main() {
     time("up to 3000 rpm", 5, || {
         black_box(count(true));
     });
-    let pressed = blade.clone().pressed(5.0, (0.355, 0.0)).expect("a force");
+    let pressed = blade
+        .clone()
+        .pressed(5.0, Polar::new(0.355, 0.0))
+        .expect("a force");
     let speeds: Vec<f64> = (0..100).map(|k| rad_per_s(30.0 * f64::from(k))).collect();
     time("100 equilibria up to 3000 rpm", 5, || {
         let mut p = pressed.flat();

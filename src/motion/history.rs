@@ -120,7 +120,7 @@ impl History {
         let system = GyroscopicSystem::of_plate(&plate);
         let order = system.order();
         let force = scene.side_force();
-        let at = plate.functions_at(force.at.polar().0, force.at.polar().1);
+        let at = crate::motion::transient::at_point(&plate, force.at.polar());
         let oscillating_n = scene
             .oscillating_force()
             .map_or(0.0, |force| force.amplitude_n);

@@ -38,7 +38,7 @@ impl Analysis {
         let certificate = BandCertificate::new(
             &analysis.chart,
             model.is_conservative(),
-            analysis.range_rad_per_s.into(),
+            analysis.range_rad_per_s,
             scene.flutter_threshold_per_s(),
             errors.fold(0.0, f64::max),
             self.listed_backward_error,

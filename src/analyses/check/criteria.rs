@@ -4,7 +4,7 @@ use super::limits::Limits;
 use super::report::Criterion;
 use super::static_deflection::StaticDeflection;
 use crate::model::plate::Plate;
-use crate::model::scene::{Scene, rpm};
+use crate::model::scene::{Polar, Scene, rpm};
 use crate::motion::stretched_blade::Rise;
 use crate::motion::transient::at_point;
 use crate::page::text::{shown, shown_to};
@@ -221,7 +221,10 @@ pub(super) fn of_gaps(
     with_gap
         .filter_map(|(index, guide, gap_m)| {
             let bending = bending?;
-            let place = at_point(plate, (guide.radius_m, guide.angle_deg.to_radians()));
+            let place = at_point(
+                plate,
+                Polar::new(guide.radius_m, guide.angle_deg.to_radians()),
+            );
             bending.in_cut_m(&place, 0.0)?;
             let found = bending.fills_gap_at(&place, gap_m);
             Some(Criterion {

@@ -28,7 +28,7 @@ use crate::analyses::campbell::{
     InstabilityBand, Numbered, add_amplitudes, lifting_off, side_force_in_words,
 };
 use crate::analyses::deflect::compliance_m_per_n;
-use crate::model::scene::{Scene, SceneError, SpeedRange, rpm};
+use crate::model::scene::{Polar, Scene, SceneError, SpeedRange, rpm};
 use crate::modes::SpectrumError;
 use crate::motion::stretched_blade::StretchedError;
 use crate::motion::stretched_blade::{Rise, saturations};
@@ -97,7 +97,8 @@ pub fn check(scene: &Scene, limits: &Limits) -> Result<CheckReport, CheckError> 
     criteria.extend(is_free.then(|| without_stiffness(operating)));
     // Nothing resists a side force where rigid motions are free, or where K(Ω) is singular.
     let stiffness = |speed: f64| {
-        let compliance = compliance_m_per_n(plate, (plate.blade.outer_radius_m, angle), speed);
+        let compliance =
+            compliance_m_per_n(plate, Polar::new(plate.blade.outer_radius_m, angle), speed);
         compliance.map_or(0.0, |m_per_n| 1.0 / m_per_n)
     };
     let to_rad_per_s = analysis.range_rad_per_s.to_rad_per_s;

@@ -3,7 +3,7 @@
 
 use crate::analyses::deflect::compliance_m_per_n;
 use crate::model::plate::{Plate, Resolution};
-use crate::model::scene::Scene;
+use crate::model::scene::{Polar, Scene};
 use crate::stability::{Analysis, StabilityState};
 
 /// A point load deforms the rim in waves of all lengths; the contribution of n diameters falls only with n³.
@@ -28,9 +28,9 @@ pub(super) fn point_load_plate(analysis: &Analysis) -> Plate {
     Plate::new(&analysis.scene, resolution)
 }
 
-/// Radius and angle of the rim at the cut.
-fn rim_at_cut(scene: &Scene) -> (f64, f64) {
-    (scene.blade().outer_radius_m, scene.cut_angle_rad())
+/// The rim at the cut.
+fn rim_at_cut(scene: &Scene) -> Polar {
+    Polar::new(scene.blade().outer_radius_m, scene.cut_angle_rad())
 }
 
 /// Lateral stiffness at rest, in N/m; `None` if rigid motions are free.

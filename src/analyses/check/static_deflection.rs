@@ -7,7 +7,7 @@ use faer::{Col, Mat, Scale};
 
 use super::report::RimStiffness;
 use crate::model::plate::Plate;
-use crate::model::scene::rpm;
+use crate::model::scene::{Polar, rpm};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::orthonormal;
 use crate::motion::transient::at_point;
@@ -51,7 +51,7 @@ impl StaticDeflection {
             return None;
         }
         let rim_radius_m = plate.blade.outer_radius_m;
-        let rim = at_point(plate, (rim_radius_m, angle_rad));
+        let rim = at_point(plate, Polar::new(rim_radius_m, angle_rad));
         let mut responses: Vec<Col<f64>> = Vec::new();
         for share in SOLVED_AT {
             let stiffness = system.stiffness_at(share.sqrt() * critical_rad_per_s);

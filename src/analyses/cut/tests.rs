@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::model::plate::Resolution;
-use crate::model::scene::SceneFile;
+use crate::model::scene::{Polar, SceneFile};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::fastest_growing;
 use crate::motion::transient::{Integrator, Propagator, State, at_point};
@@ -79,7 +79,7 @@ fn few_motions_make_the_record_of_the_full_model() {
     let system = GyroscopicSystem::of_plate(&plate.in_cut(&cut, &run));
     let mut load: Col<f64> = Col::zeros(system.order());
     for angle in cut.teeth.standing().iter().map(|tooth| tooth.angle_rad) {
-        load += at_point(&plate, (plate.blade.outer_radius_m, angle));
+        load += at_point(&plate, Polar::new(plate.blade.outer_radius_m, angle));
     }
     let read = at_point(&plate, probe.polar());
     let propagator =

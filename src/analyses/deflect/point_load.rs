@@ -3,18 +3,14 @@
 use faer::linalg::solvers::Solve;
 
 use crate::model::plate::Plate;
-use crate::model::scene::Scene;
+use crate::model::scene::{Polar, Scene};
 use crate::model::system::GyroscopicSystem;
 use crate::motion::transient::at_point;
 use crate::stability::ahead;
 
 /// φᵀ K(Ω)⁻¹ φ in m/N with the basis functions φ at a place, a radius in m and an angle in rad: deflection over force at a point fixed in space
 /// while the saw turns. `None` if rigid motions are free, and where K(Ω) is singular.
-pub(crate) fn compliance_m_per_n(
-    plate: &Plate,
-    place: (f64, f64),
-    speed_rad_per_s: f64,
-) -> Option<f64> {
+pub(crate) fn compliance_m_per_n(plate: &Plate, place: Polar, speed_rad_per_s: f64) -> Option<f64> {
     let point = at_point(plate, place);
     let system = GyroscopicSystem::of_plate(plate);
     if !system.free_rigid.is_empty() {
@@ -31,7 +27,7 @@ pub(crate) fn compliance_m_per_n(
 /// A point load deforms the rim in waves of all lengths; the contribution of n diameters falls with n³, so that what N
 /// diameters leave out falls with 1/N². The change on the larger basis that measures the error of critical speeds is a
 /// known part of it.
-pub(super) fn basis_error(scene: &Scene, plate: &Plate, place: (f64, f64)) -> Option<f64> {
+pub(super) fn basis_error(scene: &Scene, plate: &Plate, place: Polar) -> Option<f64> {
     let larger = ahead(plate.resolution);
     let own = compliance_m_per_n(plate, place, 0.0)?;
     let more = compliance_m_per_n(&Plate::new(scene, larger), place, 0.0)?;
@@ -62,7 +58,7 @@ mod tests {
     #[cfg_attr(debug_assertions, ignore = "dense solves: run it in release")]
     fn the_error_of_the_compliance_is_estimated_within_a_factor_of_two() {
         for (name, saw) in saws() {
-            let place = (saw.blade().outer_radius_m, PI);
+            let place = Polar::new(saw.blade().outer_radius_m, PI);
             let of = |plate: &Plate| compliance_m_per_n(plate, place, 0.0).unwrap();
             let exact = of(&Plate::new(&saw, basis(40, 18)));
             for size in [basis(12, 7), basis(14, 9)] {

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rayon::prelude::*;
 
 use super::report::{Arc, EquilibriumCurve, Jump, SlowSweep, Turn};
-use crate::model::scene::{Point, rpm};
+use crate::model::scene::{Point, Polar, rpm};
 use crate::motion::stretched_blade::{
     Branch, Equilibrium, LARGEST_SLOPE, Sites, StretchedBlade, StretchedError, Sweep,
 };
@@ -30,7 +30,10 @@ impl<'a> Reader<'a> {
     }
 
     fn at_probe_m(&self, e: &Equilibrium) -> f64 {
-        let (radius_m, angle_rad) = self.probe.polar();
+        let Polar {
+            radius_m,
+            angle_rad,
+        } = self.probe.polar();
         self.blade.deflection_m(e, radius_m, angle_rad)
     }
 

@@ -5,7 +5,7 @@ use faer::Col;
 use super::equilibria::MODES;
 use super::*;
 use crate::model::plate::Plate;
-use crate::model::scene::{Accuracy, SideForceFile, SpeedRange, rad_per_s};
+use crate::model::scene::{Accuracy, Polar, SideForceFile, SpeedRange, rad_per_s};
 use crate::motion::stretched_blade::{Equilibrium, StretchedBlade};
 use crate::stability::ChosenBasis;
 
@@ -113,7 +113,7 @@ fn every_equilibrium_that_the_blade_reaches_is_on_a_curve() {
     let mut seen = Vec::new();
     for k in 0..12 {
         let angle = std::f64::consts::TAU * f64::from(k) / 12.0;
-        let pushed = (plate.blade.outer_radius_m, angle);
+        let pushed = Polar::new(plate.blade.outer_radius_m, angle);
         let pushed = blade.clone().pressed(200.0, pushed).unwrap();
         let begun = pushed.settled(speed, &blade.flat()).unwrap();
         let rest = blade.settled(speed, &begun.coordinates).unwrap();

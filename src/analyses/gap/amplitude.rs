@@ -187,7 +187,7 @@ impl AmplitudeChart {
     /// # Errors
     /// [`GapError`].
     pub(super) fn new(linear: &Analysis) -> Result<Self, GapError> {
-        let swept = linear.scene.swept(linear.range_rad_per_s.into())?;
+        let swept = linear.scene.swept(linear.range_rad_per_s)?;
         let guides = swept.file().guides.iter();
         let gaps = guides.filter(|guide| guide.contact == ContactLaw::OneSided);
         let smallest_gap_m = gaps

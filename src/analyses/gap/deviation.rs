@@ -154,7 +154,7 @@ fn basis_error(
             let [blade, finer] = [blade, finer].map(|blade| blade.with_gaps(gap_factor));
             let mut largest: Option<BasisError> = None;
             for force_n in forces_n.iter().copied().step_by(ESTIMATED_EVERY) {
-                let Some(share) = blade.change_with(&finer, (force_n, rpm))? else {
+                let Some(share) = blade.change_with(&finer, force_n, rpm)? else {
                     continue;
                 };
                 if largest.is_none_or(|largest| share > largest.share) {

@@ -31,6 +31,7 @@ mod numbers;
 mod options;
 mod oscillation;
 pub(crate) mod oscillation_chart;
+mod oscillation_outline;
 mod oscillation_reading;
 mod oscillation_report;
 mod outline;
@@ -124,6 +125,8 @@ fn shifting(scene: &Scene) -> Option<String> {
     })
 }
 
+#[cfg(test)]
+mod linear_tests;
 #[cfg(test)]
 mod mean_tests;
 #[cfg(test)]

@@ -18,6 +18,8 @@ mod report;
 mod solver;
 mod speeds;
 #[cfg(test)]
+mod symmetric_tests;
+#[cfg(test)]
 mod tests;
 mod warnings;
 
@@ -116,7 +118,7 @@ pub fn response(scene: &Scene, options: &Options) -> Result<ResponseReport, Resp
                 .to_hz
                 .map(|hz| TAU * hz)
                 .unwrap_or(analysis.model.complete_to_rad_per_s);
-            FrequencyResponse::new(plate, &solver, &motion, (speed, end), place)
+            FrequencyResponse::new(plate, &solver, &motion, speed, end, place)
         })
         .transpose()?;
     let rpm: Vec<f64> = speeds.iter().map(|speed| rpm(*speed)).collect();

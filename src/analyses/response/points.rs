@@ -8,7 +8,7 @@ use super::report::FrequencyResponse;
 use super::solver::{Motion, Solver};
 use crate::model::evenly_spaced;
 use crate::model::plate::Plate;
-use crate::model::scene::rpm;
+use crate::model::scene::{Polar, rpm};
 use crate::modes::SpectrumError;
 use crate::motion::steady::{Family, State};
 
@@ -29,10 +29,11 @@ impl FrequencyResponse {
         plate: &Plate,
         solver: &Solver,
         motion: &Motion<'_>,
-        (speed, end): (f64, f64),
-        (radius_m, angle_rad): (f64, f64),
+        speed: f64,
+        end: f64,
+        place: Polar,
     ) -> Result<Self, SpectrumError> {
-        let values = plate.functions_at(radius_m, angle_rad);
+        let values = plate.functions_at(place.radius_m, place.angle_rad);
         let load = Col::from_fn(values.len(), |i| c64::new(values[i], 0.0));
         let mut frequencies = evenly_spaced([0.0, end], FREQUENCIES);
         let (mut receptance, mut unbounded) = (Vec::new(), Vec::new());
@@ -71,8 +72,8 @@ impl FrequencyResponse {
         let of = |value: fn(&c64) -> f64| receptance.iter().map(move |w| w.as_ref().map(value));
         Ok(FrequencyResponse {
             rpm: rpm(speed),
-            force_radius_m: radius_m,
-            force_angle_deg: angle_rad.to_degrees(),
+            force_radius_m: place.radius_m,
+            force_angle_deg: place.angle_rad.to_degrees(),
             frequency_hz: frequencies.iter().map(|omega| omega / TAU).collect(),
             receptance_m_per_n: of(|w| w.norm()).collect(),
             phase_deg: of(|w| w.arg().to_degrees()).collect(),

@@ -6,7 +6,7 @@ use faer::{Col, c64};
 
 use super::report::{Resonance, ResponseLine, SteadyState};
 use crate::model::plate::Plate;
-use crate::model::scene::{Scene, SpeedRange, rpm};
+use crate::model::scene::{Polar, Scene, SpeedRange, rpm};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::SpectrumError;
 use crate::motion::steady::{Cause, Family, Load, State};
@@ -65,9 +65,9 @@ impl Solver {
         let angle = |k: usize| TAU * k as f64 / AROUND as f64;
         let mut probes = vec![
             at_point(plate, probe.polar()),
-            at_point(plate, (rim, scene.cut_angle_rad())),
+            at_point(plate, Polar::new(rim, scene.cut_angle_rad())),
         ];
-        probes.extend((0..AROUND).map(|k| at_point(plate, (rim, angle(k)))));
+        probes.extend((0..AROUND).map(|k| at_point(plate, Polar::new(rim, angle(k)))));
         Solver {
             system: GyroscopicSystem::of_plate(plate),
             probes,

@@ -3,7 +3,7 @@
 use super::{Method, Setting};
 use crate::page::figure::axis::{Spread, extremes};
 use crate::page::figure::chart_data::{AxisData, ChartData, PanelData};
-use crate::page::figure::items::{Item, Line, Points, Role, Upright};
+use crate::page::figure::items::{Item, Line, Points, Role, Shape, Upright};
 use crate::page::figure::palette::Hue;
 use crate::page::figure::style::{CURVE, STRONG_CURVE};
 use crate::page::figure::{Figure, layout};
@@ -86,13 +86,16 @@ fn place(setting: &Setting) -> [f64; 2] {
 }
 
 fn dots(method: Method, places: impl IntoIterator<Item = [f64; 2]>) -> Points {
-    let (hue, name) = match method {
-        Method::Reduced => (Hue::Forward, "chart, projected"),
-        Method::Searched => (Hue::Flutter, "chart, not proven"),
-        Method::Dense => (Hue::Backward, "chart, full model"),
-        Method::CriticalSpeeds => (Hue::Divergence, "critical speeds"),
+    let (hue, shape, name) = match method {
+        Method::Reduced => (Hue::Forward, Shape::Disc, "chart, projected"),
+        Method::Searched => (Hue::Flutter, Shape::Ring, "chart, not proven"),
+        Method::Dense => (Hue::Backward, Shape::Square, "chart, full model"),
+        Method::CriticalSpeeds => (Hue::Divergence, Shape::Cross, "critical speeds"),
     };
-    Points::new(places, hue, DOT_SIZE, name)
+    Points {
+        shape,
+        ..Points::new(places, hue, DOT_SIZE, name)
+    }
 }
 
 /// Connects the settings than which no other is both faster and more accurate.

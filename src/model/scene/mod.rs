@@ -79,6 +79,7 @@ pub use parser::MAX_SCENE_BYTES;
 pub(crate) use parser::SCENE_TEXT;
 pub(crate) use plausibility::unusual_number;
 pub(crate) use point::Point;
+pub use point::Polar;
 pub(crate) use profile::Profile;
 #[cfg(any(test, feature = "page"))]
 pub(crate) use quantities::QUANTITIES;

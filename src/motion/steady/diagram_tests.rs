@@ -183,7 +183,7 @@ fn without_a_gap_and_within_it_oscillations_are_linear_at_every_speed() {
         let plate = Plate::new(linear, SMALL);
         let system = GyroscopicSystem::of_plate(&plate);
         let force = scene.side_force().at.polar();
-        let at_force = plate.functions_at(force.0, force.1);
+        let at_force = plate.functions_at(force.radius_m, force.angle_rad);
         let amplitude_n = scene.oscillating_force().unwrap().amplitude_n;
         let load = Col::from_fn(at_force.len(), |i| c64::new(amplitude_n * at_force[i], 0.0));
         let cut = at_cut(scene);

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::model::linalg::SymmetricEigen;
 use crate::model::plate::Plate;
-use crate::model::scene::{RefusedValue, Scene};
+use crate::model::scene::{Polar, RefusedValue, Scene};
 
 /// Cause of an excitation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -46,14 +46,8 @@ pub struct Load {
 
 impl Load {
     /// A lateral force at a radius and an angle that oscillates with a multiple of the rotation frequency.
-    pub fn at(
-        cause: Cause,
-        order: u32,
-        plate: &Plate,
-        (radius_m, angle_rad): (f64, f64),
-        amplitude_n: f64,
-    ) -> Self {
-        let values = plate.functions_at(radius_m, angle_rad);
+    pub fn at(cause: Cause, order: u32, plate: &Plate, place: Polar, amplitude_n: f64) -> Self {
+        let values = plate.functions_at(place.radius_m, place.angle_rad);
         Load {
             cause,
             order,

@@ -3,7 +3,7 @@
 use faer::{Col, Mat, c64};
 
 use crate::model::plate::Plate;
-use crate::model::scene::Scene;
+use crate::model::scene::{Polar, Scene};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::Cancellation;
 use crate::motion::stretched_blade::{Sites, StretchedBlade, StretchedError};
@@ -64,10 +64,8 @@ impl OscillatingBlade {
         (speed_rad_per_s, to_rad_per_s): (f64, f64),
         modes: usize,
     ) -> Result<Self, StretchedError> {
-        let (force, cut) = (
-            scene.side_force(),
-            (plate.blade.outer_radius_m, scene.cut_angle_rad()),
-        );
+        let force = scene.side_force();
+        let cut = Polar::new(plate.blade.outer_radius_m, scene.cut_angle_rad());
         let systems: Vec<GyroscopicSystem> = [
             Some(GyroscopicSystem::of_plate(plate)),
             GyroscopicSystem::of_released(plate),
@@ -97,7 +95,7 @@ impl OscillatingBlade {
         }
         let modes = modes.min(plate.degrees_of_freedom());
         let blade =
-            StretchedBlade::up_to_with(plate, to_rad_per_s, force.at.polar(), (modes, &further))?;
+            StretchedBlade::up_to_with(plate, to_rad_per_s, force.at.polar(), modes, &further)?;
         let blade = blade.pressed(force.force_n, force.at.polar())?;
         let probe = scene.probe();
         let reduced = loads.into_iter().map(|load| {

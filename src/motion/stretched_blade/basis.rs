@@ -11,6 +11,7 @@ use crate::modes::{
 };
 
 use super::{StretchedBlade, StretchedError, finite};
+use crate::model::scene::Polar;
 
 /// Smallest number of modes at rest within the gaps that are added to the shapes: heave, tilts, and the first
 /// of two and three diameters.
@@ -66,18 +67,19 @@ impl StretchedBlade {
     pub fn up_to(
         plate: &Plate,
         to_rad_per_s: f64,
-        place: (f64, f64),
+        place: Polar,
         modes: usize,
     ) -> Result<Self, StretchedError> {
-        Self::up_to_with(plate, to_rad_per_s, place, (modes, &[]))
+        Self::up_to_with(plate, to_rad_per_s, place, modes, &[])
     }
 
     /// The blade in the basis of [`StretchedBlade::up_to`], with further shapes of unit length.
     pub(crate) fn up_to_with(
         plate: &Plate,
         to_rad_per_s: f64,
-        (radius_m, angle_rad): (f64, f64),
-        (modes, further): (usize, &[Col<f64>]),
+        place: Polar,
+        modes: usize,
+        further: &[Col<f64>],
     ) -> Result<Self, StretchedError> {
         finite("the speed in rad/s", to_rad_per_s)?;
         let plate = plate.conservative();
@@ -87,7 +89,7 @@ impl StretchedBlade {
         let critical = critical_speeds(&full)?.into_iter();
         let diverging = critical.take_while(|c| c.speed_rad_per_s <= to_rad_per_s);
         let mut shapes: Vec<Col<f64>> = diverging.map(|c| c.shape).collect();
-        let values = plate.functions_at(radius_m, angle_rad);
+        let values = plate.functions_at(place.radius_m, place.angle_rad);
         let force = Col::from_fn(order, |i| values[i]);
         shapes.extend(bent(&full, &force, to_rad_per_s));
         shapes.extend((0..modes).map(|k| rest.vectors.col(k).to_owned()));

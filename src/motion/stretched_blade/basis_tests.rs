@@ -9,7 +9,7 @@ use faer::{Col, Side};
 use super::basis::at_rest;
 use super::*;
 use crate::model::plate::Resolution;
-use crate::model::scene::{Accuracy, Scene, SceneFile, rad_per_s};
+use crate::model::scene::{Accuracy, Polar, Scene, SceneFile, rad_per_s};
 use crate::stability::ChosenBasis;
 
 const MODES: usize = 24;
@@ -47,22 +47,22 @@ pub(crate) fn saws() -> Vec<(&'static str, Scene)> {
 }
 
 /// fᵀK(Ω)⁻¹f of a unit force, by Cholesky's factors of the full model.
-fn compliance(plate: &Plate, place: (f64, f64), speed_rad_per_s: f64) -> f64 {
+fn compliance(plate: &Plate, place: Polar, speed_rad_per_s: f64) -> f64 {
     let system = GyroscopicSystem::of_plate(plate);
-    let values = plate.functions_at(place.0, place.1);
+    let values = plate.functions_at(place.radius_m, place.angle_rad);
     let force = Col::from_fn(values.len(), |i| values[i]);
     let factor = system.stiffness_at(speed_rad_per_s).llt(Side::Lower);
     force.transpose() * factor.unwrap().solve(&force)
 }
 
 /// Deflection under a force at its place, up from the flat blade.
-fn deflection(plate: &Plate, force_n: f64, place: (f64, f64), [at, to]: [f64; 2]) -> f64 {
+fn deflection(plate: &Plate, force_n: f64, place: Polar, [at, to]: [f64; 2]) -> f64 {
     let blade = StretchedBlade::up_to(plate, to, place, MODES)
         .unwrap()
         .pressed(force_n, place)
         .unwrap();
     let found = blade.settled(at, &blade.flat()).unwrap();
-    blade.deflection_m(&found, place.0, place.1)
+    blade.deflection_m(&found, place.radius_m, place.angle_rad)
 }
 
 /// On a basis for speeds up to 1200 rpm, below the critical speeds, a small force deflects the blade as the full model says:
@@ -73,7 +73,7 @@ fn a_small_force_deflects_each_saw_as_the_full_model_says() {
     for (name, scene) in saws() {
         let plate = Plate::new(&scene, RESOLUTION);
         for angle in [180.0, 37.0_f64] {
-            let place = (plate.blade.outer_radius_m, angle.to_radians());
+            let place = Polar::new(plate.blade.outer_radius_m, angle.to_radians());
             for (rpm, most) in [(0.0, 1e-6), (700.0, 1e-7)] {
                 let speed = rad_per_s(rpm);
                 let found = deflection(&plate, 1e-6, place, [speed, rad_per_s(1200.0)]);
@@ -98,7 +98,7 @@ fn a_saw_turned_with_its_force_deflects_as_before() {
                 }
             });
             let plate = Plate::new(&scene.unwrap(), RESOLUTION);
-            let place = (plate.blade.outer_radius_m, (20.0 + angle_deg).to_radians());
+            let place = Polar::new(plate.blade.outer_radius_m, (20.0 + angle_deg).to_radians());
             deflection(&plate, 3.0, place, [speed, speed])
         };
         let (found, other) = (turned(0.0), turned(77.0));
@@ -119,9 +119,9 @@ fn modes_at_rest_agree_with_the_compliance_and_between_accuracies() {
                 .unwrap()
                 .saw
                 .plate;
-            let place = (plate.blade.outer_radius_m, PI);
+            let place = Polar::new(plate.blade.outer_radius_m, PI);
             let modes = at_rest(&GyroscopicSystem::of_plate(&plate)).unwrap();
-            let values = plate.functions_at(place.0, place.1);
+            let values = plate.functions_at(place.radius_m, place.angle_rad);
             let shares = modes.vectors.transpose() * Col::from_fn(values.len(), |i| values[i]);
             let each = shares.iter().zip(&modes.values);
             let sum: f64 = each.map(|(share, square)| share * share / square).sum();

@@ -3,7 +3,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Col, Scale, c64};
 
-use crate::model::scene::rpm;
+use crate::model::scene::{Polar, rpm};
 use crate::modes::{companion_eigenpairs, critical_speeds};
 
 use super::{ROUNDING, StretchedBlade, StretchedError, angles, finite};
@@ -39,7 +39,7 @@ impl Equilibrium {
 impl StretchedBlade {
     /// Deflection of an equilibrium at a point of the blade.
     pub fn deflection_m(&self, equilibrium: &Equilibrium, radius_m: f64, angle_rad: f64) -> f64 {
-        self.shapes_at((radius_m, angle_rad)).transpose() * &equilibrium.coordinates
+        self.shapes_at(Polar::new(radius_m, angle_rad)).transpose() * &equilibrium.coordinates
     }
 
     /// Force of each pad that lifts off on the blade, by contact and film, in the order of the scene's guides.

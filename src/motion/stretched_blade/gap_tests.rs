@@ -5,7 +5,9 @@ use faer::linalg::solvers::Solve;
 
 use super::*;
 use crate::model::plate::Resolution;
-use crate::model::scene::{ContactLaw, GuideFile, GuideSide, InPlane, Mount, Scene, rad_per_s};
+use crate::model::scene::{
+    ContactLaw, GuideFile, GuideSide, InPlane, Mount, Polar, Scene, rad_per_s,
+};
 
 const RESOLUTION: Resolution = Resolution {
     max_diameters: 8,
@@ -31,7 +33,7 @@ fn lifting(pad: &mut GuideFile, gap_m: f64) {
 }
 
 /// The deflection at the point at which a force acts.
-fn deflection(plate: &Plate, force_n: f64, rpm: f64, place: (f64, f64)) -> f64 {
+fn deflection(plate: &Plate, force_n: f64, rpm: f64, place: Polar) -> f64 {
     let speed = rad_per_s(rpm);
     let blade = StretchedBlade::up_to(plate, speed, place, MODES)
         .unwrap()
@@ -39,17 +41,17 @@ fn deflection(plate: &Plate, force_n: f64, rpm: f64, place: (f64, f64)) -> f64 {
         .unwrap();
     let found = blade.settled(speed, &blade.flat()).unwrap();
     assert_eq!(found.negative_eigenvalues, 0);
-    blade.deflection_m(&found, place.0, place.1)
+    blade.deflection_m(&found, place.radius_m, place.angle_rad)
 }
 
 /// A blade in a collar under a force at a point pad behind a gap. With the compliance c of the blade alone,
 /// from all its functions: w = Fc, and beyond the gap w = (F + kg)c/(1 + kc), on the side of the pad.
 #[test]
 fn a_force_presses_the_blade_on_its_pad_as_two_springs_say() {
-    let place = (0.3, 0.7);
+    let place = Polar::new(0.3, 0.7);
     let (stiffness, gap_m) = (3e5, 2e-5);
     let bare = plate(true, |pad| pad.stiffness_n_per_m = 0.0);
-    let functions = bare.functions_at(place.0, place.1);
+    let functions = bare.functions_at(place.radius_m, place.angle_rad);
     let there = Col::from_fn(functions.len(), |i| functions[i]);
     let system = GyroscopicSystem::of_plate(&bare);
     let compliance = there.transpose() * system.stiffness.partial_piv_lu().solve(&there);
@@ -58,7 +60,7 @@ fn a_force_presses_the_blade_on_its_pad_as_two_springs_say() {
     for side in [GuideSide::Both, GuideSide::Left, GuideSide::Right] {
         let plate = plate(true, |pad| {
             lifting(pad, gap_m);
-            (pad.radius_m, pad.angle_deg) = (place.0, place.1.to_degrees());
+            (pad.radius_m, pad.angle_deg) = (place.radius_m, place.angle_rad.to_degrees());
             (pad.radial_length_m, pad.tangential_length_m) = (0.0, 0.0);
             (pad.stiffness_n_per_m, pad.side) = (stiffness, side);
         });
@@ -90,7 +92,7 @@ fn a_force_presses_the_blade_on_its_pad_as_two_springs_say() {
 /// a gap that the blade does not cross has no effect.
 #[test]
 fn limits_of_the_gap_are_the_linear_pad_and_none() {
-    let place = (0.355, 0.0);
+    let place = Polar::new(0.355, 0.0);
     let linear = deflection(&plate(false, |_| ()), 5.0, 1000.0, place);
     let no_gap = plate(false, |pad| lifting(pad, 1e-10));
     let found = deflection(&no_gap, 5.0, 1000.0, place);
@@ -115,7 +117,7 @@ fn limits_of_the_gap_are_the_linear_pad_and_none() {
 /// With a wider gap the deflection is larger, and the force of the pad equals the side force.
 #[test]
 fn one_pad_carries_the_whole_side_force() {
-    let place = (0.355, 0.0);
+    let place = Polar::new(0.355, 0.0);
     let mut last = 0.0;
     for gap_m in [1e-5, 4e-5, 1.6e-4] {
         let plate = plate(false, |pad| lifting(pad, gap_m));
@@ -126,7 +128,9 @@ fn one_pad_carries_the_whole_side_force() {
         let found = blade.settled(0.0, &blade.flat()).unwrap();
         let force = blade.pad_forces_n(&found);
         assert!((force[0] - 5.0).abs() < 1e-6, "{force:?}");
-        let size = blade.deflection_m(&found, place.0, place.1).abs();
+        let size = blade
+            .deflection_m(&found, place.radius_m, place.angle_rad)
+            .abs();
         assert!(size > last + 0.5e-5, "{gap_m}: {size:e} {last:e}");
         last = size;
     }
@@ -134,7 +138,7 @@ fn one_pad_carries_the_whole_side_force() {
 
 #[test]
 fn a_blade_that_nothing_holds_within_its_gaps_is_refused() {
-    let place = (0.355, 0.0);
+    let place = Polar::new(0.355, 0.0);
     let free = plate(false, |pad| lifting(pad, 4e-5));
     let blade = StretchedBlade::up_to(&free, 0.0, place, MODES).unwrap();
     let loose = blade.settled(0.0, &blade.flat());

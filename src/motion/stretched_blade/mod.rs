@@ -43,6 +43,7 @@ use faer::{Col, Mat, MatRef, Scale};
 
 use crate::model::linalg::symmetric_eigenvalues;
 use crate::model::plate::{GapPotential, Plate, ReducedStretching, StretchingError};
+use crate::model::scene::Polar;
 use crate::model::system::GyroscopicSystem;
 use crate::modes::SpectrumError;
 
@@ -141,15 +142,11 @@ impl StretchedBlade {
     ///
     /// # Errors
     /// [`StretchedError::Value`] if a number is not finite.
-    pub fn pressed(
-        mut self,
-        force_n: f64,
-        (radius_m, angle_rad): (f64, f64),
-    ) -> Result<Self, StretchedError> {
+    pub fn pressed(mut self, force_n: f64, place: Polar) -> Result<Self, StretchedError> {
         finite("the force in N", force_n)?;
-        finite("the radius in m", radius_m)?;
-        finite("the angle", angle_rad)?;
-        self.force = Scale(force_n) * self.shapes_at((radius_m, angle_rad));
+        finite("the radius in m", place.radius_m)?;
+        finite("the angle", place.angle_rad)?;
+        self.force = Scale(force_n) * self.shapes_at(place);
         Ok(self)
     }
 
@@ -198,8 +195,8 @@ impl StretchedBlade {
     }
 
     /// Values of the shapes at a point of the blade (radius in m, angle in rad), in 1/√kg.
-    pub(crate) fn shapes_at(&self, (radius_m, angle_rad): (f64, f64)) -> Col<f64> {
-        let values = self.plate.functions_at(radius_m, angle_rad);
+    pub(crate) fn shapes_at(&self, place: Polar) -> Col<f64> {
+        let values = self.plate.functions_at(place.radius_m, place.angle_rad);
         self.shapes.transpose() * Col::from_fn(values.len(), |i| values[i])
     }
 
@@ -321,6 +318,8 @@ fn finite(what: &'static str, value: f64) -> Result<f64, StretchedError> {
 pub(crate) mod basis_tests;
 #[cfg(test)]
 mod diagram_tests;
+#[cfg(test)]
+mod flutter_tests;
 #[cfg(test)]
 mod gap_tests;
 #[cfg(test)]

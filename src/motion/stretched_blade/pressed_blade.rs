@@ -1,7 +1,7 @@
 //! A blade under a side force: its stationary deflection between pads that lift off.
 
 use crate::model::plate::{Plate, Resolution};
-use crate::model::scene::{Scene, SideForce, rad_per_s};
+use crate::model::scene::{Polar, Scene, SideForce, rad_per_s};
 use crate::modes::Cancellation;
 
 use super::equilibrium::Equilibrium;
@@ -52,10 +52,10 @@ impl StretchedBlade {
 /// A blade whose deflections under side forces can be computed.
 pub(crate) struct PressedBlade {
     blade: StretchedBlade,
-    /// Radius and angle of the force.
-    place: (f64, f64),
-    /// Radius and angle of the rim at the cut.
-    cut: (f64, f64),
+    /// Point of the force.
+    place: Polar,
+    /// The rim at the cut.
+    cut: Polar,
     sites: Sites,
 }
 
@@ -78,7 +78,7 @@ impl PressedBlade {
             sites: blade.sites(),
             blade,
             place,
-            cut: (plate.blade.outer_radius_m, scene.cut_angle_rad()),
+            cut: Polar::new(plate.blade.outer_radius_m, scene.cut_angle_rad()),
         })
     }
 
@@ -121,7 +121,8 @@ impl PressedBlade {
     pub fn change_with(
         &self,
         finer: &PressedBlade,
-        (force_n, rpm): (f64, f64),
+        force_n: f64,
+        rpm: f64,
     ) -> Result<Option<f64>, StretchedError> {
         let (coarse, found) = self.settled(force_n, rpm)?;
         let fine = finer.blade.clone().pressed(force_n, finer.place)?;
@@ -149,7 +150,9 @@ impl PressedBlade {
             return None;
         }
         Some(Deviation {
-            deviation_m: self.blade.deflection_m(found, self.cut.0, self.cut.1),
+            deviation_m: self
+                .blade
+                .deflection_m(found, self.cut.radius_m, self.cut.angle_rad),
             largest_m: self.sites.largest_m(&found.coordinates),
             pad_forces_n: self.blade.pad_forces_n(found),
             distances_left_m: self.blade.distances_left_m(found),

@@ -19,6 +19,7 @@ use faer::{Col, c64};
 use crate::modes::companion_eigenpairs;
 
 use super::{StretchedBlade, StretchedError, finite};
+use crate::model::scene::Polar;
 
 /// Largest amplitude of undamped flutter that begins small.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,7 +84,7 @@ impl StretchedBlade {
                 (read(&pair.growing), read(&pair.decaying))
             })
             .collect();
-        let mut largest = (0.0, (0.0, 0.0));
+        let mut largest = (0.0, Polar::new(0.0, 0.0));
         for place in 1..PLACES {
             let turn = FRAC_PI_2 * place as f64 / PLACES as f64;
             let (sin, cos) = turn.sin_cos();
@@ -99,15 +100,15 @@ impl StretchedBlade {
                 }
             }
         }
-        let (amplitude_m, (radius_m, angle_rad)) = largest;
+        let (amplitude_m, at) = largest;
         Ok(
             (amplitude_m > 0.0 && amplitude_m.is_finite()).then_some(Saturation {
                 speed_rad_per_s,
                 growth_per_s: pair.lambda.re,
                 frequency_rad_per_s: pair.lambda.im,
                 amplitude_m,
-                radius_m,
-                angle_rad,
+                radius_m: at.radius_m,
+                angle_rad: at.angle_rad,
             }),
         )
     }

@@ -3,10 +3,11 @@
 use faer::Col;
 
 use super::{StretchedBlade, angles};
+use crate::model::scene::Polar;
 
 /// Points (r, θ) of the blade, each with the values of the shapes at it.
 #[derive(Debug, Clone)]
-pub struct Sites(Vec<((f64, f64), Col<f64>)>);
+pub struct Sites(Vec<(Polar, Col<f64>)>);
 
 /// Ratio of the number of sampled radii of a plate to that used here.
 const EVERY: usize = 4;
@@ -15,14 +16,15 @@ impl StretchedBlade {
     /// Points distributed over the blade.
     pub fn sites(&self) -> Sites {
         let radii = self.plate.sampled_radii_m().step_by(EVERY);
-        let places = radii.flat_map(|radius_m| angles().map(move |angle| (radius_m, angle)));
+        let places =
+            radii.flat_map(|radius_m| angles().map(move |angle| Polar::new(radius_m, angle)));
         Sites(places.map(|place| (place, self.shapes_at(place))).collect())
     }
 }
 
 impl Sites {
     /// Iterates over the points and the values of the shapes.
-    pub(super) fn iter(&self) -> impl Iterator<Item = &((f64, f64), Col<f64>)> {
+    pub(super) fn iter(&self) -> impl Iterator<Item = &(Polar, Col<f64>)> {
         self.0.iter()
     }
 

@@ -8,7 +8,7 @@ use faer::{Col, Mat, MatRef, Scale, Side};
 
 use crate::model::linalg::SymmetricEigen;
 use crate::model::plate::Plate;
-use crate::model::scene::Tooth;
+use crate::model::scene::{Polar, Tooth};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::{SpectrumError, frequency_scale, lowest_eigenpairs, orthonormal, split};
 
@@ -164,8 +164,8 @@ impl ReducedBlade {
 }
 
 /// Values of all basis functions at a point: the load of a unit force there, and the weights of a probe there.
-pub fn at_point(plate: &Plate, (radius_m, angle_rad): (f64, f64)) -> Col<f64> {
-    let values = plate.functions_at(radius_m, angle_rad);
+pub fn at_point(plate: &Plate, place: Polar) -> Col<f64> {
+    let values = plate.functions_at(place.radius_m, place.angle_rad);
     Col::from_fn(values.len(), |i| values[i])
 }
 
@@ -173,7 +173,7 @@ pub fn at_point(plate: &Plate, (radius_m, angle_rad): (f64, f64)) -> Col<f64> {
 pub fn lateral_load(plate: &Plate, teeth: &[Tooth]) -> Col<f64> {
     let mut load = Col::zeros(plate.degrees_of_freedom());
     for Tooth { angle_rad, share } in teeth {
-        load += Scale(*share) * at_point(plate, (plate.blade.outer_radius_m, *angle_rad));
+        load += Scale(*share) * at_point(plate, Polar::new(plate.blade.outer_radius_m, *angle_rad));
     }
     load
 }

@@ -1,6 +1,6 @@
 //! Readings of a moving blade that stretches.
 
-use crate::model::scene::Point;
+use crate::model::scene::{Point, Polar};
 use crate::motion::stretched_blade::{Equilibrium, LARGEST_SLOPE, StretchedBlade};
 
 use super::State;
@@ -33,7 +33,10 @@ impl<'a> StretchedProbe<'a> {
     /// Deflection at the probe, in m.
     pub fn deflection_m(&self, state: &State, speed_rad_per_s: f64) -> f64 {
         let at = shape(state, speed_rad_per_s);
-        let (radius_m, angle_rad) = self.probe.polar();
+        let Polar {
+            radius_m,
+            angle_rad,
+        } = self.probe.polar();
         self.blade.deflection_m(&at, radius_m, angle_rad)
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::model::plate::{Plate, Resolution};
-use crate::model::scene::{RunUpFile, Scene, rad_per_s, rpm};
+use crate::model::scene::{Polar, RunUpFile, Scene, rad_per_s, rpm};
 use crate::model::system::GyroscopicSystem;
 use crate::modes::{lowest_eigenpairs, orthonormal, split};
 use crate::motion::transient::propagator::Propagator;
@@ -84,7 +84,7 @@ fn newmark_tends_to_the_exact_answer_in_second_order() {
     // The basis contains few modes, because the stiffest would require steps of a microsecond.
     let basis = low_modes(&full, speed);
     let system = full.project(basis.as_ref());
-    let loads = [basis.transpose() * at_point(&plate, (plate.blade.outer_radius_m, 0.3))];
+    let loads = [basis.transpose() * at_point(&plate, Polar::new(plate.blade.outer_radius_m, 0.3))];
     let end_s = 0.2;
     let exact = Propagator::new(&system, speed, &loads, end_s)
         .unwrap()
@@ -150,7 +150,7 @@ fn a_run_up_converges_and_is_static_when_slow() {
         assert!(change.abs() < 1e-2, "{speed}: {change:e}");
     }
     let system = GyroscopicSystem::of_plate(&plate);
-    let force = Scale(5.0) * at_point(&plate, (plate.blade.outer_radius_m, 0.0));
+    let force = Scale(5.0) * at_point(&plate, Polar::new(plate.blade.outer_radius_m, 0.0));
     let read = at_point(&plate, probe.polar());
     let slow = record(50.0, 60.0);
     for speed in [300.0, 900.0] {
