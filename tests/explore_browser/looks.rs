@@ -13,7 +13,7 @@ fn the_page_is_readable_on_a_small_and_on_a_dark_screen() {
         let page = Page::open(&["--accuracy", "draft"]).await;
         page.settle().await;
         let mut wide = Vec::new();
-        for (width, height) in [(1280, 900), (390, 844)] {
+        for (width, height) in [(1280, 900), (768, 1024), (390, 844)] {
             let size = json!({ "width": width, "height": height, "deviceScaleFactor": 2, "mobile": width < 500 });
             page.driver
                 .chromium("Emulation.setDeviceMetricsOverride", size)
@@ -45,7 +45,7 @@ fn the_page_is_readable_on_a_small_and_on_a_dark_screen() {
         }
         assert_eq!(
             wide,
-            [json!(true), json!(true)],
+            [json!(true), json!(true), json!(true)],
             "the page is wider than the screen"
         );
         page.close().await;

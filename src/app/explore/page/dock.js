@@ -1,6 +1,6 @@
 // Keeps the diagram visible on a narrow screen while the form is scrolled.
 
-const NARROW = "(max-width: 760px)";
+const NARROW = "(max-width: 1000px)";
 
 export function dock(chart) {
   const place = chart.parentElement;

@@ -8,6 +8,9 @@ const PATH = "operating_rpm";
 const APART_PX = 34;
 
 export class Ruler {
+  // Shows what is shown, for a new width.
+  #again = () => {};
+
   constructor(place, state) {
     this.state = state;
     this.marks = node("div", { className: "marks" });
@@ -15,6 +18,7 @@ export class Ruler {
     this.handle.addEventListener("input", (event) => state.set(PATH, Number(this.handle.value), { draft: true, stamp: event.timeStamp, run: PATH }));
     this.handle.addEventListener("change", (event) => state.settle(event.timeStamp));
     place.append(this.marks, this.handle);
+    new ResizeObserver(() => this.#again()).observe(place);
   }
 
   // Moves the handle to the operating speed of the scene.
@@ -25,7 +29,9 @@ export class Ruler {
   }
 
   // Shows the speeds of a chart; `items` are those of its diagram.
-  show({ to_rpm, window_rpm, window, limit_rpm, limit }, items) {
+  show(speeds, items) {
+    this.#again = () => this.show(speeds, items);
+    const { to_rpm, window_rpm, window, limit_rpm, limit } = speeds;
     const mark = (className, from, to, title, label = "") => {
       const made = node("span", { className, title }, node("span", { textContent: label }));
       made.style.left = `${(100 * from) / to_rpm}%`;
