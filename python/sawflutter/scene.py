@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal, SupportsIndex, TypeAlias, TypeVa
 import numpy as np
 
 from . import _native
+from ._drawn import Drawn
 from ._entry import array
 from ._measured import Measured, table
 from ._progress import Progress, reporting
@@ -34,7 +35,6 @@ from .results import CampbellResults
 if TYPE_CHECKING:
     from distributed import Client
     from matplotlib.animation import FuncAnimation
-    from matplotlib.axes import Axes
     from plotly.graph_objects import Figure
     from typing_extensions import Self
 
@@ -65,9 +65,10 @@ class Block(dict[str, Any]):
         return dict, (dict(self),)
 
 
-class Scene(Mapping[str, Value]):
+class Scene(Drawn, Mapping[str, Value]):
     """A saw (blade, mount, guides) with the conditions to compute. It is a mapping of the keys of
     a scene file and accepts paths too. It is read-only; :meth:`replace` returns a changed copy.
+    :meth:`plot` draws it in axial view, with the positive directions of rotation and angles.
 
     Every number may be a plain or a NumPy number, a text with a unit such as ``"2.6 mm"``, or a
     quantity of pint. Input that is refused raises :class:`InputError`, with key, value, what is
@@ -259,20 +260,12 @@ class Scene(Mapping[str, Value]):
             return self.replace({"accuracy": accuracy, "tolerance": None})
         return self if tolerance is None else self.replace({"tolerance": tolerance})
 
-    def chart(self) -> Chart:
-        """The saw in axial view as numbers: blade, guides, cut, probe, and the positive directions
-        of rotation and angles. Its ``plot()`` and ``plot_matplotlib()`` draw it."""
+    def _chart(self) -> Chart:
+        """The saw in axial view: blade, guides, cut, probe, and the positive directions of rotation
+        and angles."""
         from .plot.saw import saw
 
         return saw(self)
-
-    def plot_saw(self, fig: Figure | None = None) -> Figure:
-        """Draws :meth:`chart` with plotly, into a new figure or into ``fig``."""
-        return self.chart().plot(fig)
-
-    def plot_saw_matplotlib(self, ax: Axes | None = None) -> Axes:
-        """Draws :meth:`chart` with matplotlib, into a new figure or into ``ax``."""
-        return self.chart().plot_matplotlib(ax)
 
     @overload
     def animate(self, mode: Mode, *, backend: Literal["plotly"] = "plotly", frames: int = 48) -> Figure: ...

@@ -242,8 +242,8 @@ def test_the_saw_is_drawn_with_its_guides_and_signs(draft: sf.Scene) -> None:
     pad = named["guides[1]"]
     middle = (np.mean(pad.x[:4]), np.mean(pad.y[:4]))
     assert middle == pytest.approx((0.0, draft["guides[0].radius_m"]), abs=1e-12)
-    assert saw.plot_saw().layout.yaxis.scaleanchor == "x"
-    assert saw.plot_saw_matplotlib().get_aspect() == 1.0
+    assert saw.plot().layout.yaxis.scaleanchor == "x"
+    assert saw.plot_matplotlib().get_aspect() == 1.0
 
 
 def test_bands_are_drawn_in_full_and_limits_by_name(
@@ -318,7 +318,7 @@ def test_figures_and_axes_of_ones_own_are_drawn_into(
     figure, own = plt.subplots(2, 1)
     assert report.plot_matplotlib(own) is own[0]
     assert own[1].get_ylabel().startswith("Re λ") and len(plt.get_fignums()) == 1
-    assert draft.plot_saw(go.Figure()).data and figure.axes
+    assert draft.plot(go.Figure()).data and figure.axes
 
 
 def test_both_libraries_draw_the_key_of_a_chart() -> None:
