@@ -4,6 +4,7 @@ use crate::model::plate::MOST_DIAMETERS;
 use crate::model::scene::SceneError;
 use crate::modes::SpectrumError;
 use crate::modes::branches::CampbellError;
+use crate::page::text::{rounded_down, shown};
 
 /// Reason why a saw could not be analysed: a failed eigenproblem, or a sweep beyond the validity of the
 /// model.
@@ -21,7 +22,7 @@ pub enum AnalysisError {
     Campbell(CampbellError),
     /// The blade would yield long before the end of the sweep.
     #[error(
-        "sweep.to_rpm must be at most {limit_rpm:.0} (you gave {to_rpm}): beyond that the rim would be stretched by more than 10 %, which exceeds the elastic limit of any blade; end the sweep earlier, or check diameter, modulus and density"
+        "sweep.to_rpm must be at most {limit_rpm:.0} (you gave {}): beyond that the rim would be stretched by more than 10 %, which exceeds the elastic limit of any blade; end the sweep earlier, or check diameter, modulus and density", shown(*.to_rpm)
     )]
     Overstretched {
         /// End of the sweep.
@@ -31,7 +32,7 @@ pub enum AnalysisError {
     },
     /// Waves missing from the basis become critical within the sweep.
     #[error(
-        "sweep.to_rpm must be below {limit_rpm:.1} (you gave {to_rpm}): waves of {diameters} and more nodal diameters, which the largest basis lacks, are critical there; end the sweep earlier"
+        "sweep.to_rpm must be below {} (you gave {}): waves of {diameters} and more nodal diameters, which the largest basis lacks, are critical there; end the sweep earlier, or check thickness, diameter and modulus", shown(rounded_down(5, *.limit_rpm)), shown(*.to_rpm)
     )]
     Unresolved {
         /// End of the sweep.
@@ -57,5 +58,25 @@ impl From<CampbellError> for AnalysisError {
             CampbellError::Spectrum(error) => AnalysisError::Spectrum(error),
             error => AnalysisError::Campbell(error),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The end of a sweep may be converted from rad/s, and the limit of a blade as thin as paper is far below 1 rpm.
+    #[test]
+    fn numbers_of_a_refusal_are_rounded_and_its_limit_is_not_zero() {
+        let refused = AnalysisError::Unresolved {
+            to_rpm: 3999.999_999_999_999_5,
+            limit_rpm: 0.012_345_678,
+            diameters: 73,
+        };
+        let text = refused.to_string();
+        assert!(
+            text.starts_with("sweep.to_rpm must be below 0.012345 (you gave 4000)"),
+            "{text}"
+        );
     }
 }
