@@ -23,10 +23,22 @@ pub struct Columns {
     pub resting: Mat<f64>,
     /// Number of columns in each stage and in solves, with the ε of the remainder.
     pub rests: [(usize, f64); LOOKS + 1],
+    /// Harmonics that do not act on one another, with their columns: those of evenly spaced equal pads whose numbers differ
+    /// by a multiple of the number of pads, for example.
+    pub parts: Vec<Part>,
     /// P in the unknowns of the plate, N × columns; more columns than in `resting`.
     pub unknowns: Mat<f64>,
     /// Whether the remainder is rounding.
     pub is_exact: bool,
+}
+
+/// Harmonics that the coupling does not connect with others.
+#[derive(Debug, Default)]
+pub struct Part {
+    /// Their indices, ascending.
+    pub harmonics: Vec<usize>,
+    /// Indices of their columns, ascending.
+    pub columns: Vec<usize>,
 }
 
 /// Extent of the search for columns of K_g.
@@ -96,14 +108,31 @@ impl Columns {
             columns.col_mut(count).copy_from(column);
             count += 1;
         };
-        let unknowns = relative.unscaled(columns.subcols(0, count));
+        let columns = columns.subcols(0, count);
+        let unknowns = relative.unscaled(columns);
         let of_stages = rests.try_into().ok()?;
-        Some(Self::of_unknowns(unknowns, is_exact, of_stages, harmonics))
+        Some(Columns {
+            parts: parts(columns, harmonics),
+            ..Self::of_unknowns(unknowns, is_exact, of_stages, harmonics)
+        })
     }
 
     /// The columns for solves, in the unknowns of the plate.
     pub fn few(&self) -> MatRef<'_, f64> {
         self.unknowns.subcols(0, self.rests[LOOKS].0)
+    }
+
+    /// Those of the first `count` columns that belong to a part, in the waves at rest.
+    pub fn first_of(&self, part: &Part, count: usize) -> Mat<f64> {
+        let own: Vec<usize> = part
+            .columns
+            .iter()
+            .copied()
+            .filter(|k| *k < count)
+            .collect();
+        Mat::from_fn(self.resting.nrows(), own.len(), |i, k| {
+            self.resting[(i, own[k])]
+        })
     }
 
     /// Columns from those in the unknowns of the plate; the ones for counts are converted to the waves at rest.
@@ -134,10 +163,56 @@ impl Columns {
         Columns {
             resting,
             rests,
+            parts: Vec::new(),
             unknowns,
             is_exact,
         }
     }
+}
+
+/// Entries of P whose contribution to PPᵀ is below this share of its largest diagonal element are its rounding.
+const UNCOUPLED: f64 = 16.0 * f64::EPSILON;
+
+/// Divides harmonics and columns into parts that do not act on one another but by rounding. The columns are relative to the
+/// weights.
+fn parts(columns: MatRef<'_, f64>, harmonics: &[Harmonic]) -> Vec<Part> {
+    let count = columns.ncols();
+    let lengths: Vec<f64> = (0..count).map(|k| columns.col(k).norm_l2()).collect();
+    let largest = lengths.iter().copied().fold(0.0, f64::max).powi(2);
+    let acts: Vec<Vec<bool>> = (0..count)
+        .map(|k| {
+            let of = |h: &Harmonic| {
+                let own = h
+                    .firsts()
+                    .map(|first| columns.col(k).subrows(first, h.radial()));
+                let size = own.map(|rows| rows.norm_max()).fold(0.0, f64::max);
+                size * lengths[k] > UNCOUPLED * largest
+            };
+            harmonics.iter().map(of).collect()
+        })
+        .collect();
+    let mut part: Vec<usize> = (0..harmonics.len()).collect();
+    for acts in &acts {
+        let joined: Vec<usize> = (0..harmonics.len())
+            .filter(|n| acts[*n])
+            .map(|n| part[n])
+            .collect();
+        let Some(&name) = joined.iter().min() else {
+            continue;
+        };
+        let members = part.iter_mut().filter(|own| joined.contains(own));
+        members.for_each(|own| *own = name);
+    }
+    let mut parts: Vec<Part> = harmonics.iter().map(|_| Part::default()).collect();
+    for (n, name) in part.iter().enumerate() {
+        parts[*name].harmonics.push(n);
+    }
+    for (k, acts) in acts.iter().enumerate() {
+        let first = acts.iter().position(|acts| *acts).unwrap_or(0);
+        parts[part[first]].columns.push(k);
+    }
+    parts.retain(|part| !part.harmonics.is_empty());
+    parts
 }
 
 /// Ratio of the weight of every wave to its stiffness at rest.

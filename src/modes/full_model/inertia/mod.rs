@@ -109,9 +109,20 @@ impl FullModel {
                         let turning = self.harmonics[harmonic].fast_turning(at.speed_rad_per_s);
                         stiffness > STIFF[look] * turning
                     };
-                    Waves::new(free, columns.resting.subcols(0, count), is_stiff)
+                    let of = |part| {
+                        Waves::new(
+                            free,
+                            columns.first_of(part, count),
+                            &part.harmonics,
+                            is_stiff,
+                        )
+                    };
+                    columns.parts.iter().map(of).collect()
                 });
-                waves.count(&self.harmonics, &blocks, bound, rest)
+                let counts = waves
+                    .iter()
+                    .map(|waves| waves.count(&self.harmonics, &blocks, bound, rest));
+                counts.sum()
             }
             Coupling::Dense(coupling) => {
                 let mut matrix = coupling.clone();
@@ -172,8 +183,8 @@ pub struct AtSpeed {
     speed_rad_per_s: f64,
     /// Waves of the free blade, for every harmonic.
     free: OnceLock<Vec<FreeWaves>>,
-    /// Waves with the columns of each stage.
-    waves: [OnceLock<Waves>; LOOKS],
+    /// Waves of each part of the coupling with the columns of each stage.
+    waves: [OnceLock<Vec<Waves>>; LOOKS],
 }
 
 #[cfg(test)]

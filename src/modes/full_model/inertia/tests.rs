@@ -96,6 +96,41 @@ fn counts_are_those_of_all_eigenvalues_for_drawn_saws() {
     assert!(uncertain <= 2, "{uncertain} of 200");
 }
 
+/// Evenly spaced equal pads connect waves whose numbers of nodal diameters add up to a multiple of the number of pads, or
+/// differ by one: for five pads 0 and 5, 1, 4 and 6, 2, 3, 7 and 8.
+#[test]
+fn evenly_spaced_equal_pads_are_counted_in_parts() {
+    let mut draw = Draw(0.53);
+    let mut file = drawn_saw(&mut draw, 1);
+    file.guides = (0..5)
+        .map(|k| GuideFile {
+            angle_deg: 72.0 * f64::from(k),
+            radial_length_m: 0.0,
+            tangential_length_m: 0.0,
+            ..file.guides[0].clone()
+        })
+        .collect();
+    let plate = Plate::new(&Scene::try_from(file).unwrap(), small());
+    let (basis, system) = (FullModel::new(&plate), GyroscopicSystem::of_plate(&plate));
+    let Coupling::Columns(columns) = &basis.coupling else {
+        panic!("dense");
+    };
+    let parts: Vec<&[usize]> = columns
+        .parts
+        .iter()
+        .map(|part| part.harmonics.as_slice())
+        .collect();
+    assert_eq!(parts, [&[0, 5][..], &[1, 4, 6], &[2, 3, 7, 8]]);
+    let mut certain = 0;
+    for place in places(&mut draw, 60) {
+        if let Some(count) = counted(&basis, place) {
+            assert_eq!(count, exact(&system, place), "{place:?}");
+            certain += 1;
+        }
+    }
+    assert!(certain >= 58, "{certain} of 60");
+}
+
 /// The block of a wave of the free blade that is in resonance is singular and cannot be eliminated.
 #[test]
 fn counts_hold_at_the_poles_of_the_free_blade() {

@@ -59,17 +59,21 @@ impl Row {
 }
 
 impl Rows {
-    /// All waves, with columns that are given in the waves at rest.
-    fn all(free: &[FreeWaves], columns: MatRef<'_, f64>) -> Self {
-        let total = columns.nrows() / 2;
+    /// The waves of some harmonics, with columns that are given in the waves at rest.
+    fn of(free: &[FreeWaves], columns: &Mat<f64>, harmonics: &[usize]) -> Self {
+        let all = columns.nrows() / 2;
+        let radial = |harmonic: usize| free[harmonic].weights.len();
+        let total = harmonics.iter().map(|n| radial(*n)).sum();
         let mut both = Mat::zeros(2 * total, columns.ncols());
         let mut waves = Vec::with_capacity(total);
-        for (harmonic, FreeWaves { of, weights }) in free.iter().enumerate() {
-            let (row, radial) = (waves.len(), weights.len());
+        for &harmonic in harmonics {
+            let FreeWaves { of, weights } = &free[harmonic];
+            let (row, radial) = (waves.len(), radial(harmonic));
+            let at_rest: usize = free[..harmonic].iter().map(|f| f.weights.len()).sum();
             let turn = MatRef::from_column_major_slice(of.vectors.as_slice(), radial, radial);
-            for first in [row, total + row] {
+            for (first, given) in [(row, at_rest), (total + row, all + at_rest)] {
                 let turned = both.subrows_mut(first, radial);
-                let own = columns.subrows(first, radial);
+                let own = columns.subrows(given, radial);
                 matmul(turned, Accum::Replace, turn.transpose(), own, 1.0, Par::Seq);
             }
             waves.extend(
@@ -131,14 +135,15 @@ impl Rows {
 }
 
 impl Waves {
-    /// Divides columns, given in the waves at rest, into those of soft and of stiff waves, by harmonic and
-    /// stiffness.
+    /// Divides the columns of some harmonics, given in the waves at rest, into those of soft and of stiff waves, by
+    /// harmonic and stiffness.
     pub fn new(
         free: &[FreeWaves],
-        columns: MatRef<'_, f64>,
+        columns: Mat<f64>,
+        harmonics: &[usize],
         is_stiff: impl Fn(usize, f64) -> bool,
     ) -> Self {
-        let all = Rows::all(free, columns);
+        let all = Rows::of(free, &columns, harmonics);
         let is_stiff = |place: &usize| {
             let row = &all.waves[*place];
             is_stiff(row.harmonic, row.stiffness) && row.size < 0.5 * RESONANT * row.stiffness
@@ -196,6 +201,9 @@ impl Waves {
             .get_or_init(|| self.stiff_compliance(harmonics, bound, rest));
         let stiff = Scale(1.0 / self.stiff_share(bounds, bound)?) * compliance;
         let columns = stiff.ncols();
+        if columns == 0 {
+            return Some(negative);
+        }
         let core = self.core([&sum, &difference], &resonant, stiff);
         (negative + negative_eigenvalues(&core)?).checked_sub(columns)
     }
