@@ -23,8 +23,8 @@ use crate::model::tuning::Tuned;
 pub(super) const SPAN_MARGIN: Tuned = Tuned::new("modes/interval::SPAN_MARGIN", 1.5);
 
 /// The same multiple for the states of an interval, whose error is estimated at its middle: with 1.5 a sweep of the paper's saw to
-/// 6000 rpm takes 1.3 times as long, with 1.05 more intervals are halved. Edges of bands differ by less than 1e-14, growth by 1e-7.
-const STATES_MARGIN: f64 = 1.1;
+/// 6000 rpm takes 1.25 times as long, with 1.1 more intervals are halved. Edges of bands differ by less than 1e-14, growth by 1e-7.
+const STATES_MARGIN: f64 = 1.2;
 
 /// Eigenpairs at a speed, in the coordinates of a projection.
 #[derive(Debug, Clone)]

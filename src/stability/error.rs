@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn numbers_of_a_refusal_are_rounded_and_its_limit_is_not_zero() {
         let refused = AnalysisError::Unresolved {
-            to_rpm: 3999.999_999_999_999_5,
+            to_rpm: 4000.0 - 5e-13,
             limit_rpm: 0.012_345_678,
             diameters: 73,
         };

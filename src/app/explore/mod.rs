@@ -8,6 +8,7 @@ mod answer;
 mod backend;
 mod charts;
 mod early_answer;
+mod entry;
 mod examples;
 mod fields;
 #[cfg(feature = "explore")]

@@ -290,7 +290,7 @@ mod tests {
             (
                 "guides[0].stiffness_n_per_m",
                 "stiff",
-                "Stiffness must be a number in MN/m, or with a unit of the same kind; write it like 0.0026 or 2.6mm",
+                "Stiffness must be a number in MN/m, or with a unit of the same kind; write it like 20 or 2e1, with or without a unit",
             ),
             (
                 "operating_rpm",
