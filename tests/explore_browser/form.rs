@@ -205,7 +205,7 @@ fn refusals_are_in_the_unit_of_the_field_and_name_what_a_designer_can_use() {
             (
                 "guides[0].stiffness_n_per_m",
                 "stiff",
-                "Stiffness must be a number in MN/m, or with a unit of the same kind; write it like 0.0026 or 2.6mm",
+                "Stiffness must be a number in MN/m, or with a unit of the same kind; write it like 20 or 2e1, with or without a unit",
             ),
             (
                 "guides[0].tangential_length_m",
