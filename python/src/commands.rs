@@ -189,13 +189,8 @@ pub fn with_block(
     let found = block
         .completed(&arguments::scene(scene)?, &given)
         .map_err(Failure::from)?;
-    let assumed: Vec<String> = found
-        .assumed
-        .iter()
-        .map(|(path, value)| format!("{path} = {value}"))
-        .collect();
-    let said = (!assumed.is_empty()).then(|| {
-        let (key, assumed) = (block.key(), assumed.join(", "));
+    let said = (!found.assumed.is_empty()).then(|| {
+        let (key, assumed) = (block.key(), found.in_words());
         format!("the scene has no {key}; assumed typical values: {assumed}")
     });
     Ok((written(&found.scene)?, said))

@@ -23,6 +23,7 @@ mod canonical_basis;
 mod chart_height;
 mod companion;
 mod component;
+mod connected_parts;
 mod critical_speed;
 mod deflation;
 mod double_eigenvalue;

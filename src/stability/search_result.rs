@@ -1,5 +1,5 @@
-//! Bands of a search and their parts within the requested range, and the chart that they are drawn in. The search extends slightly beyond the
-//! range, so that an event at an end of the range is not at an end of the search.
+//! Bands of a search and their parts within the requested range, and the chart that they are drawn in. The search
+//! extends slightly beyond the range, so that an event at an end of the range is not at an end of the search.
 
 use super::band::Instability;
 use super::certificate::Certificate;

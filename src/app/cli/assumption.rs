@@ -29,15 +29,10 @@ pub fn with_options(
         .completed(&scene, &settings)
         .with_context(|| format!("{names} {verb} refused"))?;
     if !found.assumed.is_empty() {
-        let assumed = found
-            .assumed
-            .iter()
-            .map(|(path, value)| format!("{path} = {value}"))
-            .collect::<Vec<_>>()
-            .join(", ");
         eprintln!(
-            "The scene has no {}; assumed beside {names}: {assumed}. These are typical values, whose sources `sawflutter schema` states.",
-            block.key()
+            "The scene has no {}; assumed beside {names}: {}. These are typical values, whose sources `sawflutter schema` states.",
+            block.key(),
+            found.in_words()
         );
     }
     Ok(found.scene)

@@ -11,7 +11,8 @@ const DIGITS: usize = 6;
 /// Units whose fields have labels, such as "from" and "idle", that are not clear without the form around them.
 const UNCLEAR: [&str; 4] = ["rpm", "s", "1/s", "N per tooth"];
 
-/// Message about the number at a path. `typed` is the value in the scene. `None` if the path is not that of a number, or nothing is known about its range.
+/// Message about the number at a path. `typed` is the value in the scene. `None` if the path is not that of a number, or
+/// nothing is known about its range.
 pub fn in_field_units(
     path: &str,
     typed: Option<&Value>,

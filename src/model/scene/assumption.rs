@@ -22,6 +22,14 @@ pub struct Assumption {
     pub assumed: Vec<(String, Value)>,
 }
 
+impl Assumption {
+    /// What was assumed, such as "cut.depth_m = 0.1, cut.teeth_in_cut = 3".
+    pub fn in_words(&self) -> String {
+        let each = |(path, value): &(String, Value)| format!("{path} = {value}");
+        self.assumed.iter().map(each).collect::<Vec<_>>().join(", ")
+    }
+}
+
 impl AssumedBlock {
     /// Key of the block.
     pub fn key(self) -> &'static str {

@@ -4,6 +4,7 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Col, Mat, MatRef, Par, Scale, c64};
 
 use super::harmonic::Harmonic;
+use crate::modes::connected_parts::connected_parts;
 
 /// Coupling matrix of the harmonics, of guides and edge loads.
 #[derive(Debug)]
@@ -17,28 +18,28 @@ pub enum Coupling {
 /// The columns P of a coupling matrix.
 #[derive(Debug)]
 pub struct Columns {
-    /// P in the waves of the blade at rest, J rows for every n, those of cos nθ above those of sin nθ, which
-    /// are zero for n = 0; both over √2 for n > 0. The wave e^{inθ} has the first − i times the second,
-    /// e^{−inθ} their conjugates.
-    pub resting: Mat<f64>,
     /// Number of columns in each stage and in solves, with the ε of the remainder.
     pub rests: [(usize, f64); LOOKS + 1],
-    /// Harmonics that do not act on one another, with their columns: those of evenly spaced equal pads whose numbers differ
-    /// by a multiple of the number of pads, for example.
+    /// Parts that do not act on one another. Evenly spaced equal pads connect only waves whose numbers of nodal diameters
+    /// add up to, or differ by, a multiple of the number of pads.
     pub parts: Vec<Part>,
-    /// P in the unknowns of the plate, N × columns; more columns than in `resting`.
+    /// P in the unknowns of the plate, N × columns; more columns than in the parts.
     pub unknowns: Mat<f64>,
     /// Whether the remainder is rounding.
     pub is_exact: bool,
 }
 
-/// Harmonics that the coupling does not connect with others.
-#[derive(Debug, Default)]
+/// Harmonics that the coupling does not connect with others, and their columns.
+#[derive(Debug)]
 pub struct Part {
-    /// Their indices, ascending.
+    /// Indices of the harmonics, ascending.
     pub harmonics: Vec<usize>,
-    /// Indices of their columns, ascending.
-    pub columns: Vec<usize>,
+    /// P in the waves of the blade at rest, J rows for every n of the part, those of cos nθ above those of sin nθ, which
+    /// are zero for n = 0; both over √2 for n > 0. The wave e^{inθ} has the first − i times the second,
+    /// e^{−inθ} their conjugates.
+    pub resting: Mat<f64>,
+    /// Number of its columns in each stage.
+    pub counts: [usize; LOOKS],
 }
 
 /// Extent of the search for columns of K_g.
@@ -110,10 +111,15 @@ impl Columns {
         };
         let columns = columns.subcols(0, count);
         let unknowns = relative.unscaled(columns);
-        let of_stages = rests.try_into().ok()?;
+        let rests: [_; LOOKS + 1] = rests.try_into().ok()?;
+        let parts = parts(columns, harmonics).into_iter();
         Some(Columns {
-            parts: parts(columns, harmonics),
-            ..Self::of_unknowns(unknowns, is_exact, of_stages, harmonics)
+            parts: parts
+                .map(|(own, places)| Part::new(&unknowns, harmonics, own, &places, &rests))
+                .collect(),
+            rests,
+            unknowns,
+            is_exact,
         })
     }
 
@@ -121,32 +127,24 @@ impl Columns {
     pub fn few(&self) -> MatRef<'_, f64> {
         self.unknowns.subcols(0, self.rests[LOOKS].0)
     }
+}
 
-    /// Those of the first `count` columns that belong to a part, in the waves at rest.
-    pub fn first_of(&self, part: &Part, count: usize) -> Mat<f64> {
-        let own: Vec<usize> = part
-            .columns
-            .iter()
-            .copied()
-            .filter(|k| *k < count)
-            .collect();
-        Mat::from_fn(self.resting.nrows(), own.len(), |i, k| {
-            self.resting[(i, own[k])]
-        })
-    }
-
-    /// Columns from those in the unknowns of the plate; the ones for counts are converted to the waves at rest.
-    fn of_unknowns(
-        unknowns: Mat<f64>,
-        is_exact: bool,
-        rests: [(usize, f64); LOOKS + 1],
-        harmonics: &[Harmonic],
+impl Part {
+    /// The part of some harmonics and of the columns at some places, from all columns in the unknowns of the plate.
+    fn new(
+        unknowns: &Mat<f64>,
+        all: &[Harmonic],
+        harmonics: Vec<usize>,
+        places: &[usize],
+        rests: &[(usize, f64); LOOKS + 1],
     ) -> Self {
-        let rows: usize = harmonics.iter().map(Harmonic::radial).sum();
-        let count = rests[LOOKS].0;
-        let mut resting = Mat::zeros(2 * rows, count);
+        let counts = std::array::from_fn(|look| places.partition_point(|k| *k < rests[look].0));
+        let columns = counts[LOOKS - 1];
+        let own = Mat::from_fn(unknowns.nrows(), columns, |i, k| unknowns[(i, places[k])]);
+        let rows: usize = harmonics.iter().map(|n| all[*n].radial()).sum();
+        let mut resting = Mat::zeros(2 * rows, columns);
         let mut row = 0;
-        for harmonic in harmonics {
+        for harmonic in harmonics.iter().map(|n| &all[*n]) {
             let (radial, vectors) = (harmonic.radial(), &harmonic.resting.vectors);
             let turn = Mat::from_fn(radial, radial, |i, j| vectors[(j, i)]);
             let norm = match harmonic.diameters {
@@ -155,17 +153,15 @@ impl Columns {
             };
             for (first, row) in harmonic.firsts().zip([row, rows + row]) {
                 let turned = resting.subrows_mut(row, radial);
-                let own = unknowns.get(first..first + radial, ..count);
-                matmul(turned, Accum::Replace, &turn, own, norm, Par::Seq);
+                let given = own.subrows(first, radial);
+                matmul(turned, Accum::Replace, &turn, given, norm, Par::Seq);
             }
             row += radial;
         }
-        Columns {
+        Part {
+            harmonics,
             resting,
-            rests,
-            parts: Vec::new(),
-            unknowns,
-            is_exact,
+            counts,
         }
     }
 }
@@ -173,46 +169,37 @@ impl Columns {
 /// Entries of P whose contribution to PPᵀ is below this share of its largest diagonal element are its rounding.
 const UNCOUPLED: f64 = 16.0 * f64::EPSILON;
 
-/// Divides harmonics and columns into parts that do not act on one another but by rounding. The columns are relative to the
-/// weights.
-fn parts(columns: MatRef<'_, f64>, harmonics: &[Harmonic]) -> Vec<Part> {
+/// Indices of the harmonics and of the columns of parts that act on one another by rounding alone, ascending. The columns
+/// are relative to the weights.
+fn parts(columns: MatRef<'_, f64>, harmonics: &[Harmonic]) -> Vec<(Vec<usize>, Vec<usize>)> {
     let count = columns.ncols();
     let lengths: Vec<f64> = (0..count).map(|k| columns.col(k).norm_l2()).collect();
     let largest = lengths.iter().copied().fold(0.0, f64::max).powi(2);
-    let acts: Vec<Vec<bool>> = (0..count)
+    let members: Vec<Vec<usize>> = (0..count)
         .map(|k| {
-            let of = |h: &Harmonic| {
+            let size = |h: &Harmonic| {
                 let own = h
                     .firsts()
                     .map(|first| columns.col(k).subrows(first, h.radial()));
-                let size = own.map(|rows| rows.norm_max()).fold(0.0, f64::max);
-                size * lengths[k] > UNCOUPLED * largest
+                own.map(|rows| rows.norm_max()).fold(0.0, f64::max)
             };
-            harmonics.iter().map(of).collect()
+            let sizes: Vec<f64> = harmonics.iter().map(size).collect();
+            let top = sizes.iter().copied().fold(0.0, f64::max);
+            // The largest entry of a short column may be rounding of the longest, too, but belongs to a part.
+            let least = top.min(UNCOUPLED * largest / lengths[k]);
+            (0..sizes.len()).filter(|n| sizes[*n] >= least).collect()
         })
         .collect();
-    let mut part: Vec<usize> = (0..harmonics.len()).collect();
-    for acts in &acts {
-        let joined: Vec<usize> = (0..harmonics.len())
-            .filter(|n| acts[*n])
-            .map(|n| part[n])
-            .collect();
-        let Some(&name) = joined.iter().min() else {
-            continue;
-        };
-        let members = part.iter_mut().filter(|own| joined.contains(own));
-        members.for_each(|own| *own = name);
-    }
-    let mut parts: Vec<Part> = harmonics.iter().map(|_| Part::default()).collect();
-    for (n, name) in part.iter().enumerate() {
-        parts[*name].harmonics.push(n);
-    }
-    for (k, acts) in acts.iter().enumerate() {
-        let first = acts.iter().position(|acts| *acts).unwrap_or(0);
-        parts[part[first]].columns.push(k);
-    }
-    parts.retain(|part| !part.harmonics.is_empty());
-    parts
+    let links = members
+        .iter()
+        .flat_map(|members| members.windows(2).map(|pair| [pair[0], pair[1]]));
+    let parts = connected_parts(harmonics.len(), links).into_iter();
+    let with_columns = parts.map(|part| {
+        let is_own = |k: &usize| members[*k].first().is_some_and(|n| part.contains(n));
+        let own = (0..count).filter(is_own).collect();
+        (part, own)
+    });
+    with_columns.collect()
 }
 
 /// Ratio of the weight of every wave to its stiffness at rest.

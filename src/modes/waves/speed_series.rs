@@ -6,6 +6,7 @@ use faer::Mat;
 use rayon::prelude::*;
 
 use crate::model::scene::SpeedRange;
+use crate::modes::connected_parts::connected_parts;
 use crate::modes::error::SpectrumError;
 use crate::modes::work::Cancellation;
 
@@ -97,26 +98,13 @@ impl WaveModel {
     /// equal pads have several.
     pub fn components(&self) -> Vec<WaveModel> {
         let size = self.size();
-        let mut component: Vec<usize> = (0..size).collect();
-        let coupled = |i: usize, k: usize| {
-            let mut entries =
-                (0..self.terms).flat_map(|power| [self.row(power, i, k), self.row(power, k, i)]);
+        let are_coupled = |[i, k]: &[usize; 2]| {
+            let mut entries = (0..self.terms)
+                .flat_map(|power| [self.row(power, *i, *k), self.row(power, *k, *i)]);
             entries.any(|row| self.coefficients.row(row).norm_max() > UNCOUPLED)
         };
-        for i in 0..size {
-            for k in 0..i {
-                if component[i] != component[k] && coupled(i, k) {
-                    let (from, to) = (component[i], component[k]);
-                    let moved = component.iter_mut().filter(|p| **p == from);
-                    moved.for_each(|p| *p = to);
-                }
-            }
-        }
-        let mut names = component.clone();
-        names.sort_unstable();
-        names.dedup();
-        let of = |name: &usize| {
-            let kept: Vec<usize> = (0..size).filter(|k| component[*k] == *name).collect();
+        let pairs = (0..size).flat_map(|i| (0..i).map(move |k| [i, k]));
+        let of = |kept: Vec<usize>| {
             let count = kept.len();
             let coefficients = Mat::from_fn(self.terms * count * count, NODES, |row, degree| {
                 let (power, entry) = (row / (count * count), row % (count * count));
@@ -133,7 +121,8 @@ impl WaveModel {
                 ..*self
             }
         };
-        names.iter().map(of).collect()
+        let parts = connected_parts(size, pairs.filter(are_coupled)).into_iter();
+        parts.map(of).collect()
     }
 
     /// Index of an entry of the coefficient of a power of λ.

@@ -26,7 +26,7 @@ use self::bound::{Bound, BoundedBlock};
 use self::free_waves::FreeWaves;
 use self::jacobi::LEFT;
 use self::waves::Waves;
-use super::coupling::{Coupling, LOOKS};
+use super::coupling::{Coupling, LOOKS, Part};
 use super::{FullModel, Harmonic};
 use crate::modes::hermitian_inertia::negative_eigenvalues;
 
@@ -102,20 +102,16 @@ impl FullModel {
         let blocks = self.bounded_blocks([a, b], line, bound);
         match &self.coupling {
             Coupling::Columns(columns) => {
-                let (count, rest) = columns.rests[look];
+                let (_, rest) = columns.rests[look];
                 let waves = at.waves[look].get_or_init(|| {
                     let free = at.free.get_or_init(|| self.free_waves(at.speed_rad_per_s));
                     let is_stiff = |harmonic: usize, stiffness: f64| {
                         let turning = self.harmonics[harmonic].fast_turning(at.speed_rad_per_s);
                         stiffness > STIFF[look] * turning
                     };
-                    let of = |part| {
-                        Waves::new(
-                            free,
-                            columns.first_of(part, count),
-                            &part.harmonics,
-                            is_stiff,
-                        )
+                    let of = |part: &Part| {
+                        let own = part.resting.subcols(0, part.counts[look]);
+                        Waves::new(free, own, &part.harmonics, is_stiff)
                     };
                     columns.parts.iter().map(of).collect()
                 });

@@ -96,8 +96,8 @@ fn counts_are_those_of_all_eigenvalues_for_drawn_saws() {
     assert!(uncertain <= 2, "{uncertain} of 200");
 }
 
-/// Evenly spaced equal pads connect waves whose numbers of nodal diameters add up to a multiple of the number of pads, or
-/// differ by one: for five pads 0 and 5, 1, 4 and 6, 2, 3, 7 and 8.
+/// Evenly spaced equal pads connect waves whose numbers of nodal diameters add up to, or differ by, a multiple of the number
+/// of pads: for five pads 0 and 5; 1, 4 and 6; 2, 3, 7 and 8.
 #[test]
 fn evenly_spaced_equal_pads_are_counted_in_parts() {
     let mut draw = Draw(0.53);

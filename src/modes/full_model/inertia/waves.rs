@@ -60,20 +60,17 @@ impl Row {
 
 impl Rows {
     /// The waves of some harmonics, with columns that are given in the waves at rest.
-    fn of(free: &[FreeWaves], columns: &Mat<f64>, harmonics: &[usize]) -> Self {
-        let all = columns.nrows() / 2;
-        let radial = |harmonic: usize| free[harmonic].weights.len();
-        let total = harmonics.iter().map(|n| radial(*n)).sum();
+    fn of(free: &[FreeWaves], columns: MatRef<'_, f64>, harmonics: &[usize]) -> Self {
+        let total = columns.nrows() / 2;
         let mut both = Mat::zeros(2 * total, columns.ncols());
         let mut waves = Vec::with_capacity(total);
         for &harmonic in harmonics {
             let FreeWaves { of, weights } = &free[harmonic];
-            let (row, radial) = (waves.len(), radial(harmonic));
-            let at_rest: usize = free[..harmonic].iter().map(|f| f.weights.len()).sum();
+            let (row, radial) = (waves.len(), weights.len());
             let turn = MatRef::from_column_major_slice(of.vectors.as_slice(), radial, radial);
-            for (first, given) in [(row, at_rest), (total + row, all + at_rest)] {
+            for first in [row, total + row] {
                 let turned = both.subrows_mut(first, radial);
-                let own = columns.subrows(given, radial);
+                let own = columns.subrows(first, radial);
                 matmul(turned, Accum::Replace, turn.transpose(), own, 1.0, Par::Seq);
             }
             waves.extend(
@@ -139,11 +136,11 @@ impl Waves {
     /// harmonic and stiffness.
     pub fn new(
         free: &[FreeWaves],
-        columns: Mat<f64>,
+        columns: MatRef<'_, f64>,
         harmonics: &[usize],
         is_stiff: impl Fn(usize, f64) -> bool,
     ) -> Self {
-        let all = Rows::of(free, &columns, harmonics);
+        let all = Rows::of(free, columns, harmonics);
         let is_stiff = |place: &usize| {
             let row = &all.waves[*place];
             is_stiff(row.harmonic, row.stiffness) && row.size < 0.5 * RESONANT * row.stiffness
