@@ -226,7 +226,7 @@ fn sweep() -> Result<Vec<Vec<f64>>, Failure> {
     let plate = Plate::new(&Scene::paper(), resolution);
     let model = SpectralModel::new(plate, range(), Strategy::Reduced)?;
     let lowest = |&speed: &f64| {
-        let modes = model.drawn_modes(speed)?;
+        let modes = model.modes(speed)?;
         let frequencies = modes.iter().map(|m| m.frequency_rad_per_s());
         Ok(frequencies.take(LOW_MODES).collect())
     };

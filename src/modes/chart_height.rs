@@ -7,12 +7,10 @@ use super::mode::is_seen;
 /// Method by which the modes at a speed are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Strategy {
-    /// Projection on the low modes at a few speeds.
+    /// Waves up to the height of a diagram.
     #[default]
     Reduced,
-    /// Projection as in [`Strategy::Reduced`] with larger errors, for a preview.
-    Sketch,
-    /// Projection on those modes alone that can form bands; no diagram is possible.
+    /// Without damping those waves alone that can form bands; no diagram is possible.
     Bands,
     /// Every eigenvalue of the full model at every speed: slow, a reference for tests.
     Dense,

@@ -125,17 +125,12 @@ fn change_of_residual(
 }
 
 /// Whether a mode is at rest in space. Then K₀ + Ω² [`GyroscopicSystem::standing_spin`] times its shape is zero.
-fn stands_still(lambda: c64) -> bool {
+pub(super) fn stands_still(lambda: c64) -> bool {
     lambda == c64::new(0.0, 0.0)
 }
 
 /// (∂L/∂Ω)x, with the drift of free motions if the mode is at rest in space.
-pub(super) fn speed_slope(
-    system: &GyroscopicSystem,
-    speed: f64,
-    lambda: c64,
-    x: &Col<c64>,
-) -> Col<c64> {
+fn speed_slope(system: &GyroscopicSystem, speed: f64, lambda: c64, x: &Col<c64>) -> Col<c64> {
     let gyroscopic = real_times(&system.gyroscopic, x);
     let spin = real_times(&system.spin, x);
     let mut slope = Scale(2.0 * lambda) * gyroscopic + Scale(c64::new(2.0 * speed, 0.0)) * spin;

@@ -18,8 +18,8 @@
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Col, Mat, Scale, c64};
 
-use super::derivative::{beside, speed_slope, with_lambda};
-use super::vectors::{real_times, unit};
+use super::derivative::{beside, stands_still};
+use super::vectors::unit;
 use crate::model::system::{GyroscopicSystem, dynamic_stiffness};
 
 /// A double eigenvalue.
@@ -39,6 +39,62 @@ pub struct DoubleEigenvalue {
     pub left: Col<c64>,
 }
 
+/// L(λ, Ω) with its derivatives at a point.
+pub struct Derivatives {
+    /// L.
+    pub value: Mat<c64>,
+    /// L_λ, L_λλ, L_λλλ.
+    pub by_root: [Mat<c64>; 3],
+    /// L_Ω, L_λΩ.
+    pub by_speed: [Mat<c64>; 2],
+}
+
+/// Matrices L(λ, Ω), an eigenvalue problem that depends on the speed.
+pub trait Family {
+    /// Number of unknowns.
+    fn order(&self) -> usize;
+    /// L and its derivatives at a speed and at λ.
+    fn derivatives(&self, speed_rad_per_s: f64, lambda: c64) -> Derivatives;
+}
+
+impl Family for GyroscopicSystem {
+    fn order(&self) -> usize {
+        GyroscopicSystem::order(self)
+    }
+
+    fn derivatives(&self, speed_rad_per_s: f64, lambda: c64) -> Derivatives {
+        let (order, speed) = (self.order(), speed_rad_per_s);
+        let (stiffness, velocity) = (self.stiffness_at(speed), self.velocity_at(speed));
+        let diagonal = |i: usize, k: usize, entry: c64| if i == k { entry } else { c64::ZERO };
+        let drift = self.drift.as_ref().filter(|_| stands_still(lambda));
+        let by_speed = Mat::from_fn(order, order, |i, k| {
+            let drift = drift.map_or(0.0, |drift| drift[(i, k)]);
+            let circulatory = self
+                .circulatory
+                .as_ref()
+                .map_or(0.0, |matrix| matrix[(i, k)]);
+            let turned = 2.0 * lambda * self.gyroscopic[(i, k)];
+            turned + 2.0 * speed * (self.spin[(i, k)] + drift) + circulatory
+        });
+        Derivatives {
+            value: dynamic_stiffness(&stiffness, &velocity, lambda),
+            by_root: [
+                Mat::from_fn(order, order, |i, k| {
+                    diagonal(i, k, 2.0 * lambda) + velocity[(i, k)]
+                }),
+                Mat::from_fn(order, order, |i, k| diagonal(i, k, c64::new(2.0, 0.0))),
+                Mat::zeros(order, order),
+            ],
+            by_speed: [
+                by_speed,
+                Mat::from_fn(order, order, |i, k| {
+                    c64::from(2.0 * self.gyroscopic[(i, k)])
+                }),
+            ],
+        }
+    }
+}
+
 /// Largest number of steps; convergence is quadratic.
 const STEPS: usize = 12;
 /// Relative size of the last correction of the speed.
@@ -49,7 +105,7 @@ const FIRST_ITERATIONS: usize = 3;
 impl DoubleEigenvalue {
     /// The coalescence next to an expected one. That of waves λ = iω or of real λ is at another λ of this kind. `None` if the
     /// iteration does not converge.
-    pub fn next_to(system: &GyroscopicSystem, speed_rad_per_s: f64, expected: c64) -> Option<Self> {
+    pub fn next_to(system: &impl Family, speed_rad_per_s: f64, expected: c64) -> Option<Self> {
         let (mut speed, mut lambda) = (speed_rad_per_s, expected);
         let [mut right, mut left] = vectors(system, speed, lambda)?;
         for _ in 0..STEPS {
@@ -86,9 +142,11 @@ impl DoubleEigenvalue {
 }
 
 /// The right and the left vector of the eigenvalue nearest to λ, by inverse iteration.
-fn vectors(system: &GyroscopicSystem, speed: f64, lambda: c64) -> Option<[Col<c64>; 2]> {
-    let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
-    let factors = dynamic_stiffness(&stiffness, &velocity, beside(lambda)).partial_piv_lu();
+fn vectors(system: &impl Family, speed: f64, lambda: c64) -> Option<[Col<c64>; 2]> {
+    let factors = system
+        .derivatives(speed, beside(lambda))
+        .value
+        .partial_piv_lu();
     // These cosines are unrelated to the shapes, so that practically no mode is orthogonal to them.
     let start = Col::from_fn(system.order(), |i| c64::new((1.0 + i as f64).cos(), 0.0));
     let (mut right, mut left) = (start.clone(), start);
@@ -112,29 +170,22 @@ struct Jet {
 }
 
 impl Jet {
-    fn new(
-        system: &GyroscopicSystem,
-        speed: f64,
-        lambda: c64,
-        [c, b]: [&Col<c64>; 2],
-    ) -> Option<Self> {
-        let (stiffness, velocity) = (system.stiffness_at(speed), system.velocity_at(speed));
-        let bordered = Bordered::new(&dynamic_stiffness(&stiffness, &velocity, lambda), c, b);
-        let order = system.order();
-        let (right, value) = bordered.solved(&Col::zeros(order), c64::new(1.0, 0.0));
+    fn new(system: &impl Family, speed: f64, lambda: c64, [c, b]: [&Col<c64>; 2]) -> Option<Self> {
+        let derivatives = system.derivatives(speed, lambda);
+        let bordered = Bordered::new(&derivatives.value, c, b);
+        let (right, value) = bordered.solved(&Col::zeros(system.order()), c64::new(1.0, 0.0));
         let left = bordered.left();
-        let by_root = |x: &Col<c64>| with_lambda(&velocity, lambda, x);
-        let by_speed = |x: &Col<c64>| speed_slope(system, speed, lambda, x);
+        let [by_root, twice_by_root, thrice_by_root] = &derivatives.by_root;
+        let [by_speed, by_both] = &derivatives.by_speed;
         let form = |x: Col<c64>| -(left.adjoint() * x);
-        let [rooted, sped] = [by_root(&right), by_speed(&right)];
+        let [rooted, sped] = [by_root * &right, by_speed * &right];
         let moved = |load: &Col<c64>| bordered.solved(&-load, c64::new(0.0, 0.0)).0;
         let [right_by_root, right_by_speed] = [moved(&rooted), moved(&sped)];
         let times = |factor: f64| Scale(c64::new(factor, 0.0));
-        let both = times(2.0) * real_times(&system.gyroscopic, &right)
-            + by_root(&right_by_speed)
-            + by_speed(&right_by_root);
-        let twice = times(2.0) * (&right + by_root(&right_by_root));
-        let thrice = times(6.0) * &right_by_root + times(3.0) * by_root(&moved(&twice));
+        let both = by_both * &right + by_root * &right_by_speed + by_speed * &right_by_root;
+        let twice = twice_by_root * &right + times(2.0) * (by_root * &right_by_root);
+        let thrice = thrice_by_root * &right
+            + times(3.0) * (twice_by_root * &right_by_root + by_root * moved(&twice));
         let slopes = [rooted, sped, twice, both, thrice].map(form);
         let is_finite = value.is_finite() && slopes.iter().all(|slope| slope.is_finite());
         is_finite.then_some(Jet {

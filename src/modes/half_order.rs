@@ -35,7 +35,10 @@ pub fn eigenpairs(
         return companion_eigenpairs(system, speed_rad_per_s);
     }
     Cancellation::current().check()?;
-    let (matrix, scale) = hamiltonian_matrix(system, speed_rad_per_s);
+    let (matrix, scale) = hamiltonian_matrix(
+        &system.stiffness_at(speed_rad_per_s),
+        &system.velocity_at(speed_rad_per_s),
+    );
     let failed = SpectrumError::at(speed_rad_per_s);
     let Some(found) = hamiltonian_eigenpairs(matrix.as_ref()).map_err(failed)? else {
         return companion_eigenpairs(system, speed_rad_per_s);
@@ -49,13 +52,12 @@ pub fn eigenpairs(
     Ok(by_magnitude(pairs.collect()))
 }
 
-/// A of (q, p/s), p = q̇ + ΩGq, in units of s, and the scale s, in 1/s.
-fn hamiltonian_matrix(system: &GyroscopicSystem, speed_rad_per_s: f64) -> (Mat<f64>, f64) {
-    let stiffness = system.stiffness_at(speed_rad_per_s);
-    let scale = time_scale(&stiffness);
-    let turning = Scale(-0.5 / scale) * system.velocity_at(speed_rad_per_s);
+/// A of (q, p/s), p = q̇ + Dq/2, in units of s, and the scale s, in 1/s, for q̈ + Dq̇ + Kq = 0 with a skew D.
+pub fn hamiltonian_matrix(stiffness: &Mat<f64>, velocity: &Mat<f64>) -> (Mat<f64>, f64) {
+    let scale = time_scale(stiffness);
+    let turning = Scale(-0.5 / scale) * velocity;
     let force = &turning * &turning - Scale(scale.powi(-2)) * stiffness;
-    let size = system.order();
+    let size = stiffness.nrows();
     let mut matrix = Mat::zeros(2 * size, 2 * size);
     matrix.get_mut(..size, ..size).copy_from(&turning);
     matrix.get_mut(size.., size..).copy_from(&turning);

@@ -19,7 +19,6 @@ mod arnoldi;
 mod assembled_plate;
 pub mod branches;
 mod buckling;
-mod canonical_basis;
 mod chart_height;
 mod companion;
 mod component;
@@ -32,11 +31,9 @@ mod event_name;
 mod free_wave;
 mod full_model;
 mod growth;
-mod guided_reduction;
 mod half_order;
-mod hamiltonian_reduction;
+mod heights;
 mod hermitian_inertia;
-mod interval;
 mod larger_basis;
 mod lowest_modes;
 mod matrix_slope;
@@ -50,14 +47,12 @@ mod refined_pair;
 mod residual;
 mod resting_mode;
 mod scale;
-mod search_model;
 mod standing_waves;
 mod structured_stiffness;
 mod symmetric_pencil;
 mod vectors;
 mod wave;
-#[doc(hidden)]
-pub mod waves;
+pub(crate) mod waves;
 mod work;
 
 pub(crate) use argument::turn_along;
@@ -83,9 +78,6 @@ pub(crate) use full_model::{AtSpeed, FullModel};
 #[doc(hidden)]
 pub use growth::fastest_growing;
 pub(crate) use growth::{Growing, eigenvalues, grows};
-#[doc(hidden)]
-pub use half_order::eigenpairs as undamped_eigenpairs;
-pub(crate) use hamiltonian_reduction::{HamiltonianReduction, State};
 pub(crate) use hermitian_inertia::negative_eigenvalues;
 pub(crate) use larger_basis::LargerBasis;
 #[doc(hidden)]
@@ -95,16 +87,15 @@ pub use mode::{Mode, ModeKind};
 pub(crate) use mode::{classify, krein_index};
 pub use mode_name::{Direction, ModeName};
 pub(crate) use mode_name::{HarmonicShare, in_words};
-pub use model::{DescribedMode, SpectralModel};
+pub use model::{DescribedMode, NamedMode, SpectralModel};
 pub(crate) use progress::Work;
 pub use progress::{Progress, Stage};
 pub(crate) use refined_pair::RefinedPair;
 pub(crate) use resting_mode::RestingMode;
 pub(crate) use scale::frequency_scale;
-pub(crate) use search_model::SearchModel;
 pub use standing_waves::StandingWaves;
 pub(crate) use standing_waves::{diameters_within, highest_reflected, waves_within};
-pub(crate) use vectors::{complex, halves, orthonormal, smallest, split};
+pub(crate) use vectors::{complex, orthonormal, smallest, split};
 pub use work::Cancellation;
 #[doc(hidden)]
 pub use work::WorkCounters;

@@ -110,6 +110,64 @@ impl Mode {
         is_known.then(|| (0.0 - self.growth_per_s()) / size)
     }
 
+    /// A mode with λ, dλ/dΩ and the sign of its action, of a kind that [`Mode::classified`] finds.
+    pub(super) fn of(
+        lambda: c64,
+        slope: c64,
+        action: i8,
+        component: usize,
+        coordinates: Col<c64>,
+    ) -> Self {
+        Mode {
+            lambda,
+            kind: ModeKind::Damped,
+            frequency_slope: slope.im,
+            growth_slope: slope,
+            action,
+            component,
+            coordinates,
+        }
+    }
+
+    /// A mode with λ, slopes and action, those of a wave λ = iω, as the kind of mode that it is. The decaying partner of a divergent
+    /// mode is none, because it belongs to the same ±ω pair.
+    pub(super) fn classified(mut self, speed_rad_per_s: f64, is_undamped: bool) -> Option<Self> {
+        let noise = GROWTH_NOISE * (self.lambda.norm() + speed_rad_per_s.abs());
+        let [grows, decays, oscillates] = [
+            self.lambda.re > noise,
+            self.lambda.re < -noise,
+            self.lambda.im > noise,
+        ];
+        self.kind = match (is_undamped, oscillates) {
+            (false, _) => ModeKind::Damped,
+            (true, true) if grows => ModeKind::Flutter,
+            (true, true) if decays => ModeKind::Decaying,
+            (true, true) if self.action < 0 => ModeKind::Negative,
+            (true, true) => ModeKind::Positive,
+            (true, false) if grows => ModeKind::Divergent,
+            (true, false) => return None,
+        };
+        if !oscillates || grows && is_undamped {
+            self.action = 1;
+        }
+        match self.kind {
+            ModeKind::Decaying => self.action = -1,
+            ModeKind::Positive | ModeKind::Negative => self.lambda.re = 0.0,
+            _ => (),
+        }
+        if !matches!(
+            self.kind,
+            ModeKind::Positive | ModeKind::Negative | ModeKind::Damped
+        ) || !oscillates
+        {
+            self.frequency_slope = 0.0;
+        }
+        if !matches!(self.kind, ModeKind::Flutter | ModeKind::Divergent) {
+            self.growth_slope = c64::new(0.0, 0.0);
+        }
+        Some(self)
+    }
+
     /// Whether a mode of a damped blade decays without oscillating.
     pub fn is_overdamped(&self) -> bool {
         self.kind == ModeKind::Damped && self.lambda.re < 0.0 && !oscillates(self.lambda)
@@ -133,11 +191,6 @@ impl Mode {
         };
         if is_known { self.lambda.re } else { 0.0 }
     }
-}
-
-/// Eigenvalues and coordinates of modes.
-pub fn pairs_of(modes: &[Mode]) -> Vec<(c64, &Col<c64>)> {
-    modes.iter().map(|m| (m.lambda, &m.coordinates)).collect()
 }
 
 /// |λ|, in 1/s, below which a mode of a blade with free rigid motions is one of them; 0 without such motions.
@@ -164,26 +217,22 @@ pub fn classify(
         .zip(growth_slopes)
         .zip(forms)
         .filter_map(|(((lambda, q), growth_slope), forms)| {
-            let noise = GROWTH_NOISE * (lambda.norm() + speed_rad_per_s.abs());
-            let rigid = lambda.norm() < rigid_noise;
-            let mut mode = Mode {
-                lambda,
-                kind: ModeKind::Damped,
-                frequency_slope: 0.0,
-                growth_slope,
-                action: 1,
-                component,
-                coordinates: q,
+            let [action, frequency_slope] = forms.action(speed_rad_per_s, lambda.im);
+            let sign = if action < 0.0 { -1 } else { 1 };
+            let mode = Mode {
+                frequency_slope,
+                ..Mode::of(lambda, growth_slope, sign, component, q)
             };
-            if rigid {
-                mode.kind = ModeKind::Rigid;
-                mode.lambda = c64::new(0.0, 0.0);
-            } else if system.is_conservative() {
-                undamped_kind(forms, speed_rad_per_s, noise, &mut mode)?;
-            } else if lambda.im > noise {
-                forms.set_action(speed_rad_per_s, &mut mode);
+            if lambda.norm() < rigid_noise {
+                return Some(Mode {
+                    lambda: c64::new(0.0, 0.0),
+                    kind: ModeKind::Rigid,
+                    action: 1,
+                    frequency_slope: 0.0,
+                    ..mode
+                });
             }
-            Some(mode)
+            mode.classified(speed_rad_per_s, system.is_conservative())
         })
         .collect()
 }
@@ -214,32 +263,6 @@ fn growth_slopes(system: &GyroscopicSystem, speed: f64, pairs: &[Eigenpair]) -> 
     pairs.iter().map(slope).collect()
 }
 
-/// Kind of a mode of an undamped system; `None` for the mirror image of a divergent one.
-fn undamped_kind(forms: Forms, speed: f64, noise: f64, mode: &mut Mode) -> Option<()> {
-    let oscillates = mode.lambda.im > noise;
-    if mode.lambda.re > noise {
-        mode.kind = if oscillates {
-            ModeKind::Flutter
-        } else {
-            ModeKind::Divergent
-        };
-    } else if !oscillates && mode.lambda.re < noise {
-        return None;
-    } else if mode.lambda.re < -noise {
-        mode.kind = ModeKind::Decaying;
-        mode.action = -1;
-    } else {
-        mode.lambda.re = 0.0;
-        forms.set_action(speed, mode);
-        mode.kind = if mode.action > 0 {
-            ModeKind::Positive
-        } else {
-            ModeKind::Negative
-        };
-    }
-    Some(())
-}
-
 /// Quadratic forms of q, qᴴq = 1.
 #[derive(Clone, Copy)]
 struct Forms {
@@ -267,17 +290,14 @@ impl Forms {
         (0..pairs.len()).map(form).collect()
     }
 
-    /// Sets the sign of the action and the slope of a mode λ = iω, ω > 0, qᴴq = 1; for a damped one, the values
-    /// without damping.
+    /// Action and slope of a mode λ = iω, ω > 0, qᴴq = 1; for a damped one, the values without damping.
     ///
-    /// With qᴴGq = iγ the sign is that of qᴴ(2ω − 2iΩG)q, or of ω + Ωγ. From L(ω, Ω) = −ω² + 2iωΩG + K follows
+    /// With qᴴGq = iγ the action has the sign of qᴴ(2ω − 2iΩG)q, or of ω + Ωγ. From L(ω, Ω) = −ω² + 2iωΩG + K follows
     /// dω/dΩ = (Ω qᴴ(K_σ−N)q − ωγ) / (ω + Ωγ).
-    fn set_action(self, speed: f64, mode: &mut Mode) {
-        let omega = mode.lambda.im;
+    fn action(self, speed: f64, omega: f64) -> [f64; 2] {
         let form = omega + speed * self.gamma;
-        mode.action = if form >= 0.0 { 1 } else { -1 };
         let slope = (speed * self.spin - omega * self.gamma) / form;
-        mode.frequency_slope = if slope.is_finite() { slope } else { 0.0 };
+        [form, if slope.is_finite() { slope } else { 0.0 }]
     }
 }
 

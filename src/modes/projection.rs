@@ -1,13 +1,13 @@
 //! A component projected on few vectors, and the residual of the projection.
 
-use faer::{Col, Mat, c64};
+use faer::{Col, Mat};
 
 use crate::model::system::GyroscopicSystem;
 
 use super::full_model::FullModel;
 use super::residual::Lifted;
 use super::structured_stiffness;
-use super::vectors::{Eigenpair, halves, joined, split};
+use super::vectors::{Eigenpair, halves, joined};
 
 /// A component projected on few orthonormal vectors.
 #[derive(Debug, Clone)]
@@ -41,19 +41,9 @@ impl Projection {
         }
     }
 
-    /// Coordinates Vᵀq of a pair of the whole component that lies in the span.
-    pub fn inward(&self, (lambda, q): &Eigenpair) -> Eigenpair {
-        let (re, im) = split(q);
-        let (re, im) = (self.basis.transpose() * re, self.basis.transpose() * im);
-        (
-            *lambda,
-            Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i])),
-        )
-    }
-
     /// Vq and L(λ)Vq of pairs (λ, q) at one speed, all in one product of matrices.
-    pub fn lifted(&self, speed_rad_per_s: f64, pairs: &[(c64, &Col<c64>)]) -> Vec<Lifted> {
-        let coordinates = halves(self.basis.ncols(), pairs.iter().map(|(_, q)| *q));
+    pub fn lifted(&self, speed_rad_per_s: f64, pairs: &[Eigenpair]) -> Vec<Lifted> {
+        let coordinates = halves(self.basis.ncols(), pairs.iter().map(|(_, q)| q));
         let shape = &self.basis * &coordinates;
         let force = self.products.stiffness_at(speed_rad_per_s) * &coordinates;
         let momentum = self.products.velocity_at(speed_rad_per_s) * &coordinates;

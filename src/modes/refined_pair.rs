@@ -53,7 +53,7 @@ impl SpectralModel {
         let mut lambda = mode.lambda;
         let mut shape = unit(
             component
-                .lifted(speed_rad_per_s, &mode.coordinates)
+                .lifted(speed_rad_per_s, mode.lambda, &mode.coordinates)
                 .as_ref(),
         );
         let matrices = [

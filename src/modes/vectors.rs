@@ -25,11 +25,6 @@ pub fn real_times(matrix: &Mat<f64>, q: &Col<c64>) -> Col<c64> {
     Col::from_fn(matrix.nrows(), |i| c64::new(re[i], im[i]))
 }
 
-/// qᴴ A q for a real matrix A.
-pub fn quadratic_form(q: &Col<c64>, matrix: &Mat<f64>) -> c64 {
-    q.adjoint() * real_times(matrix, q)
-}
-
 /// Real and imaginary parts of vectors, in two columns each.
 pub fn halves<'a>(rows: usize, vectors: impl ExactSizeIterator<Item = &'a Col<c64>>) -> Mat<f64> {
     let mut halves = Mat::zeros(rows, 2 * vectors.len());

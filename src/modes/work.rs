@@ -10,12 +10,11 @@ use super::progress::{Progress, count_eigenproblem};
 /// Amount of work of a model, by which tests detect a slow-down.
 #[derive(Debug, Default)]
 pub struct WorkCounters {
-    /// Eigenproblems solved on the projected matrices.
+    /// Eigenproblems of one number of nodal diameters of a free blade, or of the matrices as they are.
     pub reduced_solves: AtomicUsize,
-    /// Eigenproblems on the states of the modes at the ends of an interval of speeds.
+    /// Eigenproblems of the reduced model by waves.
     pub local_solves: AtomicUsize,
-    /// Pairs of modes (single modes of a damped blade or in divergence) refined by inverse iteration on the
-    /// projected matrices.
+    /// Modes and coalescences found by Newton's method on the reduced model.
     pub refined_pairs: AtomicUsize,
     /// Eigenproblems of the full model: shifted Krylov iterations, or dense ones.
     pub full_solves: AtomicUsize,

@@ -68,17 +68,6 @@ fn root_loci(
     }
 }
 
-/// Modes at rest, from the chart if it begins at rest.
-fn modes_at_rest(
-    model: &SpectralModel,
-    chart: &StabilityChart,
-) -> Result<Vec<DescribedMode>, SpectrumError> {
-    match chart.campbell.samples.first() {
-        Some(sample) if sample.speed_rad_per_s == 0.0 => Ok(sample.modes.clone()),
-        _ => Ok(model.describe(0.0, model.modes(0.0)?)),
-    }
-}
-
 /// Stability of one saw: critical speeds, bands, estimated errors and certificate.
 #[derive(Debug)]
 pub struct Analysis {
@@ -196,18 +185,17 @@ impl Analysis {
             complete_to_rad_per_s,
         } = chosen;
         options.report(&critical, range, None);
-        let strategy = match detail {
-            Detail::Full => Strategy::Reduced,
-            Detail::Sketch => Strategy::Sketch,
-        };
-        let model = SpectralModel::with_critical(saw, critical, range, strategy)?;
+        let model = SpectralModel::with_critical(saw, critical, range, Strategy::Reduced)?;
         let depth = Depth::of(scene.accuracy());
         let mut chart = charted(&model, range, depth, options)?;
-        let (overdamped, modes_at_rest): (Vec<_>, Vec<_>) = modes_at_rest(&model, &chart)?
+        let (overdamped, modes_at_rest): (Vec<_>, Vec<_>) = model
+            .describe(0.0, model.modes(0.0)?)
             .into_iter()
             .partition(|mode| mode.mode.is_overdamped());
         let is_refined = scene.accuracy() == Accuracy::Reference && detail == Detail::Full;
-        let mut listed = is_refined.then(|| Listed::new(&modes_at_rest));
+        let mut listed = is_refined
+            .then(|| Listed::new(&model, &modes_at_rest))
+            .transpose()?;
         if let Some(listed) = &mut listed {
             listed.refine_peaks(&model, &mut chart.instabilities)?;
         }

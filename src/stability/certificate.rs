@@ -26,8 +26,8 @@ pub struct Certificate {
     pub uncertain_counts: usize,
     /// Counts that contradict the spectra.
     pub miscounts: Vec<MiscountedModes>,
-    /// Whether counts contradicted the spectra at first, so that the bands were searched again on the full
-    /// model.
+    /// Whether counts contradicted the spectra at first, so that the bands were searched again with more
+    /// waves.
     pub searched_again: bool,
     /// Intervals of speed, in rad/s, that are not proven to contain no unlisted band; `None` if no proof was
     /// tried.

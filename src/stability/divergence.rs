@@ -95,16 +95,12 @@ fn band(
         })
     };
     let mut samples: Vec<Sample> = signatures.iter().filter_map(of).collect();
-    let at = |speed: f64| Ok(of(&evaluator.at(speed)?));
     let parts = (1..PARTS).map(|part| from + (to - from) * part as f64 / PARTS as f64);
     let is_clear = |speed: &f64| {
         [begin, end]
             .iter()
             .all(|edge| (speed / edge - 1.0).abs() > CRITICAL_GAP.get())
     };
-    for speed in parts.filter(is_clear) {
-        samples.extend(at(speed)?);
-    }
     // At a critical speed λ² is zero. Its slope is unknown there, and the slope of the chord replaces it.
     let zero = |at: f64| Sample {
         at,
@@ -122,17 +118,30 @@ fn band(
     }
     samples.retain(|sample| (from..=to).contains(&sample.at));
     samples.sort_by(|x, y| x.at.total_cmp(&y.at));
-    let found = maximize(samples, at)?;
-    // The signatures, computed with few states, locate the largest growth; the eigenproblem of the projection
-    // gives its value.
-    let peak_growth_per_s = match found {
-        Some(found) if found.value > 0.0 => {
-            let expected = found.value.sqrt();
-            let exact = evaluator.divergence_next_to(found.at, expected)?;
-            if exact > 0.0 { exact } else { expected }
-        }
-        _ => 0.0,
+    let at = |known: &[Sample], speed: f64| -> Result<Option<Sample>, SpectrumError> {
+        let found = evaluator.divergent(speed, between(known, speed).max(0.0).sqrt())?;
+        Ok(found.map(|[growth, slope]| Sample {
+            at: speed,
+            value: growth * growth,
+            slope: 2.0 * growth * slope,
+        }))
     };
+    for speed in parts.filter(is_clear) {
+        if let Some(sample) = at(&samples, speed)? {
+            let place = samples.partition_point(|known| known.at < speed);
+            samples.insert(place, sample);
+        }
+    }
+    let mut known = samples.clone();
+    let found = maximize(samples, |speed| {
+        let sample = at(&known, speed)?;
+        let place = known.partition_point(|known| known.at < speed);
+        sample
+            .iter()
+            .for_each(|sample| known.insert(place, *sample));
+        Ok(sample)
+    })?;
+    let peak_growth_per_s = found.map_or(0.0, |found| found.value.max(0.0).sqrt());
     Ok(Instability {
         kind: InstabilityKind::Divergence,
         from_rad_per_s: from,
@@ -143,6 +152,18 @@ fn band(
         frequency_rad_per_s: 0.0,
         curve: Vec::new(),
     })
+}
+
+/// A value between those of ascending samples.
+fn between(known: &[Sample], speed: f64) -> f64 {
+    let place = known.partition_point(|known| known.at < speed);
+    match known.get(place.saturating_sub(1)..=place) {
+        Some([before, after]) => {
+            let share = (speed - before.at) / (after.at - before.at);
+            before.value + share * (after.value - before.value)
+        }
+        _ => known.last().map_or(0.0, |last| last.value),
+    }
 }
 
 /// Bands of divergence between two critical speeds that the search passes in one step. An odd number of negative
@@ -162,12 +183,12 @@ pub(super) fn close_pairs(
         below % 2 == 0 && first <= pair[0] && pair[1] <= last && close(pair)
     });
     pairs
-        .map(|(_, pair)| Found::new(range, |limits| between(evaluator, pair, limits)))
+        .map(|(_, pair)| Found::new(range, |limits| close_pair(evaluator, pair, limits)))
         .collect()
 }
 
 /// Band between two close critical speeds, clipped to the limits. Its growth is nearly constant.
-fn between(
+fn close_pair(
     evaluator: &SignatureEvaluator<'_>,
     critical: &[f64],
     limits: SpeedRange,

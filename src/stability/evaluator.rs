@@ -9,11 +9,10 @@ use faer::c64;
 
 use super::certificate::Certificate;
 use super::partition::{BESIDES, Sample};
-use super::signature::{Signature, SignedMode};
+use super::signature::{Sign, Signature, SignedMode};
 use crate::model::tuning::Tuned;
 use crate::modes::{
-    DoubleEigenvalue, Mode, ModeKind, SearchModel, SpectralModel, SpectrumError, krein_index,
-    smallest,
+    DoubleEigenvalue, Mode, ModeKind, SpectralModel, SpectrumError, krein_index, smallest,
 };
 
 /// Relative distance of the search from critical speeds: λ² passes through zero there and is accurate only to
@@ -26,103 +25,53 @@ pub const CRITICAL_GROUP: f64 = 2e-5;
 /// cannot be distinguished.
 const MOST_SPEEDS: usize = 20_000;
 
-/// Largest number of solves on a full model of at most [`USUAL_ORDER`] functions. Each takes as long as a whole
-/// sweep on a reduced model; the saws of the tests need a tenth of this number.
-const MOST_FULL_SOLVES: f64 = 200.0;
-/// Order of the full model above which fewer solves are allowed, because the time of a solve grows with the
-/// cube of the order. On the largest basis, where a solve takes minutes, none is allowed.
-const USUAL_ORDER: f64 = 300.0;
-
-/// Number of solves allowed on the full model.
-fn most_full_solves(model: &SpectralModel) -> usize {
-    let smaller = (USUAL_ORDER / model.plate.degrees_of_freedom() as f64).min(1.0);
-    (MOST_FULL_SOLVES * smaller.powi(3)) as usize
-}
-
-/// A second search, on the full model, needs more allowed solves than this.
-const LEAST_FOR_A_SEARCH: usize = 25;
+/// Frequency of a wave above all others of a sample, in multiples of the frequency up to which modes are complete.
+const FENCE: f64 = 6.0;
 /// If the Krein index contradicts the modes at a speed, it is compared again at this relative distance. At a
 /// coalescence the Krein signs of the two modes are rounding: for a pad of 100 N/m, with bands of a width of
 /// 2e-6 of the speed, this occurred within 1e-9 of the speed of the coalescence.
 const BESIDE_COALESCENCE: f64 = 1e-7;
 
-/// If the growth rates by the projection and by the states differ by more than this share, they belong to
-/// different modes: the states are accurate to 1e-5 of the height.
-const SAME_GROWTH: f64 = 0.01;
-/// Number of speeds at which a search on the full model solves it; between two of them the search uses their
-/// modes.
-const ANCHORS: usize = 13;
-
-/// Numbers of speeds and solves, and speeds at which the Krein index contradicts the modes.
+/// Number of speeds, and speeds at which the Krein index contradicts the modes.
 #[derive(Debug, Default)]
 struct Tally {
     checked: AtomicUsize,
-    solved_in_full: AtomicUsize,
     violations: Mutex<Vec<f64>>,
+}
+
+/// A growing eigenvalue at more than this share of its expected growth from the expected one may be another.
+const SAME_GROWTH: f64 = 0.1;
+
+/// All modes of the reduced model at a speed.
+pub struct SolvedSpeed {
+    /// Rotation speed Ω.
+    pub speed_rad_per_s: f64,
+    /// Modes at this speed.
+    pub modes: Vec<Mode>,
+}
+
+impl SolvedSpeed {
+    fn signature(&self) -> Signature {
+        Signature::new(self.speed_rad_per_s, self.modes.iter())
+    }
 }
 
 /// Evaluates signatures, checks the Krein index of each, and counts them.
 pub struct SignatureEvaluator<'a> {
     model: &'a SpectralModel,
-    /// Projections of the search; without them every speed is solved by the model.
-    low: Option<SearchModel<'a>>,
     tally: Tally,
-    /// Signatures at the speeds of the search.
-    seen: Mutex<Vec<Signature>>,
-    /// Whether this search repeats one on an insufficient reduced model; the number of its solves is limited.
-    is_second_search: bool,
+    /// Modes at the speeds of the search.
+    seen: Mutex<Vec<SolvedSpeed>>,
 }
 
 impl<'a> SignatureEvaluator<'a> {
-    /// An evaluator for an undamped blade between the first and the last speed given.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn new(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
-        let low = match SearchModel::new(model) {
-            Some(low) => Some(low),
-            None => SearchModel::of_full_model(model, &anchors(speeds))?,
-        };
-        Ok(Self::of(model, low))
-    }
-
-    /// Whether the full model is small enough for a solve at every speed of a search.
-    pub fn has_full_model_within_reach(model: &SpectralModel) -> bool {
-        most_full_solves(model) > LEAST_FOR_A_SEARCH
-    }
-
-    /// An evaluator that uses the modes of the full model instead of the projections: slow.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn on_full_model(model: &'a SpectralModel, speeds: &[f64]) -> Result<Self, SpectrumError> {
-        let low = SearchModel::of_full_model(model, &anchors(speeds))?;
-        Ok(SignatureEvaluator {
-            is_second_search: true,
-            ..Self::of(model, low)
-        })
-    }
-
-    fn of(model: &'a SpectralModel, low: Option<SearchModel<'a>>) -> Self {
+    /// An evaluator for an undamped blade.
+    pub fn new(model: &'a SpectralModel) -> Self {
         SignatureEvaluator {
             model,
-            low,
             tally: Tally::default(),
             seen: Mutex::default(),
-            is_second_search: false,
         }
-    }
-
-    /// The given ascending speeds and the boundaries between intervals of the model.
-    pub fn with_ends_of_intervals(&self, speeds: &[f64]) -> Vec<f64> {
-        let mut all = speeds.to_vec();
-        if let [first, .., last] = speeds {
-            let ends = self.low.iter().flat_map(SearchModel::ends_rad_per_s);
-            all.extend(ends.filter(|speed| first < speed && speed < last));
-        }
-        all.sort_by(f64::total_cmp);
-        all.dedup();
-        all
     }
 
     /// Results of the checks so far.
@@ -144,12 +93,9 @@ impl<'a> SignatureEvaluator<'a> {
     /// Whether the allowed number of speeds is used up.
     pub fn is_exhausted(&self) -> bool {
         self.tally.checked.load(Ordering::Relaxed) >= MOST_SPEEDS
-            || self.tally.solved_in_full.load(Ordering::Relaxed) > most_full_solves(self.model)
     }
 
-    /// Computes the signature at a speed. If it contradicts the Krein index, the modes are computed again on
-    /// the projection and on the full model, and compared beside the speed; a remaining contradiction is a
-    /// violation.
+    /// Computes the signature at a speed. If it contradicts the Krein index there and beside the speed, this is a violation.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
@@ -161,31 +107,13 @@ impl<'a> SignatureEvaluator<'a> {
     /// Modes of the signature at a speed.
     fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
         self.tally.checked.fetch_add(1, Ordering::Relaxed);
-        if let Some(low) = &self.low {
-            let modes = low.modes(speed_rad_per_s)?;
-            if self.match_index(speed_rad_per_s, &modes) {
-                return Ok(modes);
-            }
-        }
-        if self.is_second_search {
-            self.tally.solved_in_full.fetch_add(1, Ordering::Relaxed);
-        }
-        let reduced = self.projected_modes(speed_rad_per_s)?;
-        if self.match_index(speed_rad_per_s, &reduced) {
-            return Ok(reduced);
-        }
-        let before = self.tally.solved_in_full.fetch_add(1, Ordering::Relaxed);
-        let modes = if before < most_full_solves(self.model) {
-            self.model.full_modes(speed_rad_per_s)?
-        } else {
-            reduced
-        };
+        let modes = self.model.all_modes(speed_rad_per_s)?;
         if self.match_index(speed_rad_per_s, &modes) {
             return Ok(modes);
         }
         for share in [1.0 - BESIDE_COALESCENCE, 1.0 + BESIDE_COALESCENCE] {
             let beside = share * speed_rad_per_s;
-            if self.match_index(beside, &self.projected_modes(beside)?) {
+            if self.match_index(beside, &self.model.all_modes(beside)?) {
                 return Ok(modes);
             }
         }
@@ -195,23 +123,12 @@ impl<'a> SignatureEvaluator<'a> {
         Ok(modes)
     }
 
-    /// Modes of the projections at a speed.
-    fn projected_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        match &self.low {
-            Some(low) => low.projected_modes(speed_rad_per_s),
-            None => self.model.all_modes(speed_rad_per_s),
-        }
-    }
-
-    /// Signature by the smallest model, neither counted nor checked, for proposals that a proof checks.
+    /// Signature neither counted nor checked, for proposals that a proof checks.
     ///
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn guess_at(&self, speed_rad_per_s: f64) -> Result<Signature, SpectrumError> {
-        let modes = match &self.low {
-            Some(low) => low.modes(speed_rad_per_s)?,
-            None => self.model.all_modes(speed_rad_per_s)?,
-        };
+        let modes = self.model.all_modes(speed_rad_per_s)?;
         Ok(Signature::new(speed_rad_per_s, modes.iter()))
     }
 
@@ -228,10 +145,13 @@ impl<'a> SignatureEvaluator<'a> {
             return Ok(None);
         }
         let modes = self.modes(speed_rad_per_s)?;
-        if let Ok(mut seen) = self.seen.lock() {
-            seen.push(Signature::new(speed_rad_per_s, modes.iter()));
-        }
         let squares = self.squares(&modes);
+        if let Ok(mut seen) = self.seen.lock() {
+            seen.push(SolvedSpeed {
+                speed_rad_per_s,
+                modes,
+            });
+        }
         Ok(Some(Sample::of_squares(speed_rad_per_s, squares)))
     }
 
@@ -258,25 +178,34 @@ impl<'a> SignatureEvaluator<'a> {
                 squares.push(((real(square), real(slope)), mode.krein_sign()));
             }
         }
+        // The reduced model may have no mode above the search, in whose gap the search could end.
+        let fence = FENCE * self.model.complete_to_rad_per_s;
+        squares.retain(|((square, _), _)| square.re > -fence * fence);
+        squares.push(((c64::new(-fence * fence, 0.0), c64::ZERO), 1));
         squares
     }
 
     /// Signatures at the sampled speeds, ascending.
     pub fn signatures(&self) -> Vec<Signature> {
-        let mut all = self
-            .seen
-            .lock()
-            .map_or_else(|_| Vec::new(), |seen| seen.clone());
+        let mut all: Vec<Signature> = self.seen.lock().map_or_else(
+            |_| Vec::new(),
+            |seen| seen.iter().map(SolvedSpeed::signature).collect(),
+        );
         all.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
         all
+    }
+
+    /// Modes at the sampled speeds, in no particular order.
+    pub fn into_solved(self) -> Vec<SolvedSpeed> {
+        self.seen.into_inner().unwrap_or_default()
     }
 
     /// The signature at a sampled speed.
     fn seen_at(&self, speed_rad_per_s: f64) -> Option<Signature> {
         let seen = self.seen.lock().ok()?;
         seen.iter()
-            .find(|signature| signature.speed_rad_per_s == speed_rad_per_s)
-            .cloned()
+            .find(|solved| solved.speed_rad_per_s == speed_rad_per_s)
+            .map(SolvedSpeed::signature)
     }
 
     /// Quadruple at a speed next to an expected eigenvalue.
@@ -290,7 +219,17 @@ impl<'a> SignatureEvaluator<'a> {
     ) -> Result<Option<SignedMode>, SpectrumError> {
         let signature = match self.seen_at(speed_rad_per_s) {
             Some(known) => known,
-            None => self.at(speed_rad_per_s)?,
+            None => match self.growing_next_to(speed_rad_per_s, expected) {
+                Some((lambda, slope)) => {
+                    let sign = Sign::Quadruple;
+                    return Ok(Some(SignedMode {
+                        sign,
+                        lambda,
+                        slope,
+                    }));
+                }
+                None => self.at(speed_rad_per_s)?,
+            },
         };
         let away = |mode: &SignedMode| (mode.lambda - expected).norm();
         Ok(smallest(signature.quadruples, away))
@@ -298,26 +237,43 @@ impl<'a> SignatureEvaluator<'a> {
 
     /// Frequency up to which signatures are complete.
     pub fn height_rad_per_s(&self) -> f64 {
-        self.low.as_ref().map_or(
-            self.model.complete_to_rad_per_s,
-            SearchModel::height_rad_per_s,
-        )
+        self.model.reflected_to_rad_per_s
     }
 
-    /// The eigenvalue of the projection next to an expected one, and dλ/dΩ. `None` if it is another one or none.
-    pub fn next_to(&self, speed_rad_per_s: f64, expected: c64) -> Option<(c64, c64)> {
-        self.low.as_ref()?.next_to(speed_rad_per_s, expected)
+    /// A growing eigenvalue next to an expected one, and dλ/dΩ, by Newton's method; a real one stays real. `None` if it does not lead to
+    /// this eigenvalue.
+    fn growing_next_to(&self, speed_rad_per_s: f64, expected: c64) -> Option<(c64, c64)> {
+        let found = self.model.next_to(speed_rad_per_s, expected);
+        found.filter(|(lambda, _)| (lambda - expected).norm() <= SAME_GROWTH * expected.re)
     }
 
-    /// The coalescence of two modes of the projection next to an expected one.
+    /// σ and dσ/dΩ of a divergent mode at a speed, next to an expected growth rate. `None` if no mode diverges.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when the eigenproblem fails.
+    pub fn divergent(
+        &self,
+        speed_rad_per_s: f64,
+        expected_per_s: f64,
+    ) -> Result<Option<[f64; 2]>, SpectrumError> {
+        let found = self.growing_next_to(speed_rad_per_s, c64::new(expected_per_s, 0.0));
+        let parts = |(lambda, slope): (c64, c64)| [lambda.re, slope.re];
+        Ok(match found {
+            Some(found) => Some(parts(found)),
+            None => {
+                let fastest = self.at(speed_rad_per_s)?.divergence();
+                fastest.map(|mode| parts((mode.lambda, mode.slope)))
+            }
+        })
+    }
+
+    /// The coalescence of two modes of the guided blade next to an expected one.
     pub fn double_eigenvalue(
         &self,
         speed_rad_per_s: f64,
         expected: c64,
     ) -> Option<DoubleEigenvalue> {
-        self.low
-            .as_ref()?
-            .double_eigenvalue(speed_rad_per_s, expected)
+        self.model.double_eigenvalue(0, speed_rad_per_s, expected)
     }
 
     /// Largest growth rate of a divergent mode, in 1/s, without a check by the Krein index, which rounding
@@ -326,29 +282,8 @@ impl<'a> SignatureEvaluator<'a> {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn divergence(&self, speed_rad_per_s: f64) -> Result<f64, SpectrumError> {
-        let modes = match &self.low {
-            Some(low) => low.projected_modes(speed_rad_per_s)?,
-            None => return Ok(0.0),
-        };
-        Ok(Signature::new(speed_rad_per_s, modes.iter())
-            .divergence()
-            .map_or(0.0, |mode| mode.lambda.re))
-    }
-
-    /// Growth rate of a divergent mode, in 1/s, by the projection, from the approximate rate by the states.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn divergence_next_to(
-        &self,
-        speed_rad_per_s: f64,
-        expected_per_s: f64,
-    ) -> Result<f64, SpectrumError> {
-        let found = self.next_to(speed_rad_per_s, c64::new(expected_per_s, 0.0));
-        let growth = found
-            .map(|(lambda, _)| lambda.re)
-            .filter(|g| (g - expected_per_s).abs() <= SAME_GROWTH * expected_per_s);
-        growth.map_or_else(|| self.divergence(speed_rad_per_s), Ok)
+        let signature = self.guess_at(speed_rad_per_s)?;
+        Ok(signature.divergence().map_or(0.0, |mode| mode.lambda.re))
     }
 
     /// Whether a critical speed lies between two speeds.
@@ -371,23 +306,4 @@ impl<'a> SignatureEvaluator<'a> {
         let signatures: Vec<_> = speeds.par_iter().map(|&speed| self.at(speed)).collect();
         signatures.into_iter().collect()
     }
-}
-
-/// The first and the last of ascending speeds and some about evenly spaced between.
-fn anchors(speeds: &[f64]) -> Vec<f64> {
-    let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else {
-        return Vec::new();
-    };
-    let spacing = (last - first) / ANCHORS as f64;
-    let mut chosen = vec![first];
-    for &speed in speeds {
-        let latest = chosen[chosen.len() - 1];
-        if speed - latest >= spacing && last - speed >= 0.5 * spacing {
-            chosen.push(speed);
-        }
-    }
-    if last > first {
-        chosen.push(last);
-    }
-    chosen
 }

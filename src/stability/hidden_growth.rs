@@ -2,7 +2,7 @@
 
 use super::search_result::StabilityChart;
 use crate::model::scene::SpeedRange;
-use crate::modes::DescribedMode;
+use crate::modes::NamedMode;
 use crate::modes::branches::{Campbell, SpeedSample};
 
 impl StabilityChart {
@@ -74,7 +74,7 @@ fn approach(campbell: &Campbell, range: SpeedRange) -> f64 {
     let first = below.saturating_sub(1);
     let last = samples.partition_point(|s| speed(s) < to).max(first);
     let about = samples.iter().take(last + 1).skip(first);
-    let modes: Vec<&DescribedMode> = about.flat_map(|sample| &sample.modes).collect();
+    let modes: Vec<&NamedMode> = about.flat_map(|sample| &sample.modes).collect();
     let largest = |sign: i8, to_rad_per_s: f64| {
         let waves = modes.iter().filter(|m| {
             m.mode.krein_sign() == sign && m.mode.frequency_rad_per_s() <= to_rad_per_s

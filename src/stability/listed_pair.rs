@@ -1,4 +1,4 @@
-//! Refinement on the full model of the eigenvalues that a report lists: those at the peaks of bands, and that
+//! Refinement on the full model of the eigenvalues that a report lists: those at rest and at the peaks of bands, and that
 //! of the fastest growing or slowest decaying mode at the operating speed.
 
 use faer::c64;
@@ -14,12 +14,22 @@ pub(super) struct Listed {
 }
 
 impl Listed {
-    /// A list that begins with the modes at rest, which are accurate without refinement.
-    pub fn new(modes_at_rest: &[DescribedMode]) -> Self {
-        let errors = modes_at_rest.iter().map(|mode| mode.backward_error);
-        Listed {
-            largest_error: Some(errors.fold(0.0, f64::max)),
-        }
+    /// A list that begins with the modes at rest. Those of a free blade are accurate without refinement.
+    ///
+    /// # Errors
+    /// [`SpectrumError`] when an eigenproblem fails.
+    pub fn new(
+        model: &SpectralModel,
+        modes_at_rest: &[DescribedMode],
+    ) -> Result<Self, SpectrumError> {
+        let errors = modes_at_rest.par_iter().map(|mode| {
+            let refined = model.refined(0.0, mode.mode.lambda)?;
+            Ok(refined.map_or(mode.backward_error, |pair| pair.backward_error))
+        });
+        let errors: Vec<f64> = errors.collect::<Result<_, _>>()?;
+        Ok(Listed {
+            largest_error: Some(errors.into_iter().fold(0.0, f64::max)),
+        })
     }
 
     /// Refines growth rate and frequency at the peaks of bands.
@@ -129,7 +139,7 @@ mod tests {
             let range = SpeedRange::between_rpm(0.0, 2600.0);
             let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
             let mut bands = chart(&model, range, 5, &|_, _| ()).unwrap().instabilities;
-            let mut listed = Listed::new(&[]);
+            let mut listed = Listed::new(&model, &[]).unwrap();
             listed.refine_peaks(&model, &mut bands).unwrap();
             assert!(bands.len() >= least, "{}", bands.len());
             let system = &model.components[0].full;

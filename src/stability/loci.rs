@@ -4,7 +4,7 @@ use faer::c64;
 
 use super::band::Instability;
 use crate::model::scene::SpeedRange;
-use crate::modes::{Mode, SearchModel, SpectralModel, SpectrumError, smallest};
+use crate::modes::{Mode, SpectralModel, SpectrumError, smallest};
 
 /// Paths of two eigenvalues over speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,8 +21,7 @@ const SPEEDS: usize = 20;
 
 impl RootLoci {
     /// Follows the pair of a band from its peak to one width below and above the band, within a range, or
-    /// until one of the two coalesces with another mode. `None` without a reduced model, and if the pair is
-    /// not found.
+    /// until one of the two coalesces with another mode. `None` if the pair is not found.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
@@ -34,9 +33,8 @@ impl RootLoci {
         let width = band.range().width();
         let wide = SpeedRange::new(band.from_rad_per_s - width, band.to_rad_per_s + width);
         let [from, to] = wide.within(range).ends();
-        let pairs = SearchModel::new(model).map(Pairs);
-        let peak = pairs.as_ref().and_then(|pairs| pairs.at_peak(band));
-        let Some((pairs, peak)) = pairs.zip(peak) else {
+        let pairs = Pairs(model);
+        let Some(peak) = pairs.at_peak(band) else {
             return Ok(None);
         };
         let outwards = |edge: f64, end: f64| {
@@ -105,8 +103,8 @@ impl Pair {
     }
 }
 
-/// Pairs of eigenvalues on the reduced model.
-struct Pairs<'a>(SearchModel<'a>);
+/// Pairs of eigenvalues of a saw.
+struct Pairs<'a>(&'a SpectralModel);
 
 impl Pairs<'_> {
     /// The growing and the decaying mode of a band at its peak.
@@ -181,7 +179,7 @@ impl Pairs<'_> {
 
     /// Krein signs of a pair.
     fn signs(&self, pair: &Pair) -> Result<[Option<i8>; 2], SpectrumError> {
-        let modes = self.0.modes(pair.speed)?;
+        let modes = self.0.all_modes(pair.speed)?;
         Ok(pair.sloped.map(|(lambda, _)| {
             let nearest = smallest(&modes, |mode| (mode.lambda - lambda).norm());
             nearest.map(Mode::krein_sign)

@@ -78,10 +78,6 @@ pub use onsets::Onsets;
 #[doc(hidden)]
 pub use onsets::search_bands;
 pub use options::{AnalysisOptions, Interim};
-#[doc(hidden)]
-pub use partition::{Plane, Sample};
-#[doc(hidden)]
-pub use pieces::{Grouped, Piece, Search};
 pub(crate) use reach::{CHARTED, PAST_THE_RANGE, is_cut_short, usual_end};
 pub(crate) use root::{Look, bracketed};
 pub use search_result::{FoundBands, StabilityChart};

@@ -54,7 +54,7 @@ mod tests {
             let range = chosen.range_rad_per_s;
             let model =
                 SpectralModel::with_critical(chosen.saw, chosen.critical, range, Strategy::Reduced);
-            let modes = model.unwrap().drawn_modes(to).unwrap().len();
+            let modes = model.unwrap().modes(to).unwrap().len();
             assert!(modes >= waves, "{to_rpm}: {modes} {waves}");
         }
     }

@@ -309,12 +309,16 @@ impl Merging {
         };
         Ok(expected.and_then(|(component, expected)| {
             let found = model.double_eigenvalue(component, speed, expected)?;
+            let lifted = |lambda: c64, x: &Col<c64>| {
+                model.components[component].lifted(found.speed_rad_per_s, lambda, x)
+            };
+            // L(λ)ᴴ = L(−λ̄).
             Some(Merging {
                 component,
                 speed,
                 lambda: found.lambda,
-                x: found.right,
-                y: Some(found.left),
+                x: lifted(found.lambda, &found.right),
+                y: Some(lifted(-found.lambda.conj(), &found.left)),
                 damped: false,
             })
         }))
@@ -336,8 +340,11 @@ impl Merging {
             component: mode.component,
             speed: band.from_rad_per_s,
             lambda: mode.lambda,
-            x: analysis.model.components[mode.component]
-                .lifted(band.from_rad_per_s, &mode.coordinates),
+            x: analysis.model.components[mode.component].lifted(
+                band.from_rad_per_s,
+                mode.lambda,
+                &mode.coordinates,
+            ),
             y: None,
             damped: true,
         }))

@@ -1,10 +1,12 @@
 //! Bands of an undamped blade over a range of speeds, and the speeds of its chart.
 
+use rayon::prelude::*;
+
 use super::band::Instability;
-use super::certification::{Depth, bands, contradictions};
+use super::certification::{Depth, Searched, bands, contradictions};
 use super::detail::Detail;
 use super::error::AnalysisError;
-use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP};
+use super::evaluator::{CRITICAL_GAP, CRITICAL_GROUP, SolvedSpeed};
 use super::options::AnalysisOptions;
 use super::search_result::{FoundBands, StabilityChart};
 use super::signature::Signature;
@@ -16,8 +18,6 @@ use crate::modes::{NamedCriticalSpeed, SpectralModel, SpectrumError, clear_range
 
 /// Number of even speeds at the start of the search for bands; the bands do not depend on it.
 pub(super) const SEARCH_SPEEDS: usize = 9;
-/// Speeds drawn within and beside a band, as shares of its width, in addition to its peak.
-pub(super) const WITHIN_BANDS: [f64; 6] = [-0.02, 0.02, 0.15, 0.85, 0.98, 1.02];
 
 /// Computes modes at `count` even speeds and wherever bands and curves need more, the bands, and their
 /// checks.
@@ -46,27 +46,49 @@ pub(super) fn charted(
     } else {
         search_speeds(model, range, SEARCH_SPEEDS)
     };
-    let (within_bands, closeness) = match detail {
-        Detail::Full => (WITHIN_BANDS.as_slice(), Closeness::FIGURE),
-        Detail::Sketch => ([].as_slice(), Closeness::SKETCH),
+    let closeness = match detail {
+        Detail::Full => Closeness::FIGURE,
+        Detail::Sketch => Closeness::SKETCH,
     };
     branches::check_room(model, &speeds)?;
-    let searched = || {
-        let found = bands(model, range, &search, depth)?;
-        options.report(&model.critical, range, Some(&found.instabilities));
-        Ok::<_, SpectrumError>(found)
-    };
-    let (found, samples) = rayon::join(searched, || branches::sample(model, &speeds, progress));
-    let (mut found, mut samples) = (found?, samples?);
-    let room = branches::room_for_more(model, &samples);
-    let between = inside(&found.instabilities, &samples, within_bands, room, range);
-    samples.extend(branches::sample(model, &between, &|_, _| ())?);
+    let Searched { mut found, solved } = bands(model, range, &search, depth)?;
+    options.report(&model.critical, range, Some(&found.instabilities));
+    let mut samples = searched_samples(model, solved, drawn);
+    let unsearched = speeds_beside(&samples, speeds);
+    samples.extend(branches::sample(model, &unsearched, progress)?);
+    let peaks = peaks(&found.instabilities, &samples, range);
+    samples.extend(branches::sample(model, &peaks, &|_, _| ())?);
     samples.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
     let samples = branches::refined(model, samples, closeness)?;
     let drawn: Vec<Signature> = samples.iter().map(signature_of).collect();
     let wrong = contradictions(&found.instabilities, &drawn, DRAWN_FLOOR);
     found.certificate.mismatches.extend(wrong);
     Ok(StabilityChart::new(model, samples, found))
+}
+
+/// Samples at the speeds of a search within a range.
+fn searched_samples(
+    model: &SpectralModel,
+    solved: Vec<SolvedSpeed>,
+    drawn: SpeedRange,
+) -> Vec<SpeedSample> {
+    let inside = solved
+        .into_par_iter()
+        .filter(|at| drawn.contains(at.speed_rad_per_s));
+    let named = inside.map(|at| SpeedSample {
+        speed_rad_per_s: at.speed_rad_per_s,
+        modes: model.name(at.speed_rad_per_s, model.shown(at.modes)),
+    });
+    named.collect()
+}
+
+/// The speeds outside the range of samples: a search has enough speeds where bands may be.
+fn speeds_beside(samples: &[SpeedSample], mut speeds: Vec<f64>) -> Vec<f64> {
+    let searched = samples.iter().map(|sample| sample.speed_rad_per_s);
+    let first = searched.clone().fold(f64::INFINITY, f64::min);
+    let last = searched.fold(0.0, f64::max);
+    speeds.retain(|speed| *speed < first || *speed > last);
+    speeds
 }
 
 fn signature_of(sample: &SpeedSample) -> Signature {
@@ -86,7 +108,7 @@ pub fn undamped_bands(
     count: usize,
 ) -> Result<FoundBands, SpectrumError> {
     let speeds = search_speeds(model, range, count);
-    bands(model, range, &speeds, Depth::Counts)
+    Ok(bands(model, range, &speeds, Depth::Counts)?.found)
 }
 
 /// Start speeds of the search for bands: `count` even ones and both sides of every critical speed. The first
@@ -203,24 +225,11 @@ fn away_from_critical(model: &SpectralModel, mut speeds: Vec<f64>) -> Vec<f64> {
     speeds
 }
 
-/// Speeds inside and beside the bands, so that even the narrowest band is drawn. With hundreds of bands, each
-/// has only as many speeds as the allowed memory permits, peaks first.
-fn inside(
-    instabilities: &[Instability],
-    samples: &[SpeedSample],
-    shares: &[f64],
-    room: usize,
-    range: SpeedRange,
-) -> Vec<f64> {
-    let at_each = room / instabilities.len().max(1);
-    let shares = &shares[..shares.len().min(at_each.saturating_sub(1))];
+/// Speeds of the largest growth of bands, except those of samples.
+fn peaks(instabilities: &[Instability], samples: &[SpeedSample], range: SpeedRange) -> Vec<f64> {
     let mut speeds: Vec<f64> = instabilities
         .iter()
-        .flat_map(|band| {
-            let at = |share: f64| band.from_rad_per_s + share * band.range().width();
-            let shares = shares.iter().copied();
-            shares.map(at).chain([band.peak_rad_per_s])
-        })
+        .map(|band| band.peak_rad_per_s)
         .collect();
     speeds.retain(|s| range.contains(*s));
     speeds.retain(|s| samples.iter().all(|sample| sample.speed_rad_per_s != *s));

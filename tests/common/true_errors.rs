@@ -203,7 +203,9 @@ fn drawn_at_the_top(
     let speed = sample.speed_rad_per_s;
     let truth = lowest.at(speed, sample.modes.len() + 4).unwrap();
     let estimates = analysis.estimates.as_ref().unwrap();
-    let errors = estimates.frequencies(&analysis.model, speed, &sample.modes);
+    let modes = sample.modes.iter().map(|named| named.mode.clone());
+    let modes = analysis.model.describe(speed, modes.collect());
+    let errors = estimates.frequencies(&analysis.model, speed, &modes);
     let drawn = sample.modes.iter().zip(errors);
     for (mode, estimate) in drawn.filter_map(|(mode, estimate)| Some((mode, estimate?))) {
         let frequency = mode.mode.frequency_rad_per_s();

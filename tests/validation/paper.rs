@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 
 use crate::common::{Worst, relative_error};
 use sawflutter::model::scene::{Accuracy, Scene, rad_per_s, rpm};
-use sawflutter::modes::{DescribedMode, Direction, ModeKind};
+use sawflutter::modes::{Direction, ModeKind, NamedMode};
 use sawflutter::stability::{Analysis, InstabilityKind};
 use serde::Deserialize;
 
@@ -232,7 +232,7 @@ fn nothing_grows_below_the_first_critical_speed() {
 fn a_mode_is_called_reflected_where_its_krein_sign_is_negative() {
     let samples = &guided().chart.campbell.samples;
     let modes = || samples.iter().flat_map(|sample| &sample.modes);
-    let is_reflected = |m: &&DescribedMode| m.name.direction == Direction::Reflected;
+    let is_reflected = |m: &&NamedMode| m.name.direction == Direction::Reflected;
     assert!(modes().filter(is_reflected).count() > 100);
     for described in modes() {
         let is_negative = described.mode.krein_sign() < 0;

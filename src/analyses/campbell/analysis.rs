@@ -153,12 +153,11 @@ pub struct SolveCounts {
     /// Number of `full_solves` that used the block structure of the blade and the few columns of its guides, in a time
     /// linear in the number of basis functions; scenes with edge loads or dampers have no such structure.
     pub structured_solves: usize,
-    /// Dense eigenproblems of the reduced model.
+    /// Eigenproblems of one number of nodal diameters of a free blade.
     pub reduced_solves: usize,
-    /// Dense eigenproblems of the Hamiltonian reduction between two speeds.
+    /// Eigenproblems of the reduced model by waves.
     pub local_solves: usize,
-    /// Pairs of modes (single modes of a damped blade or in divergence) refined by inverse iteration with a
-    /// few factorizations each.
+    /// Modes and coalescences found by Newton's method on the reduced model.
     pub refined_pairs: usize,
     /// Symmetric eigenproblems of the full model at other temperatures, for limits of heat.
     pub heat_solves: usize,

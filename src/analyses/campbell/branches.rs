@@ -8,7 +8,7 @@ use super::chart::BranchCurve;
 use crate::model::scene::rpm;
 use crate::modes::branches::{Branch, Campbell, SpeedSample};
 use crate::modes::{
-    DescribedMode, Direction, EventName, ModeKind, NamedCriticalSpeed, SpectralModel,
+    Direction, EventName, Mode, ModeKind, NamedCriticalSpeed, NamedMode, SpectralModel,
 };
 use crate::stability::{Analysis, Instability, InstabilityKind};
 
@@ -102,11 +102,16 @@ impl<'a> Numbered<'a> {
     /// Name of a band by its waves; `None` if no mode grows at the speed of the diagram that is nearest to the peak.
     pub fn event(&self, band: &Instability) -> Option<EventName> {
         let point = self.at_peak(band, self.growing_kind(band))?;
-        let growing = self.campbell().mode(point);
+        let growing = self.campbell().mode(point).mode.clone();
         let speed = self.campbell().samples[point.0].speed_rad_per_s;
-        let plate = &self.analysis.model.plate;
-        let (mode, shape) = (&growing.mode, &growing.shape);
-        Some(EventName::growing(plate, mode, shape, speed))
+        let model = &self.analysis.model;
+        let described = model.describe(speed, vec![growing]).pop()?;
+        Some(EventName::growing(
+            &model.plate,
+            &described.mode,
+            &described.shape,
+            speed,
+        ))
     }
 
     fn growing_kind(&self, band: &Instability) -> ModeKind {
@@ -121,10 +126,10 @@ impl<'a> Numbered<'a> {
     fn at_peak(&self, band: &Instability, kind: ModeKind) -> Option<(usize, usize)> {
         let index = self.nearest_sample(band.peak_rad_per_s)?;
         let modes = self.campbell().samples[index].modes.iter().enumerate();
-        let grows = |m: &DescribedMode| kind != ModeKind::Damped || m.mode.lambda.re > 0.0;
+        let grows = |m: &NamedMode| kind != ModeKind::Damped || m.mode.lambda.re > 0.0;
         let same = modes.filter(|(_, m)| m.mode.kind == kind && grows(m));
         let wanted = c64::new(band.peak_growth_per_s, band.frequency_rad_per_s);
-        let off = |m: &DescribedMode| {
+        let off = |m: &NamedMode| {
             let lambda = m.mode.lambda;
             (c64::new(lambda.re.abs(), lambda.im) - wanted).norm()
         };
@@ -152,7 +157,7 @@ impl<'a> Numbered<'a> {
             .flat_map(|index| {
                 let modes = samples[index].modes.iter().enumerate();
                 let own = modes.filter(|(_, m)| m.mode.component == critical.component);
-                own.map(move |(k, m)| (standing_likeness(model, critical, &m.shape), m, (index, k)))
+                own.map(move |(k, m)| (standing_likeness(model, critical, &m.mode), m, (index, k)))
             })
             .collect();
         let best = candidates.iter().map(|c| c.0).fold(0.0, f64::max);
@@ -187,10 +192,10 @@ impl<'a> Numbered<'a> {
 
     fn entry(&self, branch: &Branch, place: usize) -> BranchCurve {
         let campbell = self.campbell();
-        let modes: Vec<&DescribedMode> = branch.points.iter().map(|&p| campbell.mode(p)).collect();
-        let list = |value: fn(&DescribedMode) -> f64| modes.iter().map(|m| value(m)).collect();
+        let modes: Vec<&NamedMode> = branch.points.iter().map(|&p| campbell.mode(p)).collect();
+        let list = |value: fn(&NamedMode) -> f64| modes.iter().map(|m| value(m)).collect();
         let speed = |&(s, _): &(usize, usize)| rpm(campbell.samples[s].speed_rad_per_s);
-        let harmonics = |m: &&DescribedMode| {
+        let harmonics = |m: &&NamedMode| {
             let diameters = |place: usize| m.name.harmonics.get(place).map_or(0, |h| h.diameters);
             [diameters(0), diameters(1)]
         };
@@ -246,23 +251,19 @@ impl BranchName {
 /// A mode is a candidate for the wave of a critical speed if its likeness is at least this share of the largest.
 const ALIKE: f64 = 0.8;
 
-/// |xᵀq|² of the shape x at a critical speed and the shape q of a mode, both of length one.
-fn standing_likeness(
-    model: &SpectralModel,
-    critical: &NamedCriticalSpeed,
-    shape: &Col<c64>,
-) -> f64 {
-    let component = &model.components[critical.component];
-    let own = component.coordinates(shape);
+/// |xᵀq|² of the shape x at a critical speed and the waves q that name a mode, both of length one.
+fn standing_likeness(model: &SpectralModel, critical: &NamedCriticalSpeed, mode: &Mode) -> f64 {
+    let waves = model.naming_waves(std::slice::from_ref(mode));
+    let own: Col<c64> = model.components[critical.component].coordinates(&waves[0]);
     let product: c64 = (0..own.nrows()).map(|i| own[i] * critical.shape[i]).sum();
     product.norm_sqr()
 }
 
 /// The mode with which a growing mode of a damped blade has coalesced: the two eigenvalues are λ = c ± g, of
 /// nearly equal frequency and different growth. A wave that damping alone destabilizes has no such partner.
-fn damped_partner(modes: &[DescribedMode], growing: c64) -> Option<usize> {
-    let off = |m: &DescribedMode| (m.mode.lambda.im - growing.im).abs();
-    let is_near = |m: &DescribedMode| off(m) < growing.re - m.mode.lambda.re;
+fn damped_partner(modes: &[NamedMode], growing: c64) -> Option<usize> {
+    let off = |m: &NamedMode| (m.mode.lambda.im - growing.im).abs();
+    let is_near = |m: &NamedMode| off(m) < growing.re - m.mode.lambda.re;
     let modes = modes.iter().enumerate();
     let partners = modes.filter(|(_, m)| m.mode.lambda.re < 0.0 && is_near(m));
     let nearest = partners.min_by(|x, y| off(x.1).total_cmp(&off(y.1)));

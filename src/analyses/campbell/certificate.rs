@@ -18,7 +18,7 @@ pub struct BandCertificate {
     /// Number of speeds at which the Krein index was compared; for damped scenes, which have none, of speeds
     /// at which the number of growing modes was compared with that of the bands.
     pub speeds_checked: usize,
-    /// Number of speeds at which the comparison failed, also on the full model; 0 is expected.
+    /// Number of speeds at which the comparison failed; 0 is expected.
     pub krein_violations: usize,
     /// Speeds at which the comparison failed.
     pub violating_rpm: Vec<f64>,
@@ -29,7 +29,7 @@ pub struct BandCertificate {
     pub uncertain_counts: usize,
     /// Modes that, according to these counts, are missing or superfluous; none are expected.
     pub miscounted_modes: Vec<MiscountedModes>,
-    /// Whether modes were missing at first, so that the bands were searched again on the full model.
+    /// Whether modes were missing at first, so that the bands were searched again with more waves.
     pub searched_again: bool,
     /// Speeds at which the list of bands contradicts the eigenvalues of the search or of the diagram; none
     /// are expected.
@@ -49,7 +49,7 @@ pub struct BandCertificate {
     /// Parts of the remaining intervals in which, by this estimate, the growth of an undetected band could
     /// reach the threshold: from and to.
     pub unproven_counting_rpm: Vec<[f64; 2]>,
-    /// Largest backward error, on the full model, of any mode of the diagram.
+    /// Largest backward error, on the full model, of the modes at rest, at three speeds of the diagram and at the peaks of the bands.
     pub max_backward_error: f64,
     /// Largest backward error, on the full model, of the listed eigenvalues: those of the modes at rest, at
     /// the peaks of the bands and at the operating speed. At reference accuracy these are refined on the full
@@ -151,7 +151,7 @@ pub(crate) fn statement(
         )),
     }
     if certificate.searched_again {
-        agree.push("after a second search on the full model".to_owned());
+        agree.push("after a second search with more waves".to_owned());
     }
     if agree.is_empty() {
         "no speed was checked".to_owned()

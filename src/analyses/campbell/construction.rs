@@ -31,16 +31,17 @@ impl Analysis {
     pub fn report(&self) -> Report {
         let (analysis, scene) = (self, &self.scene);
         let model = &analysis.model;
-        let samples = &analysis.chart.campbell.samples;
-        let errors = samples
+        let at_rest = analysis
+            .modes_at_rest
             .iter()
-            .flat_map(|s| s.modes.iter().map(|m| m.backward_error));
+            .map(|mode| mode.backward_error);
+        let of_others = analysis.estimates.as_ref().map(|e| e.backward_error);
         let certificate = BandCertificate::new(
             &analysis.chart,
             model.is_conservative(),
             analysis.range_rad_per_s,
             scene.flutter_threshold_per_s(),
-            errors.fold(0.0, f64::max),
+            at_rest.chain(of_others).fold(0.0, f64::max),
             self.listed_backward_error,
         );
         let branches = Numbered::new(analysis);

@@ -8,7 +8,7 @@ use super::charts::Charts;
 use super::refusal::Refusal;
 use crate::analyses::campbell::ModeShape;
 use crate::model::scene::rpm;
-use crate::modes::DescribedMode;
+use crate::modes::NamedMode;
 use crate::stability::Analysis;
 
 /// A request for a mode.
@@ -43,8 +43,10 @@ fn nearest(analysis: &Analysis, asked: &Asked) -> Option<ModeShape> {
         let of = |speed| off(rpm(speed), asked.rpm);
         of(x.speed_rad_per_s).total_cmp(&of(y.speed_rad_per_s))
     })?;
-    let of = |mode: &DescribedMode| off(mode.mode.frequency_rad_per_s() / TAU, asked.frequency_hz);
+    let of = |mode: &NamedMode| off(mode.mode.frequency_rad_per_s() / TAU, asked.frequency_hz);
     let mode = sample.modes.iter().min_by(|x, y| of(x).total_cmp(&of(y)))?;
-    let plate = &analysis.model.plate;
-    Some(ModeShape::new(plate, sample.speed_rad_per_s, mode))
+    let model = &analysis.model;
+    let described = model.describe(sample.speed_rad_per_s, vec![mode.mode.clone()]);
+    let shape = |found| ModeShape::new(&model.plate, sample.speed_rad_per_s, found);
+    described.first().map(shape)
 }

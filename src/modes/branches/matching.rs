@@ -3,7 +3,7 @@
 use faer::{Col, Mat, c64};
 
 use super::assignment::cheapest;
-use crate::modes::{DescribedMode, Mode, ModeKind, halves};
+use crate::modes::{Mode, ModeKind, NamedMode};
 
 /// A mode at each of two speeds that belong to one branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,14 +24,13 @@ pub struct Sighted<'a> {
 }
 
 impl<'a> Sighted<'a> {
-    /// Modes of a chart, with shapes in the basis of the plate, because the reduced model differs between
-    /// speeds.
-    pub fn of_described(modes: &'a [DescribedMode]) -> Vec<Self> {
+    /// Modes of a chart.
+    pub fn of_named(modes: &'a [NamedMode]) -> Vec<Self> {
         modes
             .iter()
             .map(|m| Sighted {
                 mode: &m.mode,
-                shape: &m.shape,
+                shape: &m.mode.coordinates,
             })
             .collect()
     }
@@ -212,17 +211,22 @@ struct Likenesses {
 
 impl Likenesses {
     fn new(speeds: [&[Sighted<'_>]; 2]) -> Self {
-        let [x, y] = speeds.map(|modes| {
-            let rows = modes.first().map_or(0, |mode| mode.shape.nrows());
-            halves(rows, modes.iter().map(|mode| mode.shape))
-        });
-        let products = if x.nrows() == y.nrows() {
-            x.transpose() * y
-        } else {
-            // The numbers of rows differ only if one of the speeds has no modes.
-            Mat::zeros(x.ncols(), y.ncols())
+        // Modes of different components, which may have different lengths, are never compared.
+        let all = speeds.iter().copied().flatten();
+        let rows = all.map(|mode| mode.shape.nrows()).max().unwrap_or(0);
+        let halves = |modes: &[Sighted<'_>]| {
+            let mut halves = Mat::zeros(rows, 2 * modes.len());
+            for (k, mode) in modes.iter().enumerate() {
+                for (i, entry) in mode.shape.iter().enumerate() {
+                    halves[(i, 2 * k)] = entry.re;
+                    halves[(i, 2 * k + 1)] = entry.im;
+                }
+            }
+            halves
         };
-        Likenesses { products }
+        Likenesses {
+            products: halves(speeds[0]).transpose() * halves(speeds[1]),
+        }
     }
 
     /// |xᴴy|², or |xᵀy|² if x is mirrored: 1 for the same shape.

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use crate::model::plate::Plate;
 use crate::model::scene::rpm;
 use crate::modes::{
-    DescribedMode, HarmonicShare, NamedCriticalSpeed, SpectralModel, SpectrumError, Work,
+    HarmonicShare, NamedCriticalSpeed, NamedMode, SpectralModel, SpectrumError, Work,
 };
 
 use matching::Match;
@@ -63,7 +63,7 @@ pub struct SpeedSample {
     /// Rotation speed Ω.
     pub speed_rad_per_s: f64,
     /// Modes up to the model's `complete_to`, ordered by frequency.
-    pub modes: Vec<DescribedMode>,
+    pub modes: Vec<NamedMode>,
 }
 
 /// One mode followed over speed.
@@ -85,12 +85,11 @@ pub struct Campbell {
 /// Memory allowed for the modes of a chart, in MiB; usual saws need at most a tenth of it.
 const MEMORY_BUDGET_MB: usize = 1024;
 
-/// Memory for a mode of a chart, in bytes: its shape, its projected coordinates of at most the same length, and
-/// a share for each harmonic.
+/// Memory for a mode of a chart, in bytes: its coordinates, once more while branches are followed, and a share for each harmonic.
 fn bytes_of_mode(plate: &Plate) -> usize {
-    let shape = 2 * plate.degrees_of_freedom() * size_of::<c64>();
+    let coordinates = 2 * plate.degrees_of_freedom() * size_of::<c64>();
     let shares = plate.max_diameters() * size_of::<HarmonicShare>();
-    size_of::<DescribedMode>() + shape + shares
+    size_of::<NamedMode>() + coordinates + shares
 }
 
 /// Number of speeds with this many modes each that fit into the allowed memory.
@@ -137,7 +136,7 @@ pub(crate) fn check_room(model: &SpectralModel, speeds: &[f64]) -> Result<(), Ca
     let Some(last) = speeds.last() else {
         return Ok(());
     };
-    let modes = model.drawn_modes(*last)?.len();
+    let modes = model.modes(*last)?.len();
     check_memory(&model.plate, &model.critical, modes, speeds)
 }
 
@@ -178,8 +177,7 @@ pub fn sample(
     let step = Work::of("speeds of the chart", speeds.len());
     let done = std::sync::atomic::AtomicUsize::new(0);
     let sampled = |speed_rad_per_s: &f64| {
-        let drawn = model.drawn_modes(*speed_rad_per_s)?;
-        let modes = model.describe(*speed_rad_per_s, drawn);
+        let modes = model.name(*speed_rad_per_s, model.modes(*speed_rad_per_s)?);
         let so_far = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
         progress(so_far, speeds.len());
         step.advance();
@@ -202,7 +200,7 @@ impl Campbell {
         let matches: Vec<Vec<Match>> = samples
             .par_windows(2)
             .map(|pair| {
-                let seen = [&pair[0], &pair[1]].map(|s| Sighted::of_described(&s.modes));
+                let seen = [&pair[0], &pair[1]].map(|s| Sighted::of_named(&s.modes));
                 let step = pair[1].speed_rad_per_s - pair[0].speed_rad_per_s;
                 match_modes([&seen[0], &seen[1]], step, height_rad_per_s)
             })
@@ -230,7 +228,7 @@ impl Campbell {
     }
 
     /// Mode at a point of a branch.
-    pub fn mode(&self, (sample, mode): (usize, usize)) -> &DescribedMode {
+    pub fn mode(&self, (sample, mode): (usize, usize)) -> &NamedMode {
         &self.samples[sample].modes[mode]
     }
 }

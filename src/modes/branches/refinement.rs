@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::matching::{Match, Sighted, match_modes};
 use super::{CampbellError, SpeedSample, room_for_more, sample};
-use crate::modes::{DescribedMode, ModeKind, SpectralModel};
+use crate::modes::{ModeKind, NamedMode, SpectralModel};
 
 /// Accuracy of the lines of a chart.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,9 +87,9 @@ fn is_doubtful(
 ) -> bool {
     let height = model.complete_to_rad_per_s;
     let step = after.speed_rad_per_s - before.speed_rad_per_s;
-    let seen = [before, after].map(|sample| Sighted::of_described(&sample.modes));
+    let seen = [before, after].map(|sample| Sighted::of_named(&sample.modes));
     let matches = match_modes([&seen[0], &seen[1]], step, height);
-    let ends_inside = |modes: &[DescribedMode], matched: &dyn Fn(usize) -> bool| {
+    let ends_inside = |modes: &[NamedMode], matched: &dyn Fn(usize) -> bool| {
         let left = modes.iter().enumerate().filter(|(i, _)| !matched(*i));
         let mut frequencies = left.map(|(_, m)| m.mode.frequency_rad_per_s());
         frequencies.any(|f| f < (1.0 - closeness.end) * height)
@@ -98,7 +98,7 @@ fn is_doubtful(
         let ends = [&before.modes[m.before], &after.modes[m.after]];
         m.likeness < closeness.alike
             || bend(ends, step) > closeness.chord * height
-            || growth_bends(model, ends, [before.speed_rad_per_s, after.speed_rad_per_s])
+            || growth_bends(ends, step)
     };
     ends_inside(&before.modes, &|i| matches.iter().any(|m| m.before == i))
         || ends_inside(&after.modes, &|i| matches.iter().any(|m| m.after == i))
@@ -107,27 +107,27 @@ fn is_doubtful(
 
 /// Distance, in rad/s, in the middle of a step between the cubic through two frequencies with their slopes
 /// and the line; 0 if a mode is not a wave.
-fn bend(ends: [&DescribedMode; 2], step: f64) -> f64 {
-    let is_wave = |m: &DescribedMode| m.mode.krein_sign() != 0 || m.mode.kind == ModeKind::Damped;
+fn bend(ends: [&NamedMode; 2], step: f64) -> f64 {
+    let is_wave = |m: &NamedMode| m.mode.krein_sign() != 0 || m.mode.kind == ModeKind::Damped;
     if !ends.into_iter().all(is_wave) {
         return 0.0;
     }
-    let slope = |m: &DescribedMode| f64::from(m.mode.action) * m.mode.frequency_slope;
+    let slope = |m: &NamedMode| f64::from(m.mode.action) * m.mode.frequency_slope;
     0.125 * (slope(ends[0]) - slope(ends[1])).abs() * step
 }
 
 /// Whether the squared growth rates of a growing mode, nearly a parabola over a band, deviate too far from a
 /// line.
-fn growth_bends(model: &SpectralModel, ends: [&DescribedMode; 2], speeds: [f64; 2]) -> bool {
-    let grows = |m: &DescribedMode| matches!(m.mode.kind, ModeKind::Flutter | ModeKind::Divergent);
+fn growth_bends(ends: [&NamedMode; 2], step: f64) -> bool {
+    let grows = |m: &NamedMode| matches!(m.mode.kind, ModeKind::Flutter | ModeKind::Divergent);
     if !ends.into_iter().all(grows) {
         return false;
     }
     let squares = ends.map(|m| m.mode.lambda.re.powi(2));
     let slope = |k: usize| {
         let mode = &ends[k].mode;
-        2.0 * mode.lambda.re * model.eigenvalue_slope(speeds[k], mode).re
+        2.0 * mode.lambda.re * mode.growth_slope.re
     };
-    let bend = 0.125 * (slope(0) - slope(1)).abs() * (speeds[1] - speeds[0]);
+    let bend = 0.125 * (slope(0) - slope(1)).abs() * step;
     bend > GROWTH_CHORD * squares[0].max(squares[1])
 }

@@ -1,8 +1,7 @@
 //! The spectrum of a saw as a function of speed.
 //!
-//! Decoupled components are solved separately. Each component is projected on the lowest modes at a few
-//! speeds, which are chosen until the residuals on the full model show that every mode up to `complete_to` is
-//! accurate at every speed.
+//! Decoupled components are solved separately, those of free blades by symmetric eigenproblems of one number of nodal diameters
+//! each, all others by their waves up to `complete_to`.
 
 use std::sync::OnceLock;
 use std::sync::atomic::Ordering;
@@ -16,17 +15,16 @@ use super::chart_height::{Strategy, chart_height};
 use super::companion::companion_eigenpairs;
 use super::component::{Component, Solution};
 use super::critical_speed::{NamedCriticalSpeed, searched_range};
-use super::derivative;
 use super::double_eigenvalue::DoubleEigenvalue;
 use super::error::SpectrumError;
 use super::full_model::FullModel;
-use super::guided_reduction::{Guided, heights, of_guided};
-use super::interval::{interval_at, states_at};
+use super::heights::{Guided, Heights};
 use super::mode::{Mode, ModeKind, classify};
 use super::mode_name::ModeName;
 use super::projection::Projection;
 use super::scale::frequency_scale;
 use super::structured_stiffness::LARGE;
+use super::vectors::smallest;
 use super::waves::{self, WaveModel};
 use super::work::{Cancellation, WorkCounters};
 use crate::model::scene::SpeedRange;
@@ -34,6 +32,15 @@ use crate::model::scene::SpeedRange;
 mod named_mode;
 #[cfg(test)]
 mod planted_fault;
+
+/// A mode with its name.
+#[derive(Debug, Clone)]
+pub struct NamedMode {
+    /// Eigenvalue and kind of the mode.
+    pub mode: Mode,
+    /// Waves that make the mode.
+    pub name: ModeName,
+}
 
 /// A mode with its name, shape and backward error.
 #[derive(Debug, Clone)]
@@ -75,6 +82,9 @@ pub struct SpectralModel {
 /// than itself.
 pub(super) const SPLITTING: f64 = 1e-9;
 
+/// Relative distance of the model from the first critical speed if only bands are searched for; it is larger than the distance that
+/// the search keeps from critical speeds.
+const BELOW_CRITICAL: f64 = 1e-3;
 /// Error of a frequency by waves, relative to the highest, beyond which the range of speeds is too long for their series. The last
 /// coefficient overestimates it: against wood it is 6e-8, where the error is below 1e-9.
 const TAIL: f64 = 1e-6;
@@ -125,13 +135,14 @@ impl SpectralModel {
             // Decoupled harmonics are small enough to be solved without a reduced model.
             (_, true) if model.is_conservative() => model.use_free_waves(),
             (_, true) => (),
-            (_, false) => model.reduce(range, strategy)?,
+            (_, false) => model.find_heights(range, strategy)?,
         }
         if model.complete_to_rad_per_s.is_infinite() {
             model.complete_to_rad_per_s = model.twelfth_frequency(range)?;
         }
-        if strategy != Strategy::Dense && !model.is_conservative() {
-            model.use_waves(range)?;
+        let is_free = model.plate.is_axisymmetric() && model.is_conservative();
+        if strategy != Strategy::Dense && !is_free {
+            model.use_waves(model.modelled_range(range, strategy), waves::CUT)?;
         }
         if model.reflected_to_rad_per_s == 0.0 {
             model.reflected_to_rad_per_s = model.complete_to_rad_per_s;
@@ -146,66 +157,89 @@ impl SpectralModel {
         }
     }
 
-    /// Selects the reduced model by waves for every component of a damped blade.
-    fn use_waves(&mut self, range: SpeedRange) -> Result<(), SpectrumError> {
-        let range = searched_range(&self.critical, range);
+    /// Range of speeds of the model for a range that is asked for. Without damping and without a diagram no speed below the first critical
+    /// one is needed, because no wave is reflected there.
+    fn modelled_range(&self, range: SpeedRange, strategy: Strategy) -> SpeedRange {
+        let searched = searched_range(&self.critical, range);
+        let lowest = self.critical.first().map(|c| c.speed_rad_per_s);
+        let first = lowest.filter(|lowest| {
+            let is_passed = lowest * (1.0 + BELOW_CRITICAL) < range.to_rad_per_s;
+            strategy == Strategy::Bands && self.is_conservative() && is_passed
+        });
+        let from = first.map_or(0.0, |lowest| lowest * (1.0 - BELOW_CRITICAL));
+        SpeedRange::new(searched.from_rad_per_s.max(from), searched.to_rad_per_s)
+    }
+
+    /// Selects the reduced model by waves for every component of a damped or guided blade.
+    fn use_waves(&mut self, range: SpeedRange, cut: f64) -> Result<(), SpectrumError> {
         let window = self.complete_to_rad_per_s;
         for component in &mut self.components {
-            let modes = waves::modes(&self.plate, component.first, &component.full, range, window)?;
-            let error = modes.model.tail();
-            if error > TAIL {
-                self.unsettled_rad_per_s = self.unsettled_rad_per_s.max(error * window);
+            let modes = waves::modes(
+                &self.plate,
+                component.first,
+                &component.full,
+                range,
+                window,
+                cut,
+            )?;
+            if modes.tail > TAIL {
+                self.unsettled_rad_per_s = self.unsettled_rad_per_s.max(modes.tail * window);
             }
             component.solution = Solution::Waves(Box::new(modes));
         }
         Ok(())
     }
 
-    /// Reduced models of the components of a damped blade, or of blocks into which they decouple further, for a range of speeds.
+    /// The model of the same saw with more waves.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
-    pub(crate) fn wave_models(&self, range: SpeedRange) -> Result<Vec<WaveModel>, SpectrumError> {
-        let mut found = Vec::new();
-        for component in &self.components {
-            match &component.solution {
-                Solution::Waves(modes) => found.extend(modes.model.components()),
-                _ => {
-                    let window = self.complete_to_rad_per_s;
-                    let modes =
-                        waves::modes(&self.plate, component.first, &component.full, range, window)?;
-                    found.extend(modes.model.components());
-                }
-            }
+    pub(crate) fn with_more_waves(&self) -> Result<Self, SpectrumError> {
+        let mut model = SpectralModel {
+            components: Component::of(&self.plate),
+            plate: self.plate.clone(),
+            critical: self.critical.clone(),
+            counters: WorkCounters {
+                cancellation: self.counters.cancellation.clone(),
+                ..WorkCounters::default()
+            },
+            full: OnceLock::new(),
+            ..*self
+        };
+        if let Some(known) = self.wave_models().first() {
+            model.use_waves(known.range_rad_per_s(), waves::WIDE_CUT)?;
         }
-        Ok(found)
+        Ok(model)
     }
 
-    /// Projects each component on the low modes at a few speeds; with damping only finds up to which frequency modes are
-    /// needed.
-    fn reduce(&mut self, range: SpeedRange, strategy: Strategy) -> Result<(), SpectrumError> {
+    /// Reduced models by waves of the components of a blade, or of the parts into which they decouple further.
+    pub(crate) fn wave_models(&self) -> Vec<&WaveModel> {
+        let by_waves = self
+            .components
+            .iter()
+            .filter_map(|component| match &component.solution {
+                Solution::Waves(modes) => Some(modes.models()),
+                Solution::Whole(_) | Solution::FreeWaves(_) => None,
+            });
+        by_waves.flatten().collect()
+    }
+
+    /// Finds up to which frequencies modes are needed.
+    fn find_heights(&mut self, range: SpeedRange, strategy: Strategy) -> Result<(), SpectrumError> {
         let range = searched_range(&self.critical, range);
-        let scale = frequency_scale(&self.plate);
-        let (critical, counters) = (&self.critical, &self.counters);
         let is_large = self.plate.degrees_of_freedom() >= LARGE;
         let structure = is_large.then(|| self.full.get_or_init(|| FullModel::new(&self.plate)));
-        for component in &mut self.components {
+        for component in &self.components {
             let guided = Guided {
                 system: &component.full,
                 structure,
-                scale,
-                critical,
+                scale: frequency_scale(&self.plate),
+                critical: &self.critical,
+                counters: &self.counters,
             };
-            if !component.full.is_conservative() {
-                let heights = heights(guided, range, counters)?;
-                (self.complete_to_rad_per_s, self.reflected_to_rad_per_s) = heights;
-                continue;
-            }
-            let found = of_guided(guided, range, strategy, counters)?;
-            component.solution = Solution::Projected(found.intervals);
-            self.complete_to_rad_per_s = found.complete_to_rad_per_s;
-            self.reflected_to_rad_per_s = found.reflected_to_rad_per_s;
-            self.unsettled_rad_per_s = found.unsettled_rad_per_s;
+            let heights = Heights::new(&guided, range, strategy)?;
+            self.complete_to_rad_per_s = heights.window_rad_per_s;
+            self.reflected_to_rad_per_s = heights.reflected_rad_per_s;
         }
         Ok(())
     }
@@ -241,36 +275,16 @@ impl SpectralModel {
     /// # Errors
     /// [`SpectrumError`] when the eigenproblem fails.
     pub fn modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        let highest = self.complete_to_rad_per_s;
-        let mut modes = self.solve(speed_rad_per_s, highest)?;
-        let is_spanned = |m: &Mode| m.kind != ModeKind::Damped || m.lambda.re >= -highest;
-        modes.retain(|m| m.kind != ModeKind::Rigid && is_spanned(m));
-        Ok(modes)
+        let modes = self.solve(speed_rad_per_s, self.complete_to_rad_per_s)?;
+        Ok(self.shown(modes))
     }
 
-    /// The modes of [`SpectralModel::modes`] for a diagram: for an undamped guided blade they are computed from
-    /// few states, and their frequencies are accurate to 1e-5 of `complete_to`.
-    ///
-    /// # Errors
-    /// [`SpectrumError`] when the eigenproblem fails.
-    pub fn drawn_modes(&self, speed_rad_per_s: f64) -> Result<Vec<Mode>, SpectrumError> {
-        let speed = speed_rad_per_s.max(SPLITTING * frequency_scale(&self.plate));
-        let ([component], true) = (self.components.as_slice(), speed_rad_per_s > 0.0) else {
-            return self.modes(speed_rad_per_s);
-        };
-        let Solution::Projected(intervals) = &component.solution else {
-            return self.modes(speed_rad_per_s);
-        };
-        let interval = interval_at(intervals, speed_rad_per_s);
-        let Some(states) = &interval.drawn else {
-            return self.modes(speed_rad_per_s);
-        };
-        let mut pairs = states_at(states, speed, &self.counters)?;
-        pairs.retain(|(lambda, _)| lambda.im <= self.complete_to_rad_per_s);
-        let mut modes = classify(&interval.projection.reduced, speed, 0, pairs);
-        modes.retain(|m| m.kind != ModeKind::Rigid);
-        modes.sort_by(|x, y| x.frequency_rad_per_s().total_cmp(&y.frequency_rad_per_s()));
-        Ok(modes)
+    /// Those of all modes at a speed that [`SpectralModel::modes`] contains.
+    pub(crate) fn shown(&self, mut modes: Vec<Mode>) -> Vec<Mode> {
+        let highest = self.complete_to_rad_per_s;
+        let is_spanned = |m: &Mode| m.kind != ModeKind::Damped || m.lambda.re >= -highest;
+        modes.retain(|m| m.kind != ModeKind::Rigid && m.lambda.im <= highest && is_spanned(m));
+        modes
     }
 
     /// Every mode of the full model, by a dense solver.
@@ -307,29 +321,24 @@ impl SpectralModel {
         components.any(|component| component.full.circulatory.is_some())
     }
 
-    /// dλ/dΩ of a mode at a speed, dimensionless.
-    pub(crate) fn eigenvalue_slope(&self, speed_rad_per_s: f64, mode: &Mode) -> c64 {
-        let system = &self.components[mode.component].at(speed_rad_per_s).reduced;
-        derivative::with_speed(system, speed_rad_per_s, mode.lambda, &mode.coordinates)
+    /// The eigenvalue nearest to an expected one, in 1/s, and dλ/dΩ, by Newton's method. `None` if it does not converge.
+    pub(crate) fn next_to(&self, speed_rad_per_s: f64, expected: c64) -> Option<(c64, c64)> {
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        let components = self.components.iter();
+        let found = components.filter_map(|component| component.next_to(speed_rad_per_s, expected));
+        smallest(found, |(lambda, _)| (lambda - expected).norm())
     }
 
-    /// The double eigenvalue of a component next to an expected one, with vectors in the unknowns of the component.
+    /// The double eigenvalue of a component next to an expected one, with vectors in the coordinates of a mode. `None` if the iteration
+    /// does not converge.
     pub(crate) fn double_eigenvalue(
         &self,
         component: usize,
         speed_rad_per_s: f64,
         expected: c64,
     ) -> Option<DoubleEigenvalue> {
-        let component = &self.components[component];
-        let system = &component.at(speed_rad_per_s).reduced;
-        let found = DoubleEigenvalue::next_to(system, speed_rad_per_s, expected)?;
-        let [right, left] =
-            [&found.right, &found.left].map(|x| component.lifted(speed_rad_per_s, x));
-        Some(DoubleEigenvalue {
-            right,
-            left,
-            ..found
-        })
+        self.counters.refined_pairs.fetch_add(1, Ordering::Relaxed);
+        self.components[component].double_eigenvalue(speed_rad_per_s, expected)
     }
 
     /// Relative change of a frequency at rest that rounding may cause: a backward stable solver changes ω² by
@@ -337,7 +346,7 @@ impl SpectralModel {
     /// relative error; then rounding only changes each entry of the matrix by ε times its size.
     pub(crate) fn relative_rounding(&self, mode: &Mode) -> f64 {
         let component = &self.components[mode.component];
-        let stiffness = &component.at(0.0).reduced.stiffness;
+        let stiffness = &component.projection().reduced.stiffness;
         let square = mode.frequency_rad_per_s().powi(2);
         let size = match component.solution {
             Solution::FreeWaves(_) => {
@@ -359,16 +368,14 @@ impl SpectralModel {
         highest_rad_per_s: f64,
     ) -> Result<Vec<Mode>, SpectrumError> {
         self.counters.cancellation.check()?;
-        self.counters.reduced_solves.fetch_add(1, Ordering::Relaxed);
         let component = &self.components[index];
+        let solves = match component.solution {
+            Solution::Waves(_) => &self.counters.local_solves,
+            Solution::Whole(_) | Solution::FreeWaves(_) => &self.counters.reduced_solves,
+        };
+        solves.fetch_add(1, Ordering::Relaxed);
         let speed = speed_rad_per_s.max(SPLITTING * frequency_scale(&self.plate));
-        let pairs = component.eigenpairs(&self.plate, index, speed, highest_rad_per_s)?;
-        Ok(classify(
-            &component.at(speed_rad_per_s).reduced,
-            speed,
-            index,
-            pairs,
-        ))
+        component.modes(&self.plate, index, speed, highest_rad_per_s)
     }
 
     /// Modes of all components up to a frequency, ordered by |Im λ|.

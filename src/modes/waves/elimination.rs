@@ -10,7 +10,7 @@
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::Solve;
-use faer::{Accum, Col, Mat, MatRef, Par, Scale};
+use faer::{Accum, Col, ColRef, Mat, MatRef, Par, Scale};
 
 use super::blade::Saw;
 use super::near_block::Near;
@@ -55,14 +55,16 @@ impl Reduced {
     ///
     /// # Errors
     /// [`LinalgError`].
-    pub fn far(&self) -> Result<Mat<f64>, LinalgError> {
+    pub fn far(&self, is_conservative: bool) -> Result<Mat<f64>, LinalgError> {
         let rows = self.solved.first().map_or(0, Mat::nrows);
-        let far = Pair::new(&self.terms)?.map(|Pair { x, b, .. }| {
-            let terms = self.solved.iter().rev();
-            terms.fold(Mat::zeros(rows, b.ncols()), |sum, term| {
-                sum * &b - term * &x
-            })
-        });
+        let far = Pair::new(side_by_side(&self.terms).as_ref(), is_conservative)?.map(
+            |Pair { x, b, .. }| {
+                let terms = self.solved.iter().rev();
+                terms.fold(Mat::zeros(rows, b.ncols()), |sum, term| {
+                    sum * &b - term * &x
+                })
+            },
+        );
         Ok(far.unwrap_or_else(|| Mat::zeros(rows, 0)))
     }
 }
@@ -169,7 +171,7 @@ impl Elimination {
         let by_far = |matrix: &Mat<f64>| matrix.get(..size, size..).to_owned();
         let by_kept = |matrix: &Mat<f64>| matrix.get(size.., ..size).to_owned();
         let factors = of_far(&stiffness).partial_piv_lu();
-        let far = of_far(&velocity);
+        let far = FarVelocity::new(of_far(&velocity));
         let [by_far, by_kept] = [
             [by_far(&stiffness), by_far(&velocity)],
             [by_kept(&stiffness), by_kept(&velocity)],
@@ -177,9 +179,9 @@ impl Elimination {
         terms.resize(TERMS, Mat::zeros(size, size));
         for (power, term) in terms.iter_mut().enumerate() {
             let coupling = by_kept.get(power).cloned();
-            let mut right = coupling.unwrap_or_else(|| Mat::zeros(far.nrows(), size));
+            let mut right = coupling.unwrap_or_else(|| Mat::zeros(stiffness.nrows() - size, size));
             if let Some(last) = solved.last() {
-                subtract_product(&mut right, far.as_ref(), last);
+                far.subtract_product(&mut right, last);
                 subtract_product(term, by_far[1].as_ref(), last);
             }
             if let Some(before) = power.checked_sub(2) {
@@ -225,6 +227,60 @@ impl Elimination {
             basis.subrows_mut(*first, size).copy_from(&own);
         }
         basis
+    }
+}
+
+/// Matrices of one size side by side.
+fn side_by_side(terms: &[Mat<f64>]) -> Mat<f64> {
+    let size = terms.first().map_or(0, Mat::ncols);
+    let rows = terms.first().map_or(0, Mat::nrows);
+    Mat::from_fn(rows, terms.len() * size, |i, k| {
+        terms[k / size][(i, k % size)]
+    })
+}
+
+/// F₁ of the far waves. Without dampers fixed in space it couples only waves of one number of nodal diameters, the cosine with the
+/// sine without any damping.
+enum FarVelocity {
+    /// Entries above rounding, by column: row and value.
+    Sparse(Vec<Vec<(usize, f64)>>),
+    /// All entries.
+    Dense(Mat<f64>),
+}
+
+/// Share of entries above which a matrix is multiplied as a dense one.
+const DENSE: f64 = 0.05;
+
+impl FarVelocity {
+    fn new(matrix: Mat<f64>) -> Self {
+        let rounding = f64::EPSILON * matrix.norm_max();
+        let of_column = |column: ColRef<'_, f64>| -> Vec<(usize, f64)> {
+            let entries = column.iter().copied().enumerate();
+            entries
+                .filter(|(_, entry)| entry.abs() > rounding)
+                .collect()
+        };
+        let columns: Vec<Vec<(usize, f64)>> = matrix.col_iter().map(of_column).collect();
+        let count: usize = columns.iter().map(Vec::len).sum();
+        if count as f64 > DENSE * (matrix.nrows() * matrix.ncols()) as f64 {
+            return FarVelocity::Dense(matrix);
+        }
+        FarVelocity::Sparse(columns)
+    }
+
+    fn subtract_product(&self, from: &mut Mat<f64>, right: &Mat<f64>) {
+        match self {
+            FarVelocity::Dense(matrix) => subtract_product(from, matrix.as_ref(), right),
+            FarVelocity::Sparse(columns) => {
+                for k in 0..right.ncols() {
+                    for (j, column) in columns.iter().enumerate() {
+                        for (i, entry) in column {
+                            from[(*i, k)] -= entry * right[(j, k)];
+                        }
+                    }
+                }
+            }
+        }
     }
 }
 

@@ -37,7 +37,9 @@ use crate::model::plate::Plate;
 use crate::model::system::GyroscopicSystem;
 
 /// Waves up to this multiple of the window are kept: the series in λ converges as the inverse powers of it.
-const CUT: f64 = 2.5;
+pub const CUT: f64 = 2.5;
+/// [`CUT`] where counts have shown that a model lacks modes.
+pub const WIDE_CUT: f64 = 4.0;
 /// Every so many nodes of the speed give vectors of far waves.
 const SPARED: usize = 3;
 /// Distance of the vectors of far waves from the span of others below which they are omitted, and thus the error of the shapes:
@@ -48,7 +50,7 @@ const SPAN: f64 = 1e-6;
 const WHOLE: f64 = 1e-9;
 
 /// The modes of the component of a plate that begins at the unknown `first`, over a range of speeds, in rad/s, for eigenvalues
-/// up to a frequency, in rad/s.
+/// up to a frequency, in rad/s. Waves up to `cut` times this frequency are kept, usually [`CUT`].
 ///
 /// # Errors
 /// [`SpectrumError`] when an eigenproblem fails.
@@ -58,6 +60,7 @@ pub fn modes(
     full: &GyroscopicSystem,
     range: SpeedRange,
     window_rad_per_s: f64,
+    cut: f64,
 ) -> Result<WaveModes, SpectrumError> {
     let window = window_rad_per_s;
     let mut saw = Saw::new(plate, first, full, window);
@@ -65,16 +68,16 @@ pub fn modes(
     // of the saw without damping gives the vectors of far waves.
     let damping = plate.damping.as_ref();
     let retardation_s = damping.map_or(0.0, |damping| damping.material_retardation_time_s);
-    let undamped = (CUT * window * retardation_s > 1.0).then(|| full.conservative());
+    let undamped = (cut * window * retardation_s > 1.0).then(|| full.conservative());
     if undamped.is_some() {
         saw.dampers = Mat::zeros(full.order(), 0);
     }
-    let near = Near::new(&saw, range, cut(plate, window));
+    let near = Near::new(&saw, range, distance(plate, window, cut));
     let elimination = Elimination::new(&saw, undamped.as_ref().unwrap_or(full), &near, window);
     let nodes = at_nodes(range, |node, speed| {
         let reduced = elimination.reduced(speed);
         let far = (node % SPARED == 0)
-            .then(|| reduced.far())
+            .then(|| reduced.far(full.is_conservative()))
             .transpose()
             .map_err(SpectrumError::at(speed))?;
         Ok((reduced.terms, far))
@@ -83,23 +86,20 @@ pub fn modes(
     let far: Vec<Mat<f64>> = far.into_iter().flatten().collect();
     let span = if undamped.is_some() { WHOLE } else { SPAN };
     let projection = Projection::new(full, None, elimination.basis(&far, span));
-    let rigid = full.free_rigid.len();
     if undamped.is_some() {
-        return WaveModes::whole(projection, range, window, rigid);
+        return WaveModes::whole(projection, range, window);
     }
-    Ok(WaveModes {
-        near: elimination.near(),
-        model: WaveModel::of(&terms, range, elimination.diameters, window, rigid),
-        projection,
-    })
+    let near = elimination.near();
+    let model = WaveModel::of(&terms, range, elimination.diameters, window, full);
+    Ok(WaveModes::new(&model, projection, near))
 }
 
 /// Distance ω − nΩ up to which waves are kept, in 1/s. In air with the damping c per mass a far wave decays as slowly as
-/// ω²/c, which must not be within `CUT` windows either.
-fn cut(plate: &Plate, window: f64) -> f64 {
+/// ω²/c, which must not be within the cut either.
+fn distance(plate: &Plate, window: f64, cut: f64) -> f64 {
     let Some(damping) = &plate.damping else {
-        return CUT * window;
+        return cut * window;
     };
     let air = damping.air_n_s_per_m3 / plate.blade.mass_per_area_kg_per_m2();
-    (CUT * window).max((CUT * window * air).sqrt())
+    (cut * window).max((cut * window * air).sqrt())
 }

@@ -11,23 +11,51 @@ use super::roots::Root;
 use super::speed_series::{WaveModel, at_nodes};
 use crate::model::scene::SpeedRange;
 use crate::model::system::dynamic_stiffness;
+use crate::modes::double_eigenvalue::DoubleEigenvalue;
 use crate::modes::error::SpectrumError;
+use crate::modes::mode::Mode;
 use crate::modes::projection::Projection;
-use crate::modes::vectors::{Eigenpair, unit};
+use crate::modes::vectors::{halves, joined, smallest, unit};
+
+/// Unknowns that no others act on.
+#[derive(Debug)]
+struct Part {
+    /// Places of its unknowns among all.
+    places: Vec<usize>,
+    /// Their reduced model.
+    model: WaveModel,
+}
 
 /// The modes of a component over a range of speeds.
 #[derive(Debug)]
 pub struct WaveModes {
-    /// The reduced model.
-    pub model: WaveModel,
+    parts: Vec<Part>,
+    /// Largest error of the series in the speed, in units of the window.
+    pub tail: f64,
     /// Projection on the near waves, and on vectors of far ones.
     pub projection: Projection,
-    /// Number of near waves, the first coordinates of the projection.
-    pub(super) near: usize,
+    /// Number of strong dampers, whose displacements are the first unknowns of the reduced model.
+    strong: usize,
+    /// Number of near waves, the other unknowns of the model and the first coordinates of the projection.
+    near: usize,
 }
 
 impl WaveModes {
-    /// The projection as it is, with nothing eliminated, for a window in 1/s and a number of free rigid motions.
+    /// The modes by a reduced model, with a projection on its near waves and on vectors of far ones.
+    pub(super) fn new(model: &WaveModel, projection: Projection, near: usize) -> Self {
+        let parts = model.parts().into_iter();
+        WaveModes {
+            parts: parts
+                .map(|(places, model)| Part { places, model })
+                .collect(),
+            tail: model.tail(),
+            projection,
+            strong: model.size() - near,
+            near,
+        }
+    }
+
+    /// The projection as it is, with nothing eliminated, for a window in 1/s.
     ///
     /// # Errors
     /// [`SpectrumError::Cancelled`].
@@ -35,7 +63,6 @@ impl WaveModes {
         projection: Projection,
         range: SpeedRange,
         window: f64,
-        rigid: usize,
     ) -> Result<Self, SpectrumError> {
         let system = &projection.reduced;
         let near = system.order();
@@ -47,38 +74,116 @@ impl WaveModes {
             ])
         };
         let terms = at_nodes(range, quadratic)?;
-        Ok(WaveModes {
-            model: WaveModel::of(&terms, range, vec![None; near], window, rigid),
-            projection,
-            near,
-        })
+        let model = WaveModel::of(&terms, range, vec![None; near], window, system);
+        Ok(WaveModes::new(&model, projection, near))
     }
 
-    /// Eigenpairs at a speed with 0 ≤ Im λ ≤ `highest_rad_per_s`, by |λ|, without free rigid motions, in the coordinates of the
-    /// projection; they end somewhat beyond the window.
+    /// Reduced models of the parts that do not act on one another.
+    pub fn models(&self) -> impl Iterator<Item = &WaveModel> {
+        self.parts.iter().map(|part| &part.model)
+    }
+
+    /// Modes at a speed with Im λ ≤ `highest_rad_per_s`, by |λ| in each part, without free rigid motions, as modes of a component;
+    /// they end somewhat beyond the window. Their coordinates are the near waves.
     ///
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
-    pub fn eigenpairs(
+    pub fn at(
         &self,
         speed_rad_per_s: f64,
         highest_rad_per_s: f64,
-    ) -> Result<Vec<Eigenpair>, SpectrumError> {
-        let mut roots = self.model.roots(speed_rad_per_s)?;
-        roots.retain(|root| root.lambda.im <= highest_rad_per_s);
+        component: usize,
+    ) -> Result<Vec<Mode>, SpectrumError> {
+        let mut modes = Vec::new();
+        for Part { places, model } in &self.parts {
+            let roots = model.roots(speed_rad_per_s)?.into_iter();
+            let low = roots.filter(|root| root.lambda.im <= highest_rad_per_s);
+            modes.extend(low.filter_map(|root| {
+                let near = self.near_waves(places, &root.vector);
+                let Root {
+                    lambda,
+                    slope,
+                    action,
+                    ..
+                } = root;
+                let slope = if slope.is_finite() { slope } else { c64::ZERO };
+                let mode = Mode::of(lambda, slope, action, component, near);
+                mode.classified(speed_rad_per_s, model.is_conservative)
+            }));
+        }
+        Ok(modes)
+    }
+
+    /// Coordinates in the projection of a mode from its λ and its near waves.
+    pub fn whole_vector(&self, speed_rad_per_s: f64, lambda: c64, near: &Col<c64>) -> Col<c64> {
         let stiffness = self.projection.reduced.stiffness_at(speed_rad_per_s);
         let velocity = self.projection.reduced.velocity_at(speed_rad_per_s);
-        let (near, order) = (self.near, stiffness.nrows());
-        let pair = |Root { lambda, vector, .. }: Root| {
-            let dynamic = dynamic_stiffness(&stiffness, &velocity, lambda);
-            let x = vector.subrows(vector.nrows() - near, near);
-            let (coupling, far) = (dynamic.get(near.., ..near), dynamic.get(near.., near..));
-            let y = far
-                .partial_piv_lu()
-                .solve(Scale(c64::from(-1.0)) * (coupling * x));
-            let all = Col::from_fn(order, |i| if i < near { x[i] } else { y[i - near] });
-            (lambda, unit(all.as_ref()))
+        let dynamic = dynamic_stiffness(&stiffness, &velocity, lambda);
+        let kept = self.near;
+        let (coupling, far) = (dynamic.get(kept.., ..kept), dynamic.get(kept.., kept..));
+        let y = far
+            .partial_piv_lu()
+            .solve(Scale(c64::from(-1.0)) * (coupling * near));
+        let all = Col::from_fn(kept + y.nrows(), |i| {
+            if i < kept { near[i] } else { y[i - kept] }
+        });
+        unit(all.as_ref())
+    }
+
+    /// The near waves of modes as vectors of the component.
+    pub fn near_vectors(&self, modes: &[&Mode]) -> Vec<Col<c64>> {
+        let near = halves(self.near, modes.iter().map(|mode| &mode.coordinates));
+        let vectors = self.projection.basis.subcols(0, self.near) * near;
+        (0..modes.len()).map(|k| joined(&vectors, k)).collect()
+    }
+
+    /// The eigenvalue nearest to an expected one, in 1/s, and dλ/dΩ. `None` if no iteration converges.
+    pub fn next_to(&self, speed_rad_per_s: f64, expected: c64) -> Option<(c64, c64)> {
+        let found = self
+            .models()
+            .filter_map(|model| model.next_to(speed_rad_per_s, expected));
+        smallest(found, |(lambda, _)| (lambda - expected).norm())
+    }
+
+    /// The coalescence next to an expected one, with the near waves of its vectors. `None` if no iteration converges.
+    pub fn double_eigenvalue(
+        &self,
+        speed_rad_per_s: f64,
+        expected: c64,
+    ) -> Option<DoubleEigenvalue> {
+        let next_to = |Part { places, model }: &Part| {
+            let found = DoubleEigenvalue::next_to(model, speed_rad_per_s, expected)?;
+            Some(DoubleEigenvalue {
+                right: self.near_waves(places, &found.right),
+                left: self.near_waves(places, &found.left),
+                ..found
+            })
         };
-        Ok(roots.into_iter().map(pair).collect())
+        let window = self.parts.first().map_or(1.0, |part| part.model.window);
+        smallest(self.parts.iter().filter_map(next_to), |found| {
+            let off = (found.speed_rad_per_s - speed_rad_per_s).abs() / speed_rad_per_s;
+            off + (found.lambda - expected).norm() / window
+        })
+    }
+
+    /// Removes the span of vectors of near waves from the reduced model.
+    #[cfg(test)]
+    pub fn lose(&mut self, vectors: &[Col<f64>]) {
+        let [Part { places, model }] = self.parts.as_mut_slice() else {
+            panic!("several parts");
+        };
+        let lost = crate::modes::orthonormal(self.near, vectors, 1e-6);
+        let whole = lost.qr().compute_Q();
+        *model = model.projected(whole.subcols(lost.ncols(), self.near - lost.ncols()));
+        places.truncate(model.size());
+    }
+
+    /// The near waves among the unknowns of a part, as a unit vector.
+    fn near_waves(&self, places: &[usize], vector: &Col<c64>) -> Col<c64> {
+        let mut all: Col<c64> = Col::zeros(self.strong + self.near);
+        for (place, entry) in places.iter().zip(vector.iter()) {
+            all[*place] = *entry;
+        }
+        unit(all.subrows(self.strong, self.near))
     }
 }

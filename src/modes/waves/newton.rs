@@ -5,6 +5,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, MatRef, Scale, c64};
 
 use super::speed_series::WaveModel;
+use crate::modes::double_eigenvalue::{Derivatives, Family};
 use crate::modes::vectors::unit;
 
 /// Largest number of steps; convergence is cubic.
@@ -46,7 +47,7 @@ impl WaveModel {
                 if expected.im == 0.0 {
                     mu.im = 0.0;
                 }
-                let [moved, _] = polynomial(slopes, mu, size);
+                let [moved] = polynomial(slopes, mu, size);
                 let slope = -(y.adjoint() * (moved * &x)) / (y.adjoint() * (by_root * &x));
                 let found = (mu * self.window, slope * self.window);
                 return slope.is_finite().then_some(found);
@@ -56,26 +57,48 @@ impl WaveModel {
     }
 }
 
-/// Σ λᵏ L_k and its derivative with respect to λ, from the entries of L₀, L₁, ….
-fn polynomial(entries: &[f64], mu: c64, size: usize) -> [Mat<c64>; 2] {
+impl Family for WaveModel {
+    fn order(&self) -> usize {
+        self.size()
+    }
+
+    fn derivatives(&self, speed_rad_per_s: f64, lambda: c64) -> Derivatives {
+        let sums = self.sums(speed_rad_per_s);
+        let unit = self.window.recip();
+        let [values, slopes] = [0, 1].map(|column| sums.col_as_slice(column));
+        let times = |power: i32, matrix: Mat<c64>| Scale(c64::from(unit.powi(power))) * matrix;
+        let [value, once, twice, thrice] = polynomial(values, lambda * unit, self.size());
+        let [by_speed, by_both] = polynomial(slopes, lambda * unit, self.size());
+        Derivatives {
+            value,
+            by_root: [times(1, once), times(2, twice), times(3, thrice)],
+            by_speed: [by_speed, times(1, by_both)],
+        }
+    }
+}
+
+/// Σ λᵏ L_k and its first derivatives with respect to λ, from the entries of L₀, L₁, ….
+fn polynomial<const ORDERS: usize>(entries: &[f64], mu: c64, size: usize) -> [Mat<c64>; ORDERS] {
     let count = entries.len() / (size * size);
     let mut powers = vec![c64::ONE; count];
     for k in 1..count {
         powers[k] = powers[k - 1] * mu;
     }
-    // Real and imaginary parts of λᵏ, then of its derivative.
-    let weights = Mat::from_fn(count, 4, |k, part| match (part, k) {
-        (0, _) => powers[k].re,
-        (1, _) => powers[k].im,
-        (_, 0) => 0.0,
-        (2, _) => k as f64 * powers[k - 1].re,
-        _ => k as f64 * powers[k - 1].im,
+    // Real and imaginary parts of k (k − 1) … λ^(k − order), side by side for each order.
+    let weights = Mat::from_fn(count, 2 * ORDERS, |k, part| {
+        let order = part / 2;
+        if k < order {
+            return 0.0;
+        }
+        let factor: f64 = (0..order).map(|j| (k - j) as f64).product();
+        let weight = powers[k - order] * factor;
+        if part % 2 == 0 { weight.re } else { weight.im }
     });
     let sums = MatRef::from_column_major_slice(entries, size * size, count) * weights;
-    [0, 2].map(|part| {
+    std::array::from_fn(|order| {
         Mat::from_fn(size, size, |i, k| {
             let row = k * size + i;
-            c64::new(sums[(row, part)], sums[(row, part + 1)])
+            c64::new(sums[(row, 2 * order)], sums[(row, 2 * order + 1)])
         })
     })
 }

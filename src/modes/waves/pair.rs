@@ -11,9 +11,14 @@
 //! other this also holds where two of them coalesce.
 
 use faer::linalg::solvers::Solve;
-use faer::{Mat, c64};
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
+use faer::{Mat, MatRef, Par, Scale, Side, c64};
 
 use crate::model::linalg::{LinalgError, RealEigen};
+use crate::modes::half_order::{hamiltonian_eigenpairs, hamiltonian_matrix};
+use crate::modes::vectors::smallest;
 
 /// |λ| in windows between which the widest gap ends the pair: beyond it the series in λ is inaccurate, and an eigenvalue next to
 /// the end slows the iteration.
@@ -46,25 +51,38 @@ struct States {
 }
 
 impl Pair {
-    /// The pair of L₀, L₁, …; `None` without eigenvalues within the reach.
-    pub fn new(terms: &[Mat<f64>]) -> Result<Option<Self>, LinalgError> {
-        let (kept, others) = States::of(terms)?;
+    /// The pair of the matrices L₀, L₁, … side by side; `None` without eigenvalues within the reach.
+    pub fn new(terms: MatRef<'_, f64>, is_conservative: bool) -> Result<Option<Self>, LinalgError> {
+        let size = terms.nrows();
+        let quadratic = [0, 1, 2].map(|power| terms.subcols(power * size, size));
+        let symmetric = is_conservative
+            .then(|| symmetric_states(quadratic))
+            .transpose()?
+            .flatten();
+        let states = match symmetric {
+            Some(states) => states,
+            None => States::of(quadratic)?,
+        };
+        let (kept, others) = states.parted();
         if kept.values.is_empty() {
             return Ok(None);
         }
-        let quadratic = diagonal(&kept.values);
-        let (mut x, mut b) = (kept.x.clone(), quadratic.clone());
+        let first = diagonal(&kept.values);
+        let (mut x, mut b) = (kept.x.clone(), first.clone());
         let mut z = Mat::zeros(others.values.len(), b.ncols());
+        let higher = terms.subcols(QUADRATIC * size, terms.ncols() - QUADRATIC * size);
+        let mut powers = Mat::zeros(higher.ncols(), b.ncols());
         for _ in 0..STEPS {
-            let mut sum = Mat::zeros(x.nrows(), b.ncols());
-            for term in terms[QUADRATIC..].iter().rev() {
-                sum = sum * &b + term * &x;
+            let mut power = &x * &b * &b * &b;
+            for row in (0..higher.ncols()).step_by(size) {
+                powers.subrows_mut(row, size).copy_from(&power);
+                power = power * &b;
             }
-            let rest = sum * &b * &b * &b;
-            let next = &quadratic - &kept.y * &rest;
+            let rest = higher * &powers;
+            let next = &first - &kept.y * &rest;
             let change = (&next - &b).norm_max();
             // Z B = Z B₀ + Z (B − B₀), whose last part is small.
-            let right = &others.y * rest + &z * (&next - &quadratic);
+            let right = &others.y * &rest + &z * (&next - &first);
             z = divided(&right, &others.values, &kept.values);
             x = &kept.x + &others.x * &z;
             b = next;
@@ -77,11 +95,13 @@ impl Pair {
 }
 
 impl States {
-    /// The states within the reach and all others.
-    fn of(terms: &[Mat<f64>]) -> Result<(Self, Self), LinalgError> {
-        let size = terms[0].nrows();
-        let inertia = terms[2].partial_piv_lu();
-        let [stiffness, velocity] = [0, 1].map(|k| inertia.solve(&terms[k]));
+    /// All states.
+    fn of(
+        [stiffness, velocity, inertia]: [MatRef<'_, f64>; QUADRATIC],
+    ) -> Result<Self, LinalgError> {
+        let size = stiffness.nrows();
+        let inertia = inertia.partial_piv_lu();
+        let [stiffness, velocity] = [stiffness, velocity].map(|term| inertia.solve(term));
         let companion = Mat::from_fn(2 * size, 2 * size, |i, k| match (i < size, k < size) {
             (true, true) => 0.0,
             (true, false) => f64::from(u8::from(i + size == k)),
@@ -90,19 +110,91 @@ impl States {
         });
         let eigen = RealEigen::new(companion.as_ref())?;
         let (right, left) = (columns(&eigen), inverse(&eigen));
-        let of = |places: &[usize]| {
-            let lower = Mat::from_fn(size, places.len(), |i, k| left[(places[k], size + i)]);
-            States {
-                x: Mat::from_fn(size, places.len(), |i, k| right[(i, places[k])]),
-                y: inertia.solve_transpose(lower).transpose().to_owned(),
-                values: places.iter().map(|i| eigen.values[*i]).collect(),
-            }
-        };
-        let reach = reach(&eigen.values);
-        let is_kept = |i: &usize| eigen.values[*i].norm() < reach;
-        let (kept, others): (Vec<usize>, Vec<usize>) = (0..2 * size).partition(is_kept);
-        Ok((of(&kept), of(&others)))
+        let lower = left.subcols(size, size).transpose().to_owned();
+        Ok(States {
+            x: right.subrows(0, size).to_owned(),
+            y: inertia.solve_transpose(lower).transpose().to_owned(),
+            values: eigen.values,
+        })
     }
+
+    /// The states within the reach and all others.
+    fn parted(&self) -> (Self, Self) {
+        let reach = reach(&self.values);
+        let of = |places: &[usize]| States {
+            x: Mat::from_fn(self.x.nrows(), places.len(), |i, k| self.x[(i, places[k])]),
+            y: Mat::from_fn(places.len(), self.y.ncols(), |i, k| self.y[(places[i], k)]),
+            values: places.iter().map(|i| self.values[*i]).collect(),
+        };
+        let is_kept = |i: &usize| self.values[*i].norm() < reach;
+        let (kept, others): (Vec<usize>, Vec<usize>) = (0..self.values.len()).partition(is_kept);
+        (of(&kept), of(&others))
+    }
+}
+
+/// All states of a problem without damping, by an eigenproblem of half the order: K̃ and M̃ are symmetric and C̃ is skew, so that
+/// L(λ)ᴴ = L(−λ̄), and the left vector of λ is the right one of −λ̄. `None` if M̃ is not positive definite, or if two λ² are close to
+/// one another or to zero.
+fn symmetric_states(terms: [MatRef<'_, f64>; QUADRATIC]) -> Result<Option<States>, LinalgError> {
+    let size = terms[0].nrows();
+    let even = |matrix: MatRef<'_, f64>| Scale(0.5) * (matrix + matrix.transpose());
+    let Ok(factors) = even(terms[2]).llt(Side::Lower) else {
+        return Ok(None);
+    };
+    let root = factors.L();
+    let reduced = |matrix: MatRef<'_, f64>| {
+        let mut half = matrix.to_owned();
+        solve_lower_triangular_in_place(root, half.as_mut(), Par::Seq);
+        let mut half = half.transpose().to_owned();
+        solve_lower_triangular_in_place(root, half.as_mut(), Par::Seq);
+        half.transpose().to_owned()
+    };
+    let stiffness = even(reduced(terms[0]).as_ref());
+    let velocity = reduced(terms[1]);
+    let velocity = Scale(0.5) * (&velocity - velocity.transpose());
+    let (matrix, scale) = hamiltonian_matrix(&stiffness, &velocity);
+    let Some(found) = hamiltonian_eigenpairs(matrix.as_ref())? else {
+        return Ok(None);
+    };
+    let mut shapes = found.halves.subrows(0, size).to_owned();
+    solve_upper_triangular_in_place(root.transpose(), shapes.as_mut(), Par::Seq);
+    let lambdas: Vec<c64> = found.lambdas.iter().map(|lambda| lambda * scale).collect();
+    let [by_velocity, by_inertia] = [1, 2].map(|power| terms[power] * &shapes);
+    let mut states = States {
+        x: Mat::zeros(size, 2 * size),
+        y: Mat::zeros(2 * size, size),
+        values: Vec::new(),
+    };
+    for (k, lambda) in lambdas.iter().enumerate() {
+        let mirrored =
+            smallest(0..lambdas.len(), |i| (lambdas[*i] + lambda.conj()).norm()).unwrap_or(k);
+        let product = |all: &Mat<f64>| {
+            let dot = |x: usize, y: usize| -> f64 {
+                shapes.col(2 * mirrored + x).transpose() * all.col(2 * k + y)
+            };
+            c64::new(dot(0, 0) + dot(1, 1), dot(0, 1) - dot(1, 0))
+        };
+        let by_root = product(&by_velocity) + 2.0 * lambda * product(&by_inertia);
+        let is_real = lambda.im == 0.0;
+        let at = states.values.len();
+        for i in 0..size {
+            let left =
+                c64::new(shapes[(i, 2 * mirrored)], -shapes[(i, 2 * mirrored + 1)]) / by_root;
+            states.x[(i, at)] = shapes[(i, 2 * k)];
+            if is_real {
+                states.y[(at, i)] = left.re;
+            } else {
+                states.x[(i, at + 1)] = shapes[(i, 2 * k + 1)];
+                states.y[(at, i)] = 2.0 * left.re;
+                states.y[(at + 1, i)] = -2.0 * left.im;
+            }
+        }
+        states.values.push(*lambda);
+        if !is_real {
+            states.values.push(lambda.conj());
+        }
+    }
+    Ok((states.values.len() == 2 * size).then_some(states))
 }
 
 /// Middle of the widest gap between magnitudes within [`END`].
@@ -162,7 +254,7 @@ fn divided(f: &Mat<f64>, rows: &[c64], columns: &[c64]) -> Mat<f64> {
 }
 
 /// Columns of all vectors: that of a real λ, the real and the imaginary part for a pair.
-pub(super) fn columns(eigen: &RealEigen) -> Mat<f64> {
+fn columns(eigen: &RealEigen) -> Mat<f64> {
     let halves = eigen.halves_of(&eigen.upper());
     let mut place = Vec::new();
     for (k, i) in eigen.upper().into_iter().enumerate() {

@@ -5,12 +5,13 @@
 //!
 //! dλ/dΩ = −(Σ λᵏ w Y (∂L_k/∂Ω) X u) / (Σ k λᵏ⁻¹ w Y L_k X u).
 
-use faer::{Col, Mat, c64};
+use faer::{Col, Mat, MatRef, c64};
 
-use super::pair::{END, Pair, columns, inverse};
+use super::pair::{END, Pair, inverse};
 use super::speed_series::WaveModel;
 use crate::model::linalg::{LinalgError, RealEigen};
 use crate::modes::error::SpectrumError;
+use crate::modes::vectors::joined;
 
 /// An eigenvalue with Im λ ≥ 0 and its vector.
 #[derive(Debug, Clone)]
@@ -19,6 +20,8 @@ pub struct Root {
     pub lambda: c64,
     /// dλ/dΩ, not finite where two eigenvalues coalesce.
     pub slope: c64,
+    /// Sign of the action of an oscillation, +1 or −1.
+    pub action: i8,
     /// Displacements of strong dampers, near waves.
     pub vector: Col<c64>,
 }
@@ -38,8 +41,13 @@ impl WaveModel {
     /// # Errors
     /// [`SpectrumError`] when an eigenproblem fails.
     pub fn roots(&self, speed_rad_per_s: f64) -> Result<Vec<Root>, SpectrumError> {
-        let (terms, slopes) = self.at(speed_rad_per_s);
-        let mut found = sloped(&terms, &slopes).map_err(SpectrumError::at(speed_rad_per_s))?;
+        let sums = self.sums(speed_rad_per_s);
+        let side_by_side = |column: usize| {
+            let entries = sums.col_as_slice(column);
+            MatRef::from_column_major_slice(entries, self.size(), entries.len() / self.size())
+        };
+        let of = sloped(side_by_side(0), side_by_side(1), self.is_conservative);
+        let mut found = of.map_err(SpectrumError::at(speed_rad_per_s))?;
         found.sort_by(|x, y| x.lambda.norm().total_cmp(&y.lambda.norm()));
         let zeros = found.partition_point(|root| root.lambda.norm() < RIGID);
         found.drain(..zeros.min(2 * self.rigid));
@@ -60,50 +68,66 @@ impl WaveModel {
     }
 }
 
-fn sloped(terms: &[Mat<f64>], slopes: &[Mat<f64>]) -> Result<Vec<Root>, LinalgError> {
-    let Some(Pair { x, y, b }) = Pair::new(terms)? else {
+/// Eigenvalues by the matrices L₀, L₁, … side by side and by their derivatives with respect to the speed.
+fn sloped(
+    terms: MatRef<'_, f64>,
+    slopes: MatRef<'_, f64>,
+    is_conservative: bool,
+) -> Result<Vec<Root>, LinalgError> {
+    let Some(Pair { x, y, b }) = Pair::new(terms, is_conservative)? else {
         return Ok(Vec::new());
     };
+    let size = terms.nrows();
     let eigen = RealEigen::new(b.as_ref())?;
-    let (right, left) = (x * columns(&eigen), inverse(&eigen) * y);
-    let inner = |all: &[Mat<f64>]| -> Vec<Mat<f64>> {
-        let of = |matrix: &Mat<f64>| &left * (matrix * &right);
-        all.iter().map(of).collect()
-    };
-    let (terms, slopes) = (inner(terms), inner(slopes));
-    let of = |i: usize| {
-        let mu = eigen.values[i];
-        // Columns i and i + 1 of the right vectors are the real and the imaginary part of u. With the rows a and b of the
-        // left vectors at the same indices, w = (a − ib)/2.
-        let form = |matrix: &Mat<f64>| {
-            if mu.im > 0.0 {
-                let re = matrix[(i, i)] + matrix[(i + 1, i + 1)];
-                c64::new(re, matrix[(i, i + 1)] - matrix[(i + 1, i)]) * 0.5
-            } else {
-                c64::from(matrix[(i, i)])
+    let upper = eigen.upper();
+    let (right, left) = (x * eigen.halves_of(&upper), inverse(&eigen) * y);
+    // λᵏXu and kλᵏ⁻¹Xu, one power below another.
+    let mut powers = Mat::zeros(terms.ncols(), right.ncols());
+    let mut by_root = Mat::zeros(terms.ncols(), right.ncols());
+    for (k, i) in upper.iter().enumerate() {
+        let (mut power, mut before) = (c64::ONE, c64::ZERO);
+        for (degree, row) in (0..terms.ncols()).step_by(size).enumerate() {
+            for at in 0..size {
+                let entry = c64::new(right[(at, 2 * k)], right[(at, 2 * k + 1)]);
+                let values = [power * entry, before * entry * degree as f64];
+                for (all, value) in [&mut powers, &mut by_root].into_iter().zip(values) {
+                    all[(row + at, 2 * k)] = value.re;
+                    all[(row + at, 2 * k + 1)] = value.im;
+                }
             }
-        };
-        let (mut moved, mut by_root) = (c64::new(0.0, 0.0), c64::new(0.0, 0.0));
-        let mut power = c64::new(1.0, 0.0);
-        for (k, slope) in slopes.iter().enumerate() {
-            moved += power * form(slope);
-            if let Some(next) = terms.get(k + 1) {
-                by_root += power * form(next) * (k + 1) as f64;
-            }
-            power *= mu;
+            (power, before) = (power * eigen.values[*i], power);
         }
-        let upper = |row: usize| {
+    }
+    let [moved, by_root] = [slopes * powers, terms * by_root];
+    let [by_velocity, by_inertia] = [1, 2].map(|power| terms.subcols(power * size, size) * &right);
+    let of = |(k, i): (usize, &usize)| {
+        let mu = eigen.values[*i];
+        // With the rows a and b of the left vectors of a pair, w = (a − ib)/2.
+        let form = |vectors: &Mat<f64>| {
+            let dot =
+                |row: usize, part: usize| -> f64 { left.row(i + row) * vectors.col(2 * k + part) };
             if mu.im > 0.0 {
-                c64::new(right[(row, i)], right[(row, i + 1)])
+                c64::new(dot(0, 0) + dot(1, 1), dot(0, 1) - dot(1, 0)) * 0.5
             } else {
-                c64::from(right[(row, i)])
+                c64::from(dot(0, 0))
             }
         };
+        // The sign of xᴴ(2ωM̃ − iC̃)x, where the skew part of C̃ acts alone.
+        let dot = |x: usize, product: &Mat<f64>, y: usize| -> f64 {
+            right.col(2 * k + x).transpose() * product.col(2 * k + y)
+        };
+        let turned = dot(0, &by_velocity, 1) - dot(1, &by_velocity, 0);
+        let inert = dot(0, &by_inertia, 0) + dot(1, &by_inertia, 1);
         Root {
             lambda: mu,
-            slope: -moved / by_root,
-            vector: Col::from_fn(right.nrows(), upper),
+            slope: -form(&moved) / form(&by_root),
+            action: if turned + 2.0 * mu.im * inert < 0.0 {
+                -1
+            } else {
+                1
+            },
+            vector: joined(&right, k),
         }
     };
-    Ok(eigen.upper().into_iter().map(of).collect())
+    Ok(upper.iter().enumerate().map(of).collect())
 }

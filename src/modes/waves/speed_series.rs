@@ -6,6 +6,7 @@ use faer::Mat;
 use rayon::prelude::*;
 
 use crate::model::scene::SpeedRange;
+use crate::model::system::GyroscopicSystem;
 use crate::modes::connected_parts::connected_parts;
 use crate::modes::error::SpectrumError;
 use crate::modes::work::Cancellation;
@@ -49,6 +50,8 @@ pub struct WaveModel {
     pub(super) window: f64,
     /// Number of free rigid motions, each with λ = 0 at most twice.
     pub(super) rigid: usize,
+    /// Whether nothing damps: L(λ)ᴴ = L(−λ̄).
+    pub(super) is_conservative: bool,
     /// Number of terms L₀, L₁, ….
     terms: usize,
     /// Their entries, one matrix after another, by degree.
@@ -62,7 +65,7 @@ impl WaveModel {
         range: SpeedRange,
         diameters: Vec<Option<usize>>,
         window: f64,
-        rigid: usize,
+        full: &GyroscopicSystem,
     ) -> Self {
         let size = diameters.len();
         let terms = terms_at.first().map_or(0, Vec::len);
@@ -78,7 +81,8 @@ impl WaveModel {
             range,
             diameters,
             window,
-            rigid,
+            rigid: full.free_rigid.len(),
+            is_conservative: full.is_conservative(),
             terms,
             coefficients: values * weights,
         }
@@ -94,9 +98,9 @@ impl WaveModel {
         self.range
     }
 
-    /// The components, which do not act on one another: a free blade has one for each number of nodal diameters, and saws with
-    /// equal pads have several.
-    pub fn components(&self) -> Vec<WaveModel> {
+    /// The parts, which do not act on one another, with the places of their unknowns: a free blade has one for each number of nodal
+    /// diameters, and saws with equal pads have several.
+    pub fn parts(&self) -> Vec<(Vec<usize>, WaveModel)> {
         let size = self.size();
         let are_coupled = |[i, k]: &[usize; 2]| {
             let mut entries = (0..self.terms)
@@ -114,15 +118,41 @@ impl WaveModel {
             let diameters: Vec<Option<usize>> = kept.iter().map(|k| self.diameters[*k]).collect();
             // Rigid motions are heave and tilts. No other component has them, but at a critical speed it has λ = 0.
             let is_held = diameters.iter().flatten().all(|n| *n > 1);
-            WaveModel {
+            let model = WaveModel {
                 diameters,
                 rigid: if is_held { 0 } else { self.rigid },
                 coefficients,
                 ..*self
-            }
+            };
+            (kept, model)
         };
         let parts = connected_parts(size, pairs.filter(are_coupled)).into_iter();
         parts.map(of).collect()
+    }
+
+    /// The model projected on orthonormal columns.
+    #[cfg(test)]
+    pub(super) fn projected(&self, basis: faer::MatRef<'_, f64>) -> WaveModel {
+        let size = basis.ncols();
+        let mut coefficients = Mat::zeros(self.terms * size * size, NODES);
+        for degree in 0..NODES {
+            for power in 0..self.terms {
+                let term = Mat::from_fn(self.size(), self.size(), |i, k| {
+                    self.coefficients[(self.row(power, i, k), degree)]
+                });
+                let inner = basis.transpose() * term * basis;
+                for k in 0..size {
+                    for i in 0..size {
+                        coefficients[((power * size + k) * size + i, degree)] = inner[(i, k)];
+                    }
+                }
+            }
+        }
+        WaveModel {
+            diameters: vec![None; size],
+            coefficients,
+            ..*self
+        }
     }
 
     /// Index of an entry of the coefficient of a power of λ.
@@ -133,20 +163,6 @@ impl WaveModel {
     /// Largest coefficient of the highest degree, which is the error of the series in the speed, in units of the window.
     pub fn tail(&self) -> f64 {
         self.coefficients.col(NODES - 1).norm_max()
-    }
-
-    /// L₀, L₁, … at a speed in units of the window, and their derivatives with respect to the speed.
-    pub fn at(&self, speed_rad_per_s: f64) -> (Vec<Mat<f64>>, Vec<Mat<f64>>) {
-        let sums = self.sums(speed_rad_per_s);
-        let of = |column: usize| {
-            let matrix = |power: usize| {
-                Mat::from_fn(self.size(), self.size(), |i, k| {
-                    sums[(self.row(power, i, k), column)]
-                })
-            };
-            (0..self.terms).map(matrix).collect()
-        };
-        (of(0), of(1))
     }
 
     /// Entries of L₀, L₁, … at a speed, one matrix after another, and in a second column their derivatives with respect to

@@ -3,7 +3,7 @@
 use super::band::{Instability, InstabilityKind};
 use super::certificate::{Certificate, ContradictedBands, mismatches};
 use super::divergence::{close_pairs, divergence};
-use super::evaluator::SignatureEvaluator;
+use super::evaluator::{SignatureEvaluator, SolvedSpeed};
 use super::flutter::{Quadruple, flutter, quadruples};
 use super::mode_counts::{MiscountedModes, ModeCounts};
 use super::partition::Plane;
@@ -56,55 +56,57 @@ const LEAST_BESIDE: f64 = 6e-5;
 const NEXT_TO_CRITICAL: f64 = 1e-4;
 
 /// Finds every band within a range by a search between the first and the last of `speeds`, which should cover
-/// the range from the first critical speed on. Searches again on the full model if counts contradict the
+/// the range from the first critical speed on. Searches again with more waves if counts contradict the
 /// modes.
 pub(super) fn bands(
     model: &SpectralModel,
     range: SpeedRange,
     speeds: &[f64],
     depth: Depth,
-) -> Result<FoundBands, SpectrumError> {
-    let full = ModeCounts::new(model);
-    let mut found = searched(
-        model,
-        SignatureEvaluator::new(model, speeds)?,
-        &full,
-        range,
-        speeds,
-        depth,
-    )?;
-    if found.certificate.miscounts.is_empty() {
-        return Ok(found);
+) -> Result<Searched, SpectrumError> {
+    let searched_once = searched(model, range, speeds, depth)?;
+    if searched_once.found.certificate.miscounts.is_empty() {
+        return Ok(searched_once);
     }
-    if !SignatureEvaluator::has_full_model_within_reach(model) {
-        found.certificate.gave_up = true;
-        return Ok(found);
-    }
-    let whole = SignatureEvaluator::on_full_model(model, speeds)?;
-    let mut found = searched(model, whole, &full, range, speeds, depth)?;
+    let more = model.with_more_waves()?;
+    let mut found = searched(&more, range, speeds, depth)?.found;
     found.certificate.searched_again = true;
-    Ok(found)
+    Ok(Searched {
+        found,
+        solved: Vec::new(),
+    })
+}
+
+/// Result of a search.
+pub(super) struct Searched {
+    /// Bands and certificate.
+    pub found: FoundBands,
+    /// Modes of the model at the speeds of the search; empty for a free blade, and if more waves were needed.
+    pub solved: Vec<SolvedSpeed>,
 }
 
 /// Bands and certificate by one search.
 fn searched(
     model: &SpectralModel,
-    evaluator: SignatureEvaluator<'_>,
-    full: &Option<ModeCounts<'_>>,
     range: SpeedRange,
     speeds: &[f64],
     depth: Depth,
-) -> Result<FoundBands, SpectrumError> {
-    let Some(full) = full else {
+) -> Result<Searched, SpectrumError> {
+    let evaluator = SignatureEvaluator::new(model);
+    let Some(full) = ModeCounts::new(model) else {
         evaluator.at_all(speeds)?;
-        // `full` is `None` for a free blade. Its waves are uncoupled, so they cross and never coalesce.
+        // A free blade has no counts. Its waves are uncoupled, so they cross and never coalesce.
         let certificate = Certificate {
             unproven_rad_per_s: Some(Vec::new()),
             ..evaluator.certificate()
         };
-        return Ok(FoundBands {
+        let found = FoundBands {
             instabilities: Vec::new(),
             certificate,
+        };
+        return Ok(Searched {
+            found,
+            solved: Vec::new(),
         });
     };
     let pieces = searched_pieces(&evaluator, speeds)?;
@@ -128,7 +130,7 @@ fn searched(
     within.sort_by(by_onset);
     let checks = Checks {
         evaluator: &evaluator,
-        full,
+        full: &full,
         pieces: &pieces,
         bands: &bands,
         signatures: &signatures,
@@ -138,9 +140,12 @@ fn searched(
         unproven.extend(unsearched(model, range, speeds));
         *unproven = clipped(unproven, range);
     }
-    Ok(FoundBands {
-        instabilities: within,
-        certificate,
+    Ok(Searched {
+        found: FoundBands {
+            instabilities: within,
+            certificate,
+        },
+        solved: evaluator.into_solved(),
     })
 }
 
@@ -159,7 +164,7 @@ fn searched_pieces(
         noise_per_s: GROWTH_NOISE * (top_rad_per_s + last),
         solve: &|speed| evaluator.sample(speed),
     };
-    search.pieces(&evaluator.with_ends_of_intervals(speeds))
+    search.pieces(speeds)
 }
 
 /// Parts of a range outside the speeds of a search, except below the first critical speed, where nothing is

@@ -128,7 +128,7 @@ mod tests {
         let range = SpeedRange::between_rpm(0.0, 2600.0);
         let plate = Plate::new(&scene.unwrap(), Resolution::of(Accuracy::Draft));
         let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
-        let solver = Solver::new(&model, range).unwrap();
+        let solver = Solver::new(&model);
         let counts = Counts::new(&model, &solver, &[], range).unwrap();
         assert_eq!(counts.made, DRAWN as usize);
         assert!(counts.miscounts.is_empty(), "{:?}", counts.miscounts);

@@ -121,7 +121,7 @@ pub(super) fn bands(
     detail: Detail,
 ) -> Result<FoundBands, SpectrumError> {
     let closeness = Closeness::of(detail);
-    let solver = Solver::new(model, range)?;
+    let solver = Solver::new(model);
     let speeds = evenly_spaced(range.ends(), SEARCH_SPEEDS);
     let searched: Vec<(Vec<Piece>, Vec<Instability>)> = (0..solver.components())
         .into_par_iter()

@@ -4,7 +4,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
 
-use crate::model::scene::SpeedRange;
 use crate::modes::waves::WaveModel;
 use crate::modes::{SpectralModel, SpectrumError, smallest};
 use crate::stability::group::Sloped;
@@ -36,21 +35,18 @@ pub struct Spectrum {
 pub struct Solver<'a> {
     model: &'a SpectralModel,
     /// Reduced models of the components of the saw.
-    components: Vec<WaveModel>,
+    components: Vec<&'a WaveModel>,
     spent: AtomicUsize,
 }
 
 impl<'a> Solver<'a> {
-    /// A solver for a range of speeds, in rad/s.
-    ///
-    /// # Errors
-    /// [`SpectrumError::Cancelled`].
-    pub fn new(model: &'a SpectralModel, range: SpeedRange) -> Result<Self, SpectrumError> {
-        Ok(Solver {
+    /// A solver on the reduced models of a saw.
+    pub fn new(model: &'a SpectralModel) -> Self {
+        Solver {
             model,
-            components: model.wave_models(range)?,
+            components: model.wave_models(),
             spent: AtomicUsize::new(0),
-        })
+        }
     }
 
     /// Number of components of the saw that do not act on one another.
@@ -179,7 +175,7 @@ pub fn finite(slope: c64) -> c64 {
 mod tests {
     use super::*;
     use crate::model::plate::{Plate, Resolution};
-    use crate::model::scene::Scene;
+    use crate::model::scene::{Scene, SpeedRange};
     use crate::modes::Strategy;
 
     /// Dampers stronger than their springs: of their real eigenvalues one is within the reach and the next one beyond it, and
@@ -199,7 +195,7 @@ mod tests {
             };
             let plate = Plate::new(&scene.unwrap(), resolution);
             let model = SpectralModel::new(plate, range, Strategy::Reduced).unwrap();
-            let solver = Solver::new(&model, range).unwrap();
+            let solver = Solver::new(&model);
             for k in 0..12 {
                 let speed = range.to_rad_per_s * (f64::from(k) + 0.3) / 12.0;
                 let all = solver.eigenvalues(speed, 0).unwrap();

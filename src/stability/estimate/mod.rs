@@ -1,8 +1,7 @@
-//! Estimated errors of each result of an analysis.
+//! Estimated errors of each result of an analysis, by the change that a larger basis makes on a few modes.
 
 mod band_error;
 mod damped;
-mod hump;
 
 use faer::{Col, Mat, c64};
 use rayon::prelude::*;
@@ -10,7 +9,6 @@ use rayon::prelude::*;
 pub use self::band_error::BandError;
 use self::band_error::magnitude;
 use self::damped::fastest;
-use self::hump::merged;
 
 use super::band::{Instability, InstabilityKind};
 use super::basis::REMAINDER;
@@ -19,8 +17,8 @@ use crate::model::scene::SpeedRange;
 use crate::model::system::GyroscopicSystem;
 use crate::modes::branches::SpeedSample;
 use crate::modes::{
-    Cancellation, DescribedMode, LargerBasis, ModeKind, SpectralModel, SpectrumError, State, Work,
-    companion_eigenpairs, critical_speeds, orthonormal, smallest, split,
+    Cancellation, DescribedMode, DoubleEigenvalue, LargerBasis, ModeKind, NamedMode, SpectralModel,
+    SpectrumError, Work, companion_eigenpairs, critical_speeds, orthonormal, smallest, split,
 };
 
 /// Estimated errors, from the changes that a larger basis would make.
@@ -35,6 +33,8 @@ pub struct Estimates {
     pub drawn: f64,
     /// Errors of each band.
     pub bands: Vec<BandError>,
+    /// Largest backward error, on the full model, of the modes by which the errors are estimated.
+    pub backward_error: f64,
 }
 
 /// Speeds, as shares of the range, near which the errors of drawn frequencies are estimated.
@@ -64,10 +64,21 @@ impl Estimates {
             .map(|share| range.from_rad_per_s + share * range.width())
             .into_iter()
             .filter_map(|speed| smallest(samples, |sample| (sample.speed_rad_per_s - speed).abs()));
-        let errors = looks.flat_map(|sample| {
-            larger.frequency_errors(&model.components, sample.speed_rad_per_s, &sample.modes)
-        });
-        let drawn = REMAINDER.get() * errors.flatten().fold(0.0, f64::max);
+        let (mut drawn, mut backward_error) = (0.0, 0.0);
+        for sample in looks {
+            let speed = sample.speed_rad_per_s;
+            let modes = described(model, speed, sample.modes.iter());
+            backward_error = modes
+                .iter()
+                .map(|m| m.backward_error)
+                .fold(backward_error, f64::max);
+            let errors = larger.frequency_errors(&model.components, speed, &modes);
+            drawn = errors
+                .into_iter()
+                .flatten()
+                .map(|e| REMAINDER.get() * e)
+                .fold(drawn, f64::max);
+        }
         let least = critical.iter().copied().fold(0.0, f64::max);
         let mut estimates = Estimates {
             larger,
@@ -75,9 +86,10 @@ impl Estimates {
             at_rest,
             drawn,
             bands: Vec::new(),
+            backward_error,
         };
         let step = Work::of("errors of bands", chart.instabilities.len());
-        let bands: Result<Vec<BandError>, SpectrumError> = chart
+        let bands: Result<Vec<(BandError, f64)>, SpectrumError> = chart
             .instabilities
             .par_iter()
             .map(|band| {
@@ -85,15 +97,17 @@ impl Estimates {
                 let at_peak = samples
                     .iter()
                     .find(|s| s.speed_rad_per_s == band.peak_rad_per_s);
-                let changes = match at_peak {
-                    Some(sample) => estimates.band(model, band, sample)?,
-                    None => BandError::default(),
-                };
+                let modes = at_peak.map_or_else(Vec::new, |sample| modes_of(model, band, sample));
+                let changes = estimates.band(model, band, &modes)?;
                 step.advance();
-                Ok(changes.of(band, least))
+                let backward = modes.iter().map(|m| m.backward_error).fold(0.0, f64::max);
+                Ok((changes.of(band, least), backward))
             })
             .collect();
-        estimates.bands = bands?;
+        for (error, backward) in bands? {
+            estimates.bands.push(error);
+            estimates.backward_error = estimates.backward_error.max(backward);
+        }
         Ok(estimates)
     }
 
@@ -111,20 +125,20 @@ impl Estimates {
         errors.into_iter().map(with_remainder).collect()
     }
 
-    /// Changes of a band by the larger basis, from the modes at its peak.
+    /// Changes of a band by the larger basis, from the growing mode at its peak and its neighbours.
     fn band(
         &self,
         model: &SpectralModel,
         band: &Instability,
-        sample: &SpeedSample,
+        modes: &[DescribedMode],
     ) -> Result<BandError, SpectrumError> {
-        let Some(modes) = modes_of(band, &sample.modes) else {
+        let Some(growing) = modes.first() else {
             return Ok(BandError::default());
         };
         match (band.kind, model.is_conservative()) {
-            (InstabilityKind::Divergence, true) => self.standing(model, band, modes[0]),
-            (InstabilityKind::Flutter, true) => Ok(self.merging(model, band, modes)),
-            _ => self.damped(model, band, modes[0], &sample.modes),
+            (InstabilityKind::Divergence, true) => self.standing(model, band, growing),
+            (InstabilityKind::Flutter, true) => self.merging(model, band, modes),
+            _ => self.damped(model, band, modes),
         }
     }
 
@@ -147,57 +161,52 @@ impl Estimates {
         (basis, [found, larger])
     }
 
-    /// Estimates flutter of an undamped blade on the two waves that coalesce.
+    /// Estimates flutter of an undamped blade on the two waves that coalesce: onset and largest growth.
     fn merging(
         &self,
         model: &SpectralModel,
         band: &Instability,
-        modes: [&DescribedMode; 2],
-    ) -> BandError {
-        let component = modes[0].mode.component;
-        let halves = modes.map(|m| split(&model.components[component].coordinates(&m.shape)));
-        let vectors: Vec<Col<f64>> = halves
-            .iter()
-            .flat_map(|(re, im)| [re.clone(), im.clone()])
-            .collect();
-        let (basis, [found, larger]) = self.projected(model, band, component, &vectors);
-        let states = [0, 1].map(|k| {
-            let (re, im) = &halves[k];
-            let (re, im) = (basis.transpose() * re, basis.transpose() * im);
-            let q = Col::from_fn(re.nrows(), |i| c64::new(re[i], im[i]));
-            State::new(&found, band.peak_rad_per_s, (modes[k].mode.lambda, q))
+        modes: &[DescribedMode],
+    ) -> Result<BandError, SpectrumError> {
+        let (_, systems) = self.projected_on(model, band, modes);
+        let wave = c64::new(0.0, band.frequency_rad_per_s);
+        let [before, after] = systems.each_ref().map(|system| {
+            let found = DoubleEigenvalue::next_to(system, band.from_rad_per_s, wave);
+            found.map(|found| found.speed_rad_per_s)
         });
-        merged([&found, &larger], &states, band)
+        let onset = before
+            .zip(after)
+            .map(|(before, after)| (after - before) / band.from_rad_per_s);
+        Ok(BandError {
+            speed: onset.and_then(magnitude),
+            ..grown(&systems, band, modes)?
+        })
     }
 
-    /// Estimates growth of a damped blade on the growing mode and its neighbours. The larger basis shifts the
-    /// band, so the largest growth rates are compared, each at its own speed.
+    /// Estimates growth of a damped blade.
     fn damped(
         &self,
         model: &SpectralModel,
         band: &Instability,
-        growing: &DescribedMode,
         modes: &[DescribedMode],
     ) -> Result<BandError, SpectrumError> {
-        let component = growing.mode.component;
-        let own = modes.iter().filter(|m| m.mode.component == component);
-        let mut near: Vec<&DescribedMode> = own.collect();
-        let away = |m: &DescribedMode| (m.mode.lambda.im - growing.mode.lambda.im).abs();
-        near.sort_by(|x, y| away(x).total_cmp(&away(y)));
-        let halves: Vec<Col<f64>> = near
-            .iter()
-            .take(NEAR_MODES)
-            .flat_map(|m| {
-                let (re, im) = split(&model.components[component].coordinates(&m.shape));
-                [re, im]
-            })
-            .collect();
-        let (_, systems) = self.projected(model, band, component, &halves);
-        let [before, after] = systems.map(|system| fastest(&system, growing, band));
-        Ok(BandError {
-            speed: None,
-            growth: magnitude(after? / before? - 1.0),
-        })
+        let (_, systems) = self.projected_on(model, band, modes);
+        grown(&systems, band, modes)
+    }
+
+    /// The component of some modes projected on them, see [`Estimates::projected`].
+    fn projected_on(
+        &self,
+        model: &SpectralModel,
+        band: &Instability,
+        modes: &[DescribedMode],
+    ) -> (Mat<f64>, [GyroscopicSystem; 2]) {
+        let component = modes[0].mode.component;
+        let halves = modes.iter().flat_map(|m| {
+            let (re, im) = split(&model.components[component].coordinates(&m.shape));
+            [re, im]
+        });
+        self.projected(model, band, component, &halves.collect::<Vec<Col<f64>>>())
     }
 
     /// Estimates divergence between two critical speeds on the waves that stand still there and the growing
@@ -263,29 +272,56 @@ const SAME_SPEED: f64 = 1e-6;
 const LEANING_LOOKS: usize = 16;
 /// Number of modes in the estimate for a damped band.
 const NEAR_MODES: usize = 6;
-/// Vectors closer than this to the span of the others are omitted.
-const INDEPENDENT: f64 = 1e-6;
+/// Vectors closer than this to the span of the others are omitted: the rest would contain their errors of 1e-6, which the larger basis
+/// softens most, because they are in the stiffest waves.
+const INDEPENDENT: f64 = 1e-2;
 
-/// The growing mode of a band, and the mode with which it has coalesced; for a damped blade the mode of the
-/// nearest frequency, for divergence the same mode again.
-fn modes_of<'a>(band: &Instability, modes: &'a [DescribedMode]) -> Option<[&'a DescribedMode; 2]> {
-    let distance =
-        |m: &&DescribedMode| (m.mode.frequency_rad_per_s() - band.frequency_rad_per_s).abs();
-    let nearest = |modes: &mut dyn Iterator<Item = &'a DescribedMode>| smallest(modes, distance);
-    let close =
-        |m: &&DescribedMode| (m.mode.growth_per_s() / band.peak_growth_per_s - 1.0).abs() < 0.1;
-    let growing = nearest(&mut modes.iter().filter(close))?;
-    let own = |m: &&DescribedMode| m.mode.component == growing.mode.component;
-    let partner = match growing.mode.kind {
-        ModeKind::Flutter => {
-            let decaying = |m: &&DescribedMode| m.mode.kind == ModeKind::Decaying;
-            nearest(&mut modes.iter().filter(own).filter(decaying))?
-        }
-        ModeKind::Divergent => growing,
-        _ => {
-            let others = modes.iter().filter(|m| !std::ptr::eq(*m, growing));
-            nearest(&mut others.filter(own))?
-        }
+/// Changes of the largest growth from one small system to another. The larger basis shifts a band, so that the largest growth rates are
+/// compared, each at its own speed.
+fn grown(
+    systems: &[GyroscopicSystem; 2],
+    band: &Instability,
+    modes: &[DescribedMode],
+) -> Result<BandError, SpectrumError> {
+    let [before, after] = systems
+        .each_ref()
+        .map(|system| fastest(system, &modes[0], band));
+    Ok(BandError {
+        speed: None,
+        growth: magnitude(after? / before? - 1.0),
+    })
+}
+
+/// The growing mode of a band at the speed of its peak, and its neighbours: without damping the mode with which it has coalesced, else
+/// those of the nearest frequencies. Empty if none grows as the band does.
+fn modes_of(model: &SpectralModel, band: &Instability, sample: &SpeedSample) -> Vec<DescribedMode> {
+    let distance = |m: &&NamedMode| (m.mode.frequency_rad_per_s() - band.frequency_rad_per_s).abs();
+    let close = |m: &&NamedMode| (m.mode.growth_per_s() / band.peak_growth_per_s - 1.0).abs() < 0.1;
+    let Some(growing) = smallest(sample.modes.iter().filter(close), distance) else {
+        return Vec::new();
     };
-    Some([growing, partner])
+    let kept = match growing.mode.kind {
+        ModeKind::Divergent => 1,
+        ModeKind::Flutter => 2,
+        _ => NEAR_MODES,
+    };
+    let is_other = |m: &&NamedMode| {
+        let is_partner =
+            growing.mode.kind != ModeKind::Flutter || m.mode.kind == ModeKind::Decaying;
+        m.mode.component == growing.mode.component && !std::ptr::eq(*m, growing) && is_partner
+    };
+    let away = |m: &NamedMode| (m.mode.lambda.im - growing.mode.lambda.im).abs();
+    let mut others: Vec<&NamedMode> = sample.modes.iter().filter(is_other).collect();
+    others.sort_by(|x, y| away(x).total_cmp(&away(y)));
+    let near = [growing].into_iter().chain(others).take(kept);
+    described(model, sample.speed_rad_per_s, near)
+}
+
+/// Modes of one speed with their shapes.
+fn described<'a>(
+    model: &SpectralModel,
+    speed_rad_per_s: f64,
+    modes: impl Iterator<Item = &'a NamedMode>,
+) -> Vec<DescribedMode> {
+    model.describe(speed_rad_per_s, modes.map(|m| m.mode.clone()).collect())
 }

@@ -20,8 +20,6 @@ use crate::modes::{SpectrumError, smallest};
 
 /// Distance of a peak at the end of a band from that end, as a share of the width.
 const BESIDE_END: f64 = 1e-3;
-/// Allowed relative error of a growth rate in the models of the search.
-const LIKENESS: f64 = 0.025;
 
 /// A quadruple over an interval of speed.
 #[derive(Debug, Clone)]
@@ -176,7 +174,7 @@ impl Quadruple {
         let mut known = self.points.clone();
         for speed in part.cuts() {
             let mode = continued(evaluator, &self.points, speed)?;
-            known.extend(mode.map(|mode| sharp(evaluator, Point { speed, mode })));
+            known.extend(mode.map(|mode| Point { speed, mode }));
         }
         known.sort_by(|x, y| x.speed.total_cmp(&y.speed));
         let ends = [&self.begin, &self.end].into_iter().filter_map(End::sample);
@@ -203,42 +201,9 @@ impl Quadruple {
                 return Ok((inside, edge.lambda));
             }
         }
-        let peak = sharp(evaluator, nearest(&known, at));
+        let peak = nearest(&known, at);
         Ok((peak.speed, peak.mode.lambda))
     }
-}
-
-/// The quadruple by the projection, whereas the search uses coarser models.
-fn sharp(evaluator: &SignatureEvaluator<'_>, point: Point) -> Point {
-    let Point { speed, mode } = point;
-    let shift = VICINITY * speed;
-    let near = |found: f64, expected: f64, slope: f64| {
-        (found - expected).abs() <= LIKENESS * mode.lambda.re + slope.abs() * shift
-    };
-    let next = evaluator.next_to(speed, mode.lambda);
-    // The iteration may lead to the mirror image −σ + iω.
-    let found = next.map(|(lambda, slope)| {
-        if lambda.re < 0.0 {
-            (-lambda.conj(), -slope.conj())
-        } else {
-            (lambda, slope)
-        }
-    });
-    let is_same = |(lambda, _): &(c64, c64)| {
-        lambda.re > 0.0
-            && near(lambda.re, mode.lambda.re, mode.slope.re)
-            && near(lambda.im, mode.lambda.im, mode.slope.im)
-    };
-    found
-        .filter(is_same)
-        .map_or(point, |(lambda, slope)| Point {
-            mode: SignedMode {
-                lambda,
-                slope,
-                ..mode
-            },
-            speed,
-        })
 }
 
 /// The quadruple at the known speed nearest to a given one.
