@@ -62,6 +62,8 @@ pub struct SignatureEvaluator<'a> {
     tally: Tally,
     /// Modes at the speeds of the search.
     seen: Mutex<Vec<SolvedSpeed>>,
+    /// Modes at other speeds.
+    others: Mutex<Vec<SolvedSpeed>>,
 }
 
 impl<'a> SignatureEvaluator<'a> {
@@ -71,6 +73,7 @@ impl<'a> SignatureEvaluator<'a> {
             model,
             tally: Tally::default(),
             seen: Mutex::default(),
+            others: Mutex::default(),
         }
     }
 
@@ -195,9 +198,13 @@ impl<'a> SignatureEvaluator<'a> {
         all
     }
 
-    /// Modes at the sampled speeds, in no particular order.
+    /// Modes at all speeds of the search and of its checks, in no particular order, each speed once.
     pub fn into_solved(self) -> Vec<SolvedSpeed> {
-        self.seen.into_inner().unwrap_or_default()
+        let mut all = self.seen.into_inner().unwrap_or_default();
+        all.extend(self.others.into_inner().unwrap_or_default());
+        all.sort_by(|x, y| x.speed_rad_per_s.total_cmp(&y.speed_rad_per_s));
+        all.dedup_by(|x, y| x.speed_rad_per_s == y.speed_rad_per_s);
+        all
     }
 
     /// The signature at a sampled speed.
@@ -303,7 +310,20 @@ impl<'a> SignatureEvaluator<'a> {
     /// # Errors
     /// [`SpectrumError`] of the lowest speed that fails.
     pub fn at_all(&self, speeds: &[f64]) -> Result<Vec<Signature>, SpectrumError> {
-        let signatures: Vec<_> = speeds.par_iter().map(|&speed| self.at(speed)).collect();
-        signatures.into_iter().collect()
+        let solved: Vec<SolvedSpeed> = speeds
+            .par_iter()
+            .map(|&speed_rad_per_s| {
+                let modes = self.modes(speed_rad_per_s)?;
+                Ok(SolvedSpeed {
+                    speed_rad_per_s,
+                    modes,
+                })
+            })
+            .collect::<Result<_, SpectrumError>>()?;
+        let signatures = solved.iter().map(SolvedSpeed::signature).collect();
+        if let Ok(mut others) = self.others.lock() {
+            others.extend(solved);
+        }
+        Ok(signatures)
     }
 }

@@ -23,11 +23,11 @@ use crate::modes::vectors::smallest;
 /// |λ| in windows between which the widest gap ends the pair: beyond it the series in λ is inaccurate, and an eigenvalue next to
 /// the end slows the iteration.
 pub(super) const END: [f64; 2] = [1.2, 1.8];
-/// Change of B in the last step, in windows. The rounding of A is larger where it is not normal.
-const SETTLED: f64 = 1e-13;
+/// Change of B in the last step, in windows; each step leaves a tenth of the error.
+const SETTLED: f64 = 1e-12;
 /// Number of terms of the quadratic problem.
 const QUADRATIC: usize = 3;
-/// Largest number of steps; each leaves a tenth of the error.
+/// Largest number of steps. The rounding of A, where it is not normal, may be larger than the last change.
 const STEPS: usize = 16;
 
 /// The pair with its left vectors.

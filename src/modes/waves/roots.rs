@@ -85,15 +85,18 @@ fn sloped(
     let mut powers = Mat::zeros(terms.ncols(), right.ncols());
     let mut by_root = Mat::zeros(terms.ncols(), right.ncols());
     for (k, i) in upper.iter().enumerate() {
+        let vector = joined(&right, k);
         let (mut power, mut before) = (c64::ONE, c64::ZERO);
         for (degree, row) in (0..terms.ncols()).step_by(size).enumerate() {
-            for at in 0..size {
-                let entry = c64::new(right[(at, 2 * k)], right[(at, 2 * k + 1)]);
-                let values = [power * entry, before * entry * degree as f64];
-                for (all, value) in [&mut powers, &mut by_root].into_iter().zip(values) {
-                    all[(row + at, 2 * k)] = value.re;
-                    all[(row + at, 2 * k + 1)] = value.im;
-                }
+            for (all, factor) in [(&mut powers, power), (&mut by_root, before * degree as f64)] {
+                let [re, im] = [2 * k, 2 * k + 1];
+                let below = |all: &mut Mat<f64>, column: usize, part: fn(c64) -> f64| {
+                    let entries = &mut all.col_as_slice_mut(column)[row..row + size];
+                    let pairs = entries.iter_mut().zip(vector.iter());
+                    pairs.for_each(|(entry, x)| *entry = part(factor * x));
+                };
+                below(all, re, |z| z.re);
+                below(all, im, |z| z.im);
             }
             (power, before) = (power * eigen.values[*i], power);
         }

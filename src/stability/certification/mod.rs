@@ -81,7 +81,7 @@ pub(super) fn bands(
 pub(super) struct Searched {
     /// Bands and certificate.
     pub found: FoundBands,
-    /// Modes of the model at the speeds of the search; empty for a free blade, and if more waves were needed.
+    /// Modes of the model at the speeds of the search; empty if more waves were needed.
     pub solved: Vec<SolvedSpeed>,
 }
 
@@ -106,7 +106,7 @@ fn searched(
         };
         return Ok(Searched {
             found,
-            solved: Vec::new(),
+            solved: evaluator.into_solved(),
         });
     };
     let pieces = searched_pieces(&evaluator, speeds)?;
