@@ -261,11 +261,9 @@ class Scene(Drawn, Mapping[str, Value]):
         return self if tolerance is None else self.replace({"tolerance": tolerance})
 
     def _chart(self) -> Chart:
-        """The saw in axial view: blade, guides, cut, probe, and the positive directions of rotation
-        and angles."""
-        from .plot.saw import saw
+        from .plot.described import read
 
-        return saw(self)
+        return read(_native.saw_chart(self._text))
 
     @overload
     def animate(self, mode: Mode, *, backend: Literal["plotly"] = "plotly", frames: int = 48) -> Figure: ...

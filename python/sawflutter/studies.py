@@ -132,7 +132,7 @@ class StudyResults(Result, StudyReport):
         speed : {"lowest_critical_rpm", "flutter_rpm"}
             Speed to show; the median if a point of the grid has several random saws.
         """
-        from .plot.derived import grid
+        from .plot.described import read
 
         paths = [
             parameter["path"]
@@ -141,8 +141,8 @@ class StudyResults(Result, StudyReport):
         ]
         if len(paths) != 2:
             raise ValueError(f"a map needs a grid of two numbers, and this study has {len(paths)}")
-        rows = self.to_dataframe()[[*paths, speed]].to_numpy(dtype=float)
-        return grid(self, rows, (paths[0], paths[1]), speed)
+        rows = self.to_dataframe()[[*paths, speed]].to_numpy(dtype=float).tolist()
+        return read(_native.grid_chart(self.study["name"], paths, speed, rows))
 
     def _warnings(self) -> tuple[str, ...]:
         lost = ((self.all.refused, "refused"), (self.all.failed, "failed"))

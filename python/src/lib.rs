@@ -2,6 +2,7 @@
 //! bytes of doubles. The package around it makes the Python objects.
 
 mod arguments;
+mod charts;
 mod commands;
 mod failure;
 mod figures;
@@ -20,6 +21,8 @@ use crate::failure::Failure;
 #[pymodule]
 mod _native {
     #[pymodule_export]
+    use super::charts::{grid_chart, saw_chart, spectrum_chart, stiffness_chart, waterfall_chart};
+    #[pymodule_export]
     use super::commands::{compare, run, with_block};
     #[pymodule_export]
     use super::figures::{
@@ -31,7 +34,7 @@ mod _native {
     #[pymodule_export]
     use super::matrices::{functions_at, matrices};
     #[pymodule_export]
-    use super::scenes::{axis_name, number, replace, scene, unit, unusual_numbers, value};
+    use super::scenes::{number, replace, scene, unit, unusual_numbers, value};
     #[pymodule_export]
     use super::study::{Study, StudyLog, processor, speeds};
     #[pymodule_export]

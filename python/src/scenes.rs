@@ -34,16 +34,6 @@ pub fn unit(name: &str) -> &'static str {
     }
 }
 
-/// The name of the number of a path with its unit, for an axis.
-#[pyfunction]
-pub fn axis_name(path: &str) -> String {
-    match Quantity::of(path) {
-        None => path.to_owned(),
-        Some(quantity) if quantity.unit.is_empty() => quantity.name.to_owned(),
-        Some(quantity) => format!("{} [{}]", quantity.name, quantity.unit),
-    }
-}
-
 /// The number of a text like `2.6mm`, in the unit of a path of a scene or of an argument.
 #[pyfunction]
 pub fn number(name: &str, text: &str) -> PyResult<f64> {
