@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from . import _native, _tasks, _values
+from . import _native, _tasks
 from ._entry import FloatArray
 from ._progress import Progress, reporting
 from ._scene_types import StudyDict
@@ -56,7 +56,7 @@ class Study:
         if isinstance(study, (str, os.PathLike)):
             text = _native.read_text(study, False)
         else:
-            text = _values.to_json(study)
+            text = _native.plain(study)
         _scene("scene", scene)
         self.scene, self._native = scene, _native.Study(scene.to_json(), text)
         self._text = json.dumps(json.loads(text))

@@ -21,13 +21,11 @@ const LIKENESS: f64 = 0.8;
 
 impl Setting {
     /// A setting from a value in the unit of the key.
-    #[cfg(feature = "cli")]
-    pub(crate) fn new(path: String, value: f64) -> Self {
+    pub fn new(path: String, value: f64) -> Self {
         Setting { path, value }
     }
 
     /// Path of the number.
-    #[cfg(feature = "cli")]
     pub(super) fn path(&self) -> &str {
         &self.path
     }
