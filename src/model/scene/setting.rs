@@ -285,9 +285,16 @@ pub(super) fn set(mut json: Value, settings: &[Setting]) -> Result<Scene, SceneE
     let set = Scene::from_json(&json.to_string());
     set.map_err(|error| match error {
         // The text is a single generated line, so its line number is meaningless to the user.
-        SceneError::Syntax { key, message } => SceneError::Syntax {
+        SceneError::Syntax {
+            key,
+            message,
+            allowed,
+            remedy,
+        } => SceneError::Syntax {
             key,
             message: message.trim_end_matches(" (line 1)").to_owned(),
+            allowed,
+            remedy,
         },
         other => other,
     })
