@@ -220,12 +220,6 @@ class Scene(Drawn, Mapping[str, Value]):
     ) -> Self:
         """Returns the scene with one more guide at the end of :attr:`guides`. The arguments are the
         keys of a guide in a scene file; those that are not given are copied from the last guide.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> len(sf.Scene.paper().add_guide(angle_deg=120.0).guides)
-        2
         """
         given = {key: value for key, value in locals().items() if key != "self" and value is not None}
         last: Mapping[str, Any] = self.guides[-1] if self.guides else {}
@@ -270,13 +264,6 @@ class Scene(Drawn, Mapping[str, Value]):
             A plotly Figure with frames and a button, or a matplotlib FuncAnimation.
         frames : int
             Number of frames in a period.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper().with_accuracy("draft")
-        >>> len(saw.animate(saw.modes(1800)[0], frames=12).frames)
-        12
         """
         from .plot.motion import animate
 
@@ -342,14 +329,14 @@ class Scene(Drawn, Mapping[str, Value]):
 
     def speeds(self, beside: Scene | None = None) -> Speeds:
         """Critical speeds, flutter speed and bands, without branches and shapes: a cheap call for
-        many similar saws, as of a study. The basis is that of the saw ``beside``, or a larger one
-        where its own accuracy needs it, and is kept between calls with the same saw.
+        many similar saws, as of a study.
 
         Parameters
         ----------
         beside : Scene, optional
-            A similar saw, the same for all calls, which also gives the last speed; by default the
-            saw itself.
+            A similar saw, the same for all calls, which gives the last speed and the basis, or a
+            larger one where the accuracy needs it. Its basis is kept between calls. By default the
+            saw has a basis of its own.
 
         Examples
         --------
@@ -362,8 +349,8 @@ class Scene(Drawn, Mapping[str, Value]):
         1530.0
         1580.0
         """
-        nominal = self if beside is None else _scene("beside", beside)
-        found, to_rpm = _native.speeds(self._text, nominal._text)
+        nominal = None if beside is None else _scene("beside", beside)._text
+        found, to_rpm = _native.speeds(self._text, nominal)
         warned(_native.unusual_numbers(self._text))
         return Speeds._of(self.name, json.loads(found), to_rpm)
 
@@ -801,14 +788,6 @@ class Scene(Drawn, Mapping[str, Value]):
             As in :meth:`sawflutter.Study.run`.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> found = free.run_map(("blade.thickness_m", "2.5 mm", "3 mm"), points=3)
-        >>> [round(1e3 * value, 3) for value in found.x.values.tolist()]
-        [2.5, 2.75, 3.0]
         """
         from .maps import MapResults, axis
         from .study import Study
@@ -835,13 +814,6 @@ class Scene(Drawn, Mapping[str, Value]):
     def tradeoff(self, *, progress: Progress = None) -> TradeoffResults:
         """Measures computing time against true error, for bases of several sizes. ``progress`` is
         as in :meth:`run_campbell`.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> free = sf.Scene.paper().replace({"guides": [], "sweep.to_rpm": 500})
-        >>> free.tradeoff().recommended(1e-2) is not None
-        True
         """
         with reporting(progress, "settings") as told:
             text, _ = _native.run("tradeoff", self._text, {}, told)
@@ -864,12 +836,6 @@ class Scene(Drawn, Mapping[str, Value]):
             as the accuracy requires.
         accuracy, tolerance
             As in :meth:`run_campbell`.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> sf.Scene.paper().matrices(basis=(6, 4)).stiffness.shape
-        (52, 52)
         """
         if basis is not None:
             if not isinstance(basis, tuple) or len(basis) != 2:
@@ -898,13 +864,6 @@ class Scene(Drawn, Mapping[str, Value]):
             Index of the guide, counted from 0; by default all guides.
         accuracy, tolerance, progress
             As in :meth:`run_campbell`.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> found = sf.Scene.paper().run_stiffness_map([1e4, 1e8], accuracy="draft")
-        >>> found.critical_rpm[:, 0].round().tolist()
-        [1477.0, 1563.0]
         """
         chosen = range(len(self.guides)) if guide is None else [whole("guide", guide)]
         if not chosen:
@@ -968,12 +927,6 @@ class Scene(Drawn, Mapping[str, Value]):
 def keys(word: str = "", *, study: bool = False) -> str:
     """The keys of a scene, or of a study, whose path contains a word, each with its unit, default,
     usual range and meaning, as printed by ``sawflutter keys``.
-
-    Examples
-    --------
-    >>> import sawflutter as sf
-    >>> print(sf.keys("operating_rpm").splitlines()[0])
-    operating_rpm  [rpm]  usual range 30 to 60000
     """
     return _native.keys(word, study)
 
