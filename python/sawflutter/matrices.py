@@ -103,14 +103,6 @@ class Matrices(Entry):
         ----------
         rpm : float
             Rotation speed, of any size.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> eigenvalues = np.linalg.eigvals(sf.Scene.paper().matrices(basis=(8, 5)).companion(0.0))
-        >>> round(float(np.sort(abs(eigenvalues.imag))[0] / (2 * np.pi)), 1)
-        7.8
         """
         speed = float(numbers("rpm", number("rpm", rpm))) * np.pi / 30.0
         size = len(self.stiffness)
@@ -168,14 +160,6 @@ class Matrices(Entry):
         frequency_hz : array_like
             Frequencies in space. The result has their shape, with outputs and inputs as its last
             axes.
-
-        Examples
-        --------
-        >>> import sawflutter as sf
-        >>> m = sf.Scene.paper().matrices(basis=(12, 6))
-        >>> rim = [(0.355, 90)]
-        >>> print(f"{1e6 * abs(m.response(0, 0.0, inputs=rim, outputs=rim)[0, 0]):.0f} µm")
-        290 µm
         """
         return self.state_space(rpm, inputs=inputs, outputs=outputs).response(frequency_hz)
 
@@ -200,17 +184,6 @@ class Matrices(Entry):
             Forces at each time, of the shape (times, inputs).
         times_s : array_like
             Ascending times at even steps.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> saw = sf.Scene.paper().replace({"damping.air_n_s_per_m3": 200.0})
-        >>> times, rim = np.linspace(0, 1, 501), [(0.355, 90)]
-        >>> force = np.ones((501, 1))
-        >>> m = saw.matrices(basis=(6, 4))
-        >>> m.run_time_response(500, force, times, inputs=rim, outputs=rim, to_hz=50).shape
-        (501, 1)
         """
         space = self.state_space(rpm, inputs=inputs, outputs=outputs, to_hz=to_hz)
         return space.time_response(forces_n, times_s)

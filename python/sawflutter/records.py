@@ -92,7 +92,7 @@ class Record(Entry):
         # The last step of a run-up may be shorter than the others.
         rpm, samples = up.rpm[:-1], up.deflection_m[:-1]
         rate = up.rate_rpm_per_s * (len(rpm) - 1) / (rpm[-1] - rpm[0])
-        name = f"run-up of {up.scene['name']}"
+        name = f"run-up of {up._scene['name']}"
         return cls(samples, rate, rpm, unit="m", name=name)
 
     @property

@@ -73,15 +73,6 @@ class Spectrum(Drawn, Entry):
         -------
         Peaks
             With at least a thousandth of the largest amplitude.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> time = np.arange(0, 4, 1e-3)
-        >>> tap = sf.Record(np.exp(-time) * np.cos(2 * np.pi * 25 * time), 1000)
-        >>> tap.spectrum().peaks().rpm.tolist()
-        [0.0]
         """
         spectra = [(self.rpm, np.abs(self.response))]
         found = rows(self.frequency_hz, spectra, self.resolution_hz, orders, above_db)

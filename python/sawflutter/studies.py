@@ -33,20 +33,7 @@ class StudyResults(Result, StudyReport):
             beside.write_bytes(table.encode())
 
     def to_dataframe(self) -> pd.DataFrame:
-        """One row for each saw, from the table beside the report; needs pandas.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> import sawflutter as sf
-        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
-        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
-        >>> found = study.run(tempfile.mkdtemp())
-        >>> len(found.to_dataframe())
-        4
-        """
+        """One row for each saw, from the table beside the report; needs pandas."""
         table = self._csv()
         if table is None:
             raise FileNotFoundError(
@@ -88,18 +75,6 @@ class StudyResults(Result, StudyReport):
             half-widths ``lowest_critical_confidence``, ``flutter_confidence``. A column is NaN if
             all saws have the same speed. A saw without such a speed counts with the last speed of
             its sweep; saws without an analysis are left out.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> import sawflutter as sf
-        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
-        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> study = sf.Study(free, {"name": "Thickness", "saws": 64, "parameters": [thickness]})
-        >>> found = study.run(tempfile.mkdtemp())
-        >>> bool(found.sensitivity().loc["blade.thickness_m", "lowest_critical"] > 0.8)
-        True
         """
         with extra("sensitivity"):
             import pandas as pd

@@ -103,18 +103,6 @@ class Study:
         progress : bool or callable, optional
             True shows a bar. A callable is called with the finished and the total number of saws.
             With a client of Dask the address of its dashboard is printed too.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> import sawflutter as sf
-        >>> even = {"kind": "tolerance", "plus_minus": 5e-5}
-        >>> thickness = {"path": "blade.thickness_m", "distribution": even}
-        >>> free = sf.Scene.paper().replace({"accuracy": "draft", "guides": []})
-        >>> study = sf.Study(free, {"name": "Thickness", "saws": 4, "parameters": [thickness]})
-        >>> found = study.run(tempfile.mkdtemp())
-        >>> found
-        <StudyResults 'Guided spline arbor saw': 4 saws>
         """
         place = Path(folder)
         self._compute(place, executor, progress)

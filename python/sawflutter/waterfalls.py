@@ -76,15 +76,6 @@ class Waterfall(Drawn, Entry):
         Peaks
             With frequencies above twice the resolution, and with at least a thousandth of the
             largest amplitude at their speed.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import sawflutter as sf
-        >>> tone = np.sin(2 * np.pi * 40 * np.arange(0, 30, 1e-3))
-        >>> w = sf.Record(tone, 1000, rpm=(0, 1500)).waterfall(to_hz=100)
-        >>> np.abs(w.peaks().frequency_hz - 40.0).max() < 0.01
-        np.True_
         """
         spectra = zip(self.rpm, self.amplitude)
         found = rows(self.frequency_hz, spectra, self.resolution_hz, orders, above_db)

@@ -160,7 +160,7 @@ def test_the_shapes(programs: list[str], scenes: Path, tmp_path: Path) -> None:
     found = sf.Scene.load(scenes / "paper.json").run_campbell(accuracy="draft", shapes=[1000])
     assert found.shapes[-1].rpm == pytest.approx(1000)
     (tmp_path / "own").mkdir()
-    found.save_vtk(tmp_path / "own")
+    found.save(tmp_path / "own" / "modes.pvd")
     for program in programs:
         options = ["--accuracy", "draft", "--at-rpm", 1000, "--vtk", "--out", tmp_path]
         assert ran(program, "analyze", scenes / "paper.json", *options).returncode == 0
