@@ -278,6 +278,7 @@ class Scene(Drawn, Mapping[str, Value]):
         sensitivity: bool = False,
         amplitude: bool = False,
         shapes: bool | Numbers = False,
+        in_cut_rpm: Number | None = None,
         progress: Progress = None,
     ) -> CampbellResults:
         """Computes modes, critical speeds, bands of instability and certificate. If this takes
@@ -301,6 +302,8 @@ class Scene(Drawn, Mapping[str, Value]):
         shapes : bool or array_like
             Whether to compute the shape of the blade at every critical speed, in every band and at
             the operating speed; speeds in rpm are added to these.
+        in_cut_rpm : float, optional
+            Speed of the cut under whose forces the saw is charted, as ``cut.chart_rpm`` of the scene.
         progress : bool or callable, optional
             True shows a bar. A callable is called with the finished and the total number of items
             in each phase of the computation.
@@ -320,6 +323,8 @@ class Scene(Drawn, Mapping[str, Value]):
             if speeds.size < 2:
                 raise refused("speed_range", speed_range, "a first and a last speed in rpm", "write it like (0, 3000)")
             scene = self.replace({"sweep.from_rpm": speeds.min(), "sweep.to_rpm": speeds.max()})
+        if in_cut_rpm is not None:
+            scene = scene.replace({"cut.chart_rpm": in_cut_rpm})
         is_flag = isinstance(shapes, (bool, np.bool_))
         asked = [] if is_flag else np.ravel(numbers("shapes", shapes)).tolist()
         return scene._asked(

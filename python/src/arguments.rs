@@ -144,9 +144,10 @@ fn completed(
     };
     let key = block.key();
     if settings.is_empty() {
-        return match has_block {
-            true => Ok((scene, None)),
-            false => Err(missing(key, keys, example)),
+        return if has_block {
+            Ok((scene, None))
+        } else {
+            Err(missing(key, keys, example))
         };
     }
     let found = block.completed(&scene, settings)?;

@@ -14,9 +14,10 @@ pub fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     if let Ok(text) = value.cast::<PyString>() {
         return Ok(read(name, &text.to_cow()?)?);
     }
-    let plain = match value.hasattr("m_as")? {
-        true => magnitude(name, value)?,
-        false => value.clone(),
+    let plain = if value.hasattr("m_as")? {
+        magnitude(name, value)?
+    } else {
+        value.clone()
     };
     let unit = Quantity::unit_of(name);
     plain.extract().or_else(|_| {

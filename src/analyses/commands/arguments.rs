@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::analyses::check::RIM_LIMIT_M_PER_S;
 use crate::analyses::place::Tolerances;
+#[cfg(feature = "cli")]
 use crate::model::scene::is_same;
 
 /// The arguments of a command.
@@ -83,6 +84,7 @@ impl Argument {
     ///
     /// # Panics
     /// In a constant, so that it does not compile, if there is none.
+    #[cfg(feature = "cli")]
     pub(crate) const fn of(command: &str, name: &str) -> Self {
         let mut k = 0;
         while k < CALLS.len() {

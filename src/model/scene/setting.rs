@@ -26,6 +26,7 @@ impl Setting {
     }
 
     /// Path of the number.
+    #[cfg(feature = "cli")]
     pub(super) fn path(&self) -> &str {
         &self.path
     }
